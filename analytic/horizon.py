@@ -1,0 +1,64 @@
+"""How far a toss can be trusted: the leading impacts that all its shadows share with it."""
+
+import numpy as np
+
+from analytic.events import run
+from models.body import Body, Rules
+from models.records import Impacts
+
+RELEASE_ERROR = 3e-12
+"""Displacement of a shadow's release, relative to its speeds, spins and heights; above the integration's own."""
+TIME_ERROR = 1e-7
+"""Within the horizon no shadow differs by more in the time of an impact [s]."""
+IMPULSE_ERROR = 1e-5
+"""Within the horizon no shadow differs by more in an impulse, relative."""
+
+# Three directions at right angles to each other and their opposites: signs of the displacement of the
+# height, the vertical velocity and the components of the angular velocity.
+_SIGNS = np.array(
+    [
+        [+1, +1, +1, +1, +1],
+        [+1, -1, +1, -1, +1],
+        [+1, +1, -1, -1, +1],
+        [-1, -1, -1, -1, -1],
+        [-1, +1, -1, +1, -1],
+        [-1, -1, +1, +1, -1],
+    ]
+)
+
+
+def trusted_impacts(body: Body, rules: Rules, start: np.ndarray, impacts: Impacts) -> int:
+    """Count the leading impacts at which every shadow agrees in face, time and impulse.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        start: state at release, (13,).
+        impacts: the toss from there.
+    """
+    if len(impacts) == 0:
+        return 0
+    speed = (body.gravity * max(start[2], body.radius)) ** 0.5 + np.linalg.norm(start[3:6])
+    spin = (body.gravity / body.radius) ** 0.5 + np.linalg.norm(start[10:13])
+    sizes = RELEASE_ERROR * np.array([max(start[2], body.radius), speed, spin, spin, spin])
+    trusted = len(impacts)
+    for signs in _SIGNS:
+        shadow_start = start.copy()
+        shadow_start[[2, 5, 10, 11, 12]] += signs * sizes
+        shadow = Impacts.from_rows(run(body, rules._replace(max_impacts=trusted), shadow_start).rows)
+        trusted = agreeing_impacts(impacts, shadow)
+        if trusted == 0:
+            break
+    return trusted
+
+
+def agreeing_impacts(a: Impacts, b: Impacts) -> int:
+    """Count the leading impacts that agree in face, in time and in impulse within the horizon's errors."""
+    n = min(len(a), len(b))
+    difference = np.linalg.norm(a.impulse[:n] - b.impulse[:n], axis=1)
+    agrees = (
+        (a.face[:n] == b.face[:n])
+        & (np.abs(a.time[:n] - b.time[:n]) <= TIME_ERROR)
+        & (difference <= IMPULSE_ERROR * np.linalg.norm(a.impulse[:n], axis=1))
+    )
+    return n if agrees.all() else int(np.argmin(agrees))

@@ -1,0 +1,99 @@
+"""The first contact of a flight."""
+
+import numpy as np
+
+from analytic.flight import (
+    STAGES,
+    STATE_SIZE,
+    accepted_step,
+    attitude_of,
+    derivative,
+    first_step,
+    spin_of,
+    step,
+    velocity_of,
+)
+from models.attitude import rotation_matrix
+from models.compiled import compiled
+from models.geometry import acceleration_bounds, clear_time, contact_velocity, gap, lowest_point
+
+# A gap below this part of the radius is zero within rounding.
+TOUCH = 1e-14
+# The coin may sink by at most this part of the radius in a step forced at a grazing point.
+SINK = 1e-13
+
+
+@compiled
+def closing_speed(body, y):
+    """Give the gap of the state y [m] and the vertical velocity of the lowest point [m/s]."""
+    R = rotation_matrix(attitude_of(y))
+    v, w = velocity_of(y), spin_of(y)
+    point, flat = lowest_point(body, R[2], w)
+    v_A = contact_velocity(body, R, v, w, point)
+    return gap(body, y[2], R[2]), v[2] if flat else v_A[2]
+
+
+@compiled
+def clear(body, y, window):
+    """Give a time during which the coin in state y surely stays above the floor, at most `window` [s]."""
+    R = rotation_matrix(attitude_of(y))
+    return clear_time(body, y[2], velocity_of(y), R[2], spin_of(y), window)
+
+
+@compiled
+def smallest_flight(body, y):
+    """Give the time and the speed of a flight too low to be told from contact.
+
+    A point accelerated down by at most A sinks by no more than `SINK` r in the time √(2 SINK r/A), and it
+    reaches at most half the speed √(8 SINK r A).
+
+    Returns:
+        Time [s] and speed [m/s].
+    """
+    of_height, of_normal = acceleration_bounds(body, velocity_of(y), spin_of(y), 0.0)
+    acceleration = of_height + body.radius * of_normal
+    sink = SINK * body.radius
+    return (2 * sink / acceleration) ** 0.5, (8 * sink * acceleration) ** 0.5
+
+
+@compiled
+def fly(body, y, longest):
+    """Fly until the coin first touches the floor.
+
+    Every accepted step of the integrator is searched by steps of `clear_time`, which never pass a touch;
+    each is one step of order 8 from the same start, so the state found is as exact as the integration.
+
+    Args:
+        body: the coin.
+        y: state at the start, (13,); becomes the state at the touch, or at the end of the flight.
+        longest: the longest flight wanted [s].
+
+    Returns:
+        The time of flight [s], and whether the coin touches.
+    """
+    stages = np.empty((STAGES, STATE_SIZE))
+    y_end, y_near = np.empty(STATE_SIZE), np.empty(STATE_SIZE)
+    smallest_time, smallest_speed = smallest_flight(body, y)
+    elapsed, dt = 0.0, first_step(body, y)
+    # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch at once.
+    touching_speed = -smallest_speed
+    while elapsed < longest:
+        made, dt = accepted_step(body, y, min(dt, longest - elapsed), stages, y_end)
+        y_near[:] = y
+        inside = 0.0
+        while inside < made:
+            height, speed = closing_speed(body, y_near)
+            ahead = clear(body, y_near, made - inside)
+            if height <= TOUCH * body.radius:
+                if speed < touching_speed:
+                    y[:] = y_near
+                    return elapsed + inside, True
+                ahead = max(ahead, smallest_time)
+            touching_speed = 0.0
+            inside += ahead
+            if inside < made:
+                derivative(body, y, stages[0])
+                step(body, y, inside, stages, y_near)
+        elapsed += made
+        y[:] = y_end
+    return longest, False

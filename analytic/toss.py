@@ -1,0 +1,99 @@
+"""One toss by the paper's mechanics, and its path."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from analytic.events import run
+from analytic.flight import STATE_SIZE, TOLERANCE, sample_flight
+from analytic.horizon import RELEASE_ERROR, trusted_impacts
+from models.body import Body, body_of, rules_of
+from models.records import Array, Impacts, Setting, States, Toss, UnsupportedError
+from models.scenario import ContactLaw, Release, Scenario
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Flights:
+    """The path of a toss: the state at the start of each flight, integrated again where it is asked for."""
+
+    body: Body
+    start_times: Array
+    """(n,) [s]."""
+    start_states: Array
+    """(n, 13)."""
+
+    def sample(self, times: Array) -> States:
+        """Give the states at `times` [s], in the order of `times`."""
+        order = np.argsort(times, kind="stable")
+        rows = np.empty((len(times), STATE_SIZE))
+        flight = np.searchsorted(self.start_times, times[order], side="right") - 1
+        for number in np.unique(flight):
+            chosen = order[flight == number]
+            states = np.empty((len(chosen), STATE_SIZE))
+            start = self.start_states[number]
+            sample_flight(self.body, start, self.start_times[number], times[chosen], states)
+            rows[chosen] = states
+        return States(
+            time=times.copy(),
+            position=rows[:, 0:3].copy(),
+            velocity=rows[:, 3:6].copy(),
+            quaternion=rows[:, 6:10].copy(),
+            angular_velocity=rows[:, 10:13].copy(),
+        )
+
+
+def state_of(release: Release) -> Array:
+    """Give the state at release, (13,)."""
+    return np.array([*release.position, *release.velocity, *release.attitude, *release.angular_velocity])
+
+
+def require_supported(scenario: Scenario) -> None:
+    """Refuse what this engine doesn't model yet.
+
+    Raises:
+        UnsupportedError: naming field, value and what is accepted.
+    """
+    air = scenario.air
+    if air.exponent != 0 and (air.normal > 0 or air.tangential > 0):
+        raise UnsupportedError(f"air.exponent = {air.exponent}: accepted by the analytic engine: 0")
+    if scenario.floor.contact == ContactLaw.COULOMB:
+        accepted = ", ".join(f'"{law.label}"' for law in ContactLaw if law != ContactLaw.COULOMB)
+        raise UnsupportedError(f'floor.contact = "coulomb": accepted by the analytic engine: {accepted}')
+
+
+def toss(scenario: Scenario) -> Toss:
+    """Toss a coin by the paper's mechanics.
+
+    Free flight by eqs (21)-(22) of Strzalko et al. 2008 in Euler parameters, air drag by eqs (49)-(74),
+    impacts by eqs (85)-(92) and the contact laws of Fig. 17.
+
+    `trusted_impacts` counts the leading impacts that several shadows of the toss share with it: tosses whose
+    release is displaced by more than the integration's error. Up to there time is good to
+    `horizon.TIME_ERROR` and impulse to `horizon.IMPULSE_ERROR`.
+
+    Args:
+        scenario: what to toss.
+
+    Raises:
+        UnsupportedError: for air with b > 0 or the law "coulomb".
+    """
+    require_supported(scenario)
+    body, rules, start = body_of(scenario), rules_of(scenario), state_of(scenario.release)
+    answer = run(body, rules, start)
+    impacts = Impacts.from_rows(answer.rows)
+    return Toss(
+        engine="analytic",
+        scenario=scenario,
+        impacts=impacts,
+        contacts=np.empty((0, 2)),
+        outcome=answer.outcome,
+        ending=answer.ending,
+        end_time=answer.end_time,
+        trusted_impacts=trusted_impacts(body, rules, start, impacts),
+        certificate=(
+            Setting(name="integrator", value="Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"),
+            Setting(name="error allowed in a step, relative", value=TOLERANCE),
+            Setting(name="displacement of a shadow's release, relative", value=RELEASE_ERROR),
+        ),
+        path=Flights(body=body, start_times=answer.start_times, start_states=answer.start_states),
+    )

@@ -1,0 +1,5 @@
+"""The MuJoCo coin: an MJCF cylinder with an inertia offset, drag, and a tuned stiff contact."""
+
+from coin_mj.toss import toss
+
+__all__ = ["toss"]

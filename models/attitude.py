@@ -1,0 +1,51 @@
+"""The attitude of a body: Euler parameters, the rotation matrix, and the classical angles."""
+
+import math
+
+from models.compiled import compiled
+from models.vectors import Vector
+
+Quaternion = tuple[float, float, float, float]
+
+
+def quaternion_from_angles(angles: Vector) -> Quaternion:
+    """Give the Euler parameters of the classical Euler angles (z-x-z).
+
+    R = R_ζ(ψ) R_ξ(θ) R_ζ(φ), Strzalko et al. 2008, eqs (9)-(10), with Euler parameters as in eq. (11).
+
+    Args:
+        angles: ψ, θ, φ [rad].
+
+    Returns:
+        e: Euler parameters, scalar first, body to space, norm 1.
+    """
+    psi, theta, phi = angles
+    half_sum, half_difference = (psi + phi) / 2, (psi - phi) / 2
+    cos_half, sin_half = math.cos(theta / 2), math.sin(theta / 2)
+    return (
+        cos_half * math.cos(half_sum),
+        sin_half * math.cos(half_difference),
+        sin_half * math.sin(half_difference),
+        cos_half * math.sin(half_sum),
+    )
+
+
+@compiled
+def rotation_matrix(e):
+    """Give R(e), body to space: x_space = R x_body. Strzalko et al. 2008, eq. (15).
+
+    The diagonal is written with the sum of squares in place of 2 e0^2 - 1, so that a small tilt keeps
+    its digits; on the unit sphere both are the same.
+
+    Args:
+        e: Euler parameters, (4,), norm 1.
+
+    Returns:
+        R: a tuple of three rows.
+    """
+    e0, e1, e2, e3 = e[0], e[1], e[2], e[3]
+    return (
+        (1 - 2 * (e2 * e2 + e3 * e3), 2 * (e1 * e2 - e0 * e3), 2 * (e0 * e2 + e1 * e3)),
+        (2 * (e1 * e2 + e0 * e3), 1 - 2 * (e1 * e1 + e3 * e3), 2 * (e2 * e3 - e0 * e1)),
+        (2 * (e1 * e3 - e0 * e2), 2 * (e0 * e1 + e2 * e3), 1 - 2 * (e1 * e1 + e2 * e2)),
+    )

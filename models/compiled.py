@@ -1,0 +1,59 @@
+"""Compile a function with numba and keep the machine code for the next process."""
+
+import hashlib
+import os
+import tempfile
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numba
+
+COMPILED_PACKAGES = ("models", "analytic")
+
+
+@cache
+def cache_folder() -> Path:
+    """Give the folder of the machine code of exactly these sources.
+
+    numba looks only at the file of the function it compiles, so an edit in a function that this one
+    calls would go unseen. The folder's name is a hash of every source that may be compiled: an edit
+    anywhere starts a new folder.
+
+    Returns:
+        A folder below $NUMBA_CACHE_DIR, else below the user's cache, else below the temporary folder.
+    """
+    top = Path(__file__).parent.parent
+    sources = sorted(path for package in COMPILED_PACKAGES for path in (top / package).glob("*.py"))
+    digest = hashlib.sha256()
+    for source in sources:
+        digest.update(f"{source.parent.name}/{source.name}\n".encode())
+        digest.update(source.read_bytes())
+    name = f"cointoss-{digest.hexdigest()[:16]}"
+    for base in _cache_bases():
+        folder = base / name
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError:
+            continue
+        if os.access(folder, os.W_OK):
+            return folder
+    return Path(tempfile.mkdtemp(prefix="cointoss-"))
+
+
+def _cache_bases() -> list[Path]:
+    chosen = os.environ.get("NUMBA_CACHE_DIR")
+    user = Path(os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser())
+    return [*([Path(chosen)] if chosen else []), user / "cointoss"]
+
+
+def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Compile `function` at its first call, without the GIL, and cache the machine code on disk."""
+    # numba has no argument for the folder: it reads this setting when the function is declared.
+    before = numba.config.CACHE_DIR  # pyright: ignore[reportAttributeAccessIssue]
+    numba.config.CACHE_DIR = str(cache_folder())  # pyright: ignore[reportAttributeAccessIssue]
+    try:
+        return numba.njit(cache=True, nogil=True, error_model="numpy")(function)
+    finally:
+        numba.config.CACHE_DIR = before  # pyright: ignore[reportAttributeAccessIssue]

@@ -1,0 +1,135 @@
+"""Whether the face that is up can still change."""
+
+import math
+
+from models.compiled import compiled
+from models.records import Ending, Face, Outcome
+from models.scenario import ContactLaw, EndingTest
+from models.vectors import apply, dot
+
+TILTS_TRIED = 128
+
+
+@compiled
+def face_up(n_z):
+    """Give the face that is up, from the upward component of the coin's normal, eq. (4)."""
+    return Face.HEADS if n_z > 0 else Face.TAILS
+
+
+@compiled
+def energy(body, z, v, w):
+    """Give the mechanical energy T + m g z_C [J], zero at rest with C on the floor.
+
+    Args:
+        body: the coin.
+        z: height of C [m].
+        v: velocity of C, space frame, (3,) [m/s].
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    return body.mass * (dot(v, v) / 2 + body.gravity * z) + dot(w, apply(body.inertia, w)) / 2
+
+
+@compiled
+def barrier(body, n_z):
+    """Give the lowest energy at which a coin can roll over its rim to the other face [J].
+
+    m g sqrt((r - |c_perp|)^2 + (h/2 ± c_zeta)^2), with + where heads is up: C must pass above the point of
+    the rim that is nearest to it.
+
+    Args:
+        body: the coin.
+        n_z: upward component of the coin's normal.
+    """
+    out, up = _pass(body, n_z)
+    return body.mass * body.gravity * math.hypot(out, up)
+
+
+@compiled
+def _pass(body, n_z):
+    """Give how far the nearest rim point lies outwards of C, and C's height over the lower face [m]."""
+    c = body.center
+    out = body.radius - math.hypot(c[0], c[1])
+    up = body.thickness / 2 + (c[2] if n_z > 0 else -c[2])
+    return out, up
+
+
+@compiled
+def _is_ideal(body):
+    c, J = body.center, body.inertia
+    balanced = c[0] == 0 and c[1] == 0 and c[2] == 0
+    round_inertia = J[0][0] == J[1][1] and J[0][1] == 0 and J[0][2] == 0 and J[1][2] == 0
+    return balanced and round_inertia
+
+
+@compiled
+def _top_barrier(body, up, w):
+    """Bound from below the energy at which the ideal coin on a smooth floor in vacuum can turn over [J].
+
+    There L_z and L_ζ are conserved, through impacts too, so that at tilt s the coin needs at least
+    m g (r sin s + (h/2) cos s) + (L_z - L_ζ cos s)²/(2 J_ξ sin² s), beside L_ζ²/(2 J_ζ). To turn over it
+    must pass every tilt from today's to π/2: the largest over a set of these tilts is needed for sure.
+    """
+    J_across, J_normal = body.inertia[0][0], body.inertia[2][2]
+    L = apply(body.inertia, w)
+    L_z = dot(up, L)
+    L_zeta = L[2] if up[2] > 0 else -L[2]
+    today = math.atan2(math.hypot(up[0], up[1]), abs(up[2]))
+    highest = 0.0
+    for i in range(TILTS_TRIED):
+        s = math.pi / 2 - (math.pi / 2 - today) * i / TILTS_TRIED
+        sine, cosine = math.sin(s), math.cos(s)
+        weight = body.mass * body.gravity * (body.radius * sine + body.thickness / 2 * cosine)
+        highest = max(highest, weight + (L_z - L_zeta * cosine) ** 2 / (2 * J_across * sine * sine))
+    return highest + L_zeta * L_zeta / (2 * J_normal)
+
+
+@compiled
+def judge(body, rules, z, v, up, w):
+    """Tell after an impact whether the toss is decided.
+
+    "rigorous": the energy is below the pass to the other face (or, for the ideal coin on a smooth floor in
+    vacuum, below the pass of its effective potential) and the tilt is on this face's side of the pass. An
+    ideal thick coin may also be caught on its edge. Only the smooth law never adds energy; for every other
+    the same test ends the toss under the paper's name, `Ending.PAPER`. "paper" is E < m g r and
+    "paper_smooth" is eq. (20) of Strzalko et al. 2008.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        z: height of C [m].
+        v: velocity of C, space frame, (3,) [m/s].
+        up: the upward unit vector in the body frame, Rᵀ z, (3,).
+        w: angular velocity, body frame, (3,) [rad/s].
+
+    Returns:
+        The outcome and the ending; `Outcome.UNDECIDED` and `Ending.NONE` where the toss goes on.
+    """
+    E = energy(body, z, v, w)
+    face = Outcome.HEADS if up[2] > 0 else Outcome.TAILS
+    mgr = body.mass * body.gravity * body.radius
+    if rules.test == EndingTest.PAPER:
+        if E < mgr:
+            return face, Ending.PAPER
+        return Outcome.UNDECIDED, Ending.NONE
+    if rules.test == EndingTest.PAPER_SMOOTH:
+        kept = body.mass * (v[0] * v[0] + v[1] * v[1]) / 2 + body.inertia[2][2] * w[2] * w[2] / 2
+        if E - kept < mgr:
+            return face, Ending.PAPER_SMOOTH
+        return Outcome.UNDECIDED, Ending.NONE
+
+    smooth = rules.law == ContactLaw.SMOOTH
+    ending = Ending.SETTLED if smooth else Ending.PAPER
+    tilt_sine = math.hypot(up[0], up[1])
+    out, high = _pass(body, up[2])
+    on_face = tilt_sine * high < out * abs(up[2])
+    if E < barrier(body, up[2]):
+        if on_face:
+            return face, ending
+        if _is_ideal(body) and tilt_sine * high > out * abs(up[2]):
+            return Outcome.EDGE, ending
+    in_vacuum = body.drag.force_normal == 0 and body.drag.force_tangential == 0
+    if on_face and smooth and in_vacuum and _is_ideal(body):
+        E_turning = E - body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
+        if E_turning < _top_barrier(body, up, w):
+            return face, Ending.SETTLED
+    return Outcome.UNDECIDED, Ending.NONE

@@ -1,0 +1,247 @@
+"""What a toss gives: its impacts, how it ended, and its path; the same record from both engines."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, fields
+from enum import IntEnum
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from models.scenario import Scenario
+
+Array = NDArray[np.float64]
+
+
+class Face(IntEnum):
+    """The face that is up. Heads is the face ζ = +h/2; it is up when n_z > 0, eq. (4)."""
+
+    HEADS = 1
+    TAILS = 2
+
+    @property
+    def symbol(self) -> str:
+        """H or T."""
+        return self.name[0]
+
+
+class Outcome(IntEnum):
+    """How the coin lies in the end."""
+
+    UNDECIDED = 0
+    HEADS = 1
+    TAILS = 2
+    EDGE = 3
+    PERPETUAL = 4
+
+    @property
+    def label(self) -> str:
+        """The outcome's name in answers."""
+        return self.name.lower()
+
+
+class Ending(IntEnum):
+    """Why a toss stopped."""
+
+    NONE = 0
+    SETTLED = 1
+    PAPER = 2
+    PAPER_SMOOTH = 3
+    MAX_IMPACTS = 4
+    MAX_TIME = 5
+    CHATTER = 6
+    NO_SOLUTION = 7
+
+    @property
+    def label(self) -> str:
+        """The ending's name in answers."""
+        return self.name.lower()
+
+    @property
+    def sentence(self) -> str:
+        """What the ending means."""
+        return _SENTENCES[self]
+
+
+_SENTENCES = {
+    Ending.NONE: "The toss goes on.",
+    Ending.SETTLED: "The energy is below the pass to the other face, and no impact of this law adds energy.",
+    Ending.PAPER: "The energy is too low to turn over, unless a later impact adds some.",
+    Ending.PAPER_SMOOTH: "The energy that can turn the coin over is below m g r, eq. (20).",
+    Ending.MAX_IMPACTS: "The largest number of impacts was reached.",
+    Ending.MAX_TIME: "The largest time was reached.",
+    Ending.CHATTER: "Impacts crowd together: the coin stays in contact, which this engine does not follow.",
+    Ending.NO_SOLUTION: "The contact law has no solution at this attitude.",
+}
+
+
+def _column(*shape: int, kind: type = np.float64) -> Any:
+    return field(metadata={"shape": shape, "kind": kind})
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Impacts:
+    """The impacts of a toss, one row each, in order of time; arrays are read-only."""
+
+    time: Array = _column()
+    """Of first touch, (n,) [s]."""
+    face: NDArray[np.int8] = _column(kind=np.int8)
+    """The `Face` up at the touch, (n,)."""
+    impulse: Array = _column(3)
+    """S, of the floor on the coin, space frame, (n, 3) [N s]."""
+    point: Array = _column(3)
+    """A from B, body frame, (n, 3) [m]."""
+    position: Array = _column(3)
+    """Of C at the touch, space frame, (n, 3) [m]."""
+    quaternion: Array = _column(4)
+    """Euler parameters at the touch, body to space, (n, 4)."""
+    velocity_before: Array = _column(3)
+    """Of C, space frame, (n, 3) [m/s]."""
+    velocity_after: Array = _column(3)
+    """Of C, space frame, (n, 3) [m/s]."""
+    angular_velocity_before: Array = _column(3)
+    """ω, body frame, (n, 3) [rad/s]."""
+    angular_velocity_after: Array = _column(3)
+    """ω, body frame, (n, 3) [rad/s]."""
+    contact_velocity_before: Array = _column(3)
+    """v_A, space frame, (n, 3) [m/s]."""
+    contact_velocity_after: Array = _column(3)
+    """v_A, space frame, (n, 3) [m/s]."""
+    energy: Array = _column()
+    """After the impact: kinetic and m g z_C, (n,) [J]."""
+    energy_change: Array = _column()
+    """Of the impact, (n,) [J]; positive where the law feeds the coin."""
+
+    def __post_init__(self) -> None:
+        """Check every array's shape and make it read-only."""
+        n = len(self.time)
+        for item in fields(self):
+            array = getattr(self, item.name)
+            expected = (n, *item.metadata["shape"])
+            if array.shape != expected:
+                raise ValueError(f"Impacts.{item.name}: shape {array.shape}, expected {expected}")
+            array.setflags(write=False)
+        if np.any(np.diff(self.time) < 0):
+            raise ValueError("Impacts.time: must not decrease")
+
+    def __len__(self) -> int:
+        """Give the number of impacts."""
+        return len(self.time)
+
+    @classmethod
+    def from_rows(cls, rows: NDArray[Any]) -> "Impacts":
+        """Make the record from an array of `IMPACT_ROW`."""
+        return cls(**{name: np.ascontiguousarray(rows[name]) for name in IMPACT_ROW.names or ()})
+
+    @property
+    def sequence(self) -> str:
+        """The faces up at the touches, as in "HHT"."""
+        return "".join(Face(face).symbol for face in self.face)
+
+
+IMPACT_ROW = np.dtype(
+    [(item.name, item.metadata["kind"], item.metadata["shape"]) for item in fields(Impacts)], align=True
+)
+"""One impact as a row: the columns of `Impacts`."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class States:
+    """States of the coin at several times; arrays are read-only."""
+
+    time: Array
+    """(n,) [s]."""
+    position: Array
+    """Of C, space frame, (n, 3) [m]."""
+    velocity: Array
+    """Of C, space frame, (n, 3) [m/s]."""
+    quaternion: Array
+    """Euler parameters, body to space, (n, 4)."""
+    angular_velocity: Array
+    """ω, body frame, (n, 3) [rad/s]."""
+
+    def __post_init__(self) -> None:
+        """Check every array's shape and make it read-only."""
+        n = len(self.time)
+        for item, expected in zip(fields(self), ((n,), (n, 3), (n, 3), (n, 4), (n, 3)), strict=True):
+            array = getattr(self, item.name)
+            if array.shape != expected:
+                raise ValueError(f"States.{item.name}: shape {array.shape}, expected {expected}")
+            array.setflags(write=False)
+
+    @property
+    def normal(self) -> Array:
+        """The coin's normal ζ, space frame, (n, 3)."""
+        e0, e1, e2, e3 = self.quaternion.T
+        return np.stack(
+            [2 * (e0 * e2 + e1 * e3), 2 * (e2 * e3 - e0 * e1), 1 - 2 * (e1 * e1 + e2 * e2)], axis=-1
+        )
+
+
+class Path(Protocol):
+    """A coin's motion that can be asked for its state at any time of the toss."""
+
+    def sample(self, times: Array) -> States:
+        """Give the states at `times` [s], in the order of `times`."""
+        ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class Setting:
+    """One line of a toss's certificate: a setting the engine used, or an error it measured."""
+
+    name: str
+    value: float | str
+    unit: str = ""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Toss:
+    """One toss by one engine."""
+
+    engine: str
+    scenario: Scenario
+    impacts: Impacts
+    contacts: Array
+    """Start and end of every contact that lasts, (n, 2) [s]."""
+    outcome: Outcome
+    ending: Ending
+    end_time: float
+    """When the toss stopped [s]."""
+    trusted_impacts: int
+    """How many leading impacts the engine's own errors can't have changed; see the engine's `toss`."""
+    certificate: Sequence[Setting]
+    """Settings used and errors measured."""
+    path: Path
+
+    def __post_init__(self) -> None:
+        """Check the contacts and make them read-only."""
+        if self.contacts.ndim != 2 or self.contacts.shape[1] != 2:
+            raise ValueError(f"Toss.contacts: shape {self.contacts.shape}, expected (n, 2)")
+        self.contacts.setflags(write=False)
+
+    @property
+    def sequence(self) -> str:
+        """The faces up at the touches, as in "HHT"."""
+        return self.impacts.sequence
+
+    def sample(self, times: ArrayLike) -> States:
+        """Give the coin's states at `times`.
+
+        At the time of an impact the state after it is given.
+
+        Args:
+            times: (n,), each from 0 to `end_time` [s].
+
+        Raises:
+            ValueError: for a time outside the toss.
+        """
+        t = np.atleast_1d(np.array(times, dtype=float))
+        outside = t[~((t >= 0) & (t <= self.end_time))]
+        if outside.size:
+            raise ValueError(f"times: {outside[0]} s is outside the toss, from 0 to {self.end_time} s")
+        return self.path.sample(t)
+
+
+class UnsupportedError(ValueError):
+    """A scenario that an engine can't toss; the message names the field, its value and what is accepted."""

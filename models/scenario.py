@@ -1,0 +1,276 @@
+"""What is tossed: coin, air, floor, release and ending; frozen, and validated when made."""
+
+from collections.abc import Callable
+from enum import IntEnum
+from functools import cached_property
+from typing import Annotated, Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationInfo, field_validator, model_validator
+
+from models.attitude import Quaternion, quaternion_from_angles, rotation_matrix
+from models.inertia import (
+    cylinder_inertia,
+    inertia_about_mass_center,
+    is_positive_definite,
+    obeys_triangle_inequality,
+)
+from models.units import in_si
+from models.vectors import Matrix, Vector
+
+
+class ContactLaw(IntEnum):
+    """How the contact point A leaves the floor; Strzalko et al. 2008, Fig. 17, and Routh's law."""
+
+    SHARP_EDGE = 1
+    KNURLED = 2
+    PERFECTLY_ROUGH = 3
+    SLIP_PRESERVING = 4
+    SMOOTH = 5
+    SLIDING_FRICTION = 6
+    COULOMB = 7
+
+    @property
+    def label(self) -> str:
+        """The law's name in a scenario file."""
+        return self.name.lower()
+
+
+class EndingTest(IntEnum):
+    """When the face that is up counts as final."""
+
+    RIGOROUS = 1
+    """The energy is below the lowest pass to the other face."""
+    PAPER = 2
+    """E < m g r."""
+    PAPER_SMOOTH = 3
+    """E - m (ẋ² + ẏ²)/2 - J_ζ ω_ζ²/2 < m g r, eq. (20)."""
+
+    @property
+    def label(self) -> str:
+        """The test's name in a scenario file."""
+        return self.name.lower()
+
+
+def _named(kind: type[ContactLaw] | type[EndingTest]) -> Callable[[Any], Any]:
+    def member(value: Any) -> Any:
+        if isinstance(value, kind):
+            return value
+        for item in kind:
+            if value == item.label:
+                return item
+        raise ValueError("one of " + ", ".join(f'"{item.label}"' for item in kind))
+
+    return member
+
+
+def _quantity(unit: str) -> BeforeValidator:
+    return BeforeValidator(lambda value: in_si(value, unit) if isinstance(value, str) else value)
+
+
+def _as_tuple(value: Any) -> Any:
+    return tuple(value) if isinstance(value, list | np.ndarray) else value
+
+
+_Sequence = BeforeValidator(_as_tuple)
+
+
+def _vector(unit: str) -> Any:
+    component = Annotated[float, _quantity(unit)]
+    return Annotated[tuple[component, component, component], _Sequence]
+
+
+Length = Annotated[float, _quantity("m")]
+Moment = Annotated[float, _quantity("kg*m**2")]
+_Row = Annotated[tuple[Moment, Moment, Moment], _Sequence]
+_ZERO = (0.0, 0.0, 0.0)
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", strict=True, allow_inf_nan=False, use_attribute_docstrings=True
+    )
+
+
+class Coin(_Part):
+    """A cylinder of radius r and thickness h whose mass centre C may lie off its geometric centre B."""
+
+    mass: Annotated[float, _quantity("kg"), Field(gt=0)]
+    """m [kg]."""
+    radius: Annotated[Length, Field(gt=0)]
+    """r [m]."""
+    thickness: Annotated[Length, Field(ge=0)]
+    """h [m]; 0 for the thin coin."""
+    center_of_mass: _vector("m") = _ZERO
+    """c, from B to C, body frame (ξ, η, ζ) [m]."""
+    inertia: Annotated[tuple[_Row, _Row, _Row], _Sequence] | None = None
+    """J_C about C, body frame, products of inertia with their minus sign [kg m²]; by default the uniform
+    cylinder's about B, moved to C."""
+
+    @field_validator("center_of_mass")
+    @classmethod
+    def _inside_the_coin(cls, c: Vector, info: ValidationInfo) -> Vector:
+        r, h = info.data.get("radius"), info.data.get("thickness")
+        if r is not None and not np.hypot(c[0], c[1]) < r:
+            raise ValueError(f"a point inside the coin: sqrt(xi^2 + eta^2) < radius = {r} m")
+        if h is not None and not abs(c[2]) <= h / 2:
+            raise ValueError(f"a point inside the coin: |zeta| <= thickness/2 = {h / 2} m")
+        return c
+
+    @field_validator("inertia")
+    @classmethod
+    def _inertia_of_a_body(cls, inertia: Matrix | None) -> Matrix | None:
+        if inertia is None:
+            return None
+        J = np.array(inertia)
+        if not np.allclose(J, J.T, rtol=0, atol=1e-12 * np.abs(J).max()):
+            raise ValueError("a symmetric 3 by 3 matrix")
+        if not is_positive_definite(J):
+            raise ValueError("a positive definite matrix: every principal moment > 0")
+        if not obeys_triangle_inequality(J):
+            raise ValueError("a body's inertia: no principal moment above the sum of the other two")
+        return inertia
+
+    @model_validator(mode="after")
+    def _positive_inertia(self) -> Self:
+        if self.inertia is None and not is_positive_definite(self.inertia_about_C):
+            raise FieldError(
+                "center_of_mass",
+                self.center_of_mass,
+                "a center of mass that leaves a positive definite inertia about it, "
+                f"such as sqrt(xi^2 + eta^2) < radius/2 = {self.radius / 2} m, or give coin.inertia",
+            )
+        return self
+
+    @cached_property
+    def inertia_about_C(self) -> NDArray[np.float64]:
+        """J_C, body frame, (3, 3), read-only [kg m²]."""
+        if self.inertia is not None:
+            J = np.array(self.inertia)
+        else:
+            J_B = cylinder_inertia(self.mass, self.radius, self.thickness)
+            J = inertia_about_mass_center(J_B, self.mass, self.center_of_mass)
+        J.setflags(write=False)
+        return J
+
+
+class Air(_Part):
+    """The air's resistance: the force on a surface element is -λ |v|^b v dA."""
+
+    exponent: Annotated[float, _quantity(""), Field(ge=0, le=1)] = 0.0
+    """b: 0 for linear, 1 for quadratic resistance."""
+    normal: Annotated[float, Field(ge=0)] = 0.0
+    """λ_n, of pressure [kg m^(-2-b) s^(b-1)]."""
+    tangential: Annotated[float, Field(ge=0)] = 0.0
+    """λ_τ, of friction [kg m^(-2-b) s^(b-1)]."""
+
+    @field_validator("normal", "tangential", mode="before")
+    @classmethod
+    def _unit_of_lambda(cls, value: Any, info: ValidationInfo) -> Any:
+        if not isinstance(value, str):
+            return value
+        b = info.data.get("exponent", 0.0)
+        return in_si(value, f"kg*m**{-2 - b}*s**{b - 1}")
+
+
+class Floor(_Part):
+    """The floor at z = 0 and how a coin rebounds from it."""
+
+    restitution: Annotated[float, _quantity(""), Field(ge=0, le=1)]
+    """χ: normal speed of the contact point after an impact over that before it."""
+    contact: Annotated[ContactLaw, BeforeValidator(_named(ContactLaw))]
+    """The contact law."""
+    friction: Annotated[float, _quantity(""), Field(ge=0)] = 0.0
+    """μ, for the laws that slide with friction."""
+
+
+class Release(_Part):
+    """The state at time 0."""
+
+    position: _vector("m")
+    """Of C, space frame [m]."""
+    velocity: _vector("m/s") = _ZERO
+    """Of C, space frame [m/s]."""
+    angles: _vector("rad") | None = None
+    """ψ, θ, φ, the classical Euler angles (z-x-z) [rad]; a flat coin, heads up, by default."""
+    quaternion: (
+        Annotated[
+            tuple[
+                Annotated[float, _quantity("")],
+                Annotated[float, _quantity("")],
+                Annotated[float, _quantity("")],
+                Annotated[float, _quantity("")],
+            ],
+            _Sequence,
+        ]
+        | None
+    ) = None
+    """Euler parameters e0, e1, e2, e3, body to space, in place of the angles; brought to norm 1."""
+    angular_velocity: _vector("rad/s") = _ZERO
+    """ω, body frame (ξ, η, ζ) [rad/s]."""
+
+    @field_validator("quaternion")
+    @classmethod
+    def _unit_norm(cls, e: Quaternion | None) -> Quaternion | None:
+        if e is None:
+            return None
+        size = float(np.linalg.norm(e))
+        if not abs(size - 1) <= 1e-3:
+            raise ValueError(f"four numbers of norm 1 within 1e-3 (the norm here is {size:.6g})")
+        return tuple(x / size for x in e) if size != 1 else e  # pyright: ignore[reportReturnType]
+
+    @model_validator(mode="after")
+    def _one_attitude(self) -> Self:
+        if self.angles is not None and self.quaternion is not None:
+            raise FieldError("quaternion", self.quaternion, "either angles or quaternion, not both")
+        return self
+
+    @property
+    def attitude(self) -> Quaternion:
+        """Euler parameters e0, e1, e2, e3, body to space, of norm 1."""
+        return self.quaternion or quaternion_from_angles(self.angles or _ZERO)
+
+
+class Ending(_Part):
+    """When a toss is over."""
+
+    test: Annotated[EndingTest, BeforeValidator(_named(EndingTest))] = EndingTest.RIGOROUS
+    """What decides that the face up is final."""
+    max_impacts: Annotated[int, Field(ge=1)] = 1000
+    """The toss stops after so many impacts."""
+    max_time: Annotated[float, _quantity("s"), Field(gt=0)] = 60.0
+    """The toss stops at this time [s]."""
+
+
+class Scenario(_Part):
+    """One toss, told once for both engines."""
+
+    gravity: Annotated[float, _quantity("m/s**2"), Field(gt=0)] = 9.81
+    """g [m/s²]."""
+    coin: Coin
+    air: Air = Air()
+    floor: Floor
+    release: Release
+    ending: Ending = Ending()
+
+    @model_validator(mode="after")
+    def _above_the_floor(self) -> Self:
+        from models.body import body_of
+        from models.geometry import gap
+
+        R = rotation_matrix.py_func(self.release.attitude)
+        clearance = gap.py_func(body_of(self), self.release.position[2], R[2])
+        if clearance < -1e-12 * self.coin.radius:
+            z = self.release.position[2]
+            raise FieldError("release.position.z", z, f"a coin above the floor: z >= {z - clearance:.6g} m")
+        return self
+
+
+class FieldError(ValueError):
+    """A value that only its neighbours show to be wrong: it names its field itself."""
+
+    def __init__(self, field: str, value: Any, accepted: str) -> None:
+        """Keep the field's dotted path below the part that refuses it, its value, and what is accepted."""
+        super().__init__(accepted)
+        self.field, self.value, self.accepted = field, value, accepted
