@@ -38,7 +38,12 @@ def run(body: Body, rules: Rules, start: Array) -> Run:
     states = np.empty((rules.max_impacts + 1, STATE_SIZE))
     n, outcome, ending, end_time = fly_and_hit(body, rules, start.copy(), rows, times, states)
     return Run(
-        rows[:n].copy(), times[: n + 1].copy(), states[: n + 1].copy(), Outcome(outcome), Ending(ending), end_time
+        rows[:n].copy(),
+        times[: n + 1].copy(),
+        states[: n + 1].copy(),
+        Outcome(outcome),
+        Ending(ending),
+        end_time,
     )
 
 

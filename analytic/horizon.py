@@ -7,7 +7,7 @@ from models.body import Body, Rules
 from models.records import Impacts
 
 RELEASE_ERROR = 3e-12
-"""Displacement of a shadow's release, relative to its speeds, spins and heights; above the integration's own."""
+"""Relative displacement of a shadow's height, speed and spins at release; above the integration's error."""
 TIME_ERROR = 1e-7
 """Within the horizon no shadow differs by more in the time of an impact [s]."""
 IMPULSE_ERROR = 1e-5
@@ -38,9 +38,9 @@ def trusted_impacts(body: Body, rules: Rules, start: np.ndarray, impacts: Impact
     """
     if len(impacts) == 0:
         return 0
-    speed = (body.gravity * max(start[2], body.radius)) ** 0.5 + np.linalg.norm(start[3:6])
-    spin = (body.gravity / body.radius) ** 0.5 + np.linalg.norm(start[10:13])
-    sizes = RELEASE_ERROR * np.array([max(start[2], body.radius), speed, spin, spin, spin])
+    speed = (body.gravity * max(start[2], body.radius)) ** 0.5 + abs(start[5])
+    # A spin component that is zero keeps its zero: symmetric motions stay symmetric in rounding too.
+    sizes = RELEASE_ERROR * np.array([max(start[2], body.radius), speed, *np.abs(start[10:13])])
     trusted = len(impacts)
     for signs in _SIGNS:
         shadow_start = start.copy()

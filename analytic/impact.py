@@ -1,12 +1,13 @@
 """The impact of one point of the coin on the floor: one function for each contact law.
 
 Strzalko et al. 2008, section 4.3 and Fig. 17. The velocity of the contact point A has the parts v_Aτ along
-the coin's edge, v_Aν across it, both in the floor, and v_Az. Every law keeps Newton's v_Az' = -χ v_Az, eq. (85).
+the coin's edge, v_Aν across it, both in the floor, and v_Az. Every law keeps Newton's v_Az' = -χ v_Az,
+eq. (85).
 """
 
 from models.compiled import compiled
+from models.laws import ContactLaw
 from models.records import Ending
-from models.scenario import ContactLaw
 from models.vectors import add, apply, apply_transposed, cross, dot, scale, solve, subtract
 
 NO_IMPULSE = (0.0, 0.0, 0.0)
@@ -36,7 +37,7 @@ def mobility(body, R, arm):
 
 @compiled
 def spin_gained(body, R, arm, S):
-    """Give the change of angular velocity by an impulse S at A: J_C⁻¹ Rᵀ (a × S), eqs (88)-(90), body frame."""
+    """Give the change of ω by an impulse S at A: J_C⁻¹ Rᵀ (a × S), body frame, eqs (88)-(90)."""
     return apply(body.inertia_inverse, apply_transposed(R, cross(arm, S)))
 
 

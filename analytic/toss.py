@@ -8,8 +8,9 @@ from analytic.events import run
 from analytic.flight import STATE_SIZE, TOLERANCE, sample_flight
 from analytic.horizon import RELEASE_ERROR, trusted_impacts
 from models.body import Body, body_of, rules_of
+from models.laws import ContactLaw
 from models.records import Array, Impacts, Setting, States, Toss, UnsupportedError
-from models.scenario import ContactLaw, Release, Scenario
+from models.scenario import Release, Scenario
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -91,7 +92,9 @@ def toss(scenario: Scenario) -> Toss:
         end_time=answer.end_time,
         trusted_impacts=trusted_impacts(body, rules, start, impacts),
         certificate=(
-            Setting(name="integrator", value="Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"),
+            Setting(
+                name="integrator", value="Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"
+            ),
             Setting(name="error allowed in a step, relative", value=TOLERANCE),
             Setting(name="displacement of a shadow's release, relative", value=RELEASE_ERROR),
         ),

@@ -1,11 +1,11 @@
 """A restitution as a contact setting of MuJoCo: solref = "-stiffness -damping"."""
 
 import math
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 from scipy.optimize import brentq
 
-STIFFNESS = 1e13
+STIFFNESS = 1e14
 """Default stiffness k of the contact, per unit of effective mass [1/s²]."""
 
 
@@ -56,7 +56,8 @@ def damping_ratio_of(restitution: float) -> float:
     if restitution == 1:
         return 0.0
     # χ falls like 1/(4 ζ²) for large ζ, so the root lies below 1/√χ.
-    return float(brentq(lambda zeta: restitution_of(zeta) - restitution, 0.0, 1 + 1 / math.sqrt(restitution), xtol=1e-15))
+    widest = 1 + 1 / math.sqrt(restitution)
+    return cast("float", brentq(lambda zeta: restitution_of(zeta) - restitution, 0.0, widest, xtol=1e-15))
 
 
 def spring_of(restitution: float, stiffness: float = STIFFNESS) -> Spring:

@@ -1,5 +1,8 @@
 """The MuJoCo model of a scenario: coin.xml with the scenario's numbers."""
 
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
 from importlib import resources
 
 import mujoco
@@ -30,6 +33,39 @@ def build(scenario: Scenario, spring: Spring) -> mujoco.MjModel:
     Returns:
         The model, with RK4 and a frictionless contact.
     """
+    spec = _described(scenario)
+    spec.geom("coin").solref = (-spring.stiffness, -spring.damping)
+    _set_drag(spec, scenario)
+    return spec.compile()
+
+
+def build_painted(scenario: Scenario, span: float) -> mujoco.MjModel:
+    """Build a model to look at: heads golden with a bar, tails blue with a dot.
+
+    Args:
+        scenario: what is tossed.
+        span: size of the scene, to which light, shadow and floor are fitted [m].
+    """
+    spec = _described(scenario)
+    spec.stat.extent = span
+    spec.light("sun").pos = (0, 0, 2 * span)
+    spec.material("floor").texrepeat = (10 / span, 10 / span)
+    body, r, half = spec.body("coin"), scenario.coin.radius, shape_thickness(scenario) / 2
+    skin = max(0.04 * half, 0.004 * r)
+    cylinder, box = mujoco.mjtGeom.mjGEOM_CYLINDER, mujoco.mjtGeom.mjGEOM_BOX
+    shapes = (
+        (cylinder, "heads", (0.94 * r, skin, 0), half),
+        (cylinder, "tails", (0.94 * r, skin, 0), -half),
+        (box, "mark", (0.62 * r, 0.09 * r, 2 * skin), half),
+        (cylinder, "mark", (0.22 * r, 2 * skin, 0), -half),
+    )
+    for kind, material, size, z in shapes:
+        geom = body.add_geom(type=kind, size=size, pos=(0, 0, z), material=material)
+        geom.contype, geom.conaffinity, geom.mass = 0, 0, 0
+    return spec.compile()
+
+
+def _described(scenario: Scenario) -> mujoco.MjSpec:
     spec = mujoco.MjSpec.from_string((resources.files("models") / "coin.xml").read_text(encoding="utf-8"))
     spec.option.gravity = (0.0, 0.0, -scenario.gravity)
     coin, body = scenario.coin, spec.body("coin")
@@ -38,11 +74,8 @@ def build(scenario: Scenario, spring: Spring) -> mujoco.MjModel:
     body.mass = coin.mass
     body.ipos = coin.center_of_mass
     body.fullinertia = (J[0, 0], J[1, 1], J[2, 2], J[0, 1], J[0, 2], J[1, 2])
-    geom = spec.geom("coin")
-    geom.size = (coin.radius, shape_thickness(scenario) / 2, 0.0)
-    geom.solref = (-spring.stiffness, -spring.damping)
-    _set_drag(spec, scenario)
-    return spec.compile()
+    spec.geom("coin").size = (coin.radius, shape_thickness(scenario) / 2, 0.0)
+    return spec
 
 
 def _set_drag(spec: mujoco.MjSpec, scenario: Scenario) -> None:

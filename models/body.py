@@ -1,12 +1,15 @@
 """A scenario's coin, air and floor as plain numbers for compiled code."""
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from models.drag import Drag, linear_drag
-from models.scenario import ContactLaw, EndingTest, Scenario
+from models.laws import ContactLaw, EndingTest
 from models.vectors import Matrix, Vector
+
+if TYPE_CHECKING:
+    from models.scenario import Scenario
 
 
 class Body(NamedTuple):
@@ -37,7 +40,7 @@ class Rules(NamedTuple):
     max_time: float
 
 
-def body_of(scenario: Scenario) -> Body:
+def body_of(scenario: "Scenario") -> Body:
     """Give the coin of a scenario in its air and gravity."""
     coin, air = scenario.coin, scenario.air
     J = coin.inertia_about_C
@@ -56,7 +59,7 @@ def body_of(scenario: Scenario) -> Body:
     )
 
 
-def rules_of(scenario: Scenario) -> Rules:
+def rules_of(scenario: "Scenario") -> Rules:
     """Give the floor and the ending of a scenario."""
     floor, ending = scenario.floor, scenario.ending
     return Rules(

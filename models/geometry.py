@@ -91,7 +91,9 @@ def acceleration_bounds(body, v, w, window):
         speed = (speed + body.gravity * window) * math.exp(kappa * window)
         spin += drag * arm / body.inertia_smallest * window * speed
     turning = (
-        (body.inertia_largest - body.inertia_smallest) / 2 * spin * spin + turn_drag * spin + arm * drag * speed
+        (body.inertia_largest - body.inertia_smallest) / 2 * spin * spin
+        + turn_drag * spin
+        + arm * drag * speed
     ) / body.inertia_smallest
     of_normal = spin * spin + turning
     of_height = body.gravity + drag * speed / body.mass + (arm + body.thickness / 2) * of_normal

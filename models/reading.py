@@ -19,7 +19,9 @@ class ScenarioError(ValueError):
 def named_scenarios() -> list[str]:
     """Give the names of the scenarios that come with the package."""
     folder = resources.files("models") / "scenarios"
-    return sorted(entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml"))
+    return sorted(
+        entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml")
+    )
 
 
 def scenario_text(source: str) -> str:
@@ -37,7 +39,9 @@ def scenario_text(source: str) -> str:
         names = ", ".join(named_scenarios())
         raise ScenarioError(f"{source}: no such file; give a TOML file or one of: {names}") from None
     except UnicodeDecodeError as error:
-        raise ScenarioError(f"{source}: not a text file in UTF-8 ({error.reason} at byte {error.start})") from None
+        raise ScenarioError(
+            f"{source}: not a text file in UTF-8 ({error.reason} at byte {error.start})"
+        ) from None
     except OSError as error:
         raise ScenarioError(f"{source}: can't be read ({error.strerror})") from None
 

@@ -1,56 +1,33 @@
 """What is tossed: coin, air, floor, release and ending; frozen, and validated when made."""
 
 from collections.abc import Callable
-from enum import IntEnum
 from functools import cached_property
 from typing import Annotated, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationInfo, field_validator, model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
 
 from models.attitude import Quaternion, quaternion_from_angles, rotation_matrix
+from models.body import body_of
+from models.geometry import gap
 from models.inertia import (
     cylinder_inertia,
     inertia_about_mass_center,
     is_positive_definite,
     obeys_triangle_inequality,
 )
+from models.laws import ContactLaw, EndingTest
 from models.units import in_si
 from models.vectors import Matrix, Vector
-
-
-class ContactLaw(IntEnum):
-    """How the contact point A leaves the floor; Strzalko et al. 2008, Fig. 17, and Routh's law."""
-
-    SHARP_EDGE = 1
-    KNURLED = 2
-    PERFECTLY_ROUGH = 3
-    SLIP_PRESERVING = 4
-    SMOOTH = 5
-    SLIDING_FRICTION = 6
-    COULOMB = 7
-
-    @property
-    def label(self) -> str:
-        """The law's name in a scenario file."""
-        return self.name.lower()
-
-
-class EndingTest(IntEnum):
-    """When the face that is up counts as final."""
-
-    RIGOROUS = 1
-    """The energy is below the lowest pass to the other face."""
-    PAPER = 2
-    """E < m g r."""
-    PAPER_SMOOTH = 3
-    """E - m (ẋ² + ẏ²)/2 - J_ζ ω_ζ²/2 < m g r, eq. (20)."""
-
-    @property
-    def label(self) -> str:
-        """The test's name in a scenario file."""
-        return self.name.lower()
 
 
 def _named(kind: type[ContactLaw] | type[EndingTest]) -> Callable[[Any], Any]:
@@ -76,14 +53,19 @@ def _as_tuple(value: Any) -> Any:
 _Sequence = BeforeValidator(_as_tuple)
 
 
-def _vector(unit: str) -> Any:
-    component = Annotated[float, _quantity(unit)]
-    return Annotated[tuple[component, component, component], _Sequence]
-
-
+Number = Annotated[float, _quantity("")]
+Mass = Annotated[float, _quantity("kg")]
 Length = Annotated[float, _quantity("m")]
-Moment = Annotated[float, _quantity("kg*m**2")]
-_Row = Annotated[tuple[Moment, Moment, Moment], _Sequence]
+Speed = Annotated[float, _quantity("m/s")]
+Angle = Annotated[float, _quantity("rad")]
+Spin = Annotated[float, _quantity("rad/s")]
+Inertia = Annotated[float, _quantity("kg*m**2")]
+Lengths = Annotated[tuple[Length, Length, Length], _Sequence]
+Speeds = Annotated[tuple[Speed, Speed, Speed], _Sequence]
+Angles = Annotated[tuple[Angle, Angle, Angle], _Sequence]
+Spins = Annotated[tuple[Spin, Spin, Spin], _Sequence]
+EulerParameters = Annotated[tuple[Number, Number, Number, Number], _Sequence]
+_Row = Annotated[tuple[Inertia, Inertia, Inertia], _Sequence]
 _ZERO = (0.0, 0.0, 0.0)
 
 
@@ -96,13 +78,13 @@ class _Part(BaseModel):
 class Coin(_Part):
     """A cylinder of radius r and thickness h whose mass centre C may lie off its geometric centre B."""
 
-    mass: Annotated[float, _quantity("kg"), Field(gt=0)]
+    mass: Annotated[Mass, Field(gt=0)]
     """m [kg]."""
     radius: Annotated[Length, Field(gt=0)]
     """r [m]."""
     thickness: Annotated[Length, Field(ge=0)]
     """h [m]; 0 for the thin coin."""
-    center_of_mass: _vector("m") = _ZERO
+    center_of_mass: Lengths = _ZERO
     """c, from B to C, body frame (ξ, η, ζ) [m]."""
     inertia: Annotated[tuple[_Row, _Row, _Row], _Sequence] | None = None
     """J_C about C, body frame, products of inertia with their minus sign [kg m²]; by default the uniform
@@ -158,7 +140,7 @@ class Coin(_Part):
 class Air(_Part):
     """The air's resistance: the force on a surface element is -λ |v|^b v dA."""
 
-    exponent: Annotated[float, _quantity(""), Field(ge=0, le=1)] = 0.0
+    exponent: Annotated[Number, Field(ge=0, le=1)] = 0.0
     """b: 0 for linear, 1 for quadratic resistance."""
     normal: Annotated[float, Field(ge=0)] = 0.0
     """λ_n, of pressure [kg m^(-2-b) s^(b-1)]."""
@@ -177,37 +159,26 @@ class Air(_Part):
 class Floor(_Part):
     """The floor at z = 0 and how a coin rebounds from it."""
 
-    restitution: Annotated[float, _quantity(""), Field(ge=0, le=1)]
+    restitution: Annotated[Number, Field(ge=0, le=1)]
     """χ: normal speed of the contact point after an impact over that before it."""
     contact: Annotated[ContactLaw, BeforeValidator(_named(ContactLaw))]
     """The contact law."""
-    friction: Annotated[float, _quantity(""), Field(ge=0)] = 0.0
+    friction: Annotated[Number, Field(ge=0)] = 0.0
     """μ, for the laws that slide with friction."""
 
 
 class Release(_Part):
     """The state at time 0."""
 
-    position: _vector("m")
+    position: Lengths
     """Of C, space frame [m]."""
-    velocity: _vector("m/s") = _ZERO
+    velocity: Speeds = _ZERO
     """Of C, space frame [m/s]."""
-    angles: _vector("rad") | None = None
+    angles: Angles | None = None
     """ψ, θ, φ, the classical Euler angles (z-x-z) [rad]; a flat coin, heads up, by default."""
-    quaternion: (
-        Annotated[
-            tuple[
-                Annotated[float, _quantity("")],
-                Annotated[float, _quantity("")],
-                Annotated[float, _quantity("")],
-                Annotated[float, _quantity("")],
-            ],
-            _Sequence,
-        ]
-        | None
-    ) = None
+    quaternion: EulerParameters | None = None
     """Euler parameters e0, e1, e2, e3, body to space, in place of the angles; brought to norm 1."""
-    angular_velocity: _vector("rad/s") = _ZERO
+    angular_velocity: Spins = _ZERO
     """ω, body frame (ξ, η, ζ) [rad/s]."""
 
     @field_validator("quaternion")
@@ -237,7 +208,7 @@ class Ending(_Part):
 
     test: Annotated[EndingTest, BeforeValidator(_named(EndingTest))] = EndingTest.RIGOROUS
     """What decides that the face up is final."""
-    max_impacts: Annotated[int, Field(ge=1)] = 1000
+    max_impacts: Annotated[int, Field(ge=1, le=1_000_000)] = 1000
     """The toss stops after so many impacts."""
     max_time: Annotated[float, _quantity("s"), Field(gt=0)] = 60.0
     """The toss stops at this time [s]."""
@@ -256,11 +227,8 @@ class Scenario(_Part):
 
     @model_validator(mode="after")
     def _above_the_floor(self) -> Self:
-        from models.body import body_of
-        from models.geometry import gap
-
-        R = rotation_matrix.py_func(self.release.attitude)
-        clearance = gap.py_func(body_of(self), self.release.position[2], R[2])
+        R = rotation_matrix(self.release.attitude)
+        clearance = gap(body_of(self), self.release.position[2], R[2])
         if clearance < -1e-12 * self.coin.radius:
             z = self.release.position[2]
             raise FieldError("release.position.z", z, f"a coin above the floor: z >= {z - clearance:.6g} m")

@@ -1,0 +1,44 @@
+# `make report` and `make test` need Python >= 3.11 and make, nothing else.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+SCENARIOS := fig24a zloty
+
+export PIP_DISABLE_PIP_VERSION_CHECK = 1
+
+.PHONY: report test test-all lint opengl clean
+
+report: $(READY) opengl
+	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
+
+test: $(READY) opengl lint
+	$(BIN)/pytest -n 2
+
+test-all: $(READY) opengl lint
+	$(BIN)/pytest -n 2 -m "slow or not slow"
+
+lint: $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/pyright
+	PYTHONPATH=. $(BIN)/lint-imports
+
+$(READY): pyproject.toml
+	$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'cointoss needs Python >= 3.11')"
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet "pip>=25.1"
+	$(BIN)/python -m pip install --quiet --editable . --group dev
+	touch $@
+
+# MuJoCo draws without a screen through EGL. Debian's packages are installed where that is allowed; elsewhere
+# `cointoss` says which to install, and the report comes without its video.
+opengl:
+	@if [ "$$(uname)" = Linux ] && ! ldconfig -p 2>/dev/null | grep -q 'libEGL\.so' \
+	  && [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
+	  apt-get update -q && apt-get install -y -q --no-install-recommends libegl1 libgl1-mesa-dri libopengl0 \
+	  || echo "The OpenGL libraries could not be installed; the report will have no video." >&2; \
+	fi
+
+clean:
+	rm -rf $(VENV) out .pytest_cache .ruff_cache .hypothesis .import_linter_cache

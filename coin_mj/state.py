@@ -1,0 +1,43 @@
+"""Between MuJoCo's state and the records': the free joint carries B, the records carry C.
+
+Both have velocities in space, the angular velocity in the body, and Euler parameters with the scalar first.
+"""
+
+import numpy as np
+
+from models.attitude import rotation_matrix
+from models.compiled import compiled
+from models.records import Array
+from models.scenario import Release
+from models.vectors import add, apply, cross, subtract
+
+
+@compiled
+def to_mass_center(body, qpos, qvel):
+    """Give position and velocity of C (space), Euler parameters and angular velocity (body).
+
+    Args:
+        body: the coin.
+        qpos: of the free joint, (7,).
+        qvel: of the free joint, (6,).
+    """
+    e = (qpos[3], qpos[4], qpos[5], qpos[6])
+    w = (qvel[3], qvel[4], qvel[5])
+    R = rotation_matrix(e)
+    x = add((qpos[0], qpos[1], qpos[2]), apply(R, body.center))
+    v = add((qvel[0], qvel[1], qvel[2]), apply(R, cross(w, body.center)))
+    return x, v, e, w
+
+
+def of_release(body, release: Release) -> tuple[Array, Array]:
+    """Give qpos, (7,), and qvel, (6,), of a release.
+
+    Args:
+        body: the coin.
+        release: position and velocity of C, attitude, angular velocity.
+    """
+    e, w = release.attitude, release.angular_velocity
+    R = rotation_matrix(e)
+    x_B = subtract(release.position, apply(R, body.center))
+    v_B = subtract(release.velocity, apply(R, cross(w, body.center)))
+    return np.array([*x_B, *e]), np.array([*v_B, *w])

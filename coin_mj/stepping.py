@@ -1,0 +1,40 @@
+"""How long the next step may be."""
+
+from typing import NamedTuple
+
+from coin_mj.state import to_mass_center
+from models.attitude import rotation_matrix
+from models.compiled import compiled
+from models.geometry import clear_time, contact_velocity, gap, lowest_point
+from models.vectors import norm
+
+FLIGHT_ANGLE = 0.02
+"""Largest turn of the coin in a step of free flight [rad]."""
+
+
+class Outlook(NamedTuple):
+    """What a state of the coin says about its next step."""
+
+    height: float
+    """Gap of the coin's shape, negative in contact [m]."""
+    speed: float
+    """Vertical velocity of the lowest point [m/s]."""
+    clear: float
+    """A step of free flight that surely ends before the coin touches [s]."""
+
+
+@compiled
+def outlook(body, qpos, qvel):
+    """Look at a state of the coin.
+
+    Args:
+        body: the coin, with the thickness of its shape.
+        qpos: of the free joint, (7,).
+        qvel: of the free joint, (6,).
+    """
+    x, v, e, w = to_mass_center(body, qpos, qvel)
+    R = rotation_matrix(e)
+    point, flat = lowest_point(body, R[2], w)
+    speed = v[2] if flat else contact_velocity(body, R, v, w, point)[2]
+    longest = FLIGHT_ANGLE / (norm(w) + (body.gravity / body.radius) ** 0.5)
+    return Outlook(gap(body, x[2], R[2]), speed, clear_time(body, x[2], v, R[2], w, longest))

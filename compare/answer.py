@@ -1,0 +1,91 @@
+"""A toss as an answer: JSON, CSV, and lines to read."""
+
+import csv
+import io
+from typing import Any
+
+import numpy as np
+
+from models.records import Face, Impacts, States, Toss
+
+_JSON_FIELDS = (
+    "impulse",
+    "point",
+    "position",
+    "quaternion",
+    "velocity_before",
+    "velocity_after",
+    "angular_velocity_before",
+    "angular_velocity_after",
+    "contact_velocity_before",
+    "contact_velocity_after",
+    "energy",
+)
+PATH_COLUMNS = {
+    "time": ("t [s]",),
+    "position": ("x [m]", "y [m]", "z [m]"),
+    "velocity": ("v_x [m/s]", "v_y [m/s]", "v_z [m/s]"),
+    "quaternion": ("e0", "e1", "e2", "e3"),
+    "angular_velocity": ("w_xi [rad/s]", "w_eta [rad/s]", "w_zeta [rad/s]"),
+}
+"""Columns of a path's CSV file, by the fields of `States`."""
+
+
+def as_json(toss: Toss) -> dict[str, Any]:
+    """Give a toss in the form of `cointoss toss --json`, in full precision."""
+    return {
+        "engine": toss.engine,
+        "sequence": toss.sequence,
+        "outcome": toss.outcome.label,
+        "ending": toss.ending.label,
+        "trusted_impacts": toss.trusted_impacts,
+        "impacts": [_impact(toss.impacts, i) for i in range(len(toss.impacts))],
+        "contacts": [{"start": start, "end": end} for start, end in toss.contacts.tolist()],
+    }
+
+
+def _impact(impacts: Impacts, i: int) -> dict[str, Any]:
+    fields = {name: getattr(impacts, name)[i].tolist() for name in _JSON_FIELDS}
+    return {"time": float(impacts.time[i]), "face": Face(impacts.face[i]).symbol, **fields}
+
+
+def path_times(toss: Toss, per_second: float) -> np.ndarray:
+    """Give times evenly spread over a toss, and those of its impacts and its end [s]."""
+    even = np.arange(0.0, toss.end_time, 1 / per_second)
+    return np.unique(np.concatenate([even, toss.impacts.time, [toss.end_time]]))
+
+
+def path_csv(states: States) -> str:
+    """Give a path as CSV, one row for each time, columns named with their units."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([name for names in PATH_COLUMNS.values() for name in names])
+    rows = np.column_stack([getattr(states, field) for field in PATH_COLUMNS])
+    writer.writerows([[repr(float(number)) for number in row] for row in rows])
+    return text.getvalue()
+
+
+def as_lines(toss: Toss) -> str:
+    """Give a toss as text for a person."""
+    sequence, trusted = toss.sequence, toss.trusted_impacts
+    shown = sequence if trusted >= len(sequence) else f"{sequence[:trusted]}|{sequence[trusted:]}"
+    lines = [
+        f"engine    {toss.engine}",
+        f"outcome   {toss.outcome.label}",
+        f"ending    {toss.ending.label}: {toss.ending.sentence}",
+        f"end       {toss.end_time:.6f} s after {len(toss.impacts)} impacts",
+        f"sequence  {shown}",
+        f"trusted   the first {trusted} impacts" + ("" if trusted >= len(sequence) else " (before the bar)"),
+    ]
+    lines += [f"contact   from {start:.6f} to {end:.6f} s" for start, end in toss.contacts]
+    if len(toss.impacts):
+        lines += ["", "  n      t [s]  up  S_x [mN s]  S_y [mN s]  S_z [mN s]    E [mJ]  rim [deg]"]
+    impacts = toss.impacts
+    angles = np.degrees(np.arctan2(impacts.point[:, 1], impacts.point[:, 0]))
+    for i in range(len(impacts)):
+        S = 1e3 * impacts.impulse[i]
+        lines.append(
+            f"{i + 1:3d} {impacts.time[i]:10.6f}   {Face(impacts.face[i]).symbol} "
+            f"{S[0]:11.5f} {S[1]:11.5f} {S[2]:11.5f} {1e3 * impacts.energy[i]:9.4f} {angles[i]:10.2f}"
+        )
+    return "\n".join(lines)

@@ -1,0 +1,140 @@
+"""The command line: `cointoss`."""
+
+import json
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import click
+
+# Only click is imported here: `cointoss --help` answers at once, each command brings what it needs.
+
+_SCENARIO_HELP = (
+    "SCENARIO is a TOML file, or the name of a scenario that comes with the package, such as fig24a; "
+    "a name that does not exist is answered with all that do."
+)
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(package_name="cointoss", prog_name="cointoss")
+def main() -> None:
+    """Toss a coin by the mechanics of Strzalko et al. (2008) and by MuJoCo, and compare."""
+
+
+@contextmanager
+def _plain_errors(source: str) -> Iterator[None]:
+    """Turn the errors of bad input into one line and exit status 2."""
+    from compare.files import UnwritableError
+    from models.reading import ScenarioError
+    from models.records import UnsupportedError
+
+    try:
+        yield
+    except (ScenarioError, UnwritableError) as error:
+        _refuse(str(error))
+    except UnsupportedError as error:
+        _refuse(f"{source}: {error}")
+
+
+def _refuse(message: str) -> None:
+    click.echo(f"cointoss: {message}", err=True)
+    sys.exit(2)
+
+
+@main.command(epilog=_SCENARIO_HELP)
+@click.argument("scenario")
+@click.option(
+    "--engine",
+    type=click.Choice(["analytic", "mujoco"]),
+    default="analytic",
+    show_default=True,
+    help="Which engine.",
+)
+@click.option("--max-impacts", type=click.IntRange(1, 1_000_000), help="Stop after so many impacts.")
+@click.option("--json", "as_json", is_flag=True, help="Answer in JSON, in full precision.")
+@click.option("--trajectory", type=click.Path(path_type=Path), help="Write the path to this CSV file too.")
+def toss(scenario: str, engine: str, max_impacts: int | None, as_json: bool, trajectory: Path | None) -> None:
+    """Toss one coin and print its impacts."""
+    with _plain_errors(scenario):
+        from compare import answer
+        from compare.engines import Engine
+        from compare.engines import toss as toss_by
+        from compare.files import require_file, write_text
+        from models.reading import load
+
+        if trajectory is not None:
+            require_file(trajectory)
+        described = load(scenario)
+        if max_impacts is not None:
+            ending = described.ending.model_copy(update={"max_impacts": max_impacts})
+            described = described.model_copy(update={"ending": ending})
+        result = toss_by(Engine(engine), described)
+        if trajectory is not None:
+            times = answer.path_times(result, per_second=1000)
+            write_text(trajectory, answer.path_csv(result.sample(times)))
+        click.echo(json.dumps(answer.as_json(result), indent=1) if as_json else answer.as_lines(result))
+
+
+@main.command(epilog=_SCENARIO_HELP)
+@click.argument("scenario")
+@click.option(
+    "--out", type=click.Path(path_type=Path), required=True, help="Folder for the report; made if missing."
+)
+def compare(scenario: str, out: Path) -> None:
+    """Toss one coin by both engines and write a side-by-side report with video."""
+    with _plain_errors(scenario):
+        from compare.files import require_folder
+        from models.reading import parse, scenario_text
+
+        text = scenario_text(scenario)
+        described = parse(text, scenario)
+        require_folder(out)
+
+        from compare.graphics import drawing_problem
+
+        problem = drawing_problem()
+
+        from compare.report.folder import write_report
+
+        page = write_report(described, text, Path(scenario).stem, out, problem, _progress("video"))
+        click.echo(page)
+
+
+@main.command(epilog=_SCENARIO_HELP)
+@click.argument("scenario")
+@click.option("--out", type=click.Path(path_type=Path), required=True, help="The mp4 file to write.")
+def video(scenario: str, out: Path) -> None:
+    """Film one toss in MuJoCo, in slow motion around the impacts."""
+    with _plain_errors(scenario):
+        from compare.files import UnwritableError, require_file, written_whole
+        from models.reading import load
+
+        described = load(scenario)
+        if out.suffix != ".mp4":
+            raise UnwritableError(f"{out}: accepted: a file name that ends in .mp4")
+        require_file(out)
+
+        from compare.graphics import drawing_problem
+
+        problem = drawing_problem()
+        if problem is not None:
+            _refuse(problem)
+
+        import coin_mj
+        from coin_mj.video import write_video
+
+        result = coin_mj.toss(described)
+        with written_whole(out) as aside:
+            write_video(result, aside, _progress("video"))
+        click.echo(out)
+
+
+def _progress(what: str) -> Callable[[int, int], None]:
+    """Give a function that shows on the terminal how far a job is."""
+
+    def show(done: int, count: int) -> None:
+        if sys.stderr.isatty():
+            click.echo(f"\r{what}: {done}/{count} frames", err=True, nl=done == count)
+
+    return show

@@ -1,0 +1,96 @@
+"""One scenario tossed by both engines, and how the answers compare."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from compare.engines import Engine, toss
+from compare.impulses import Differences, match
+from compare.sequences import agreement_horizon, common_prefix
+from compare.trajectories import attitude_angle, distance, parting_time
+from models.records import Array, Toss, UnsupportedError
+from models.scenario import Scenario
+
+TIMES = 2400
+PARTED = 0.1
+"""Two paths have parted when they are further apart than this part of the radius."""
+SMALLEST_ERROR = 1e-6
+"""The horizon supposes at least this relative difference of the first impulse."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Together:
+    """Both paths at the same times, as far as both tosses last; arrays are read-only."""
+
+    time: Array
+    """(n,) [s]."""
+    distance: Array
+    """Between the mass centres, (n,) [m]."""
+    attitude_angle: Array
+    """Of the rotation from one attitude to the other, (n,) [rad]."""
+    parting_time: float | None
+    """When the distance first exceeds `PARTED` r [s]."""
+
+    def __post_init__(self) -> None:
+        """Make the arrays read-only."""
+        for array in (self.time, self.distance, self.attitude_angle):
+            array.setflags(write=False)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Comparison:
+    """Two tosses of one scenario and their differences."""
+
+    scenario: Scenario
+    analytic: Toss
+    mujoco: Toss
+    differences: Differences
+    """Of the impacts, MuJoCo against analytic."""
+    together: Together
+    common_prefix: int
+    """Leading symbols of the sequences that agree."""
+    horizon: int
+    """Leading symbols that must agree: see `agreement_horizon`."""
+    horizon_error: float
+    """Relative difference of the first impulse that the horizon supposes."""
+
+
+def compare(scenario: Scenario) -> Comparison | tuple[Toss, str]:
+    """Toss a scenario by both engines and compare the answers.
+
+    Returns:
+        The comparison; or, where MuJoCo can't realise the scenario, the analytic toss and why.
+
+    Raises:
+        UnsupportedError: for what the analytic engine doesn't model.
+    """
+    a = toss(Engine.ANALYTIC, scenario)
+    try:
+        b = toss(Engine.MUJOCO, scenario)
+    except UnsupportedError as error:
+        return a, str(error)
+    differences = match(a.impacts, b.impacts)
+    error = max(SMALLEST_ERROR, *differences.impulse[:1])
+    return Comparison(
+        scenario=scenario,
+        analytic=a,
+        mujoco=b,
+        differences=differences,
+        together=_together(a, b),
+        common_prefix=common_prefix(a.sequence, b.sequence),
+        horizon=agreement_horizon(a, error),
+        horizon_error=error,
+    )
+
+
+def _together(a: Toss, b: Toss) -> Together:
+    times = np.linspace(0, min(a.end_time, b.end_time), TIMES)
+    path_a, path_b = a.sample(times), b.sample(times)
+    apart = distance(path_a, path_b)
+    limit = PARTED * a.scenario.coin.radius
+    return Together(
+        time=times,
+        distance=apart,
+        attitude_angle=attitude_angle(path_a, path_b),
+        parting_time=parting_time(times, apart, limit),
+    )

@@ -1,0 +1,119 @@
+"""The report as one self-contained HTML page."""
+
+import platform
+from base64 import b64encode
+from dataclasses import dataclass
+from importlib import metadata, resources
+from typing import Any
+
+import jinja2
+import numpy as np
+from pydantic import BaseModel
+
+from compare.comparison import Comparison
+from compare.sequences import aligned
+from models.laws import ContactLaw, EndingTest
+from models.records import Face, Toss
+from models.scenario import Scenario
+
+PACKAGES = ("cointoss", "mujoco", "numpy", "scipy", "numba", "matplotlib", "mediapy")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Page:
+    """What the page shows."""
+
+    name: str
+    scenario: Scenario
+    scenario_text: str
+    analytic: Toss
+    comparison: Comparison | None
+    not_realisable: str | None
+    """Why MuJoCo can't toss the scenario, where it can't."""
+    figures: dict[str, str]
+    """SVG texts."""
+    video: bytes | None
+    """The mp4."""
+    no_video: str | None
+    """Why there is no video, where there is none."""
+
+
+def render(page: Page) -> str:
+    """Give the HTML text of a page."""
+    template = (resources.files("compare.report") / "report.html.j2").read_text(encoding="utf-8")
+    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
+    environment.filters["symbol"] = lambda face: Face(face).symbol
+    comparison = page.comparison
+    tosses = [page.analytic, *([comparison.mujoco] if comparison else [])]
+    return environment.from_string(template).render(
+        page=page,
+        tosses=tosses,
+        labels={"analytic": "the paper's mechanics", "mujoco": "MuJoCo"},
+        parameters=_parameters(page.scenario),
+        pairs=aligned(page.analytic.sequence, comparison.mujoco.sequence) if comparison else [],
+        impacts=_impact_rows(page.analytic, comparison),
+        video=b64encode(page.video).decode("ascii") if page.video else None,
+        versions=versions(),
+    )
+
+
+def versions() -> dict[str, str]:
+    """Give the versions of Python and the packages that matter to the numbers."""
+    return {"Python": platform.python_version(), **{name: metadata.version(name) for name in PACKAGES}}
+
+
+def _parameters(scenario: Scenario) -> list[tuple[str, str, str]]:
+    """Give every field of the scenario: its dotted path, its value, its meaning with the unit."""
+    rows: list[tuple[str, str, str]] = []
+
+    def walk(part: BaseModel, path: str) -> None:
+        for name, field in type(part).model_fields.items():
+            value = getattr(part, name)
+            if isinstance(value, BaseModel):
+                walk(value, f"{path}{name}.")
+            elif value is not None:
+                rows.append((f"{path}{name}", _shown(value), field.description or ""))
+
+    walk(scenario, "")
+    return rows
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, ContactLaw | EndingTest):
+        return value.label
+    if isinstance(value, tuple):
+        return "(" + ", ".join(_shown(item) for item in value) + ")"
+    return f"{value:.10g}" if isinstance(value, float) else str(value)
+
+
+def _impact_rows(analytic: Toss, comparison: Comparison | None) -> list[dict[str, Any]]:
+    """Give the rows of the table of impacts, as many as the longer toss has."""
+    b = comparison.mujoco if comparison else None
+    count = max(len(analytic.impacts), len(b.impacts) if b else 0)
+    matched = len(comparison.differences.time) if comparison else 0
+    return [
+        {
+            "number": i + 1,
+            "within": comparison is None or i < comparison.horizon,
+            "analytic": _impact(analytic, i),
+            "mujoco": _impact(b, i) if b else None,
+            "time_difference": comparison.differences.time[i] if comparison and i < matched else None,
+            "impulse_difference": comparison.differences.impulse[i] if comparison and i < matched else None,
+        }
+        for i in range(count)
+    ]
+
+
+def _impact(toss: Toss, i: int) -> dict[str, Any] | None:
+    impacts = toss.impacts
+    if i >= len(impacts):
+        return None
+    point = impacts.point[i]
+    return {
+        "time": impacts.time[i],
+        "face": Face(impacts.face[i]).symbol,
+        "rim": np.degrees(np.arctan2(point[1], point[0])),
+        "impulse": 1e3 * impacts.impulse[i],
+        "energy": 1e3 * impacts.energy[i],
+        "energy_change": 1e3 * impacts.energy_change[i],
+    }
