@@ -23,17 +23,18 @@ def shape_thickness(scenario: Scenario) -> float:
     return scenario.coin.thickness or THIN_SHAPE * scenario.coin.radius
 
 
-def build(scenario: Scenario, spring: Spring) -> mujoco.MjModel:
+def build(scenario: Scenario, spring: Spring, thickness: float) -> mujoco.MjModel:
     """Build the MuJoCo model of a scenario.
 
     Args:
         scenario: what to toss.
         spring: the contact.
+        thickness: of the coin's shape [m].
 
     Returns:
         The model, with RK4 and a frictionless contact.
     """
-    spec = _described(scenario)
+    spec = _described(scenario, thickness)
     spec.geom("coin").solref = (-spring.stiffness, -spring.damping)
     _set_drag(spec, scenario)
     return spec.compile()
@@ -46,7 +47,7 @@ def build_painted(scenario: Scenario, span: float) -> mujoco.MjModel:
         scenario: what is tossed.
         span: size of the scene, to which light, shadow and floor are fitted [m].
     """
-    spec = _described(scenario)
+    spec = _described(scenario, shape_thickness(scenario))
     spec.stat.extent = span
     spec.light("sun").pos = (0, 0, 2 * span)
     spec.material("floor").texrepeat = (10 / span, 10 / span)
@@ -65,7 +66,7 @@ def build_painted(scenario: Scenario, span: float) -> mujoco.MjModel:
     return spec.compile()
 
 
-def _described(scenario: Scenario) -> mujoco.MjSpec:
+def _described(scenario: Scenario, thickness: float) -> mujoco.MjSpec:
     spec = mujoco.MjSpec.from_string((resources.files("models") / "coin.xml").read_text(encoding="utf-8"))
     spec.option.gravity = (0.0, 0.0, -scenario.gravity)
     coin, body = scenario.coin, spec.body("coin")
@@ -74,7 +75,7 @@ def _described(scenario: Scenario) -> mujoco.MjSpec:
     body.mass = coin.mass
     body.ipos = coin.center_of_mass
     body.fullinertia = (J[0, 0], J[1, 1], J[2, 2], J[0, 1], J[0, 2], J[1, 2])
-    spec.geom("coin").size = (coin.radius, shape_thickness(scenario) / 2, 0.0)
+    spec.geom("coin").size = (coin.radius, thickness / 2, 0.0)
     return spec
 
 

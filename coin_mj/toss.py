@@ -115,27 +115,24 @@ class Contact(NamedTuple):
     """Whether it went on for `LASTING` half periods of the spring, and was left there."""
 
 
-def press(machine: Machine) -> Contact:
-    """Follow a contact from the touch to the release of all rim points."""
+def press(machine: Machine) -> Contact | None:
+    """Follow a contact from the touch to the release of all rim points; None where nothing was pressed."""
     data = machine.data
-    start, momentum = data.time, _momentum(machine)
-    pushed, other = False, np.zeros(3)
-    # The first step is tiny, so that the spring's onset falls between two steps, not into one.
-    dt = TOUCH_STEP * machine.contact_step
-    while True:
+    start, momentum, other = data.time, _momentum(machine), np.zeros(3)
+    pressed = False
+    while data.time - start <= LASTING * machine.spring.duration:
         force = machine.forward()
-        if force > 0:
-            pushed = True
-        elif pushed or (data.time > start and outlook(machine.shape, data.qpos, data.qvel).height > 0):
-            break
-        if data.time - start > LASTING * machine.spring.duration:
-            break
-        before = _other_force(machine)
+        if force == 0:
+            if pressed:
+                return Contact(start, data.time, _momentum(machine) - momentum - other, lasts=False)
+            if outlook(machine.shape, data.qpos, data.qvel).speed >= 0:
+                return None
+        # Tiny steps up to the spring's onset, so that it falls between two steps, not into one.
+        dt = machine.contact_step * (1.0 if force > 0 else TOUCH_STEP)
+        pressed = pressed or force > 0
+        other += dt * _other_force(machine)
         machine.step(dt)
-        other += dt * before
-        dt = machine.contact_step
-    impulse = _momentum(machine) - momentum - other
-    return Contact(start, data.time, impulse, lasts=force > 0)
+    return Contact(start, data.time, _momentum(machine) - momentum - other, lasts=True)
 
 
 def _momentum(machine: Machine) -> Array:
@@ -176,6 +173,8 @@ def run(machine: Machine, rules: Rules) -> Run:
         else:
             touch = machine.state()
             contact = press(machine)
+            if contact is None:
+                continue
             if contact.lasts:
                 contacts.append((contact.start, contact.end))
                 ending = Ending.CHATTER
@@ -232,13 +231,13 @@ class Knots:
         return States(time=times.copy(), position=x, velocity=v, quaternion=e, angular_velocity=w)
 
 
-def machine_of(scenario: Scenario, stiffness: float) -> Machine:
-    """Build the MuJoCo coin of a scenario and put it at its release."""
+def machine_of(scenario: Scenario, stiffness: float, thickness: float) -> Machine:
+    """Build the MuJoCo coin of a scenario, with the thickness of its shape [m], and put it at its release."""
     spring, body = spring_of(scenario.floor.restitution, stiffness), body_of(scenario)
-    model = build(scenario, spring)
+    model = build(scenario, spring, thickness)
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = of_release(body, scenario.release)
-    shape = body._replace(thickness=shape_thickness(scenario))
+    shape = body._replace(thickness=thickness)
     return Machine(model=model, data=data, body=body, shape=shape, spring=spring)
 
 
@@ -279,7 +278,7 @@ def toss(scenario: Scenario, stiffness: float = STIFFNESS) -> Toss:
         UnsupportedError: for contact laws other than "smooth", restitution 0, or air with b > 0.
     """
     require_supported(scenario)
-    rules, machine = rules_of(scenario), machine_of(scenario, stiffness)
+    rules, machine = rules_of(scenario), machine_of(scenario, stiffness, shape_thickness(scenario))
     answer = run(machine, rules)
     machine.keep()
     impacts = Impacts.from_rows(answer.rows)
@@ -309,11 +308,15 @@ def toss(scenario: Scenario, stiffness: float = STIFFNESS) -> Toss:
 
 
 def _trusted_impacts(scenario: Scenario, stiffness: float, impacts: Impacts) -> int:
-    """Count the leading impacts whose faces a contact ten times softer shares."""
+    """Count the leading impacts whose faces a coin shares that is further from the hard limit.
+
+    Its contact is ten times softer, and its shape ten times as thick where a thin coin's is made up.
+    """
     if len(impacts) == 0:
         return 0
     rules = rules_of(scenario)._replace(max_impacts=len(impacts))
-    softer = Impacts.from_rows(run(machine_of(scenario, stiffness / 10), rules).rows)
+    thickness = scenario.coin.thickness or 10 * shape_thickness(scenario)
+    softer = Impacts.from_rows(run(machine_of(scenario, stiffness / 10, thickness), rules).rows)
     n = min(len(impacts), len(softer))
     same = impacts.face[:n] == softer.face[:n]
     return n if same.all() else int(np.argmin(same))

@@ -17,7 +17,7 @@ from coin_mj.state import of_release
 from models.body import body_of
 from models.ending import face_up
 from models.records import Array, States, Toss
-from models.scenario import Release
+from models.scenario import Release, euler_parameters, vector
 
 FRAMES_PER_SECOND = 30
 HEIGHT = 480
@@ -74,11 +74,13 @@ def frames(toss: Toss) -> Iterator[np.ndarray]:
         mujoco.Renderer(model, HEIGHT, CLOSE_UP_WIDTH) as near,
     ):
         for i, (time, speed) in enumerate(zip(times, speeds, strict=True)):
-            release = Release(position=_three(states.position[i]), quaternion=_four(states.quaternion[i]))
-            data.qpos[:], data.qvel[:] = of_release(body, release)
+            x, e = vector(states.position[i]), euler_parameters(states.quaternion[i])
+            data.qpos[:], data.qvel[:] = of_release(body, Release(position=x, quaternion=e))
             mujoco.mj_forward(model, data)
             close_up.lookat[:] = states.position[i]
             far.update_scene(data, overview)
+            # So far from the light the shadow map is too coarse.
+            far.scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = False
             near.update_scene(data, close_up)
             frame = np.concatenate([far.render(), near.render()], axis=1)
             up = face_up(states.normal[i, 2])
@@ -131,20 +133,12 @@ def _close_up(toss: Toss) -> mujoco.MjvCamera:
     return camera
 
 
-def _captioned(frame: np.ndarray, font: ImageFont.FreeTypeFont, left: str, right: str) -> np.ndarray:
+def _captioned(
+    frame: np.ndarray, font: ImageFont.FreeTypeFont | ImageFont.ImageFont, left: str, right: str
+) -> np.ndarray:
     image = Image.fromarray(frame)
     draw = ImageDraw.Draw(image)
     for x, text in ((12, left), (OVERVIEW_WIDTH + 12, right)):
         draw.text((x, 10), text, font=font, fill=(25, 30, 40))
     draw.line([(OVERVIEW_WIDTH, 0), (OVERVIEW_WIDTH, HEIGHT)], fill=(255, 255, 255), width=2)
     return np.asarray(image)
-
-
-def _three(row: Array) -> tuple[float, float, float]:
-    x, y, z = row.tolist()
-    return x, y, z
-
-
-def _four(row: Array) -> tuple[float, float, float, float]:
-    e0, e1, e2, e3 = row.tolist()
-    return e0, e1, e2, e3

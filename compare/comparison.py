@@ -4,18 +4,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from coin_mj.scene import shape_thickness
 from compare.engines import Engine, toss
-from compare.impulses import Differences, match
+from compare.impulses import Differences, errors_of_impacts, match
 from compare.sequences import agreement_horizon, common_prefix
 from compare.trajectories import attitude_angle, distance, parting_time
 from models.records import Array, Toss, UnsupportedError
-from models.scenario import Scenario
+from models.scenario import Scenario, vector
 
 TIMES = 2400
 PARTED = 0.1
 """Two paths have parted when they are further apart than this part of the radius."""
-SMALLEST_ERROR = 1e-6
-"""The horizon supposes at least this relative difference of the first impulse."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -49,10 +48,15 @@ class Comparison:
     together: Together
     common_prefix: int
     """Leading symbols of the sequences that agree."""
+    errors: Array
+    """Relative error of each of MuJoCo's impulses: see `errors_of_impacts`, (n,)."""
     horizon: int
-    """Leading symbols that must agree: see `agreement_horizon`."""
-    horizon_error: float
-    """Relative difference of the first impulse that the horizon supposes."""
+    """Leading symbols that must agree: within MuJoCo's own horizon, and within those of its errors and of its
+    shape in the paper's mechanics."""
+
+    def __post_init__(self) -> None:
+        """Make the array read-only."""
+        self.errors.setflags(write=False)
 
 
 def compare(scenario: Scenario) -> Comparison | tuple[Toss, str]:
@@ -69,17 +73,29 @@ def compare(scenario: Scenario) -> Comparison | tuple[Toss, str]:
         b = toss(Engine.MUJOCO, scenario)
     except UnsupportedError as error:
         return a, str(error)
-    differences = match(a.impacts, b.impacts)
-    error = max(SMALLEST_ERROR, *differences.impulse[:1])
+    errors = errors_of_impacts(b)
     return Comparison(
         scenario=scenario,
         analytic=a,
         mujoco=b,
-        differences=differences,
+        differences=match(a.impacts, b.impacts),
         together=_together(a, b),
         common_prefix=common_prefix(a.sequence, b.sequence),
-        horizon=agreement_horizon(a, error),
-        horizon_error=error,
+        errors=errors,
+        horizon=min(b.trusted_impacts, agreement_horizon(a, errors), _shape_horizon(a)),
+    )
+
+
+def _shape_horizon(a: Toss) -> int:
+    """Count the leading symbols that the paper's mechanics keeps for a coin as thick as MuJoCo's shape."""
+    coin = a.scenario.coin
+    thickness = shape_thickness(a.scenario)
+    if thickness == coin.thickness:
+        return len(a.impacts)
+    first, second, third = (vector(row) for row in coin.inertia_about_C)
+    thick = coin.model_copy(update={"thickness": thickness, "inertia": (first, second, third)})
+    return common_prefix(
+        a.sequence, toss(Engine.ANALYTIC, a.scenario.model_copy(update={"coin": thick})).sequence
     )
 
 

@@ -4,7 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from models.records import Array, Impacts
+import analytic
+from models.records import Array, Impacts, Toss
+from models.scenario import Release, euler_parameters, vector
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -32,6 +34,33 @@ def match(a: Impacts, b: Impacts) -> Differences:
         impulse=_relative(a.impulse[:n], b.impulse[:n]),
         angular_velocity=_relative(a.angular_velocity_after[:n], b.angular_velocity_after[:n]),
     )
+
+
+def errors_of_impacts(toss: Toss) -> Array:
+    """Give the error of each impulse against the paper's law, from the very state in which the coin touched.
+
+    Unlike the difference of matched impacts this carries nothing on from the impacts before: it is the error
+    that the engine makes anew each time.
+
+    Args:
+        toss: by any engine.
+
+    Returns:
+        |S_law - S|/|S_law|, (n,).
+    """
+    impacts, scenario = toss.impacts, toss.scenario
+    one = scenario.ending.model_copy(update={"max_impacts": 1})
+    law = np.empty((len(impacts), 3))
+    for i in range(len(impacts)):
+        release = Release(
+            position=vector(impacts.position[i]),
+            velocity=vector(impacts.velocity_before[i]),
+            quaternion=euler_parameters(impacts.quaternion[i]),
+            angular_velocity=vector(impacts.angular_velocity_before[i]),
+        )
+        again = analytic.toss(scenario.model_copy(update={"release": release, "ending": one}))
+        law[i] = again.impacts.impulse[0]
+    return _relative(law, impacts.impulse)
 
 
 def _relative(a: Array, b: Array) -> Array:

@@ -1,8 +1,11 @@
 """How far two heads-and-tails sequences agree, and how far they must."""
 
 import analytic
-from models.records import Toss
-from models.scenario import Release
+from models.records import Array, Toss
+from models.scenario import Release, euler_parameters, vector
+
+SAFETY = 2.0
+"""The horizon supposes errors so many times larger than those measured."""
 
 
 def common_prefix(a: str, b: str) -> int:
@@ -11,37 +14,38 @@ def common_prefix(a: str, b: str) -> int:
     return next((i for i in range(n) if a[i] != b[i]), n)
 
 
-def agreement_horizon(toss: Toss, error: float) -> int:
-    """Count the leading impacts whose faces two engines share if their impulses differ by `error`.
+def agreement_horizon(toss: Toss, errors: Array) -> int:
+    """Count the leading impacts whose faces must be shared by an engine that makes `errors` in its impulses.
 
-    The toss is repeated from its first impact with that impulse too large, and too small, by `error`: what
-    parts these from the toss is chaos alone, acting on so small a difference.
+    The toss is repeated from each of its impacts in turn, with that impulse too large, and too small, by
+    `SAFETY` times the largest error up to there: what parts these from the toss is chaos alone.
 
     Args:
         toss: by the analytic engine.
-        error: relative difference of the first impulse.
+        errors: relative errors of the other engine's leading impulses, (n,).
     """
     impacts, scenario = toss.impacts, toss.scenario
-    if len(impacts) < 2:
-        return len(impacts)
-    shared = len(impacts)
-    for part in (error, -error):
-        v, w = (
-            after + part * (after - before)
-            for before, after in (
-                (impacts.velocity_before[0], impacts.velocity_after[0]),
-                (impacts.angular_velocity_before[0], impacts.angular_velocity_after[0]),
+    shared = min(len(impacts), len(errors))
+    for i in range(shared):
+        if i >= shared:
+            break
+        error = SAFETY * errors[: i + 1].max()
+        for part in (error, -error):
+            release = Release(
+                position=vector(impacts.position[i]),
+                velocity=vector(_beyond(impacts.velocity_before[i], impacts.velocity_after[i], part)),
+                quaternion=euler_parameters(impacts.quaternion[i]),
+                angular_velocity=vector(
+                    _beyond(impacts.angular_velocity_before[i], impacts.angular_velocity_after[i], part)
+                ),
             )
-        )
-        release = Release(
-            position=tuple(impacts.position[0].tolist()),
-            velocity=tuple(v.tolist()),
-            quaternion=tuple(impacts.quaternion[0].tolist()),
-            angular_velocity=tuple(w.tolist()),
-        )
-        again = analytic.toss(scenario.model_copy(update={"release": release}))
-        shared = min(shared, 1 + common_prefix(toss.sequence[1:], again.sequence))
+            again = analytic.toss(scenario.model_copy(update={"release": release}))
+            shared = min(shared, i + 1 + common_prefix(toss.sequence[i + 1 :], again.sequence))
     return shared
+
+
+def _beyond(before: Array, after: Array, part: float) -> Array:
+    return after + part * (after - before)
 
 
 def aligned(a: str, b: str) -> list[tuple[str, str]]:

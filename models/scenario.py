@@ -1,7 +1,6 @@
 """What is tossed: coin, air, floor, release and ending; frozen, and validated when made."""
 
 from collections.abc import Callable
-from functools import cached_property
 from typing import Annotated, Any, Self
 
 import numpy as np
@@ -125,7 +124,7 @@ class Coin(_Part):
             )
         return self
 
-    @cached_property
+    @property
     def inertia_about_C(self) -> NDArray[np.float64]:
         """J_C, body frame, (3, 3), read-only [kg m²]."""
         if self.inertia is not None:
@@ -233,6 +232,18 @@ class Scenario(_Part):
             z = self.release.position[2]
             raise FieldError("release.position.z", z, f"a coin above the floor: z >= {z - clearance:.6g} m")
         return self
+
+
+def vector(row: NDArray[np.float64]) -> Vector:
+    """Give three numbers of an array as a tuple, as a scenario keeps them."""
+    x, y, z = row.tolist()
+    return x, y, z
+
+
+def euler_parameters(row: NDArray[np.float64]) -> Quaternion:
+    """Give four numbers of an array as a tuple, as a scenario keeps them."""
+    e0, e1, e2, e3 = row.tolist()
+    return e0, e1, e2, e3
 
 
 class FieldError(ValueError):

@@ -95,7 +95,7 @@ def _numbers(
         "comparison": {
             "common_prefix": comparison.common_prefix,
             "horizon": comparison.horizon,
-            "horizon_error": comparison.horizon_error,
+            "impulse_error": comparison.errors.tolist(),
             "parting_time": together.parting_time,
             "time_difference": comparison.differences.time.tolist(),
             "impulse_difference": comparison.differences.impulse.tolist(),

@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import BaseModel
 
 from compare.comparison import Comparison
-from compare.sequences import aligned
+from compare.sequences import SAFETY, aligned
 from models.laws import ContactLaw, EndingTest
 from models.records import Face, Toss
 from models.scenario import Scenario
@@ -42,7 +42,6 @@ def render(page: Page) -> str:
     """Give the HTML text of a page."""
     template = (resources.files("compare.report") / "report.html.j2").read_text(encoding="utf-8")
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
-    environment.filters["symbol"] = lambda face: Face(face).symbol
     comparison = page.comparison
     tosses = [page.analytic, *([comparison.mujoco] if comparison else [])]
     return environment.from_string(template).render(
@@ -53,6 +52,7 @@ def render(page: Page) -> str:
         pairs=aligned(page.analytic.sequence, comparison.mujoco.sequence) if comparison else [],
         impacts=_impact_rows(page.analytic, comparison),
         video=b64encode(page.video).decode("ascii") if page.video else None,
+        safety=SAFETY,
         versions=versions(),
     )
 
@@ -98,6 +98,7 @@ def _impact_rows(analytic: Toss, comparison: Comparison | None) -> list[dict[str
             "analytic": _impact(analytic, i),
             "mujoco": _impact(b, i) if b else None,
             "time_difference": comparison.differences.time[i] if comparison and i < matched else None,
+            "error": comparison.errors[i] if comparison and i < len(comparison.errors) else None,
             "impulse_difference": comparison.differences.impulse[i] if comparison and i < matched else None,
         }
         for i in range(count)
@@ -113,7 +114,12 @@ def _impact(toss: Toss, i: int) -> dict[str, Any] | None:
         "time": impacts.time[i],
         "face": Face(impacts.face[i]).symbol,
         "rim": np.degrees(np.arctan2(point[1], point[0])),
-        "impulse": 1e3 * impacts.impulse[i],
+        "impulse": ", ".join(_rounded(1e3 * part) for part in impacts.impulse[i]),
         "energy": 1e3 * impacts.energy[i],
         "energy_change": 1e3 * impacts.energy_change[i],
     }
+
+
+def _rounded(number: float) -> str:
+    """Give four decimals, and a plain 0 for what rounds to it."""
+    return f"{number:.4f}" if abs(number) >= 5e-5 else "0"

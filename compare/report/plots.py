@@ -2,10 +2,13 @@
 
 import io
 
+from typing import Any
+
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
 
 from compare.comparison import PARTED, Comparison
 from compare.trajectories import tilt
@@ -18,7 +21,7 @@ COLORS = {"analytic": "#0072B2", "mujoco": "#D55E00"}
 LABELS = {"analytic": "paper's mechanics", "mujoco": "MuJoCo"}
 STYLES = {"analytic": "-", "mujoco": "--"}
 POINTS = 3000
-_STYLE = {
+_STYLE: Any = {
     "font.size": 9.5,
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -103,7 +106,7 @@ def _path(sampled: list[tuple[Toss, States]]) -> Figure:
         hits = 1e3 * toss.impacts.position
         axes.plot(hits[:, 0], hits[:, 1], hits[:, 2], ".", color=COLORS[toss.engine], markersize=4)
     middle, reach = (points.min(0) + points.max(0)) / 2, np.ptp(points, axis=0)
-    wide = max(reach[0], reach[1], 0.1 * reach[2])
+    wide = max(reach[0], reach[1], 0.01 * reach[2])
     axes.set_xlim(middle[0] - wide / 2, middle[0] + wide / 2)
     axes.set_ylim(middle[1] - wide / 2, middle[1] + wide / 2)
     axes.set_zlim(0, None)
@@ -135,10 +138,8 @@ def _tilt(sampled: list[tuple[Toss, States]]) -> Figure:
     _lines(axes, sampled, [np.degrees(tilt(states)) for _, states in sampled])
     axes.axhline(90, color="#5b6675", linewidth=0.8)
     axes.set_ylabel("tilt of the normal from the vertical [deg]")
-    axes.set_yticks([0, 45, 90, 135, 180])
-    axes.text(0.995, 0.03, "heads up", transform=axes.transAxes, ha="right", color="#5b6675")
-    axes.text(0.995, 0.93, "tails up", transform=axes.transAxes, ha="right", color="#5b6675")
-    axes.set_ylim(0, 180)
+    axes.set_yticks([0, 45, 90, 135, 180], ["heads 0", "45", "90", "135", "tails 180"])
+    axes.set_ylim(-3, 183)
     return figure
 
 
@@ -163,17 +164,19 @@ def _energy(sampled: list[tuple[Toss, States]]) -> Figure:
     for level in barriers:
         axes.axhline(level, color="#5b6675", linewidth=0.8)
     axes.text(
-        0.995,
-        max(barriers),
-        "below this line the face is settled"
-        if len(barriers) == 1
-        else "below these lines its face is settled",
+        0.01,
+        min(barriers),
+        "the least to turn over",
         transform=axes.get_yaxis_transform(),
-        ha="right",
-        va="bottom",
+        va="top",
         color="#5b6675",
     )
     axes.set_yscale("log")
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda level, _: f"{level:g}"))
+    axes.yaxis.set_minor_formatter(
+        FuncFormatter(lambda level, _: f"{level:g}" if f"{level:.0e}"[0] in "25" else "")
+    )
+    axes.set_ylim(bottom=0.5 * min(barriers))
     axes.set_ylabel("energy [mJ]")
     axes.legend(loc="upper right")
     return figure
