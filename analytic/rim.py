@@ -84,7 +84,8 @@ def fly(body, y, longest):
         while inside < made:
             height, speed = closing_speed(body, y_near)
             ahead = clear(body, y_near, made - inside)
-            if height <= TOUCH * body.radius:
+            # Also where time itself has no finer step than the coin still has to fall.
+            if height <= TOUCH * body.radius or inside + ahead == inside:
                 if speed < touching_speed:
                     y[:] = y_near
                     return elapsed + inside, True

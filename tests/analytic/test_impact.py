@@ -1,0 +1,162 @@
+"""The contact laws: the identities of eqs (85)-(92), the law's own constraint, energy, limits."""
+
+import numpy as np
+import pytest
+
+from analytic.events import hit
+from analytic.impact import mobility, sliding_friction
+from models.attitude import rotation_matrix
+from models.body import body_of, rules_of
+from models.ending import energy
+from models.geometry import contact_velocity, lowest_point
+from models.laws import ContactLaw
+from models.records import IMPACT_ROW, Ending
+from tests.draws import PAPER_LAWS, draw_coin, draw_quaternion, scenario
+
+COUNT = 200
+
+
+def draw_impact(rng, law, restitution=None):
+    """A scenario and a state in which the coin's lowest point moves down onto the floor."""
+    case = scenario(
+        coin=draw_coin(rng),
+        floor={
+            "restitution": rng.uniform(0, 1) if restitution is None else restitution,
+            "contact": law.label,
+            "friction": float(rng.uniform(0, 0.6)),
+        },
+    )
+    body = body_of(case)
+    while True:
+        e = draw_quaternion(rng)
+        R = rotation_matrix(tuple(e))
+        v, w = rng.uniform(-1, 1, 3) - [0, 0, 2], rng.uniform(-100, 100, 3)
+        point, _ = lowest_point(body, R[2], tuple(w))
+        if contact_velocity(body, R, tuple(v), tuple(w), point)[2] < -0.1:
+            return case, np.array([0, 0, 0.01, *v, *e, *w])
+
+
+def struck(case, y):
+    row = np.zeros(1, IMPACT_ROW)
+    after = y.copy()
+    ending = hit(body_of(case), rules_of(case), after, row[0])
+    return row[0], after, ending
+
+
+@pytest.mark.parametrize("law", PAPER_LAWS)
+def test_every_law_obeys_newton_momentum_and_its_own_constraint(law):
+    rng = np.random.default_rng(int(law))
+    for _ in range(COUNT):
+        case, y = draw_impact(rng, law)
+        row, after, ending = struck(case, y)
+        assert ending == Ending.NONE
+        chi, mu, m = case.floor.restitution, case.floor.friction, case.coin.mass
+        before_A, after_A = row["contact_velocity_before"], row["contact_velocity_after"]
+        speed = np.abs(before_A).max() + np.abs(after_A).max()
+        R = np.array(rotation_matrix(tuple(y[6:10])))
+        arm = R @ (row["point"] - case.coin.center_of_mass)
+        S = row["impulse"]
+
+        assert after_A[2] == pytest.approx(-chi * before_A[2], abs=1e-12 * speed)
+        assert np.abs(m * (after[3:6] - y[3:6]) - S).max() < 1e-12 * np.abs(S).max()
+        turned = R @ case.coin.inertia_about_C @ (after[10:13] - y[10:13])
+        assert np.abs(turned - np.cross(arm, S)).max() < 1e-12 * np.abs(np.cross(arm, S)).max()
+        assert np.array_equal(after[:3], y[:3])
+        assert np.array_equal(after[6:10], y[6:10])
+
+        edge = R @ np.array([-row["point"][1], row["point"][0], 0])
+        tau = edge / np.linalg.norm(edge)
+        assert abs(tau[2]) < 1e-15
+        nu = np.cross([0, 0, 1], tau)
+        kept = 1e-12 * speed
+        match law:
+            case ContactLaw.SHARP_EDGE:
+                assert nu @ after_A == pytest.approx(0, abs=kept)
+                assert tau @ after_A == pytest.approx(tau @ before_A, abs=kept)
+            case ContactLaw.KNURLED:
+                assert nu @ after_A == pytest.approx(nu @ before_A, abs=kept)
+                assert tau @ after_A == pytest.approx(0, abs=kept)
+            case ContactLaw.PERFECTLY_ROUGH:
+                assert np.abs(after_A[:2]).max() < kept
+            case ContactLaw.SLIP_PRESERVING:
+                assert np.abs(after_A[:2] - before_A[:2]).max() < kept
+            case ContactLaw.SMOOTH:
+                assert S[0] == S[1] == 0
+            case ContactLaw.SLIDING_FRICTION:
+                slip = before_A[:2] / np.linalg.norm(before_A[:2])
+                assert np.abs(S[:2] + mu * S[2] * slip).max() < 1e-15 * np.abs(S).max() + 1e-18
+
+
+def test_the_smooth_law_never_adds_energy_and_loses_none_at_restitution_one():
+    rng = np.random.default_rng(11)
+    for _ in range(COUNT):
+        row, _, _ = struck(*draw_impact(rng, ContactLaw.SMOOTH))
+        assert row["energy_change"] < 0
+        row, _, _ = struck(*draw_impact(rng, ContactLaw.SMOOTH, restitution=1.0))
+        assert abs(row["energy_change"]) < 1e-13 * row["energy"]
+
+
+@pytest.mark.parametrize("law", [ContactLaw.KNURLED, ContactLaw.SLIP_PRESERVING])
+def test_laws_that_keep_slip_can_add_energy(law):
+    rng = np.random.default_rng(12)
+    gains = [struck(*draw_impact(rng, law, restitution=0.5))[0]["energy_change"] for _ in range(COUNT)]
+    assert max(gains) > 0 > min(gains)
+
+
+def test_the_energy_recorded_is_that_of_the_state_after():
+    case, y = draw_impact(np.random.default_rng(13), ContactLaw.SMOOTH)
+    row, after, _ = struck(case, y)
+    body = body_of(case)
+    E = [energy(body, s[2], tuple(s[3:6]), tuple(s[10:13])) for s in (y, after)]
+    assert row["energy"] == E[1]
+    assert row["energy_change"] == pytest.approx(E[1] - E[0], rel=1e-15)
+
+
+def test_mobility_is_symmetric_and_positive_definite():
+    rng = np.random.default_rng(14)
+    for _ in range(COUNT):
+        case, y = draw_impact(rng, ContactLaw.SMOOTH)
+        K = np.array(mobility(body_of(case), rotation_matrix(tuple(y[6:10])), tuple(rng.uniform(-0.01, 0.01, 3))))
+        assert np.abs(K - K.T).max() < 1e-15 * np.abs(K).max()
+        assert np.linalg.eigvalsh(K)[0] > 0
+
+
+def test_friction_without_coefficient_is_smooth():
+    rng = np.random.default_rng(15)
+    case, y = draw_impact(rng, ContactLaw.SLIDING_FRICTION)
+    frictionless = scenario(
+        coin=case.coin.model_dump(exclude_none=True),
+        floor={"restitution": 0.7, "contact": "sliding_friction", "friction": 0.0},
+    )
+    smooth = scenario(
+        coin=case.coin.model_dump(exclude_none=True), floor={"restitution": 0.7, "contact": "smooth"}
+    )
+    assert struck(frictionless, y)[0]["impulse"] == pytest.approx(struck(smooth, y)[0]["impulse"], rel=1e-15)
+
+
+@pytest.mark.parametrize("law", PAPER_LAWS)
+@pytest.mark.parametrize("up", [1.0, -1.0])
+def test_a_flat_coin_bounces_flat_whatever_the_law(law, up):
+    case = scenario(
+        coin={"center_of_mass": [-1e-3, -1e-3, -2e-4]},
+        floor={"restitution": 0.6, "contact": law.label, "friction": 0.2},
+    )
+    e = [1.0, 0, 0, 0] if up > 0 else [0, 1.0, 0, 0]
+    y = np.array([0, 0, 0.001 - up * 2e-4, 0.3, 0.1, -2.0, *e, 0, 0, 4.0])
+    row, after, _ = struck(case, y)
+    assert after[3:6] == pytest.approx([0.3, 0.1, 1.2], rel=1e-15)
+    assert np.array_equal(after[10:13], y[10:13])
+    assert row["point"] == pytest.approx([-1e-3, -1e-3, -up * 1e-3], rel=1e-15)
+    assert row["impulse"] == pytest.approx([0, 0, 2e-3 * 1.6 * 2.0], rel=1e-15)
+
+
+def test_painleves_case_has_no_solution_and_says_so():
+    K = ((1500.0, 0.0, -900.0), (0.0, 1500.0, 0.0), (-900.0, 0.0, 1000.0))
+    against_the_edge = (-1.0, 0.0, -1.0)
+    # Along (mu, 0, 1) the velocity gained is 1000 - 900 mu: positive up to mu = 10/9.
+    S, possible = sliding_friction(K, against_the_edge, 0.5, 1.0)
+    assert possible
+    assert S == pytest.approx([1.5 / 100, 0, 1.5 / 100], rel=1e-12)
+    S, possible = sliding_friction(K, against_the_edge, 0.5, 1.2)
+    assert not possible
+    assert S == (0.0, 0.0, 0.0)

@@ -1,0 +1,171 @@
+"""Whole tosses: against an independent integration, at the limits, and how they end."""
+
+import numpy as np
+import pytest
+
+import analytic
+from models.attitude import rotation_matrix
+from models.body import body_of
+from models.geometry import gap
+from models.records import Ending, Outcome, UnsupportedError
+from tests.draws import AIR, PAPER_LAWS, ZLOTY, draw_coin, draw_release, scenario
+from tests.referee import Referee
+
+
+@pytest.mark.parametrize("law", PAPER_LAWS)
+@pytest.mark.parametrize("seed", range(2))
+def test_impacts_are_those_of_an_independent_integration(law, seed):
+    rng = np.random.default_rng([int(law), seed])
+    case = scenario(
+        coin=draw_coin(rng),
+        air=AIR if seed else {},
+        floor={"restitution": 0.6, "contact": law.label, "friction": 0.2},
+        release=draw_release(rng),
+        ending={"max_impacts": 4, "test": "paper"},
+    )
+    tossed = analytic.toss(case)
+    assert tossed.trusted_impacts >= 2
+    referee = Referee(case)
+    y, time = referee.start(), 0.0
+    for i in range(tossed.trusted_impacts):
+        flown, y = referee.fly(y, 2.0, until_touch=True)
+        time += flown
+        y, S = referee.hit(y)
+        impacts = tossed.impacts
+        assert impacts.time[i] == pytest.approx(time, abs=1e-7)
+        assert impacts.impulse[i] == pytest.approx(S, abs=1e-5 * np.linalg.norm(S))
+        assert impacts.face[i] == (1 if referee.rotation(y)[2, 2] > 0 else 2)
+        assert impacts.velocity_after[i] == pytest.approx(y[3:6], abs=1e-5)
+
+
+def test_a_ball_like_drop_rebounds_as_newton_says():
+    """A flat coin loses 1 - chi^2 of its height in each flight; its impacts are a geometric series in time."""
+    chi, z0, half = 0.5, 0.4, 1e-3
+    tossed = analytic.toss(scenario(floor={"restitution": chi}, release={"position": [0, 0, z0]}))
+    fall = np.sqrt(2 * (z0 - half) / 9.81)
+    n = len(tossed.impacts)
+    expected = fall * (1 + 2 * np.cumsum([0, *chi ** np.arange(1, n)]))
+    assert n >= 3
+    assert tossed.impacts.time == pytest.approx(expected, rel=1e-13)
+    assert tossed.outcome == Outcome.HEADS
+    assert tossed.sequence == "H" * n
+
+
+def test_no_recorded_or_sampled_state_is_below_the_floor():
+    rng = np.random.default_rng(21)
+    for _ in range(40):
+        case = scenario(coin=draw_coin(rng), air=AIR, release=draw_release(rng))
+        tossed, body = analytic.toss(case), body_of(case)
+        times = np.concatenate(
+            [np.linspace(0, tossed.end_time, 300), tossed.impacts.time, np.nextafter(tossed.impacts.time, 0)]
+        )
+        states = tossed.sample(times)
+        gaps = [
+            gap(body, x[2], rotation_matrix(tuple(e))[2])
+            for x, e in zip(
+                np.concatenate([states.position, tossed.impacts.position]),
+                np.concatenate([states.quaternion, tossed.impacts.quaternion]),
+                strict=True,
+            )
+        ]
+        # A touch of the last digits of time at 10 m/s is 1e-15 m.
+        assert min(gaps) > -1e-12 * case.coin.radius
+        touching = gaps[len(times) :]
+        assert np.abs(touching).max() < 1e-12 * case.coin.radius
+
+
+def test_the_first_contact_is_the_first():
+    rng = np.random.default_rng(22)
+    for _ in range(30):
+        case = scenario(coin=draw_coin(rng), release=draw_release(rng, spin=300), ending={"max_impacts": 3})
+        tossed, body = analytic.toss(case), body_of(case)
+        for start, end in zip(tossed.impacts.time[:-1], tossed.impacts.time[1:], strict=True):
+            inside = start + (end - start) * np.linspace(1e-6, 1 - 1e-6, 2000)
+            states = tossed.sample(inside)
+            assert all(
+                gap(body, x[2], rotation_matrix(tuple(e))[2]) > 0
+                for x, e in zip(states.position, states.quaternion, strict=True)
+            )
+
+
+def test_a_touch_is_found_where_time_has_no_finer_step():
+    """Late in a long fall one step of floating-point time lowers the coin by more than a touch's tolerance."""
+    rng = np.random.default_rng(22)
+    coin, _, release = draw_coin(rng), draw_release(rng, spin=200), draw_release(rng, spin=200)
+    release["position"] = [0, 0, 50.0]
+    tossed = analytic.toss(scenario(coin=coin, air={"normal": 20.0, "tangential": 5.0}, release=release))
+    assert tossed.ending == Ending.SETTLED
+
+
+@pytest.mark.parametrize("tilt", [0.0, np.pi / 4])
+def test_the_drops_of_fig_3_keep_side_and_attitude(tilt):
+    case = scenario(air=AIR, release={"position": [0, 0, 1.86], "angles": [0, tilt, 0]})
+    tossed = analytic.toss(case)
+    states = tossed.sample(np.linspace(0, tossed.impacts.time[0] * (1 - 1e-12), 100))
+    assert np.all(states.quaternion == states.quaternion[0])
+    assert tossed.sequence[0] == "H"
+
+
+def test_the_imperfect_coin_turns_over_in_the_drop_of_fig_3():
+    case = scenario(
+        coin={**ZLOTY, "center_of_mass": [-1e-3, -1e-3, -2e-4]}, air=AIR, release={"position": [0, 0, 1.86]}
+    )
+    tossed = analytic.toss(case)
+    e = tossed.impacts.quaternion[0]
+    tilt = np.degrees(np.arccos(rotation_matrix(tuple(e))[2][2]))
+    assert 120 < tilt < 124
+    assert tossed.sequence[0] == "T"
+
+
+@pytest.mark.parametrize(
+    ("ending", "expected"),
+    [
+        ({"max_impacts": 2}, Ending.MAX_IMPACTS),
+        ({"max_time": 0.1}, Ending.MAX_TIME),
+        ({"test": "paper"}, Ending.PAPER),
+        ({"test": "paper_smooth"}, Ending.PAPER_SMOOTH),
+        ({}, Ending.SETTLED),
+    ],
+)
+def test_endings_have_their_names(ending, expected):
+    tossed = analytic.toss(
+        scenario(release={"angles": [0, 0.1, 0], "angular_velocity": [0, 40.15, 0]}, ending=ending)
+    )
+    assert tossed.ending == expected
+    decided = expected in (Ending.PAPER, Ending.PAPER_SMOOTH, Ending.SETTLED)
+    assert (tossed.outcome in (Outcome.HEADS, Outcome.TAILS)) is decided
+    assert tossed.ending.sentence
+
+
+def test_without_rebound_a_coin_that_stays_in_contact_is_not_decided():
+    tossed = analytic.toss(scenario(floor={"restitution": 0.0}, release={"angles": [0, 0.3, 0]}))
+    assert tossed.ending in (Ending.CHATTER, Ending.SETTLED)
+    assert len(tossed.impacts) < 20
+
+
+@pytest.mark.parametrize(
+    ("parts", "words"),
+    [
+        ({"floor": {"contact": "coulomb"}}, ['floor.contact = "coulomb"', '"smooth"']),
+        ({"air": {"normal": 0.8, "exponent": 0.5}}, ["air.exponent = 0.5", "0"]),
+    ],
+)
+def test_what_is_not_modelled_is_refused_by_name(parts, words):
+    with pytest.raises(UnsupportedError) as caught:
+        analytic.toss(scenario(**parts))
+    assert all(word in str(caught.value) for word in words)
+
+
+def test_a_toss_is_reproducible_to_the_bit():
+    case = scenario(air=AIR, release=draw_release(np.random.default_rng(30)))
+    a, b = analytic.toss(case), analytic.toss(case)
+    assert np.array_equal(a.impacts.impulse, b.impacts.impulse)
+    assert np.array_equal(a.sample([0.1]).quaternion, b.sample([0.1]).quaternion)
+
+
+def test_the_horizon_shrinks_as_shadows_part():
+    """A flat drop is trusted to its end; a tumbling coin only for a few impacts."""
+    flat = analytic.toss(scenario())
+    assert flat.trusted_impacts == len(flat.impacts) > 5
+    tumbling = analytic.toss(scenario(release={"angles": [0, 0.12, 0], "angular_velocity": [5.0, 40.15, 3.0]}))
+    assert 0 < tumbling.trusted_impacts < len(tumbling.impacts)

@@ -1,0 +1,30 @@
+"""The rotation conventions, against SciPy's Rotation."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from models.attitude import quaternion_from_angles, rotation_matrix
+
+angle = st.floats(-10, 10)
+
+
+@given(angle, angle, angle)
+def test_angles_are_z_x_z_about_body_axes(psi, theta, phi):
+    ours = rotation_matrix(quaternion_from_angles((psi, theta, phi)))
+    scipys = Rotation.from_euler("ZXZ", [psi, theta, phi]).as_matrix()
+    assert np.abs(np.array(ours) - scipys).max() < 5e-15
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_rotation_matrix_is_eq_15(seed):
+    e = np.random.default_rng(seed).normal(size=4)
+    e /= np.linalg.norm(e)
+    E = np.array([[0, -e[3], e[2]], [e[3], 0, -e[1]], [-e[2], e[1], 0]])
+    eq_13 = (2 * e[0] ** 2 - 1) * np.eye(3) + 2 * np.outer(e[1:], e[1:]) + 2 * e[0] * E
+    R = np.array(rotation_matrix(tuple(e)))
+    assert np.abs(R - eq_13).max() < 1e-15
+    assert np.abs(R - Rotation.from_quat(e, scalar_first=True).as_matrix()).max() < 1e-15
+    assert np.array_equal(R, np.array(rotation_matrix(tuple(-e))))

@@ -1,0 +1,101 @@
+"""The gap, the lowest point and the clear time, against brute search over the rim and over time."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import analytic
+from models.attitude import rotation_matrix
+from models.body import body_of
+from models.geometry import acceleration_bounds, clear_time, contact_velocity, gap, lowest_point
+from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
+
+IMPERFECT = body_of(scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}))
+ANGLES = np.linspace(0, 2 * np.pi, 20_001)
+
+
+def rim(body):
+    ring = body.radius * np.stack([np.cos(ANGLES), np.sin(ANGLES)], axis=1)
+    sides = [np.column_stack([ring, np.full(len(ring), side * body.thickness / 2)]) for side in (1, -1)]
+    return np.concatenate(sides)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_gap_and_lowest_point_are_those_of_the_whole_rim(seed):
+    rng = np.random.default_rng(seed)
+    R = np.array(rotation_matrix(tuple(draw_quaternion(rng))))
+    z = 0.1
+    heights = z + (rim(IMPERFECT) - IMPERFECT.center) @ R[2]
+    point, flat = lowest_point(IMPERFECT, tuple(R[2]), (1.0, 2.0, 3.0))
+    assert not flat
+    # 20 001 points of the rim stand at most r (pi/20000)^2/2 = 1.5e-10 m above its lowest point.
+    assert 0 <= heights.min() - gap(IMPERFECT, z, tuple(R[2])) < 2e-10
+    assert z + (np.array(point) - IMPERFECT.center) @ R[2] == pytest.approx(gap(IMPERFECT, z, tuple(R[2])), abs=1e-16)
+
+
+@pytest.mark.parametrize("up", [1.0, -1.0])
+def test_a_flat_coin_touches_under_its_mass_center(up):
+    point, flat = lowest_point(IMPERFECT, (0.0, 0.0, up), (0.0, 0.0, 5.0))
+    assert flat
+    assert point == (*IMPERFECT.center[:2], -up * IMPERFECT.thickness / 2)
+
+
+@pytest.mark.parametrize("up", [1.0, -1.0])
+def test_a_flat_coin_that_turns_touches_with_the_point_that_moves_down_fastest(up):
+    w = (3.0, -4.0, 7.0)
+    point, flat = lowest_point(IMPERFECT, (0.0, 0.0, up), w)
+    assert not flat
+    R = np.diag([1.0, up, up])
+    fall = np.array([(R @ np.cross(w, edge))[2] for edge in rim(IMPERFECT) if edge[2] == -up * 1e-3])
+    ours = contact_velocity(IMPERFECT, tuple(map(tuple, R)), (0.0, 0.0, 0.0), w, point)[2]
+    center = (R @ np.cross(w, -np.array(IMPERFECT.center)))[2]
+    assert ours - center == pytest.approx(fall.min(), rel=1e-7)
+    assert fall.min() == pytest.approx(-5 * IMPERFECT.radius, rel=1e-7)
+
+
+@given(st.integers(0, 10_000), st.booleans())
+def test_no_coin_touches_within_its_clear_time(seed, in_air):
+    rng = np.random.default_rng(seed)
+    release = draw_release(rng, spin=400)
+    release["velocity"] = rng.uniform(-3, 3, 3).tolist()
+    case = scenario(coin=draw_coin(rng), release=release, **({"air": AIR} if in_air else {}))
+    # Lower the coin to a random gap, often a tiny one.
+    body, R = body_of(case), rotation_matrix(case.release.attitude)
+    z = release["position"][2] - gap(body, release["position"][2], R[2]) + 10 ** rng.uniform(-8, -1)
+    case = scenario(coin=case.coin.model_dump(exclude_none=True), release={**release, "position": [0, 0, z]})
+    clear = clear_time(body, z, case.release.velocity, R[2], case.release.angular_velocity, 0.02)
+    assert clear > 0
+    touches = analytic.toss(case).impacts.time
+    assert len(touches) > 0
+    # 1e-9 for the rounding of the touch's own time; air slows a fall, vacuum is the sooner touch.
+    assert touches[0] >= clear * (1 - 1e-9)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_accelerations_stay_within_their_bounds(seed):
+    rng = np.random.default_rng(seed)
+    case = scenario(
+        coin=draw_coin(rng), air={"normal": 20.0, "tangential": 5.0}, release=draw_release(rng, spin=200)
+    )
+    case = scenario(
+        coin=case.coin.model_dump(exclude_none=True),
+        air={"normal": 20.0, "tangential": 5.0},
+        release={**draw_release(rng, spin=200), "position": [0, 0, 50.0]},
+    )
+    body, window = body_of(case), 0.05
+    of_height, of_normal = acceleration_bounds(
+        body, case.release.velocity, case.release.angular_velocity, window
+    )
+    dt = 1e-5
+    states = analytic.toss(case).sample(np.arange(0, window, dt))
+    n_z = states.normal[:, 2]
+    second = np.diff(n_z, 2) / dt**2
+    # Rounding of n_z, 1e-16, is 2e-6/s^2 in its second difference; the bound is at least thousands.
+    assert np.abs(second).max() <= of_normal + 1e-4
+    assert np.abs(second).max() > 0.01 * of_normal
+    R = np.array([rotation_matrix(tuple(e)) for e in states.quaternion])
+    for side in (1, -1):
+        axis_point = np.array([0, 0, side * body.thickness / 2]) - body.center
+        height = states.position[:, 2] + R[:, 2] @ axis_point
+        assert (-np.diff(height, 2) / dt**2).max() <= of_height + 1e-4

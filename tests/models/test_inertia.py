@@ -1,0 +1,57 @@
+"""The coin's inertia, against brute integration of its mass and against limiting cases."""
+
+import numpy as np
+import pytest
+
+from models.inertia import (
+    cylinder_inertia,
+    inertia_about_mass_center,
+    is_positive_definite,
+    obeys_triangle_inequality,
+)
+
+
+def test_cylinder_is_the_integral_of_its_mass():
+    mass, radius, thickness = 3.0, 0.7, 0.4
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    angle = 2 * np.pi * np.arange(16) / 16
+    rho, theta, z = np.meshgrid(radius * (nodes + 1) / 2, angle, thickness * nodes / 2, indexing="ij")
+    part = (weights / 2)[:, None, None] * (weights / 2)[None, None, :] * rho / (radius / 2) / 16
+    x = np.stack([rho * np.cos(theta), rho * np.sin(theta), z], axis=-1)
+    assert part.sum() == pytest.approx(1, rel=1e-14)
+    square = np.einsum("...i,...i->...", x, x)
+    J = mass * (np.eye(3) * (square * part).sum() - np.einsum("abc,abci,abcj->ij", part, x, x))
+    assert np.allclose(cylinder_inertia(mass, radius, thickness), J, rtol=0, atol=1e-14)
+
+
+def test_offset_obeys_the_parallel_axis_theorem():
+    J_B, c, mass = cylinder_inertia(2.0, 1.0, 0.3), np.array([0.2, -0.1, 0.05]), 2.0
+    J_C = inertia_about_mass_center(J_B, mass, c)
+    skew = np.array([[0, -c[2], c[1]], [c[2], 0, -c[0]], [-c[1], c[0], 0]])
+    assert np.allclose(J_C + mass * skew.T @ skew, J_B, rtol=0, atol=1e-15)
+
+
+def test_thin_coin_keeps_only_the_product_in_its_plane():
+    J_C = inertia_about_mass_center(cylinder_inertia(2.0, 1.0, 0.0), 2.0, [0.2, -0.1, 0.0])
+    assert J_C[0, 1] == pytest.approx(2.0 * 0.2 * -0.1, rel=1e-15)
+    assert J_C[0, 2] == J_C[1, 2] == 0
+
+
+@pytest.mark.parametrize(("part", "positive"), [(0.499, True), (0.501, False)])
+def test_inertia_stops_being_positive_at_half_the_radius(part, positive):
+    J_C = inertia_about_mass_center(cylinder_inertia(2e-3, 1.25e-2, 0.0), 2e-3, [part * 1.25e-2, 0, 0])
+    assert is_positive_definite(J_C) is positive
+
+
+def test_thin_coins_stand_on_the_triangle_equality():
+    rng = np.random.default_rng(3)
+    for _ in range(200):
+        c = rng.uniform(-4e-3, 4e-3, 2)
+        J = inertia_about_mass_center(cylinder_inertia(2e-3, 1.25e-2, 0.0), 2e-3, [*c, 0])
+        turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+        assert obeys_triangle_inequality(turn @ J @ turn.T)
+    assert not obeys_triangle_inequality(np.diag([1.0, 1.0, 2.0 + 1e-6]))
+
+
+def test_what_is_not_finite_is_not_positive():
+    assert not is_positive_definite(np.full((3, 3), np.inf))

@@ -1,0 +1,165 @@
+"""An independent toss, written from the paper with SciPy alone: solve_ivp, Rotation, and quadrature.
+
+It shares no line with the engines. Slow, and only for tests.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+
+from models.scenario import Scenario
+
+
+def air_on_cylinder(r: float, h: float, ln: float, lt: float, v: np.ndarray, w: np.ndarray, n: int = 24) -> np.ndarray:
+    """Integrate the air's force and moment at B over both faces and the wall, b = 0, pressure one-sided.
+
+    Eqs (49)-(58) and (72)-(74), in the body frame. Gauss's rule across and along, the rectangle rule around;
+    on the wall the sign of the normal velocity is constant between known angles only for h = 0, so there the
+    rectangle rule needs many points.
+
+    Returns:
+        Force and moment, (6,).
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(n)
+    total = np.zeros(6)
+
+    def add(points: np.ndarray, normals: np.ndarray, areas: np.ndarray) -> None:
+        velocity = v + np.cross(w, points)
+        normal_speed = np.sum(velocity * normals, axis=-1, keepdims=True)
+        along = velocity - normal_speed * normals
+        force = -lt * along - ln * np.maximum(normal_speed, 0) * normals
+        total[:3] += np.sum(force * areas[..., None], axis=tuple(range(force.ndim - 1)))
+        total[3:] += np.sum(np.cross(points, force) * areas[..., None], axis=tuple(range(force.ndim - 1)))
+
+    angle = 2 * np.pi * (np.arange(4096) + 0.5) / 4096
+    rho = r * (nodes[:, None] + 1) / 2
+    ring = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=-1)
+    for side in (1.0, -1.0):
+        points = rho[..., None] * ring + np.array([0, 0, side * h / 2])
+        areas = (rho * (r * weights[:, None] / 2)) * (2 * np.pi / 4096)
+        add(points, np.array([0, 0, side]), np.broadcast_to(areas, points.shape[:2]))
+    if h > 0:
+        z = h * nodes[:, None] / 2
+        points = r * ring + z[..., None] * np.array([0, 0, 1.0])
+        areas = np.broadcast_to(h * weights[:, None] / 2 * r * (2 * np.pi / 4096), points.shape[:2])
+        add(points, np.broadcast_to(ring, points.shape), areas)
+    return total
+
+
+def air_matrix(r: float, h: float, ln: float, lt: float) -> np.ndarray:
+    """Give the matrix of the linear map from (v_B, w) to force and moment, column by column, (6, 6)."""
+    return np.column_stack([air_on_cylinder(r, h, ln, lt, u[:3], u[3:]) for u in np.eye(6)])
+
+
+@dataclass
+class Referee:
+    """The coin of a scenario in the referee's own terms."""
+
+    scenario: Scenario
+
+    def __post_init__(self) -> None:
+        coin, air = self.scenario.coin, self.scenario.air
+        self.m, self.r, self.h = coin.mass, coin.radius, coin.thickness
+        self.c = np.array(coin.center_of_mass)
+        m, r, h, c = self.m, self.r, self.h, self.c
+        J_B = np.diag([m * r**2 / 4 + m * h**2 / 12] * 2 + [m * r**2 / 2])
+        self.J = J_B - m * (np.dot(c, c) * np.eye(3) - np.outer(c, c))
+        self.air = air_matrix(r, h, air.normal, air.tangential)
+
+    def start(self) -> np.ndarray:
+        release = self.scenario.release
+        return np.array([*release.position, *release.velocity, *release.attitude, *release.angular_velocity])
+
+    def rotation(self, y: np.ndarray) -> np.ndarray:
+        return Rotation.from_quat(y[6:10] / np.linalg.norm(y[6:10]), scalar_first=True).as_matrix()
+
+    def rate(self, _: float, y: np.ndarray) -> np.ndarray:
+        R, w = self.rotation(y), y[10:13]
+        v_B = R.T @ y[3:6] + np.cross(w, -self.c)
+        f_and_m = self.air @ np.concatenate([v_B, w])
+        f, m_B = f_and_m[:3], f_and_m[3:]
+        m_C = m_B + np.cross(-self.c, f)
+        e0, e = y[6], y[7:10]
+        return np.concatenate(
+            [
+                y[3:6],
+                R @ f / self.m - np.array([0, 0, self.scenario.gravity]),
+                [-e @ w / 2],
+                (e0 * w + np.cross(e, w)) / 2,
+                np.linalg.solve(self.J, m_C - np.cross(w, self.J @ w)),
+            ]
+        )
+
+    def gap(self, _: float, y: np.ndarray) -> float:
+        R = self.rotation(y)
+        sine = np.linalg.norm(R[2, :2])
+        return (y[:3] - R @ self.c)[2] - self.h / 2 * abs(R[2, 2]) - self.r * sine
+
+    def fly(self, y: np.ndarray, duration: float, until_touch: bool) -> tuple[float, np.ndarray]:
+        """Fly for `duration`, or until the gap, once open, closes."""
+        event: Any = self.gap
+        event.__func__.terminal, event.__func__.direction = until_touch, -1
+        flight = solve_ivp(
+            self.rate,
+            (0, duration),
+            y,
+            method="DOP853",
+            rtol=1e-13,
+            atol=1e-15,
+            max_step=2e-4 if until_touch else np.inf,
+            events=event if until_touch else None,
+        )
+        assert flight.success
+        assert not until_touch or flight.status == 1, "the coin did not touch"
+        return flight.t[-1], flight.y[:, -1]
+
+    def hit(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Solve eqs (86)-(92) as one linear system for velocities and impulse; give state after and impulse."""
+        floor, R = self.scenario.floor, self.rotation(y)
+        v, w = y[3:6], y[10:13]
+        down = -R[2, :2] / np.linalg.norm(R[2, :2])
+        A = np.array([*(self.r * down), -np.sign(R[2, 2]) * self.h / 2]) - self.c
+        tau = R @ np.array([-down[1], down[0], 0])
+        nu = np.cross([0, 0, 1], tau)
+        # Unknowns: v' (3), w' (3), S (3).
+        v_A = v + R @ np.cross(w, A)
+        v_A_rows = np.hstack([np.eye(3), -R @ _skew(A), np.zeros((3, 3))])
+        rows = [
+            np.hstack([self.m * np.eye(3), np.zeros((3, 3)), -np.eye(3)]),
+            np.hstack([np.zeros((3, 3)), self.J, -_skew(A) @ R.T]),
+            v_A_rows[2:3],
+        ]
+        right = [self.m * v, self.J @ w, [-floor.restitution * v_A[2]]]
+        S_x, S_y, S_z = np.eye(9)[6:9]
+        slip = np.array([v_A[0], v_A[1], 0]) / np.hypot(v_A[0], v_A[1])
+        match floor.contact.label:
+            case "sharp_edge":
+                rows += [[nu @ v_A_rows], [tau @ v_A_rows]]
+                right += [[0], [tau @ v_A]]
+            case "knurled":
+                rows += [[nu @ v_A_rows], [tau @ v_A_rows]]
+                right += [[nu @ v_A], [0]]
+            case "perfectly_rough":
+                rows += [v_A_rows[:2]]
+                right += [[0, 0]]
+            case "slip_preserving":
+                rows += [v_A_rows[:2]]
+                right += [v_A[:2]]
+            case "smooth":
+                rows += [[S_x], [S_y]]
+                right += [[0, 0]]
+            case "sliding_friction":
+                mu = floor.friction
+                rows += [[S_x + mu * slip[0] * S_z], [S_y + mu * slip[1] * S_z]]
+                right += [[0, 0]]
+        solved = np.linalg.solve(np.vstack(rows), np.concatenate(right))
+        after = y.copy()
+        after[3:6], after[10:13] = solved[:3], solved[3:6]
+        return after, solved[6:9]
+
+
+def _skew(a: np.ndarray) -> np.ndarray:
+    return np.array([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
