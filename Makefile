@@ -13,10 +13,10 @@ report: $(READY) opengl
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
 
 test: $(READY) opengl lint
-	$(BIN)/pytest -n 2
+	$(BIN)/pytest -n 2 --dist loadfile
 
 test-all: $(READY) opengl lint
-	$(BIN)/pytest -n 2 -m "slow or not slow"
+	$(BIN)/pytest -n 2 --dist loadfile -m "slow or not slow"
 
 lint: $(READY)
 	$(BIN)/ruff check .

@@ -13,7 +13,9 @@ from scipy.spatial.transform import Rotation
 from models.scenario import Scenario
 
 
-def air_on_cylinder(r: float, h: float, ln: float, lt: float, v: np.ndarray, w: np.ndarray, n: int = 24) -> np.ndarray:
+def air_on_cylinder(
+    r: float, h: float, ln: float, lt: float, v: np.ndarray, w: np.ndarray, n: int = 24
+) -> np.ndarray:
     """Integrate the air's force and moment at B over both faces and the wall, b = 0, pressure one-sided.
 
     Eqs (49)-(58) and (72)-(74), in the body frame. Gauss's rule across and along, the rectangle rule around;
@@ -117,7 +119,7 @@ class Referee:
         return flight.t[-1], flight.y[:, -1]
 
     def hit(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Solve eqs (86)-(92) as one linear system for velocities and impulse; give state after and impulse."""
+        """Solve eqs (86)-(92) as one linear system for velocities and impulse; give both."""
         floor, R = self.scenario.floor, self.rotation(y)
         v, w = y[3:6], y[10:13]
         down = -R[2, :2] / np.linalg.norm(R[2, :2])

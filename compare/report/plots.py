@@ -1,7 +1,6 @@
 """The report's figures, as SVG to stand in the page."""
 
 import io
-
 from typing import Any
 
 import matplotlib as mpl

@@ -116,7 +116,9 @@ def test_mobility_is_symmetric_and_positive_definite():
     rng = np.random.default_rng(14)
     for _ in range(COUNT):
         case, y = draw_impact(rng, ContactLaw.SMOOTH)
-        K = np.array(mobility(body_of(case), rotation_matrix(tuple(y[6:10])), tuple(rng.uniform(-0.01, 0.01, 3))))
+        K = np.array(
+            mobility(body_of(case), rotation_matrix(tuple(y[6:10])), tuple(rng.uniform(-0.01, 0.01, 3)))
+        )
         assert np.abs(K - K.T).max() < 1e-15 * np.abs(K).max()
         assert np.linalg.eigvalsh(K)[0] > 0
 

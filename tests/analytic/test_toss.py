@@ -39,7 +39,7 @@ def test_impacts_are_those_of_an_independent_integration(law, seed):
 
 
 def test_a_ball_like_drop_rebounds_as_newton_says():
-    """A flat coin loses 1 - chi^2 of its height in each flight; its impacts are a geometric series in time."""
+    """A flat coin loses 1 - chi^2 of its height in each flight; its impacts are a geometric series."""
     chi, z0, half = 0.5, 0.4, 1e-3
     tossed = analytic.toss(scenario(floor={"restitution": chi}, release={"position": [0, 0, z0]}))
     fall = np.sqrt(2 * (z0 - half) / 9.81)
@@ -89,7 +89,7 @@ def test_the_first_contact_is_the_first():
 
 
 def test_a_touch_is_found_where_time_has_no_finer_step():
-    """Late in a long fall one step of floating-point time lowers the coin by more than a touch's tolerance."""
+    """Late in a long fall one step of floating-point time lowers the coin by more than a touch allows."""
     rng = np.random.default_rng(22)
     coin, _, release = draw_coin(rng), draw_release(rng, spin=200), draw_release(rng, spin=200)
     release["position"] = [0, 0, 50.0]
@@ -167,5 +167,7 @@ def test_the_horizon_shrinks_as_shadows_part():
     """A flat drop is trusted to its end; a tumbling coin only for a few impacts."""
     flat = analytic.toss(scenario())
     assert flat.trusted_impacts == len(flat.impacts) > 5
-    tumbling = analytic.toss(scenario(release={"angles": [0, 0.12, 0], "angular_velocity": [5.0, 40.15, 3.0]}))
+    tumbling = analytic.toss(
+        scenario(release={"angles": [0, 0.12, 0], "angular_velocity": [5.0, 40.15, 3.0]})
+    )
     assert 0 < tumbling.trusted_impacts < len(tumbling.impacts)

@@ -31,7 +31,9 @@ def test_gap_and_lowest_point_are_those_of_the_whole_rim(seed):
     assert not flat
     # 20 001 points of the rim stand at most r (pi/20000)^2/2 = 1.5e-10 m above its lowest point.
     assert 0 <= heights.min() - gap(IMPERFECT, z, tuple(R[2])) < 2e-10
-    assert z + (np.array(point) - IMPERFECT.center) @ R[2] == pytest.approx(gap(IMPERFECT, z, tuple(R[2])), abs=1e-16)
+    assert z + (np.array(point) - IMPERFECT.center) @ R[2] == pytest.approx(
+        gap(IMPERFECT, z, tuple(R[2])), abs=1e-16
+    )
 
 
 @pytest.mark.parametrize("up", [1.0, -1.0])

@@ -1,0 +1,56 @@
+"""Restitution of the damped spring: against its own differential equation, and back."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+from coin_mj.contact import damping_ratio_of, restitution_of, spring_of
+
+
+@pytest.mark.parametrize("zeta", [0.0, 0.05, 0.3, 0.99, 1.0, 1.01, 2.0, 5.0])
+def test_the_spring_lets_go_when_its_force_vanishes(zeta):
+    """u'' = -u - 2 zeta u' from u = 0, u' = -1, until the force is zero: the speed is the restitution."""
+
+    def force(_, y):
+        return -y[0] - 2 * zeta * y[1]
+
+    force.terminal, force.direction = True, -1
+    path = solve_ivp(
+        lambda t, y: [y[1], force(t, y)],
+        (0, 50),
+        [0, -1],
+        events=force,
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-14,
+    )
+    assert path.status == 1
+    assert restitution_of(zeta) == pytest.approx(path.y[1, -1], rel=1e-9)
+
+
+def test_both_branches_meet_at_critical_damping():
+    assert restitution_of(1.0) == math.exp(-2)
+    assert restitution_of(1 - 1e-9) == pytest.approx(math.exp(-2), rel=1e-8)
+    assert restitution_of(1 + 1e-9) == pytest.approx(math.exp(-2), rel=1e-8)
+
+
+@given(st.floats(0.01, 1.0))
+def test_damping_ratio_inverts_the_restitution(restitution):
+    assert restitution_of(damping_ratio_of(restitution)) == pytest.approx(restitution, rel=1e-12)
+
+
+@pytest.mark.parametrize("restitution", [0.0, -0.1, 1.1, float("nan")])
+def test_a_restitution_out_of_reach_is_refused(restitution):
+    with pytest.raises(ValueError, match="accepted: 0 < restitution <= 1"):
+        damping_ratio_of(restitution)
+
+
+def test_the_spring_has_the_stiffness_asked_for():
+    spring = spring_of(0.5, stiffness=1e10)
+    assert spring.stiffness == 1e10
+    assert spring.damping / (2 * np.sqrt(1e10)) == pytest.approx(damping_ratio_of(0.5), rel=1e-15)
+    assert spring.duration == pytest.approx(np.pi * 1e-5, rel=1e-15)

@@ -1,0 +1,89 @@
+"""The MuJoCo model is the scenario's coin, and its state converts to the records' and back."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from coin_mj.contact import spring_of
+from coin_mj.scene import build, build_painted, shape_thickness
+from coin_mj.state import of_release, to_mass_center
+from models.body import body_of
+from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+
+IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
+
+
+def built(case):
+    return build(case, spring_of(case.floor.restitution), shape_thickness(case))
+
+
+def test_mass_and_inertia_are_the_scenarios():
+    case = scenario(coin=IMPERFECT, gravity=1.6)
+    model = built(case)
+    assert model.body("coin").mass[0] == 2e-3
+    assert model.body("coin").ipos == pytest.approx(PAPER_OFFSET, rel=1e-15)
+    turn = np.zeros(9)
+    mujoco.mju_quat2Mat(turn, model.body("coin").iquat)
+    R = turn.reshape(3, 3)
+    J = R @ np.diag(model.body("coin").inertia) @ R.T
+    assert pytest.approx(case.coin.inertia_about_C, abs=1e-11 * 1.6e-7) == J
+    assert model.opt.gravity == pytest.approx([0, 0, -1.6])
+
+
+def test_every_thin_coin_compiles():
+    """A thin coin's inertia stands on the triangle equality, where rounding decides."""
+    rng = np.random.default_rng(1)
+    for _ in range(100):
+        c = [*rng.uniform(-4e-3, 4e-3, 2), 0]
+        model = built(scenario(coin={**ZLOTY, "thickness": 0.0, "center_of_mass": c}))
+        assert model.geom("coin").size[1] == pytest.approx(0.5e-4 * 1.25e-2, rel=1e-12)
+
+
+def test_only_the_painted_model_has_paint():
+    case = scenario(coin=IMPERFECT)
+    plain, painted = built(case), build_painted(case, span=0.5)
+    assert plain.ngeom == 2
+    assert painted.ngeom == 6
+    assert painted.body("coin").mass[0] == plain.body("coin").mass[0]
+    assert painted.body("coin").inertia == pytest.approx(plain.body("coin").inertia, rel=1e-15)
+
+
+def test_a_release_converts_to_mujocos_state_and_back():
+    rng = np.random.default_rng(2)
+    case = scenario(coin=IMPERFECT, release=draw_release(rng))
+    body, release = body_of(case), case.release
+    x, v, e, w = to_mass_center(body, *of_release(body, release))
+    assert x == pytest.approx(release.position, abs=1e-17)
+    assert v == pytest.approx(release.velocity, abs=1e-16)
+    assert (e, w) == (release.attitude, release.angular_velocity)
+
+
+def test_mujoco_agrees_about_the_velocity_of_the_mass_center():
+    rng = np.random.default_rng(3)
+    case = scenario(coin=IMPERFECT, release=draw_release(rng))
+    model = built(case)
+    data = mujoco.MjData(model)
+    data.qpos[:], data.qvel[:] = of_release(body_of(case), case.release)
+    mujoco.mj_forward(model, data)
+    assert data.body("coin").xipos == pytest.approx(case.release.position, abs=1e-16)
+    velocity = np.zeros(6)
+    mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, model.body("coin").id, velocity, 1)
+    R = data.body("coin").ximat.reshape(3, 3)
+    # mjOBJ_BODY is the inertial frame, at C; the last argument turns the answer into its axes.
+    assert R @ velocity[3:] == pytest.approx(case.release.velocity, abs=1e-14)
+
+
+def test_the_actuators_are_the_closed_form_drag():
+    rng = np.random.default_rng(4)
+    case = scenario(coin=IMPERFECT, air=AIR, release=draw_release(rng))
+    model, body = built(case), body_of(case)
+    data = mujoco.MjData(model)
+    data.qpos[:], data.qvel[:] = of_release(body, case.release)
+    mujoco.mj_forward(model, data)
+    R = data.body("coin").xmat.reshape(3, 3)
+    d = body.drag
+    v_B, w = R.T @ data.qvel[:3], data.qvel[3:]
+    force = -R @ (np.array([d.force_tangential, d.force_tangential, d.force_normal]) * v_B)
+    moment = -np.array([d.moment_tangential, d.moment_tangential, d.moment_normal]) * w
+    assert np.linalg.norm(force) > 1e-6, "there should be drag"
+    assert data.qfrc_actuator == pytest.approx([*force, *moment], rel=1e-12, abs=1e-20)

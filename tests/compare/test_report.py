@@ -1,0 +1,148 @@
+"""The report's folder: a self-contained page, numbers, paths, and a film that plays."""
+
+import json
+import re
+from html.parser import HTMLParser
+
+import imageio_ffmpeg
+import pytest
+
+from coin_mj.video import FRAMES_PER_SECOND, film_times
+from compare.comparison import Comparison, compare
+from compare.graphics import ADVICE, drawing_problem
+from compare.report.folder import write_report
+from compare.report.page import versions
+from models.reading import load, parse, scenario_text
+from tests.draws import AIR, scenario
+
+SHORT = scenario_text("zloty").replace("0.40001", "0.05") + "\n[ending]\nmax_impacts = 2\n"
+
+
+class Page(HTMLParser):
+    """Collects what a page asks for from outside, its headings, and checks that its tags nest."""
+
+    VOID = frozenset({"meta", "br", "img", "link", "input", "hr"})
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.outside, self.headings, self.videos = [], [], [], 0
+        self.feed(text)
+        assert self.open == []
+
+    def handle_starttag(self, tag, attrs):
+        for name, value in attrs:
+            if name in ("src", "href") and not (value or "").startswith(("data:", "#")):
+                self.outside.append(value)
+        self.videos += tag == "video"
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        pass
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if self.open and self.open[-1] in ("h1", "h2"):
+            self.headings.append(data.strip())
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    target = tmp_path_factory.mktemp("report")
+    assert drawing_problem() is None, ADVICE
+    shown = []
+    write_report(
+        parse(SHORT, "short"), SHORT, "short", target, None, lambda done, count: shown.append((done, count))
+    )
+    assert shown[-1][0] == shown[-1][1] == len(shown)
+    return target
+
+
+def test_the_folder_holds_page_film_numbers_and_paths(folder):
+    names = {"report.html", "toss.mp4", "numbers.json", "path-analytic.csv", "path-mujoco.csv"}
+    assert {path.name for path in folder.iterdir()} == names
+
+
+def test_the_page_stands_alone_and_has_its_parts(folder):
+    text = (folder / "report.html").read_text(encoding="utf-8")
+    page = Page(text)
+    assert page.outside == []
+    assert "url(" not in text.replace("url(#", "")
+    assert page.videos == 1
+    expected = [
+        "short",
+        "The toss in MuJoCo",
+        "Heads and tails",
+        "Motion",
+        "Impacts",
+        "Scenario",
+        "Settings and versions",
+    ]
+    assert page.headings == expected
+    assert text.count("<svg") == 6
+    assert "center_of_mass" in text
+    for name, version in versions().items():
+        assert name in text
+        assert version in text
+
+
+def test_the_numbers_are_those_of_the_tosses(folder):
+    numbers = json.loads((folder / "numbers.json").read_text(encoding="utf-8"))
+    compared = compare(parse(SHORT, "short"))
+    assert isinstance(compared, Comparison)
+    assert [toss["engine"] for toss in numbers["tosses"]] == ["analytic", "mujoco"]
+    assert numbers["tosses"][0]["impacts"][1]["time"] == compared.analytic.impacts.time[1]
+    assert numbers["comparison"]["impulse_difference"] == compared.differences.impulse.tolist()
+    assert numbers["comparison"]["horizon"] == compared.horizon
+
+
+def test_the_film_has_its_frames(folder):
+    frames, seconds = imageio_ffmpeg.count_frames_and_secs(str(folder / "toss.mp4"))
+    compared = compare(parse(SHORT, "short"))
+    assert isinstance(compared, Comparison)
+    times, speeds = film_times(compared.mujoco)
+    assert frames == len(times)
+    assert seconds == pytest.approx(frames / FRAMES_PER_SECOND, abs=0.1)
+    assert times[0] == 0
+    assert times[-1] == compared.mujoco.end_time
+    assert all(times[1:] > times[:-1])
+    assert max(speeds) / min(speeds) > 5, "the film should slow down around the impacts"
+
+
+def test_without_opengl_the_report_says_what_to_install(tmp_path):
+    text = SHORT.replace("max_impacts = 2", "max_impacts = 1")
+    page = write_report(parse(text, "short"), text, "short", tmp_path, ADVICE, lambda *_: None)
+    html = page.read_text(encoding="utf-8")
+    assert "No video." in html
+    assert "libegl1" in html
+    assert Page(html).videos == 0
+    assert not (tmp_path / "toss.mp4").exists()
+
+
+def test_what_mujoco_cannot_realise_is_a_report_of_one_engine(tmp_path):
+    text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 2")
+    page = write_report(parse(text, "knurled"), text, "knurled", tmp_path, None, lambda *_: None)
+    html = page.read_text(encoding="utf-8")
+    assert "Not realisable in MuJoCo" in html
+    assert Page(html).videos == 0
+    assert re.search(r'"not_realisable": ".*knurled', (tmp_path / "numbers.json").read_text(encoding="utf-8"))
+    assert {path.name for path in tmp_path.iterdir()} == {"report.html", "numbers.json", "path-analytic.csv"}
+
+
+def test_a_toss_without_impacts_has_a_report_too(tmp_path):
+    case = scenario(air=AIR, ending={"max_time": 0.05})
+    page = write_report(case, "# made", "falling", tmp_path, ADVICE, lambda *_: None)
+    assert "max_time" in page.read_text(encoding="utf-8")
+
+
+def test_a_missing_back_end_is_found_in_a_child_process(monkeypatch):
+    monkeypatch.setenv("MUJOCO_GL", "egl")
+    monkeypatch.setenv("PYOPENGL_PLATFORM", "osmesa")
+    assert drawing_problem() == ADVICE
+
+
+def test_the_papers_scenario_says_what_it_assumes():
+    assert "does not say" in scenario_text("fig24a") or "but not which" in scenario_text("fig24a")
+    assert load("fig24a").coin.center_of_mass == (0, 0, 0)

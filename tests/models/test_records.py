@@ -1,0 +1,48 @@
+"""The records check themselves when they are made, and can't be changed."""
+
+import numpy as np
+import pytest
+
+import analytic
+from models.records import IMPACT_ROW, Impacts, States
+from tests.draws import scenario
+
+
+def test_impacts_check_their_shapes_and_order():
+    rows = np.zeros(3, IMPACT_ROW)
+    rows["time"] = [0.1, 0.2, 0.3]
+    rows["face"] = [1, 2, 1]
+    impacts = Impacts.from_rows(rows)
+    assert len(impacts) == 3
+    assert impacts.sequence == "HTH"
+    rows["time"] = [0.1, 0.3, 0.2]
+    with pytest.raises(ValueError, match=r"Impacts\.time"):
+        Impacts.from_rows(rows)
+    good = {name: rows[name] for name in rows.dtype.names}
+    with pytest.raises(ValueError, match=r"Impacts\.impulse: shape \(3, 2\), expected \(3, 3\)"):
+        Impacts(**{**good, "impulse": np.zeros((3, 2))})
+
+
+def test_arrays_are_read_only():
+    tossed = analytic.toss(scenario())
+    with pytest.raises(ValueError, match="read-only"):
+        tossed.impacts.impulse[0] = 1
+    with pytest.raises(ValueError, match="read-only"):
+        tossed.sample([0.0]).position[0] = 1
+
+
+def test_states_check_their_shapes():
+    with pytest.raises(ValueError, match=r"States\.quaternion"):
+        States(
+            time=np.zeros(2),
+            position=np.zeros((2, 3)),
+            velocity=np.zeros((2, 3)),
+            quaternion=np.zeros((2, 3)),
+            angular_velocity=np.zeros((2, 3)),
+        )
+
+
+@pytest.mark.parametrize("time", [-0.1, 1e3, float("nan")])
+def test_a_time_outside_the_toss_is_refused(time):
+    with pytest.raises(ValueError, match="outside the toss"):
+        analytic.toss(scenario()).sample([time])

@@ -1,0 +1,214 @@
+"""Scenarios: what is read, in which units, and every way to get one wrong."""
+
+import math
+
+import numpy as np
+import pytest
+
+from models.laws import ContactLaw, EndingTest
+from models.reading import ScenarioError, load, named_scenarios, parse
+from models.scenario import Scenario
+from tests.draws import scenario
+
+GOOD = """
+gravity = 9.81
+[coin]
+mass = "2 g"
+radius = "1.25 cm"
+thickness = 0.002
+[air]
+normal = 0.8
+[floor]
+restitution = 0.8
+contact = "smooth"
+[release]
+position = [0, "1 mm", 0.4]
+angles = [0, "7 deg", 0]
+angular_velocity = ["1 rad/s", 40.15, 0]
+[ending]
+max_impacts = 20
+"""
+
+
+def test_numbers_are_si_and_strings_carry_units():
+    read = parse(GOOD, "good.toml")
+    assert read.coin.mass == pytest.approx(2e-3, rel=1e-15)
+    assert read.coin.radius == pytest.approx(1.25e-2, rel=1e-15)
+    assert read.release.position == (0, 1e-3, 0.4)
+    assert read.release.angles == (0, pytest.approx(math.radians(7), rel=1e-15), 0)
+    assert read.release.angular_velocity == (1, 40.15, 0)
+    assert read.floor.contact is ContactLaw.SMOOTH
+    assert read.ending.test is EndingTest.RIGOROUS
+
+
+def test_what_is_left_out_has_its_documented_default():
+    read = parse(GOOD.replace("[air]\nnormal = 0.8", ""), "good.toml")
+    assert (read.air.normal, read.air.tangential, read.air.exponent) == (0, 0, 0)
+    assert read.floor.friction == 0
+    assert read.release.velocity == (0, 0, 0)
+    assert read.coin.center_of_mass == (0, 0, 0)
+    assert read.ending.max_time == 60
+
+
+def test_the_unit_of_lambda_follows_the_exponent():
+    text = GOOD.replace("normal = 0.8", 'exponent = 0.5\nnormal = "800 g*m**-2.5*s**-0.5"')
+    assert parse(text, "good.toml").air.normal == pytest.approx(0.8, rel=1e-15)
+
+
+def test_a_scenario_can_be_neither_changed_nor_half_read():
+    read = parse(GOOD, "good.toml")
+    with pytest.raises(ValueError, match="frozen"):
+        read.coin.mass = 1.0  # pyright: ignore[reportAttributeAccessIssue]
+    assert not read.coin.inertia_about_C.flags.writeable
+
+
+def test_a_quaternion_is_brought_to_norm_one():
+    read = scenario(release={"quaternion": [0.7071, 0.7071, 0, 0]})
+    assert np.linalg.norm(read.release.attitude) == pytest.approx(1, abs=2e-16)
+
+
+@pytest.mark.parametrize("name", named_scenarios())
+def test_the_packages_scenarios_read(name):
+    assert isinstance(load(name), Scenario)
+
+
+def test_the_papers_scenarios_are_there():
+    fig24 = {f"fig24{letter}" for letter in "abcdef"}
+    fig18 = {f"fig18_{coin}" for coin in ("3d_imperfect", "3d_ideal", "2d_imperfect", "2d_ideal")}
+    laws = {f"contact_{law.label}" for law in ContactLaw if law != ContactLaw.COULOMB}
+    assert fig24 | fig18 | laws | {"zloty", "fig3_flat", "fig3_tilted", "fig21"} == set(named_scenarios())
+    heights = [load(name).release.position[2] for name in sorted(fig24)]
+    assert heights == pytest.approx([0.40001, 0.40002, 0.40003, 0.40004, 0.40005, 0.40006], rel=1e-15)
+
+
+COIN = 'mass = "2 g"\nradius = "1.25 cm"\nthickness = 0.002'
+WRONG = {
+    "wrong type": ('mass = "2 g"', "mass = true", ["coin.mass", "True", "number"]),
+    "a list for a number": ('mass = "2 g"', "mass = [2]", ["coin.mass", "[2]", "number"]),
+    "a date for a number": ('mass = "2 g"', "mass = 2008-08-14", ["coin.mass", "2008-08-14", "number"]),
+    "negative mass": ('mass = "2 g"', "mass = -1", ["coin.mass", "-1", "> 0"]),
+    "zero mass": ('mass = "2 g"', "mass = 0", ["coin.mass", "0", "> 0"]),
+    "NaN": ('mass = "2 g"', "mass = nan", ["coin.mass", "nan", "finite"]),
+    "infinity": ('mass = "2 g"', "mass = inf", ["coin.mass", "inf", "finite"]),
+    "unit of another dimension": ('mass = "2 g"', 'mass = "2 m"', ["coin.mass", '"2 m"', "kg"]),
+    "no unit in a string": ('mass = "2 g"', 'mass = "2"', ["coin.mass", '"2"', "kg"]),
+    "no quantity at all": ('mass = "2 g"', 'mass = "heavy"', ["coin.mass", '"heavy"', '"2 g"']),
+    "negative radius": ('radius = "1.25 cm"', "radius = -1", ["coin.radius", "-1", "> 0"]),
+    "negative thickness": ("thickness = 0.002", "thickness = -0.1", ["coin.thickness", "-0.1", ">= 0"]),
+    "restitution above one": (
+        "restitution = 0.8",
+        "restitution = 1.5",
+        ["floor.restitution", "1.5", ">= 0", "<= 1"],
+    ),
+    "negative restitution": (
+        "restitution = 0.8",
+        "restitution = -0.1",
+        ["floor.restitution", "-0.1", ">= 0"],
+    ),
+    "negative friction": (
+        "restitution = 0.8",
+        "restitution = 0.8\nfriction = -1",
+        ["floor.friction", "-1", ">= 0"],
+    ),
+    "unknown law": ('"smooth"', '"smoth"', ["floor.contact", '"smoth"', '"smooth"', '"coulomb"']),
+    "law that is no name": ('"smooth"', "3", ["floor.contact", "3", '"smooth"']),
+    "exponent above one": ("normal = 0.8", "exponent = 2", ["air.exponent", "2", "<= 1"]),
+    "negative air": ("normal = 0.8", "normal = -0.8", ["air.normal", "-0.8", ">= 0"]),
+    "zero gravity": ("gravity = 9.81", "gravity = 0", ["gravity", "0", "> 0"]),
+    "two numbers for three": ('[0, "1 mm", 0.4]', "[0, 0.4]", ["release.position[2]", "missing"]),
+    "four numbers for three": (
+        '[0, "1 mm", 0.4]',
+        "[0, 0, 0, 0.4]",
+        ["release.position", "[0, 0, 0, 0.4]", "3"],
+    ),
+    "a number for three": ('[0, "1 mm", 0.4]', "0.4", ["release.position", "0.4", "list"]),
+    "below the floor": (
+        '[0, "1 mm", 0.4]',
+        "[0, 0, 0.001]",
+        ["release.position.z", "0.001", "above the floor"],
+    ),
+    "mass center outside": (
+        COIN,
+        COIN + "\ncenter_of_mass = [0.02, 0, 0]",
+        ["coin.center_of_mass", "0.02", "inside"],
+    ),
+    "mass center over the face": (
+        COIN,
+        COIN + "\ncenter_of_mass = [0, 0, 0.002]",
+        ["coin.center_of_mass", "zeta"],
+    ),
+    "no positive inertia": (
+        COIN,
+        COIN + "\ncenter_of_mass = [0.008, 0, 0]",
+        ["coin.center_of_mass", "0.008", "positive definite", "coin.inertia"],
+    ),
+    "inertia of no body": (
+        COIN,
+        COIN + "\ninertia = [[1, 0, 0], [0, 1, 0], [0, 0, 3]]",
+        ["coin.inertia", "[[1, 0, 0]", "sum of the other two"],
+    ),
+    "inertia not symmetric": (
+        COIN,
+        COIN + "\ninertia = [[1, 0, 0], [0.1, 1, 0], [0, 0, 1]]",
+        ["coin.inertia", "symmetric"],
+    ),
+    "inertia not positive": (
+        COIN,
+        COIN + "\ninertia = [[-1, 0, 0], [0, 1, 0], [0, 0, 1]]",
+        ["coin.inertia", "positive definite"],
+    ),
+    "unknown key": ("angles =", "angels =", ["release.angels", "unknown key", "did you mean angles?"]),
+    "unknown table": ("[floor]", "[flor]", ["flor", "unknown key", "did you mean floor?"]),
+    "missing key": ("restitution = 0.8\n", "", ["floor.restitution", "missing"]),
+    "missing table": ("[floor]\nrestitution", "[air.x]\nrestitution", ["air.x", "unknown key", "exponent"]),
+    "two attitudes": (
+        "angles = [0,",
+        "quaternion = [1, 0, 0, 0]\nangles = [0,",
+        ["release.quaternion", "not both"],
+    ),
+    "quaternion far from one": (
+        'angles = [0, "7 deg", 0]',
+        "quaternion = [1, 1, 0, 0]",
+        ["release.quaternion", "[1, 1, 0, 0]", "norm 1"],
+    ),
+    "part of an impact": (
+        "max_impacts = 20",
+        "max_impacts = 2.5",
+        ["ending.max_impacts", "2.5", "whole number"],
+    ),
+    "no impacts": ("max_impacts = 20", "max_impacts = 0", ["ending.max_impacts", "0", ">= 1"]),
+    "no time": ("max_impacts = 20", "max_time = 0", ["ending.max_time", "0", "> 0"]),
+    "unknown test": ("max_impacts = 20", 'test = "eq20"', ["ending.test", '"eq20"', '"paper_smooth"']),
+    "not TOML": ("gravity = 9.81", "gravity = = 9.81", ["not TOML", "line 2"]),
+    "empty": (GOOD, "", ["coin", "missing", "mass, radius, thickness"]),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_a_wrong_scenario_is_refused_by_file_field_value_and_what_is_accepted(case):
+    old, new, words = WRONG[case]
+    assert old in GOOD, "the case must change something"
+    with pytest.raises(ScenarioError) as caught:
+        parse(GOOD.replace(old, new), "wrong.toml")
+    message = str(caught.value)
+    assert message.startswith("wrong.toml: ")
+    assert "\n" not in message
+    assert all(word in message for word in words), message
+
+
+def test_a_missing_file_is_answered_with_the_names_that_exist():
+    with pytest.raises(ScenarioError, match=r"no_such\.toml: no such file.*fig24a"):
+        load("no_such.toml")
+
+
+def test_a_folder_or_a_binary_file_is_no_scenario(tmp_path):
+    (tmp_path / "coin.toml").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(ScenarioError, match="UTF-8"):
+        load(str(tmp_path / "coin.toml"))
+    with pytest.raises(ScenarioError, match="can't be read"):
+        load(str(tmp_path))
+
+
+def test_several_wrong_fields_are_all_named():
+    with pytest.raises(ScenarioError, match=r"coin\.mass.*also wrong: floor\.restitution"):
+        parse(GOOD.replace('"2 g"', "-1").replace("restitution = 0.8", "restitution = 2"), "wrong.toml")

@@ -1,0 +1,162 @@
+"""What both engines must do alike: one suite, run on each, and one against the other."""
+
+import numpy as np
+import pytest
+
+from compare.engines import Engine, toss
+from compare.trajectories import attitude_angle, distance
+from models.records import Ending, Outcome
+from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
+
+pytestmark = pytest.mark.parametrize("engine", list(Engine))
+
+IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
+TUMBLING = {
+    "position": [0.0, 0.0, 0.3],
+    "velocity": [0.1, -0.2, 0.3],
+    "angles": [0.4, 0.6, 0.1],
+    "angular_velocity": [20.0, 35.0, -10.0],
+}
+FEW = {"max_impacts": 2}
+
+
+def around_z(angle, vector):
+    c, s = np.cos(angle), np.sin(angle)
+    return [c * vector[0] - s * vector[1], s * vector[0] + c * vector[1], vector[2]]
+
+
+def same_impacts(a, b, tolerance):
+    assert len(a.impacts) == len(b.impacts) == 2
+    assert a.sequence == b.sequence
+    assert a.impacts.time == pytest.approx(b.impacts.time, abs=tolerance)
+    assert a.impacts.impulse[:, 2] == pytest.approx(b.impacts.impulse[:, 2], rel=tolerance)
+
+
+def test_a_shift_along_the_floor_shifts_the_toss(engine):
+    here = toss(engine, scenario(coin=IMPERFECT, air=AIR, release=TUMBLING, ending=FEW))
+    moved = {**TUMBLING, "position": [1.0, -2.0, 0.3]}
+    there = toss(engine, scenario(coin=IMPERFECT, air=AIR, release=moved, ending=FEW))
+    same_impacts(here, there, 1e-8)
+    assert there.impacts.position - here.impacts.position == pytest.approx(
+        np.array([[1, -2, 0], [1, -2, 0]]), abs=1e-8
+    )
+
+
+def test_a_turn_about_the_vertical_turns_the_toss(engine):
+    angle = 0.7
+    here = toss(engine, scenario(coin=IMPERFECT, air=AIR, release=TUMBLING, ending=FEW))
+    turned = {
+        **TUMBLING,
+        "velocity": around_z(angle, TUMBLING["velocity"]),
+        "angles": [0.4 + angle, 0.6, 0.1],
+    }
+    there = toss(engine, scenario(coin=IMPERFECT, air=AIR, release=turned, ending=FEW))
+    same_impacts(here, there, 1e-8)
+    for before, after in zip(here.impacts.velocity_after, there.impacts.velocity_after, strict=True):
+        assert after == pytest.approx(around_z(angle, before), abs=1e-7)
+    assert here.impacts.point == pytest.approx(there.impacts.point, abs=1e-9)
+
+
+def test_a_mirror_mirrors_the_toss(engine):
+    """The plane y = 0, for a coin that has it too: x, z and the turn about y stay, the others flip."""
+    here = toss(engine, scenario(air=AIR, release=TUMBLING, ending=FEW))
+    mirrored = {
+        "position": TUMBLING["position"],
+        "velocity": [0.1, 0.2, 0.3],
+        "angles": [-0.4, -0.6, -0.1],
+        "angular_velocity": [-20.0, 35.0, 10.0],
+    }
+    there = toss(engine, scenario(air=AIR, release=mirrored, ending=FEW))
+    same_impacts(here, there, 1e-8)
+    assert there.impacts.velocity_after == pytest.approx(
+        here.impacts.velocity_after * np.array([1, -1, 1]), abs=1e-7
+    )
+
+
+def test_half_a_turn_of_the_coin_swaps_heads_and_tails(engine):
+    """The same motion of an ideal coin whose body axes are turned half about ξ: η and ζ change their sign."""
+    here = toss(engine, scenario(air=AIR, release=TUMBLING, ending=FEW))
+    e0, e1, e2, e3 = scenario(release=TUMBLING).release.attitude
+    swapped = {
+        "position": TUMBLING["position"],
+        "velocity": TUMBLING["velocity"],
+        "quaternion": [-e1, e0, e3, -e2],
+        "angular_velocity": [20.0, -35.0, 10.0],
+    }
+    there = toss(engine, scenario(air=AIR, release=swapped, ending=FEW))
+    assert there.sequence == here.sequence.translate(str.maketrans("HT", "TH"))
+    assert there.impacts.impulse[:, 2] == pytest.approx(here.impacts.impulse[:, 2], rel=1e-8)
+
+
+def test_momentum_and_restitution_hold_at_every_impact(engine):
+    tossed = toss(engine, scenario(coin=IMPERFECT, release=TUMBLING, ending={"max_impacts": 5}))
+    impacts, m = tossed.impacts, 2e-3
+    assert len(impacts) >= 2
+    gained = m * (impacts.velocity_after - impacts.velocity_before)
+    # MuJoCo's contact lasts a microsecond, in which weight takes 1e-8 N s.
+    assert gained == pytest.approx(impacts.impulse, abs=3e-8)
+    ratio = -impacts.contact_velocity_after[:, 2] / impacts.contact_velocity_before[:, 2]
+    assert ratio == pytest.approx(np.full(len(impacts), 0.8), abs=2e-3)
+
+
+def test_energy_falls_at_every_impact_of_a_smooth_floor(engine):
+    tossed = toss(engine, scenario(coin=IMPERFECT, air=AIR, release=TUMBLING, ending={"max_impacts": 6}))
+    assert np.all(tossed.impacts.energy_change < 0)
+    assert np.all(np.diff(tossed.impacts.energy) < 0)
+
+
+def test_restitution_one_loses_no_energy(engine):
+    tossed = toss(
+        engine,
+        scenario(coin=IMPERFECT, floor={"restitution": 1.0}, release=TUMBLING, ending={"max_impacts": 3}),
+    )
+    assert np.abs(tossed.impacts.energy_change / tossed.impacts.energy).max() < 1e-4
+
+
+def test_samples_meet_the_impacts(engine):
+    tossed = toss(engine, scenario(coin=IMPERFECT, air=AIR, release=TUMBLING, ending={"max_impacts": 3}))
+    states = tossed.sample(tossed.impacts.time)
+    assert states.position == pytest.approx(tossed.impacts.position, abs=1e-12)
+    at_release = tossed.sample([0.0])
+    assert at_release.position[0] == pytest.approx(TUMBLING["position"], abs=1e-16)
+    assert at_release.angular_velocity[0] == pytest.approx(TUMBLING["angular_velocity"], rel=1e-15)
+    mixed = tossed.sample([0.1, 0.0, 0.05])
+    assert mixed.time.tolist() == [0.1, 0.0, 0.05]
+    assert mixed.position[1] == pytest.approx(TUMBLING["position"], abs=1e-16)
+
+
+@pytest.mark.parametrize("tilt", [0.0, np.pi / 4])
+def test_the_drops_of_fig_3_keep_attitude_until_they_land(engine, tilt):
+    release = {"position": [0, 0, 1.86], "angles": [0, tilt, 0]}
+    tossed = toss(engine, scenario(air=AIR, release=release, ending={"max_impacts": 1}))
+    start = scenario(release=release).release.attitude
+    assert np.abs(tossed.impacts.quaternion[0] - start).max() < 1e-10
+    assert tossed.sequence == "H"
+
+
+def test_endings_are_named_alike(engine):
+    assert toss(engine, scenario(ending={"max_time": 0.1})).ending == Ending.MAX_TIME
+    assert toss(engine, scenario(ending={"max_impacts": 1})).ending == Ending.MAX_IMPACTS
+    flat = toss(engine, scenario())
+    assert (flat.ending, flat.outcome) == (Ending.SETTLED, Outcome.HEADS)
+    tails = toss(engine, scenario(release={"angles": [0, np.pi, 0]}))
+    assert (tails.ending, tails.outcome) == (Ending.SETTLED, Outcome.TAILS)
+
+
+def test_tosses_are_reproducible_to_the_bit(engine):
+    case = scenario(coin=IMPERFECT, air=AIR, release=TUMBLING, ending={"max_impacts": 4})
+    a, b = toss(engine, case), toss(engine, case)
+    assert np.array_equal(a.impacts.impulse, b.impacts.impulse)
+    assert np.array_equal(a.sample([0.2]).quaternion, b.sample([0.2]).quaternion)
+
+
+def test_paths_agree_with_the_other_engine_up_to_the_first_touch(engine):
+    rng = np.random.default_rng(51)
+    other = next(name for name in Engine if name is not engine)
+    for _ in range(25):
+        case = scenario(coin=draw_coin(rng), air=AIR, release=draw_release(rng), ending={"max_impacts": 1})
+        a, b = toss(engine, case), toss(other, case)
+        times = np.linspace(0, min(a.impacts.time[0], b.impacts.time[0]), 20)
+        path_a, path_b = a.sample(times[:-1]), b.sample(times[:-1])
+        assert distance(path_a, path_b).max() < 1e-6 * case.coin.radius
+        assert attitude_angle(path_a, path_b).max() < 1e-6
