@@ -33,7 +33,7 @@ def test_impacts_are_those_of_an_independent_integration(law, seed):
         y, S = referee.hit(y)
         impacts = tossed.impacts
         assert impacts.time[i] == pytest.approx(time, abs=1e-7)
-        assert impacts.impulse[i] == pytest.approx(S, abs=1e-5 * np.linalg.norm(S))
+        assert impacts.impulse[i] == pytest.approx(S, abs=1e-5 * float(np.linalg.norm(S)))
         assert impacts.face[i] == (1 if referee.rotation(y)[2, 2] > 0 else 2)
         assert impacts.velocity_after[i] == pytest.approx(y[3:6], abs=1e-5)
 

@@ -1,6 +1,7 @@
 """Restitution of the damped spring: against its own differential equation, and back."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,12 +19,13 @@ def test_the_spring_lets_go_when_its_force_vanishes(zeta):
     def force(_, y):
         return -y[0] - 2 * zeta * y[1]
 
-    force.terminal, force.direction = True, -1
+    vanishes: Any = force
+    vanishes.terminal, vanishes.direction = True, -1
     path = solve_ivp(
         lambda t, y: [y[1], force(t, y)],
         (0, 50),
         [0, -1],
-        events=force,
+        events=vanishes,
         method="DOP853",
         rtol=1e-12,
         atol=1e-14,

@@ -1,5 +1,8 @@
 """The MuJoCo model is the scenario's coin, and its state converts to the records' and back."""
 
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
 import mujoco
 import numpy as np
 import pytest

@@ -18,7 +18,7 @@ def test_impacts_check_their_shapes_and_order():
     rows["time"] = [0.1, 0.3, 0.2]
     with pytest.raises(ValueError, match=r"Impacts\.time"):
         Impacts.from_rows(rows)
-    good = {name: rows[name] for name in rows.dtype.names}
+    good = {name: rows[name] for name in rows.dtype.names or ()}
     with pytest.raises(ValueError, match=r"Impacts\.impulse: shape \(3, 2\), expected \(3, 3\)"):
         Impacts(**{**good, "impulse": np.zeros((3, 2))})
 
