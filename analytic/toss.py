@@ -7,7 +7,7 @@ import numpy as np
 from analytic.events import run
 from analytic.flight import STATE_SIZE, TOLERANCE, sample_flight
 from analytic.horizon import RELEASE_ERROR, trusted_impacts
-from models.body import Body, body_of, rules_of
+from models.body import Body
 from models.laws import ContactLaw
 from models.records import Array, Impacts, Setting, States, Toss, UnsupportedError
 from models.scenario import Release, Scenario
@@ -79,7 +79,7 @@ def toss(scenario: Scenario) -> Toss:
         UnsupportedError: for air with b > 0 or the law "coulomb".
     """
     require_supported(scenario)
-    body, rules, start = body_of(scenario), rules_of(scenario), state_of(scenario.release)
+    body, rules, start = scenario.body, scenario.rules, state_of(scenario.release)
     answer = run(body, rules, start)
     impacts = Impacts.from_rows(answer.rows)
     return Toss(

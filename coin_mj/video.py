@@ -14,7 +14,6 @@ from PIL import Image, ImageDraw, ImageFont
 
 from coin_mj.scene import build_painted
 from coin_mj.state import of_release
-from models.body import body_of
 from models.ending import face_up
 from models.records import Array, States, Toss
 from models.scenario import Release, euler_parameters, vector
@@ -66,7 +65,7 @@ def frames(toss: Toss) -> Iterator[np.ndarray]:
     span = _span(toss, states)
     model = build_painted(toss.scenario, span)
     data = mujoco.MjData(model)
-    body = body_of(toss.scenario)
+    body = toss.scenario.body
     overview, close_up = _overview(states, span), _close_up(toss)
     font = ImageFont.load_default(size=17)
     with (

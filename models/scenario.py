@@ -16,7 +16,8 @@ from pydantic import (
 )
 
 from models.attitude import Quaternion, quaternion_from_angles, rotation_matrix
-from models.body import body_of
+from models.body import Body, Rules
+from models.drag import linear_drag
 from models.geometry import gap
 from models.inertia import (
     cylinder_inertia,
@@ -227,20 +228,57 @@ class Scenario(_Part):
     @model_validator(mode="after")
     def _above_the_floor(self) -> Self:
         R = rotation_matrix(self.release.attitude)
-        clearance = gap(body_of(self), self.release.position[2], R[2])
+        clearance = gap(self.body, self.release.position[2], R[2])
         if clearance < -1e-12 * self.coin.radius:
             z = self.release.position[2]
             raise FieldError("release.position.z", z, f"a coin above the floor: z >= {z - clearance:.6g} m")
         return self
 
+    @property
+    def body(self) -> Body:
+        """The coin in its air and gravity, for compiled code."""
+        coin, air = self.coin, self.air
+        J = coin.inertia_about_C
+        moments = np.linalg.eigvalsh(J)
+        return Body(
+            mass=coin.mass,
+            radius=coin.radius,
+            thickness=coin.thickness,
+            center=coin.center_of_mass,
+            inertia=_rows(J),
+            inertia_inverse=_rows(np.linalg.inv(J)),
+            inertia_smallest=float(moments[0]),
+            inertia_largest=float(moments[-1]),
+            drag=linear_drag(coin.radius, coin.thickness, air.normal, air.tangential),
+            gravity=self.gravity,
+        )
 
-def vector(row: NDArray[np.float64]) -> Vector:
+    @property
+    def rules(self) -> Rules:
+        """The floor and the ending, for compiled code."""
+        floor, ending = self.floor, self.ending
+        return Rules(
+            law=floor.contact,
+            restitution=floor.restitution,
+            friction=floor.friction,
+            test=ending.test,
+            max_impacts=ending.max_impacts,
+            max_time=ending.max_time,
+        )
+
+
+def _rows(M: NDArray[np.floating]) -> Matrix:
+    first, second, third = (vector(row) for row in M)
+    return first, second, third
+
+
+def vector(row: NDArray[np.floating]) -> Vector:
     """Give three numbers of an array as a tuple, as a scenario keeps them."""
     x, y, z = row.tolist()
     return x, y, z
 
 
-def euler_parameters(row: NDArray[np.float64]) -> Quaternion:
+def euler_parameters(row: NDArray[np.floating]) -> Quaternion:
     """Give four numbers of an array as a tuple, as a scenario keeps them."""
     e0, e1, e2, e3 = row.tolist()
     return e0, e1, e2, e3

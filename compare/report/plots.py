@@ -11,7 +11,6 @@ from matplotlib.ticker import FuncFormatter
 
 from compare.comparison import PARTED, Comparison
 from compare.trajectories import tilt
-from models.body import body_of
 from models.ending import barrier
 from models.records import Array, States, Toss
 from models.scenario import Scenario
@@ -158,7 +157,7 @@ def _energy(sampled: list[tuple[Toss, States]]) -> Figure:
     axes = figure.add_subplot()
     scenario = sampled[0][0].scenario
     _lines(axes, sampled, [energies(scenario, states) for _, states in sampled], 1e3)
-    body = body_of(scenario)
+    body = scenario.body
     barriers = {1e3 * barrier(body, side) for side in (1.0, -1.0)}
     for level in barriers:
         axes.axhline(level, color="#5b6675", linewidth=0.8)

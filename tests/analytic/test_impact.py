@@ -6,7 +6,6 @@ import pytest
 from analytic.events import hit
 from analytic.impact import mobility, sliding_friction
 from models.attitude import rotation_matrix
-from models.body import body_of, rules_of
 from models.ending import energy
 from models.geometry import contact_velocity, lowest_point
 from models.laws import ContactLaw
@@ -26,7 +25,7 @@ def draw_impact(rng, law, restitution=None):
             "friction": float(rng.uniform(0, 0.6)),
         },
     )
-    body = body_of(case)
+    body = case.body
     while True:
         e = draw_quaternion(rng)
         R = rotation_matrix(tuple(e))
@@ -39,7 +38,7 @@ def draw_impact(rng, law, restitution=None):
 def struck(case, y):
     row = np.zeros(1, IMPACT_ROW)
     after = y.copy()
-    ending = hit(body_of(case), rules_of(case), after, row[0])
+    ending = hit(case.body, case.rules, after, row[0])
     return row[0], after, ending
 
 
@@ -106,7 +105,7 @@ def test_laws_that_keep_slip_can_add_energy(law):
 def test_the_energy_recorded_is_that_of_the_state_after():
     case, y = draw_impact(np.random.default_rng(13), ContactLaw.SMOOTH)
     row, after, _ = struck(case, y)
-    body = body_of(case)
+    body = case.body
     E = [energy(body, s[2], tuple(s[3:6]), tuple(s[10:13])) for s in (y, after)]
     assert row["energy"] == E[1]
     assert row["energy_change"] == pytest.approx(E[1] - E[0], rel=1e-15)
@@ -116,9 +115,7 @@ def test_mobility_is_symmetric_and_positive_definite():
     rng = np.random.default_rng(14)
     for _ in range(COUNT):
         case, y = draw_impact(rng, ContactLaw.SMOOTH)
-        K = np.array(
-            mobility(body_of(case), rotation_matrix(tuple(y[6:10])), tuple(rng.uniform(-0.01, 0.01, 3)))
-        )
+        K = np.array(mobility(case.body, rotation_matrix(tuple(y[6:10])), tuple(rng.uniform(-0.01, 0.01, 3))))
         assert np.abs(K - K.T).max() < 1e-15 * np.abs(K).max()
         assert np.linalg.eigvalsh(K)[0] > 0
 

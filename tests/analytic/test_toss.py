@@ -5,7 +5,6 @@ import pytest
 
 import analytic
 from models.attitude import rotation_matrix
-from models.body import body_of
 from models.geometry import gap
 from models.records import Ending, Outcome, UnsupportedError
 from tests.draws import AIR, PAPER_LAWS, ZLOTY, draw_coin, draw_release, scenario
@@ -55,7 +54,7 @@ def test_no_recorded_or_sampled_state_is_below_the_floor():
     rng = np.random.default_rng(21)
     for _ in range(40):
         case = scenario(coin=draw_coin(rng), air=AIR, release=draw_release(rng))
-        tossed, body = analytic.toss(case), body_of(case)
+        tossed, body = analytic.toss(case), case.body
         times = np.concatenate(
             [np.linspace(0, tossed.end_time, 300), tossed.impacts.time, np.nextafter(tossed.impacts.time, 0)]
         )
@@ -78,7 +77,7 @@ def test_the_first_contact_is_the_first():
     rng = np.random.default_rng(22)
     for _ in range(30):
         case = scenario(coin=draw_coin(rng), release=draw_release(rng, spin=300), ending={"max_impacts": 3})
-        tossed, body = analytic.toss(case), body_of(case)
+        tossed, body = analytic.toss(case), case.body
         for start, end in zip(tossed.impacts.time[:-1], tossed.impacts.time[1:], strict=True):
             inside = start + (end - start) * np.linspace(1e-6, 1 - 1e-6, 2000)
             states = tossed.sample(inside)

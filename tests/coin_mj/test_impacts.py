@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import analytic
+from coin_mj.machine import fly, machine_of, press
 from coin_mj.scene import shape_thickness
-from coin_mj.toss import fly, machine_of, press, run, toss
+from coin_mj.toss import run, toss
 from compare.impulses import match
-from models.body import rules_of
 from models.records import Ending, Impacts, UnsupportedError
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
 
@@ -37,7 +37,7 @@ def draw_single_impact(rng):
 
 def first_impact(case, stiffness=1e14):
     machine = machine_of(case, stiffness, shape_thickness(case))
-    return Impacts.from_rows(run(machine, rules_of(case)).rows)
+    return Impacts.from_rows(run(machine, case.rules).rows)
 
 
 def test_first_impacts_meet_newtons_impulse():

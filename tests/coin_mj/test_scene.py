@@ -10,7 +10,6 @@ import pytest
 from coin_mj.contact import spring_of
 from coin_mj.scene import build, build_painted, shape_thickness
 from coin_mj.state import of_release, to_mass_center
-from models.body import body_of
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
@@ -54,7 +53,7 @@ def test_only_the_painted_model_has_paint():
 def test_a_release_converts_to_mujocos_state_and_back():
     rng = np.random.default_rng(2)
     case = scenario(coin=IMPERFECT, release=draw_release(rng))
-    body, release = body_of(case), case.release
+    body, release = case.body, case.release
     x, v, e, w = to_mass_center(body, *of_release(body, release))
     assert x == pytest.approx(release.position, abs=1e-17)
     assert v == pytest.approx(release.velocity, abs=1e-16)
@@ -66,7 +65,7 @@ def test_mujoco_agrees_about_the_velocity_of_the_mass_center():
     case = scenario(coin=IMPERFECT, release=draw_release(rng))
     model = built(case)
     data = mujoco.MjData(model)
-    data.qpos[:], data.qvel[:] = of_release(body_of(case), case.release)
+    data.qpos[:], data.qvel[:] = of_release(case.body, case.release)
     mujoco.mj_forward(model, data)
     assert data.body("coin").xipos == pytest.approx(case.release.position, abs=1e-16)
     velocity = np.zeros(6)
@@ -79,7 +78,7 @@ def test_mujoco_agrees_about_the_velocity_of_the_mass_center():
 def test_the_actuators_are_the_closed_form_drag():
     rng = np.random.default_rng(4)
     case = scenario(coin=IMPERFECT, air=AIR, release=draw_release(rng))
-    model, body = built(case), body_of(case)
+    model, body = built(case), case.body
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = of_release(body, case.release)
     mujoco.mj_forward(model, data)

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from models.attitude import quaternion_from_angles, rotation_matrix
-from models.body import body_of, rules_of
 from models.ending import barrier, energy, face_up, judge
 from models.geometry import gap
 from models.records import Ending, Face, Outcome
@@ -25,7 +24,7 @@ def height_on_the_floor(body, theta, phi):
 @pytest.mark.parametrize("up", [1.0, -1.0])
 def test_the_barrier_is_the_lowest_pass(coin, up):
     """Over every direction phi of falling over, the highest point of the way; of these the lowest."""
-    body = body_of(scenario(coin=coin))
+    body = scenario(coin=coin).body
     # From this face up to standing on the rim; beyond lies the edge or the other face.
     tilts = np.linspace(0, np.pi / 2, 2001) if up > 0 else np.linspace(np.pi, np.pi / 2, 2001)
     turns = np.linspace(0, 2 * np.pi, 181)
@@ -37,10 +36,10 @@ def test_the_barrier_is_the_lowest_pass(coin, up):
 
 def judged(case, tilt, v=(0.0, 0.0, 0.0), w=(0.0, 0.0, 0.0)):
     """Judge a coin that touches the floor at this tilt with these velocities."""
-    body = body_of(case)
+    body = case.body
     up = rotation_matrix(quaternion_from_angles((0.0, tilt, 0.0)))[2]
     z = -gap(body, 0.0, up)
-    return judge(body, rules_of(case), z, v, up, w), energy(body, z, v, w), barrier(body, up[2])
+    return judge(body, case.rules, z, v, up, w), energy(body, z, v, w), barrier(body, up[2])
 
 
 @pytest.mark.parametrize(("tilt", "face"), [(0.3, Outcome.HEADS), (np.pi - 0.3, Outcome.TAILS)])

@@ -7,11 +7,10 @@ from hypothesis import strategies as st
 
 import analytic
 from models.attitude import rotation_matrix
-from models.body import body_of
 from models.geometry import acceleration_bounds, clear_time, contact_velocity, gap, lowest_point
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
 
-IMPERFECT = body_of(scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}))
+IMPERFECT = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}).body
 ANGLES = np.linspace(0, 2 * np.pi, 20_001)
 
 
@@ -63,7 +62,7 @@ def test_no_coin_touches_within_its_clear_time(seed, in_air):
     release["velocity"] = rng.uniform(-3, 3, 3).tolist()
     case = scenario(coin=draw_coin(rng), release=release, **({"air": AIR} if in_air else {}))
     # Lower the coin to a random gap, often a tiny one.
-    body, R = body_of(case), rotation_matrix(case.release.attitude)
+    body, R = case.body, rotation_matrix(case.release.attitude)
     z = release["position"][2] - gap(body, release["position"][2], R[2]) + 10 ** rng.uniform(-8, -1)
     case = scenario(coin=case.coin.model_dump(exclude_none=True), release={**release, "position": [0, 0, z]})
     clear = clear_time(body, z, case.release.velocity, R[2], case.release.angular_velocity, 0.02)
@@ -85,7 +84,7 @@ def test_accelerations_stay_within_their_bounds(seed):
         air={"normal": 20.0, "tangential": 5.0},
         release={**draw_release(rng, spin=200), "position": [0, 0, 50.0]},
     )
-    body, window = body_of(case), 0.05
+    body, window = case.body, 0.05
     of_height, of_normal = acceleration_bounds(
         body, case.release.velocity, case.release.angular_velocity, window
     )
