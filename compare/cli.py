@@ -73,7 +73,11 @@ def toss(scenario: str, engine: str, max_impacts: int | None, as_json: bool, tra
         if trajectory is not None:
             times = answer.path_times(result, per_second=1000)
             write_text(trajectory, answer.path_csv(result.sample(times)))
-        click.echo(json.dumps(answer.as_json(result), indent=1) if as_json else answer.as_lines(result))
+        click.echo(
+            json.dumps(answer.as_json(result), indent=1, allow_nan=False)
+            if as_json
+            else answer.as_lines(result)
+        )
 
 
 @main.command(epilog=_SCENARIO_HELP)

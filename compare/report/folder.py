@@ -6,12 +6,14 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from compare import answer
 from compare.comparison import Comparison, compare
 from compare.files import write_text, written_whole
 from compare.report import plots
 from compare.report.page import Page, render, versions
-from models.records import Toss
+from models.records import Array, Toss
 from models.scenario import Scenario
 
 PATH_ROWS_PER_SECOND = 1000
@@ -47,7 +49,8 @@ def write_report(
     tosses = [analytic, *([comparison.mujoco] if comparison else [])]
 
     write_text(
-        folder / "numbers.json", json.dumps(_numbers(name, tosses, comparison, not_realisable), indent=1)
+        folder / "numbers.json",
+        json.dumps(_numbers(name, tosses, comparison, not_realisable), indent=1, allow_nan=False),
     )
     for toss in tosses:
         states = toss.sample(answer.path_times(toss, PATH_ROWS_PER_SECOND))
@@ -95,10 +98,15 @@ def _numbers(
         "comparison": {
             "common_prefix": comparison.common_prefix,
             "horizon": comparison.horizon,
-            "impulse_error": comparison.errors.tolist(),
+            "impulse_error": _finite(comparison.errors),
             "parting_time": together.parting_time,
-            "time_difference": comparison.differences.time.tolist(),
-            "impulse_difference": comparison.differences.impulse.tolist(),
-            "angular_velocity_difference": comparison.differences.angular_velocity.tolist(),
+            "time_difference": _finite(comparison.differences.time),
+            "impulse_difference": _finite(comparison.differences.impulse),
+            "angular_velocity_difference": _finite(comparison.differences.angular_velocity),
         },
     }
+
+
+def _finite(numbers: Array) -> list[float | None]:
+    """Give numbers for JSON, which has none that are infinite: null stands for those."""
+    return [float(number) if np.isfinite(number) else None for number in numbers]
