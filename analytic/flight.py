@@ -142,6 +142,9 @@ def accepted_step(body, y, dt, stages, y_new):
 
     Returns:
         The length of the step made, and a length for the next [s].
+
+    Raises:
+        FloatingPointError: if no step is short enough to stay finite.
     """
     derivative(body, y, stages[0])
     while True:
@@ -150,7 +153,10 @@ def accepted_step(body, y, dt, stages, y_new):
         factor = _GROW_MOST if error == 0 else _SAFETY * error ** (-1 / 8)
         if error <= 1:
             return dt, dt * min(_GROW_MOST, max(factor, _SHRINK_MOST))
-        dt *= max(factor, _SHRINK_MOST)
+        # An error that is not a number comes from an overflow inside the step.
+        dt *= max(factor, _SHRINK_MOST) if error > 1 else _SHRINK_MOST
+        if dt == 0:
+            raise FloatingPointError("the motion leaves the range of floating-point numbers")
 
 
 @compiled

@@ -33,7 +33,7 @@ def _plain_errors(source: str) -> Iterator[None]:
         yield
     except (ScenarioError, UnwritableError) as error:
         _refuse(str(error))
-    except UnsupportedError as error:
+    except (UnsupportedError, FloatingPointError) as error:
         _refuse(f"{source}: {error}")
 
 

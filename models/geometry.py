@@ -62,6 +62,19 @@ def lowest_point(body, up, w):
 
 
 @compiled
+def _largest_drag(body):
+    """Give k, the larger of the drag coefficients of force [kg/s]."""
+    return max(body.drag.force_tangential, body.drag.force_normal)
+
+
+@compiled
+def damping_rate(body):
+    """Give κ = k (1/m + |c|²/J_min), a bound on the rate at which drag changes the velocity of B [1/s]."""
+    c = body.center
+    return _largest_drag(body) * (1 / body.mass + dot(c, c) / body.inertia_smallest)
+
+
+@compiled
 def acceleration_bounds(body, v, w, window):
     """Bound the accelerations of a flying coin over a time window.
 
@@ -82,13 +95,12 @@ def acceleration_bounds(body, v, w, window):
     J = body.inertia
     energy_twice = dot(w, (dot(J[0], w), dot(J[1], w), dot(J[2], w)))
     arm = norm(body.center)
-    drag = max(body.drag.force_tangential, body.drag.force_normal)
+    drag = _largest_drag(body)
     turn_drag = max(body.drag.moment_tangential, body.drag.moment_normal)
     spin = (energy_twice / body.inertia_smallest) ** 0.5
     speed = norm(v) + spin * arm
     if drag > 0:
-        kappa = drag * (1 / body.mass + arm * arm / body.inertia_smallest)
-        speed = (speed + body.gravity * window) * math.exp(kappa * window)
+        speed = (speed + body.gravity * window) * math.exp(damping_rate(body) * window)
         spin += drag * arm / body.inertia_smallest * window * speed
     turning = (
         (body.inertia_largest - body.inertia_smallest) / 2 * spin * spin
@@ -121,6 +133,9 @@ def clear_time(body, z, v, up, w, window):
         A time in [0, window].
     """
     r = body.radius
+    # Bounds over a window much longer than the drag's own time would be too wide to be of use.
+    if damping_rate(body) * window > 0.5:
+        window = 0.5 / damping_rate(body)
     of_height, of_normal = acceleration_bounds(body, v, w, window)
     up_rate = cross(up, w)
     tilt_sine = (up[0] * up[0] + up[1] * up[1]) ** 0.5

@@ -4,6 +4,7 @@ import difflib
 import tomllib
 from importlib import resources
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, cast
 
 from pydantic import BaseModel, ValidationError
@@ -114,6 +115,8 @@ def _line(detail: ErrorDetails) -> str:
 
 
 def _shown(value: Any) -> str:
+    if isinstance(value, BaseModel):
+        value = value.model_dump(exclude_none=True)
     if isinstance(value, tuple):
         value = list(value)
     text = f'"{value}"' if isinstance(value, str) else str(value)
@@ -155,13 +158,17 @@ def _meaning(detail: ErrorDetails) -> str:
 
 
 def _range(detail: ErrorDetails) -> str:
-    field = _model_at(detail["loc"][:-1]).model_fields[str(detail["loc"][-1])]
     signs = {"gt": ">", "ge": ">=", "le": "<="}
+    name = detail["loc"][-1]
+    if isinstance(name, int):  # an entry of a list: pydantic tells the bound that is broken
+        rules: list[Any] = [SimpleNamespace(**detail.get("ctx", {}))]
+    else:
+        rules = _model_at(detail["loc"][:-1]).model_fields[name].metadata
     bounds = [
-        f"{sign} {getattr(rule, name):g}"
-        for name, sign in signs.items()
-        for rule in field.metadata
-        if hasattr(rule, name)
+        f"{sign} {getattr(rule, key):g}"
+        for key, sign in signs.items()
+        for rule in rules
+        if hasattr(rule, key)
     ]
     return " and ".join(bounds)
 

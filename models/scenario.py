@@ -18,7 +18,7 @@ from pydantic import (
 from models.attitude import Quaternion, quaternion_from_angles, rotation_matrix
 from models.body import Body, Rules
 from models.drag import linear_drag
-from models.geometry import gap
+from models.geometry import damping_rate, gap
 from models.inertia import (
     cylinder_inertia,
     inertia_about_mass_center,
@@ -53,13 +53,22 @@ def _as_tuple(value: Any) -> Any:
 _Sequence = BeforeValidator(_as_tuple)
 
 
+# Sizes beyond all coins, within which products of powers stay far from the range of floating-point numbers.
+LARGEST, SMALLEST = 1e9, 1e-9
+# Spins and drags beyond all tosses, which would take hours to follow; against √(g/r).
+FASTEST_SPIN, FASTEST_DRAG = 1e5, 1e4
+
+_within = Field(ge=-LARGEST, le=LARGEST)
+_size = Field(ge=SMALLEST, le=LARGEST)
+_not_negative = Field(ge=0, le=LARGEST)
+
 Number = Annotated[float, _quantity("")]
 Mass = Annotated[float, _quantity("kg")]
-Length = Annotated[float, _quantity("m")]
-Speed = Annotated[float, _quantity("m/s")]
+Length = Annotated[float, _quantity("m"), _within]
+Speed = Annotated[float, _quantity("m/s"), _within]
 Angle = Annotated[float, _quantity("rad")]
 Spin = Annotated[float, _quantity("rad/s")]
-Inertia = Annotated[float, _quantity("kg*m**2")]
+Inertia = Annotated[float, _quantity("kg*m**2"), _within]
 Lengths = Annotated[tuple[Length, Length, Length], _Sequence]
 Speeds = Annotated[tuple[Speed, Speed, Speed], _Sequence]
 Angles = Annotated[tuple[Angle, Angle, Angle], _Sequence]
@@ -78,11 +87,11 @@ class _Part(BaseModel):
 class Coin(_Part):
     """A cylinder of radius r and thickness h whose mass centre C may lie off its geometric centre B."""
 
-    mass: Annotated[Mass, Field(gt=0)]
+    mass: Annotated[Mass, _size]
     """m [kg]."""
-    radius: Annotated[Length, Field(gt=0)]
+    radius: Annotated[float, _quantity("m"), _size]
     """r [m]."""
-    thickness: Annotated[Length, Field(ge=0)]
+    thickness: Annotated[float, _quantity("m"), _not_negative]
     """h [m]; 0 for the thin coin."""
     center_of_mass: Lengths = _ZERO
     """c, from B to C, body frame (ξ, η, ζ) [m]."""
@@ -102,7 +111,7 @@ class Coin(_Part):
 
     @field_validator("inertia")
     @classmethod
-    def _inertia_of_a_body(cls, inertia: Matrix | None) -> Matrix | None:
+    def _inertia_of_a_body(cls, inertia: Matrix | None, info: ValidationInfo) -> Matrix | None:
         if inertia is None:
             return None
         J = np.array(inertia)
@@ -112,6 +121,11 @@ class Coin(_Part):
             raise ValueError("a positive definite matrix: every principal moment > 0")
         if not obeys_triangle_inequality(J):
             raise ValueError("a body's inertia: no principal moment above the sum of the other two")
+        m, r = info.data.get("mass"), info.data.get("radius")
+        if m is not None and r is not None:
+            moments = np.linalg.eigvalsh(J) / (m * r * r)
+            if not (moments[0] >= 1e-6 and moments[-1] <= 1e6):
+                raise ValueError(f"principal moments from 1e-6 to 1e6 m r^2 = {m * r * r:.3g} kg m^2")
         return inertia
 
     @model_validator(mode="after")
@@ -142,9 +156,9 @@ class Air(_Part):
 
     exponent: Annotated[Number, Field(ge=0, le=1)] = 0.0
     """b: 0 for linear, 1 for quadratic resistance."""
-    normal: Annotated[float, Field(ge=0)] = 0.0
+    normal: Annotated[float, _not_negative] = 0.0
     """λ_n, of pressure [kg m^(-2-b) s^(b-1)]."""
-    tangential: Annotated[float, Field(ge=0)] = 0.0
+    tangential: Annotated[float, _not_negative] = 0.0
     """λ_τ, of friction [kg m^(-2-b) s^(b-1)]."""
 
     @field_validator("normal", "tangential", mode="before")
@@ -163,7 +177,7 @@ class Floor(_Part):
     """χ: normal speed of the contact point after an impact over that before it."""
     contact: Annotated[ContactLaw, BeforeValidator(_named(ContactLaw))]
     """The contact law."""
-    friction: Annotated[Number, Field(ge=0)] = 0.0
+    friction: Annotated[Number, _not_negative] = 0.0
     """μ, for the laws that slide with friction."""
 
 
@@ -217,7 +231,7 @@ class Ending(_Part):
 class Scenario(_Part):
     """One toss, told once for both engines."""
 
-    gravity: Annotated[float, _quantity("m/s**2"), Field(gt=0)] = 9.81
+    gravity: Annotated[float, _quantity("m/s**2"), _size] = 9.81
     """g [m/s²]."""
     coin: Coin
     air: Air = Air()
@@ -227,11 +241,28 @@ class Scenario(_Part):
 
     @model_validator(mode="after")
     def _above_the_floor(self) -> Self:
+        numbers = np.hstack([np.ravel(part) for part in self.body])
+        if not np.all(np.isfinite(numbers)):
+            raise FieldError(
+                "coin", self.coin, "a coin whose inertia, its inverse and drag are finite numbers"
+            )
         R = rotation_matrix(self.release.attitude)
         clearance = gap(self.body, self.release.position[2], R[2])
         if clearance < -1e-12 * self.coin.radius:
             z = self.release.position[2]
             raise FieldError("release.position.z", z, f"a coin above the floor: z >= {z - clearance:.6g} m")
+        return self
+
+    @model_validator(mode="after")
+    def _within_reach(self) -> Self:
+        rate = (self.gravity / self.coin.radius) ** 0.5
+        w = self.release.angular_velocity
+        if not np.linalg.norm(w) <= FASTEST_SPIN * rate:
+            accepted = f"a spin of at most {FASTEST_SPIN:g} sqrt(g/r) = {FASTEST_SPIN * rate:.3g} rad/s"
+            raise FieldError("release.angular_velocity", w, accepted)
+        if not damping_rate(self.body) <= FASTEST_DRAG * rate:
+            accepted = f"air that slows the coin at a rate of at most {FASTEST_DRAG:g} sqrt(g/r)"
+            raise FieldError("air", self.air, accepted)
         return self
 
     @property
