@@ -65,6 +65,11 @@ def path_csv(states: States) -> str:
     return text.getvalue()
 
 
+def counted(number: int, thing: str) -> str:
+    """Give a number with its noun: 1 impact, 2 impacts."""
+    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
+
+
 def as_lines(toss: Toss) -> str:
     """Give a toss as text for a person."""
     sequence, trusted = toss.sequence, toss.trusted_impacts
@@ -73,9 +78,9 @@ def as_lines(toss: Toss) -> str:
         f"engine    {toss.engine}",
         f"outcome   {toss.outcome.label}",
         f"ending    {toss.ending.label}: {toss.ending.sentence}",
-        f"end       {toss.end_time:.6f} s after {len(toss.impacts)} impacts",
+        f"end       {toss.end_time:.6f} s after {counted(len(toss.impacts), 'impact')}",
         f"sequence  {shown}",
-        f"trusted   the first {trusted} impacts" + ("" if trusted >= len(sequence) else " (before the bar)"),
+        f"trusted   {counted(trusted, 'impact')}" + ("" if trusted >= len(sequence) else ", before the bar"),
     ]
     lines += [f"contact   from {start:.6f} to {end:.6f} s" for start, end in toss.contacts]
     if len(toss.impacts):
