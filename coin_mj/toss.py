@@ -136,6 +136,7 @@ def toss(scenario: Scenario, stiffness: float = STIFFNESS) -> Toss:
     rules, machine = scenario.rules, machine_of(scenario, stiffness, shape_thickness(scenario))
     answer = run(machine, rules)
     machine.keep()
+    machine.set_contacts(False)  # from here on the model only samples flights
     impacts = Impacts.from_rows(answer.rows)
     spring = machine.spring
     return Toss(

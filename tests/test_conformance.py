@@ -134,6 +134,26 @@ def test_the_drops_of_fig_3_keep_attitude_until_they_land(engine, tilt):
     assert tossed.sequence == "H"
 
 
+@pytest.mark.parametrize("coin", [ZLOTY, {**ZLOTY, "thickness": 0.0}])
+@pytest.mark.parametrize("spin", [1.0, 20.0, 50.0])
+@pytest.mark.parametrize("angles", [[0.3, 0, 0], [0.3, np.pi, 0]])
+def test_a_flat_coin_that_spins_bounces_flat(engine, coin, spin, angles):
+    """Flat within rounding, at every angle about ζ: where a search for the lowest rim point meets nothing."""
+    release = {"angles": angles, "angular_velocity": [0, 0, spin], "velocity": [0.2, 0.1, 0]}
+    tossed = toss(engine, scenario(coin=coin, floor={"restitution": 0.5}, release=release, ending=FEW))
+    impacts = tossed.impacts
+    assert len(impacts) == 2
+    assert impacts.velocity_after[:, 2] / impacts.velocity_before[:, 2] == pytest.approx(
+        [-0.5, -0.5], abs=1e-4
+    )
+    assert impacts.velocity_after[:, :2] == pytest.approx(np.array([[0.2, 0.1]] * 2), abs=1e-9)
+    assert impacts.angular_velocity_after == pytest.approx(np.array([[0, 0, spin]] * 2), abs=1e-6 * spin)
+    turned = tossed.sample([tossed.end_time]).quaternion[0]
+    psi = 0.3 + spin * tossed.end_time * (1 if angles[1] == 0 else -1)
+    expected = scenario(release={"angles": [psi, angles[1], 0]}).release.attitude
+    assert abs(turned @ expected) == pytest.approx(1, abs=1e-9)
+
+
 def test_endings_are_named_alike(engine):
     assert toss(engine, scenario(ending={"max_time": 0.1})).ending == Ending.MAX_TIME
     assert toss(engine, scenario(ending={"max_impacts": 1})).ending == Ending.MAX_IMPACTS
