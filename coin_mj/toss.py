@@ -32,6 +32,9 @@ from models.scenario import Scenario
 HEAVY = 10
 """A touch-down is no impact when gravity alone gives its speed in so many half periods of the spring."""
 
+SOFTER = (10.0, 30.0, 100.0)
+"""How many times softer the contacts are that tell how far a toss can be trusted."""
+
 
 class Run(NamedTuple):
     """What the event loop gives for one toss."""
@@ -122,8 +125,8 @@ def toss(scenario: Scenario, stiffness: float = STIFFNESS) -> Toss:
     restitution; it lasts about π/√stiffness, in which the coin turns a little: the impulse differs from
     Newton's by a part that falls with 1/√stiffness.
 
-    `trusted_impacts` counts the leading impacts whose faces stay the same when the contact is ten times
-    softer, and that error about three times larger.
+    `trusted_impacts` counts the leading impacts whose faces stay the same when the contact is softer by each
+    of `SOFTER`, and that error three to ten times larger. It is an estimate, no bound.
 
     Args:
         scenario: what to toss.
@@ -164,15 +167,18 @@ def toss(scenario: Scenario, stiffness: float = STIFFNESS) -> Toss:
 
 
 def _trusted_impacts(scenario: Scenario, stiffness: float, impacts: Impacts) -> int:
-    """Count the leading impacts whose faces a coin shares that is further from the hard limit.
+    """Count the leading impacts whose faces all coins share that are further from the hard limit.
 
-    Its contact is ten times softer, and its shape ten times as thick where a thin coin's is made up.
+    Their contacts are softer by `SOFTER`, and their shapes ten times as thick where a thin coin's is made up.
     """
-    if len(impacts) == 0:
-        return 0
-    rules = scenario.rules._replace(max_impacts=len(impacts))
     thickness = scenario.coin.thickness or 10 * shape_thickness(scenario)
-    softer = Impacts.from_rows(run(machine_of(scenario, stiffness / 10, thickness), rules).rows)
-    n = min(len(impacts), len(softer))
-    same = impacts.face[:n] == softer.face[:n]
-    return n if same.all() else int(np.argmin(same))
+    trusted = len(impacts)
+    for part in SOFTER:
+        if trusted == 0:
+            break
+        rules = scenario.rules._replace(max_impacts=trusted)
+        softer = Impacts.from_rows(run(machine_of(scenario, stiffness / part, thickness), rules).rows)
+        n = min(trusted, len(softer))
+        same = impacts.face[:n] == softer.face[:n]
+        trusted = n if same.all() else int(np.argmin(same))
+    return trusted
