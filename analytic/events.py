@@ -123,13 +123,21 @@ def fly_and_hit(body, rules, y, rows, times, states):
             ending = Ending.MAX_TIME
             break
         if -closing_speed(body, y)[1] < smallest_flight(body, y)[1]:
-            ending = Ending.CHATTER
+            outcome, ending = decided(body, rules, y)
+            if ending == Ending.NONE:
+                ending = Ending.CHATTER
             break
         ending = hit(body, rules, y, rows[n])
         if ending != Ending.NONE:
             break
         rows[n].time = time
         n += 1
-        up = rotation_matrix(attitude_of(y))[2]
-        outcome, ending = judge(body, rules, y[2], velocity_of(y), up, spin_of(y))
+        outcome, ending = decided(body, rules, y)
     return n, outcome, ending, time
+
+
+@compiled
+def decided(body, rules, y):
+    """Give the outcome and the ending that `judge` gives of the state y, (13,)."""
+    up = rotation_matrix(attitude_of(y))[2]
+    return judge(body, rules, y[2], velocity_of(y), up, spin_of(y))

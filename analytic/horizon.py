@@ -3,26 +3,33 @@
 import numpy as np
 
 from analytic.events import run
+from analytic.rotation import quaternion_rate
+from models.attitude import rotation_matrix
 from models.body import Body, Rules
+from models.geometry import FLAT_SINE
 from models.records import Impacts
 
 RELEASE_ERROR = 3e-12
-"""Relative displacement of a shadow's height, speed and spins at release; above the integration's error."""
+"""Displacement of a shadow's height, speed, spins (relative) and tilt at release; above the integration's
+error."""
+LOW_HOP = 1e-8
+"""A flight no higher than this part of the radius ends the trust: its touch is known only to `TOUCH`, an
+error that all shadows share."""
 TIME_ERROR = 1e-7
 """Within the horizon no shadow differs by more in the time of an impact [s]."""
 IMPULSE_ERROR = 1e-5
 """Within the horizon no shadow differs by more in an impulse, relative."""
 
-# Three directions at right angles to each other and their opposites: signs of the displacement of the
-# height, the vertical velocity and the components of the angular velocity.
+# Three directions and their opposites: signs of the displacement of the height, the vertical velocity, the
+# components of the angular velocity, and the tilt.
 _SIGNS = np.array(
     [
-        [+1, +1, +1, +1, +1],
-        [+1, -1, +1, -1, +1],
-        [+1, +1, -1, -1, +1],
-        [-1, -1, -1, -1, -1],
-        [-1, +1, -1, +1, -1],
-        [-1, -1, +1, +1, -1],
+        [+1, +1, +1, +1, +1, +1],
+        [+1, -1, +1, -1, +1, -1],
+        [+1, +1, -1, -1, +1, -1],
+        [-1, -1, -1, -1, -1, -1],
+        [-1, +1, -1, +1, -1, +1],
+        [-1, -1, +1, +1, -1, +1],
     ]
 )
 
@@ -41,15 +48,33 @@ def trusted_impacts(body: Body, rules: Rules, start: np.ndarray, impacts: Impact
     speed = (body.gravity * max(start[2], body.radius)) ** 0.5 + abs(start[5])
     # A spin component that is zero keeps its zero: symmetric motions stay symmetric in rounding too.
     sizes = RELEASE_ERROR * np.array([max(start[2], body.radius), speed, *np.abs(start[10:13])])
-    trusted = len(impacts)
+    trusted = before_a_low_hop(body, impacts)
     for signs in _SIGNS:
         shadow_start = start.copy()
-        shadow_start[[2, 5, 10, 11, 12]] += signs * sizes
+        shadow_start[[2, 5, 10, 11, 12]] += signs[:5] * sizes
+        shadow_start[6:10] = tilted(shadow_start[6:10], signs[5] * RELEASE_ERROR)
         shadow = Impacts.from_rows(run(body, rules._replace(max_impacts=trusted), shadow_start).rows)
         trusted = agreeing_impacts(impacts, shadow)
         if trusted == 0:
             break
     return trusted
+
+
+def tilted(e: np.ndarray, angle: float) -> np.ndarray:
+    """Turn the attitude e, (4,), about the horizontal axis across the normal; a flat coin stays flat."""
+    up = rotation_matrix(e)[2]
+    sine = np.hypot(up[0], up[1])
+    if sine <= FLAT_SINE:
+        return e
+    turn = angle * np.array(quaternion_rate(e, (-up[1] / sine, up[0] / sine, 0.0)))
+    return (e + turn) / np.linalg.norm(e + turn)
+
+
+def before_a_low_hop(body: Body, impacts: Impacts) -> int:
+    """Count the leading impacts up to the first flight no higher than `LOW_HOP` r."""
+    hops = impacts.contact_velocity_after[:-1, 2] * np.diff(impacts.time)
+    low = hops < LOW_HOP * body.radius
+    return int(np.argmax(low)) + 1 if low.any() else len(impacts)
 
 
 def agreeing_impacts(a: Impacts, b: Impacts) -> int:

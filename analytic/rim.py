@@ -15,12 +15,14 @@ from analytic.flight import (
 )
 from models.attitude import rotation_matrix
 from models.compiled import compiled
-from models.geometry import acceleration_bounds, clear_time, contact_velocity, gap, lowest_point
+from models.geometry import clear_time, contact_velocity, gap, grazing_time, lowest_point
 
 # A gap below this part of the radius is zero within rounding.
 TOUCH = 1e-14
-# The coin may sink by at most this part of the radius in a step forced at a grazing point.
+# In a step forced at a grazing point, each of three causes may lower the gap by this part of the radius.
 SINK = 1e-13
+# Time of flight has no finer step than this part of it.
+TIME_STEP = 2.3e-16
 
 
 @compiled
@@ -44,16 +46,16 @@ def clear(body, y, window):
 def smallest_flight(body, y):
     """Give the time and the speed of a flight too low to be told from contact.
 
-    A point accelerated down by at most A sinks by no more than `SINK` r in the time √(2 SINK r/A), and it
-    reaches at most half the speed √(8 SINK r A).
+    The time is that in which a touching coin hardly sinks. A flight that starts with the speed v lasts at
+    least 2 v/A, A the largest acceleration of the gap: it outlasts that time at √(8 SINK r A).
 
     Returns:
         Time [s] and speed [m/s].
     """
-    of_height, of_normal = acceleration_bounds(body, velocity_of(y), spin_of(y), 0.0)
-    acceleration = of_height + body.radius * of_normal
+    up = rotation_matrix(attitude_of(y))[2]
     sink = SINK * body.radius
-    return (2 * sink / acceleration) ** 0.5, (8 * sink * acceleration) ** 0.5
+    time, acceleration = grazing_time(body, velocity_of(y), up, spin_of(y), sink)
+    return time, (8 * sink * acceleration) ** 0.5
 
 
 @compiled
@@ -73,10 +75,9 @@ def fly(body, y, longest):
     """
     stages = np.empty((STAGES, STATE_SIZE))
     y_end, y_near = np.empty(STATE_SIZE), np.empty(STATE_SIZE)
-    smallest_time, smallest_speed = smallest_flight(body, y)
     elapsed, dt = 0.0, first_step(body, y)
     # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch at once.
-    touching_speed = -smallest_speed
+    touching_speed = -smallest_flight(body, y)[1]
     while elapsed < longest:
         made, dt = accepted_step(body, y, min(dt, longest - elapsed), stages, y_end)
         y_near[:] = y
@@ -89,7 +90,7 @@ def fly(body, y, longest):
                 if speed < touching_speed:
                     y[:] = y_near
                     return elapsed + inside, True
-                ahead = max(ahead, smallest_time)
+                ahead = max(ahead, smallest_flight(body, y_near)[0], TIME_STEP * inside)
             touching_speed = 0.0
             inside += ahead
             if inside < made:

@@ -13,9 +13,9 @@ import mujoco
 import numpy as np
 
 from coin_mj.contact import Spring, spring_of
-from coin_mj.scene import build
+from coin_mj.scene import build, floor_height
 from coin_mj.state import of_release, to_mass_center
-from coin_mj.stepping import outlook
+from coin_mj.stepping import Outlook, outlook
 from models.attitude import rotation_matrix
 from models.body import Body
 from models.records import Array, States
@@ -52,6 +52,8 @@ class Machine:
     body: Body
     shape: Body
     """The body with the thickness of its shape."""
+    floor: float
+    """Height of MuJoCo's floor [m]."""
     spring: Spring
     knots: list[Knot] = field(default_factory=list)
 
@@ -79,6 +81,10 @@ class Machine:
         """Give position and velocity of C (space), Euler parameters and angular velocity (body)."""
         return to_mass_center(self.body, self.data.qpos, self.data.qvel)
 
+    def outlook(self) -> Outlook:
+        """Look at the present state."""
+        return outlook(self.shape, self.floor, self.data.qpos, self.data.qvel)
+
     @property
     def contact_step(self) -> float:
         """Length of a step in contact [s]."""
@@ -98,11 +104,11 @@ class Knots:
     knots: tuple[Knot, ...]
 
     def sample(self, times: Array) -> States:
-        """Give the states at `times` [s], in the order of `times`."""
+        """Give the states at `times` [s], in the order of `times`; at an impact, that at first touch."""
         data = mujoco.MjData(self.model)
         before = np.searchsorted([knot.time for knot in self.knots], times, side="right") - 1
-        rows = []
-        for time, number in zip(times, before, strict=True):
+        rows = np.empty((len(times), 13))
+        for row, time, number in zip(rows, times, before, strict=True):
             knot = self.knots[number]
             data.qpos[:], data.qvel[:] = knot.qpos, knot.qvel
             if time > knot.time and knot.pressed:
@@ -114,8 +120,8 @@ class Knots:
             elif time > knot.time:
                 mujoco.mj_forward(self.model, data)
                 _advance(self.model, data, time - knot.time)
-            rows.append(to_mass_center(self.body, data.qpos, data.qvel))
-        x, v, e, w = (np.array(column) for column in zip(*rows, strict=True))
+            row[:] = np.concatenate(to_mass_center(self.body, data.qpos, data.qvel))
+        x, v, e, w = (part.copy() for part in np.split(rows, (3, 6, 10), axis=1))
         return States(time=times.copy(), position=x, velocity=v, quaternion=e, angular_velocity=w)
 
 
@@ -126,7 +132,8 @@ def machine_of(scenario: Scenario, stiffness: float, thickness: float) -> Machin
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = of_release(body, scenario.release)
     shape = body._replace(thickness=thickness)
-    return Machine(model=model, data=data, body=body, shape=shape, spring=spring)
+    floor = floor_height(scenario, thickness)
+    return Machine(model=model, data=data, body=body, shape=shape, floor=floor, spring=spring)
 
 
 def _advance(model: mujoco.MjModel, data: mujoco.MjData, dt: float) -> None:
@@ -144,7 +151,7 @@ def fly(machine: Machine, max_time: float) -> bool:
     machine.set_contacts(False)
     while data.time < max_time:
         machine.forward()
-        look = outlook(machine.shape, data.qpos, data.qvel)
+        look = machine.outlook()
         if look.clear < smallest and look.speed < 0:
             machine.set_contacts(True)
             return True
@@ -235,7 +242,7 @@ def _press(machine: Machine) -> Contact | None:
         if force == 0:
             if pressed:
                 return Contact(start, data.time, _momentum(machine) - momentum - other, lasts=False)
-            if outlook(machine.shape, data.qpos, data.qvel).speed >= 0:
+            if machine.outlook().speed >= 0:
                 return None
         # Tiny steps up to the spring's onset, so that it falls between two steps, not into one.
         dt = machine.contact_step * (1.0 if force > 0 else TOUCH_STEP)

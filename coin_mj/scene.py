@@ -12,7 +12,7 @@ from coin_mj.contact import Spring
 from models.drag import linear_drag
 from models.scenario import Scenario
 
-THIN_SHAPE = 1e-4
+THIN_SHAPE = 1e-6
 """Thickness of the shape of a thin coin (h = 0), in radii; its inertia stays the scenario's."""
 # A thin coin's inertia lies on the triangle equality, which MuJoCo refuses where rounding breaks it.
 INERTIA_WIDENED = 1e-12
@@ -21,6 +21,15 @@ INERTIA_WIDENED = 1e-12
 def shape_thickness(scenario: Scenario) -> float:
     """Give the thickness of the coin's shape [m]."""
     return scenario.coin.thickness or THIN_SHAPE * scenario.coin.radius
+
+
+def floor_height(scenario: Scenario, thickness: float) -> float:
+    """Give the height of MuJoCo's floor [m], for a shape of `thickness` [m].
+
+    It lies lower by what the shape of a thin coin adds below it: a coin that is above the scenario's floor
+    is above MuJoCo's, and a thin coin that lies flat on the one lies flat on the other.
+    """
+    return (scenario.coin.thickness - thickness) / 2
 
 
 def build(scenario: Scenario, spring: Spring, thickness: float) -> mujoco.MjModel:
@@ -35,9 +44,15 @@ def build(scenario: Scenario, spring: Spring, thickness: float) -> mujoco.MjMode
         The model, with RK4 and a frictionless contact.
     """
     spec = _described(scenario, thickness)
+    spec.geom("floor").pos = (0.0, 0.0, floor_height(scenario, thickness))
     spec.geom("coin").solref = (-spring.stiffness, -spring.damping)
     _set_drag(spec, scenario)
-    return spec.compile()
+    model = spec.compile()
+    # MuJoCo's compiler takes two frames less than a micrometre apart for one.
+    apart = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
+    model.geom("floor").sameframe[:] = apart
+    model.body("coin").sameframe[:] = apart
+    return model
 
 
 def build_painted(scenario: Scenario, span: float) -> mujoco.MjModel:

@@ -24,17 +24,19 @@ class Outlook(NamedTuple):
 
 
 @compiled
-def outlook(body, qpos, qvel):
+def outlook(shape, floor, qpos, qvel):
     """Look at a state of the coin.
 
     Args:
-        body: the coin, with the thickness of its shape.
+        shape: the coin, with the thickness of its shape.
+        floor: height of the floor below the shape [m].
         qpos: of the free joint, (7,).
         qvel: of the free joint, (6,).
     """
-    x, v, e, w = to_mass_center(body, qpos, qvel)
+    x, v, e, w = to_mass_center(shape, qpos, qvel)
     R = rotation_matrix(e)
-    point, flat = lowest_point(body, R[2], w)
-    speed = v[2] if flat else contact_velocity(body, R, v, w, point)[2]
-    longest = FLIGHT_ANGLE / (norm(w) + (body.gravity / body.radius) ** 0.5)
-    return Outlook(gap(body, x[2], R[2]), speed, clear_time(body, x[2], v, R[2], w, longest))
+    z = x[2] - floor
+    point, flat = lowest_point(shape, R[2], w)
+    speed = v[2] if flat else contact_velocity(shape, R, v, w, point)[2]
+    longest = FLIGHT_ANGLE / (norm(w) + (shape.gravity / shape.radius) ** 0.5)
+    return Outlook(gap(shape, z, R[2]), speed, clear_time(shape, z, v, R[2], w, longest))

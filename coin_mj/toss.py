@@ -11,7 +11,7 @@ import numpy as np
 from coin_mj.contact import STIFFNESS
 from coin_mj.machine import STEPS_PER_CONTACT, Contact, Knots, Machine, fly, machine_of, press
 from coin_mj.scene import shape_thickness
-from coin_mj.stepping import FLIGHT_ANGLE, outlook
+from coin_mj.stepping import FLIGHT_ANGLE
 from models.attitude import rotation_matrix
 from models.body import Rules
 from models.ending import energy, face_up, judge
@@ -32,8 +32,10 @@ from models.scenario import Scenario
 HEAVY = 10
 """A touch-down is no impact when gravity alone gives its speed in so many half periods of the spring."""
 
-SOFTER = (10.0, 30.0, 100.0)
+SOFTER = (10.0, 30.0)
 """How many times softer the contacts are that tell how far a toss can be trusted."""
+IMPULSE_CHANGE = 0.03
+"""Within the horizon no softer contact changes an impulse by more than this part."""
 
 
 class Run(NamedTuple):
@@ -49,17 +51,17 @@ class Run(NamedTuple):
 
 def run(machine: Machine, rules: Rules) -> Run:
     """Toss the coin from its present state until the toss is decided."""
-    body, rows = machine.body, []
+    rows: list[np.ndarray] = []
     contacts: list[tuple[float, float]] = []
     outcome, ending = Outcome.UNDECIDED, Ending.NONE
-    heavy = HEAVY * body.gravity * machine.spring.duration
+    heavy = HEAVY * machine.body.gravity * machine.spring.duration
     while ending == Ending.NONE:
         if len(rows) == rules.max_impacts:
             ending = Ending.MAX_IMPACTS
         elif not fly(machine, rules.max_time):
             ending = Ending.MAX_TIME
-        elif -outlook(machine.shape, machine.data.qpos, machine.data.qvel).speed < heavy:
-            ending = Ending.CHATTER
+        elif -machine.outlook().speed < heavy:
+            outcome, ending = _at_rest(machine, rules)
         else:
             touch = machine.state()
             contact = press(machine)
@@ -67,14 +69,25 @@ def run(machine: Machine, rules: Rules) -> Run:
                 continue
             if contact.lasts:
                 contacts.append((contact.start, contact.end))
-                ending = Ending.CHATTER
+                outcome, ending = _at_rest(machine, rules)
                 continue
             rows.append(_row(machine, contact, touch))
-            x, v, e, w = machine.state()
-            outcome, ending = judge(body, rules, x[2], v, rotation_matrix(e)[2], w)
+            outcome, ending = _decided(machine, rules)
     return Run(
         np.concatenate(rows) if rows else np.zeros(0, IMPACT_ROW), contacts, Outcome(outcome), Ending(ending)
     )
+
+
+def _decided(machine: Machine, rules: Rules) -> tuple[Outcome, Ending]:
+    """Judge the present state."""
+    x, v, e, w = machine.state()
+    return judge(machine.body, rules, x[2], v, rotation_matrix(e)[2], w)
+
+
+def _at_rest(machine: Machine, rules: Rules) -> tuple[Outcome, Ending]:
+    """Judge a coin that stays in contact: what is not decided ends as chatter."""
+    outcome, ending = _decided(machine, rules)
+    return outcome, Ending.CHATTER if ending == Ending.NONE else ending
 
 
 def _row(machine: Machine, contact: Contact, touch: tuple[Array, Array, Array, Array]) -> np.ndarray:
@@ -125,8 +138,9 @@ def toss(scenario: Scenario, stiffness: float = STIFFNESS) -> Toss:
     restitution; it lasts about π/√stiffness, in which the coin turns a little: the impulse differs from
     Newton's by a part that falls with 1/√stiffness.
 
-    `trusted_impacts` counts the leading impacts whose faces stay the same when the contact is softer by each
-    of `SOFTER`, and that error three to ten times larger. It is an estimate, no bound.
+    `trusted_impacts` counts the leading impacts that keep their faces, and their impulses to
+    `IMPULSE_CHANGE`, when the contact is softer by each of `SOFTER`: that error is then three and five times
+    larger. It is an estimate, no bound.
 
     Args:
         scenario: what to toss.
@@ -167,18 +181,21 @@ def toss(scenario: Scenario, stiffness: float = STIFFNESS) -> Toss:
 
 
 def _trusted_impacts(scenario: Scenario, stiffness: float, impacts: Impacts) -> int:
-    """Count the leading impacts whose faces all coins share that are further from the hard limit.
+    """Count the leading impacts that all coins share that are further from the hard limit.
 
     Their contacts are softer by `SOFTER`, and their shapes ten times as thick where a thin coin's is made up.
     """
     thickness = scenario.coin.thickness or 10 * shape_thickness(scenario)
     trusted = len(impacts)
     for part in SOFTER:
-        if trusted == 0:
-            break
         rules = scenario.rules._replace(max_impacts=trusted)
         softer = Impacts.from_rows(run(machine_of(scenario, stiffness / part, thickness), rules).rows)
         n = min(trusted, len(softer))
-        same = impacts.face[:n] == softer.face[:n]
-        trusted = n if same.all() else int(np.argmin(same))
+        change = np.linalg.norm(softer.impulse[:n] - impacts.impulse[:n], axis=1)
+        agrees = (impacts.face[:n] == softer.face[:n]) & (
+            change <= IMPULSE_CHANGE * np.linalg.norm(impacts.impulse[:n], axis=1)
+        )
+        trusted = n if agrees.all() else int(np.argmin(agrees))
+        if trusted == 0:
+            break
     return trusted

@@ -4,13 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from coin_mj.scene import shape_thickness
 from compare.engines import Engine, toss
 from compare.impulses import Differences, errors_of_impacts, match
 from compare.sequences import agreement_horizon, common_prefix
 from compare.trajectories import attitude_angle, distance, parting_time
 from models.records import Array, Toss, UnsupportedError
-from models.scenario import Scenario, vector
+from models.scenario import Scenario
 
 TIMES = 2400
 PARTED = 0.1
@@ -51,8 +50,8 @@ class Comparison:
     errors: Array
     """Relative error of each of MuJoCo's impulses: see `errors_of_impacts`, (n,)."""
     horizon: int
-    """Leading symbols that must agree: within MuJoCo's own horizon, and within those of its errors and of its
-    shape in the paper's mechanics."""
+    """Leading symbols that must agree: within MuJoCo's own horizon, and within that of its errors in the
+    paper's mechanics."""
 
     def __post_init__(self) -> None:
         """Make the array read-only."""
@@ -82,20 +81,7 @@ def compare(scenario: Scenario) -> Comparison | tuple[Toss, str]:
         together=_together(a, b),
         common_prefix=common_prefix(a.sequence, b.sequence),
         errors=errors,
-        horizon=min(b.trusted_impacts, agreement_horizon(a, errors), _shape_horizon(a)),
-    )
-
-
-def _shape_horizon(a: Toss) -> int:
-    """Count the leading symbols that the paper's mechanics keeps for a coin as thick as MuJoCo's shape."""
-    coin = a.scenario.coin
-    thickness = shape_thickness(a.scenario)
-    if thickness == coin.thickness:
-        return len(a.impacts)
-    first, second, third = (vector(row) for row in coin.inertia_about_C)
-    thick = coin.model_copy(update={"thickness": thickness, "inertia": (first, second, third)})
-    return common_prefix(
-        a.sequence, toss(Engine.ANALYTIC, a.scenario.model_copy(update={"coin": thick})).sequence
+        horizon=min(b.trusted_impacts, agreement_horizon(a, errors)),
     )
 
 

@@ -38,8 +38,9 @@ def gap(body, z, up):
 def lowest_point(body, up, w):
     """Give the point of the coin that is lowest, or about to be.
 
-    On the rim, unless a face lies flat. The whole rim of a flat face is lowest: if the coin turns, the
-    point that moves down fastest is given; if it does not, the point of the face under C.
+    On the rim, unless a face lies flat or the coin stands on its edge. The whole rim of a flat face is
+    lowest: if the coin turns, the point that moves down fastest is given; if it does not, the point of the
+    face under C. Likewise for the line on which a thick coin stands.
 
     Args:
         body: the coin.
@@ -54,7 +55,11 @@ def lowest_point(body, up, w):
     side = -1.0 if up[2] > 0 else 1.0
     tilt_sine = (up[0] * up[0] + up[1] * up[1]) ** 0.5
     if tilt_sine > FLAT_SINE:
-        return (-r * up[0] / tilt_sine, -r * up[1] / tilt_sine, side * half), False
+        along = side * half
+        if abs(up[2]) < FLAT_SINE:
+            normal_rate = up[0] * w[1] - up[1] * w[0]
+            along = body.center[2] if normal_rate == 0 else half if normal_rate < 0 else -half
+        return (-r * up[0] / tilt_sine, -r * up[1] / tilt_sine, along), False
     turning = (w[0] * w[0] + w[1] * w[1]) ** 0.5
     if turning > 0:
         return (-side * r * w[1] / turning, side * r * w[0] / turning, side * half), False
@@ -157,6 +162,45 @@ def clear_time(body, z, v, up, w, window):
         else:
             clear = 0.0
     return clear
+
+
+@compiled
+def grazing_time(body, v, up, w, sink):
+    """Give a time within which a coin that touches, but whose lowest point does not move down, hardly sinks.
+
+    With q the height of the lower face's centre and p the horizontal part of the normal, |p| the sine of the
+    tilt, the gap is q - r |p|. Beside the accelerations, two kinks lower it: as p passes 0 the opposite side
+    of the rim becomes the lowest, as n_z passes 0 the other face does.
+
+    Args:
+        body: the coin.
+        v: velocity of C, space frame, (3,) [m/s].
+        up: the upward unit vector in the body frame, Rᵀ z, (3,).
+        w: angular velocity, body frame, (3,) [rad/s].
+        sink: by how much each of the three may lower the gap [m].
+
+    Returns:
+        time: the time [s].
+        acceleration: the largest downward acceleration of the gap in it, but for the passing of 0 [m/s²].
+    """
+    of_height, of_normal = acceleration_bounds(body, v, w, 0.0)
+    acceleration = of_height + body.radius * of_normal
+    time = (2 * sink / acceleration) ** 0.5
+    tilt_sine = (up[0] * up[0] + up[1] * up[1]) ** 0.5
+    up_rate = cross(up, w)
+    if tilt_sine > FLAT_SINE:
+        # |p + ṗ t| exceeds |p| + |p|' t by at most sink/r up to the root of a quadratic.
+        rate = (up[0] * up_rate[0] + up[1] * up_rate[1]) / tilt_sine
+        turning = (up[0] * w[0] + up[1] * w[1]) / tilt_sine
+        acceleration += body.radius * turning * turning / tilt_sine
+        part = sink / body.radius
+        room = (2 * tilt_sine + part) * part
+        divisor = ((part * rate) ** 2 + turning * turning * room) ** 0.5 - part * rate
+        if divisor > 0:
+            time = min(time, room / divisor)
+    if up[2] * up_rate[2] < 0 and body.thickness > 0:
+        time = min(time, (abs(up[2]) + sink / body.thickness) / abs(up_rate[2]))
+    return time, acceleration
 
 
 @compiled

@@ -228,15 +228,18 @@ class Toss:
     def sample(self, times: ArrayLike) -> States:
         """Give the coin's states at `times`.
 
-        At the time of an impact the state after it is given.
+        At the time of an impact the analytic engine gives the state after it; MuJoCo, in which a contact
+        takes time, gives the state at first touch.
 
         Args:
-            times: (n,), each from 0 to `end_time` [s].
+            times: one time, or (n,), each from 0 to `end_time` [s].
 
         Raises:
-            ValueError: for a time outside the toss.
+            ValueError: for a time outside the toss, or times in more than one dimension.
         """
         t = np.atleast_1d(np.array(times, dtype=float))
+        if t.ndim != 1:
+            raise ValueError(f"times: shape {t.shape}, accepted: (n,)")
         outside = t[~((t >= 0) & (t <= self.end_time))]
         if outside.size:
             raise ValueError(f"times: {outside[0]} s is outside the toss, from 0 to {self.end_time} s")

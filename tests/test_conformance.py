@@ -163,6 +163,44 @@ def test_endings_are_named_alike(engine):
     assert (tails.ending, tails.outcome) == (Ending.SETTLED, Outcome.TAILS)
 
 
+def test_a_coin_at_rest_on_the_floor_is_settled(engine):
+    for thickness in (0.0, 2e-3):
+        coin, release = {**ZLOTY, "thickness": thickness}, {"position": [0, 0, thickness / 2]}
+        tossed = toss(engine, scenario(coin=coin, release=release))
+        assert (tossed.ending, tossed.outcome) == (Ending.SETTLED, Outcome.HEADS)
+        assert len(tossed.impacts) == 0
+
+
+def test_a_thin_coin_thrown_down_from_the_floor_rebounds_as_newton_says(engine):
+    """At a gap of nothing the made-up thickness of MuJoCo's shape must not be in the floor."""
+    tilt, r = 0.5, 1.25e-2
+    tossed = toss(
+        engine,
+        scenario(
+            coin={**ZLOTY, "thickness": 0.0},
+            release={
+                "position": [0, 0, r * np.sin(tilt)],
+                "angles": [0, tilt, 0],
+                "velocity": [0, 0, -0.5],
+            },
+            ending={"max_impacts": 1},
+        ),
+    )
+    # K_zz = 1/m + (r cos s)^2/J, J = m r^2/4.
+    expected = 1.8 * 0.5 * 2e-3 / (1 + 4 * np.cos(tilt) ** 2)
+    assert tossed.impacts.impulse[0, 2] == pytest.approx(expected, rel=1e-4)
+    assert tossed.impacts.time[0] == pytest.approx(0, abs=1e-8)
+
+
+def test_samples_of_no_times_are_empty_and_a_table_of_times_is_refused(engine):
+    tossed = toss(engine, scenario(ending={"max_impacts": 1}))
+    nothing = tossed.sample([])
+    assert nothing.position.shape == (0, 3)
+    assert nothing.quaternion.shape == (0, 4)
+    with pytest.raises(ValueError, match=r"shape \(1, 2\)"):
+        tossed.sample([[0.0, 0.1]])
+
+
 def test_tosses_are_reproducible_to_the_bit(engine):
     case = scenario(coin=IMPERFECT, air=AIR, release=TUMBLING, ending={"max_impacts": 4})
     a, b = toss(engine, case), toss(engine, case)

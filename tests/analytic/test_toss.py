@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import analytic
+from analytic.horizon import LOW_HOP
 from models.attitude import rotation_matrix
 from models.geometry import gap
 from models.records import Ending, Outcome, UnsupportedError
@@ -50,10 +51,11 @@ def test_a_ball_like_drop_rebounds_as_newton_says():
     assert tossed.sequence == "H" * n
 
 
-def test_no_recorded_or_sampled_state_is_below_the_floor():
+@pytest.mark.parametrize("chi", [0.0, 0.01, 0.3, 0.8])
+def test_no_recorded_or_sampled_state_is_below_the_floor(chi):
     rng = np.random.default_rng(21)
     for _ in range(40):
-        case = scenario(coin=draw_coin(rng), air=AIR, release=draw_release(rng))
+        case = scenario(coin=draw_coin(rng), air=AIR, floor={"restitution": chi}, release=draw_release(rng))
         tossed, body = analytic.toss(case), case.body
         times = np.concatenate(
             [np.linspace(0, tossed.end_time, 300), tossed.impacts.time, np.nextafter(tossed.impacts.time, 0)]
@@ -73,6 +75,35 @@ def test_no_recorded_or_sampled_state_is_below_the_floor():
         assert np.abs(touching).max() < 1e-12 * case.coin.radius
 
 
+@pytest.mark.parametrize(
+    ("chi", "release"),
+    [
+        (0.6, {"position": [0, 0, 0.166], "angles": [0, 2.54, 0], "angular_velocity": [12, -2, 35]}),
+        (0.0, {"position": [0, 0, 0.3], "angles": [0.1, 0.4, 0.2], "angular_velocity": [40, 5, 3]}),
+        (0.01, {"position": [0, 0, 0.3], "angles": [0.1, 0.4, 0.2], "angular_velocity": [40, 5, 3]}),
+    ],
+)
+def test_impacts_that_crowd_together_end_as_chatter(chi, release):
+    """Nearly flat, the rim turns under the coin: the gap then falls much faster than any point of it."""
+    tossed = analytic.toss(scenario(floor={"restitution": chi}, release=release))
+    assert tossed.ending == Ending.CHATTER
+    assert len(tossed.impacts) < 60
+    assert tossed.impacts.contact_velocity_before[:, 2].max() < 0
+
+
+def test_no_impact_after_a_hop_too_low_to_measure_is_trusted():
+    tossed = analytic.toss(
+        scenario(
+            floor={"restitution": 0.1},
+            release={"position": [0, 0, 0.3], "angles": [0.1, 0.4, 0.2], "angular_velocity": [40, 5, 3]},
+        )
+    )
+    hops = tossed.impacts.contact_velocity_after[:-1, 2] * np.diff(tossed.impacts.time)
+    low = np.flatnonzero(hops < LOW_HOP * 1.25e-2)
+    assert low.size > 0
+    assert tossed.trusted_impacts <= low[0] + 1
+
+
 def test_the_first_contact_is_the_first():
     rng = np.random.default_rng(22)
     for _ in range(30):
@@ -85,6 +116,19 @@ def test_the_first_contact_is_the_first():
                 gap(body, x[2], rotation_matrix(tuple(e))[2]) > 0
                 for x, e in zip(states.position, states.quaternion, strict=True)
             )
+
+
+@pytest.mark.parametrize("angular_velocity", [[0, 0, 0], [0, 0, 30.0]])
+def test_a_coin_exactly_on_its_edge_lands_on_a_line(angular_velocity):
+    """Half a turn of e keeps n_z at exactly 0; the impulse goes through C and leaves the spin alone."""
+    release = {"quaternion": [0.5, 0.5, 0.5, 0.5], "angular_velocity": angular_velocity}
+    tossed = analytic.toss(scenario(release=release, ending={"max_impacts": 1}))
+    assert tossed.impacts.point[0, 2] == 0
+    assert tossed.impacts.impulse[0, 2] == pytest.approx(
+        -1.8 * 2e-3 * tossed.impacts.velocity_before[0, 2], rel=1e-12
+    )
+    assert tossed.impacts.angular_velocity_after[0] == pytest.approx(angular_velocity, abs=1e-10)
+    assert tossed.trusted_impacts == 0
 
 
 def test_a_touch_is_found_where_time_has_no_finer_step():

@@ -51,6 +51,45 @@ def test_first_impacts_meet_newtons_impulse():
     assert max(errors) < 4e-4
 
 
+def test_a_thin_coin_that_comes_slowly_and_spins_fast_meets_newtons_impulse():
+    """The slower the approach, the more the made-up thickness of the shape shifts the touch."""
+    rng = np.random.default_rng(44)
+    errors = []
+    while len(errors) < 40:
+        case = scenario(
+            coin={**ZLOTY, "thickness": 0.0},
+            release={
+                **draw_release(rng, spin=100),
+                "position": [0, 0, rng.uniform(0.013, 0.03)],
+                "velocity": [0, 0, 0],
+            },
+            ending={"max_impacts": 2},
+        )
+        newton = analytic.toss(case).impacts
+        if newton.contact_velocity_before[0, 2] > -0.1 or np.any(np.diff(newton.time) < DOUBLE):
+            continue
+        errors.append(match(newton, first_impact(case)).impulse[0])
+    assert max(errors) < 1e-3
+
+
+def test_faces_within_both_engines_trust_agree():
+    rng = np.random.default_rng(45)
+    trusted = 0
+    for _ in range(25):
+        case = scenario(
+            coin=draw_coin(rng),
+            floor={"restitution": float(rng.uniform(0.4, 0.9))},
+            release=draw_release(rng),
+            ending={"max_impacts": 12},
+        )
+        a, b = analytic.toss(case), toss(case)
+        n = min(a.trusted_impacts, b.trusted_impacts)
+        assert a.sequence[:n] == b.sequence[:n]
+        assert match(a.impacts, b.impacts).impulse[:n].max(initial=0) < 0.1
+        trusted += n
+    assert trusted > 75
+
+
 def test_the_error_falls_with_the_root_of_the_stiffness():
     rng = np.random.default_rng(42)
     stiffnesses = np.array([1e9, 1e10, 1e11, 1e12])

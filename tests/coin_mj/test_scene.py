@@ -38,7 +38,27 @@ def test_every_thin_coin_compiles():
     for _ in range(100):
         c = [*rng.uniform(-4e-3, 4e-3, 2), 0]
         model = built(scenario(coin={**ZLOTY, "thickness": 0.0, "center_of_mass": c}))
-        assert model.geom("coin").size[1] == pytest.approx(0.5e-4 * 1.25e-2, rel=1e-12)
+        assert model.geom("coin").size[1] == pytest.approx(0.5e-6 * 1.25e-2, rel=1e-12)
+
+
+@pytest.mark.parametrize("thickness", [0.0, 2e-3])
+def test_a_flat_coin_lies_on_mujocos_floor_where_it_lies_on_the_scenarios(thickness):
+    """A frame less than a micrometre off must be kept apart."""
+    model = built(scenario(coin={**ZLOTY, "thickness": thickness}))
+    data = mujoco.MjData(model)
+    data.qpos[2] = thickness / 2
+    mujoco.mj_forward(model, data)
+    lowest = data.geom("coin").xpos[2] - model.geom("coin").size[1]
+    assert lowest - data.geom("floor").xpos[2] == pytest.approx(0, abs=1e-16)
+    assert bool(data.geom("floor").xpos[2] < 0) is (thickness == 0)
+
+
+def test_a_mass_center_less_than_a_micrometre_off_is_kept():
+    """A rod's inertia is in MuJoCo's order already, so nothing else parts the two frames."""
+    model = built(scenario(coin={**ZLOTY, "thickness": 5e-2, "center_of_mass": [0, 0, 5e-7]}))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    assert data.body("coin").xipos[2] - data.body("coin").xpos[2] == pytest.approx(5e-7, abs=1e-15)
 
 
 def test_only_the_painted_model_has_paint():

@@ -7,7 +7,14 @@ from hypothesis import strategies as st
 
 import analytic
 from models.attitude import rotation_matrix
-from models.geometry import acceleration_bounds, clear_time, contact_velocity, gap, lowest_point
+from models.geometry import (
+    acceleration_bounds,
+    clear_time,
+    contact_velocity,
+    gap,
+    grazing_time,
+    lowest_point,
+)
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
 
 IMPERFECT = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}).body
@@ -100,3 +107,36 @@ def test_accelerations_stay_within_their_bounds(seed):
         axis_point = np.array([0, 0, side * body.thickness / 2]) - body.center
         height = states.position[:, 2] + R[:, 2] @ axis_point
         assert (-np.diff(height, 2) / dt**2).max() <= of_height + 1e-4
+
+
+@pytest.mark.parametrize("tilt", [1e-9, 1e-6, 1e-3, 0.3, np.pi / 2 - 1e-3, np.pi / 2 - 1e-9])
+@pytest.mark.parametrize("seed", range(5))
+def test_a_grazing_coin_hardly_sinks_in_its_grazing_time(tilt, seed):
+    """The coin touches and its lowest point is at rest; its gap is sampled from a flight 1 m higher up."""
+    rng = np.random.default_rng(seed)
+    body = scenario().body
+    w, sink = rng.uniform(-50, 50, 3), 1e-6 * body.radius
+    psi = rng.uniform(0, 2 * np.pi)
+    case = scenario(release={"angles": [psi, tilt, rng.uniform(0, 6)]})
+    R = np.array(rotation_matrix(case.release.attitude))
+    point, _ = lowest_point(body, tuple(R[2]), tuple(w))
+    speed = -contact_velocity(body, tuple(map(tuple, R)), (0.0, 0.0, 0.0), tuple(w), point)[2]
+    time, _ = grazing_time(body, (0.0, 0.0, speed), tuple(R[2]), tuple(w), sink)
+    assert time > 0
+    start = -gap(body, 0.0, tuple(R[2]))
+    case = scenario(
+        release={
+            "position": [0, 0, start + 1],
+            "velocity": [0, 0, speed],
+            "quaternion": list(case.release.attitude),
+            "angular_velocity": w.tolist(),
+        },
+        ending={"max_time": max(2 * time, 1e-12)},
+    )
+    states = analytic.toss(case).sample(np.linspace(0, time, 200))
+    sunk = [
+        1.0 - gap(body, x[2], rotation_matrix(tuple(e))[2])
+        for x, e in zip(states.position, states.quaternion, strict=True)
+    ]
+    # Rounding of heights near 1 m.
+    assert max(sunk) <= 3 * sink + 1e-14
