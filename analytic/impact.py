@@ -5,6 +5,7 @@ the coin's edge, v_Aν across it, both in the floor, and v_Az. Every law keeps N
 eq. (85).
 """
 
+from analytic.coulomb import coulomb
 from models.compiled import compiled
 from models.laws import ContactLaw
 from models.records import Ending
@@ -132,4 +133,6 @@ def impulse(body, rules, R, arm, tau, v_A, flat):
     if law == ContactLaw.SLIDING_FRICTION:
         S, possible = sliding_friction(K, v_A, chi, rules.friction)
         return S, Ending.NONE if possible else Ending.NO_SOLUTION
+    if law == ContactLaw.COULOMB:
+        return coulomb(K, v_A, chi, rules.friction, rules.restitution_kind), Ending.NONE
     return smooth(K, v_A, chi), Ending.NONE

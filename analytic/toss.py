@@ -8,7 +8,6 @@ from analytic.events import run
 from analytic.flight import STATE_SIZE, TOLERANCE, sample_flight
 from analytic.horizon import RELEASE_ERROR, trusted_impacts
 from models.body import Body
-from models.laws import ContactLaw
 from models.records import Array, Impacts, Setting, States, Toss, UnsupportedError
 from models.scenario import Release, Scenario
 
@@ -57,16 +56,13 @@ def require_supported(scenario: Scenario) -> None:
     air = scenario.air
     if air.exponent != 0 and (air.normal > 0 or air.tangential > 0):
         raise UnsupportedError(f"air.exponent = {air.exponent}: accepted by the analytic engine: 0")
-    if scenario.floor.contact == ContactLaw.COULOMB:
-        accepted = ", ".join(f'"{law.label}"' for law in ContactLaw if law != ContactLaw.COULOMB)
-        raise UnsupportedError(f'floor.contact = "coulomb": accepted by the analytic engine: {accepted}')
 
 
 def toss(scenario: Scenario) -> Toss:
     """Toss a coin by the paper's mechanics.
 
     Free flight by eqs (21)-(22) of Strzalko et al. 2008 in Euler parameters, air drag by eqs (49)-(74),
-    impacts by eqs (85)-(92) and the contact laws of Fig. 17.
+    impacts by eqs (85)-(92) and the contact laws of Fig. 17, or Routh's law.
 
     `trusted_impacts` counts the leading impacts that several shadows of the toss share with it: tosses whose
     release is displaced by more than the integration's error. Up to there time is good to
@@ -76,7 +72,7 @@ def toss(scenario: Scenario) -> Toss:
         scenario: what to toss.
 
     Raises:
-        UnsupportedError: for air with b > 0 or the law "coulomb".
+        UnsupportedError: for air with b > 0.
     """
     require_supported(scenario)
     body, rules, start = scenario.body, scenario.rules, state_of(scenario.release)

@@ -39,7 +39,9 @@ def as_json(toss: Toss) -> dict[str, Any]:
         "outcome": toss.outcome.label,
         "ending": toss.ending.label,
         "trusted_impacts": toss.trusted_impacts,
-        "impacts": [_impact(toss.impacts, i) for i in range(len(toss.impacts))],
+        "impacts": [
+            {**_impact(toss.impacts, i), "flags": sorted(flags)} for i, flags in enumerate(toss.flags)
+        ],
         "contacts": [{"start": start, "end": end} for start, end in toss.contacts.tolist()],
     }
 
@@ -87,10 +89,11 @@ def as_lines(toss: Toss) -> str:
         lines += ["", "  n      t [s]  up  S_x [mN s]  S_y [mN s]  S_z [mN s]    E [mJ]  rim [deg]"]
     impacts = toss.impacts
     angles = np.degrees(np.arctan2(impacts.point[:, 1], impacts.point[:, 0]))
-    for i in range(len(impacts)):
+    for i, flags in enumerate(toss.flags):
         S = 1e3 * impacts.impulse[i]
         lines.append(
             f"{i + 1:3d} {impacts.time[i]:10.6f}   {Face(impacts.face[i]).symbol} "
             f"{S[0]:11.5f} {S[1]:11.5f} {S[2]:11.5f} {1e3 * impacts.energy[i]:9.4f} {angles[i]:10.2f}"
+            + "".join(f"  {flag.replace('_', ' ')}" for flag in sorted(flags))
         )
     return "\n".join(lines)

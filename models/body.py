@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from models.drag import Drag
-from models.laws import ContactLaw, EndingTest
+from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.vectors import Matrix, Vector
 
 
@@ -29,6 +29,7 @@ class Rules(NamedTuple):
 
     law: ContactLaw
     restitution: float
+    restitution_kind: RestitutionKind
     friction: float
     test: EndingTest
     max_impacts: int

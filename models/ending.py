@@ -3,7 +3,7 @@
 import math
 
 from models.compiled import compiled
-from models.laws import ContactLaw, EndingTest
+from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.records import Ending, Face, Outcome
 from models.vectors import apply, dot
 
@@ -89,9 +89,9 @@ def judge(body, rules, z, v, up, w):
 
     "rigorous": the energy is below the pass to the other face (or, for the ideal coin on a smooth floor in
     vacuum, below the pass of its effective potential) and the tilt is on this face's side of the pass. An
-    ideal thick coin may also be caught on its edge. Only the smooth law never adds energy; for every other
-    the same test ends the toss under the paper's name, `Ending.PAPER`. "paper" is E < m g r and
-    "paper_smooth" is eq. (20) of Strzalko et al. 2008.
+    ideal thick coin may also be caught on its edge. Only the smooth law, and Routh's with energetic
+    restitution, never add energy; for every other the same test ends the toss under the paper's name,
+    `Ending.PAPER`. "paper" is E < m g r and "paper_smooth" is eq. (20) of Strzalko et al. 2008.
 
     Args:
         body: the coin.
@@ -118,7 +118,8 @@ def judge(body, rules, z, v, up, w):
         return Outcome.UNDECIDED, Ending.NONE
 
     smooth = rules.law == ContactLaw.SMOOTH
-    ending = Ending.SETTLED if smooth else Ending.PAPER
+    energetic = rules.restitution_kind == RestitutionKind.ENERGETIC
+    ending = Ending.SETTLED if smooth or energetic else Ending.PAPER
     tilt_sine = math.hypot(up[0], up[1])
     out, high = _pass(body, up[2])
     on_face = tilt_sine * high < out * abs(up[2])

@@ -1,4 +1,4 @@
-"""The names of the contact laws and of the tests that end a toss."""
+"""The names of the contact laws, of the kinds of restitution, and of the tests that end a toss."""
 
 from enum import IntEnum
 
@@ -33,4 +33,18 @@ class EndingTest(IntEnum):
     @property
     def label(self) -> str:
         """The test's name in a scenario file."""
+        return self.name.lower()
+
+
+class RestitutionKind(IntEnum):
+    """What the restitution χ compares, before and after an impact of Routh's law."""
+
+    KINEMATIC = 1
+    """The normal speeds of A: Newton's v_Az' = -χ v_Az."""
+    ENERGETIC = 2
+    """The work of the normal impulse: χ² of that taken in compression is given back (Stronge)."""
+
+    @property
+    def label(self) -> str:
+        """The kind's name in a scenario file."""
         return self.name.lower()

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
-from enum import IntEnum
+from enum import IntEnum, StrEnum
 from typing import Any, Protocol
 
 import numpy as np
@@ -178,6 +178,21 @@ class States:
         )
 
 
+class Flag(StrEnum):
+    """What an impact does that no passive floor with Coulomb friction could do."""
+
+    GAINS_ENERGY = "gains_energy"
+    """The coin has more energy after it than before."""
+    PULLS = "pulls"
+    """S_z < 0: the floor would have to hold the coin back."""
+    LEAVES_CONE = "leaves_cone"
+    """|S_xy| > μ S_z: more friction than the floor's coefficient μ allows."""
+
+
+# Beyond rounding, against the energy and the impulse.
+_BEYOND_ROUNDING = 1e-9
+
+
 class Path(Protocol):
     """A coin's motion that can be asked for its state at any time of the toss."""
 
@@ -224,6 +239,19 @@ class Toss:
     def sequence(self) -> str:
         """The faces up at the touches, as in "HHT"."""
         return self.impacts.sequence
+
+    @property
+    def flags(self) -> tuple[frozenset[Flag], ...]:
+        """What each impact does that no passive floor could do."""
+        impacts, mu = self.impacts, self.scenario.floor.friction
+        S = impacts.impulse
+        size = np.linalg.norm(S, axis=1)
+        raised = {
+            Flag.GAINS_ENERGY: impacts.energy_change > _BEYOND_ROUNDING * np.abs(impacts.energy),
+            Flag.PULLS: S[:, 2] < -_BEYOND_ROUNDING * size,
+            Flag.LEAVES_CONE: np.hypot(S[:, 0], S[:, 1]) - mu * S[:, 2] > _BEYOND_ROUNDING * size,
+        }
+        return tuple(frozenset(flag for flag in Flag if raised[flag][i]) for i in range(len(impacts)))
 
     def sample(self, times: ArrayLike) -> States:
         """Give the coin's states at `times`.

@@ -25,12 +25,12 @@ from models.inertia import (
     is_positive_definite,
     obeys_triangle_inequality,
 )
-from models.laws import ContactLaw, EndingTest
+from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.units import in_si
 from models.vectors import Matrix, Vector
 
 
-def _named(kind: type[ContactLaw] | type[EndingTest]) -> Callable[[Any], Any]:
+def _named(kind: type[ContactLaw | EndingTest | RestitutionKind]) -> Callable[[Any], Any]:
     def member(value: Any) -> Any:
         if isinstance(value, kind):
             return value
@@ -137,6 +137,13 @@ class Coin(_Part):
                 "a center of mass that leaves a positive definite inertia about it, "
                 f"such as sqrt(xi^2 + eta^2) < radius/2 = {self.radius / 2} m, or give coin.inertia",
             )
+        if self.inertia is None and not obeys_triangle_inequality(self.inertia_about_C):
+            raise FieldError(
+                "center_of_mass",
+                self.center_of_mass,
+                "a center of mass that leaves an inertia about it in which no principal moment exceeds the sum "
+                "of the other two, so one nearer to (0, 0, 0), or give coin.inertia",
+            )
         return self
 
     @property
@@ -179,6 +186,20 @@ class Floor(_Part):
     """The contact law."""
     friction: Annotated[Number, _not_negative] = 0.0
     """μ, for the laws that slide with friction."""
+    restitution_kind: Annotated[RestitutionKind, BeforeValidator(_named(RestitutionKind))] = (
+        RestitutionKind.KINEMATIC
+    )
+    """"kinematic", or "energetic" for the law "coulomb"."""
+
+    @model_validator(mode="after")
+    def _kind_of_a_law_that_has_it(self) -> Self:
+        if self.restitution_kind == RestitutionKind.ENERGETIC and self.contact != ContactLaw.COULOMB:
+            raise FieldError(
+                "restitution_kind",
+                self.restitution_kind.label,
+                f'"kinematic" with contact = "{self.contact.label}"; "energetic" only with "coulomb"',
+            )
+        return self
 
 
 class Release(_Part):
@@ -291,6 +312,7 @@ class Scenario(_Part):
         return Rules(
             law=floor.contact,
             restitution=floor.restitution,
+            restitution_kind=floor.restitution_kind,
             friction=floor.friction,
             test=ending.test,
             max_impacts=ending.max_impacts,

@@ -133,7 +133,7 @@ def test_friction_without_coefficient_is_smooth():
     assert struck(frictionless, y)[0]["impulse"] == pytest.approx(struck(smooth, y)[0]["impulse"], rel=1e-15)
 
 
-@pytest.mark.parametrize("law", PAPER_LAWS)
+@pytest.mark.parametrize("law", list(ContactLaw))
 @pytest.mark.parametrize("up", [1.0, -1.0])
 def test_a_flat_coin_bounces_flat_whatever_the_law(law, up):
     case = scenario(

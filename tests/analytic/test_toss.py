@@ -189,7 +189,6 @@ def test_without_rebound_a_coin_that_stays_in_contact_is_not_decided():
 @pytest.mark.parametrize(
     ("parts", "words"),
     [
-        ({"floor": {"contact": "coulomb"}}, ['floor.contact = "coulomb"', '"smooth"']),
         ({"air": {"normal": 0.8, "exponent": 0.5}}, ["air.exponent = 0.5", "0"]),
     ],
 )

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import analytic
-from models.records import IMPACT_ROW, Impacts, States
-from tests.draws import scenario
+from models.records import IMPACT_ROW, Flag, Impacts, States
+from tests.draws import draw_release, scenario
 
 
 def test_impacts_check_their_shapes_and_order():
@@ -46,3 +46,24 @@ def test_states_check_their_shapes():
 def test_a_time_outside_the_toss_is_refused(time):
     with pytest.raises(ValueError, match="outside the toss"):
         analytic.toss(scenario()).sample([time])
+
+
+def test_flags_name_what_no_passive_floor_does():
+    """Of slips kept (d), some impacts gain energy, some pull; all need more friction than mu = 0 gives."""
+    rng = np.random.default_rng(1)
+    raised = set()
+    for _ in range(40):
+        tossed = analytic.toss(
+            scenario(
+                floor={"restitution": 0.9, "contact": "sharp_edge"},
+                release=draw_release(rng),
+                ending={"max_impacts": 6},
+            )
+        )
+        impacts = tossed.impacts
+        for i, flags in enumerate(tossed.flags):
+            assert (Flag.GAINS_ENERGY in flags) is bool(impacts.energy_change[i] > 1e-9 * impacts.energy[i])
+            assert Flag.LEAVES_CONE in flags
+            raised |= flags
+    assert Flag.GAINS_ENERGY in raised
+    assert all(not flags for flags in analytic.toss(scenario(release=draw_release(rng))).flags)

@@ -75,7 +75,7 @@ def test_the_packages_scenarios_read(name):
 def test_the_papers_scenarios_are_there():
     fig24 = {f"fig24{letter}" for letter in "abcdef"}
     fig18 = {f"fig18_{coin}" for coin in ("3d_imperfect", "3d_ideal", "2d_imperfect", "2d_ideal")}
-    laws = {f"contact_{law.label}" for law in ContactLaw if law != ContactLaw.COULOMB}
+    laws = {f"contact_{law.label}" for law in ContactLaw}
     assert fig24 | fig18 | laws | {"zloty", "fig3_flat", "fig3_tilted", "fig21"} == set(named_scenarios())
     heights = [load(name).release.position[2] for name in sorted(fig24)]
     assert heights == pytest.approx([0.40001, 0.40002, 0.40003, 0.40004, 0.40005, 0.40006], rel=1e-15)
@@ -110,6 +110,11 @@ WRONG = {
         "restitution = 0.8\nfriction = -1",
         ["floor.friction", "-1", ">= 0"],
     ),
+    "kind without its law": (
+        'contact = "smooth"',
+        'contact = "smooth"\nrestitution_kind = "energetic"',
+        ["floor.restitution_kind", '"energetic"', '"kinematic"', '"coulomb"'],
+    ),
     "unknown law": ('"smooth"', '"smoth"', ["floor.contact", '"smoth"', '"smooth"', '"coulomb"']),
     "law that is no name": ('"smooth"', "3", ["floor.contact", "3", '"smooth"']),
     "exponent above one": ("normal = 0.8", "exponent = 2", ["air.exponent", "2", "<= 1"]),
@@ -141,6 +146,11 @@ WRONG = {
         COIN,
         COIN + "\ncenter_of_mass = [0.008, 0, 0]",
         ["coin.center_of_mass", "0.008", "positive definite", "coin.inertia"],
+    ),
+    "mass center that leaves no body's inertia": (
+        COIN,
+        COIN + "\ncenter_of_mass = [0, 0, 0.0006]",
+        ["coin.center_of_mass", "0.0006", "principal moment", "coin.inertia"],
     ),
     "inertia of no body": (
         COIN,

@@ -1,0 +1,202 @@
+"""Routh's law of impact: Coulomb friction acts while the normal impulse grows, and the slip evolves.
+
+The impact takes no time but has an order: the normal impulse p = S_z grows from 0, and with it the velocity
+of the contact point A, dv_A/dp = K (-μ s, 1), s the direction of the slip and K the mobility. The slip may
+turn, slow down, stop, stick, or start anew. E. J. Routh, Dynamics of a System of Rigid Bodies; J. B. Keller,
+J. Appl. Mech. 53 (1986) 1; W. J. Stronge, Impact Mechanics.
+"""
+
+import math
+
+import numpy as np
+
+from analytic.runge_kutta import STAGES, end_point, error_parts, stage_point, step_error, step_factor
+from models.compiled import compiled
+from models.laws import RestitutionKind
+from models.vectors import apply, norm
+
+# The state of an impact: v_A, S and the work of the normal impulse, ∫ v_Az dp.
+_SIZE = 7
+_V_Z, _WORK = 2, 6
+_TOLERANCE = 1e-13
+# Slip slower than this part of the speed of A is none; above the noise of the steps.
+_NO_SLIP = 1e-11
+
+
+@compiled
+def coulomb(K, v_A, chi, mu, kind):
+    """Give the impulse of Routh's law.
+
+    Kinematic restitution ends it when v_Az' = -χ v_Az. Energetic restitution (Stronge) ends it when the
+    normal impulse has given back the part χ² of the work that it took in compression; it never adds energy.
+
+    Args:
+        K: mobility of A, space frame, a tuple of rows [1/kg].
+        v_A: velocity of A before the impact, space frame, (3,), v_Az < 0 [m/s].
+        chi: restitution χ.
+        mu: coefficient of friction μ.
+        kind: `RestitutionKind`.
+
+    Returns:
+        S: impulse, space frame, (3,) [N s].
+    """
+    y = np.zeros(_SIZE)
+    y[0], y[1], y[_V_Z] = v_A
+    no_slip = _NO_SLIP * norm(v_A)
+    if kind == RestitutionKind.KINEMATIC:
+        press(K, y, mu, no_slip, _V_Z, -chi * v_A[2])
+    else:
+        press(K, y, mu, no_slip, _V_Z, 0.0)
+        press(K, y, mu, no_slip, _WORK, (1 - chi * chi) * y[_WORK])
+    return y[3], y[4], y[5]
+
+
+@compiled
+def press(K, y, mu, no_slip, component, target):
+    """Let the normal impulse grow until a component of the state has risen to its target.
+
+    Args:
+        K: mobility of A [1/kg].
+        y: state of the impact, (7,); advanced.
+        mu: coefficient of friction μ.
+        no_slip: slip that counts as none [m/s].
+        component: `_V_Z` or `_WORK`.
+        target: its value at the end.
+    """
+    if slide(K, y, mu, no_slip, component, target):
+        return
+    f = friction_without_slip(K, mu)
+    gained = apply(K, (f[0], f[1], 1.0))
+    # v_z is linear in p from here on, and the work is a parabola.
+    missing, rise = target - y[component], gained[2]
+    p = missing / rise if component == _V_Z else ((y[2] ** 2 + 2 * rise * missing) ** 0.5 - y[2]) / rise
+    y[_WORK] += y[2] * p + rise * p * p / 2
+    for i in range(3):
+        y[i] += gained[i] * p
+    y[3] += f[0] * p
+    y[4] += f[1] * p
+    y[5] += p
+
+
+@compiled
+def slide(K, y, mu, no_slip, component, target):
+    """Follow the slip until it stops or a component has risen to its target; tell whether it has risen.
+
+    With dp = |v_t| dτ the equations are regular where the slip stops: dS/dτ = (-μ v_t, |v_t|) and
+    dv_A/dτ = K dS/dτ.
+
+    Args:
+        K: mobility of A [1/kg].
+        y: state of the impact, (7,); advanced.
+        mu: coefficient of friction μ.
+        no_slip: slip that counts as none [m/s].
+        component: `_V_Z` or `_WORK`.
+        target: its value at the end.
+    """
+    stages, y_new = np.empty((STAGES, _SIZE)), np.empty(_SIZE)
+    speed = norm((y[0], y[1], y[2]))
+    dt = 0.1 / ((1 + mu) * (K[0][0] + K[1][1] + K[2][2]))
+    while y[component] < target:
+        if (y[0] * y[0] + y[1] * y[1]) ** 0.5 <= no_slip:
+            return False
+        slip_rate(K, y, mu, stages[0])
+        slip_step(K, y, mu, dt, stages, y_new)
+        error = slip_error(dt, stages, speed, speed / K[2][2]) / _TOLERANCE
+        if error <= 1:
+            if y_new[component] >= target:
+                slip_step_to(K, y, mu, dt, stages, y_new, component, target)
+            y[:] = y_new
+        dt *= step_factor(error)
+    return True
+
+
+@compiled
+def slip_rate(K, y, mu, dy):
+    """Write the rate of change of the state with τ into dy."""
+    slip = (y[0] * y[0] + y[1] * y[1]) ** 0.5
+    dS = (-mu * y[0], -mu * y[1], slip)
+    dy[0], dy[1], dy[2] = apply(K, dS)
+    dy[3], dy[4], dy[5] = dS
+    dy[_WORK] = y[2] * slip
+
+
+@compiled
+def slip_step(K, y, mu, dt, stages, y_new):
+    """Write the state after a step of dt in τ into y_new; `stages[0]` must hold the rate at y."""
+    for stage in range(1, STAGES):
+        stage_point(y, dt, stages, stage, y_new)
+        slip_rate(K, y_new, mu, stages[stage])
+    end_point(y, dt, stages, y_new)
+
+
+@compiled
+def slip_error(dt, stages, speed, momentum):
+    """Estimate the error of the step just made, relative to a speed and a momentum."""
+    sum_5, sum_3 = 0.0, 0.0
+    for i in range(_SIZE):
+        size = speed if i < 3 else momentum if i < 6 else speed * momentum
+        e5, e3 = error_parts(stages, i)
+        sum_5 += (e5 / size) ** 2
+        sum_3 += (e3 / size) ** 2
+    return step_error(dt, sum_5, sum_3, _SIZE)
+
+
+@compiled
+def slip_step_to(K, y, mu, dt, stages, y_new, component, target):
+    """Shorten a step of dt until the component just reaches its target; its end goes into y_new.
+
+    A root by regula falsi (Illinois); each try is one step from the same start.
+    """
+    low, high = 0.0, dt
+    below, above = y[component] - target, y_new[component] - target
+    for _ in range(60):
+        middle = high - above * (high - low) / (above - below)
+        if above == 0 or not low < middle < high:
+            break
+        slip_step(K, y, mu, middle, stages, y_new)
+        excess = y_new[component] - target
+        if excess >= 0:
+            high, above, below = middle, excess, below / 2
+        else:
+            low, below, above = middle, excess, above / 2
+    slip_step(K, y, mu, high, stages, y_new)
+    y_new[component] = target
+
+
+@compiled
+def friction_without_slip(K, mu):
+    """Give the tangential impulse per normal impulse at a contact point that does not slip, (2,).
+
+    It sticks, K_tt f + K_tz = 0, where that lies within the cone. Elsewhere slip starts in the direction s
+    that keeps itself, f = -μ s and K_tz - μ K_tt s = λ s: s = (μ K_tt + λ)⁻¹ K_tz has length 1 for just one
+    λ > 0, for its length falls with λ.
+
+    Args:
+        K: mobility of A [1/kg].
+        mu: coefficient of friction μ.
+    """
+    stick = _resisted(K, 1.0, 0.0)
+    if math.hypot(stick[0], stick[1]) <= mu:
+        return -stick[0], -stick[1]
+    low, high = 0.0, math.hypot(K[0][2], K[1][2])
+    for _ in range(100):
+        middle = (low + high) / 2
+        s = _resisted(K, mu, middle)
+        if not low < middle < high:
+            break
+        if math.hypot(s[0], s[1]) > 1:
+            low = middle
+        else:
+            high = middle
+    s = _resisted(K, mu, high)
+    length = math.hypot(s[0], s[1])
+    return -mu * s[0] / length, -mu * s[1] / length
+
+
+@compiled
+def _resisted(K, mu, growth):
+    """Give (mu K_tt + growth)⁻¹ K_tz, (2,)."""
+    xx, yy, xy = mu * K[0][0] + growth, mu * K[1][1] + growth, mu * K[0][1]
+    determinant = xx * yy - xy * xy
+    x, y = K[0][2], K[1][2]
+    return (yy * x - xy * y) / determinant, (xx * y - xy * x) / determinant

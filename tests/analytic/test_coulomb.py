@@ -1,0 +1,218 @@
+"""Routh's law against a brute-force integration, the laws it meets in its limits, and its energy."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from analytic.coulomb import coulomb, friction_without_slip
+from analytic.impact import mobility, perfectly_rough, sliding_friction, smooth
+from models.attitude import rotation_matrix
+from models.geometry import lowest_point
+from models.laws import RestitutionKind
+from tests.draws import draw_coin, draw_quaternion, scenario
+
+KINEMATIC, ENERGETIC = RestitutionKind
+COUNT = 200
+
+
+def draw_contact(rng):
+    """The mobility of a coin's lowest point, and a velocity of it that closes."""
+    body = scenario(coin=draw_coin(rng)).body
+    R = rotation_matrix(tuple(draw_quaternion(rng)))
+    point, _ = lowest_point(body, R[2], (1.0, 2.0, 3.0))
+    arm = np.array(R) @ (np.array(point) - body.center)
+    return mobility(body, R, tuple(arm)), (*rng.uniform(-2, 2, 2), -rng.uniform(0.2, 3))
+
+
+def after(K, v, S):
+    return np.array(v) + np.array(K) @ S
+
+
+def work_of(K, v, S):
+    """Energy gained by an impulse S at a point of mobility K: half the sum of the velocities times S."""
+    return (np.array(v) + after(K, v, S)) @ S / 2
+
+
+def brute(K, v, mu, end):
+    """Integrate dv/dp = K (-mu s, 1) while the point slips, up to the root of `end`.
+
+    Returns:
+        v_A, S_x, S_y, the work of the normal impulse and p, (7,); None if the slip stops before.
+    """
+    K = np.array(K)
+
+    def rate(_, y):
+        s = y[:2] / np.hypot(*y[:2])
+        return np.array([*(K @ [-mu * s[0], -mu * s[1], 1]), -mu * s[0], -mu * s[1], y[2]])
+
+    def stops(_, y):
+        return np.hypot(*y[:2]) - 1e-3 * np.hypot(*v[:2])
+
+    def ends(_, y):
+        return end(y)
+
+    stops.terminal = ends.terminal = True  # pyright: ignore[reportFunctionMemberAccess]
+    ends.direction = 1  # pyright: ignore[reportFunctionMemberAccess]
+    solved = solve_ivp(
+        rate, (0, 1), [*v, 0, 0, 0], method="DOP853", rtol=1e-12, atol=1e-15, events=(stops, ends)
+    )
+    if len(solved.t_events[0]):
+        return None
+    return np.array([*solved.y_events[1][0], solved.t_events[1][0]])
+
+
+def test_an_impact_that_slips_throughout_is_that_of_a_brute_integration():
+    rng = np.random.default_rng(1)
+    compared, turned = 0, 0.0
+    while compared < 40:
+        K, v = draw_contact(rng)
+        chi, mu = rng.uniform(0.1, 0.9), rng.uniform(0.02, 0.2)
+        end = brute(K, v, mu, lambda y, rebound=-chi * v[2]: y[2] - rebound)
+        if end is None:
+            continue
+        S = end[[3, 4, 6]]
+        ours = np.array(coulomb(K, v, chi, mu, KINEMATIC))
+        assert ours == pytest.approx(S, abs=1e-9 * float(np.linalg.norm(S)))
+        slip = after(K, v, ours)[:2]
+        turned = max(turned, abs(np.arctan2(np.cross([*v[:2], 0], [*slip, 0])[2], slip @ v[:2])))
+        compared += 1
+    assert turned > 0.5
+
+
+def test_energetic_restitution_gives_back_the_part_of_the_work():
+    rng = np.random.default_rng(2)
+    compared = 0
+    while compared < 30:
+        K, v = draw_contact(rng)
+        chi, mu = rng.uniform(0.1, 0.9), rng.uniform(0.02, 0.2)
+        compressed = brute(K, v, mu, lambda y: y[2])
+        if compressed is None:
+            continue
+        taken = compressed[5]
+        restored = brute(K, compressed[:3], mu, lambda y, work=chi**2 * taken: y[5] + work)
+        if restored is None:
+            continue
+        S = compressed[3:5] + restored[3:5], compressed[6] + restored[6]
+        ours = np.array(coulomb(K, v, chi, mu, ENERGETIC))
+        assert ours == pytest.approx([*S[0], S[1]], abs=1e-9 * float(np.linalg.norm(ours)))
+        compared += 1
+
+
+@pytest.mark.parametrize("kind", list(RestitutionKind))
+def test_friction_stays_in_its_cone_and_the_floor_never_pulls(kind):
+    rng = np.random.default_rng(3)
+    for _ in range(COUNT):
+        K, v = draw_contact(rng)
+        chi, mu = rng.uniform(0, 1), 10 ** rng.uniform(-2, 1)
+        S = np.array(coulomb(K, v, chi, mu, kind))
+        assert S[2] > 0
+        assert np.hypot(*S[:2]) <= mu * S[2] * (1 + 1e-12)
+        assert after(K, v, S)[2] >= -1e-12
+        if kind == KINEMATIC:
+            assert after(K, v, S)[2] == pytest.approx(-chi * v[2], abs=1e-12 * float(np.linalg.norm(v)))
+
+
+def test_energetic_restitution_never_adds_energy_and_kinematic_may():
+    rng = np.random.default_rng(4)
+    gained = {kind: [] for kind in RestitutionKind}
+    for _ in range(1000):
+        K, v = draw_contact(rng)
+        chi, mu = rng.uniform(0, 1), rng.uniform(0, 2)
+        for kind in RestitutionKind:
+            gained[kind].append(work_of(K, v, coulomb(K, v, chi, mu, kind)) / (v[2] ** 2 / K[2][2]))
+    assert max(gained[ENERGETIC]) < 1e-12
+    assert max(gained[KINEMATIC]) > 0.01
+
+
+def test_without_friction_it_is_the_smooth_law():
+    rng = np.random.default_rng(5)
+    for kind in RestitutionKind:
+        K, v = draw_contact(rng)
+        assert coulomb(K, v, 0.7, 0.0, kind) == pytest.approx(smooth(K, v, 0.7), rel=1e-11)
+
+
+def test_with_much_friction_it_is_the_perfectly_rough_law():
+    """Slip stops early and can't start again: v_A' = (0, 0, -chi v_Az) in both."""
+    rng = np.random.default_rng(6)
+    for _ in range(COUNT):
+        K, v = draw_contact(rng)
+        S = coulomb(K, v, 0.5, 100.0, KINEMATIC)
+        assert np.array(S) == pytest.approx(perfectly_rough(K, v, 0.5), abs=1e-10 * float(np.linalg.norm(S)))
+
+
+def test_while_slip_does_not_turn_it_is_sliding_friction():
+    """In a plane of symmetry, K_ty = 0 and v_y = 0, and with too little friction to stop."""
+    K = ((1500.0, 0.0, -300.0), (0.0, 1400.0, 0.0), (-300.0, 0.0, 1000.0))
+    v, chi, mu = (1.0, 0.0, -0.5), 0.6, 0.1
+    expected, possible = sliding_friction(K, v, chi, mu)
+    assert possible
+    assert coulomb(K, v, chi, mu, KINEMATIC) == pytest.approx(expected, rel=1e-11)
+
+
+def test_slip_that_stops_may_stick_or_reverse():
+    """In a plane: after it stops, friction -K_xz/K_xx = 0.6 would hold the point, if mu allows that."""
+    v, chi = (0.1, 0.0, -1.0), 0.5
+    K = ((1500.0, 0.0, -900.0), (0.0, 1400.0, 0.0), (-900.0, 0.0, 1000.0))
+    sticks = after(K, v, coulomb(K, v, chi, 0.7, KINEMATIC))
+    # Slip below 1e-11 of the speed counts as stopped.
+    assert np.abs(sticks[:2]).max() < 1e-11
+    reverses = after(K, v, coulomb(K, v, chi, 0.3, KINEMATIC))
+    # From v_x = 0 on, dv_x/dp = -900 + 0.3 1500 = -450 and dv_z/dp = 1000 - 0.3 900 = 730.
+    stop = 0.1 / (900 + 0.3 * 1500)
+    v_z = -1 + stop * (1000 + 0.3 * 900)
+    assert reverses[0] == pytest.approx(-450 * (0.5 - v_z) / 730, rel=1e-10)
+
+
+def test_an_impact_without_slip_starts_it_only_beyond_the_cone():
+    K = ((1500.0, 0.0, -900.0), (0.0, 1400.0, 0.0), (-900.0, 0.0, 1000.0))
+    assert (
+        np.abs(after(K, (0.0, 0.0, -1.0), coulomb(K, (0.0, 0.0, -1.0), 0.5, 0.7, KINEMATIC))[:2]).max()
+        < 1e-15
+    )
+    slips = after(K, (0.0, 0.0, -1.0), coulomb(K, (0.0, 0.0, -1.0), 0.5, 0.3, KINEMATIC))
+    assert slips[0] == pytest.approx(-450 * 1.5 / 730, rel=1e-12)
+
+
+def test_slip_that_starts_keeps_its_direction():
+    rng = np.random.default_rng(7)
+    started = 0
+    for _ in range(COUNT):
+        K, _ = draw_contact(rng)
+        mu = rng.uniform(0.01, 1.0)
+        f = np.array(friction_without_slip(K, mu))
+        gained = np.array(K) @ [*f, 1.0]
+        if np.hypot(*f) < mu * (1 - 1e-9):
+            assert np.abs(gained[:2]).max() < 1e-11 * np.abs(K).max()
+            continue
+        started += 1
+        assert np.hypot(*f) == pytest.approx(mu, rel=1e-12)
+        # Friction opposes the slip that it allows to start.
+        assert gained[:2] / np.hypot(*gained[:2]) == pytest.approx(-f / mu, abs=1e-8)
+    assert started > 20
+
+
+def test_painleves_attitude_compresses_and_ends():
+    """While it slips the normal velocity falls on, dv_z/dp = 1000 - 900 mu < 0; it must stop first."""
+    K = ((1500.0, 0.0, 900.0), (0.0, 1500.0, 0.0), (900.0, 0.0, 1000.0))
+    v, mu = (1.0, 0.0, -1.0), 1.2
+    for kind in RestitutionKind:
+        S = np.array(coulomb(K, v, 0.5, mu, kind))
+        assert S[2] > 0
+        assert after(K, v, S)[2] > 0
+        assert abs(after(K, v, S)[0]) < 1e-11
+    assert after(K, v, coulomb(K, v, 0.5, mu, KINEMATIC))[2] == pytest.approx(0.5, rel=1e-12)
+    stop = 1.0 / (mu * 1500 - 900)
+    deepest = -1 + stop * (1000 - 900 * mu)
+    assert deepest < -1
+
+
+def test_a_turn_about_the_vertical_turns_the_impulse():
+    rng = np.random.default_rng(8)
+    K, v = draw_contact(rng)
+    c, s = np.cos(0.7), np.sin(0.7)
+    Q = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    turned_K = tuple(tuple(row) for row in Q @ np.array(K) @ Q.T)
+    S = coulomb(K, v, 0.6, 0.3, KINEMATIC)
+    assert Q @ S == pytest.approx(
+        coulomb(turned_K, tuple(Q @ v), 0.6, 0.3, KINEMATIC), abs=1e-12 * np.abs(S).max()
+    )
