@@ -5,7 +5,9 @@ import pytest
 
 import analytic
 from analytic.euler_angles import axis_rotation
-from tests.draws import ZLOTY, scenario
+from analytic.flight import derivative
+from models.ending import barrier
+from tests.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
 G = 9.81
 
@@ -96,3 +98,33 @@ def test_the_rotation_matrix_carries_the_body_forward():
     before, after = np.array([1.0, 0, 0]), np.array([0, 1.0, 0])
     assert R @ before == pytest.approx(after, abs=1e-16)
     assert R @ after == pytest.approx(-before, abs=1e-16)
+
+
+def test_energy_below_m_g_r_is_enough_for_the_thin_ideal_coin_only():
+    thin, imperfect = (
+        scenario(coin={**ZLOTY, "thickness": thickness, "center_of_mass": center}).body
+        for thickness, center in ((0.0, [0.0, 0.0, 0.0]), (2e-3, PAPER_OFFSET))
+    )
+    m_g_r = thin.mass * thin.gravity * thin.radius
+    for up in (1.0, -1.0):
+        assert barrier(thin, up) == pytest.approx(m_g_r, rel=1e-15)
+        # The lowest pass from one face to the other lies below m g r.
+        assert barrier(imperfect, up) < 0.95 * m_g_r
+
+
+def rates(case, quaternion, w):
+    """Give the acceleration of C and the angular acceleration at one velocity."""
+    out = np.empty(13)
+    derivative(case.body, np.array([0, 0, 1, 0.5, -0.2, -2.0, *quaternion, *w]), out)
+    return out[3:6], out[10:13]
+
+
+def test_forces_that_depend_on_the_attitude_alone_couple_eqs_21_and_22():
+    case = scenario(air=AIR)
+    flat, leaning = [1.0, 0, 0, 0], [np.cos(0.4), np.sin(0.4), 0, 0]
+    slow, fast = [1.0, 2.0, 3.0], [30.0, 20.0, 10.0]
+    # The ideal coin in linear air: no force from ω, no moment from the motion of C ...
+    assert np.array_equal(rates(case, flat, slow)[0], rates(case, flat, fast)[0])
+    assert np.array_equal(rates(case, flat, slow)[1], rates(case, leaning, slow)[1])
+    # ... and yet the path needs the attitude.
+    assert np.abs(rates(case, flat, slow)[0] - rates(case, leaning, slow)[0]).max() > 0.1
