@@ -1,0 +1,130 @@
+"""Slips of the paper outside its equations of motion and impact, each shown by the motion itself."""
+
+import numpy as np
+import pytest
+
+import analytic
+from analytic.euler_angles import axis_rotation
+from analytic.flight import derivative
+from models.ending import barrier
+from tests.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+
+G = 9.81
+
+
+def normal_at_the_catch(turns, v_0):
+    """Toss an ideal coin from flat and give its normal's height when it is back at the height of release.
+
+    `turns` is Keller's ω_0 v_0/(π g), which for ϑ_0 = 0 is also the number of full turns.
+    """
+    catch = 2 * v_0 / G
+    spin = turns * np.pi * G / v_0
+    case = scenario(
+        coin={**ZLOTY, "center_of_mass": [0.0, 0.0, 0.0]},
+        release={"position": [0, 0, 10.0], "velocity": [0, 0, v_0], "angular_velocity": [spin, 0, 0]},
+        ending={"max_time": 1.5 * catch},
+    )
+    states = analytic.toss(case).sample([catch])
+    assert states.position[0, 2] == pytest.approx(10.0, abs=1e-12)
+    return states.normal[0, 2]
+
+
+@pytest.mark.parametrize("v_0", [0.8, 2.4])
+def test_kellers_hyperbolas_lie_at_odd_quarters(v_0):
+    for k in range(9):
+        boundary = (2 * k + 1) / 4
+        before, after = (normal_at_the_catch(boundary + off, v_0) for off in (-1e-3, 1e-3))
+        assert before * after < 0, "the face changes"
+        assert abs(normal_at_the_catch(boundary, v_0)) < 1e-10, "the coin is upright"
+
+
+@pytest.mark.parametrize("j", range(1, 5))
+def test_at_kellers_printed_boundaries_the_coin_is_flat_as_it_started(j):
+    assert normal_at_the_catch(j, 2.4) == pytest.approx(1, abs=1e-10)
+    for off in (-0.2, 0.2):
+        assert normal_at_the_catch(j + off, 2.4) > 0, "no face changes there"
+
+
+def test_kellers_printed_intervals_name_the_wrong_face():
+    turns = np.linspace(0.01, 3.99, 60)
+    same_side = np.array([normal_at_the_catch(n, 2.4) > 0 for n in turns])
+    printed = np.floor(turns) % 2 == 0
+    # From -1/4 to 1/4 about a whole number of turns.
+    corrected = np.floor(2 * turns + 0.5) % 2 == 0
+    assert np.array_equal(same_side, corrected)
+    assert 0.4 < np.mean(same_side == printed) < 0.6, "no better than chance"
+
+
+def heights_of_the_normal(gamma, lean):
+    """Give the normal's heights over a second of flight of the ideal coin without air.
+
+    The normal makes the angle `gamma` with the angular momentum L, and at release leans by `lean` from the
+    vertical; L lies between the two, or beyond the vertical where `lean` is less than `gamma`.
+    """
+    J = scenario().coin.inertia_about_C
+    across = 40.0
+    along = J[0, 0] * across / (np.tan(gamma) * J[2, 2])
+    case = scenario(
+        release={
+            "position": [0, 0, 50.0],
+            "angles": [0.0, lean, 0.0],
+            "angular_velocity": [0.0, across, along],
+        },
+        ending={"max_time": 1.0},
+    )
+    return analytic.toss(case).sample(np.linspace(0, 1, 2000)).normal[:, 2]
+
+
+@pytest.mark.parametrize("gamma", np.radians([35, 44, 46]))
+def test_a_coin_released_flat_keeps_its_face_below_45_degrees(gamma):
+    heights = heights_of_the_normal(gamma, lean=0.0)
+    # The normal goes round L from the vertical to twice the angle.
+    assert heights.max() == pytest.approx(1, abs=1e-12)
+    assert heights.min() == pytest.approx(np.cos(2 * gamma), abs=1e-4)
+    assert (heights.min() > 0) == (gamma < np.pi / 4)
+
+
+def test_a_coin_released_leaning_changes_its_face_below_45_degrees_too():
+    gamma, lean = np.radians(35), np.radians(95)
+    heights = heights_of_the_normal(gamma, lean)
+    assert heights.min() == pytest.approx(np.cos(lean), abs=1e-4)
+    assert heights.max() == pytest.approx(np.cos(lean - 2 * gamma), abs=1e-4)
+    assert heights.min() < 0 < heights.max()
+
+
+def test_the_rotation_matrix_carries_the_body_forward():
+    # Eq. (1) with (3): R turns body components, those before the turn, into those after it.
+    R = axis_rotation(2, np.pi / 2)
+    before, after = np.array([1.0, 0, 0]), np.array([0, 1.0, 0])
+    assert R @ before == pytest.approx(after, abs=1e-16)
+    assert R @ after == pytest.approx(-before, abs=1e-16)
+
+
+def test_energy_below_m_g_r_is_enough_for_the_thin_ideal_coin_only():
+    thin, imperfect = (
+        scenario(coin={**ZLOTY, "thickness": thickness, "center_of_mass": center}).body
+        for thickness, center in ((0.0, [0.0, 0.0, 0.0]), (2e-3, PAPER_OFFSET))
+    )
+    m_g_r = thin.mass * thin.gravity * thin.radius
+    for up in (1.0, -1.0):
+        assert barrier(thin, up) == pytest.approx(m_g_r, rel=1e-15)
+        # The lowest pass from one face to the other lies below m g r.
+        assert barrier(imperfect, up) < 0.95 * m_g_r
+
+
+def rates(case, quaternion, w):
+    """Give the acceleration of C and the angular acceleration at one velocity."""
+    out = np.empty(13)
+    derivative(case.body, np.array([0, 0, 1, 0.5, -0.2, -2.0, *quaternion, *w]), out)
+    return out[3:6], out[10:13]
+
+
+def test_forces_that_depend_on_the_attitude_alone_couple_eqs_21_and_22():
+    case = scenario(air=AIR)
+    flat, leaning = [1.0, 0, 0, 0], [np.cos(0.4), np.sin(0.4), 0, 0]
+    slow, fast = [1.0, 2.0, 3.0], [30.0, 20.0, 10.0]
+    # The ideal coin in linear air: no force from ω, no moment from the motion of C ...
+    assert np.array_equal(rates(case, flat, slow)[0], rates(case, flat, fast)[0])
+    assert np.array_equal(rates(case, flat, slow)[1], rates(case, leaning, slow)[1])
+    # ... and yet the path needs the attitude.
+    assert np.abs(rates(case, flat, slow)[0] - rates(case, leaning, slow)[0]).max() > 0.1
