@@ -141,8 +141,8 @@ class Coin(_Part):
             raise FieldError(
                 "center_of_mass",
                 self.center_of_mass,
-                "a center of mass that leaves an inertia about it in which no principal moment exceeds the sum "
-                "of the other two, so one nearer to (0, 0, 0), or give coin.inertia",
+                "a center of mass that leaves an inertia about it with no principal moment above the sum of "
+                "the other two, so one nearer to (0, 0, 0), or give coin.inertia",
             )
         return self
 
