@@ -116,10 +116,9 @@ def write_video(toss: Toss, path: Path, progress: Callable[[int, int], None]) ->
         # Ctrl-C ends the encoder too, whose complaint would hide it.
         if isinstance(error.__context__, KeyboardInterrupt | SystemExit):
             raise error.__context__ from None
-        said = (
-            str(error).strip().splitlines()[-1] if isinstance(error, RuntimeError) else "the disk may be full"
-        )
-        raise OSError(errno.EIO, f"ffmpeg has ended: {said}", str(path)) from error
+        told = "" if isinstance(error, BrokenPipeError) else str(error).partition("': ")[2].strip()
+        reason = told.splitlines()[-1] if told else "stopped, or the disk is full"
+        raise OSError(errno.EIO, f"ffmpeg: {reason}", str(path)) from error
 
 
 def _span(toss: Toss, states: States) -> float:

@@ -60,7 +60,7 @@ def require_replaceable(path: Path, source: str) -> None:
 
 
 def is_stream(path: Path) -> bool:
-    """Tell whether `path` is a device or a pipe, or where standard output goes: nothing to replace by a file."""
+    """Tell whether `path` is a device, a pipe, or where standard output goes: no file to replace."""
     with _naming(path):
         return path.exists() and (_is_stdout(path) or not (path.is_file() or path.is_dir()))
 
@@ -103,10 +103,10 @@ def written_whole(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
-    """Give a folder to write to, inside `folder`, which is made if missing; when all went well, move the files.
+    """Give a folder inside `folder` to write to; when all went well, move its files up to `folder`.
 
-    Of `names`, those that were not written are removed from `folder`: they belong to what is replaced. When
-    something goes wrong, everything is as before.
+    Of `names`, those that were not written are removed from `folder`: they belong to what is replaced.
+    `folder` is made if missing. When something goes wrong, everything is as before.
 
     Raises:
         UnwritableError: naming the folder and why, for every error of the system on the way.

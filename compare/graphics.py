@@ -50,9 +50,7 @@ def _drawing_complaint() -> str | None:
     # -P: a module of the current folder must not stand in for one of Python's.
     command = [sys.executable, "-P", "-c", _DRAW_ONE_FRAME]
     try:
-        tried = subprocess.run(
-            command, capture_output=True, check=False, timeout=120, text=True, errors="replace"
-        )
+        tried = subprocess.run(command, capture_output=True, check=False, timeout=120, errors="replace")
     except (OSError, subprocess.TimeoutExpired) as error:
         return str(error)
     if tried.returncode == 0:

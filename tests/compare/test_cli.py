@@ -3,8 +3,10 @@
 import csv
 import json
 import os
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -210,16 +212,22 @@ def test_a_replaced_file_keeps_its_mode_and_a_link_its_place(tmp_path):
     assert (tmp_path / "path.csv").stat().st_mode & 0o777 == 0o640
 
 
+HERE = {
+    **os.environ,
+    "PYTHONPATH": str(Path(__file__).parents[2]),
+    "PYTHONDONTWRITEBYTECODE": "1",
+}
+
+
 def in_a_shell(command, folder):
     """Run a shell's line in a folder, `cointoss` being the command."""
     line = f'cointoss() {{ "{sys.executable}" -c "from compare.cli import main; main()" "$@"; }}; {command}'
-    here = str(Path(__file__).parents[2])
     return subprocess.run(
         ["bash", "-c", line],
         cwd=folder,
         capture_output=True,
         text=True,
-        env={**os.environ, "PYTHONPATH": here},
+        env=HERE,
     )
 
 
@@ -245,7 +253,7 @@ def test_a_stream_is_written_to_directly(tmp_path):
         ("cointoss --help > /dev/full", 1, "standard output"),
         ("ln -s /dev/full full; cointoss toss fig24a --max-impacts 1 --trajectory full", 2, "full"),
         (
-            "ulimit -f 1; export PYTHONDONTWRITEBYTECODE=1; cointoss toss fig24a --max-impacts 1 --trajectory path.csv",
+            "ulimit -f 1; cointoss toss fig24a --max-impacts 1 --trajectory path.csv",
             2,
             "path.csv",
         ),
@@ -259,9 +267,38 @@ def test_what_cannot_be_written_is_one_line(tmp_path, command, status, named):
     assert {path.name for path in tmp_path.iterdir()} <= {"full"}
 
 
-def test_a_closed_pipe_is_one_line(tmp_path):
+def test_a_closed_pipe_ends_quietly_with_exit_status_1(tmp_path):
     done = in_a_shell("(sleep 0.1; cointoss --help; echo $? >&2) | true", tmp_path)
-    assert done.stderr == "cointoss: standard output: can't be written (Broken pipe)\n1\n"
+    assert done.stderr == "1\n"
+
+
+@pytest.mark.parametrize(("sign", "status"), [(signal.SIGINT, 1), (signal.SIGTERM, 143)])
+def test_a_film_that_is_interrupted_leaves_nothing(tmp_path, sign, status):
+    script = "from compare.cli import main; main()"
+    filming = subprocess.Popen(
+        [sys.executable, "-c", script, "compare", "fig24a", "--out", "new/report"],
+        cwd=tmp_path,
+        env=HERE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    deadline = time.monotonic() + 120
+    while not list(tmp_path.glob("new/report/.cointoss-*/toss.mp4")) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    os.killpg(filming.pid, sign)  # the encoder is stopped too, as by Ctrl-C
+    _, told = filming.communicate(timeout=60)
+    assert filming.returncode == status
+    assert told.strip() == ("Aborted!" if sign == signal.SIGINT else "")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_film_that_cannot_be_written_is_one_line(tmp_path):
+    done = in_a_shell("ulimit -f 8; cointoss video zloty --out film.mp4; echo $?", tmp_path)
+    assert done.stdout == "2\n"
+    assert done.stderr.startswith("cointoss: film.mp4: can't be written (ffmpeg: ")
+    assert len(done.stderr.splitlines()) == 1
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_path_of_too_many_rows_is_refused(tmp_path):
