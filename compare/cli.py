@@ -27,7 +27,8 @@ class _Commands(click.Group):
         signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
         try:
             status = super().main(*args, **{**extra, "standalone_mode": False})
-            sys.stdout.flush()
+            if sys.stdout is not None:  # None where the shell has closed it
+                sys.stdout.flush()
         except click.UsageError as error:
             command = error.ctx.command_path if error.ctx else "cointoss"
             _refuse(f"{error.format_message().rstrip('.')} (see {command} --help)")

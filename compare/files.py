@@ -112,7 +112,7 @@ def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
         UnwritableError: naming the folder and why, for every error of the system on the way.
     """
     made = [part for part in (folder, *folder.parents) if not os.path.lexists(part)]
-    with _naming(folder, "accepted: a folder that can be written"):
+    with _naming(folder):
         try:
             folder.mkdir(parents=True, exist_ok=True)
             # Inside, because the rename must stay on one disk.
@@ -134,14 +134,14 @@ def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
 
 
 @contextmanager
-def _naming(path: Path, wrong: str = "can't be written") -> Iterator[None]:
+def _naming(path: Path) -> Iterator[None]:
     """Name a path in the system's errors about it."""
     try:
         yield
     except UnwritableError:
         raise
     except OSError as error:
-        raise UnwritableError(f"{path}: {wrong} ({error.strerror or error})") from None
+        raise UnwritableError(f"{path}: can't be written ({error.strerror or error})") from None
 
 
 def _target(path: Path) -> Path:

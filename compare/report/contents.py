@@ -19,6 +19,8 @@ def require_folder(folder: Path, source: str) -> None:
     Raises:
         UnwritableError: naming the folder, the file in the way, and why.
     """
+    if os.path.lexists(folder) and not folder.is_dir():
+        raise UnwritableError(f"{folder}: accepted: a folder (this is none)")
     in_the_way = [folder / name for name in FILES if os.path.lexists(folder / name)]
     for path in in_the_way:
         require_replaceable(path, source)
