@@ -26,7 +26,7 @@ class _Commands(click.Group):
         # As an exception, the request to end removes what was written aside.
         signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
         try:
-            status = super().main(*args, **{**extra, "standalone_mode": False})
+            status = super().main(*args, **{"prog_name": "cointoss", **extra, "standalone_mode": False})
             if sys.stdout is not None:  # None where the shell has closed it
                 sys.stdout.flush()
         except click.UsageError as error:
@@ -39,6 +39,10 @@ class _Commands(click.Group):
             _lose_stdout()
             _refuse(f"{error.filename or 'standard output'}: can't be written ({error.strerror})", status=1)
         sys.exit(status)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
+        known = super().get_command(ctx, cmd_name)
+        return known or ctx.fail(f"{cmd_name}: no such command; accepted: {', '.join(self.commands)}")
 
 
 class _Count(click.IntRange):

@@ -201,9 +201,8 @@ def _apart(comparison: Comparison) -> Figure:
     for time in comparison.analytic.impacts.time:
         axes.axvline(time, color="#aab3bf", linewidth=0.5)
     axes.axhline(PARTED, color="#5b6675", linewidth=0.8)
-    axes.text(
-        0.01, PARTED, f"{PARTED:g} r", transform=axes.get_yaxis_transform(), va="bottom", color="#5b6675"
-    )
+    across = axes.get_yaxis_transform()
+    axes.text(0.01, PARTED, f"{PARTED:g} r", transform=across, va="bottom", color="#5b6675")
     axes.set_ylim(foot, 1e3)
     axes.set_xlabel("t [s]")
     axes.set_ylabel("between the two engines")

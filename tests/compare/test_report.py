@@ -148,10 +148,8 @@ def test_a_report_replaces_an_earlier_one_as_a_whole_and_nothing_else(folder, tm
     before = {path.name: path.read_bytes() for path in earlier.iterdir()}
     text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 2")
     case = parse(text, "knurled")
-    with (
-        patch("compare.report.folder.render", side_effect=KeyboardInterrupt),
-        pytest.raises(KeyboardInterrupt),
-    ):
+    interrupted = patch("compare.report.folder.render", side_effect=KeyboardInterrupt)
+    with interrupted, pytest.raises(KeyboardInterrupt):
         write_report(case, text, "knurled", earlier, None, lambda *_: None)
     assert {path.name: path.read_bytes() for path in earlier.iterdir()} == before
     write_report(case, text, "knurled", earlier, None, lambda *_: None)
