@@ -3,6 +3,7 @@
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
 
+import errno
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -99,14 +100,25 @@ def write_video(toss: Toss, path: Path, progress: Callable[[int, int], None]) ->
         toss: by either engine.
         path: of the file.
         progress: called after each frame with their number so far and in all.
+
+    Raises:
+        OSError: if the encoder can't write the file.
     """
     mediapy.set_ffmpeg(imageio_ffmpeg.get_ffmpeg_exe())
     count = len(film_times(toss)[0])
     shape = (HEIGHT, OVERVIEW_WIDTH + CLOSE_UP_WIDTH)
-    with mediapy.VideoWriter(str(path), shape, fps=FRAMES_PER_SECOND, crf=21) as writer:
-        for number, frame in enumerate(frames(toss), start=1):
-            writer.add_image(frame)
-            progress(number, count)
+    try:
+        with mediapy.VideoWriter(str(path), shape, fps=FRAMES_PER_SECOND, crf=21) as writer:
+            for number, frame in enumerate(frames(toss), start=1):
+                writer.add_image(frame)
+                progress(number, count)
+    except (RuntimeError, BrokenPipeError) as error:
+        # Ctrl-C ends the encoder too, whose complaint would hide it.
+        if isinstance(error.__context__, KeyboardInterrupt | SystemExit):
+            raise error.__context__ from None
+        told = "" if isinstance(error, BrokenPipeError) else str(error).partition("': ")[2].strip()
+        reason = told.splitlines()[-1] if told else "stopped, or the disk is full"
+        raise OSError(errno.EIO, f"ffmpeg: {reason}", str(path)) from error
 
 
 def _span(toss: Toss, states: States) -> float:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from models.records import Face, Impacts, States, Toss
+from models.records import Face, Impacts, States, Toss, UnsupportedError
 
 _JSON_FIELDS = (
     "impulse",
@@ -29,6 +29,9 @@ PATH_COLUMNS = {
     "angular_velocity": ("w_xi [rad/s]", "w_eta [rad/s]", "w_zeta [rad/s]"),
 }
 """Columns of a path's CSV file, by the fields of `States`."""
+ROWS_PER_SECOND = 1000
+MOST_ROWS = 1_000_000
+"""Beyond it a path's CSV file has hundreds of megabytes."""
 
 
 def as_json(toss: Toss) -> dict[str, Any]:
@@ -51,9 +54,18 @@ def _impact(impacts: Impacts, i: int) -> dict[str, Any]:
     return {"time": float(impacts.time[i]), "face": Face(impacts.face[i]).symbol, **fields}
 
 
-def path_times(toss: Toss, per_second: float) -> np.ndarray:
-    """Give times evenly spread over a toss, and those of its impacts and its end [s]."""
-    even = np.arange(0.0, toss.end_time, 1 / per_second)
+def path_times(toss: Toss) -> np.ndarray:
+    """Give times evenly spread over a toss, and those of its impacts and its end [s].
+
+    Raises:
+        UnsupportedError: if they are more than `MOST_ROWS`.
+    """
+    if toss.end_time * ROWS_PER_SECOND > MOST_ROWS:
+        raise UnsupportedError(
+            f"ending.max_time = {toss.scenario.ending.max_time:g}: accepted where the path is written: "
+            f"at most {MOST_ROWS / ROWS_PER_SECOND:g} s (this toss lasts {toss.end_time:g} s)"
+        )
+    even = np.arange(0.0, toss.end_time, 1 / ROWS_PER_SECOND)
     return np.unique(np.concatenate([even, toss.impacts.time, [toss.end_time]]))
 
 

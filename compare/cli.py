@@ -1,10 +1,13 @@
 """The command line: `cointoss`."""
 
 import json
+import os
+import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any, NoReturn
 
 import click
 
@@ -16,7 +19,49 @@ _SCENARIO_HELP = (
 )
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+class _Commands(click.Group):
+    """Commands whose every failure is one line."""
+
+    def main(self, *args: Any, **extra: Any) -> NoReturn:
+        # As an exception, the request to end removes what was written aside.
+        signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
+        try:
+            status = super().main(*args, **{"prog_name": "cointoss", **extra, "standalone_mode": False})
+            if sys.stdout is not None:  # None where the shell has closed it
+                sys.stdout.flush()
+        except click.UsageError as error:
+            command = error.ctx.command_path if error.ctx else "cointoss"
+            _refuse(f"{error.format_message().rstrip('.')} (see {command} --help)")
+        except click.Abort:
+            click.echo("Aborted!", err=True)
+            sys.exit(1)
+        except OSError as error:
+            _lose_stdout()
+            _refuse(f"{error.filename or 'standard output'}: can't be written ({error.strerror})", status=1)
+        sys.exit(status)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
+        known = super().get_command(ctx, cmd_name)
+        return known or ctx.fail(f"{cmd_name}: no such command; accepted: {', '.join(self.commands)}")
+
+
+class _Count(click.IntRange):
+    """A whole number from 1 on; the message says so where it is no number too."""
+
+    name = "count"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        try:
+            return super().convert(value, param, ctx)
+        except click.BadParameter:
+            self.fail(f"{value}; accepted: an integer >= {self.min} and <= {self.max}", param, ctx)
+
+
+@click.group(
+    cls=_Commands,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+    no_args_is_help=False,
+)
 @click.version_option(package_name="cointoss", prog_name="cointoss")
 def main() -> None:
     """Toss a coin by the mechanics of Strzalko et al. (2008) and by MuJoCo, and compare."""
@@ -37,9 +82,15 @@ def _plain_errors(source: str) -> Iterator[None]:
         _refuse(f"{source}: {error}")
 
 
-def _refuse(message: str) -> None:
-    click.echo(f"cointoss: {message}", err=True)
-    sys.exit(2)
+def _refuse(message: str, status: int = 2) -> NoReturn:
+    shown = "".join(char if char.isprintable() else repr(char)[1:-1] for char in message)
+    click.echo(f"cointoss: {shown}", err=True)
+    sys.exit(status)
+
+
+def _lose_stdout() -> None:
+    """Send what standard output could not take nowhere, or Python would complain of it again at its end."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
 @main.command(epilog=_SCENARIO_HELP)
@@ -51,27 +102,27 @@ def _refuse(message: str) -> None:
     show_default=True,
     help="Which engine.",
 )
-@click.option("--max-impacts", type=click.IntRange(1, 1_000_000), help="Stop after so many impacts.")
+@click.option("--max-impacts", type=_Count(1, 1_000_000), help="Stop after so many impacts.")
 @click.option("--json", "as_json", is_flag=True, help="Answer in JSON, in full precision.")
-@click.option("--trajectory", type=click.Path(path_type=Path), help="Write the path to this CSV file too.")
+@click.option("--trajectory", type=click.Path(path_type=Path), help="Write the path to this .csv file too.")
 def toss(scenario: str, engine: str, max_impacts: int | None, as_json: bool, trajectory: Path | None) -> None:
     """Toss one coin and print its impacts."""
     with _plain_errors(scenario):
         from compare import answer
         from compare.engines import Engine
         from compare.engines import toss as toss_by
-        from compare.files import require_file, write_text
+        from compare.files import is_stream, require_file, write_text
         from models.reading import load
 
-        if trajectory is not None:
-            require_file(trajectory)
         described = load(scenario)
+        if trajectory is not None and not is_stream(trajectory):
+            require_file(trajectory, ".csv", scenario)
         if max_impacts is not None:
             ending = described.ending.model_copy(update={"max_impacts": max_impacts})
             described = described.model_copy(update={"ending": ending})
         result = toss_by(Engine(engine), described)
         if trajectory is not None:
-            times = answer.path_times(result, per_second=1000)
+            times = answer.path_times(result)
             write_text(trajectory, answer.path_csv(result.sample(times)))
         click.echo(
             json.dumps(answer.as_json(result), indent=1, allow_nan=False)
@@ -88,12 +139,12 @@ def toss(scenario: str, engine: str, max_impacts: int | None, as_json: bool, tra
 def compare(scenario: str, out: Path) -> None:
     """Toss one coin by both engines and write a side-by-side report with video."""
     with _plain_errors(scenario):
-        from compare.files import require_folder
+        from compare.report.contents import require_folder
         from models.reading import parse, scenario_text
 
         text = scenario_text(scenario)
         described = parse(text, scenario)
-        require_folder(out)
+        require_folder(out, scenario)
 
         from compare.graphics import drawing_problem
 
@@ -111,13 +162,11 @@ def compare(scenario: str, out: Path) -> None:
 def video(scenario: str, out: Path) -> None:
     """Film one toss in MuJoCo, in slow motion around the impacts."""
     with _plain_errors(scenario):
-        from compare.files import UnwritableError, require_file, written_whole
+        from compare.files import require_file, written_whole
         from models.reading import load
 
         described = load(scenario)
-        if out.suffix != ".mp4":
-            raise UnwritableError(f"{out}: accepted: a file name that ends in .mp4")
-        require_file(out)
+        require_file(out, ".mp4", scenario)
 
         from compare.graphics import drawing_problem
 

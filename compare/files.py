@@ -1,9 +1,12 @@
-"""Write a file whole or not at all: aside first, then renamed."""
+"""Write files whole or not at all: aside first, then renamed."""
 
 import os
+import shutil
+import stat
+import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 
@@ -11,52 +14,154 @@ class UnwritableError(OSError):
     """A place that can't be written; the message names it and says why."""
 
 
-def require_folder(folder: Path) -> None:
-    """Make `folder` where it is missing, and check that files can be made in it.
+def require_file(path: Path, suffix: str, source: str) -> None:
+    """Check that a file can be written at `path`, in a folder that exists, and that nothing else is lost.
 
-    Raises:
-        UnwritableError: naming the folder and why.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            pass
-    except OSError as error:
-        raise UnwritableError(
-            f"{folder}: accepted: a folder that can be written ({error.strerror})"
-        ) from None
-
-
-def require_file(path: Path) -> None:
-    """Check that a file can be written at `path`, in a folder that exists.
+    Args:
+        path: where to write; a link stands for what it points to.
+        suffix: what its name must end in.
+        source: the scenario, which must be another file.
 
     Raises:
         UnwritableError: naming the file and why.
     """
-    if path.is_dir():
-        raise UnwritableError(f"{path}: accepted: a file (this is a folder)")
-    if not path.parent.is_dir():
-        raise UnwritableError(f"{path}: accepted: a file in a folder that exists ({path.parent} does not)")
-    require_folder(path.parent)
+    if path.suffix.lower() != suffix:
+        raise UnwritableError(f"{path}: accepted: a file name that ends in {suffix}")
+    with _naming(path):
+        if not path.parent.is_dir():
+            raise UnwritableError(f"{path}: accepted: a file in a folder that exists")
+        target = _target(path)
+        if target.exists():
+            require_replaceable(target, source)
+        with tempfile.TemporaryFile(dir=target.parent):
+            pass
+
+
+def require_replaceable(path: Path, source: str) -> None:
+    """Check that what is at `path` is a file that may be replaced.
+
+    Args:
+        path: of what exists.
+        source: the scenario, which must be another file.
+
+    Raises:
+        UnwritableError: naming the file and why.
+    """
+    if path.is_symlink() or not path.is_file():
+        kind = "folder" if path.is_dir() else "link or a device"
+        raise UnwritableError(f"{path}: accepted: a new name or a regular file (this is a {kind})")
+    # The bits are asked too: the superuser may write everything.
+    if not (path.stat().st_mode & 0o222 and os.access(path, os.W_OK)):
+        raise UnwritableError(
+            f"{path}: accepted: a new name or a file that can be written (this is read-only)"
+        )
+    if os.path.exists(source) and path.samefile(source):  # noqa: PTH110
+        raise UnwritableError(f"{path}: accepted: another file than the scenario itself")
+
+
+def is_stream(path: Path) -> bool:
+    """Tell whether `path` is a device, a pipe, or where standard output goes: no file to replace."""
+    with _naming(path):
+        return path.exists() and (_is_stdout(path) or not (path.is_file() or path.is_dir()))
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a text file whole or not at all; write to a stream directly.
+
+    Raises:
+        UnwritableError: naming the file and why.
+    """
+    with _naming(path):
+        if not is_stream(path):
+            with written_whole(path) as aside:
+                aside.write_text(text, encoding="utf-8")
+        elif _is_stdout(path):  # opened a second time, a file would be written over from its start
+            sys.stdout.write(text)
+            sys.stdout.flush()
+        else:
+            path.write_text(text, encoding="utf-8")
 
 
 @contextmanager
 def written_whole(path: Path) -> Iterator[Path]:
-    """Give a path beside `path` to write to; rename it to `path` when all went well, else remove it."""
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
-    os.close(handle)
-    aside = Path(name)
+    """Give a path beside `path` to write to; rename it to `path` when all went well, else remove it.
+
+    Raises:
+        UnwritableError: naming the file and why, for every error of the system on the way.
+    """
+    with _naming(path):
+        target = _target(path)
+        handle, name = tempfile.mkstemp(dir=target.parent, prefix=".cointoss-", suffix=path.suffix)
+        os.close(handle)
+        aside = Path(name)
+        try:
+            yield aside
+            _move(aside, target)
+        finally:
+            aside.unlink(missing_ok=True)
+
+
+@contextmanager
+def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
+    """Give a folder inside `folder` to write to; when all went well, move its files up to `folder`.
+
+    Of `names`, those that were not written are removed from `folder`: they belong to what is replaced.
+    `folder` is made if missing. When something goes wrong, everything is as before.
+
+    Raises:
+        UnwritableError: naming the folder and why, for every error of the system on the way.
+    """
+    made = [part for part in (folder, *folder.parents) if not os.path.lexists(part)]
+    with _naming(folder):
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            # Inside, because the rename must stay on one disk.
+            aside = Path(tempfile.mkdtemp(dir=folder, prefix=".cointoss-"))
+            try:
+                yield aside
+                for name in names:
+                    if (aside / name).exists():
+                        _move(aside / name, folder / name)
+                    else:
+                        (folder / name).unlink(missing_ok=True)
+            finally:
+                shutil.rmtree(aside, ignore_errors=True)
+        except BaseException:
+            with suppress(OSError):
+                for part in made:
+                    part.rmdir()
+            raise
+
+
+@contextmanager
+def _naming(path: Path) -> Iterator[None]:
+    """Name a path in the system's errors about it."""
     try:
-        yield aside
+        yield
+    except UnwritableError:
+        raise
+    except OSError as error:
+        raise UnwritableError(f"{path}: can't be written ({error.strerror or error})") from None
+
+
+def _target(path: Path) -> Path:
+    return Path(os.path.realpath(path))
+
+
+def _is_stdout(path: Path) -> bool:
+    try:
+        return os.path.samestat(path.stat(), os.fstat(1))
+    except OSError:
+        return False
+
+
+def _move(aside: Path, target: Path) -> None:
+    """Rename a file to what it replaces, with the mode of that, or with a new file's."""
+    if target.exists():
+        mode = stat.S_IMODE(target.stat().st_mode)
+    else:
         mask = os.umask(0)
         os.umask(mask)
-        aside.chmod(0o666 & ~mask)
-        aside.replace(path)
-    finally:
-        aside.unlink(missing_ok=True)
-
-
-def write_text(path: Path, text: str) -> None:
-    """Write a text file whole or not at all."""
-    with written_whole(path) as aside:
-        aside.write_text(text, encoding="utf-8")
+        mode = 0o666 & ~mask
+    aside.chmod(mode)
+    aside.replace(target)

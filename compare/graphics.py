@@ -5,6 +5,7 @@ and it chooses its back end once, when it is first imported.
 """
 
 import os
+import re
 import subprocess
 import sys
 
@@ -22,6 +23,8 @@ ADVICE = (
     "apt-get install libegl1 libgl1-mesa-dri libopengl0 (elsewhere: Mesa with EGL)"
 )
 
+UNKNOWN = "video can't be drawn here"
+
 
 def drawing_problem() -> str | None:
     """Choose MuJoCo's back end where the user has not, and draw one frame in a child process.
@@ -29,16 +32,28 @@ def drawing_problem() -> str | None:
     Call it before MuJoCo is first imported.
 
     Returns:
-        None if drawing works, else what to install.
+        None if drawing works, else what to install, or what went wrong.
     """
     if sys.platform == "linux" and "DISPLAY" not in os.environ:
         os.environ.setdefault("MUJOCO_GL", "egl")
-    tried = subprocess.run(
-        [sys.executable, "-c", _DRAW_ONE_FRAME], capture_output=True, check=False, timeout=120
-    )
+    said = _drawing_complaint()
+    if said is None:
+        return None
+    # Importing MuJoCo for a back end that is missing would fail too.
+    os.environ["MUJOCO_GL"] = "disabled"
+    lacks_library = re.search("gl|mesa|signal", said, re.IGNORECASE) and "invalid value" not in said
+    return f"{ADVICE if lacks_library else UNKNOWN} ({said})"
+
+
+def _drawing_complaint() -> str | None:
+    """Draw one frame in a child process; give the last thing it says where it fails."""
+    # -P: a module of the current folder must not stand in for one of Python's.
+    command = [sys.executable, "-P", "-c", _DRAW_ONE_FRAME]
+    try:
+        tried = subprocess.run(command, capture_output=True, check=False, timeout=120, errors="replace")
+    except (OSError, subprocess.TimeoutExpired) as error:
+        return str(error)
     if tried.returncode == 0:
         return None
-    # Without the library, importing MuJoCo for EGL would fail too.
-    if os.environ.get("MUJOCO_GL") == "egl":
-        os.environ["MUJOCO_GL"] = "disabled"
-    return ADVICE
+    said = [line for line in tried.stderr.splitlines() if line.strip()]
+    return said[-1].strip() if said else f"ended by signal {-tried.returncode}"

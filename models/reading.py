@@ -31,20 +31,23 @@ def scenario_text(source: str) -> str:
     Raises:
         ScenarioError: if there is no such file or it can't be read as text.
     """
+    names = named_scenarios()
     path = Path(source)
-    if not path.exists() and source in named_scenarios():
-        return (resources.files("models") / "scenarios" / f"{source}.toml").read_text(encoding="utf-8")
     try:
-        return path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        names = ", ".join(named_scenarios())
-        raise ScenarioError(f"{source}: no such file; give a TOML file or one of: {names}") from None
+        if source in names and not path.exists():
+            return (resources.files("models") / "scenarios" / f"{source}.toml").read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
         raise ScenarioError(
-            f"{source}: not a text file in UTF-8 ({error.reason} at byte {error.start})"
+            f"{source}: {error.reason} at byte {error.start}; accepted: a text file in UTF-8"
         ) from None
     except OSError as error:
-        raise ScenarioError(f"{source}: can't be read ({error.strerror})") from None
+        wrong = (
+            "no such file" if isinstance(error, FileNotFoundError) else f"can't be read ({error.strerror})"
+        )
+        raise ScenarioError(
+            f"{source or '(no name)'}: {wrong}; accepted: a TOML file, or one of: {', '.join(names)}"
+        ) from None
 
 
 def load(source: str) -> Scenario:
@@ -71,10 +74,14 @@ def parse(text: str, source: str) -> Scenario:
     """
     try:
         return Scenario.model_validate(tomllib.loads(text))
-    except tomllib.TOMLDecodeError as error:
-        raise ScenarioError(f"{source}: not TOML: {error}") from None
     except ValidationError as error:
         raise ScenarioError(f"{source}: {describe(error)}") from None
+    except RecursionError:
+        raise ScenarioError(f"{source}: nested too deeply; accepted: tables of numbers and lists") from None
+    except tomllib.TOMLDecodeError as error:
+        raise ScenarioError(f"{source}: not TOML: {error}") from None
+    except ValueError:  # the one that tomllib lets through
+        raise ScenarioError(f"{source}: an integer of too many digits; accepted: at most 4300") from None
 
 
 def describe(error: ValidationError) -> str:
@@ -119,7 +126,10 @@ def _shown(value: Any) -> str:
         value = value.model_dump(exclude_none=True)
     if isinstance(value, tuple):
         value = list(value)
-    text = f'"{value}"' if isinstance(value, str) else str(value)
+    try:
+        text = f'"{value}"' if isinstance(value, str) else str(value)
+    except (ValueError, RecursionError):  # an integer of too many digits, a table nested too deeply
+        return "(too long to show)"
     return text if len(text) <= 80 else text[:77] + "..."
 
 
@@ -133,7 +143,7 @@ def _accepted(detail: ErrorDetails) -> str:
         case "finite_number":
             return "a finite number"
         case "float_type":
-            return "a number, or a string with a unit"
+            return 'a number, or a string with a number and a unit like "2 m"'
         case "int_type":
             return "a whole number"
         case "tuple_type":

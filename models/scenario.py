@@ -1,5 +1,6 @@
 """What is tossed: coin, air, floor, release and ending; frozen, and validated when made."""
 
+import math
 from collections.abc import Callable
 from typing import Annotated, Any, Self
 
@@ -57,6 +58,8 @@ _Sequence = BeforeValidator(_as_tuple)
 LARGEST, SMALLEST = 1e9, 1e-9
 # Spins and drags beyond all tosses, which would take hours to follow; against √(g/r).
 FASTEST_SPIN, FASTEST_DRAG = 1e5, 1e4
+# In an angle beyond it the digits that tell one attitude from another are gone [rad].
+LARGEST_ANGLE = 1e6
 
 _within = Field(ge=-LARGEST, le=LARGEST)
 _size = Field(ge=SMALLEST, le=LARGEST)
@@ -66,7 +69,7 @@ Number = Annotated[float, _quantity("")]
 Mass = Annotated[float, _quantity("kg")]
 Length = Annotated[float, _quantity("m"), _within]
 Speed = Annotated[float, _quantity("m/s"), _within]
-Angle = Annotated[float, _quantity("rad")]
+Angle = Annotated[float, _quantity("rad"), Field(ge=-LARGEST_ANGLE, le=LARGEST_ANGLE)]
 Spin = Annotated[float, _quantity("rad/s")]
 Inertia = Annotated[float, _quantity("kg*m**2"), _within]
 Lengths = Annotated[tuple[Length, Length, Length], _Sequence]
@@ -221,7 +224,7 @@ class Release(_Part):
     def _unit_norm(cls, e: Quaternion | None) -> Quaternion | None:
         if e is None:
             return None
-        size = float(np.linalg.norm(e))
+        size = math.hypot(*e)
         if not abs(size - 1) <= 1e-3:
             raise ValueError(f"four numbers of norm 1 within 1e-3 (the norm here is {size:.6g})")
         return tuple(x / size for x in e) if size != 1 else e  # pyright: ignore[reportReturnType]
@@ -245,7 +248,7 @@ class Ending(_Part):
     """What decides that the face up is final."""
     max_impacts: Annotated[int, Field(ge=1, le=1_000_000)] = 1000
     """The toss stops after so many impacts."""
-    max_time: Annotated[float, _quantity("s"), Field(gt=0)] = 60.0
+    max_time: Annotated[float, _quantity("s"), _size] = 60.0
     """The toss stops at this time [s]."""
 
 
@@ -278,7 +281,7 @@ class Scenario(_Part):
     def _within_reach(self) -> Self:
         rate = (self.gravity / self.coin.radius) ** 0.5
         w = self.release.angular_velocity
-        if not np.linalg.norm(w) <= FASTEST_SPIN * rate:
+        if not math.hypot(*w) <= FASTEST_SPIN * rate:
             accepted = f"a spin of at most {FASTEST_SPIN:g} sqrt(g/r) = {FASTEST_SPIN * rate:.3g} rad/s"
             raise FieldError("release.angular_velocity", w, accepted)
         if not damping_rate(self.body) <= FASTEST_DRAG * rate:

@@ -10,13 +10,12 @@ import numpy as np
 
 from compare import answer
 from compare.comparison import Comparison, compare
-from compare.files import write_text, written_whole
+from compare.files import written_together
 from compare.report import plots
+from compare.report.contents import FILES
 from compare.report.page import Page, render, versions
 from models.records import Array, Toss
 from models.scenario import Scenario
-
-PATH_ROWS_PER_SECOND = 1000
 
 
 def write_report(
@@ -33,7 +32,7 @@ def write_report(
         scenario: what to toss.
         scenario_text: the text it was read from.
         name: what to call it.
-        folder: where to write; it exists.
+        folder: where to write, made if missing; an earlier report there is replaced as a whole, at the end.
         no_video: why no video can be drawn, or None.
         progress: called after each frame of the video with their number so far and in all.
 
@@ -41,41 +40,39 @@ def write_report(
         The page, report.html. Beside it lie toss.mp4, numbers.json, and path-*.csv of each engine.
 
     Raises:
-        UnsupportedError: for what the analytic engine doesn't model.
+        UnsupportedError: for what the analytic engine doesn't model, and a path of too many rows.
+        UnwritableError: naming the folder and why.
     """
-    answered = compare(scenario)
-    comparison = answered if isinstance(answered, Comparison) else None
-    analytic, not_realisable = (comparison.analytic, None) if comparison else answered  # pyright: ignore
-    tosses = [analytic, *([comparison.mujoco] if comparison else [])]
+    with written_together(folder, FILES) as aside:
+        answered = compare(scenario)
+        comparison = answered if isinstance(answered, Comparison) else None
+        analytic, not_realisable = (comparison.analytic, None) if comparison else answered  # pyright: ignore
+        tosses = [analytic, *([comparison.mujoco] if comparison else [])]
+        numbers = _numbers(name, tosses, comparison, not_realisable)
+        (aside / "numbers.json").write_text(json.dumps(numbers, indent=1, allow_nan=False), encoding="utf-8")
+        for toss in tosses:
+            states = toss.sample(answer.path_times(toss))
+            (aside / f"path-{toss.engine}.csv").write_text(answer.path_csv(states), encoding="utf-8")
 
-    write_text(
-        folder / "numbers.json",
-        json.dumps(_numbers(name, tosses, comparison, not_realisable), indent=1, allow_nan=False),
-    )
-    for toss in tosses:
-        states = toss.sample(answer.path_times(toss, PATH_ROWS_PER_SECOND))
-        write_text(folder / f"path-{toss.engine}.csv", answer.path_csv(states))
+        video = None
+        if comparison and no_video is None:
+            from coin_mj.video import write_video
 
-    video = None
-    if comparison and no_video is None:
-        from coin_mj.video import write_video
+            write_video(comparison.mujoco, aside / "toss.mp4", progress)
+            video = (aside / "toss.mp4").read_bytes()
 
-        with written_whole(folder / "toss.mp4") as aside:
-            write_video(comparison.mujoco, aside, progress)
-        video = (folder / "toss.mp4").read_bytes()
-
-    page = Page(
-        name=name,
-        scenario=scenario,
-        scenario_text=scenario_text,
-        analytic=analytic,
-        comparison=comparison,
-        not_realisable=not_realisable,
-        figures=plots.draw(tosses, comparison),
-        video=video,
-        no_video=no_video or not_realisable,
-    )
-    write_text(folder / "report.html", render(page))
+        page = Page(
+            name=name,
+            scenario=scenario,
+            scenario_text=scenario_text,
+            analytic=analytic,
+            comparison=comparison,
+            not_realisable=not_realisable,
+            figures=plots.draw(tosses, comparison),
+            video=video,
+            no_video=no_video or not_realisable,
+        )
+        (aside / "report.html").write_text(render(page), encoding="utf-8")
     return folder / "report.html"
 
 

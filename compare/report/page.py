@@ -72,7 +72,8 @@ def _parameters(scenario: Scenario) -> list[tuple[str, str, str]]:
             if isinstance(value, BaseModel):
                 walk(value, f"{path}{name}.")
             elif value is not None:
-                rows.append((f"{path}{name}", _shown(value), field.description or ""))
+                degrees = f" = {_shown(tuple(np.degrees(value).tolist()))}°" if name == "angles" else ""
+                rows.append((f"{path}{name}", _shown(value) + degrees, field.description or ""))
 
     walk(scenario, "")
     return rows

@@ -104,7 +104,9 @@ def _path(sampled: list[tuple[Toss, States]]) -> Figure:
         hits = 1e3 * toss.impacts.position
         axes.plot(hits[:, 0], hits[:, 1], hits[:, 2], ".", color=COLORS[toss.engine], markersize=4)
     middle, reach = (points.min(0) + points.max(0)) / 2, np.ptp(points, axis=0)
-    wide = max(reach[0], reach[1], 0.01 * reach[2])
+    # A path without width, or too far off to have one in floating-point numbers, is drawn as a line.
+    radius = 1e3 * sampled[0][0].scenario.coin.radius
+    wide = max(reach[0], reach[1], 0.01 * reach[2], 0.1 * radius, 1e-9 * np.abs(middle).max())
     axes.set_xlim(middle[0] - wide / 2, middle[0] + wide / 2)
     axes.set_ylim(middle[1] - wide / 2, middle[1] + wide / 2)
     axes.set_zlim(0, None)
@@ -199,6 +201,8 @@ def _apart(comparison: Comparison) -> Figure:
     for time in comparison.analytic.impacts.time:
         axes.axvline(time, color="#aab3bf", linewidth=0.5)
     axes.axhline(PARTED, color="#5b6675", linewidth=0.8)
+    across = axes.get_yaxis_transform()
+    axes.text(0.01, PARTED, f"{PARTED:g} r", transform=across, va="bottom", color="#5b6675")
     axes.set_ylim(foot, 1e3)
     axes.set_xlabel("t [s]")
     axes.set_ylabel("between the two engines")

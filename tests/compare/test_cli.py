@@ -3,14 +3,18 @@
 import csv
 import json
 import os
+import signal
 import subprocess
 import sys
+import time
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 
 from compare.cli import main
-from compare.files import UnwritableError, require_file, require_folder, write_text
+from compare.files import UnwritableError, require_file, write_text
+from compare.graphics import drawing_problem
 from models.reading import scenario_text
 
 WRONG = {
@@ -103,7 +107,9 @@ def test_what_an_engine_cannot_do_is_exit_status_2(tmp_path):
         ["toss", "fig24a", "--engine", "bullet"],
         ["toss", "fig24a", "--max-impacts", "0"],
         ["toss", "fig24a", "--max-impacts", "many"],
+        ["toss", "fig24a", "--max-impact", "3", "--jsn"],
         ["toss"],
+        [],
         ["compare", "fig24a"],
         ["throw", "fig24a"],
         ["toss", "no_such_scenario"],
@@ -114,7 +120,8 @@ def test_wrong_arguments_are_exit_status_2(arguments):
     answered = cointoss(*arguments)
     assert answered.exit_code == 2
     assert answered.stdout == ""
-    assert "Traceback" not in answered.stderr
+    assert answered.stderr.startswith("cointoss: ")
+    assert len(answered.stderr.splitlines()) == 1
 
 
 def test_places_that_cannot_be_written_are_refused_before_the_work(tmp_path):
@@ -129,7 +136,7 @@ def test_places_that_cannot_be_written_are_refused_before_the_work(tmp_path):
         answered = cointoss(*command, target)
         assert answered.exit_code == 2
         assert str(target) in answered.stderr
-        assert "accepted:" in answered.stderr
+        assert "accepted:" in answered.stderr or "can't be written" in answered.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
     assert (tmp_path / "file").read_text() == "mine"
 
@@ -143,12 +150,171 @@ def test_a_failed_write_leaves_what_was_there(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["kept.txt"]
 
 
-def test_places_are_checked(tmp_path):
-    require_folder(tmp_path / "new" / "deep")
-    assert (tmp_path / "new" / "deep").is_dir()
-    require_file(tmp_path / "new" / "file.csv")
-    with pytest.raises(UnwritableError, match="this is a folder"):
-        require_file(tmp_path / "new")
+def test_a_number_that_is_none_is_answered_with_what_is_accepted():
+    assert (
+        "'--max-impacts': 1e9; accepted: an integer >= 1"
+        in cointoss("toss", "fig24a", "--max-impacts", "1e9").stderr
+    )
+
+
+def test_what_would_split_the_message_is_shown_escaped(tmp_path):
+    source = tmp_path / "two\nlines.toml"
+    source.write_text('gravity = "a\\nb"\n"c\\td" = 1')
+    answered = cointoss("toss", source)
+    assert len(answered.stderr.splitlines()) == 1
+    assert "two\\nlines.toml" in answered.stderr
+    assert "c\\td" in answered.stderr
+
+
+def test_an_output_is_never_the_scenario(tmp_path):
+    text = scenario_text("fig24a")
+    for name in ("coin.csv", "coin.mp4"):
+        (tmp_path / name).write_text(text)
+        (tmp_path / f"link-{name}").symlink_to(tmp_path / name)
+    for command, source, target in (
+        (["toss", "--trajectory"], "coin.csv", "coin.csv"),
+        (["toss", "--trajectory"], "coin.csv", "link-coin.csv"),
+        (["video", "--out"], "coin.mp4", "coin.mp4"),
+    ):
+        answered = cointoss(*command, tmp_path / target, tmp_path / source)
+        assert answered.exit_code == 2
+        assert "another file than the scenario" in answered.stderr
+    assert (tmp_path / "coin.csv").read_text() == (tmp_path / "coin.mp4").read_text() == text
+
+
+def test_only_files_that_may_be_replaced_are_accepted(tmp_path):
+    (tmp_path / "folder.csv").mkdir()
+    (tmp_path / "kept.csv").write_text("mine")
+    (tmp_path / "kept.csv").chmod(0o444)
+    os.mkfifo(tmp_path / "pipe.csv")
+    for name, reason in (
+        ("folder.csv", "this is a folder"),
+        ("kept.csv", "read-only"),
+        ("pipe.csv", "a device"),
+        ("coin.toml", r"ends in \.csv"),
+        (300 * "a" + ".csv", "name too long"),
+        ("nowhere/path.csv", "a folder that exists"),
+    ):
+        with pytest.raises(UnwritableError, match=reason):
+            require_file(tmp_path / name, ".csv", "fig24a")
+    require_file(tmp_path / "NEW.CSV", ".csv", "fig24a")
+    require_file(tmp_path / (251 * "a" + ".csv"), ".csv", "fig24a")
+    assert (tmp_path / "kept.csv").read_text() == "mine"
+
+
+def test_a_replaced_file_keeps_its_mode_and_a_link_its_place(tmp_path):
+    (tmp_path / "path.csv").write_text("old")
+    (tmp_path / "path.csv").chmod(0o640)
+    (tmp_path / "link.csv").symlink_to("path.csv")
+    write_text(tmp_path / "link.csv", "new")
+    assert (tmp_path / "link.csv").is_symlink()
+    assert (tmp_path / "path.csv").read_text() == "new"
+    assert (tmp_path / "path.csv").stat().st_mode & 0o777 == 0o640
+
+
+HERE = {
+    **os.environ,
+    "PYTHONPATH": str(Path(__file__).parents[2]),
+    "PYTHONDONTWRITEBYTECODE": "1",
+}
+
+
+def in_a_shell(command, folder):
+    """Run a shell's line in a folder, `cointoss` being the command."""
+    line = f'cointoss() {{ "{sys.executable}" -c "from compare.cli import main; main()" "$@"; }}; {command}'
+    return subprocess.run(
+        ["bash", "-c", line],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        env=HERE,
+    )
+
+
+def test_a_stream_is_written_to_directly(tmp_path):
+    # By links, or a fault here would replace the system's own devices.
+    toss = "cointoss toss fig24a --max-impacts 1 --trajectory"
+    done = in_a_shell(f"ln -s /dev/stdout out; {toss} out > both.txt; {toss} out | cat", tmp_path)
+    both = (tmp_path / "both.txt").read_text()
+    assert both == done.stdout
+    assert both.startswith("t [s],x [m]")
+    assert "sequence  H" in both
+    done = in_a_shell(
+        f"mkfifo pipe; cat pipe > copy & sleep 0.1; {toss} pipe; wait; stat -c %F pipe", tmp_path
+    )
+    assert done.stdout.endswith("fifo\n")
+    assert (tmp_path / "copy").read_text().startswith("t [s],x [m]")
+
+
+@pytest.mark.parametrize(
+    ("command", "status", "named"),
+    [
+        ("cointoss toss fig24a --max-impacts 1 > /dev/full", 1, "standard output"),
+        ("cointoss --help > /dev/full", 1, "standard output"),
+        ("ln -s /dev/full full; cointoss toss fig24a --max-impacts 1 --trajectory full", 2, "full"),
+        (
+            "ulimit -f 1; cointoss toss fig24a --max-impacts 1 --trajectory path.csv",
+            2,
+            "path.csv",
+        ),
+    ],
+)
+def test_what_cannot_be_written_is_one_line(tmp_path, command, status, named):
+    done = in_a_shell(f"{command}; echo $?", tmp_path)
+    assert done.stdout.endswith(f"{status}\n")
+    assert done.stderr.startswith(f"cointoss: {named}: can't be written (")
+    assert len(done.stderr.splitlines()) == 1
+    assert {path.name for path in tmp_path.iterdir()} <= {"full"}
+
+
+def test_a_closed_pipe_ends_quietly_with_exit_status_1(tmp_path):
+    done = in_a_shell("(sleep 0.1; cointoss --help; echo $? >&2) | true", tmp_path)
+    assert done.stderr == "1\n"
+
+
+@pytest.mark.parametrize(("sign", "status"), [(signal.SIGINT, 1), (signal.SIGTERM, 143)])
+def test_a_film_that_is_interrupted_leaves_nothing(tmp_path, sign, status):
+    script = "from compare.cli import main; main()"
+    filming = subprocess.Popen(
+        [sys.executable, "-c", script, "compare", "fig24a", "--out", "new/report"],
+        cwd=tmp_path,
+        env=HERE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    deadline = time.monotonic() + 120
+    while not list(tmp_path.glob("new/report/.cointoss-*/toss.mp4")) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    os.killpg(filming.pid, sign)  # the encoder is stopped too, as by Ctrl-C
+    _, told = filming.communicate(timeout=60)
+    assert filming.returncode == status
+    assert told.strip() == ("Aborted!" if sign == signal.SIGINT else "")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_film_that_cannot_be_written_is_one_line(tmp_path):
+    done = in_a_shell("ulimit -f 8; cointoss video zloty --out film.mp4; echo $?", tmp_path)
+    assert done.stdout == "2\n"
+    assert done.stderr.startswith("cointoss: film.mp4: can't be written (ffmpeg: ")
+    assert len(done.stderr.splitlines()) == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_path_of_too_many_rows_is_refused(tmp_path):
+    source = tmp_path / "long.toml"
+    text = scenario_text("fig24a").replace("0.40001", "1e8")
+    source.write_text(text + "\n[ending]\nmax_time = 2000\n")
+    answered = cointoss("toss", source, "--trajectory", tmp_path / "path.csv")
+    assert answered.exit_code == 2
+    assert answered.stderr.startswith(f"cointoss: {source}: ending.max_time = 2000: accepted")
+    assert not (tmp_path / "path.csv").exists()
+
+
+def test_foreign_modules_in_the_current_folder_are_not_run(tmp_path, monkeypatch):
+    (tmp_path / "random.py").write_text("raise RuntimeError('foreign')")
+    monkeypatch.chdir(tmp_path)
+    assert drawing_problem() is None
 
 
 def test_the_command_works_beside_a_foreign_models_folder(tmp_path):

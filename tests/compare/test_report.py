@@ -2,15 +2,20 @@
 
 import json
 import re
+import shutil
+from dataclasses import replace
 from html.parser import HTMLParser
 from typing import Any
+from unittest.mock import patch
 
 import imageio_ffmpeg
 import pytest
 
 from coin_mj.video import FRAMES_PER_SECOND, film_times
 from compare.comparison import Comparison, compare
-from compare.graphics import ADVICE, drawing_problem
+from compare.files import UnwritableError
+from compare.graphics import ADVICE, UNKNOWN, drawing_problem
+from compare.report.contents import FILES, require_folder
 from compare.report.folder import write_report
 from compare.report.page import versions
 from models.reading import load, parse, scenario_text
@@ -84,6 +89,8 @@ def test_the_page_stands_alone_and_has_its_parts(folder):
     assert page.headings == expected
     assert text.count("<svg") == 6
     assert "center_of_mass" in text
+    assert "°" in text
+    assert "share no equation" not in text
     for name, version in versions().items():
         assert name in text
         assert version in text
@@ -133,6 +140,73 @@ def test_what_mujoco_cannot_realise_is_a_report_of_one_engine(tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == {"report.html", "numbers.json", "path-analytic.csv"}
 
 
+def test_a_report_replaces_an_earlier_one_as_a_whole_and_nothing_else(folder, tmp_path):
+    earlier = tmp_path / "report"
+    shutil.copytree(folder, earlier)
+    (earlier / "notes.txt").write_text("mine")
+    require_folder(earlier, "fig24a")
+    before = {path.name: path.read_bytes() for path in earlier.iterdir()}
+    text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 2")
+    case = parse(text, "knurled")
+    interrupted = patch("compare.report.folder.render", side_effect=KeyboardInterrupt)
+    with interrupted, pytest.raises(KeyboardInterrupt):
+        write_report(case, text, "knurled", earlier, None, lambda *_: None)
+    assert {path.name: path.read_bytes() for path in earlier.iterdir()} == before
+    write_report(case, text, "knurled", earlier, None, lambda *_: None)
+    kept = {"report.html", "numbers.json", "path-analytic.csv", "notes.txt"}
+    assert {path.name for path in earlier.iterdir()} == kept
+
+
+def test_a_report_that_fails_leaves_no_folder(tmp_path):
+    case = scenario(ending={"max_time": 0.05})
+    full = patch("compare.report.folder.render", side_effect=OSError(28, "No space left"))
+    with full, pytest.raises(UnwritableError, match=r"new.deep: can't be written \(No space"):
+        write_report(case, "", "failing", tmp_path / "new" / "deep", ADVICE, lambda *_: None)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("numbers", [None, "{}", "[1]", "my own", '{"versions": 3}'])
+def test_a_folder_with_files_of_the_user_is_refused(tmp_path, name, numbers):
+    if numbers is not None:
+        (tmp_path / "numbers.json").write_text(numbers)
+    if not (tmp_path / name).exists():
+        (tmp_path / name).write_text("mine")
+    with pytest.raises(UnwritableError, match=r"in the way.*accepted: a new or empty folder") as caught:
+        require_folder(tmp_path, "fig24a")
+    assert str(tmp_path) in str(caught.value)
+
+
+def test_what_is_no_file_of_a_report_is_refused(folder, tmp_path):
+    earlier = tmp_path / "report"
+    shutil.copytree(folder, earlier)
+    (earlier / "report.html").unlink()
+    (earlier / "report.html").mkdir()
+    with pytest.raises(UnwritableError, match=r"report\.html: accepted.*folder"):
+        require_folder(earlier, "fig24a")
+    (earlier / "report.html").rmdir()
+    with pytest.raises(UnwritableError, match="another file than the scenario"):
+        require_folder(earlier, str(earlier / "path-mujoco.csv"))
+    with pytest.raises(UnwritableError, match="accepted: a folder"):
+        require_folder(earlier / "numbers.json", "fig24a")
+
+
+@pytest.mark.parametrize("max_time", [1e-9, 1e-3])
+def test_the_shortest_toss_has_a_report(tmp_path, max_time):
+    write_report(scenario(ending={"max_time": max_time}), "", "short", tmp_path, ADVICE, lambda *_: None)
+
+
+def test_the_cards_say_where_the_horizon_ends_before_the_toss(tmp_path):
+    compared = compare(parse(SHORT, "short"))
+    assert isinstance(compared, Comparison)
+    for horizon, cards in ((1, 2), (len(compared.mujoco.impacts), 0)):
+        cut = replace(compared, horizon=horizon)
+        with patch("compare.report.folder.compare", return_value=cut):
+            page = write_report(parse(SHORT, "short"), SHORT, "short", tmp_path, ADVICE, lambda *_: None)
+        html = page.read_text(encoding="utf-8")
+        assert html.count("after impact 1 of 2 the engines need not agree") == cards
+
+
 def test_a_toss_without_impacts_has_a_report_too(tmp_path):
     case = scenario(air=AIR, ending={"max_time": 0.05})
     page = write_report(case, "# made", "falling", tmp_path, ADVICE, lambda *_: None)
@@ -142,7 +216,18 @@ def test_a_toss_without_impacts_has_a_report_too(tmp_path):
 def test_a_missing_back_end_is_found_in_a_child_process(monkeypatch):
     monkeypatch.setenv("MUJOCO_GL", "egl")
     monkeypatch.setenv("PYOPENGL_PLATFORM", "osmesa")
-    assert drawing_problem() == ADVICE
+    problem = drawing_problem()
+    assert problem is not None
+    assert problem.startswith(ADVICE)
+    assert "PYOPENGL_PLATFORM" in problem
+
+
+def test_what_is_not_opengls_fault_is_not_blamed_on_it(monkeypatch):
+    monkeypatch.setenv("MUJOCO_GL", "nonsense")
+    problem = drawing_problem()
+    assert problem is not None
+    assert problem.startswith(UNKNOWN)
+    assert "invalid value" in problem
 
 
 def test_the_papers_scenario_says_what_it_assumes():

@@ -200,7 +200,34 @@ WRONG = {
         ["ending.max_impacts", "2.5", "whole number"],
     ),
     "no impacts": ("max_impacts = 20", "max_impacts = 0", ["ending.max_impacts", "0", ">= 1"]),
-    "no time": ("max_impacts = 20", "max_time = 0", ["ending.max_time", "0", "> 0"]),
+    "no time": ("max_impacts = 20", "max_time = 0", ["ending.max_time", "0", ">= 1e-09"]),
+    "a time below all clocks": (
+        "max_impacts = 20",
+        "max_time = 5e-324",
+        ["ending.max_time", "5e-324", ">= 1e-09"],
+    ),
+    "a unit alone": ('radius = "1.25 cm"', 'radius = "cm"', ["coin.radius", '"cm"', '"2 cm"']),
+    "a sum": ('"1.25 cm"', '"1 cm + 1 mm"', ["coin.radius", '"1 cm + 1 mm"', "a unit"]),
+    "a product": ('"1.25 cm"', '"2 * 3 cm"', ["coin.radius", '"2 * 3 cm"', "a unit"]),
+    "two quantities": ('"1.25 cm"', '"1 m 2 cm"', ["coin.radius", '"1 m 2 cm"', "a unit"]),
+    "no unit of an angle": ('"7 deg"', '"7"', ["release.angles[1]", '"7"', "in rad", '"7 deg"']),
+    "a part for an angle": ('"7 deg"', '"7 %"', ["release.angles[1]", '"7 %"', '"7 deg"']),
+    "an angle without digits": ('"7 deg"', "1e7", ["release.angles[1]", "10000000.0", "<= 1e+06"]),
+    "a frequency for a spin": (
+        "40.15",
+        '"40 Hz"',
+        ["release.angular_velocity[1]", '"40 Hz"', "rad/s", "deg/s", "rpm"],
+    ),
+    "a spin beyond all numbers": ("40.15", "1e300", ["release.angular_velocity", "1e+300", "sqrt(g/r)"]),
+    "a quaternion beyond all numbers": (
+        'angles = [0, "7 deg", 0]',
+        "quaternion = [1e308, 1e308, 0, 0]",
+        ["release.quaternion", "norm 1"],
+    ),
+    "lists without an end": ("max_impacts = 20", "x = " + 5000 * "[", ["nested too deeply", "accepted"]),
+    "a table below tables": ("max_impacts = 20", ".".join(5000 * "a") + " = 1", ["ending.a", "unknown key"]),
+    "an integer of 5000 digits": ("max_impacts = 20", "x = " + 5000 * "9", ["too many digits", "4300"]),
+    "an integer of 20000 bits": ("max_impacts = 20", "x = 0x" + 5000 * "f", ["ending.x", "unknown key"]),
     "unknown test": ("max_impacts = 20", 'test = "eq20"', ["ending.test", '"eq20"', '"paper_smooth"']),
     "not TOML": ("gravity = 9.81", "gravity = = 9.81", ["not TOML", "line 2"]),
     "empty": (GOOD, "", ["coin", "missing", "mass, radius, thickness"]),
@@ -226,10 +253,19 @@ def test_a_missing_file_is_answered_with_the_names_that_exist():
 
 def test_a_folder_or_a_binary_file_is_no_scenario(tmp_path):
     (tmp_path / "coin.toml").write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(ScenarioError, match="UTF-8"):
+    with pytest.raises(ScenarioError, match="accepted: a text file in UTF-8"):
         load(str(tmp_path / "coin.toml"))
-    with pytest.raises(ScenarioError, match="can't be read"):
+    with pytest.raises(ScenarioError, match=r"can't be read.*accepted: a TOML file"):
         load(str(tmp_path))
+    with pytest.raises(ScenarioError, match=r"\(no name\): .*accepted: a TOML file"):
+        load("")
+    with pytest.raises(ScenarioError, match=r"name too long.*accepted: a TOML file"):
+        load(300 * "a")
+
+
+def test_a_byte_order_mark_is_read_over(tmp_path):
+    (tmp_path / "coin.toml").write_text(GOOD, encoding="utf-8-sig")
+    assert load(str(tmp_path / "coin.toml")) == parse(GOOD, "good.toml")
 
 
 def test_several_wrong_fields_are_all_named():

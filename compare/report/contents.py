@@ -1,0 +1,39 @@
+"""The files of a report's folder, and whether a folder may take them."""
+
+import json
+import os
+from pathlib import Path
+
+from compare.files import UnwritableError, require_replaceable
+
+FILES = ("report.html", "toss.mp4", "numbers.json", "path-analytic.csv", "path-mujoco.csv")
+
+
+def require_folder(folder: Path, source: str) -> None:
+    """Check that a report in `folder` would replace nothing but an earlier report.
+
+    Args:
+        folder: of the report; it need not exist.
+        source: the scenario, which must not be one of the files replaced.
+
+    Raises:
+        UnwritableError: naming the folder, the file in the way, and why.
+    """
+    if os.path.lexists(folder) and not folder.is_dir():
+        raise UnwritableError(f"{folder}: accepted: a folder (this is none)")
+    in_the_way = [folder / name for name in FILES if os.path.lexists(folder / name)]
+    for path in in_the_way:
+        require_replaceable(path, source)
+    if in_the_way and not _is_of_a_report(folder / "numbers.json"):
+        raise UnwritableError(
+            f"{folder}: {in_the_way[0].name} is in the way, and is no report's; "
+            "accepted: a new or empty folder, or that of an earlier report"
+        )
+
+
+def _is_of_a_report(numbers: Path) -> bool:
+    """Tell numbers.json of a report, which names the versions it was computed by, from any other."""
+    try:
+        return "cointoss" in json.loads(numbers.read_bytes())["versions"]
+    except (OSError, ValueError, RecursionError, LookupError, TypeError):
+        return False
