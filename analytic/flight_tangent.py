@@ -1,7 +1,7 @@
 """The tangent map of a flight: how a small change of its start grows.
 
-The Runge-Kutta tableau of the flight acts on the linearised equations of motion at the flight's own stages, so
-that the result is the derivative of the very numbers the flight computes, but for the choice of its steps.
+The Runge-Kutta tableau of the flight acts on the linearised equations of motion at the flight's own stages:
+the result is the derivative of the very numbers the flight computes, its steps held.
 """
 
 import numpy as np

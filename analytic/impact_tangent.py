@@ -59,14 +59,12 @@ def lowest_point_change(body, up, d_up):
 def spin_gained_change(body, R, dR, arm, d_arm, S, dS):
     """Give the change of `impact.spin_gained`: of J_C⁻¹ Rᵀ (a × S), body frame, (3,) [rad/s]."""
     turn = add(cross(d_arm, S), cross(arm, dS))
-    return apply(
-        body.inertia_inverse, add(apply_transposed(dR, cross(arm, S)), apply_transposed(R, turn))
-    )
+    return apply(body.inertia_inverse, add(apply_transposed(dR, cross(arm, S)), apply_transposed(R, turn)))
 
 
 @compiled
 def velocity_gained_change(body, R, dR, arm, d_arm, S):
-    """Give dK S: the change, for the same impulse S, of the velocity that A gains, space frame, (3,) [m/s]."""
+    """Give dK S: the change, for the same impulse S, of the velocity that A gains, space frame [m/s]."""
     turned = apply(R, spin_gained(body, R, arm, S))
     d_turned = add(
         apply(dR, spin_gained(body, R, arm, S)),
@@ -112,7 +110,7 @@ def impulse_change(body, rules, R, dR, arm, d_arm, tau, d_tau, v_A, dv_A, S, fla
         return 0.0, 0.0, -(1 + chi) * body.mass * dv_A[2]
     K = mobility(body, R, arm)
     dK_S = velocity_gained_change(body, R, dR, arm, d_arm, S)
-    if law != ContactLaw.SMOOTH and law != ContactLaw.SLIDING_FRICTION:  # noqa: PLR1714
+    if law != ContactLaw.SMOOTH and law != ContactLaw.SLIDING_FRICTION:
         wanted = wanted_change(law, chi, v_A, dv_A, tau, d_tau)
         return solve(K, subtract(subtract(wanted, dv_A), dK_S))
     slip = (v_A[0] * v_A[0] + v_A[1] * v_A[1]) ** 0.5

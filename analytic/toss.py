@@ -6,7 +6,7 @@ import numpy as np
 
 from analytic.events import run
 from analytic.flight import STATE_SIZE, TOLERANCE, sample_flight
-from analytic.horizon import SAFETY, STEP_ERROR, trusted_impacts
+from analytic.horizon import SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
 from models.body import Body
 from models.laws import ContactLaw
 from models.records import Array, Impacts, Setting, States, Toss, UnsupportedError
@@ -96,8 +96,9 @@ def toss(scenario: Scenario) -> Toss:
                 name="integrator", value="Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"
             ),
             Setting(name="error allowed in a step, relative", value=TOLERANCE),
-            Setting(name="error of a step carried to the horizon of trust, relative", value=STEP_ERROR),
-            Setting(name="safety factor on the error carried", value=SAFETY),
+            Setting(name="error of a step carried to the horizon: of the motion, relative", value=STEP_ERROR),
+            Setting(name="error of a step carried to the horizon: of the attitude", value=TURN_ERROR),
+            Setting(name="safety factor of the horizon", value=SAFETY),
         ),
         path=Flights(body=body, start_times=answer.start_times, start_states=answer.start_states),
     )

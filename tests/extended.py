@@ -3,9 +3,9 @@
 It shares no line with the engines; only for tests. Needs a heyoka built with quadruple precision.
 """
 
-from dataclasses import dataclass
+from collections.abc import Iterator
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import heyoka as hy
 import numpy as np
@@ -18,16 +18,14 @@ PI = Q("3.14159265358979323846264338327950288")
 _M, _R, _H, _G, _C, _J, _J_INVERSE, _DRAG, _COUNT = 0, 1, 2, 3, 4, 7, 16, 25, 29
 
 
-@dataclass
-class Touches:
-    """The leading impacts of a toss, rounded to double precision."""
+class Touch(NamedTuple):
+    """An impact, rounded to double precision."""
 
-    time: np.ndarray
-    """(n,) [s]."""
-    heads: np.ndarray
-    """Whether n_z > 0, (n,)."""
+    time: float
+    heads: bool
+    """Whether n_z > 0."""
     impulse: np.ndarray
-    """(n, 3) [N s]."""
+    """(3,) [N s]."""
 
 
 def _dot(a: Any, b: Any) -> Any:
@@ -153,8 +151,8 @@ class Extended:
             ]
         )
 
-    def toss(self, most: int, longest: float = 60.0) -> Touches:
-        """Give up to `most` impacts.
+    def toss(self) -> Iterator[Touch]:
+        """Give one impact after the other.
 
         Raises:
             RuntimeError: if the coin sinks into the floor, where a touch went unseen.
@@ -163,8 +161,7 @@ class Extended:
         for integrator in (free, coin):
             integrator.pars[:] = self.parameters
         coin.state[:], coin.time = self.start, Q(0)
-        times, heads, impulses = [], [], []
-        while len(times) < most and coin.time < longest:
+        while True:
             outcome = int(coin.step()[0])
             if not outcome < 0 or outcome < -2:
                 if self._gap(coin.state) < 0:
@@ -172,12 +169,10 @@ class Extended:
                 continue
             S, n_z, lift = self._hit(coin.state)
             if not S[2] > 0 and self.floor.contact.label == "sliding_friction":
-                break
-            times.append(float(coin.time))
-            heads.append(bool(n_z > 0))
-            impulses.append(S.astype(float))
+                return
+            yield Touch(float(coin.time), bool(n_z > 0), S.astype(float))
             if not lift > 0:
-                break
+                return
             # At the zero that the lift-off itself is, the isolation of roots may fail: first clear it.
             free.state[:], free.time = coin.state, coin.time
             w, v = coin.state[8:11], coin.state[1:4]
@@ -186,7 +181,6 @@ class Extended:
             if self._gap(free.state) <= 0:
                 raise RuntimeError("the coin touches again at once")
             coin.state[:], coin.time = free.state, free.time
-        return Touches(np.array(times), np.array(heads), np.array(impulses).reshape(-1, 3))
 
     def _gap(self, y: np.ndarray) -> Any:
         up = _rotation(y[4:8])[2]
