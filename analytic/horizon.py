@@ -31,8 +31,8 @@ TIME_ERROR = 1e-7
 IMPULSE_ERROR = 1e-5
 """Within the horizon an impulse is good to this part of it."""
 LINEAR_RANGE = 1e-3
-"""Place (in radii), closing speed and time of flight (relative) must be known to this part, so that the
-tangent map holds."""
+"""Tilt, closing speed and time of flight must be known to this part of theirs, so that the tangent map holds;
+the tilt's direction is the place on the rim."""
 
 
 def trusted_impacts(body: Body, rules: Rules, toss: Run) -> int:
@@ -56,7 +56,7 @@ def trusted_impacts(body: Body, rules: Rules, toss: Run) -> int:
         sinking = _sinking(body, errors)
         errors = np.column_stack([touch_map(touch) @ errors, early * np.append(touch.rate, 1)])
         in_order = sinking < graze / 2 and _size(delay) <= LINEAR_RANGE * duration
-        if not (in_order and _holds(body, rules, row, touch, errors)):
+        if not (in_order and _holds(rules, row, touch, errors)):
             return i
         # A triangle of as many error vectors as dimensions has the same covariance.
         errors = np.transpose(np.linalg.qr((impact_map(touch) @ errors).T, mode="r"))
@@ -107,11 +107,10 @@ def _sinking(body: Body, errors: Array) -> float:
     return _size(errors[2]) + 2 * float(reach) * _size(errors[6:10])
 
 
-def _holds(body: Body, rules: Rules, row: np.void, touch: Touch, errors: Array) -> bool:
+def _holds(rules: Rules, row: np.void, touch: Touch, errors: Array) -> bool:
     """Tell whether an impact keeps its time, face, place and impulse within the errors.
 
     Args:
-        body: the coin.
         rules: floor and ending.
         row: the impact.
         touch: its derivatives.
@@ -128,7 +127,7 @@ def _holds(body: Body, rules: Rules, row: np.void, touch: Touch, errors: Array) 
         in_place = error(touch.up[:2]) == error(touch.contact_velocity[:2]) == 0
     else:
         slips = rules.law == ContactLaw.SLIDING_FRICTION and rules.friction > 0
-        in_place = error(touch.point) <= LINEAR_RANGE * body.radius and not (slips and not v_A[:2].any())
+        in_place = error(touch.up[:2]) <= LINEAR_RANGE * tilt_sine and not (slips and not v_A[:2].any())
     return bool(
         in_place
         and _size(errors[-1]) <= TIME_ERROR

@@ -135,8 +135,6 @@ class Touch(NamedTuple):
     """Of the gap, (13,)."""
     up: Array
     """Of the upward unit vector in the body frame, (3, 13)."""
-    point: Array
-    """Of the contact point, from B, body frame, (3, 13)."""
     contact_velocity: Array
     """Of the velocity of the contact point, space frame, (3, 13)."""
     impulse: Array
@@ -167,8 +165,8 @@ def touch_tangent(body, rules, y):
 
     n = STATE_SIZE
     rate, gap_row, dy = np.empty(n), np.empty(n), np.empty(n)
-    up_rows, point_rows, velocity_rows = np.empty((3, n)), np.empty((3, n)), np.empty((3, n))
-    impulse_rows, after = np.empty((3, n)), np.eye(n)
+    up_rows, velocity_rows, impulse_rows = np.empty((3, n)), np.empty((3, n)), np.empty((3, n))
+    after = np.eye(n)
     derivative(body, y, rate)
     for column in range(n):
         dy[:] = 0.0
@@ -185,10 +183,9 @@ def touch_tangent(body, rules, y):
         gap_row[column] = gap_change(body, R[2], dy[2], dR[2])
         for i in range(3):
             up_rows[i, column] = dR[2][i]
-            point_rows[i, column] = d_point[i]
             velocity_rows[i, column] = dv_A[i]
             impulse_rows[i, column] = dS[i]
             after[3 + i, column] += dS[i] / body.mass
             if not flat:
                 after[10 + i, column] += d_spin[i]
-    return Touch(rate, gap_row, up_rows, point_rows, velocity_rows, impulse_rows, after)
+    return Touch(rate, gap_row, up_rows, velocity_rows, impulse_rows, after)
