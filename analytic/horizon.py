@@ -50,12 +50,16 @@ def trusted_impacts(body: Body, rules: Rules, toss: Run) -> int:
         at_start, flight, at_end, duration, graze = _flight(body, rules, y, toss.start_times[i])
         errors = np.hstack([flight @ np.hstack([errors, at_start]), at_end])
         touch = touch_tangent(body, rules, y)
+        closing = touch.gap @ touch.rate
+        if not closing < 0:
+            return i
         # The touch is found up to `TOUCH` too early.
-        early = TOUCH * body.radius / (touch.gap @ touch.rate)
+        early = TOUCH * body.radius / closing
         delay = np.append(delay_of(touch) @ errors, early)
         sinking = _sinking(body, errors)
         errors = np.column_stack([touch_map(touch) @ errors, early * np.append(touch.rate, 1)])
-        in_order = sinking < graze / 2 and _size(delay) <= LINEAR_RANGE * duration
+        # The first touch has none before it with which to change places.
+        in_order = sinking < graze / 2 and (i == 0 or _size(delay) <= LINEAR_RANGE * duration)
         if not (in_order and _holds(rules, row, touch, errors)):
             return i
         # A triangle of as many error vectors as dimensions has the same covariance.

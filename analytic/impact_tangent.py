@@ -103,7 +103,8 @@ def impulse_change(body, rules, R, dR, arm, d_arm, tau, d_tau, v_A, dv_A, S, fla
     """Give the change of `impact.impulse` S, space frame, (3,) [N s].
 
     For (a) to (d), K S = v_A' - v_A gives K dS = dv_A' - dv_A - dK S. For (e) and (f) the impulse has a
-    direction p, S = S_z p, and (K p)_z S_z = -(1 + χ) v_Az.
+    direction p, S = S_z p, and (K p)_z S_z = -(1 + χ) v_Az. For a law without a derivative here it is not a
+    number, so that nothing beyond is trusted.
     """
     chi, law = rules.restitution, rules.law
     if flat:
@@ -111,6 +112,8 @@ def impulse_change(body, rules, R, dR, arm, d_arm, tau, d_tau, v_A, dv_A, S, fla
     K = mobility(body, R, arm)
     dK_S = velocity_gained_change(body, R, dR, arm, d_arm, S)
     if law != ContactLaw.SMOOTH and law != ContactLaw.SLIDING_FRICTION:
+        if law == ContactLaw.COULOMB:
+            return np.nan, np.nan, np.nan
         wanted = wanted_change(law, chi, v_A, dv_A, tau, d_tau)
         return solve(K, subtract(subtract(wanted, dv_A), dK_S))
     slip = (v_A[0] * v_A[0] + v_A[1] * v_A[1]) ** 0.5

@@ -119,5 +119,16 @@ def test_a_coin_kept_flat_by_symmetry_is_trusted_to_its_end():
     for spin in (0.0, 30.0):
         flat = analytic.toss(scenario(release={"angular_velocity": [0, 0, spin]}))
         assert flat.trusted_impacts == len(flat.impacts) > 5
+    thrown_down = analytic.toss(scenario(release={"position": [0, 0, 1e-3], "velocity": [0, 0, -1.0]}))
+    assert thrown_down.impacts.time[0] == 0
+    assert thrown_down.trusted_impacts == len(thrown_down.impacts) > 2
     tilted = analytic.toss(scenario(release={"angles": [0, 3e-14, 0]}))
     assert tilted.trusted_impacts == 0
+
+
+def test_a_flat_coin_that_turns_and_does_not_fall_is_not_trusted():
+    """The whole face touches at once, and the gap has no rate."""
+    release = {"position": [0, 0, 1e-3], "angular_velocity": [5.0, 0, 0]}
+    tossed = analytic.toss(scenario(release=release, ending={"max_impacts": 3}))
+    assert len(tossed.impacts) > 0
+    assert tossed.trusted_impacts == 0

@@ -89,6 +89,34 @@ def test_a_flight_shrinks_volumes_as_the_air_s_drag_says(air):
     assert np.linalg.det(volumes) == pytest.approx(np.exp(-trace * duration), rel=1e-9)
 
 
+@pytest.mark.parametrize(("thickness", "offset"), THICKNESSES_AND_OFFSETS)
+def test_without_losses_the_tangent_map_keeps_every_change_of_energy(thickness, offset):
+    """Smooth floor, χ = 1, vacuum: E is the same after each impact, for the changed toss too."""
+    case = scenario(
+        coin={**ZLOTY, "thickness": thickness, "center_of_mass": offset},
+        floor={"restitution": 1.0},
+        release=draw_release(np.random.default_rng(44)),
+        ending={"max_impacts": 5},
+    )
+    body, rules = case.body, case.rules
+    toss = run(body, rules, state_of(case.release))
+
+    def energy_change(y: np.ndarray) -> np.ndarray:
+        J = np.array(body.inertia)
+        weight, motion = [0, 0, body.mass * body.gravity], body.mass * y[3:6]
+        return np.array([*weight, *motion, *[0.0] * 4, *(J @ y[10:13]), 0.0])
+
+    assert len(toss.rows) == 5
+    for i in range(5):
+        before, after = (energy_change(y) for y in toss.start_states[i : i + 2])
+        tangent = event_tangent(body, rules, toss, i)
+        sizes = np.append(SIZES, 1)
+        scale = float(np.abs(before * sizes).max())
+        for change in directions(toss.start_states[i]):
+            kept = after @ tangent @ np.append(change, 0)
+            assert kept == pytest.approx(before[:13] @ change, abs=1e-9 * scale)
+
+
 @pytest.mark.parametrize("law", PAPER_LAWS)
 @pytest.mark.parametrize("number", range(4))
 def test_the_tangent_map_of_impacts_is_their_derivative(law, number):
