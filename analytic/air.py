@@ -33,3 +33,21 @@ def force_and_moment(body, v, w):
         -drag.moment_normal * w[2],
     )
     return f, subtract(m_B, cross(body.center, f))
+
+
+@compiled
+def force_and_moment_change(body, v, w, dv, dw):  # noqa: ARG001
+    """Give the change of `force_and_moment` with a small change of the motion; for b = 0 both are linear.
+
+    Args:
+        body: the coin.
+        v: velocity of C, body frame, (3,) [m/s].
+        w: angular velocity, body frame, (3,) [rad/s].
+        dv: its change, of C, body frame, (3,) [m/s].
+        dw: its change, body frame, (3,) [rad/s].
+
+    Returns:
+        df: of the force, body frame, (3,) [N].
+        dm_C: of the moment about C, body frame, (3,) [N m].
+    """
+    return force_and_moment(body, dv, dw)

@@ -117,7 +117,7 @@ def fly_and_hit(body, rules, y, rows, times, states):
         if n == rules.max_impacts:
             ending = Ending.MAX_IMPACTS
             break
-        flown, touches = fly(body, y, rules.max_time - time)
+        flown, touches, _ = fly(body, y, rules.max_time - time)
         time += flown
         if not touches:
             ending = Ending.MAX_TIME

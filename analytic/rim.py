@@ -71,25 +71,31 @@ def fly(body, y, longest):
         longest: the longest flight wanted [s].
 
     Returns:
-        The time of flight [s], and whether the coin touches.
+        The time of flight [s], whether the coin touches, and a graze: a height such that no minimum of the
+        gap on the way is below half of it, infinite where the gap has none [m].
     """
     stages = np.empty((STAGES, STATE_SIZE))
     y_end, y_near = np.empty(STATE_SIZE), np.empty(STATE_SIZE)
     elapsed, dt = 0.0, first_step(body, y)
     # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch at once.
     touching_speed = -smallest_flight(body, y)[1]
+    # The steps shrink towards a minimum of the gap, so that the last one before it starts hardly higher.
+    graze, height_before, speed_before = np.inf, np.inf, 0.0
     while elapsed < longest:
         made, dt = accepted_step(body, y, min(dt, longest - elapsed), stages, y_end)
         y_near[:] = y
         inside = 0.0
         while inside < made:
             height, speed = closing_speed(body, y_near)
+            if speed_before < 0 <= speed:
+                graze = min(graze, height_before, height)
+            height_before, speed_before = height, speed
             ahead = clear(body, y_near, made - inside)
             # Also where time itself has no finer step than the coin still has to fall.
             if height <= TOUCH * body.radius or inside + ahead == inside:
                 if speed < touching_speed:
                     y[:] = y_near
-                    return elapsed + inside, True
+                    return elapsed + inside, True, graze
                 ahead = max(ahead, smallest_flight(body, y_near)[0], TIME_STEP * inside)
             touching_speed = 0.0
             inside += ahead
@@ -98,4 +104,4 @@ def fly(body, y, longest):
                 step(body, y, inside, stages, y_near)
         elapsed += made
         y[:] = y_end
-    return longest, False
+    return longest, False, graze

@@ -6,7 +6,7 @@ import numpy as np
 
 from analytic.events import run
 from analytic.flight import STATE_SIZE, TOLERANCE, sample_flight
-from analytic.horizon import RELEASE_ERROR, trusted_impacts
+from analytic.horizon import SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
 from models.body import Body
 from models.records import Array, Impacts, Setting, States, Toss, UnsupportedError
 from models.scenario import Release, Scenario
@@ -64,9 +64,9 @@ def toss(scenario: Scenario) -> Toss:
     Free flight by eqs (21)-(22) of Strzalko et al. 2008 in Euler parameters, air drag by eqs (49)-(74),
     impacts by eqs (85)-(92) and the contact laws of Fig. 17, or Routh's law.
 
-    `trusted_impacts` counts the leading impacts that several shadows of the toss share with it: tosses whose
-    release is displaced by more than the integration's error. Up to there time is good to
-    `horizon.TIME_ERROR` and impulse to `horizon.IMPULSE_ERROR`.
+    `trusted_impacts` counts the leading impacts that the engine's own errors, carried forward by the tangent
+    map of the toss, cannot change. Up to there time is good to `horizon.TIME_ERROR` and impulse to
+    `horizon.IMPULSE_ERROR`.
 
     Args:
         scenario: what to toss.
@@ -86,13 +86,15 @@ def toss(scenario: Scenario) -> Toss:
         outcome=answer.outcome,
         ending=answer.ending,
         end_time=answer.end_time,
-        trusted_impacts=trusted_impacts(body, rules, start, impacts),
+        trusted_impacts=trusted_impacts(body, rules, answer),
         certificate=(
             Setting(
                 name="integrator", value="Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"
             ),
             Setting(name="error allowed in a step, relative", value=TOLERANCE),
-            Setting(name="displacement of a shadow's release, relative", value=RELEASE_ERROR),
+            Setting(name="error of a step carried to the horizon: of the motion, relative", value=STEP_ERROR),
+            Setting(name="error of a step carried to the horizon: of the attitude", value=TURN_ERROR),
+            Setting(name="safety factor of the horizon", value=SAFETY),
         ),
         path=Flights(body=body, start_times=answer.start_times, start_states=answer.start_states),
     )

@@ -1,0 +1,154 @@
+"""The tangent map of a toss: against differences of the engine itself, and what is known of it."""
+
+import numpy as np
+import pytest
+
+from analytic.events import run
+from analytic.flight import sample_flight
+from analytic.flight_tangent import flight_tangent
+from analytic.sensitivity import event_tangent
+from analytic.toss import state_of
+from models.scenario import Scenario
+from tests.draws import AIR, PAPER_LAWS, PAPER_OFFSET, ZLOTY, draw_release, scenario
+
+SIZES = np.array([1e-2, 1e-2, 1e-2, *[1.0] * 7, *[50.0] * 3])
+"""Of the components of a state: length, speed, attitude, spin."""
+THICKNESSES_AND_OFFSETS = [
+    (0.0, [0.0, 0.0, 0.0]),
+    (2e-3, [0.0, 0.0, 0.0]),
+    (0.0, [*PAPER_OFFSET[:2], 0.0]),
+    (2e-3, PAPER_OFFSET),
+]
+
+
+def flown(case: Scenario, start: np.ndarray, duration: float) -> tuple[np.ndarray, np.ndarray]:
+    """Give the state at the end of a flight and its tangent map."""
+    y, changes = start.copy(), np.eye(13)
+    flight_tangent(case.body, y, duration, changes, np.zeros(13, dtype=bool))
+    return y, changes.T
+
+
+def directions(start: np.ndarray) -> np.ndarray:
+    """Give one change of a state in each row, which keep the quaternion's norm, (12, 13)."""
+    rows = np.delete(np.diag(SIZES), 9, axis=0)
+    e = start[6:10]
+    a, b, c, d = e
+    rows[6:9, 6:10] = [[-b, a, d, -c], [-c, -d, a, b], [-d, c, -b, a]]
+    return rows
+
+
+@pytest.mark.parametrize(("thickness", "offset"), THICKNESSES_AND_OFFSETS)
+@pytest.mark.parametrize("air", [{}, AIR])
+def test_a_flight_s_tangent_map_is_its_derivative(thickness, offset, air):
+    rng = np.random.default_rng(41)
+    coin = {**ZLOTY, "thickness": thickness, "center_of_mass": offset}
+    case = scenario(coin=coin, air=air, release=draw_release(rng))
+    start, duration, small = state_of(case.release), 0.2, 1e-5
+    end, tangent = flown(case, start, duration)
+    states = np.empty((1, 13))
+    sample_flight(case.body, start, 0.0, np.array([duration]), states)
+    assert end == pytest.approx(states[0], abs=1e-14)
+    for change in directions(start):
+        ends = [flown(case, start + sign * small * change, duration)[0] for sign in (1, -1)]
+        difference = (ends[0] - ends[1]) / (2 * small)
+        assert (tangent @ change) / SIZES == pytest.approx(difference / SIZES, abs=1e-5)
+
+
+def test_the_tangent_map_of_a_coin_that_does_not_turn_is_a_fall():
+    """A change of velocity grows with time, one of the place stays, one of the spin turns the coin."""
+    case = scenario(release={"angles": [0.3, 0.7, 0.2], "velocity": [0.1, 0.2, 0.3]})
+    start, duration = state_of(case.release), 0.25
+    _, tangent = flown(case, start, duration)
+    expected = np.eye(6)
+    expected[:3, 3:] = duration * np.eye(3)
+    assert tangent[:6, :6] == pytest.approx(expected, abs=1e-14)
+    assert np.all(tangent[:6, 6:] == 0)
+    assert tangent[10:, 10:] == pytest.approx(np.eye(3), abs=1e-14)
+    a, b, c, d = start[6:10]
+    turn = np.array([[-b, -c, -d], [a, -d, c], [d, a, -b], [-c, b, a]]) / 2
+    assert tangent[6:10, 10:] == pytest.approx(duration * turn, abs=1e-14)
+
+
+@pytest.mark.parametrize("air", [{}, AIR])
+def test_a_flight_shrinks_volumes_as_the_air_s_drag_says(air):
+    """Liouville: without air volumes of states are kept; with b = 0 they shrink by the drag's trace."""
+    rng = np.random.default_rng(42)
+    case = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}, air={**air}, release=draw_release(rng))
+    body, start, duration = case.body, state_of(case.release), 0.2
+    end, tangent = flown(case, start, duration)
+    before, after = directions(start), directions(end)
+    # On the sphere of quaternions both ends have an orthonormal base of three.
+    volumes = np.linalg.lstsq(after.T, tangent @ before.T, rcond=None)[0]
+    drag, c = body.drag, np.array(body.center)
+    force = np.diag([drag.force_tangential, drag.force_tangential, drag.force_normal])
+    moment = np.diag([drag.moment_tangential, drag.moment_tangential, drag.moment_normal])
+    arm = np.array([[0, -c[2], c[1]], [c[2], 0, -c[0]], [-c[1], c[0], 0]])
+    turning = np.linalg.solve(np.array(body.inertia), moment + arm.T @ force @ arm)
+    trace = np.trace(force) / body.mass + np.trace(turning)
+    assert (trace > 0) == bool(air)
+    assert np.linalg.det(volumes) == pytest.approx(np.exp(-trace * duration), rel=1e-9)
+
+
+@pytest.mark.parametrize(("thickness", "offset"), THICKNESSES_AND_OFFSETS)
+def test_without_losses_the_tangent_map_keeps_every_change_of_energy(thickness, offset):
+    """Smooth floor, χ = 1, vacuum: E is the same after each impact, for the changed toss too."""
+    case = scenario(
+        coin={**ZLOTY, "thickness": thickness, "center_of_mass": offset},
+        floor={"restitution": 1.0},
+        release=draw_release(np.random.default_rng(44)),
+        ending={"max_impacts": 5},
+    )
+    body, rules = case.body, case.rules
+    toss = run(body, rules, state_of(case.release))
+
+    def energy_change(y: np.ndarray) -> np.ndarray:
+        J = np.array(body.inertia)
+        weight, motion = [0, 0, body.mass * body.gravity], body.mass * y[3:6]
+        return np.array([*weight, *motion, *[0.0] * 4, *(J @ y[10:13]), 0.0])
+
+    assert len(toss.rows) == 5
+    for i in range(5):
+        before, after = (energy_change(y) for y in toss.start_states[i : i + 2])
+        tangent = event_tangent(body, rules, toss, i)
+        sizes = np.append(SIZES, 1)
+        scale = float(np.abs(before * sizes).max())
+        for change in directions(toss.start_states[i]):
+            kept = after @ tangent @ np.append(change, 0)
+            assert kept == pytest.approx(before[:13] @ change, abs=1e-9 * scale)
+
+
+@pytest.mark.parametrize("law", PAPER_LAWS)
+@pytest.mark.parametrize("number", range(4))
+def test_the_tangent_map_of_impacts_is_their_derivative(law, number):
+    """From release to after the third impact: the state there and its time, against central differences."""
+    rng = np.random.default_rng([43, int(law), number])
+    thickness, offset = THICKNESSES_AND_OFFSETS[number]
+    case = scenario(
+        coin={**ZLOTY, "thickness": thickness, "center_of_mass": offset},
+        air=AIR if number % 2 else {},
+        floor={"contact": law.label, "friction": 0.2, "restitution": 0.7},
+        release=draw_release(rng),
+        ending={"max_impacts": 3, "test": "paper"},
+    )
+    body, rules, start = case.body, case.rules, state_of(case.release)
+    toss = run(body, rules, start)
+    assert len(toss.rows) == 3
+    tangent = np.eye(14)
+    for i in range(3):
+        tangent = event_tangent(body, rules, toss, i) @ tangent
+
+    def event(change: np.ndarray) -> np.ndarray:
+        moved = run(body, rules, start + change)
+        assert np.array_equal(moved.rows["face"], toss.rows["face"])
+        return np.append(moved.start_states[3], moved.start_times[3])
+
+    for change in directions(start):
+        expected = (tangent @ np.append(change, 0)) / np.append(SIZES, 1)
+        grown = np.abs(expected).max()
+        errors = []
+        for at_end in (1e-5, 1e-6, 1e-7):
+            size = at_end / grown
+            difference = (event(size * change) - event(-size * change)) / (2 * size) / np.append(SIZES, 1)
+            errors.append(np.abs(difference - expected).max() / grown)
+        # Large differences suffer from curvature, small ones from rounding.
+        assert min(errors) < 2e-4
