@@ -54,9 +54,6 @@ def require_supported(scenario: Scenario) -> None:
     Raises:
         UnsupportedError: naming field, value and what is accepted.
     """
-    air = scenario.air
-    if air.exponent != 0 and (air.normal > 0 or air.tangential > 0):
-        raise UnsupportedError(f"air.exponent = {air.exponent}: accepted by the analytic engine: 0")
     if scenario.floor.contact == ContactLaw.COULOMB:
         accepted = ", ".join(f'"{law.label}"' for law in ContactLaw if law != ContactLaw.COULOMB)
         raise UnsupportedError(f'floor.contact = "coulomb": accepted by the analytic engine: {accepted}')
@@ -76,7 +73,7 @@ def toss(scenario: Scenario) -> Toss:
         scenario: what to toss.
 
     Raises:
-        UnsupportedError: for air with b > 0 or the law "coulomb".
+        UnsupportedError: for the law "coulomb".
     """
     require_supported(scenario)
     body, rules, start = scenario.body, scenario.rules, state_of(scenario.release)
