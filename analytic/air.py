@@ -2,7 +2,7 @@
 
 from analytic.face_friction import face_friction_change
 from analytic.pressure import pressure_change
-from analytic.quadrature import CHANGE_W, CHANGE_X, FORCE_W, FORCE_X
+from analytic.quadrature import CHANGE_NODES, FORCE_NODES
 from analytic.wall_friction import wall_friction_change
 from models.compiled import compiled
 from models.vectors import add, cross, scale, subtract
@@ -28,7 +28,7 @@ def force_and_moment(body, v, w):
     """
     if body.air.exponent > 0:
         v_B, share = subtract(v, cross(w, body.center)), 1 / (1 + body.air.exponent)
-        df, dm_B = change_about_B(body, v_B, w, v_B, w, FORCE_X, FORCE_W)
+        df, dm_B = change_about_B(body, v_B, w, v_B, w, FORCE_NODES)
         return scale(share, df), scale(share, subtract(dm_B, cross(body.center, df)))
     return _linear(body, v, w)
 
@@ -53,14 +53,14 @@ def force_and_moment_change(body, v, w, dv, dw):
     """
     if body.air.exponent > 0:
         v_B, dv_B = subtract(v, cross(w, body.center)), subtract(dv, cross(dw, body.center))
-        df, dm_B = change_about_B(body, v_B, w, dv_B, dw, CHANGE_X, CHANGE_W)
+        df, dm_B = change_about_B(body, v_B, w, dv_B, dw, CHANGE_NODES)
         return df, subtract(dm_B, cross(body.center, df))
     return _linear(body, dv, dw)
 
 
 @compiled
-def change_about_B(body, v, w, dv, dw, x, weights):
-    """Give the change of the air's force and of its moment about B for b > 0, by a graded rule.
+def change_about_B(body, v, w, dv, dw, nodes):
+    """Give the change of the air's force and of its moment about B for b > 0, with given nodes.
 
     Args:
         body: the coin.
@@ -68,8 +68,7 @@ def change_about_B(body, v, w, dv, dw, x, weights):
         w: angular velocity, body frame, (3,) [rad/s].
         dv: change of v, (3,) [m/s].
         dw: change of w, (3,) [rad/s].
-        x: nodes of the rule.
-        weights: its weights.
+        nodes: of the graded rules.
 
     Returns:
         df: change of the force, body frame, (3,) [N].
@@ -77,12 +76,12 @@ def change_about_B(body, v, w, dv, dw, x, weights):
     """
     df, dm = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     if body.air.normal > 0:
-        df, dm = pressure_change(body, v, w, dv, dw, x, weights)
+        df, dm = pressure_change(body, v, w, dv, dw, nodes)
     if body.air.tangential > 0:
-        df_faces, dm_faces = face_friction_change(body, v, w, dv, dw, x, weights)
+        df_faces, dm_faces = face_friction_change(body, v, w, dv, dw, nodes)
         df, dm = add(df, df_faces), add(dm, dm_faces)
         if body.thickness > 0:
-            df_wall, dm_wall = wall_friction_change(body, v, w, dv, dw, x, weights)
+            df_wall, dm_wall = wall_friction_change(body, v, w, dv, dw, nodes)
             df, dm = add(df, df_wall), add(dm, dm_wall)
     return df, dm
 

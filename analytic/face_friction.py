@@ -10,7 +10,7 @@ FAR = 1.5
 
 
 @compiled
-def face_friction_change(body, v, w, dv, dw, x, weights):
+def face_friction_change(body, v, w, dv, dw, nodes):
     """Give how the friction on both faces, at B, changes with the motion, from eqs (51) and (73).
 
     Args:
@@ -19,8 +19,7 @@ def face_friction_change(body, v, w, dv, dw, x, weights):
         w: angular velocity, body frame, (3,) [rad/s].
         dv: change of v, (3,) [m/s].
         dw: change of w, (3,) [rad/s].
-        x: nodes of a graded rule.
-        weights: its weights.
+        nodes: of the graded rules.
 
     Returns:
         df: change of the force, body frame, (3,) [N].
@@ -33,7 +32,7 @@ def face_friction_change(body, v, w, dv, dw, x, weights):
         dU_0, dU_1 = dv[0] + side * dw[1], dv[1] - side * dw[0]
         U = math.hypot(U_0, U_1)
         e_0, e_1 = (U_0 / U, U_1 / U) if U > 0 else (1.0, 0.0)
-        D_UU, D_across, D_Uw, D_ww = disc_dissipation(b, r, U, abs(w[2]), x, weights)
+        D_UU, D_across, D_Uw, D_ww = disc_dissipation(b, r, U, abs(w[2]), nodes)
         if w[2] < 0:
             D_Uw = -D_Uw
         along, across = dU_0 * e_0 + dU_1 * e_1, dU_1 * e_0 - dU_0 * e_1
@@ -49,7 +48,7 @@ def face_friction_change(body, v, w, dv, dw, x, weights):
 
 
 @compiled
-def disc_dissipation(b, r, U, w, x, weights):
+def disc_dissipation(b, r, U, w, nodes):
     """Give the second derivatives of D(U, ω) = ∫ |V|^(b+2)/(b+2) dA over a disc that slides and spins.
 
     V = U + ω ζ × p. The gradient of D is force and moment for λ_τ = 1, so its second derivatives are their
@@ -65,8 +64,7 @@ def disc_dissipation(b, r, U, w, x, weights):
         r: radius [m].
         U: speed of the centre [m/s], not negative.
         w: angular velocity about the normal [rad/s], not negative.
-        x: nodes of a graded rule.
-        weights: its weights.
+        nodes: of the graded rules.
 
     Returns:
         Along U twice, across U twice, along U and in ω, in ω twice.
@@ -76,14 +74,14 @@ def disc_dissipation(b, r, U, w, x, weights):
     if U > FAR * w * r:
         return _from_afar(b, r, U, w)
     D_UU, D_across, D_U, D_w = 0.0, 0.0, 0.0, 0.0
-    for i in range(len(x)):
-        tau = math.pi * x[i]
+    for i in range(len(nodes.x)):
+        tau = math.pi * nodes.x[i]
         cosine, sine, half_sine = math.cos(tau), math.sin(tau), math.sin(tau / 2)
         square = (U - w * r) ** 2 + 4 * w * r * U * half_sine * half_sine
         if square == 0:
             continue
         V_along, V_across = U - w * r * cosine, w * r * sine
-        strip = weights[i] * (r - U / w * cosine) * power(square, b)
+        strip = nodes.weights[i] * (r - U / w * cosine) * power(square, b)
         D_UU += strip * (1 + b * V_along * V_along / square)
         D_across += strip * (1 + b * V_across * V_across / square)
         D_U += strip * V_along

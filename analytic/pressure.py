@@ -8,7 +8,7 @@ from models.vectors import add
 
 
 @compiled
-def pressure_change(body, v, w, dv, dw, x, weights):
+def pressure_change(body, v, w, dv, dw, nodes):
     """Give how pressure's force and moment at B change with the motion, from eqs (52), (54), (73), (74).
 
     Args:
@@ -17,22 +17,21 @@ def pressure_change(body, v, w, dv, dw, x, weights):
         w: angular velocity, body frame, (3,) [rad/s].
         dv: change of v, (3,) [m/s].
         dw: change of w, (3,) [rad/s].
-        x: nodes of a graded rule.
-        weights: its weights.
+        nodes: of the graded rules.
 
     Returns:
         df: change of the force, body frame, (3,) [N].
         dm_B: change of the moment about B, body frame, (3,) [N m].
     """
-    df, dm = _on_faces(body, v, w, dv, dw, x, weights)
+    df, dm = _on_faces(body, v, w, dv, dw, nodes)
     if body.thickness > 0:
-        df_wall, dm_wall = _on_wall(body, v, w, dv, dw, x, weights)
+        df_wall, dm_wall = _on_wall(body, v, w, dv, dw, nodes)
         df, dm = add(df, df_wall), add(dm, dm_wall)
     return df, dm
 
 
 @compiled
-def _on_faces(body, v, w, dv, dw, x, weights):
+def _on_faces(body, v, w, dv, dw, nodes):
     """Integrate over both faces: eqs (80) and (83), which hold at any thickness.
 
     The normal velocity v_ζ + ω_ξ η - ω_η ξ is the same on both faces, and outward on exactly one of them: both
@@ -48,11 +47,11 @@ def _on_faces(body, v, w, dv, dw, x, weights):
     still = math.acos(cosine)
     whole, lever, lever_across = 0.0, 0.0, 0.0
     for end in (0.0, math.pi):
-        for i in range(len(x)):
-            phi = still + (end - still) * x[i]
+        for i in range(len(nodes.x)):
+            phi = still + (end - still) * nodes.x[i]
             u, half_chord = -r * math.cos(phi), r * math.sin(phi)
             speed = v[2] + W * u
-            strip = abs(end - still) * weights[i] * 2 * half_chord * half_chord * power(speed * speed, b)
+            strip = abs(end - still) * nodes.weights[i] * 2 * half_chord * half_chord * power(speed * speed, b)
             whole += strip * (dv[2] + d_along * u)
             lever += strip * (dv[2] + d_along * u) * u
             lever_across += strip * d_across * half_chord * half_chord / 3
@@ -65,7 +64,7 @@ def _on_faces(body, v, w, dv, dw, x, weights):
 
 
 @compiled
-def _on_wall(body, v, w, dv, dw, x, weights):
+def _on_wall(body, v, w, dv, dw, nodes):
     """Integrate over the wall.
 
     At the height z the normal velocity is |A| cos(θ - θ_A) with A = (v_ξ + ω_η z, v_η - ω_ξ z). Over the half
@@ -78,12 +77,12 @@ def _on_wall(body, v, w, dv, dw, x, weights):
     nearest = min(max(nearest, -half), half)
     f_0, f_1, m_0, m_1 = 0.0, 0.0, 0.0, 0.0
     for end in (-half, half):
-        for i in range(len(x)):
-            z = nearest + (end - nearest) * x[i]
+        for i in range(len(nodes.x)):
+            z = nearest + (end - nearest) * nodes.x[i]
             K_0, K_1 = changed_law(
                 v[0] + w[1] * z, v[1] - w[0] * z, dv[0] + dw[1] * z, dv[1] - dw[0] * z, b
             )
-            strip = abs(end - nearest) * weights[i]
+            strip = abs(end - nearest) * nodes.weights[i]
             f_0 += strip * K_0
             f_1 += strip * K_1
             m_0 -= strip * z * K_1

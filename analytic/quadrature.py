@@ -1,14 +1,14 @@
-"""Gauss's rules on an interval, plain and graded towards one end."""
+"""Gauss's rules on an interval, plain and graded towards one end, and the air's law for them."""
+
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from models.compiled import compiled
 
-GRADING = 5
-"""Power that draws the nodes of a graded rule to its end; see `graded_rule`."""
-
 Rule = tuple[NDArray[np.float64], NDArray[np.float64]]
+"""Nodes and weights on [0, 1]."""
 
 
 def gauss_rule(n: int) -> Rule:
@@ -17,23 +17,37 @@ def gauss_rule(n: int) -> Rule:
     return (x + 1) / 2, weights / 2
 
 
-def graded_rule(n: int) -> Rule:
+def graded_rule(n: int, grading: int) -> Rule:
     """Give n nodes and weights for functions on [0, 1] that are not smooth at 0, or near it.
 
-    Gauss's rule in t with x = t^p, p = `GRADING`. A power x^s, s > -1, becomes t^(p s + p - 1), for which
+    Gauss's rule in t with x = t^p, p the grading. A power x^s, s > -1, becomes t^(p s + p - 1), for which
     the rule converges as n^(-2p(s + 1)). A branch point at a distance ε from x = 0, off the interval, has
     after the change of variables an angle of at least π/(2p) to the interval for every ε: the same n serves
     for all.
     """
     t, weights = gauss_rule(n)
-    return t**GRADING, GRADING * t ** (GRADING - 1) * weights
+    return t**grading, grading * t ** (grading - 1) * weights
 
 
-FORCE_NODES, CHANGE_NODES = 32, 48
-"""Nodes of the graded rules for the force and for its change, whose integrand is rougher by a power. Tests
-compare them with finer rules over all kinds of motion."""
-FORCE_X, FORCE_W = graded_rule(FORCE_NODES)
-CHANGE_X, CHANGE_W = graded_rule(CHANGE_NODES)
+class Nodes(NamedTuple):
+    """The graded rules of one evaluation."""
+
+    x: NDArray[np.float64]
+    """Nodes for the integrals over faces, rims and the wall's circles, and for pressure along the wall."""
+    weights: NDArray[np.float64]
+    along_x: NDArray[np.float64]
+    """Nodes along the wall for what is integrated around it already, which is smoother by a power."""
+    along_weights: NDArray[np.float64]
+
+
+def nodes_of(n: int, n_along: int) -> Nodes:
+    """Give graded rules of n and n_along nodes."""
+    return Nodes(*graded_rule(n, 5), *graded_rule(n_along, 2))
+
+
+# The integrand of the change is rougher by a power than that of the force. The tests compare both with finer
+# rules over all kinds of motion.
+FORCE_NODES, CHANGE_NODES = nodes_of(32, 16), nodes_of(48, 24)
 
 
 @compiled

@@ -27,7 +27,7 @@ _NO_SUMS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @compiled
-def wall_friction_change(body, v, w, dv, dw, x, weights):
+def wall_friction_change(body, v, w, dv, dw, nodes):
     """Give how the friction on the wall, at B, changes with the motion, from eqs (53) and (74).
 
     Args:
@@ -36,8 +36,7 @@ def wall_friction_change(body, v, w, dv, dw, x, weights):
         w: angular velocity, body frame, (3,) [rad/s].
         dv: change of v, (3,) [m/s].
         dw: change of w, (3,) [rad/s].
-        x: nodes of a graded rule.
-        weights: its weights.
+        nodes: of the graded rules.
 
     Returns:
         df: change of the force, body frame, (3,) [N].
@@ -47,23 +46,23 @@ def wall_friction_change(body, v, w, dv, dw, x, weights):
     total = _NO_SUMS
     breaks, number, decay = _breaks_along(body, v, w)
     if number == 0:
-        if decay * 12 > DIGITS:
-            total = _plain(body, v, w, dv, dw, x, weights, _SHORT_X, _SHORT_W)
-        elif decay * 24 > DIGITS:
-            total = _plain(body, v, w, dv, dw, x, weights, _MIDDLE_X, _MIDDLE_W)
+        if decay * 2 * 6 > DIGITS:
+            total = _plain(body, v, w, dv, dw, nodes, _SHORT_X, _SHORT_W)
+        elif decay * 2 * 12 > DIGITS:
+            total = _plain(body, v, w, dv, dw, nodes, _MIDDLE_X, _MIDDLE_W)
         else:
-            total = _plain(body, v, w, dv, dw, x, weights, _LONG_X, _LONG_W)
+            total = _plain(body, v, w, dv, dw, nodes, _LONG_X, _LONG_W)
     else:
         # From each break half way to its neighbours, and all the way to the ends.
         for i in range(number):
             low = -half if i == 0 else (breaks[i - 1] + breaks[i]) / 2
             high = half if i == number - 1 else (breaks[i] + breaks[i + 1]) / 2
             for end in (low, high):
-                for j in range(len(x)):
-                    z = breaks[i] + (end - breaks[i]) * x[j]
-                    strip = abs(end - breaks[i]) * weights[j]
+                for j in range(len(nodes.along_x)):
+                    z = breaks[i] + (end - breaks[i]) * nodes.along_x[j]
+                    strip = abs(end - breaks[i]) * nodes.along_weights[j]
                     if strip > 0:
-                        total = _add(total, strip, _around(body, v, w, dv, dw, z, x, weights))
+                        total = _add(total, strip, _around(body, v, w, dv, dw, z, nodes))
     k = -body.air.tangential * body.radius
     f_0, f_1, f_2, m_0, m_1, m_2 = total
     return (k * f_0, k * f_1, k * f_2), (k * m_0, k * m_1, k * m_2)
@@ -82,11 +81,11 @@ def _add(total, k, part):
 
 
 @compiled
-def _plain(body, v, w, dv, dw, x, weights, along_x, along_weights):
+def _plain(body, v, w, dv, dw, nodes, z_x, z_weights):
     h, total = body.thickness, _NO_SUMS
-    for j in range(len(along_x)):
-        around = _around(body, v, w, dv, dw, h * (along_x[j] - 0.5), x, weights)
-        total = _add(total, h * along_weights[j], around)
+    for j in range(len(z_x)):
+        around = _around(body, v, w, dv, dw, h * (z_x[j] - 0.5), nodes)
+        total = _add(total, h * z_weights[j], around)
     return total
 
 
@@ -128,7 +127,7 @@ def _breaks_along(body, v, w):
         root = (ratio * ratio - 1) ** 0.5
         distance = math.log(max(abs(ratio + root), abs(ratio - root)))
         decay = min(decay, distance)
-        if distance * 48 < DIGITS:
+        if distance * 2 * 24 < DIGITS:
             z = min(max(point.real, -half), half)
             i = number
             while i > 0 and breaks[i - 1] > z:
@@ -166,7 +165,7 @@ def _branch_points(body, v, w, z):
 
 
 @compiled
-def _around(body, v, w, dv, dw, z, x, weights):
+def _around(body, v, w, dv, dw, z, nodes):
     """Integrate over θ at one height: by the rectangle rule, or by graded rules between the branch points."""
     theta_1, away_1, theta_2, away_2 = _branch_points(body, v, w, z)
     away = min(away_1, away_2)
@@ -193,10 +192,10 @@ def _around(body, v, w, dv, dw, z, x, weights):
     ):
         if length == 0:
             continue
-        for i in range(len(x)):
-            theta = start + length * x[i]
+        for i in range(len(nodes.x)):
+            theta = start + length * nodes.x[i]
             value = _at(body, v, w, dv, dw, z, math.cos(theta), math.sin(theta))
-            total = _add(total, abs(length) * weights[i], value)
+            total = _add(total, abs(length) * nodes.weights[i], value)
     return total
 
 
