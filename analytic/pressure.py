@@ -51,7 +51,9 @@ def _on_faces(body, v, w, dv, dw, nodes):
             phi = still + (end - still) * nodes.x[i]
             u, half_chord = -r * math.cos(phi), r * math.sin(phi)
             speed = v[2] + W * u
-            strip = abs(end - still) * nodes.weights[i] * 2 * half_chord * half_chord * power(speed * speed, b)
+            strip = (
+                abs(end - still) * nodes.weights[i] * 2 * half_chord * half_chord * power(speed * speed, b)
+            )
             whole += strip * (dv[2] + d_along * u)
             lever += strip * (dv[2] + d_along * u) * u
             lever_across += strip * d_across * half_chord * half_chord / 3
@@ -79,9 +81,7 @@ def _on_wall(body, v, w, dv, dw, nodes):
     for end in (-half, half):
         for i in range(len(nodes.x)):
             z = nearest + (end - nearest) * nodes.x[i]
-            K_0, K_1 = changed_law(
-                v[0] + w[1] * z, v[1] - w[0] * z, dv[0] + dw[1] * z, dv[1] - dw[0] * z, b
-            )
+            K_0, K_1 = changed_law(v[0] + w[1] * z, v[1] - w[0] * z, dv[0] + dw[1] * z, dv[1] - dw[0] * z, b)
             strip = abs(end - nearest) * nodes.weights[i]
             f_0 += strip * K_0
             f_1 += strip * K_1

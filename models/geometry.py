@@ -151,9 +151,7 @@ def acceleration_bounds(body, v, w, window):
         + arm * drag * speed
     ) / body.inertia_smallest
     of_normal = spin * spin + turning
-    of_height = (
-        body.gravity + drag * speed / body.mass + (norm(body.center) + body.thickness / 2) * of_normal
-    )
+    of_height = body.gravity + drag * speed / body.mass + (norm(body.center) + body.thickness / 2) * of_normal
     return of_height, of_normal
 
 
