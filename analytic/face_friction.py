@@ -54,9 +54,9 @@ def disc_dissipation(b, r, U, w, nodes):
     V = U + ω ζ × p. The gradient of D is force and moment for λ_τ = 1, so its second derivatives are their
     changes. They are homogeneous of degree b.
 
-    Near, U <= `FAR` ω r: V is a rotation about the instantaneous centre p_0, homogeneous in p - p_0, so by the
-    divergence theorem ∫ F dA = ∮ F (p - p_0) . n ds/(q + 2) for every F of degree q in it, which leaves the
-    rim, graded towards its point nearest to p_0. Far: the hypergeometric series
+    Near, U <= `FAR` ω r: V is a rotation about the instantaneous centre p_0, homogeneous in p - p_0, so by
+    the divergence theorem ∫ F dA = ∮ F (p - p_0) . n ds/(q + 2) for every F of degree q in it, which leaves
+    the rim, graded towards its point nearest to p_0. Far: the hypergeometric series
     D = π r² U^a/a F(-a/2, -a/2; 2; (ω r/U)²), a = b + 2, which needs no p_0.
 
     Args:

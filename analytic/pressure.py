@@ -34,9 +34,10 @@ def pressure_change(body, v, w, dv, dw, nodes):
 def _on_faces(body, v, w, dv, dw, nodes):
     """Integrate over both faces: eqs (80) and (83), which hold at any thickness.
 
-    The normal velocity v_ζ + ω_ξ η - ω_η ξ is the same on both faces, and outward on exactly one of them: both
-    together are one whole disc. It varies along one direction only, as v_ζ + W u with u = -r cos φ; across,
-    chords are integrated in closed form. Both pieces of φ are graded towards where it vanishes, or nearly.
+    The normal velocity v_ζ + ω_ξ η - ω_η ξ is the same on both faces, and outward on exactly one of them:
+    both together are one whole disc. It varies along one direction only, as v_ζ + W u with u = -r cos φ;
+    across, chords are integrated in closed form. Both pieces of φ are graded towards where it vanishes, or
+    nearly.
     """
     b, r = body.air.exponent, body.radius
     W = math.hypot(w[0], w[1])

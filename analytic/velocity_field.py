@@ -33,6 +33,7 @@ class VelocityField:
         return np.sum(self.velocity * self.normal, axis=1) > 0
 
     def __post_init__(self) -> None:
+        """Make the arrays read-only."""
         for array in (self.point, self.normal, self.velocity, self.outward, self.tangential):
             array.setflags(write=False)
 

@@ -94,7 +94,8 @@ def _breaks_along(body, v, w):
     """Find the heights at which the integral around is not smooth, and how far they are.
 
     Returns:
-        breaks: increasing heights to grade to [m], where Gauss's rules would need too many nodes; space for 4.
+        breaks: increasing heights to grade to [m], where Gauss's rules would need too many nodes; space
+            for 4.
         number: how many they are.
         decay: n nodes of Gauss's rule err by exp(-2 n decay), where there are no breaks.
     """

@@ -1,6 +1,7 @@
-"""The air's force for 0 <= b <= 1: against adaptive quadrature, closed forms, finer rules and its own change."""
+"""The air's force for 0 <= b <= 1: against adaptive quadrature, closed forms, finer rules, its own change."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -39,10 +40,11 @@ def change(body, v, w, dv, dw):
     return np.array([*f, *(x / R for x in m)])
 
 
-def force_scale(b, v, w, dv=None, dw=None):
+def force_scale(b, v, w, change_of_motion=None):
     """The order of the force: λ (|v| + r |ω|)^(1+b) π r²; of its change along (dv, dw) where given."""
-    speed = np.linalg.norm(v) + R * np.linalg.norm(w)
-    d_speed = speed if dv is None else np.linalg.norm(dv) + R * np.linalg.norm(dw)
+    speed, d_speed = (
+        np.linalg.norm(p) + R * np.linalg.norm(q) for p, q in ((v, w), change_of_motion or (v, w))
+    )
     return (LN + LT) * speed**b * d_speed * np.pi * R**2
 
 
@@ -116,7 +118,7 @@ def test_quadrature_has_converged_for_every_motion(b, h):
         worst = max(worst, np.abs(about_B(v, w, FORCE_NODES) - exact).max() / size)
         coarse = max(coarse, np.abs(about_B(v, w, nodes_of(12, 6)) - exact).max() / size)
         dv, dw = rng.normal(size=3), rng.normal(size=3) / R
-        size = force_scale(b, v, w, dv, dw) * (1 + h / R)
+        size = force_scale(b, v, w, (dv, dw)) * (1 + h / R)
         difference = about_B(dv, dw, CHANGE_NODES) - about_B(dv, dw, FINER)
         worst_change = max(worst_change, np.abs(difference).max() / size)
     assert worst < 5e-12
@@ -135,7 +137,7 @@ def test_more_nodes_mean_a_smaller_error_until_rounding(b):
 
     errors = [np.abs(about_B(n) - about_B(96)).max() / force_scale(b, v, w) for n in (8, 12, 16, 24, 32)]
     assert errors[0] > 1e-8
-    assert all(later < 0.3 * sooner for sooner, later in zip(errors[:3], errors[1:4], strict=True))
+    assert all(later < 0.3 * sooner for sooner, later in pairwise(errors[:4]))
     assert errors[-1] < 1e-14
 
 
@@ -213,7 +215,7 @@ def test_the_change_is_the_slope_of_the_force(b, h):
             return (ahead - behind) / (2 * step)
 
         central = (4 * slope(5e-4) - slope(1e-3)) / 3
-        size = force_scale(b, v, w, dv, dw)
+        size = force_scale(b, v, w, (dv, dw))
         # The difference formula is of order 4 only where no point at rest comes near; rounding adds 1e-11.
         assert np.abs(change(body, v, w, dv, dw) - central).max() < 2e-6 * size
         assert np.abs(central).max() > 0.01 * size
@@ -251,7 +253,7 @@ def test_the_force_is_the_gradient_of_a_convex_dissipation(seed, b):
     body = coin(b)
     axes = np.eye(6) * [1, 1, 1, 1 / R, 1 / R, 1 / R]
     K = np.array([change(body, v, w, axis[:3], axis[3:]) for axis in axes])
-    size = force_scale(b, v, w, [1, 0, 0], [0, 0, 0])
+    size = force_scale(b, v, w, ([1, 0, 0], [0, 0, 0]))
     assert np.abs(K - K.T).max() < 1e-10 * size
     assert np.linalg.eigvalsh(K).max() <= 1e-10 * size
 
