@@ -38,16 +38,18 @@ class Nodes(NamedTuple):
     along_x: NDArray[np.float64]
     """Nodes along the wall for what is integrated around it already, which is smoother by a power."""
     along_weights: NDArray[np.float64]
+    digits: float
+    """-ln of the error for which plain rules are chosen by their distance from the branch points."""
 
 
-def nodes_of(n: int, n_along: int) -> Nodes:
-    """Give graded rules of n and n_along nodes."""
-    return Nodes(*graded_rule(n, 5), *graded_rule(n_along, 2))
+def nodes_of(n: int, n_along: int, digits: float) -> Nodes:
+    """Give graded rules of n and n_along nodes, and plain ones good to exp(-digits)."""
+    return Nodes(*graded_rule(n, 5), *graded_rule(n_along, 2), digits)
 
 
 # The integrand of the change is rougher by a power than that of the force. The tests compare both with finer
 # rules over all kinds of motion.
-FORCE_NODES, CHANGE_NODES = nodes_of(32, 16), nodes_of(48, 24)
+FORCE_NODES, CHANGE_NODES = nodes_of(32, 16, 28.0), nodes_of(48, 24, 28.0)
 
 
 @compiled

@@ -15,8 +15,6 @@ import numpy as np
 from analytic.quadrature import changed_law, gauss_rule
 from models.compiled import compiled
 
-DIGITS = 33.0
-"""-ln of the relative error for which a rule is chosen."""
 TURN = 96
 """Points of the full rectangle rule around; coarser ones take every second, third, fourth or sixth."""
 _TURN_COS, _TURN_SIN = (part(2 * np.pi * np.arange(TURN) / TURN) for part in (np.cos, np.sin))
@@ -44,11 +42,11 @@ def wall_friction_change(body, v, w, dv, dw, nodes):
     """
     half = body.thickness / 2
     total = _NO_SUMS
-    breaks, number, decay = _breaks_along(body, v, w)
+    breaks, number, decay = _breaks_along(body, v, w, nodes.digits)
     if number == 0:
-        if decay * 2 * 6 > DIGITS:
+        if decay * 2 * 6 > nodes.digits:
             total = _plain(body, v, w, dv, dw, nodes, _SHORT_X, _SHORT_W)
-        elif decay * 2 * 12 > DIGITS:
+        elif decay * 2 * 12 > nodes.digits:
             total = _plain(body, v, w, dv, dw, nodes, _MIDDLE_X, _MIDDLE_W)
         else:
             total = _plain(body, v, w, dv, dw, nodes, _LONG_X, _LONG_W)
@@ -90,7 +88,7 @@ def _plain(body, v, w, dv, dw, nodes, z_x, z_weights):
 
 
 @compiled
-def _breaks_along(body, v, w):
+def _breaks_along(body, v, w, digits):
     """Find the heights at which the integral around is not smooth, and how far they are.
 
     Returns:
@@ -113,7 +111,7 @@ def _breaks_along(body, v, w):
     apart = r * w[2] + cosine * across
     offset = 0j
     if apart != 0:
-        offset = apart / (W * sine) if sine != 0 else complex(np.inf, 0.0)
+        offset = apart / (W * sine) if W * sine != 0 else complex(np.inf, 0.0)
     # The discriminant g_0² - g_c² - g_s² of `_branch_points`, as a quadratic in z - middle.
     g_0 = complex(r * w[2], v[2])
     A_0, A_1 = v[0] + w[1] * middle, v[1] - w[0] * middle
@@ -128,7 +126,7 @@ def _breaks_along(body, v, w):
         root = (ratio * ratio - 1) ** 0.5
         distance = math.log(max(abs(ratio + root), abs(ratio - root)))
         decay = min(decay, distance)
-        if distance * 2 * 24 < DIGITS:
+        if distance * 2 * 24 < digits:
             z = min(max(point.real, -half), half)
             i = number
             while i > 0 and breaks[i - 1] > z:
@@ -171,10 +169,10 @@ def _around(body, v, w, dv, dw, z, nodes):
     theta_1, away_1, theta_2, away_2 = _branch_points(body, v, w, z)
     away = min(away_1, away_2)
     total = _NO_SUMS
-    if away * TURN > DIGITS:
+    if away * TURN > nodes.digits:
         stride = 1
         for part in (2, 3, 4, 6):
-            if away * TURN > part * DIGITS:
+            if away * TURN > part * nodes.digits:
                 stride = part
         for i in range(0, TURN, stride):
             total = _add(total, 1.0, _at(body, v, w, dv, dw, z, _TURN_COS[i], _TURN_SIN[i]))
