@@ -2,7 +2,7 @@
 
 import math
 
-from analytic.quadrature import power
+from analytic.air_law import power
 from models.compiled import compiled
 
 FAR = 1.5

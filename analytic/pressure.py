@@ -2,7 +2,7 @@
 
 import math
 
-from analytic.quadrature import changed_law, power
+from analytic.air_law import changed_law, power
 from models.compiled import compiled
 from models.vectors import add
 

@@ -1,11 +1,9 @@
-"""Gauss's rules on an interval, plain and graded towards one end, and the air's law for them."""
+"""Gauss's rules on an interval, plain or graded towards one end."""
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-
-from models.compiled import compiled
 
 Rule = tuple[NDArray[np.float64], NDArray[np.float64]]
 """Nodes and weights on [0, 1]."""
@@ -50,23 +48,3 @@ def nodes_of(n: int, n_along: int, digits: float) -> Nodes:
 # The integrand of the change is rougher by a power than that of the force. The tests compare both with finer
 # rules over all kinds of motion.
 FORCE_NODES, CHANGE_NODES = nodes_of(32, 16, 28.0), nodes_of(48, 24, 28.0)
-
-
-@compiled
-def power(square, b):
-    """Give |v|^b from |v|², for 0 < b <= 1."""
-    return square**0.5 if b == 1 else square ** (b / 2)
-
-
-@compiled
-def changed_law(a_0, a_1, da_0, da_1, b):
-    """Give the change of |a|^b a with the plane vector a: |a|^b da + b |a|^(b-2) (a . da) a.
-
-    Bounded, but without a limit at a = 0, where 0 is given.
-    """
-    square = a_0 * a_0 + a_1 * a_1
-    if square == 0:
-        return 0.0, 0.0
-    size = power(square, b)
-    along = b * (a_0 * da_0 + a_1 * da_1) / square
-    return size * (da_0 + along * a_0), size * (da_1 + along * a_1)

@@ -12,7 +12,8 @@ import math
 
 import numpy as np
 
-from analytic.quadrature import changed_law, gauss_rule
+from analytic.air_law import changed_law
+from analytic.quadrature import gauss_rule
 from models.compiled import compiled
 
 TURN = 96
