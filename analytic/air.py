@@ -27,10 +27,20 @@ def force_and_moment(body, v, w):
         m_C: moment about C, body frame, (3,) [N m].
     """
     if body.air.exponent > 0:
-        v_B, share = subtract(v, cross(w, body.center)), 1 / (1 + body.air.exponent)
-        df, dm_B = change_about_B(body, v_B, w, v_B, w, FORCE_NODES)
-        return scale(share, df), scale(share, subtract(dm_B, cross(body.center, df)))
-    return _linear(body, v, w)
+        return _by_quadrature(body, v, w)
+    drag = body.drag
+    v_B = subtract(v, cross(w, body.center))
+    f = (
+        -drag.force_tangential * v_B[0],
+        -drag.force_tangential * v_B[1],
+        -drag.force_normal * v_B[2],
+    )
+    m_B = (
+        -drag.moment_tangential * w[0],
+        -drag.moment_tangential * w[1],
+        -drag.moment_normal * w[2],
+    )
+    return f, subtract(m_B, cross(body.center, f))
 
 
 @compiled
@@ -55,7 +65,15 @@ def force_and_moment_change(body, v, w, dv, dw):
         v_B, dv_B = subtract(v, cross(w, body.center)), subtract(dv, cross(dw, body.center))
         df, dm_B = change_about_B(body, v_B, w, dv_B, dw, CHANGE_NODES)
         return df, subtract(dm_B, cross(body.center, df))
-    return _linear(body, dv, dw)
+    return force_and_moment(body, dv, dw)
+
+
+@compiled
+def _by_quadrature(body, v, w):
+    """Give force and moment for b > 0."""
+    v_B, share = subtract(v, cross(w, body.center)), 1 / (1 + body.air.exponent)
+    df, dm_B = change_about_B(body, v_B, w, v_B, w, FORCE_NODES)
+    return scale(share, df), scale(share, subtract(dm_B, cross(body.center, df)))
 
 
 @compiled
@@ -84,21 +102,3 @@ def change_about_B(body, v, w, dv, dw, nodes):
             df_wall, dm_wall = wall_friction_change(body, v, w, dv, dw, nodes)
             df, dm = add(df, df_wall), add(dm, dm_wall)
     return df, dm
-
-
-@compiled
-def _linear(body, v, w):
-    """Give force and moment for b = 0."""
-    drag = body.drag
-    v_B = subtract(v, cross(w, body.center))
-    f = (
-        -drag.force_tangential * v_B[0],
-        -drag.force_tangential * v_B[1],
-        -drag.force_normal * v_B[2],
-    )
-    m_B = (
-        -drag.moment_tangential * w[0],
-        -drag.moment_tangential * w[1],
-        -drag.moment_normal * w[2],
-    )
-    return f, subtract(m_B, cross(body.center, f))
