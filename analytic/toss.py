@@ -8,7 +8,7 @@ from analytic.events import run
 from analytic.flight import STATE_SIZE, TOLERANCE, sample_flight
 from analytic.horizon import SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
 from models.body import Body
-from models.records import Array, Impacts, Setting, States, Toss, UnsupportedError
+from models.records import Array, Impacts, Setting, States, Toss
 from models.scenario import Release, Scenario
 
 
@@ -47,17 +47,6 @@ def state_of(release: Release) -> Array:
     return np.array([*release.position, *release.velocity, *release.attitude, *release.angular_velocity])
 
 
-def require_supported(scenario: Scenario) -> None:
-    """Refuse what this engine doesn't model yet.
-
-    Raises:
-        UnsupportedError: naming field, value and what is accepted.
-    """
-    air = scenario.air
-    if air.exponent != 0 and (air.normal > 0 or air.tangential > 0):
-        raise UnsupportedError(f"air.exponent = {air.exponent}: accepted by the analytic engine: 0")
-
-
 def toss(scenario: Scenario) -> Toss:
     """Toss a coin by the paper's mechanics.
 
@@ -70,11 +59,7 @@ def toss(scenario: Scenario) -> Toss:
 
     Args:
         scenario: what to toss.
-
-    Raises:
-        UnsupportedError: for air with b > 0.
     """
-    require_supported(scenario)
     body, rules, start = scenario.body, scenario.rules, state_of(scenario.release)
     answer = run(body, rules, start)
     impacts = Impacts.from_rows(answer.rows)

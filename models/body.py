@@ -7,6 +7,17 @@ from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.vectors import Matrix, Vector
 
 
+class AirLaw(NamedTuple):
+    """The air's resistance: the force on dA is -λ |v|^b v; see `models.scenario.Air`."""
+
+    exponent: float
+    """b, from 0 to 1."""
+    normal: float
+    """λ_n [kg m^(-2-b) s^(b-1)]."""
+    tangential: float
+    """λ_τ [kg m^(-2-b) s^(b-1)]."""
+
+
 class Body(NamedTuple):
     """What the equations of motion and of impact need to know of a scenario; SI units, body frame."""
 
@@ -20,7 +31,9 @@ class Body(NamedTuple):
     inertia_inverse: Matrix
     inertia_smallest: float
     inertia_largest: float
+    air: AirLaw
     drag: Drag
+    """Of linear air: of use where `air.exponent` is 0."""
     gravity: float
 
 

@@ -128,7 +128,7 @@ def judge(body, rules, z, v, up, w):
             return face, ending
         if _is_ideal(body) and tilt_sine * high > out * abs(up[2]):
             return Outcome.EDGE, ending
-    in_vacuum = body.drag.force_normal == 0 and body.drag.force_tangential == 0
+    in_vacuum = body.air.normal == 0 and body.air.tangential == 0
     if on_face and smooth and in_vacuum and _is_ideal(body):
         E_turning = E - body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
         if E_turning < _top_barrier(body, up, w):

@@ -67,25 +67,67 @@ def lowest_point(body, up, w):
 
 
 @compiled
-def _largest_drag(body):
-    """Give k, the larger of the drag coefficients of force [kg/s]."""
-    return max(body.drag.force_tangential, body.drag.force_normal)
+def _spin_bound(body, w):
+    """Give ω̃ = √(2 T_rot/J_min) ≥ |ω| [rad/s]; without air it never changes."""
+    J = body.inertia
+    energy_twice = dot(w, (dot(J[0], w), dot(J[1], w), dot(J[2], w)))
+    return (energy_twice / body.inertia_smallest) ** 0.5
 
 
 @compiled
-def damping_rate(body):
-    """Give κ = k (1/m + |c|²/J_min), a bound on the rate at which drag changes the velocity of B [1/s]."""
-    c = body.center
-    return _largest_drag(body) * (1 / body.mass + dot(c, c) / body.inertia_smallest)
+def _drag_bound(body, v, w, window):
+    """Bound the air's force and moment about C by k p and ℓ k p + d ω̃, with p = |v_C| + ω̃ ℓ, over a window.
+
+    For b = 0 p bounds the speed of B: k and d are the largest coefficients, ℓ is B's distance from C.
+    For b > 0 p bounds the speed of the whole surface, ℓ its distance from C: the force on dA is at most
+    λ p^b p. Pressure acts on one of the faces and half of the wall at a time. Air takes energy, so gravity
+    alone can raise √(2 T/m), by g dt: that bounds p^b for the whole window.
+
+    Args:
+        body: the coin.
+        v: velocity of C, (3,) [m/s].
+        w: angular velocity, body frame, (3,) [rad/s].
+        window: length of the time window [s].
+
+    Returns:
+        k [kg/s], ℓ [m], and d [kg m²/s].
+    """
+    air, drag, r, h = body.air, body.drag, body.radius, body.thickness
+    if air.exponent == 0:
+        return (
+            max(drag.force_tangential, drag.force_normal),
+            norm(body.center),
+            max(drag.moment_tangential, drag.moment_normal),
+        )
+    arm = norm(body.center) + math.hypot(r, h / 2)
+    spin, ratio = _spin_bound(body, w), body.inertia_smallest / body.mass
+    start = (dot(v, v) + ratio * spin * spin) ** 0.5
+    fastest = (start + body.gravity * window) * (1 + arm * arm / ratio) ** 0.5
+    k = math.pi * r * (r + h) * (air.normal + 2 * air.tangential) * fastest**air.exponent
+    return k, arm, 0.0
+
+
+@compiled
+def damping_rate(body, v, w, window):
+    """Give κ = k (1/m + ℓ²/J_min), a bound on the rate at which drag changes velocities over a window [1/s].
+
+    Args:
+        body: the coin.
+        v: velocity of C, (3,) [m/s].
+        w: angular velocity, body frame, (3,) [rad/s].
+        window: length of the time window [s].
+    """
+    k, arm, _ = _drag_bound(body, v, w, window)
+    return k * (1 / body.mass + arm * arm / body.inertia_smallest)
 
 
 @compiled
 def acceleration_bounds(body, v, w, window):
     """Bound the accelerations of a flying coin over a time window.
 
-    The spin: ω̃ = √(2 T_rot/J_min) ≥ |ω| changes only by the air's force at B, whose arm to C is c:
-    dω̃/dt ≤ k |c| |v_B|/J_min. With p = |v_C| + ω̃ |c| ≥ |v_B| and k the largest drag coefficient,
-    dp/dt ≤ g + κ p, κ = k (1/m + |c|²/J_min), which Grönwall's lemma closes.
+    The spin: ω̃ = √(2 T_rot/J_min) ≥ |ω| changes only by the air: dω̃/dt ≤ ℓ k p/J_min, with k, ℓ and
+    p = |v_C| + ω̃ ℓ of `_drag_bound`. dp/dt ≤ g + κ p, κ = k (1/m + ℓ²/J_min), which Grönwall's lemma
+    closes.
 
     Args:
         body: the coin.
@@ -97,15 +139,11 @@ def acceleration_bounds(body, v, w, window):
         of_height: bound on the downward acceleration of any point on the axis Bζ within the coin [m/s²].
         of_normal: bound on |d²n_z/dt²|, n the coin's normal in space [1/s²].
     """
-    J = body.inertia
-    energy_twice = dot(w, (dot(J[0], w), dot(J[1], w), dot(J[2], w)))
-    arm = norm(body.center)
-    drag = _largest_drag(body)
-    turn_drag = max(body.drag.moment_tangential, body.drag.moment_normal)
-    spin = (energy_twice / body.inertia_smallest) ** 0.5
+    drag, arm, turn_drag = _drag_bound(body, v, w, window)
+    spin = _spin_bound(body, w)
     speed = norm(v) + spin * arm
     if drag > 0:
-        speed = (speed + body.gravity * window) * math.exp(damping_rate(body) * window)
+        speed = (speed + body.gravity * window) * math.exp(damping_rate(body, v, w, window) * window)
         spin += drag * arm / body.inertia_smallest * window * speed
     turning = (
         (body.inertia_largest - body.inertia_smallest) / 2 * spin * spin
@@ -113,7 +151,7 @@ def acceleration_bounds(body, v, w, window):
         + arm * drag * speed
     ) / body.inertia_smallest
     of_normal = spin * spin + turning
-    of_height = body.gravity + drag * speed / body.mass + (arm + body.thickness / 2) * of_normal
+    of_height = body.gravity + drag * speed / body.mass + (norm(body.center) + body.thickness / 2) * of_normal
     return of_height, of_normal
 
 
@@ -139,8 +177,9 @@ def clear_time(body, z, v, up, w, window):
     """
     r = body.radius
     # Bounds over a window much longer than the drag's own time would be too wide to be of use.
-    if damping_rate(body) * window > 0.5:
-        window = 0.5 / damping_rate(body)
+    rate = damping_rate(body, v, w, window)
+    if rate * window > 0.5:
+        window = 0.5 / rate
     of_height, of_normal = acceleration_bounds(body, v, w, window)
     up_rate = cross(up, w)
     tilt_sine = (up[0] * up[0] + up[1] * up[1]) ** 0.5

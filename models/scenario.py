@@ -17,7 +17,7 @@ from pydantic import (
 )
 
 from models.attitude import Quaternion, quaternion_from_angles, rotation_matrix
-from models.body import Body, Rules
+from models.body import AirLaw, Body, Rules
 from models.drag import linear_drag
 from models.geometry import damping_rate, gap
 from models.inertia import (
@@ -284,7 +284,8 @@ class Scenario(_Part):
         if not math.hypot(*w) <= FASTEST_SPIN * rate:
             accepted = f"a spin of at most {FASTEST_SPIN:g} sqrt(g/r) = {FASTEST_SPIN * rate:.3g} rad/s"
             raise FieldError("release.angular_velocity", w, accepted)
-        if not damping_rate(self.body) <= FASTEST_DRAG * rate:
+        fall = (2 * max(self.release.position[2], 0) / self.gravity) ** 0.5
+        if not damping_rate(self.body, self.release.velocity, w, fall) <= FASTEST_DRAG * rate:
             accepted = f"air that slows the coin at a rate of at most {FASTEST_DRAG:g} sqrt(g/r)"
             raise FieldError("air", self.air, accepted)
         return self
@@ -304,6 +305,7 @@ class Scenario(_Part):
             inertia_inverse=_rows(np.linalg.inv(J)),
             inertia_smallest=float(moments[0]),
             inertia_largest=float(moments[-1]),
+            air=AirLaw(exponent=air.exponent, normal=air.normal, tangential=air.tangential),
             drag=linear_drag(coin.radius, coin.thickness, air.normal, air.tangential),
             gravity=self.gravity,
         )

@@ -85,7 +85,9 @@ def test_half_a_turn_of_the_coin_swaps_heads_and_tails(engine):
     }
     there = toss(engine, scenario(air=AIR, release=swapped, ending=FEW))
     assert there.sequence == here.sequence.translate(str.maketrans("HT", "TH"))
-    assert there.impacts.impulse[:, 2] == pytest.approx(here.impacts.impulse[:, 2], rel=1e-8)
+    # Rounding moves MuJoCo's first step in a contact by up to 1e-3 of a contact step.
+    tolerance = 1e-8 if engine == Engine.ANALYTIC else 1e-6
+    assert there.impacts.impulse[:, 2] == pytest.approx(here.impacts.impulse[:, 2], rel=tolerance)
 
 
 def test_momentum_and_restitution_hold_at_every_impact(engine):

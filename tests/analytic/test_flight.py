@@ -14,10 +14,10 @@ from tests.referee import Referee
 HIGH = {"max_time": 0.5}
 
 
-def in_flight(rng, in_air, coin=None, spin=60.0):
+def in_flight(rng, in_air, coin=None, spin=60.0, exponent=0.0):
     """A toss that stays in the air for half a second."""
     release = {**draw_release(rng, spin), "position": [0.1, -0.2, 5.0]}
-    air = AIR if in_air else {}
+    air = {**AIR, "exponent": exponent} if in_air else {}
     return scenario(coin=coin or draw_coin(rng), air=air, release=release, ending=HIGH)
 
 
@@ -74,10 +74,11 @@ def test_energy_and_angular_momentum_are_kept_in_vacuum():
         assert np.linalg.norm(L - L[0], axis=1).max() < 1e-11 * np.linalg.norm(L[0])
 
 
-def test_air_never_adds_energy():
+@pytest.mark.parametrize(("b", "tosses"), [(0.0, 50), (0.5, 3), (1.0, 3)])
+def test_air_never_adds_energy(b, tosses):
     rng = np.random.default_rng(4)
-    for _ in range(50):
-        case = in_flight(rng, in_air=True)
+    for _ in range(tosses):
+        case = in_flight(rng, in_air=True, exponent=b)
         states = analytic.toss(case).sample(np.linspace(0, 0.5, 200))
         w, v = states.angular_velocity, states.velocity
         E = np.einsum("ni,ij,nj->n", w, case.coin.inertia_about_C, w) / 2

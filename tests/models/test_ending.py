@@ -80,7 +80,9 @@ def test_what_a_smooth_floor_conserves_settles_a_fast_spinning_coin():
     (outcome, ending), E, pass_ = judged(scenario(), 0.05, **fast)
     assert E > 10 * pass_
     assert (outcome, ending) == (Outcome.HEADS, Ending.SETTLED)
-    assert judged(scenario(air=AIR), 0.05, **fast)[0] == (Outcome.UNDECIDED, Ending.NONE)
+    for air in (AIR, {"tangential": 0.2, "exponent": 1.0}, {"normal": 0.8, "exponent": 0.5}):
+        assert judged(scenario(air=air), 0.05, **fast)[0] == (Outcome.UNDECIDED, Ending.NONE)
+    assert judged(scenario(air={"exponent": 0.5}), 0.05, **fast)[0] == (Outcome.HEADS, Ending.SETTLED)
     assert judged(scenario(coin=IMPERFECT), 0.05, **fast)[0] == (Outcome.UNDECIDED, Ending.NONE)
 
 

@@ -1,0 +1,275 @@
+"""The air's force for 0 <= b <= 1: against adaptive quadrature, closed forms, finer rules, its own change."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from analytic.air import change_about_B, force_and_moment, force_and_moment_change
+from analytic.quadrature import CHANGE_NODES, FORCE_NODES, nodes_of
+from tests.draws import AIR, ZLOTY, scenario
+from tests.referee import air_by_cubature
+
+R, H = ZLOTY["radius"], ZLOTY["thickness"]
+LN, LT = AIR["normal"], AIR["tangential"]
+FINER = nodes_of(96, 64, 60.0)
+
+
+def coin(b, h=H, ln=LN, lt=LT, c=(0.0, 0.0, 0.0)):
+    return scenario(
+        coin={"thickness": h, "center_of_mass": list(c)},
+        air={"normal": ln, "tangential": lt, "exponent": b},
+    ).body
+
+
+def vector(row):
+    return tuple(float(x) for x in row)
+
+
+def pull(body, v, w):
+    """Force and moment over r, (6,)."""
+    f, m = force_and_moment(body, vector(v), vector(w))
+    return np.array([*f, *(x / R for x in m)])
+
+
+def change(body, v, w, dv, dw):
+    f, m = force_and_moment_change(body, vector(v), vector(w), vector(dv), vector(dw))
+    return np.array([*f, *(x / R for x in m)])
+
+
+def force_scale(b, v, w, change_of_motion=None):
+    """The order of the force: λ (|v| + r |ω|)^(1+b) π r²; of its change along (dv, dw) where given."""
+    speed, d_speed = (
+        np.linalg.norm(p) + R * np.linalg.norm(q) for p, q in ((v, w), change_of_motion or (v, w))
+    )
+    return (LN + LT) * speed**b * d_speed * np.pi * R**2
+
+
+def rough_motion(rng):
+    """Draw a motion, often one for which a point or a line of the surface is at rest, or nearly."""
+    v = rng.normal(size=3) * 10.0 ** rng.integers(-4, 2, 3)
+    w = rng.normal(size=3) * 40 * 10.0 ** rng.integers(-3, 2, 3)
+    near = 1 + rng.choice([0, 1e-14, 1e-10, 1e-6, -1e-6, 1e-3, -1e-3])
+    match rng.integers(9):
+        case 0:
+            v[2] = R * math.hypot(w[0], w[1]) * near  # pressure's line at rest is at the rim
+        case 1:
+            v[:2] = R * w[2] * near, 0  # the instantaneous centre is at the rim
+        case 2:
+            w[:2] = 0
+        case 3:
+            v[:] = 0
+        case 4:
+            w[:] = 0
+        case 5:
+            v[rng.integers(3)] = 0
+        case 6:
+            v[2], w[:2] = 0, w[:2] * 1e-9
+        case 7:  # a point of the wall is at rest
+            theta, z = rng.uniform(0, 2 * np.pi), rng.uniform(-H / 2, H / 2) * near
+            v = -np.cross(w, [R * np.cos(theta), R * np.sin(theta), z])
+            v += rng.choice([0, 1e-12, 1e-6]) * rng.normal(size=3)
+    return v, w
+
+
+DEGENERATE = {
+    "broadside": ((0, 0, 1), (0, 0, 0)),
+    "edgewise": ((1, 0, 0), (0, 0, 0)),
+    "tumbling in place": ((0, 0, 0), (0, 40, 0)),
+    "spinning in place": ((0, 0, 0), (0, 0, 40)),
+    "rolling on the rim": ((40 * R, 0, 0), (0, 0, 40)),
+    "rim's point at rest": ((0, 0, 40 * R), (0, 40, 0)),
+    "face's centre at rest": ((40 * H / 2, 0, 0), (0, -40, 3)),
+}
+
+
+@pytest.mark.parametrize("b", [0.0, 0.3, 0.5, 1.0])
+@pytest.mark.parametrize("h", [0.0, H, 0.6 * R])
+def test_force_and_moment_are_the_papers_integrals(b, h):
+    rng = np.random.default_rng([int(10 * b), int(1e4 * h)])
+    motions = [(rng.normal(size=3), rng.normal(size=3) * 60) for _ in range(2)]
+    for v, w in [*motions, *(tuple(map(np.array, m)) for m in DEGENERATE.values())]:
+        size = force_scale(b, v, w)
+        # The adaptive rule estimates its own error; at b = 0 the kinks of one-sided pressure cost it most.
+        tolerance = (1e-6 if b == 0 else 1e-7) * size
+        brute = air_by_cubature(R, h, LN, LT, b, np.array(v), np.array(w), tolerance) / [1, 1, 1, R, R, R]
+        assert np.abs(pull(coin(b, h), v, w) - brute).max() < tolerance
+        assert np.abs(brute).max() > 0.01 * size, "the scale should be that of the force"
+
+
+@pytest.mark.parametrize("b", [1e-3, 0.1, 0.3, 0.5, 0.8, 1.0])
+@pytest.mark.parametrize("h", [H, 0.6 * R, 10 * R])
+def test_quadrature_has_converged_for_every_motion(b, h):
+    """Against three times as many nodes; motions with points and lines at rest are drawn on purpose."""
+    rng = np.random.default_rng([int(1000 * b), int(1e4 * h)])
+    body, worst, worst_change, coarse = coin(b, h), 0.0, 0.0, 0.0
+    for _ in range(120):
+        v, w = rough_motion(rng)
+        size = force_scale(b, v, w) * (1 + h / R)
+
+        def about_B(dv, dw, nodes, v=v, w=w):
+            f, m = change_about_B(body, vector(v), vector(w), vector(dv), vector(dw), nodes)
+            return np.array([*f, *(x / R / (1 + h / R) for x in m)])
+
+        exact = about_B(v, w, FINER)
+        worst = max(worst, np.abs(about_B(v, w, FORCE_NODES) - exact).max() / size)
+        coarse = max(coarse, np.abs(about_B(v, w, nodes_of(12, 6, 10.0)) - exact).max() / size)
+        dv, dw = rng.normal(size=3), rng.normal(size=3) / R
+        size = force_scale(b, v, w, (dv, dw)) * (1 + h / R)
+        difference = about_B(dv, dw, CHANGE_NODES) - about_B(dv, dw, FINER)
+        worst_change = max(worst_change, np.abs(difference).max() / size)
+    assert worst < 1e-11
+    assert worst_change < 1e-10
+    assert coarse > 1e-9, "fewer nodes should show an error"
+
+
+@pytest.mark.parametrize("b", [0.5, 1.0])
+def test_more_nodes_mean_a_smaller_error_until_rounding(b):
+    v, w = (0.3, 0.02, 0.11), (8.0, -15.0, 26.0)
+    body = coin(b)
+
+    def about_B(n):
+        f, m = change_about_B(body, v, w, v, w, nodes_of(n, n, 2.0 * n))
+        return np.array([*f, *(x / R for x in m)])
+
+    errors = [np.abs(about_B(n) - about_B(96)).max() / force_scale(b, v, w) for n in (8, 12, 16, 24, 32)]
+    assert errors[0] > 1e-8
+    assert all(later < 0.3 * sooner for sooner, later in pairwise(errors[:4]))
+    assert errors[-1] < 1e-14
+
+
+@pytest.mark.parametrize("b", [0.2, 0.5, 1.0])
+def test_motions_in_one_direction_have_closed_forms(b):
+    body, v, W = coin(b), 0.7, 30.0
+    p = 1 + b
+    wall, faces = 2 * np.pi * R * H, 2 * np.pi * R**2
+    broadside = -(v**p) * (LN * np.pi * R**2 + LT * wall)
+    assert pull(body, (0, 0, v), (0, 0, 0)) == pytest.approx([0, 0, broadside, 0, 0, 0], rel=1e-13, abs=1e-18)
+    half_turn = math.sqrt(np.pi) * math.gamma((b + 3) / 2) / math.gamma(b / 2 + 2)  # ∫ cos^(b+2)
+    whole_turn = 2 * math.sqrt(np.pi) * math.gamma((b + 3) / 2) / math.gamma(b / 2 + 2)  # ∫ |sin|^(b+2)
+    edgewise = -(v**p) * (LT * faces + LN * R * H * half_turn + LT * R * H * whole_turn)
+    assert pull(body, (v, 0, 0), (0, 0, 0)) == pytest.approx([edgewise, 0, 0, 0, 0, 0], rel=1e-12, abs=1e-18)
+    spin = -LT * ((W * R) ** p) * (2 * 2 * np.pi * R**2 / (b + 4) + wall)
+    assert pull(body, (0, 0, 0), (0, 0, W)) == pytest.approx([0, 0, 0, 0, 0, spin], rel=1e-13, abs=1e-18)
+
+
+def test_pressure_of_a_turning_disc_at_b_1():
+    """|W u| W u u over the chords 2 √(r² - u²) is 8/15 W² r^5, and W² r^5 8/15 + ... where it also moves."""
+    body, W = coin(1.0, h=0.0, lt=0.0), 30.0
+    expected = -LN * 8 / 15 * W**2 * R**4
+    turning = pull(body, (0, 0, 0), (0, W, 0))
+    assert turning == pytest.approx([0, 0, 0, 0, expected, 0], rel=1e-13, abs=1e-18)
+    # Moving broadside so fast that no part is at rest the square expands: v² π r² + W² π r^4/4.
+    v = 2 * W * R
+    both = pull(body, (0, 0, v), (0, W, 0))
+    assert both[2] == pytest.approx(-LN * np.pi * R**2 * (v**2 + W**2 * R**2 / 4), rel=1e-13)
+    assert both[4] == pytest.approx(-LN * np.pi / 4 * R**3 * 2 * v * W, rel=1e-13)
+
+
+@pytest.mark.parametrize("b", [0.0, 0.4, 1.0])
+def test_a_thin_coin_has_the_papers_explicit_forms(b):
+    """Eqs (80)-(84), h = 0: pressure as on one whole disc without selection, friction as on two."""
+    rng = np.random.default_rng(3)
+    rho, rho_weights = np.polynomial.legendre.leggauss(400)
+    rho, rho_weights = R * (rho + 1) / 2, R * rho_weights / 2
+    angle = 2 * np.pi * np.arange(2000) / 2000
+    points = rho[:, None, None] * np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=-1)
+    areas = (rho * rho_weights)[:, None, None] * 2 * np.pi / 2000
+    for _ in range(4):
+        v, w = rng.normal(size=3), rng.normal(size=3) * 60
+        velocity = v + np.cross(w, points)
+        normal, along = velocity * [0, 0, 1], velocity * [1, 1, 0]
+        force = -LN * np.linalg.norm(normal, axis=-1, keepdims=True) ** b * normal
+        force = force - 2 * LT * np.linalg.norm(along, axis=-1, keepdims=True) ** b * along
+        f = np.sum(force * areas, axis=(0, 1))
+        m = np.sum(np.cross(points, force) * areas, axis=(0, 1))
+        # The product rule sees the line at rest of the pressure only to 1e-6.
+        error = pull(coin(b, h=0.0), v, w) - np.array([*f, *(m / R)])
+        assert np.abs(error).max() < 1e-6 * force_scale(b, v, w)
+
+
+def test_the_limit_of_linear_air_is_the_closed_form():
+    """The distance falls in proportion to b, also through motions with points at rest."""
+    rng = np.random.default_rng(4)
+    for v, w in [rough_motion(rng) for _ in range(40)]:
+        linear, size = pull(coin(0.0), v, w), force_scale(0.0, v, w)
+        apart = [np.abs(pull(coin(b), v, w) - linear).max() / size for b in (1e-3, 1e-6, 1e-9)]
+        # |v|^b - 1 is near b ln |v|, and no speed here has a logarithm above 20 but near a point at rest.
+        assert all(gap < 20 * b + 1e-12 for gap, b in zip(apart, (1e-3, 1e-6, 1e-9), strict=True))
+
+
+@pytest.mark.parametrize("b", [0.0, 0.3, 0.5, 1.0])
+@pytest.mark.parametrize("h", [0.0, H])
+def test_the_change_is_the_slope_of_the_force(b, h):
+    rng = np.random.default_rng(5)
+    for _ in range(10):
+        v, w = rng.normal(size=3), rng.normal(size=3) * 60
+        dv, dw = rng.normal(size=3), rng.normal(size=3) * 60
+        body = coin(b, h, c=(-1e-3, 2e-3, h / 5))
+
+        def slope(step, v=v, w=w, dv=dv, dw=dw, body=body):
+            ahead, behind = (pull(body, v + s * dv, w + s * dw) for s in (step, -step))
+            return (ahead - behind) / (2 * step)
+
+        central = (4 * slope(5e-4) - slope(1e-3)) / 3
+        size = force_scale(b, v, w, (dv, dw))
+        # The difference formula is of order 4 only where no point at rest comes near; rounding adds 1e-11.
+        assert np.abs(change(body, v, w, dv, dw) - central).max() < 2e-6 * size
+        assert np.abs(central).max() > 0.01 * size
+
+
+@given(st.integers(0, 10_000), st.sampled_from([0.0, 0.1, 0.5, 1.0]))
+def test_the_force_is_homogeneous_and_odd(seed, b):
+    rng = np.random.default_rng(seed)
+    v, w = rough_motion(rng)
+    body, size = coin(b, c=(1e-3, 2e-3, 1e-4)), force_scale(b, v, w)
+    here = pull(body, v, w)
+    assert np.abs(pull(body, -v, -w) + here).max() < 1e-12 * size
+    assert np.abs(pull(body, 3 * v, 3 * w) - 3 ** (1 + b) * here).max() < 1e-11 * size
+    # Euler's theorem; the change is integrated with other nodes.
+    assert np.abs(change(body, v, w, v, w) - (1 + b) * here).max() < 1e-11 * size
+
+
+@given(st.integers(0, 10_000), st.sampled_from([0.0, 0.1, 0.5, 1.0]), st.sampled_from([0.0, H, R]))
+def test_the_airs_power_is_never_positive(seed, b, h):
+    rng = np.random.default_rng(seed)
+    v, w = rough_motion(rng)
+    body = coin(b, h, c=(1e-3, 2e-3, h / 4))
+    f, m = force_and_moment(body, vector(v), vector(w))
+    if np.any(v) or np.any(w):
+        assert np.dot(f, v) + np.dot(m, w) < 0
+    else:
+        assert (f, m) == ((0, 0, 0), (0, 0, 0))
+
+
+@given(st.integers(0, 10_000), st.sampled_from([0.1, 0.5, 1.0]))
+def test_the_force_is_the_gradient_of_a_convex_dissipation(seed, b):
+    """The changes along the six axes make a symmetric matrix without positive eigenvalues."""
+    rng = np.random.default_rng(seed)
+    v, w = rough_motion(rng)
+    body = coin(b)
+    axes = np.eye(6) * [1, 1, 1, 1 / R, 1 / R, 1 / R]
+    K = np.array([change(body, v, w, axis[:3], axis[3:]) for axis in axes])
+    size = force_scale(b, v, w, ([1, 0, 0], [0, 0, 0]))
+    assert np.abs(K - K.T).max() < 1e-10 * size
+    assert np.linalg.eigvalsh(K).max() <= 1e-10 * size
+
+
+def test_turning_the_axes_about_the_normal_turns_the_force():
+    rng = np.random.default_rng(6)
+    for b in (0.0, 0.5, 1.0):
+        v, w = rough_motion(rng)
+        c, s = np.cos(0.7), np.sin(0.7)
+        Q = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+        here, there = pull(coin(b), v, w), pull(coin(b), Q @ v, Q @ w)
+        turned = np.array([*(Q @ here[:3]), *(Q @ here[3:])])
+        assert np.abs(there - turned).max() < 1e-12 * force_scale(b, v, w)
+
+
+def test_vacuum_has_no_force_whatever_the_exponent():
+    for b in (0.0, 0.5):
+        f, m = force_and_moment(coin(b, ln=0.0, lt=0.0), (1.0, 2.0, 3.0), (4.0, 5.0, 6.0))
+        assert np.all(np.array([*f, *m]) == 0)
