@@ -1,6 +1,7 @@
 """Where a coin is above the floor: its gap, its lowest point, and how long it surely stays clear."""
 
 import math
+from typing import NamedTuple
 
 from models.compiled import compiled
 from models.vectors import add, cross, dot, norm
@@ -121,38 +122,62 @@ def damping_rate(body, v, w, window):
     return k * (1 / body.mass + arm * arm / body.inertia_smallest)
 
 
+class Accelerations(NamedTuple):
+    """Bounds on the accelerations of a flying coin."""
+
+    of_height: float
+    """Downward, of any point on the axis Bζ within the coin [m/s²]."""
+    of_height_of_normal: float
+    """|d²n_z/dt²|, n the coin's normal in space [1/s²]."""
+    of_normal: float
+    """|d²n/dt²| [1/s²]."""
+
+
 @compiled
-def acceleration_bounds(body, v, w, window):
+def acceleration_bounds(body, v, up, w, window):
     """Bound the accelerations of a flying coin over a time window.
 
     The spin: ω̃ = √(2 T_rot/J_min) ≥ |ω| changes only by the air: dω̃/dt ≤ ℓ k p/J_min, with k, ℓ and
     p = |v_C| + ω̃ ℓ of `_drag_bound`. dp/dt ≤ g + κ p, κ = k (1/m + ℓ²/J_min), which Grönwall's lemma
     closes.
 
+    The turning ω⊥ across the normal, alone, tilts the coin: |ṅ| = |ω⊥|. With j = (J_ξζ, J_ηζ) and D the
+    spread of the moments of inertia, |ω̇⊥| ≤ a + β |ω⊥|, β = (ω̃ D + d)/J_min, where a holds the rest: of j and
+    of the air. So a coin that spins flat is known to stay nearly flat, however fast it spins.
+
+    n̈ = ω̇ × n + ω × (ω × n) is at most ω̃ |ω⊥| + |ω̇⊥|. Its vertical part is -n_z |ω⊥|² plus, times the sine of
+    the tilt, at most ω̃ |ω⊥| + |ω̇⊥|. C, |c| off the axis, adds at most |c| (|ω̇| + ω̃ |ω_h|), ω_h the horizontal
+    part of ω.
+
     Args:
         body: the coin.
         v: velocity of C, space frame, (3,) [m/s].
+        up: the upward unit vector in the body frame, Rᵀ z, (3,).
         w: angular velocity, body frame, (3,) [rad/s].
         window: length of the time window [s].
-
-    Returns:
-        of_height: bound on the downward acceleration of any point on the axis Bζ within the coin [m/s²].
-        of_normal: bound on |d²n_z/dt²|, n the coin's normal in space [1/s²].
     """
+    J, J_min = body.inertia, body.inertia_smallest
     drag, arm, turn_drag = _drag_bound(body, v, w, window)
     spin = _spin_bound(body, w)
     speed = norm(v) + spin * arm
     if drag > 0:
         speed = (speed + body.gravity * window) * math.exp(damping_rate(body, v, w, window) * window)
-        spin += drag * arm / body.inertia_smallest * window * speed
-    turning = (
-        (body.inertia_largest - body.inertia_smallest) / 2 * spin * spin
-        + turn_drag * spin
-        + arm * drag * speed
-    ) / body.inertia_smallest
-    of_normal = spin * spin + turning
-    of_height = body.gravity + drag * speed / body.mass + (norm(body.center) + body.thickness / 2) * of_normal
-    return of_height, of_normal
+        spin += drag * arm / J_min * window * speed
+    j, spread = math.hypot(J[0][2], J[1][2]), body.inertia_largest - J_min
+    apart = (2 * spin * spin * j + arm * drag * speed) / J_min + j / J_min * turn_drag * spin / J_min
+    growth = (spin * spread + turn_drag) / J_min
+    across = math.hypot(w[0], w[1])
+    across = min((across + apart * window) * math.exp(growth * window), spin)
+    spin_rate = (spread / 2 * spin * spin + turn_drag * spin + arm * drag * speed) / J_min
+    across_rate = min(apart + growth * across, spin_rate)
+    tilt_sine = min(math.hypot(up[0], up[1]) + across * window, 1.0)
+    of_height_of_normal = across * min(across + tilt_sine * spin, spin) + tilt_sine * across_rate
+    of_center = norm(body.center) * (spin_rate + spin * (across + tilt_sine * spin))
+    return Accelerations(
+        body.gravity + drag * speed / body.mass + of_center + body.thickness / 2 * of_height_of_normal,
+        of_height_of_normal,
+        spin * across + across_rate,
+    )
 
 
 @compiled
@@ -180,7 +205,7 @@ def clear_time(body, z, v, up, w, window):
     rate = damping_rate(body, v, w, window)
     if rate * window > 0.5:
         window = 0.5 / rate
-    of_height, of_normal = acceleration_bounds(body, v, w, window)
+    bounds = acceleration_bounds(body, v, up, w, window)
     up_rate = cross(up, w)
     tilt_sine = (up[0] * up[0] + up[1] * up[1]) ** 0.5
     center_rate = v[2] - dot(up_rate, body.center)
@@ -188,10 +213,10 @@ def clear_time(body, z, v, up, w, window):
     for side in (-0.5, 0.5):
         q = height_of_center(body, z, up) + side * body.thickness * up[2]
         q_rate = center_rate + side * body.thickness * up_rate[2]
-        q_most = abs(q) + abs(q_rate) * window + of_height * window * window / 2
+        q_most = abs(q) + abs(q_rate) * window + bounds.of_height * window * window / 2
         F = max((q - r * tilt_sine) * (q + r * tilt_sine), 0.0)
         F_rate = 2 * (q * q_rate + r * r * up[2] * up_rate[2])
-        K = 2 * (q_most * of_height + r * r * of_normal)
+        K = 2 * (q_most * bounds.of_height + r * r * bounds.of_height_of_normal)
         root = (F_rate * F_rate + 2 * K * F) ** 0.5
         # Of the two forms of the root, each sign of F_rate takes the one without cancellation.
         if F_rate > 0:
@@ -222,8 +247,8 @@ def grazing_time(body, v, up, w, sink):
         time: the time [s].
         acceleration: the largest downward acceleration of the gap in it, but for the passing of 0 [m/s²].
     """
-    of_height, of_normal = acceleration_bounds(body, v, w, 0.0)
-    acceleration = of_height + body.radius * of_normal
+    bounds = acceleration_bounds(body, v, up, w, 0.0)
+    acceleration = bounds.of_height + body.radius * bounds.of_normal
     time = (2 * sink / acceleration) ** 0.5
     tilt_sine = (up[0] * up[0] + up[1] * up[1]) ** 0.5
     up_rate = cross(up, w)
