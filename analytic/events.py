@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from analytic.flight import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
 from analytic.impact import impulse, spin_gained
-from analytic.rim import closing_speed, fly, smallest_flight
+from analytic.rim import closing_speed, crowded, fly
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
 from models.compiled import compiled
@@ -122,7 +122,7 @@ def fly_and_hit(body, rules, y, rows, times, states):
         if not touches:
             ending = Ending.MAX_TIME
             break
-        if -closing_speed(body, y)[1] < smallest_flight(body, y)[1]:
+        if crowded(body, rules.restitution, y):
             outcome, ending = decided(body, rules, y)
             if ending == Ending.NONE:
                 ending = Ending.CHATTER
@@ -132,6 +132,8 @@ def fly_and_hit(body, rules, y, rows, times, states):
             break
         rows[n].time = time
         n += 1
+        # A step forced at a grazing point may have left the coin a little below the floor.
+        y[2] -= min(closing_speed(body, y)[0], 0.0)
         outcome, ending = decided(body, rules, y)
     return n, outcome, ending, time
 

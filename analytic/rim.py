@@ -15,12 +15,15 @@ from analytic.flight import (
 )
 from models.attitude import rotation_matrix
 from models.compiled import compiled
-from models.geometry import clear_time, contact_velocity, gap, grazing_time, lowest_point
+from models.geometry import FLAT_SINE, clear_time, contact_velocity, gap, grazing_time, lowest_point
+from models.vectors import add, cross, dot, norm
 
 # A gap below this part of the radius is zero within rounding.
 TOUCH = 1e-14
 # In a step forced at a grazing point, each of three causes may lower the gap by this part of the radius.
 SINK = 1e-13
+# Impacts crowd together when all that are still to come take less than this angle of the coin's motion.
+CROWDED = 3e-5
 # Time of flight has no finer step than this part of it.
 TIME_STEP = 2.3e-16
 
@@ -33,6 +36,50 @@ def closing_speed(body, y):
     point, flat = lowest_point(body, R[2], w)
     v_A = contact_velocity(body, R, v, w, point)
     return gap(body, y[2], R[2]), v[2] if flat else v_A[2]
+
+
+@compiled
+def gap_acceleration(body, y):
+    """Give the second derivative of the gap in free flight, at a state y that is not flat [m/s²].
+
+    With u the upward unit vector in the body frame, u' = u × ω, it is z_C - u · c - (h/2) |u_ζ| - r |u⊥|.
+    """
+    dy = np.empty(STATE_SIZE)
+    derivative(body, y, dy)
+    up, w = rotation_matrix(attitude_of(y))[2], spin_of(y)
+    rate = cross(up, w)
+    acceleration = add(cross(rate, w), cross(up, spin_of(dy)))
+    sine = (up[0] * up[0] + up[1] * up[1]) ** 0.5
+    sine_rate = (up[0] * rate[0] + up[1] * rate[1]) / sine
+    across = rate[0] * rate[0] + rate[1] * rate[1] - sine_rate * sine_rate
+    sine_acceleration = (across + up[0] * acceleration[0] + up[1] * acceleration[1]) / sine
+    face = body.thickness / 2 if up[2] > 0 else -body.thickness / 2
+    return dy[5] - dot(acceleration, body.center) - face * acceleration[2] - body.radius * sine_acceleration
+
+
+@compiled
+def crowded(body, chi, y):
+    """Tell whether the impacts of a coin that touches the floor crowd together: it will stay in contact.
+
+    Where the gap accelerates downward by A in free flight, an approach at the speed v leads to impacts that
+    all come within 2 v/(A (1 - χ)). In that time the coin must turn, and fall, by less than `CROWDED`. An
+    approach too slow to be told from contact stays too.
+
+    Args:
+        body: the coin.
+        chi: restitution χ.
+        y: state at the touch, (13,).
+    """
+    up, w = rotation_matrix(attitude_of(y))[2], spin_of(y)
+    speed = -closing_speed(body, y)[1]
+    if speed < smallest_flight(body, y)[1]:
+        return True
+    if up[0] * up[0] + up[1] * up[1] <= FLAT_SINE * FLAT_SINE:
+        falling = body.gravity
+    else:
+        falling = -gap_acceleration(body, y)
+    rate = norm(w) + (body.gravity / body.radius) ** 0.5
+    return falling > 0 and 2 * speed * rate < CROWDED * falling * (1 - chi)
 
 
 @compiled

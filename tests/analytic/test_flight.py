@@ -5,9 +5,11 @@ import pytest
 
 import analytic
 from analytic.flight import STAGES, STATE_SIZE, derivative, step
+from analytic.rim import gap_acceleration
 from analytic.toss import state_of
 from compare.trajectories import attitude_angle
 from models.attitude import rotation_matrix
+from models.geometry import gap
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
 from tests.referee import Referee
 
@@ -146,3 +148,19 @@ def test_turning_the_sign_of_the_quaternion_changes_nothing():
 def test_quaternion_keeps_its_norm():
     states = analytic.toss(in_flight(np.random.default_rng(7), in_air=True)).sample(np.linspace(0, 0.5, 500))
     assert np.abs(np.linalg.norm(states.quaternion, axis=1) - 1).max() < 4e-16
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_acceleration_of_the_gap_is_that_of_its_samples(seed):
+    rng = np.random.default_rng(seed)
+    case = in_flight(rng, in_air=True)
+    body, dt = case.body, 1e-4
+    states = analytic.toss(case).sample([0.2 - dt, 0.2, 0.2 + dt])
+    gaps = [
+        gap(body, x[2], rotation_matrix(tuple(e))[2])
+        for x, e in zip(states.position, states.quaternion, strict=True)
+    ]
+    columns = (states.position, states.velocity, states.quaternion, states.angular_velocity)
+    y = np.concatenate([column[1] for column in columns])
+    # Second differences err by the gap's fourth derivative, ~ r w^4 dt^2/12, and by rounding, 1e-15/dt^2.
+    assert gap_acceleration(body, y) == pytest.approx(np.diff(gaps, 2)[0] / dt**2, rel=1e-3, abs=1e-3)
