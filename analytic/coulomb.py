@@ -146,6 +146,9 @@ def slip_step_to(K, y, mu, dt, stages, y_new, component, target):
     """Shorten a step of dt until the component just reaches its target; its end goes into y_new.
 
     A root by regula falsi (Illinois); each try is one step from the same start.
+
+    Returns:
+        The length of the shortened step.
     """
     low, high = 0.0, dt
     below, above = y[component] - target, y_new[component] - target
@@ -161,6 +164,7 @@ def slip_step_to(K, y, mu, dt, stages, y_new, component, target):
             low, below, above = middle, excess, above / 2
     slip_step(K, y, mu, high, stages, y_new)
     y_new[component] = target
+    return high
 
 
 @compiled
@@ -175,28 +179,28 @@ def friction_without_slip(K, mu):
         K: mobility of A [1/kg].
         mu: coefficient of friction μ.
     """
-    stick = _resisted(K, 1.0, 0.0)
+    push = (K[0][2], K[1][2])
+    stick = resisted(K, 1.0, 0.0, push)
     if math.hypot(stick[0], stick[1]) <= mu:
         return -stick[0], -stick[1]
     low, high = 0.0, math.hypot(K[0][2], K[1][2])
     for _ in range(100):
         middle = (low + high) / 2
-        s = _resisted(K, mu, middle)
+        s = resisted(K, mu, middle, push)
         if not low < middle < high:
             break
         if math.hypot(s[0], s[1]) > 1:
             low = middle
         else:
             high = middle
-    s = _resisted(K, mu, high)
+    s = resisted(K, mu, high, push)
     length = math.hypot(s[0], s[1])
     return -mu * s[0] / length, -mu * s[1] / length
 
 
 @compiled
-def _resisted(K, mu, growth):
-    """Give (mu K_tt + growth)⁻¹ K_tz, (2,)."""
+def resisted(K, mu, growth, push):
+    """Give (mu K_tt + growth)⁻¹ push, (2,)."""
     xx, yy, xy = mu * K[0][0] + growth, mu * K[1][1] + growth, mu * K[0][1]
     determinant = xx * yy - xy * xy
-    x, y = K[0][2], K[1][2]
-    return (yy * x - xy * y) / determinant, (xx * y - xy * x) / determinant
+    return (yy * push[0] - xy * push[1]) / determinant, (xx * push[1] - xy * push[0]) / determinant

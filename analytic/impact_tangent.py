@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from analytic.coulomb_tangent import coulomb_change
 from analytic.flight import STATE_SIZE, attitude_of, derivative, spin_of, velocity_of
 from analytic.impact import NO_IMPULSE, impulse, mobility, spin_gained
 from analytic.rotation import rotation_change
@@ -103,8 +104,7 @@ def impulse_change(body, rules, R, dR, arm, d_arm, tau, d_tau, v_A, dv_A, S, fla
     """Give the change of `impact.impulse` S, space frame, (3,) [N s].
 
     For (a) to (d), K S = v_A' - v_A gives K dS = dv_A' - dv_A - dK S. For (e) and (f) the impulse has a
-    direction p, S = S_z p, and (K p)_z S_z = -(1 + χ) v_Az. For a law without a derivative here it is not a
-    number, so that nothing beyond is trusted.
+    direction p, S = S_z p, and (K p)_z S_z = -(1 + χ) v_Az. Routh's law is followed through its phases.
     """
     chi, law = rules.restitution, rules.law
     if flat:
@@ -113,7 +113,13 @@ def impulse_change(body, rules, R, dR, arm, d_arm, tau, d_tau, v_A, dv_A, S, fla
     dK_S = velocity_gained_change(body, R, dR, arm, d_arm, S)
     if law != ContactLaw.SMOOTH and law != ContactLaw.SLIDING_FRICTION:
         if law == ContactLaw.COULOMB:
-            return np.nan, np.nan, np.nan
+            # dK is symmetric: its columns are its rows.
+            dK = (
+                velocity_gained_change(body, R, dR, arm, d_arm, (1.0, 0.0, 0.0)),
+                velocity_gained_change(body, R, dR, arm, d_arm, (0.0, 1.0, 0.0)),
+                velocity_gained_change(body, R, dR, arm, d_arm, (0.0, 0.0, 1.0)),
+            )
+            return coulomb_change(K, dK, v_A, dv_A, chi, rules.friction, rules.restitution_kind)
         wanted = wanted_change(law, chi, v_A, dv_A, tau, d_tau)
         return solve(K, subtract(subtract(wanted, dv_A), dK_S))
     slip = (v_A[0] * v_A[0] + v_A[1] * v_A[1]) ** 0.5

@@ -5,6 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from analytic.coulomb import coulomb, friction_without_slip
+from analytic.coulomb_tangent import coulomb_change
 from analytic.impact import mobility, perfectly_rough, sliding_friction, smooth
 from models.attitude import rotation_matrix
 from models.geometry import lowest_point
@@ -216,3 +217,22 @@ def test_a_turn_about_the_vertical_turns_the_impulse():
     assert Q @ S == pytest.approx(
         coulomb(turned_K, tuple(Q @ v), 0.6, 0.3, KINEMATIC), abs=1e-12 * np.abs(S).max()
     )
+
+
+@pytest.mark.parametrize("kind", list(RestitutionKind))
+@pytest.mark.parametrize("friction", [0.05, 0.3, 3.0])
+def test_its_derivative_is_that_of_differences(kind, friction):
+    """Slip throughout, slip that stops or starts anew, and slip that sticks soon."""
+    rng = np.random.default_rng([9, int(kind)])
+    for _ in range(20):
+        K, v = draw_contact(rng)
+        A = 0.05 * rng.normal(size=(3, 3)) * K[2][2]
+        dK, dv, small = A + A.T, 0.1 * rng.normal(size=3), 1e-5
+
+        def impulse(part, K=K, v=v, dK=dK, dv=dv):
+            moved = tuple(map(tuple, np.array(K) + part * dK))
+            return np.array(coulomb(moved, tuple(np.array(v) + part * dv), 0.6, friction, kind))
+
+        change = np.array(coulomb_change(K, tuple(map(tuple, dK)), v, tuple(dv), 0.6, friction, kind))
+        difference = (impulse(small) - impulse(-small)) / (2 * small)
+        assert change == pytest.approx(difference, abs=1e-5 * float(np.linalg.norm(impulse(0.0))))

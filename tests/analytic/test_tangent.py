@@ -8,8 +8,9 @@ from analytic.flight import sample_flight
 from analytic.flight_tangent import flight_tangent
 from analytic.sensitivity import event_tangent
 from analytic.toss import state_of
+from models.laws import ContactLaw
 from models.scenario import Scenario
-from tests.draws import AIR, PAPER_LAWS, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 SIZES = np.array([1e-2, 1e-2, 1e-2, *[1.0] * 7, *[50.0] * 3])
 """Of the components of a state: length, speed, attitude, spin."""
@@ -117,7 +118,7 @@ def test_without_losses_the_tangent_map_keeps_every_change_of_energy(thickness, 
             assert kept == pytest.approx(before[:13] @ change, abs=1e-9 * scale)
 
 
-@pytest.mark.parametrize("law", PAPER_LAWS)
+@pytest.mark.parametrize("law", list(ContactLaw))
 @pytest.mark.parametrize("number", range(4))
 def test_the_tangent_map_of_impacts_is_their_derivative(law, number):
     """From release to after the third impact: the state there and its time, against central differences."""

@@ -1,0 +1,149 @@
+"""The tangent map of Routh's law: how a small change before an impact changes its impulse.
+
+Every function here is the derivative, line by line, of one of `analytic.coulomb`, its steps held.
+"""
+
+import math
+
+import numpy as np
+
+from analytic.coulomb import (
+    _NO_SLIP,
+    _SIZE,
+    _TOLERANCE,
+    _V_Z,
+    _WORK,
+    friction_without_slip,
+    resisted,
+    slip_error,
+    slip_rate,
+    slip_step,
+    slip_step_to,
+)
+from analytic.runge_kutta import STAGES, end_point, stage_point, step_factor
+from models.compiled import compiled
+from models.laws import RestitutionKind
+from models.vectors import add, apply, norm
+
+
+@compiled
+def coulomb_change(K, dK, v_A, dv_A, chi, mu, kind):
+    """Give the change of `coulomb.coulomb`, space frame, (3,) [N s].
+
+    Args:
+        K: mobility of A, space frame, a tuple of rows [1/kg].
+        dK: its change.
+        v_A: velocity of A before the impact, space frame, (3,) [m/s].
+        dv_A: its change, (3,).
+        chi: restitution χ.
+        mu: coefficient of friction μ.
+        kind: `RestitutionKind`.
+    """
+    y, dy = np.zeros(_SIZE), np.zeros(_SIZE)
+    y[0], y[1], y[_V_Z] = v_A
+    dy[0], dy[1], dy[_V_Z] = dv_A
+    no_slip = _NO_SLIP * norm(v_A)
+    if kind == RestitutionKind.KINEMATIC:
+        press_change(K, dK, y, dy, mu, no_slip, _V_Z, -chi * v_A[2], -chi * dv_A[2])
+    else:
+        press_change(K, dK, y, dy, mu, no_slip, _V_Z, 0.0, 0.0)
+        part = 1 - chi * chi
+        press_change(K, dK, y, dy, mu, no_slip, _WORK, part * y[_WORK], part * dy[_WORK])
+    return dy[3], dy[4], dy[5]
+
+
+@compiled
+def press_change(K, dK, y, dy, mu, no_slip, component, target, d_target):
+    """Carry the change dy of the state through `coulomb.press`; both (7,)."""
+    if slide_change(K, dK, y, dy, mu, no_slip, component, target, d_target):
+        return
+    f, df = friction_change(K, dK, mu)
+    direction, d_direction = (f[0], f[1], 1.0), (df[0], df[1], 0.0)
+    gained = apply(K, direction)
+    d_gained = add(apply(dK, direction), apply(K, d_direction))
+    missing, rise, d_rise = target - y[component], gained[2], d_gained[2]
+    if component == _V_Z:
+        p = missing / rise
+        dp = (d_target - dy[2] - d_rise * p) / rise
+    else:
+        end_speed = (y[2] ** 2 + 2 * rise * missing) ** 0.5
+        p = (end_speed - y[2]) / rise
+        dp = (d_target - dy[_WORK] - dy[2] * p - d_rise * p * p / 2) / end_speed
+    dy[_WORK] += dy[2] * p + y[2] * dp + d_rise * p * p / 2 + rise * p * dp
+    y[_WORK] += y[2] * p + rise * p * p / 2
+    for i in range(3):
+        dy[i] += d_gained[i] * p + gained[i] * dp
+        y[i] += gained[i] * p
+        dy[3 + i] += d_direction[i] * p + direction[i] * dp
+        y[3 + i] += direction[i] * p
+
+
+@compiled
+def slide_change(K, dK, y, dy, mu, no_slip, component, target, d_target):
+    """Carry the change dy of the state through `coulomb.slide`; tell whether the target was reached."""
+    stages, y_new = np.empty((STAGES, _SIZE)), np.empty(_SIZE)
+    speed = norm((y[0], y[1], y[2]))
+    dt = 0.1 / ((1 + mu) * (K[0][0] + K[1][1] + K[2][2]))
+    while y[component] < target:
+        if (y[0] * y[0] + y[1] * y[1]) ** 0.5 <= no_slip:
+            return False
+        slip_rate(K, y, mu, stages[0])
+        slip_step(K, y, mu, dt, stages, y_new)
+        error = slip_error(dt, stages, speed, speed / K[2][2]) / _TOLERANCE
+        if error <= 1:
+            reached = y_new[component] >= target
+            made = slip_step_to(K, y, mu, dt, stages, y_new, component, target) if reached else dt
+            slip_step_change(K, dK, y, dy, mu, made, stages)
+            y[:] = y_new
+            if reached:
+                # The phase ends where the component meets its target: sooner or later, with the change.
+                slip_rate(K, y, mu, stages[0])
+                delay = (d_target - dy[component]) / stages[0, component]
+                for i in range(_SIZE):
+                    dy[i] += stages[0, i] * delay
+        dt *= step_factor(error)
+    return True
+
+
+@compiled
+def slip_step_change(K, dK, y, dy, mu, dt, stages):
+    """Carry the change dy of the state through the step of dt whose rates are in `stages`."""
+    slopes, point, change = np.empty((STAGES, _SIZE)), np.empty(_SIZE), np.empty(_SIZE)
+    for stage in range(STAGES):
+        stage_point(y, dt, stages, stage, point)
+        stage_point(dy, dt, slopes, stage, change)
+        slip = math.hypot(point[0], point[1])
+        d_slip = (point[0] * change[0] + point[1] * change[1]) / slip
+        dS = (-mu * point[0], -mu * point[1], slip)
+        ddS = (-mu * change[0], -mu * change[1], d_slip)
+        slopes[stage, 0], slopes[stage, 1], slopes[stage, 2] = add(apply(dK, dS), apply(K, ddS))
+        slopes[stage, 3], slopes[stage, 4], slopes[stage, 5] = ddS
+        slopes[stage, _WORK] = change[2] * slip + point[2] * d_slip
+    end_point(dy, dt, slopes, change)
+    dy[:] = change
+
+
+@compiled
+def friction_change(K, dK, mu):
+    """Give `coulomb.friction_without_slip` and its change, both (2,).
+
+    Where A sticks, K_tt df = -dK_tz - dK_tt f. Where slip starts in the direction s, (μ K_tt + λ) s = K_tz
+    with |s| = 1: ds = M⁻¹ (dK_tz - μ dK_tt s) - dλ M⁻¹ s, M = μ K_tt + λ, and dλ keeps s · ds = 0.
+    """
+    f = friction_without_slip(K, mu)
+    if math.hypot(f[0], f[1]) < mu * (1 - 1e-12):
+        pushed = (dK[0][2] + dK[0][0] * f[0] + dK[0][1] * f[1], dK[1][2] + dK[1][0] * f[0] + dK[1][1] * f[1])
+        df = resisted(K, 1.0, 0.0, pushed)
+        return f, (-df[0], -df[1])
+    if mu == 0:
+        return f, (0.0, 0.0)
+    s = (-f[0] / mu, -f[1] / mu)
+    pushed = (
+        dK[0][2] - mu * (dK[0][0] * s[0] + dK[0][1] * s[1]),
+        dK[1][2] - mu * (dK[1][0] * s[0] + dK[1][1] * s[1]),
+    )
+    growth = s[0] * K[0][2] + s[1] * K[1][2]
+    growth -= mu * (s[0] * (K[0][0] * s[0] + K[0][1] * s[1]) + s[1] * (K[1][0] * s[0] + K[1][1] * s[1]))
+    free, along = resisted(K, mu, growth, pushed), resisted(K, mu, growth, s)
+    d_growth = (s[0] * free[0] + s[1] * free[1]) / (s[0] * along[0] + s[1] * along[1])
+    return f, (-mu * (free[0] - d_growth * along[0]), -mu * (free[1] - d_growth * along[1]))
