@@ -10,17 +10,17 @@ import math
 
 import numpy as np
 
-from analytic.runge_kutta import STAGES, end_point, error_parts, stage_point, step_error, step_factor
+from analytic.runge_kutta import STAGES, combined_error, end_point, error_parts, stage_point, step_factor
 from models.compiled import compiled
 from models.laws import RestitutionKind
 from models.vectors import apply, norm
 
 # The state of an impact: v_A, S and the work of the normal impulse, ∫ v_Az dp.
-_SIZE = 7
-_V_Z, _WORK = 2, 6
-_TOLERANCE = 1e-13
+SIZE = 7
+V_Z, WORK = 2, 6
+TOLERANCE = 1e-13
 # Slip slower than this part of the speed of A is none; above the noise of the steps.
-_NO_SLIP = 1e-11
+NO_SLIP = 1e-11
 
 
 @compiled
@@ -40,14 +40,14 @@ def coulomb(K, v_A, chi, mu, kind):
     Returns:
         S: impulse, space frame, (3,) [N s].
     """
-    y = np.zeros(_SIZE)
-    y[0], y[1], y[_V_Z] = v_A
-    no_slip = _NO_SLIP * norm(v_A)
+    y = np.zeros(SIZE)
+    y[0], y[1], y[V_Z] = v_A
+    no_slip = NO_SLIP * norm(v_A)
     if kind == RestitutionKind.KINEMATIC:
-        press(K, y, mu, no_slip, _V_Z, -chi * v_A[2])
+        press(K, y, mu, no_slip, V_Z, -chi * v_A[2])
     else:
-        press(K, y, mu, no_slip, _V_Z, 0.0)
-        press(K, y, mu, no_slip, _WORK, (1 - chi * chi) * y[_WORK])
+        press(K, y, mu, no_slip, V_Z, 0.0)
+        press(K, y, mu, no_slip, WORK, (1 - chi * chi) * y[WORK])
     return y[3], y[4], y[5]
 
 
@@ -60,7 +60,7 @@ def press(K, y, mu, no_slip, component, target):
         y: state of the impact, (7,); advanced.
         mu: coefficient of friction μ.
         no_slip: slip that counts as none [m/s].
-        component: `_V_Z` or `_WORK`.
+        component: `V_Z` or `WORK`.
         target: its value at the end.
     """
     if slide(K, y, mu, no_slip, component, target):
@@ -69,8 +69,8 @@ def press(K, y, mu, no_slip, component, target):
     gained = apply(K, (f[0], f[1], 1.0))
     # v_z is linear in p from here on, and the work is a parabola.
     missing, rise = target - y[component], gained[2]
-    p = missing / rise if component == _V_Z else ((y[2] ** 2 + 2 * rise * missing) ** 0.5 - y[2]) / rise
-    y[_WORK] += y[2] * p + rise * p * p / 2
+    p = missing / rise if component == V_Z else ((y[2] ** 2 + 2 * rise * missing) ** 0.5 - y[2]) / rise
+    y[WORK] += y[2] * p + rise * p * p / 2
     for i in range(3):
         y[i] += gained[i] * p
     y[3] += f[0] * p
@@ -90,24 +90,53 @@ def slide(K, y, mu, no_slip, component, target):
         y: state of the impact, (7,); advanced.
         mu: coefficient of friction μ.
         no_slip: slip that counts as none [m/s].
-        component: `_V_Z` or `_WORK`.
+        component: `V_Z` or `WORK`.
         target: its value at the end.
     """
-    stages, y_new = np.empty((STAGES, _SIZE)), np.empty(_SIZE)
-    speed = norm((y[0], y[1], y[2]))
-    dt = 0.1 / ((1 + mu) * (K[0][0] + K[1][1] + K[2][2]))
+    stages, y_new = np.empty((STAGES, SIZE)), np.empty(SIZE)
+    speed, dt = norm((y[0], y[1], y[2])), first_slip_step(K, mu)
     while y[component] < target:
-        if (y[0] * y[0] + y[1] * y[1]) ** 0.5 <= no_slip:
+        if math.hypot(y[0], y[1]) <= no_slip:
             return False
-        slip_rate(K, y, mu, stages[0])
-        slip_step(K, y, mu, dt, stages, y_new)
-        error = slip_error(dt, stages, speed, speed / K[2][2]) / _TOLERANCE
-        if error <= 1:
-            if y_new[component] >= target:
-                slip_step_to(K, y, mu, dt, stages, y_new, component, target)
-            y[:] = y_new
-        dt *= step_factor(error)
+        _, dt = accepted_slip_step(K, y, mu, speed, dt, stages, y_new, component, target)
+        y[:] = y_new
     return True
+
+
+@compiled
+def first_slip_step(K, mu):
+    """Give a step in τ with which to start, well below the time in which slip turns or stops."""
+    return 0.1 / ((1 + mu) * (K[0][0] + K[1][1] + K[2][2]))
+
+
+@compiled
+def accepted_slip_step(K, y, mu, speed, dt, stages, y_new, component, target):
+    """Advance the state by a step in τ whose error is within `TOLERANCE`, and not beyond the target.
+
+    Args:
+        K: mobility of A [1/kg].
+        y: state at the start, (7,).
+        mu: coefficient of friction μ.
+        speed: of A before the impact, the scale of errors [m/s].
+        dt: length to try first, in τ.
+        stages: work space, (12, 7).
+        y_new: where the state at the end goes, (7,).
+        component: `V_Z` or `WORK`.
+        target: its value at the end.
+
+    Returns:
+        The length of the step made, and a length for the next.
+    """
+    slip_rate(K, y, mu, stages[0])
+    while True:
+        slip_step(K, y, mu, dt, stages, y_new)
+        error = slip_error(dt, stages, speed, speed / K[2][2]) / TOLERANCE
+        if error <= 1:
+            break
+        dt *= step_factor(error)
+    if y_new[component] < target:
+        return dt, dt * step_factor(error)
+    return slip_step_to(K, y, mu, dt, stages, y_new, component, target), dt
 
 
 @compiled
@@ -117,7 +146,7 @@ def slip_rate(K, y, mu, dy):
     dS = (-mu * y[0], -mu * y[1], slip)
     dy[0], dy[1], dy[2] = apply(K, dS)
     dy[3], dy[4], dy[5] = dS
-    dy[_WORK] = y[2] * slip
+    dy[WORK] = y[2] * slip
 
 
 @compiled
@@ -133,12 +162,12 @@ def slip_step(K, y, mu, dt, stages, y_new):
 def slip_error(dt, stages, speed, momentum):
     """Estimate the error of the step just made, relative to a speed and a momentum."""
     sum_5, sum_3 = 0.0, 0.0
-    for i in range(_SIZE):
+    for i in range(SIZE):
         size = speed if i < 3 else momentum if i < 6 else speed * momentum
         e5, e3 = error_parts(stages, i)
         sum_5 += (e5 / size) ** 2
         sum_3 += (e3 / size) ** 2
-    return step_error(dt, sum_5, sum_3, _SIZE)
+    return combined_error(dt, sum_5, sum_3, SIZE)
 
 
 @compiled

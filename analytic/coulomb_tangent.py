@@ -8,19 +8,17 @@ import math
 import numpy as np
 
 from analytic.coulomb import (
-    _NO_SLIP,
-    _SIZE,
-    _TOLERANCE,
-    _V_Z,
-    _WORK,
+    NO_SLIP,
+    SIZE,
+    V_Z,
+    WORK,
+    accepted_slip_step,
+    first_slip_step,
     friction_without_slip,
     resisted,
-    slip_error,
     slip_rate,
-    slip_step,
-    slip_step_to,
 )
-from analytic.runge_kutta import STAGES, end_point, stage_point, step_factor
+from analytic.runge_kutta import STAGES, end_point, stage_point
 from models.compiled import compiled
 from models.laws import RestitutionKind
 from models.vectors import add, apply, norm
@@ -39,16 +37,16 @@ def coulomb_change(K, dK, v_A, dv_A, chi, mu, kind):
         mu: coefficient of friction μ.
         kind: `RestitutionKind`.
     """
-    y, dy = np.zeros(_SIZE), np.zeros(_SIZE)
-    y[0], y[1], y[_V_Z] = v_A
-    dy[0], dy[1], dy[_V_Z] = dv_A
-    no_slip = _NO_SLIP * norm(v_A)
+    y, dy = np.zeros(SIZE), np.zeros(SIZE)
+    y[0], y[1], y[V_Z] = v_A
+    dy[0], dy[1], dy[V_Z] = dv_A
+    no_slip = NO_SLIP * norm(v_A)
     if kind == RestitutionKind.KINEMATIC:
-        press_change(K, dK, y, dy, mu, no_slip, _V_Z, -chi * v_A[2], -chi * dv_A[2])
+        press_change(K, dK, y, dy, mu, no_slip, V_Z, -chi * v_A[2], -chi * dv_A[2])
     else:
-        press_change(K, dK, y, dy, mu, no_slip, _V_Z, 0.0, 0.0)
+        press_change(K, dK, y, dy, mu, no_slip, V_Z, 0.0, 0.0)
         part = 1 - chi * chi
-        press_change(K, dK, y, dy, mu, no_slip, _WORK, part * y[_WORK], part * dy[_WORK])
+        press_change(K, dK, y, dy, mu, no_slip, WORK, part * y[WORK], part * dy[WORK])
     return dy[3], dy[4], dy[5]
 
 
@@ -62,15 +60,15 @@ def press_change(K, dK, y, dy, mu, no_slip, component, target, d_target):
     gained = apply(K, direction)
     d_gained = add(apply(dK, direction), apply(K, d_direction))
     missing, rise, d_rise = target - y[component], gained[2], d_gained[2]
-    if component == _V_Z:
+    if component == V_Z:
         p = missing / rise
         dp = (d_target - dy[2] - d_rise * p) / rise
     else:
         end_speed = (y[2] ** 2 + 2 * rise * missing) ** 0.5
         p = (end_speed - y[2]) / rise
-        dp = (d_target - dy[_WORK] - dy[2] * p - d_rise * p * p / 2) / end_speed
-    dy[_WORK] += dy[2] * p + y[2] * dp + d_rise * p * p / 2 + rise * p * dp
-    y[_WORK] += y[2] * p + rise * p * p / 2
+        dp = (d_target - dy[WORK] - dy[2] * p - d_rise * p * p / 2) / end_speed
+    dy[WORK] += dy[2] * p + y[2] * dp + d_rise * p * p / 2 + rise * p * dp
+    y[WORK] += y[2] * p + rise * p * p / 2
     for i in range(3):
         dy[i] += d_gained[i] * p + gained[i] * dp
         y[i] += gained[i] * p
@@ -81,34 +79,27 @@ def press_change(K, dK, y, dy, mu, no_slip, component, target, d_target):
 @compiled
 def slide_change(K, dK, y, dy, mu, no_slip, component, target, d_target):
     """Carry the change dy of the state through `coulomb.slide`; tell whether the target was reached."""
-    stages, y_new = np.empty((STAGES, _SIZE)), np.empty(_SIZE)
-    speed = norm((y[0], y[1], y[2]))
-    dt = 0.1 / ((1 + mu) * (K[0][0] + K[1][1] + K[2][2]))
+    stages, y_new = np.empty((STAGES, SIZE)), np.empty(SIZE)
+    speed, dt = norm((y[0], y[1], y[2])), first_slip_step(K, mu)
     while y[component] < target:
-        if (y[0] * y[0] + y[1] * y[1]) ** 0.5 <= no_slip:
+        if math.hypot(y[0], y[1]) <= no_slip:
             return False
-        slip_rate(K, y, mu, stages[0])
-        slip_step(K, y, mu, dt, stages, y_new)
-        error = slip_error(dt, stages, speed, speed / K[2][2]) / _TOLERANCE
-        if error <= 1:
-            reached = y_new[component] >= target
-            made = slip_step_to(K, y, mu, dt, stages, y_new, component, target) if reached else dt
-            slip_step_change(K, dK, y, dy, mu, made, stages)
-            y[:] = y_new
-            if reached:
-                # The phase ends where the component meets its target: sooner or later, with the change.
-                slip_rate(K, y, mu, stages[0])
-                delay = (d_target - dy[component]) / stages[0, component]
-                for i in range(_SIZE):
-                    dy[i] += stages[0, i] * delay
-        dt *= step_factor(error)
+        made, dt = accepted_slip_step(K, y, mu, speed, dt, stages, y_new, component, target)
+        slip_step_change(K, dK, y, dy, mu, made, stages)
+        y[:] = y_new
+        if y[component] >= target:
+            # The phase ends where the component meets its target: sooner or later, with the change.
+            slip_rate(K, y, mu, stages[0])
+            delay = (d_target - dy[component]) / stages[0, component]
+            for i in range(SIZE):
+                dy[i] += stages[0, i] * delay
     return True
 
 
 @compiled
 def slip_step_change(K, dK, y, dy, mu, dt, stages):
     """Carry the change dy of the state through the step of dt whose rates are in `stages`."""
-    slopes, point, change = np.empty((STAGES, _SIZE)), np.empty(_SIZE), np.empty(_SIZE)
+    slopes, point, change = np.empty((STAGES, SIZE)), np.empty(SIZE), np.empty(SIZE)
     for stage in range(STAGES):
         stage_point(y, dt, stages, stage, point)
         stage_point(dy, dt, slopes, stage, change)
@@ -118,7 +109,7 @@ def slip_step_change(K, dK, y, dy, mu, dt, stages):
         ddS = (-mu * change[0], -mu * change[1], d_slip)
         slopes[stage, 0], slopes[stage, 1], slopes[stage, 2] = add(apply(dK, dS), apply(K, ddS))
         slopes[stage, 3], slopes[stage, 4], slopes[stage, 5] = ddS
-        slopes[stage, _WORK] = change[2] * slip + point[2] * d_slip
+        slopes[stage, WORK] = change[2] * slip + point[2] * d_slip
     end_point(dy, dt, slopes, change)
     dy[:] = change
 

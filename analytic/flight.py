@@ -5,10 +5,10 @@ angular velocity (body).
 """
 
 import numpy as np
-from scipy.integrate import DOP853
 
 from analytic.air import force_and_moment
 from analytic.rotation import quaternion_rate
+from analytic.runge_kutta import STAGES, combined_error, end_point, error_parts, stage_point, step_factor
 from models.attitude import rotation_matrix
 from models.compiled import compiled
 from models.vectors import apply, apply_transposed, cross, subtract
@@ -16,11 +16,6 @@ from models.vectors import apply, apply_transposed, cross, subtract
 STATE_SIZE = 13
 TOLERANCE = 1e-13
 """Relative error allowed in one step, on the scales of the coin."""
-
-# Dormand and Prince's pair of order 8(5,3); Hairer, Nørsett, Wanner, Solving ODEs I, section II.5.
-_A, _B, _E3, _E5 = (np.array(table) for table in (DOP853.A, DOP853.B, DOP853.E3, DOP853.E5))
-STAGES = 12
-_SAFETY, _SHRINK_MOST, _GROW_MOST = 0.9, 0.2, 6.0
 
 
 @compiled
@@ -83,17 +78,9 @@ def step(body, y, dt, stages, y_new):
         y_new: where the state at the end goes, (13,).
     """
     for stage in range(1, STAGES):
-        for i in range(STATE_SIZE):
-            slope = 0.0
-            for j in range(stage):
-                slope += _A[stage, j] * stages[j, i]
-            y_new[i] = y[i] + dt * slope
+        stage_point(y, dt, stages, stage, y_new)
         derivative(body, y_new, stages[stage])
-    for i in range(STATE_SIZE):
-        slope = 0.0
-        for j in range(STAGES):
-            slope += _B[j] * stages[j, i]
-        y_new[i] = y[i] + dt * slope
+    end_point(y, dt, stages, y_new)
     norm = (y_new[6] ** 2 + y_new[7] ** 2 + y_new[8] ** 2 + y_new[9] ** 2) ** 0.5
     for i in range(6, 10):
         y_new[i] /= norm
@@ -104,22 +91,17 @@ def step_error(body, y, dt, stages):
     """Estimate the error of the step just made, relative to the scales of the coin.
 
     The scales: r for positions, √(g r) beside |v| for velocities, 1 for Euler parameters, √(g/r) beside
-    |ω| for angular velocities. The estimate combines orders 5 and 3 as in Hairer's code.
+    |ω| for angular velocities.
     """
     speed = (body.gravity * body.radius) ** 0.5 + (y[3] ** 2 + y[4] ** 2 + y[5] ** 2) ** 0.5
     spin = (body.gravity / body.radius) ** 0.5 + (y[10] ** 2 + y[11] ** 2 + y[12] ** 2) ** 0.5
     sum_5, sum_3 = 0.0, 0.0
     for i in range(STATE_SIZE):
         size = body.radius if i < 3 else speed if i < 6 else 1.0 if i < 10 else spin
-        e5, e3 = 0.0, 0.0
-        for j in range(STAGES):
-            e5 += _E5[j] * stages[j, i]
-            e3 += _E3[j] * stages[j, i]
+        e5, e3 = error_parts(stages, i)
         sum_5 += (e5 / size) ** 2
         sum_3 += (e3 / size) ** 2
-    if sum_5 == 0 and sum_3 == 0:
-        return 0.0
-    return abs(dt) * sum_5 / ((sum_5 + 0.01 * sum_3) * STATE_SIZE) ** 0.5
+    return combined_error(dt, sum_5, sum_3, STATE_SIZE)
 
 
 @compiled
@@ -150,11 +132,9 @@ def accepted_step(body, y, dt, stages, y_new):
     while True:
         step(body, y, dt, stages, y_new)
         error = step_error(body, y, dt, stages) / TOLERANCE
-        factor = _GROW_MOST if error == 0 else _SAFETY * error ** (-1 / 8)
         if error <= 1:
-            return dt, dt * min(_GROW_MOST, max(factor, _SHRINK_MOST))
-        # An error that is not a number comes from an overflow inside the step.
-        dt *= max(factor, _SHRINK_MOST) if error > 1 else _SHRINK_MOST
+            return dt, dt * step_factor(error)
+        dt *= step_factor(error)
         if dt == 0:
             raise FloatingPointError("the motion leaves the range of floating-point numbers")
 

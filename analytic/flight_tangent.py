@@ -8,9 +8,6 @@ import numpy as np
 
 from analytic.air import force_and_moment, force_and_moment_change
 from analytic.flight import (
-    _A,
-    _B,
-    STAGES,
     STATE_SIZE,
     accepted_step,
     attitude_of,
@@ -21,6 +18,7 @@ from analytic.flight import (
     velocity_of,
 )
 from analytic.rotation import quaternion_rate, rotation_change
+from analytic.runge_kutta import STAGES, end_point, stage_point
 from models.attitude import rotation_matrix
 from models.compiled import compiled
 from models.vectors import add, apply, apply_transposed, cross, subtract
@@ -67,32 +65,17 @@ def step_change(body, y, dt, stages, changes):
     """
     points = np.empty((STAGES, STATE_SIZE))
     for stage in range(STAGES):
-        for i in range(STATE_SIZE):
-            slope = 0.0
-            for j in range(stage):
-                slope += _A[stage, j] * stages[j, i]
-            points[stage, i] = y[i] + dt * slope
-    e = np.empty(4)
-    for i in range(4):
-        slope = 0.0
-        for j in range(STAGES):
-            slope += _B[j] * stages[j, 6 + i]
-        e[i] = y[6 + i] + dt * slope
+        stage_point(y, dt, stages, stage, points[stage])
+    end = np.empty(STATE_SIZE)
+    end_point(y, dt, stages, end)
+    e = attitude_of(end)
     square = e[0] ** 2 + e[1] ** 2 + e[2] ** 2 + e[3] ** 2
     slopes, inside = np.empty((STAGES, STATE_SIZE)), np.empty(STATE_SIZE)
     for change in changes:
         for stage in range(STAGES):
-            for i in range(STATE_SIZE):
-                slope = 0.0
-                for j in range(stage):
-                    slope += _A[stage, j] * slopes[j, i]
-                inside[i] = change[i] + dt * slope
+            stage_point(change, dt, slopes, stage, inside)
             derivative_change(body, points[stage], inside, slopes[stage])
-        for i in range(STATE_SIZE):
-            slope = 0.0
-            for j in range(STAGES):
-                slope += _B[j] * slopes[j, i]
-            change[i] += dt * slope
+        end_point(change, dt, slopes, change)
         # The quaternion is brought back to norm 1.
         along = (e[0] * change[6] + e[1] * change[7] + e[2] * change[8] + e[3] * change[9]) / square
         for i in range(4):

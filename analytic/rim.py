@@ -3,7 +3,6 @@
 import numpy as np
 
 from analytic.flight import (
-    STAGES,
     STATE_SIZE,
     accepted_step,
     attitude_of,
@@ -13,6 +12,7 @@ from analytic.flight import (
     step,
     velocity_of,
 )
+from analytic.runge_kutta import STAGES
 from models.attitude import rotation_matrix
 from models.compiled import compiled
 from models.geometry import FLAT_SINE, clear_time, contact_velocity, gap, grazing_time, lowest_point

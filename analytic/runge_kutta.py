@@ -45,7 +45,7 @@ def error_parts(stages, i):
 
 
 @compiled
-def step_error(dt, sum_5, sum_3, size):
+def combined_error(dt, sum_5, sum_3, size):
     """Give the error of a step of a system of `size` components, as Hairer's code combines the estimates.
 
     Args:

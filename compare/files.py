@@ -55,7 +55,7 @@ def require_replaceable(path: Path, source: str) -> None:
         raise UnwritableError(
             f"{path}: accepted: a new name or a file that can be written (this is read-only)"
         )
-    if os.path.exists(source) and path.samefile(source):  # noqa: PTH110
+    if Path(source).exists() and path.samefile(source):
         raise UnwritableError(f"{path}: accepted: another file than the scenario itself")
 
 

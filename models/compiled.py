@@ -52,9 +52,10 @@ def _cache_bases() -> list[Path]:
 def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compile `function` at its first call, without the GIL, and cache the machine code on disk."""
     # numba has no argument for the folder: it reads this setting when the function is declared.
-    before = getattr(config, "CACHE_DIR")  # noqa: B009
-    setattr(config, "CACHE_DIR", str(cache_folder()))  # noqa: B010
+    settings = config.__dict__
+    before = settings["CACHE_DIR"]
+    settings["CACHE_DIR"] = str(cache_folder())
     try:
         return numba.njit(cache=True, nogil=True, error_model="numpy")(function)
     finally:
-        setattr(config, "CACHE_DIR", before)  # noqa: B010
+        settings["CACHE_DIR"] = before

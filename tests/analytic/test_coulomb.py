@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from analytic.coulomb import coulomb, friction_without_slip
-from analytic.coulomb_tangent import coulomb_change
+from analytic.coulomb_tangent import coulomb_change, friction_change
 from analytic.impact import mobility, perfectly_rough, sliding_friction, smooth
 from models.attitude import rotation_matrix
 from models.geometry import lowest_point
@@ -236,3 +236,22 @@ def test_its_derivative_is_that_of_differences(kind, friction):
         change = np.array(coulomb_change(K, tuple(map(tuple, dK)), v, tuple(dv), 0.6, friction, kind))
         difference = (impulse(small) - impulse(-small)) / (2 * small)
         assert change == pytest.approx(difference, abs=1e-5 * float(np.linalg.norm(impulse(0.0))))
+
+
+def test_the_derivative_of_friction_without_slip_is_that_of_differences():
+    rng = np.random.default_rng(10)
+    started = {True: 0, False: 0}
+    for _ in range(100):
+        K, _ = draw_contact(rng)
+        mu, small = rng.uniform(0.01, 1.0), 1e-6
+        A = 0.05 * rng.normal(size=(3, 3)) * K[2][2]
+        dK = A + A.T
+
+        def friction(part, K=K, dK=dK, mu=mu):
+            return np.array(friction_without_slip(tuple(map(tuple, np.array(K) + part * dK)), mu))
+
+        f, df = friction_change(K, tuple(map(tuple, dK)), mu)
+        assert np.array_equal(f, friction(0.0))
+        assert df == pytest.approx((friction(small) - friction(-small)) / (2 * small), abs=1e-6)
+        started[bool(np.hypot(*f) > mu * (1 - 1e-9))] += 1
+    assert min(started.values()) > 10

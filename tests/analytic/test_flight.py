@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 import analytic
-from analytic.flight import STAGES, STATE_SIZE, derivative, step
+from analytic.flight import STATE_SIZE, derivative, step
 from analytic.rim import gap_acceleration
+from analytic.runge_kutta import STAGES
 from analytic.toss import state_of
 from compare.trajectories import attitude_angle
 from models.attitude import rotation_matrix

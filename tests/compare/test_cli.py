@@ -320,7 +320,7 @@ def test_foreign_modules_in_the_current_folder_are_not_run(tmp_path, monkeypatch
 def test_the_command_works_beside_a_foreign_models_folder(tmp_path):
     (tmp_path / "models").mkdir()
     (tmp_path / "models" / "__init__.py").write_text("raise RuntimeError('foreign')")
-    command = os.path.join(os.path.dirname(sys.executable), "cointoss")  # noqa: PTH118, PTH120
+    command = Path(sys.executable).with_name("cointoss")
     done = subprocess.run(
         [command, "toss", "fig24a", "--max-impacts", "1", "--json"],
         cwd=tmp_path,

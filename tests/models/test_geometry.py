@@ -65,6 +65,18 @@ def test_a_flat_coin_that_turns_touches_with_the_point_that_moves_down_fastest(u
     assert fall.min() == pytest.approx(-5 * IMPERFECT.radius, rel=1e-7)
 
 
+@pytest.mark.parametrize("w", [(1.0, 0.0, 5.0), (-1.0, 0.0, 5.0)])
+def test_a_coin_on_its_edge_that_turns_touches_with_the_rim_that_moves_down(w):
+    up = (0.0, 1.0, 0.0)
+    point, flat = lowest_point(IMPERFECT, up, w)
+    assert not flat
+    assert abs(point[2]) == IMPERFECT.thickness / 2
+    other = (point[0], point[1], -point[2])
+    R = ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), up)
+    falls = [contact_velocity(IMPERFECT, R, (0.0, 0.0, 0.0), w, edge)[2] for edge in (point, other)]
+    assert falls[0] == pytest.approx(falls[1] - IMPERFECT.thickness, rel=1e-12)
+
+
 @given(st.integers(0, 10_000), st.sampled_from([None, 0.0, 0.5, 1.0]))
 def test_no_coin_touches_within_its_clear_time(seed, exponent):
     rng = np.random.default_rng(seed)
