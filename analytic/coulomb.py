@@ -21,6 +21,10 @@ V_Z, WORK = 2, 6
 TOLERANCE = 1e-13
 # Slip slower than this part of the speed of A is none; above the noise of the steps.
 NO_SLIP = 1e-11
+# An acceleration of slip across itself, against that which friction makes of slip, that is none.
+STRAIGHT = 1e-11
+# After so many times the impulse in which slip turns, none is left of any other direction.
+SETTLED = 40.0
 
 
 @compiled
@@ -67,10 +71,29 @@ def press(K, y, mu, no_slip, component, target):
         return
     f = friction_without_slip(K, mu)
     gained = apply(K, (f[0], f[1], 1.0))
-    # v_z is linear in p from here on, and the work is a parabola.
-    missing, rise = target - y[component], gained[2]
-    p = missing / rise if component == V_Z else ((y[2] ** 2 + 2 * rise * missing) ** 0.5 - y[2]) / rise
-    y[WORK] += y[2] * p + rise * p * p / 2
+    go_straight(y, f, gained, impulse_to(y, gained[2], component, target))
+
+
+@compiled
+def impulse_to(y, rise, component, target):
+    """Give the normal impulse in which a component reaches its target, where dv_z/dp = `rise` stays [N s]."""
+    missing = target - y[component]
+    if component == V_Z:
+        return missing / rise
+    return ((y[2] ** 2 + 2 * rise * missing) ** 0.5 - y[2]) / rise
+
+
+@compiled
+def go_straight(y, f, gained, p):
+    """Advance the state by the normal impulse p under the friction f per normal impulse: v_A is linear in p.
+
+    Args:
+        y: state of the impact, (7,); advanced.
+        f: (2,).
+        gained: dv_A/dp, (3,) [1/kg].
+        p: normal impulse [N s].
+    """
+    y[WORK] += y[2] * p + gained[2] * p * p / 2
     for i in range(3):
         y[i] += gained[i] * p
     y[3] += f[0] * p
@@ -98,9 +121,56 @@ def slide(K, y, mu, no_slip, component, target):
     while y[component] < target:
         if math.hypot(y[0], y[1]) <= no_slip:
             return False
+        f, gained, _, p, stops = straight_slip(K, y, mu, component, target)
+        if p > 0:
+            go_straight(y, f, gained, p)
+            if stops:
+                y[0], y[1] = 0.0, 0.0
+            else:
+                y[component] = target
+            return not stops
         _, dt = accepted_slip_step(K, y, mu, speed, dt, stages, y_new, component, target)
         y[:] = y_new
     return True
+
+
+@compiled
+def straight_slip(K, y, mu, component, target):
+    """Look whether slip keeps its direction long enough for all others to have turned into it.
+
+    Friction turns slip towards the direction s in which it accelerates, s × dv_A/dp = 0, at the rate
+    (λ + κ)/|v_t|; λ = s · dv_A/dp is the growth of slip and κ = μ t · K_tt t, t across s. Where λ is small
+    against κ, slip goes straight over many times the impulse in which it turns: step by step it would take
+    thousands.
+
+    Args:
+        K: mobility of A [1/kg].
+        y: state of the impact, (7,).
+        mu: coefficient of friction μ.
+        component: `V_Z` or `WORK`.
+        target: its value at the end.
+
+    Returns:
+        f: friction per normal impulse, (2,).
+        gained: dv_A/dp, (3,) [1/kg].
+        κ [1/kg].
+        p: the normal impulse of the straight slip, 0 where slip may turn [N s].
+        stops: whether slip stops before the component reaches its target.
+    """
+    slip = math.hypot(y[0], y[1])
+    s = (y[0] / slip, y[1] / slip)
+    f = (-mu * s[0], -mu * s[1])
+    gained = apply(K, (f[0], f[1], 1.0))
+    turning, growth = s[0] * gained[1] - s[1] * gained[0], s[0] * gained[0] + s[1] * gained[1]
+    kappa = mu * (s[1] * s[1] * K[0][0] - 2 * s[0] * s[1] * K[0][1] + s[0] * s[0] * K[1][1])
+    if abs(turning) > STRAIGHT * kappa:
+        return f, gained, kappa, 0.0, False
+    to_stop = slip / -growth if growth < 0 else np.inf
+    to_target = impulse_to(y, gained[2], component, target) if gained[2] > 0 else np.inf
+    p = min(to_stop, to_target)
+    if not SETTLED * slip < (kappa + growth) * p < np.inf:
+        return f, gained, kappa, 0.0, False
+    return f, gained, kappa, p, to_stop < to_target
 
 
 @compiled
@@ -130,7 +200,7 @@ def accepted_slip_step(K, y, mu, speed, dt, stages, y_new, component, target):
     slip_rate(K, y, mu, stages[0])
     while True:
         slip_step(K, y, mu, dt, stages, y_new)
-        error = slip_error(dt, stages, speed, speed / K[2][2]) / TOLERANCE
+        error = slip_error(dt, stages, math.hypot(y[0], y[1]), speed, speed / K[2][2]) / TOLERANCE
         if error <= 1:
             break
         dt *= step_factor(error)
@@ -159,11 +229,11 @@ def slip_step(K, y, mu, dt, stages, y_new):
 
 
 @compiled
-def slip_error(dt, stages, speed, momentum):
-    """Estimate the error of the step just made, relative to a speed and a momentum."""
+def slip_error(dt, stages, slip, speed, momentum):
+    """Estimate the error of the step just made, relative to the slip, a speed and a momentum."""
     sum_5, sum_3 = 0.0, 0.0
     for i in range(SIZE):
-        size = speed if i < 3 else momentum if i < 6 else speed * momentum
+        size = slip if i < V_Z else speed if i == V_Z else momentum if i < 6 else speed * momentum
         e5, e3 = error_parts(stages, i)
         sum_5 += (e5 / size) ** 2
         sum_3 += (e3 / size) ** 2

@@ -15,8 +15,10 @@ from analytic.coulomb import (
     accepted_slip_step,
     first_slip_step,
     friction_without_slip,
+    go_straight,
     resisted,
     slip_rate,
+    straight_slip,
 )
 from analytic.runge_kutta import STAGES, end_point, stage_point
 from models.compiled import compiled
@@ -84,6 +86,15 @@ def slide_change(K, dK, y, dy, mu, no_slip, component, target, d_target):
     while y[component] < target:
         if math.hypot(y[0], y[1]) <= no_slip:
             return False
+        f, gained, kappa, p, stops = straight_slip(K, y, mu, component, target)
+        if p > 0:
+            straight_change(K, dK, y, dy, mu, f, gained, kappa, p, stops, component, d_target)
+            go_straight(y, f, gained, p)
+            if stops:
+                y[0], y[1] = 0.0, 0.0
+            else:
+                y[component] = target
+            return not stops
         made, dt = accepted_slip_step(K, y, mu, speed, dt, stages, y_new, component, target)
         slip_step_change(K, dK, y, dy, mu, made, stages)
         y[:] = y_new
@@ -94,6 +105,46 @@ def slide_change(K, dK, y, dy, mu, no_slip, component, target, d_target):
             for i in range(SIZE):
                 dy[i] += stages[0, i] * delay
     return True
+
+
+@compiled
+def straight_change(K, dK, y, dy, mu, f, gained, kappa, p, stops, component, d_target):
+    """Carry the change dy of the state through a straight slip, which `coulomb.straight_slip` found.
+
+    Along t, across the slip's direction s, the change obeys dδ/dp = c - κ δ/u with u = |v_t| = u_0 + λ p. By
+    the end only δ = c u/(λ + κ) is left of it, and the direction's change has summed up, with P = ∫ δ/u dp
+    and Q = ∫ P dp, to κ P = c p - [δ] and κ Q = c p²/2 + δ_0 p - ∫ δ dp, (κ - λ) ∫ δ dp = c ∫ u dp - [u δ].
+    """
+    u = math.hypot(y[0], y[1])
+    s, t = (y[0] / u, y[1] / u), (-y[1] / u, y[0] / u)
+    growth = s[0] * gained[0] + s[1] * gained[1]
+    u_end = 0.0 if stops else u + growth * p
+    pushed = apply(dK, (f[0], f[1], 1.0))
+    across = t[0] * pushed[0] + t[1] * pushed[1]
+    d_start, d_end = t[0] * dy[0] + t[1] * dy[1], across * u_end / (growth + kappa)
+    P = (across * p - (d_end - d_start)) / kappa
+    summed = (across * (u * p + growth * p * p / 2) - (u_end * d_end - u * d_start)) / (kappa - growth)
+    Q = (across * p * p / 2 + d_start * p - summed) / kappa
+    turned = apply(K, (-mu * t[0], -mu * t[1], 0.0))
+    dy[WORK] += dy[2] * p + pushed[2] * p * p / 2 + turned[2] * Q
+    for i in range(3):
+        dy[i] += pushed[i] * p + turned[i] * P
+    dy[3] -= mu * t[0] * P
+    dy[4] -= mu * t[1] * P
+    # The straight slip ends sooner or later, with the change.
+    if stops:
+        delay = -(s[0] * dy[0] + s[1] * dy[1]) / growth
+    else:
+        rate = gained[2] if component == V_Z else y[2] + gained[2] * p
+        delay = (d_target - dy[component]) / rate
+    dy[WORK] += (y[2] + gained[2] * p) * delay
+    for i in range(3):
+        dy[i] += gained[i] * delay
+    dy[3] += f[0] * delay
+    dy[4] += f[1] * delay
+    dy[5] += delay
+    if stops:
+        dy[0], dy[1] = 0.0, 0.0
 
 
 @compiled

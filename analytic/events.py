@@ -1,20 +1,35 @@
-"""The event loop of a toss: fly, touch, hit, stop."""
+"""The event loop of a toss: fly, touch, hit, stay in contact, stop."""
 
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.contact import Motion, Verdict, friction_in_contact, keeps_contact, next_motion, stands, stay
 from analytic.flight import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
 from analytic.impact import impulse, spin_gained
 from analytic.rim import closing_speed, crowded, fly
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
 from models.compiled import compiled
-from models.ending import energy, face_up, judge
+from models.ending import barrier, energy, face_up, judge
 from models.geometry import contact_velocity, lowest_point
+from models.laws import ContactLaw
 from models.records import IMPACT_ROW, Array, Ending, Outcome
-from models.vectors import add, apply, scale, subtract
+from models.vectors import add, apply, cross, scale, subtract
+
+# The energy of a toss in contact is looked at after so many √(r/g), and whenever that time has doubled.
+FIRST_LOOK = 64.0
+# What a coin loses dies away where it never grows from one such look to the next, and would leave enough
+# after so many more.
+MORE_LOOKS = 100
+# A loss that is none, against the energy.
+NO_LOSS = 1e-9
+LOOKS = 4
+# A sine of the angle off the edge, and its rate against √(g/r), below which a coin is on its edge.
+ON_EDGE = 1e-6
+# The most steps and changes of a toss in contact.
+CONTACT_STEPS = 5_000_000
 
 
 class Run(NamedTuple):
@@ -23,9 +38,13 @@ class Run(NamedTuple):
     rows: NDArray[Any]
     """Impacts, (n,) of `IMPACT_ROW`."""
     start_times: Array
-    """Release and the times after the impacts, where the flights start, (n + 1,) [s]."""
+    """Where flights and contacts start, and where the toss ends, (k,) [s]."""
     start_states: Array
-    """States there, (n + 1, 13)."""
+    """States there, (k, 13)."""
+    motions: NDArray[np.int8]
+    """What starts there: `Motion`, (k,)."""
+    contacts: Array
+    """Start and end of every contact that lasts, (n, 2) [s]."""
     outcome: Outcome
     ending: Ending
     end_time: float
@@ -34,26 +53,27 @@ class Run(NamedTuple):
 def run(body: Body, rules: Rules, start: Array) -> Run:
     """Toss the coin in state `start`, (13,), until the toss is decided."""
     rows = np.zeros(rules.max_impacts, dtype=IMPACT_ROW)
-    times = np.empty(rules.max_impacts + 1)
-    states = np.empty((rules.max_impacts + 1, STATE_SIZE))
-    n, outcome, ending, end_time = fly_and_hit(body, rules, start.copy(), rows, times, states)
+    n, pieces, contacts, outcome, ending, end_time = fly_and_hit(body, rules, start.copy(), rows)
     return Run(
-        rows[:n].copy(),
-        times[: n + 1].copy(),
-        states[: n + 1].copy(),
-        Outcome(outcome),
-        Ending(ending),
-        end_time,
+        rows=rows[:n].copy(),
+        start_times=pieces[:, 0].copy(),
+        start_states=pieces[:, 2:].copy(),
+        motions=pieces[:, 1].astype(np.int8),
+        contacts=contacts,
+        outcome=Outcome(outcome),
+        ending=Ending(ending),
+        end_time=end_time,
     )
 
 
 @compiled
-def hit(body, rules, y, row):
+def hit(body, rules, chi, y, row):
     """Let the floor act on the coin in state y, which touches it, and record the impact.
 
     Args:
         body: the coin.
         rules: floor and ending.
+        chi: restitution of this impact.
         y: state at the touch, (13,); becomes the state after the impact.
         row: where the impact is recorded, one `IMPACT_ROW`.
 
@@ -66,7 +86,7 @@ def hit(body, rules, y, row):
     edge = (point[0] ** 2 + point[1] ** 2) ** 0.5
     tau = apply(R, (-point[1] / edge, point[0] / edge, 0.0)) if edge > 0 else (1.0, 0.0, 0.0)
     v_A = contact_velocity(body, R, v, w, point)
-    S, ending = impulse(body, rules, R, arm, tau, v_A, flat)
+    S, ending = impulse(body, rules, chi, R, arm, tau, v_A, flat)
     v_after = add(v, scale(1 / body.mass, S))
     w_after = w if flat else add(w, spin_gained(body, R, arm, S))
     v_A_after = contact_velocity(body, R, v_after, w_after, point)
@@ -93,7 +113,7 @@ def hit(body, rules, y, row):
 
 
 @compiled
-def fly_and_hit(body, rules, y, rows, times, states):
+def fly_and_hit(body, rules, y, rows):
     """Run the event loop.
 
     Args:
@@ -101,41 +121,152 @@ def fly_and_hit(body, rules, y, rows, times, states):
         rules: floor and ending.
         y: state at release, (13,); becomes the state at the end.
         rows: where the impacts are recorded, (max_impacts,) of `IMPACT_ROW`.
-        times: where the start of each flight is recorded, (max_impacts + 1,) [s].
-        states: where the states there are recorded, (max_impacts + 1, 13).
 
     Returns:
-        Number of impacts, outcome, ending, and the time of the end [s].
+        Number of impacts; flights and contacts, each with its start, `Motion` and state, and the end,
+        (k, 15); contacts, (n, 2) [s]; outcome; ending; and the time of the end [s].
     """
-    time, n = 0.0, 0
+    pieces, contacts, spare = np.empty((64, 2 + STATE_SIZE)), np.empty((4, 2)), np.zeros(1, IMPACT_ROW)
+    time, n, k, touched, steps_left = 0.0, 0, 0, 0, CONTACT_STEPS
+    motion, begun, looks = Motion.FLIGHT, 0.0, np.full(LOOKS + 2, np.inf)
     outcome, ending = Outcome.UNDECIDED, Ending.NONE
+    mu = friction_in_contact(rules)
     while True:
-        times[n] = time
-        states[n] = y
+        if k == len(pieces):
+            pieces = doubled(pieces)
+        pieces[k, 0], pieces[k, 1] = time, motion.value
+        pieces[k, 2:] = y
+        k += 1
         if ending != Ending.NONE:
             break
-        if n == rules.max_impacts:
+        before = motion
+        if motion != Motion.FLIGHT:
+            time, steps_left, motion, outcome, ending = keep_contact(
+                body, rules, mu, motion, y, time, steps_left, looks
+            )
+        elif n == rules.max_impacts:
             ending = Ending.MAX_IMPACTS
-            break
-        flown, touches, _ = fly(body, y, rules.max_time - time)
-        time += flown
-        if not touches:
-            ending = Ending.MAX_TIME
-            break
-        if crowded(body, rules.restitution, y):
-            outcome, ending = decided(body, rules, y)
-            if ending == Ending.NONE:
-                ending = Ending.CHATTER
-            break
-        ending = hit(body, rules, y, rows[n])
-        if ending != Ending.NONE:
-            break
-        rows[n].time = time
-        n += 1
-        # A step forced at a grazing point may have left the coin a little below the floor.
-        y[2] -= min(closing_speed(body, y)[0], 0.0)
+        else:
+            flown, touches, _ = fly(body, y, rules.max_time - time)
+            time += flown
+            if not touches:
+                ending = Ending.MAX_TIME
+            elif crowded(body, rules.restitution, y):
+                outcome, ending = decided(body, rules, y)
+                if ending == Ending.NONE and not keeps_contact(rules.law):
+                    ending = Ending.CHATTER
+                if ending == Ending.NONE:
+                    ending = hit(body, rules, 0.0, y, spare[0])
+                    motion = next_motion(body, mu, motion, y)
+                    begun = time
+                    if looks[0] == np.inf:
+                        looks[0], looks[1] = time, time + FIRST_LOOK * (body.radius / body.gravity) ** 0.5
+            else:
+                ending = hit(body, rules, rules.restitution, y, rows[n])
+                if ending == Ending.NONE:
+                    rows[n].time = time
+                    n += 1
+                    # A step forced at a grazing point may have left the coin a little below the floor.
+                    y[2] -= min(closing_speed(body, y)[0], 0.0)
+                    outcome, ending = decided(body, rules, y)
+                    if ending == Ending.NONE and dies_away(body, rules, y, time, looks):
+                        outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
+        if motion == Motion.CREEPING and mu == np.inf:
+            ending = Ending.NO_SOLUTION
+        if before != Motion.FLIGHT and (motion == Motion.FLIGHT or ending != Ending.NONE):
+            if touched == len(contacts):
+                contacts = doubled(contacts)
+            contacts[touched, 0], contacts[touched, 1] = begun, time
+            touched += 1
+    return n, pieces[:k], contacts[:touched], outcome, ending, time
+
+
+@compiled
+def doubled(table):
+    """Give the table with twice its rows."""
+    larger = np.empty((2 * len(table), table.shape[1]))
+    larger[: len(table)] = table
+    return larger
+
+
+@compiled
+def keep_contact(body, rules, mu, motion, y, time, steps_left, looks):
+    """Follow a contact until the coin slides, creeps, sticks or lifts off, or the toss is decided.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        mu: coefficient of friction μ, 0 on a smooth floor.
+        motion: `Motion` in contact.
+        y: state, (13,); advanced.
+        time: now [s].
+        steps_left: the most steps wanted.
+        looks: see `dies_away`.
+
+    Returns:
+        The time [s], the steps left, the next `Motion`, the outcome and the ending.
+    """
+    undecided = Outcome.UNDECIDED
+    while time < rules.max_time:
+        made, verdict = stay(body, mu, motion, y, rules.max_time - time)
+        time += made
+        steps_left -= 1
         outcome, ending = decided(body, rules, y)
-    return n, outcome, ending, time
+        if ending == Ending.NONE and on_edge(body, y) and stands(body, mu, motion, y):
+            outcome, ending = Outcome.EDGE, Ending.STANDING
+        if ending == Ending.NONE and dies_away(body, rules, y, time, looks):
+            outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
+        if ending != Ending.NONE:
+            return time, steps_left, motion, outcome, ending
+        if verdict == Verdict.LANDS:
+            return time, steps_left, Motion.FLIGHT, undecided, Ending.NONE
+        if verdict == Verdict.CHANGES:
+            return time, steps_left, next_motion(body, mu, motion, y), undecided, Ending.NONE
+        if steps_left <= 0:
+            return time, steps_left, motion, undecided, Ending.CHATTER
+    return time, steps_left, motion, undecided, Ending.MAX_TIME
+
+
+@compiled
+def dies_away(body, rules, y, time, looks):
+    """Tell whether the energy that a coin loses in vacuum dies away before it is too low to turn over.
+
+    The energy is looked at whenever the time since the first contact has doubled. Where it loses no more in
+    one doubling than in that before, it loses ever more slowly: `MORE_LOOKS` doublings are for ever. On a
+    smooth floor the horizontal motion, which never changes, is left out.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        y: state, (13,).
+        time: now [s].
+        looks: start of the first contact and time of the next look [s], infinite before, and the energies at
+            the last looks [J], (2 + LOOKS,); kept up.
+    """
+    if time < looks[1] or body.air.normal != 0 or body.air.tangential != 0:
+        return False
+    v = velocity_of(y)
+    E = energy(body, y[2], v, spin_of(y))
+    if rules.law == ContactLaw.SMOOTH:
+        E -= body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
+    looks[1] += looks[1] - looks[0]
+    looks[2:-1] = looks[3:]
+    looks[-1] = E
+    losses = looks[2:-1] - looks[3:]
+    for i in range(1, LOOKS - 1):
+        # An infinite or undefined loss is one not looked at yet.
+        if not (abs(losses[i]) <= NO_LOSS * E or 0 < losses[i] <= losses[i - 1] < np.inf):
+            return False
+    return E - MORE_LOOKS * max(losses[-1], 0.0) > max(barrier(body, 1.0), barrier(body, -1.0))
+
+
+@compiled
+def on_edge(body, y):
+    """Tell whether a coin in contact is on its edge, and does not turn off it."""
+    up = rotation_matrix(attitude_of(y))[2]
+    n_z_rate = cross(up, spin_of(y))[2]
+    rate = (body.gravity / body.radius) ** 0.5
+    return body.thickness > 0 and abs(up[2]) < ON_EDGE and abs(n_z_rate) < ON_EDGE * rate
 
 
 @compiled

@@ -102,12 +102,13 @@ def sliding_friction(K, v_A, chi, mu):
 
 
 @compiled
-def impulse(body, rules, R, arm, tau, v_A, flat):
+def impulse(body, rules, chi, R, arm, tau, v_A, flat):
     """Give the floor's impulse on the coin by the scenario's contact law.
 
     Args:
         body: the coin.
         rules: floor and ending.
+        chi: restitution of this impact.
         R: rotation matrix, body to space.
         arm: from C to A, space frame, (3,) [m].
         tau: unit vector along the coin's edge at A, space frame, (3,).
@@ -118,7 +119,7 @@ def impulse(body, rules, R, arm, tau, v_A, flat):
         S: impulse, space frame, (3,) [N s].
         ending: `Ending.NO_SOLUTION` where the law has none, else `Ending.NONE`.
     """
-    chi, law = rules.restitution, rules.law
+    law = rules.law
     if flat:
         return (0.0, 0.0, -(1 + chi) * body.mass * v_A[2]), Ending.NONE
     K = mobility(body, R, arm)

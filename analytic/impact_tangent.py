@@ -170,7 +170,7 @@ def touch_tangent(body, rules, y):
     t = (-point[1] / edge, point[0] / edge, 0.0) if edge > 0 else (1.0, 0.0, 0.0)
     tau = apply(R, t)
     v_A = contact_velocity(body, R, v, w, point)
-    S, _ = impulse(body, rules, R, arm, tau, v_A, flat)
+    S, _ = impulse(body, rules, rules.restitution, R, arm, tau, v_A, flat)
 
     n = STATE_SIZE
     rate, gap_row, dy = np.empty(n), np.empty(n), np.empty(n)

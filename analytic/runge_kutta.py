@@ -56,7 +56,11 @@ def combined_error(dt, sum_5, sum_3, size):
     """
     if sum_5 == 0 and sum_3 == 0:
         return 0.0
-    return abs(dt) * sum_5 / ((sum_5 + 0.01 * sum_3) * size) ** 0.5
+    combined = (sum_5 + 0.01 * sum_3) * size
+    if not combined < np.inf:
+        # Divided by it, any error would be none.
+        return np.inf
+    return abs(dt) * sum_5 / combined**0.5
 
 
 @compiled

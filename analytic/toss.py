@@ -3,36 +3,41 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from analytic.events import run
+from analytic.contact import Motion, friction_in_contact, sample_contact
+from analytic.events import Run, run
 from analytic.flight import STATE_SIZE, TOLERANCE, sample_flight
 from analytic.horizon import SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
+from models.attitude import rotation_matrix
 from models.body import Body
+from models.ending import barrier, energy
 from models.records import Array, Impacts, Setting, States, Toss
 from models.scenario import Release, Scenario
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Flights:
-    """The path of a toss: the state at the start of each flight, integrated again where it is asked for."""
+class Pieces:
+    """The path of a toss: where flights and contacts start; each is integrated again when asked for."""
 
     body: Body
+    friction: float
+    """μ of a contact, 0 on a smooth floor."""
     start_times: Array
     """(n,) [s]."""
     start_states: Array
     """(n, 13)."""
+    motions: NDArray[np.int8]
+    """`Motion`, (n,)."""
 
     def sample(self, times: Array) -> States:
         """Give the states at `times` [s], in the order of `times`."""
         order = np.argsort(times, kind="stable")
         rows = np.empty((len(times), STATE_SIZE))
-        flight = np.searchsorted(self.start_times, times[order], side="right") - 1
-        for number in np.unique(flight):
-            chosen = order[flight == number]
-            states = np.empty((len(chosen), STATE_SIZE))
-            start = self.start_states[number]
-            sample_flight(self.body, start, self.start_times[number], times[chosen], states)
-            rows[chosen] = states
+        piece = np.searchsorted(self.start_times, times[order], side="right") - 1
+        for number in np.unique(piece):
+            chosen = order[piece == number]
+            rows[chosen] = self._piece(number, times[chosen])
         return States(
             time=times.copy(),
             position=rows[:, 0:3].copy(),
@@ -40,6 +45,19 @@ class Flights:
             quaternion=rows[:, 6:10].copy(),
             angular_velocity=rows[:, 10:13].copy(),
         )
+
+    def _piece(self, number: int, times: Array) -> Array:
+        states = np.empty((len(times), STATE_SIZE))
+        start, start_time, motion = (
+            self.start_states[number],
+            self.start_times[number],
+            self.motions[number],
+        )
+        if motion == Motion.FLIGHT:
+            sample_flight(self.body, start, start_time, times, states)
+        else:
+            sample_contact(self.body, self.friction, motion, start, start_time, times, states)
+        return states
 
 
 def state_of(release: Release) -> Array:
@@ -62,16 +80,16 @@ def toss(scenario: Scenario) -> Toss:
     """
     body, rules, start = scenario.body, scenario.rules, state_of(scenario.release)
     answer = run(body, rules, start)
-    impacts = Impacts.from_rows(answer.rows)
+    impacts, end = Impacts.from_rows(answer.rows), answer.start_states[-1]
     return Toss(
         engine="analytic",
         scenario=scenario,
         impacts=impacts,
-        contacts=np.empty((0, 2)),
+        contacts=answer.contacts,
         outcome=answer.outcome,
         ending=answer.ending,
         end_time=answer.end_time,
-        trusted_impacts=trusted_impacts(body, rules, answer),
+        trusted_impacts=trusted_impacts(body, rules, _before_contact(answer)),
         certificate=(
             Setting(
                 name="integrator", value="Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"
@@ -80,6 +98,29 @@ def toss(scenario: Scenario) -> Toss:
             Setting(name="error of a step carried to the horizon: of the motion, relative", value=STEP_ERROR),
             Setting(name="error of a step carried to the horizon: of the attitude", value=TURN_ERROR),
             Setting(name="safety factor of the horizon", value=SAFETY),
+            Setting(name="energy at the end", value=_energy(body, end), unit="J"),
+            Setting(name="energy needed to turn over", value=_barrier(body, end), unit="J"),
         ),
-        path=Flights(body=body, start_times=answer.start_times, start_states=answer.start_states),
+        path=Pieces(
+            body=body,
+            friction=friction_in_contact(rules),
+            start_times=answer.start_times,
+            start_states=answer.start_states,
+            motions=answer.motions,
+        ),
     )
+
+
+def _before_contact(answer: Run) -> Run:
+    """Give the toss up to the first contact that lasts."""
+    if len(answer.contacts) == 0:
+        return answer
+    return answer._replace(rows=answer.rows[answer.rows["time"] < answer.contacts[0, 0]])
+
+
+def _energy(body: Body, y: Array) -> float:
+    return energy(body, y[2], tuple(y[3:6]), tuple(y[10:13]))
+
+
+def _barrier(body: Body, y: Array) -> float:
+    return barrier(body, rotation_matrix(tuple(y[6:10]))[2][2])

@@ -3,11 +3,14 @@
 import math
 
 from models.compiled import compiled
+from models.geometry import drag_bound
 from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.records import Ending, Face, Outcome
-from models.vectors import apply, dot
+from models.vectors import apply, dot, norm
 
 TILTS_TRIED = 128
+# What is left of the energy of tilting, against m g r, in a coin that lies flat.
+WOBBLE = 1e-9
 
 
 @compiled
@@ -87,9 +90,9 @@ def _top_barrier(body, up, w):
 def judge(body, rules, z, v, up, w):
     """Tell after an impact whether the toss is decided.
 
-    "rigorous": the energy is below the pass to the other face (or, for the ideal coin on a smooth floor in
-    vacuum, below the pass of its effective potential) and the tilt is on this face's side of the pass. An
-    ideal thick coin may also be caught on its edge. Only the smooth law, and Routh's with energetic
+    "rigorous": the energy is below the pass to the other face (or, on a smooth floor in vacuum, below it with
+    what the conserved spin needs) and the tilt is on this face's side of the pass; or the coin lies flat. A
+    thick coin may also be caught on its edge. Only the smooth law, and Routh's with energetic
     restitution, never add energy; for every other the same test ends the toss under the paper's name,
     `Ending.PAPER`. "paper" is E < m g r and "paper_smooth" is eq. (20) of Strzalko et al. 2008.
 
@@ -126,11 +129,86 @@ def judge(body, rules, z, v, up, w):
     if E < barrier(body, up[2]):
         if on_face:
             return face, ending
-        if _is_ideal(body) and tilt_sine * high > out * abs(up[2]):
+        if E < barrier(body, -up[2]) and _beyond_the_pass(body, up, tilt_sine):
             return Outcome.EDGE, ending
     in_vacuum = body.air.normal == 0 and body.air.tangential == 0
-    if on_face and smooth and in_vacuum and _is_ideal(body):
+    if on_face and smooth and in_vacuum:
         E_turning = E - body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
-        if E_turning < _top_barrier(body, up, w):
+        needed = _top_barrier(body, up, w) if _is_ideal(body) else _spin_barrier(body, up, w)
+        if E_turning < needed:
             return face, Ending.SETTLED
+    if _lies(body, rules, z, v, up, w):
+        return face, Ending.LYING
     return Outcome.UNDECIDED, Ending.NONE
+
+
+@compiled
+def _beyond_the_pass(body, up, tilt_sine):
+    """Tell whether C is on the edge's side of the pass over the rim point that is lowest."""
+    if tilt_sine == 0:
+        return False
+    c = body.center
+    out = body.radius + (c[0] * up[0] + c[1] * up[1]) / tilt_sine
+    high = _pass(body, up[2])[1]
+    return tilt_sine * high > out * abs(up[2])
+
+
+@compiled
+def _spin_barrier(body, up, w):
+    """Bound from below the energy at which a coin on a smooth floor in vacuum can turn over [J].
+
+    Vertical impulses keep L_z, with which the coin has at least the energy L_z²/(2 uᵀ J u), u the upward unit
+    vector in the body frame. To turn over it must pass every tilt from today's to π/2, in some direction:
+    the largest over a set of these tilts, of the least over all directions, is needed for sure.
+    """
+    J = body.inertia
+    L_z = dot(up, apply(J, w))
+    today = math.atan2(math.hypot(up[0], up[1]), abs(up[2]))
+    side = 1.0 if up[2] > 0 else -1.0
+    c_across = math.hypot(body.center[0], body.center[1])
+    highest = 0.0
+    for i in range(TILTS_TRIED):
+        s = math.pi / 2 - (math.pi / 2 - today) * i / TILTS_TRIED
+        sine, cosine = math.sin(s), math.cos(s)
+        # The lowest height and the largest moment of inertia of all directions, each for itself.
+        z = (body.radius - c_across) * sine + (body.thickness / 2 + side * body.center[2]) * cosine
+        J_across = _largest_across(J)
+        moment = J_across * sine * sine + J[2][2] * cosine * cosine
+        moment += 2 * sine * cosine * math.hypot(J[0][2], J[1][2])
+        highest = max(highest, body.mass * body.gravity * z + L_z * L_z / (2 * moment))
+    return highest
+
+
+@compiled
+def _largest_across(J):
+    """Give the largest moment of inertia about an axis in the coin's plane."""
+    mean, half = (J[0][0] + J[1][1]) / 2, (J[0][0] - J[1][1]) / 2
+    return mean + math.hypot(half, J[0][1])
+
+
+@compiled
+def _lies(body, rules, z, v, up, w):
+    """Tell whether the coin lies flat for good, whatever it has of sliding and of spin about its normal.
+
+    What is left of its tilt, of its turning about diameters and of its vertical motion is nothing, and the
+    floor can balance all moments that spin, drag and friction make about diameters by pressing inside the
+    rim. As sliding and spinning never grow, neither do these moments.
+    """
+    c, J = body.center, body.inertia
+    flat_z = body.thickness / 2 + (c[2] if up[2] > 0 else -c[2])
+    across = (w[0], w[1], 0.0)
+    wobble = (
+        body.mass * (v[2] * v[2] / 2 + body.gravity * abs(z - flat_z)) + dot(across, apply(J, across)) / 2
+    )
+    weight = body.mass * body.gravity
+    if wobble > WOBBLE * weight * body.radius:
+        return False
+    mu = rules.friction if rules.law == ContactLaw.COULOMB else 0.0
+    if rules.law != ContactLaw.COULOMB and rules.law != ContactLaw.SMOOTH:
+        return False
+    k, arm, turn_drag = drag_bound(body, v, w, 0.0)
+    drag = k * (norm(v) + arm * norm(w))
+    slowing = (mu * weight * body.radius + turn_drag * abs(w[2]) + drag * arm) / J[2][2]
+    moment = math.hypot(J[0][2], J[1][2]) * (w[2] * w[2] + slowing)
+    moment += mu * weight * flat_z + drag * arm
+    return moment < weight * (body.radius - math.hypot(c[0], c[1]))

@@ -76,7 +76,7 @@ def _spin_bound(body, w):
 
 
 @compiled
-def _drag_bound(body, v, w, window):
+def drag_bound(body, v, w, window):
     """Bound the air's force and moment about C by k p and ℓ k p + d ω̃, with p = |v_C| + ω̃ ℓ, over a window.
 
     For b = 0 p bounds the speed of B: k and d are the largest coefficients, ℓ is B's distance from C.
@@ -118,7 +118,7 @@ def damping_rate(body, v, w, window):
         w: angular velocity, body frame, (3,) [rad/s].
         window: length of the time window [s].
     """
-    k, arm, _ = _drag_bound(body, v, w, window)
+    k, arm, _ = drag_bound(body, v, w, window)
     return k * (1 / body.mass + arm * arm / body.inertia_smallest)
 
 
@@ -138,7 +138,7 @@ def acceleration_bounds(body, v, up, w, window):
     """Bound the accelerations of a flying coin over a time window.
 
     The spin: ω̃ = √(2 T_rot/J_min) ≥ |ω| changes only by the air: dω̃/dt ≤ ℓ k p/J_min, with k, ℓ and
-    p = |v_C| + ω̃ ℓ of `_drag_bound`. dp/dt ≤ g + κ p, κ = k (1/m + ℓ²/J_min), which Grönwall's lemma
+    p = |v_C| + ω̃ ℓ of `drag_bound`. dp/dt ≤ g + κ p, κ = k (1/m + ℓ²/J_min), which Grönwall's lemma
     closes.
 
     The turning ω⊥ across the normal, alone, tilts the coin: |ṅ| = |ω⊥|. With j = (J_ξζ, J_ηζ) and D the
@@ -157,7 +157,7 @@ def acceleration_bounds(body, v, up, w, window):
         window: length of the time window [s].
     """
     J, J_min = body.inertia, body.inertia_smallest
-    drag, arm, turn_drag = _drag_bound(body, v, w, window)
+    drag, arm, turn_drag = drag_bound(body, v, w, window)
     spin = _spin_bound(body, w)
     speed = norm(v) + spin * arm
     if drag > 0:

@@ -51,6 +51,9 @@ class Ending(IntEnum):
     MAX_TIME = 5
     CHATTER = 6
     NO_SOLUTION = 7
+    LYING = 8
+    STANDING = 9
+    PERPETUAL = 10
 
     @property
     def label(self) -> str:
@@ -70,8 +73,11 @@ _SENTENCES = {
     Ending.PAPER_SMOOTH: "The energy that can turn the coin over is below m g r, eq. (20).",
     Ending.MAX_IMPACTS: "The largest number of impacts was reached.",
     Ending.MAX_TIME: "The largest time was reached.",
-    Ending.CHATTER: "Impacts crowd together: the coin stays in contact, which this engine does not follow.",
+    Ending.CHATTER: "Impacts crowd together: the coin stays in contact, which is not followed here.",
     Ending.NO_SOLUTION: "The contact law has no solution at this attitude.",
+    Ending.LYING: "The coin lies on a face; it only slides and spins, which can't tip it.",
+    Ending.STANDING: "The coin stands on its edge: on either rim the floor turns it back to the other.",
+    Ending.PERPETUAL: "What the coin loses dies away: it keeps enough energy to turn over for ever.",
 }
 
 

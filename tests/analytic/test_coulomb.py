@@ -180,7 +180,7 @@ def test_slip_that_starts_keeps_its_direction():
     for _ in range(COUNT):
         K, _ = draw_contact(rng)
         mu = rng.uniform(0.01, 1.0)
-        f = np.array(friction_without_slip(K, mu))
+        f = np.array(friction_without_slip(K, (K[0][2], K[1][2]), mu))
         gained = np.array(K) @ [*f, 1.0]
         if np.hypot(*f) < mu * (1 - 1e-9):
             assert np.abs(gained[:2]).max() < 1e-11 * np.abs(K).max()
@@ -255,3 +255,73 @@ def test_the_derivative_of_friction_without_slip_is_that_of_differences():
         assert df == pytest.approx((friction(small) - friction(-small)) / (2 * small), abs=1e-6)
         started[bool(np.hypot(*f) > mu * (1 - 1e-9))] += 1
     assert min(started.values()) > 10
+
+
+def draw_critical(rng):
+    """A contact with a friction near that at which it just sticks: slip then keeps its speed as it goes."""
+    K, v = draw_contact(rng)
+    sticks = np.linalg.solve(np.array(K)[:2, :2], np.array(K)[:2, 2])
+    return K, v, float(np.hypot(*sticks)) * (1 + rng.choice([-1, 1]) * 10 ** rng.uniform(-6, -2.5))
+
+
+@pytest.mark.parametrize("kind", list(RestitutionKind))
+@pytest.mark.parametrize("seed", range(10))
+def test_slip_that_hardly_grows_or_dies_goes_straight(kind, seed):
+    """Against an implicit integration, which takes its turning in long steps."""
+    rng = np.random.default_rng([seed, 6])
+    K, v, mu = draw_critical(rng)
+    chi = rng.uniform(0.1, 0.9)
+    start = np.array([*v, 0.0, 0.0, 0.0, 0.0])
+    matrix, least = np.array(K), 1e-9 * np.linalg.norm(v)
+
+    def rate(_, y):
+        slip = np.hypot(y[0], y[1])
+        f = -mu * y[:2] / max(slip, least)
+        return np.array([*(matrix @ [*f, 1]), *f, 1.0, y[2]])
+
+    def at(component, target):
+        def event(_, y):
+            return y[component] - target
+
+        event.terminal = True  # pyright: ignore[reportFunctionMemberAccess]
+        return event
+
+    def pressed(y, component, target):
+        return solve_ivp(
+            rate, (0, 10), y, method="Radau", rtol=1e-8, atol=1e-11, events=at(component, target)
+        ).y[:, -1]
+
+    if kind == KINEMATIC:
+        end = pressed(start, 2, -chi * v[2])
+    else:
+        end = pressed(start, 2, 0.0)
+        end = pressed(end, 6, (1 - chi**2) * end[6])
+    S = coulomb(K, v, chi, mu, kind)
+    assert S == pytest.approx(end[3:6], abs=1e-6 * np.linalg.norm(S))
+
+
+@pytest.mark.parametrize("kind", list(RestitutionKind))
+@pytest.mark.parametrize("seed", range(10))
+def test_the_derivative_of_straight_slip_is_that_of_differences(kind, seed):
+    rng = np.random.default_rng([seed, 7])
+    K, v, mu = draw_critical(rng)
+    matrix, turn = np.array(K), rng.normal(size=(3, 3)) * 0.1
+    dK, dv = turn @ matrix + matrix @ turn.T, rng.normal(size=3)
+
+    def impulse(part):
+        moved = tuple(map(tuple, matrix + part * dK))
+        return np.array(coulomb(moved, tuple(np.array(v) + part * dv), 0.6, mu, kind))
+
+    h = 1e-7
+    differences = (impulse(h) - impulse(-h)) / (2 * h)
+    exact = coulomb_change(K, tuple(map(tuple, dK)), v, tuple(dv), 0.6, mu, kind)
+    assert exact == pytest.approx(differences, abs=2e-5 * float(np.linalg.norm(differences)))
+
+
+def test_an_impact_whose_slip_dies_a_million_times_slower_than_it_turns_takes_few_steps():
+    """Its step by step integration took most of a minute; the test would not end in time."""
+    rng = np.random.default_rng(8)
+    for _ in range(200):
+        K, v, mu = draw_critical(rng)
+        S = coulomb(K, v, 0.7, mu, KINEMATIC)
+        assert after(K, v, S)[2] == pytest.approx(-0.7 * v[2])

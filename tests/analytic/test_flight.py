@@ -6,7 +6,7 @@ import pytest
 import analytic
 from analytic.flight import STATE_SIZE, derivative, step
 from analytic.rim import gap_acceleration
-from analytic.runge_kutta import STAGES
+from analytic.runge_kutta import STAGES, combined_error
 from analytic.toss import state_of
 from compare.trajectories import attitude_angle
 from models.attitude import rotation_matrix
@@ -165,3 +165,9 @@ def test_the_acceleration_of_the_gap_is_that_of_its_samples(seed):
     y = np.concatenate([column[1] for column in columns])
     # Second differences err by the gap's fourth derivative, ~ r w^4 dt^2/12, and by rounding, 1e-15/dt^2.
     assert gap_acceleration(body, y) == pytest.approx(np.diff(gaps, 2)[0] / dt**2, rel=1e-3, abs=1e-3)
+
+
+@pytest.mark.parametrize("sums", [(1e300, 1e302), (1e304, 1e308), (1e306, np.inf), (np.inf, np.inf)])
+def test_a_step_that_overflows_is_never_accepted(sums):
+    """The squares of its slopes leave the range of floating-point numbers one after the other."""
+    assert not combined_error(1e-3, *sums, 13) <= 1

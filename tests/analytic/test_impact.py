@@ -38,7 +38,7 @@ def draw_impact(rng, law, restitution=None):
 def struck(case, y):
     row = np.zeros(1, IMPACT_ROW)
     after = y.copy()
-    ending = hit(case.body, case.rules, after, row[0])
+    ending = hit(case.body, case.rules, case.floor.restitution, after, row[0])
     return row[0], after, ending
 
 

@@ -83,10 +83,65 @@ def test_what_a_smooth_floor_conserves_settles_a_fast_spinning_coin():
     for air in (AIR, {"tangential": 0.2, "exponent": 1.0}, {"normal": 0.8, "exponent": 0.5}):
         assert judged(scenario(air=air), 0.05, **fast)[0] == (Outcome.UNDECIDED, Ending.NONE)
     assert judged(scenario(air={"exponent": 0.5}), 0.05, **fast)[0] == (Outcome.HEADS, Ending.SETTLED)
-    assert judged(scenario(coin=IMPERFECT), 0.05, **fast)[0] == (Outcome.UNDECIDED, Ending.NONE)
+    assert judged(scenario(coin=IMPERFECT), 0.05, **fast)[0] == (Outcome.HEADS, Ending.SETTLED)
 
 
 def test_faces():
     assert face_up(0.1) == Face.HEADS
     assert face_up(-0.1) == Face.TAILS
     assert [face.symbol for face in Face] == ["H", "T"]
+
+
+def test_an_imperfect_coin_is_settled_on_a_smooth_floor_only_below_every_way_over():
+    """Upright it needs its height and, as L_z is conserved, the energy L_z²/(2 uᵀ J u) of turning."""
+    rng = np.random.default_rng(4)
+    case = scenario(coin=IMPERFECT)
+    body, J = case.body, np.array(case.body.inertia)
+    # From today's tilt on: the ways over lead through every tilt up to upright, each in some direction.
+    ups = {
+        tilt: np.array(
+            [
+                rotation_matrix(quaternion_from_angles((0.0, tilt, phi)))[2]
+                for phi in np.linspace(0, 2 * np.pi, 73)
+            ]
+        )
+        for tilt in np.linspace(0.3, np.pi / 2, 12)
+    }
+    seen = {True: 0, False: 0}
+    for _ in range(200):
+        w = tuple(rng.uniform(-60, 60, 3))
+        (outcome, _), E, pass_ = judged(case, 0.3, w=w)
+        if pass_ > E:
+            continue
+        up = np.array(rotation_matrix(quaternion_from_angles((0.0, 0.3, 0.0)))[2])
+        L_z = up @ J @ w
+        needed = max(
+            min(2e-3 * 9.81 * -gap(body, 0.0, u) + L_z**2 / (2 * u @ J @ u) for u in directions)
+            for directions in ups.values()
+        )
+        seen[outcome == Outcome.HEADS] += 1
+        assert outcome == Outcome.UNDECIDED or needed > E
+    assert min(seen.values()) > 5
+
+
+@pytest.mark.parametrize("contact", ["smooth", "coulomb"])
+@pytest.mark.parametrize(("spin", "lies"), [(300.0, True), (1500.0, False)])
+def test_a_flat_coin_lies_unless_its_unbalanced_spin_lifts_it(contact, spin, lies):
+    """It takes the moment J_ηζ ω² to spin flat; the weight has m g (r - |c|) at most."""
+    case = scenario(coin=IMPERFECT, air=AIR, floor={"contact": contact, "friction": 0.2})
+    J, c = case.body.inertia, np.hypot(*PAPER_OFFSET[:2])
+    moment = np.hypot(J[0][2], J[1][2]) * spin**2
+    assert (moment < 0.5 * 2e-3 * 9.81 * (1.25e-2 - c)) == lies
+    expected = (Outcome.HEADS, Ending.LYING) if lies else (Outcome.UNDECIDED, Ending.NONE)
+    assert judged(case, 0.0, w=(0.0, 0.0, spin))[0] == expected
+    assert judged(case, 1e-3, w=(0.0, 0.0, 300.0))[0] == (Outcome.UNDECIDED, Ending.NONE), "it is tilted"
+
+
+def test_an_imperfect_coin_is_caught_on_its_edge_below_both_passes():
+    coin = {**ZLOTY, "thickness": 0.01, "center_of_mass": [-1e-3, -1e-3, -2e-4]}
+    for tilt in (np.pi / 2 - 0.05, np.pi / 2 + 0.05):
+        (outcome, ending), E, pass_ = judged(scenario(coin=coin, air=AIR), tilt)
+        assert pass_ > E
+        assert (outcome, ending) == (Outcome.EDGE, Ending.SETTLED)
+    fast = judged(scenario(coin=coin, air=AIR), np.pi / 2 - 0.05, v=(0.0, 0.0, 0.2))
+    assert fast[0] == (Outcome.UNDECIDED, Ending.NONE)

@@ -1,0 +1,315 @@
+"""A coin that stays in contact: against closed forms, an independent integration, and what is conserved."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from analytic.contact import (
+    Motion,
+    Verdict,
+    contact,
+    direction_of,
+    force,
+    holding_force,
+    holds,
+    next_motion,
+    put_on_floor,
+    sample_contact,
+    side_of,
+    slip_direction,
+    stands,
+    stay,
+)
+from analytic.flight import derivative
+from models.attitude import quaternion_from_angles, rotation_matrix
+from models.ending import energy
+from models.geometry import contact_velocity, gap, lowest_point
+from tests.draws import AIR, ZLOTY, draw_coin, scenario
+
+G, R_COIN, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
+THIN = {**ZLOTY, "thickness": 0.0}
+
+
+def up_of(y):
+    return np.array(rotation_matrix(tuple(y[6:10]))[2])
+
+
+def energy_of(body, y):
+    return energy(body, y[2], tuple(y[3:6]), tuple(y[10:13]))
+
+
+def velocity_of_lowest(body, y):
+    """By `models.geometry`, which flight and impact use."""
+    R = rotation_matrix(tuple(y[6:10]))
+    point, _ = lowest_point(body, R[2], tuple(y[10:13]))
+    return np.array(contact_velocity(body, R, tuple(y[3:6]), tuple(y[10:13]), point))
+
+
+def on_floor(body, motion, angles, w, v=(0.0, 0.0)):
+    """Give a coin in contact, of this attitude and spin; `motion` says what its lowest point may do."""
+    y = np.array([0, 0, 0, *v, 0, *quaternion_from_angles(angles), *w], dtype=float)
+    put_on_floor(body, 0.0, motion, side_of(y), y)
+    return y
+
+
+def floor_force(body, mu, motion, y):
+    dy = np.empty(13)
+    derivative(body, y, dy)
+    _, _, K, b, v_A = contact(body, y, dy, side_of(y))
+    return np.array(force(K, b, v_A, mu, motion))
+
+
+def follow(body, mu, motion, y, time):
+    """Give the states and times after every step of a contact that goes on for `time`."""
+    y, states, times = y.copy(), [y.copy()], [0.0]
+    while times[-1] < time:
+        made, verdict = stay(body, mu, motion, y, time - times[-1])
+        assert verdict == Verdict.GOES_ON
+        states.append(y.copy())
+        times.append(times[-1] + made)
+    return np.array(states), np.array(times)
+
+
+def follow_to_its_end(body, mu, motion, y):
+    """Advance y to the end of a contact that ends within a second; give the `Verdict` and the time."""
+    time, verdict = 0.0, Verdict.GOES_ON
+    while verdict == Verdict.GOES_ON:
+        made, verdict = stay(body, mu, motion, y, 1.0)
+        time += made
+        assert time < 1
+    return verdict, time
+
+
+def draw_wobble(rng, body, motion):
+    """Draw a contact that goes on for a while: a tilted coin that turns moderately."""
+    angles = rng.uniform(0, 6), rng.uniform(0.5, 1.2), rng.uniform(0, 6)
+    return on_floor(body, motion, angles, rng.uniform(-12, 12, 3), rng.uniform(-0.1, 0.1, 2))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_coin_on_a_smooth_floor_keeps_energy_and_momentum_and_does_not_leave_it(seed):
+    rng = np.random.default_rng([seed, 1])
+    body = scenario(coin=draw_coin(rng)).body
+    start = draw_wobble(rng, body, Motion.SLIDING)
+    y, time, turned = start.copy(), 0.0, 0.0
+    while time < 0.2:
+        made, verdict = stay(body, 0.0, Motion.SLIDING, y, 0.2 - time)
+        time += made
+        turned += made * np.linalg.norm(y[10:13])
+        assert abs(gap(body, y[2], tuple(up_of(y)))) < 1e-14
+        assert abs(velocity_of_lowest(body, y)[2]) < 1e-12
+        if verdict != Verdict.GOES_ON:
+            break
+    assert turned > 0.3, "it should move"
+    assert energy_of(body, y) == pytest.approx(energy_of(body, start), rel=1e-11)
+    assert y[3:5] == pytest.approx(start[3:5], abs=1e-14)
+    L_z, L_z_start = (up_of(s) @ np.array(body.inertia) @ s[10:13] for s in (y, start))
+    assert L_z == pytest.approx(L_z_start, rel=1e-11)
+
+
+@pytest.mark.parametrize("motion", [Motion.SLIDING, Motion.STICKING])
+@pytest.mark.parametrize("tilt", [0.3, 1.0, 1.3])
+def test_eulers_disk_precesses_at_its_rate(motion, tilt):
+    """Ω² = 4 g/(r sin s) for a thin disk that rolls with C at rest: a state of the smooth floor too."""
+    body = scenario(coin=THIN).body
+    rate = np.sqrt(4 * G / (R_COIN * np.sin(tilt)))
+    # Upright in the coin's plane the spin is Ω sin s, along the normal none; φ = 0 puts that axis along η.
+    y = on_floor(body, motion, (0.2, tilt, 0.0), (0.0, rate * np.sin(tilt), 0.0))
+    assert y[3:6] == pytest.approx(0, abs=1e-15)
+    mu = 0.0 if motion == Motion.SLIDING else 0.5
+    assert floor_force(body, mu, motion, y) == pytest.approx([0, 0, M * G], abs=1e-14)
+    states, times = follow(body, mu, motion, y, 30 / rate)
+    heights = [up_of(s)[2] for s in states]
+    assert np.array(heights) == pytest.approx(np.cos(tilt), abs=1e-9)
+    R = np.array(rotation_matrix(tuple(states[-1][6:10])))
+    turned = np.arctan2(R[0, 2], -R[1, 2])
+    assert np.angle(np.exp(1j * (turned - 0.2 - rate * times[-1]))) == pytest.approx(0, abs=1e-7)
+
+
+def rolling_rates(_, q, body):
+    """Give the rates of a thin disk that rolls: tilt s, ω along the horizontal diameter, upward in the plane,
+    and along the normal; from the balance about C in the frame of these axes, with v_C = ω × r e2."""
+    s, w1, w2, w3 = q
+    J, J3, r, m = body.inertia[0][0], body.inertia[2][2], body.radius, body.mass
+    precession = w2 / np.tan(s)
+    a1 = -r * (m * r * w2 * w3 + m * G * np.cos(s)) - w2 * J3 * w3 + precession * J * w2
+    return [
+        w1,
+        a1 / (J + m * r * r),
+        (w1 * J3 * w3 - precession * J * w1) / J,
+        m * r * r * w1 * w2 / (J3 + m * r * r),
+    ]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_rolling_disk_moves_as_its_own_equations_say(seed):
+    rng = np.random.default_rng([seed, 2])
+    body = scenario(coin=THIN).body
+    tilt, w = rng.uniform(0.6, 1.3), rng.uniform(-15, 15, 3)
+    y = on_floor(body, Motion.STICKING, (0.0, tilt, 0.0), w)
+    time = 0.05
+    states, _ = follow(body, 50.0, Motion.STICKING, y, time)
+    # With ψ = φ = 0 the axes ξ, η, ζ are those of the frame at the start.
+    expected = solve_ivp(
+        rolling_rates, (0, time), [tilt, *y[10:13]], args=(body,), rtol=1e-11, atol=1e-11, method="DOP853"
+    ).y[:, -1]
+    end = states[-1]
+    up = up_of(end)
+    assert np.arccos(up[2]) == pytest.approx(expected[0], abs=1e-8)
+    assert end[12] == pytest.approx(expected[3], rel=1e-8)
+    upward = np.array([up[0], up[1], 0]) / np.hypot(up[0], up[1])
+    assert end[10:13] @ upward == pytest.approx(expected[2], rel=1e-8, abs=1e-7)
+    assert abs(expected[0] - tilt) > 0.01
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_coin_that_rolls_keeps_its_energy(seed):
+    rng = np.random.default_rng([seed, 3])
+    body = scenario(coin=draw_coin(rng)).body
+    start = draw_wobble(rng, body, Motion.STICKING)
+    y, time = start.copy(), 0.0
+    while time < 0.1:
+        made, verdict = stay(body, 100.0, Motion.STICKING, y, 0.1 - time)
+        time += made
+        assert np.abs(velocity_of_lowest(body, y)).max() < 1e-12
+        if verdict != Verdict.GOES_ON:
+            break
+    assert time > 0.01
+    assert energy_of(body, y) == pytest.approx(energy_of(body, start), rel=1e-11)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_coin_that_slides_loses_what_friction_takes(seed):
+    """dE/dt = -μ N |v_A| and m dv/dt = -μ N s, with N from the height of C: not from the mobility."""
+    rng = np.random.default_rng([seed, 4])
+    mu, body = 0.3, scenario(coin=draw_coin(rng)).body
+    angles = rng.uniform(0, 6), rng.uniform(0.4, 1.0), rng.uniform(0, 6)
+    y = on_floor(body, Motion.SLIDING, angles, rng.uniform(-10, 10, 3), [0.4, 0.1])
+    time, n = 0.01, 401
+    times = np.linspace(0, time, n)
+    states = np.empty((n, 13))
+    sample_contact(body, mu, Motion.SLIDING, y, 0.0, times, states)
+    v_A = np.array([velocity_of_lowest(body, s) for s in states])
+    slip = np.linalg.norm(v_A[:, :2], axis=1)
+    assert slip.min() > 0.05
+    N = body.mass * (np.gradient(states[:, 5], times, edge_order=2) + G)
+    power = -mu * N * slip
+    lost = energy_of(body, states[-1]) - energy_of(body, states[0])
+    assert lost == pytest.approx(np.trapezoid(power, times), rel=1e-5)
+    gained = body.mass * (states[-1][3:5] - states[0][3:5])
+    pushed = np.trapezoid(-mu * N[:, None] * v_A[:, :2] / slip[:, None], times, axis=0)
+    assert gained == pytest.approx(pushed, abs=1e-5 * np.linalg.norm(pushed))
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_slip_that_starts_keeps_the_direction_to_which_friction_turns_all_slip(seed):
+    """A slip too small to move the coin, in any direction, turns into the one of `slip_direction`."""
+    rng = np.random.default_rng([seed, 5])
+    A = rng.normal(size=(3, 3))
+    K = A @ A.T + 2 * np.eye(3)
+    b = np.array([*rng.normal(size=2) * 4, -rng.uniform(0.5, 2)])
+    mu = rng.uniform(0.05, 0.4)
+    rows = tuple(map(tuple, K))
+    if holds(mu, holding_force(rows, tuple(b))):
+        b[:2] *= 20
+    assert not holds(mu, holding_force(rows, tuple(b)))
+    s = np.array(slip_direction(rows, tuple(b), mu))
+
+    def rate(_, v):
+        direction = np.array([*(-mu * v / np.linalg.norm(v)), 1.0])
+        N = -b[2] / (K[2] @ direction)
+        return (b + N * K @ direction)[:2]
+
+    grown = rate(0, s)
+    assert np.cross([*s, 0], [*grown, 0])[2] == pytest.approx(0, abs=1e-12 * np.linalg.norm(b))
+    assert grown @ s > 0
+    for angle in np.linspace(0, 6, 5):
+        v = 1e-6 * np.array([np.cos(angle), np.sin(angle)])
+        end = solve_ivp(rate, (0, 0.1), v, method="LSODA", rtol=1e-9, atol=1e-12).y[:, -1]
+        assert end / np.linalg.norm(end) == pytest.approx(s, abs=1e-3)
+
+
+def test_friction_holds_just_within_the_cone():
+    body = scenario(coin=THIN).body
+    y = on_floor(body, Motion.STICKING, (0.0, 1.0, 0.0), (1.0, 2.0, 3.0))
+    F = floor_force(body, 0.0, Motion.STICKING, y)
+    needed = np.hypot(F[0], F[1]) / F[2]
+    assert 0.1 < needed < 2
+    assert next_motion(body, 1.001 * needed, Motion.FLIGHT, y.copy()) == Motion.STICKING
+    creeping = y.copy()
+    assert next_motion(body, 0.999 * needed, Motion.FLIGHT, creeping) == Motion.CREEPING
+    made, verdict = stay(body, 0.999 * needed, Motion.CREEPING, creeping, 1e-3)
+    assert (made, verdict) == (1e-3, Verdict.GOES_ON)
+    slip = velocity_of_lowest(body, creeping)
+    assert 0 < np.hypot(slip[0], slip[1])
+    assert slip[:2] @ F[:2] < 0, "slip starts against the force that would hold it"
+
+
+def test_slip_stops_where_friction_can_hold_it():
+    """A disk put down upright with a slip along its plane: μ m g stops the slip and lets it roll."""
+    mu, body = 0.2, scenario(coin=THIN).body
+    y = on_floor(body, Motion.SLIDING, (0.0, np.pi / 2, 0.0), (0.0, 0.0, 0.0), (0.3, 0.0))
+    _, time = follow_to_its_end(body, mu, Motion.SLIDING, y)
+    # v falls by μ g t, and ω r rises by 2 μ g t: the slip v - ω r ends after v/(3 μ g), up to creep.
+    assert time == pytest.approx(0.3 / (3 * mu * G), rel=2e-3)
+    assert next_motion(body, mu, Motion.SLIDING, y) == Motion.STICKING
+    assert y[3] == pytest.approx(0.2, rel=2e-3)
+    assert abs(y[12]) == pytest.approx(0.2 / R_COIN, rel=2e-3)
+    assert velocity_of_lowest(body, y) == pytest.approx(0, abs=1e-13)
+
+
+def test_a_coin_leaves_the_floor_when_it_would_have_to_be_held_back():
+    """It rises fast from a small tilt: the force falls to zero, and the gap opens from there."""
+    body = scenario(coin=THIN).body
+    y = on_floor(body, Motion.SLIDING, (0.0, 3.067, 2.019), (-100.5, 39.9, -9.4))
+    assert floor_force(body, 0.0, Motion.SLIDING, y)[2] > 0
+    verdict, _ = follow_to_its_end(body, 0.0, Motion.SLIDING, y)
+    assert verdict == Verdict.CHANGES
+    assert floor_force(body, 0.0, Motion.SLIDING, y)[2] == pytest.approx(0, abs=1e-9 * M * G)
+    assert next_motion(body, 0.0, Motion.SLIDING, y) == Motion.FLIGHT
+
+
+def test_a_coin_that_tips_over_its_edge_lands_on_the_other_rim():
+    body = scenario().body
+    y = on_floor(body, Motion.SLIDING, (0.0, 1.45, 0.0), (6.0, 0.0, 0.0))
+    verdict, _ = follow_to_its_end(body, 0.0, Motion.SLIDING, y)
+    assert verdict == Verdict.LANDS
+    assert 0 <= up_of(y)[2] < 1e-9
+    other = y.copy()
+    other[6:10] = quaternion_from_angles((0.0, np.pi / 2 + 1e-6, 0.0))
+    assert velocity_of_lowest(body, other)[2] < -1e-3, "the other rim comes down"
+
+
+def test_a_coin_that_falls_over_lands_on_its_face():
+    body = scenario(coin=THIN).body
+    y = on_floor(body, Motion.SLIDING, (0.0, 0.4, 0.0), (0.0, 0.0, 30.0))
+    y[10] = y[11] = 0.0
+    y[12] = 0.0
+    verdict, _ = follow_to_its_end(body, 0.0, Motion.SLIDING, y)
+    assert verdict == Verdict.LANDS
+    up = up_of(y)
+    assert np.hypot(up[0], up[1]) == pytest.approx(1e-7, rel=1e-3)
+
+
+@pytest.mark.parametrize(("spins", "steady"), [((0, 0), True), ((20, 5), True), ((60, 60), False)])
+def test_a_coin_stands_on_its_edge_while_it_does_not_turn_and_roll_too_fast(spins, steady):
+    """Turning about the vertical at Ω it takes the moment J_ζ ω_ζ Ω to roll: the edge has m g h/2."""
+    body = scenario().body
+    spin, roll = spins
+    y = on_floor(body, Motion.SLIDING, (0.0, np.pi / 2, 0.0), (0.0, spin, roll))
+    assert (body.inertia[2][2] * spin * roll < M * G * body.thickness / 2) == steady
+    assert stands(body, 0.0, Motion.SLIDING, y) == steady
+
+
+def test_air_slows_a_wobbling_coin():
+    body = scenario(coin=THIN, air=AIR).body
+    y = on_floor(body, Motion.SLIDING, (0.0, 1.0, 0.0), (3.0, 20.0, 3.0))
+    states, _ = follow(body, 0.0, Motion.SLIDING, y, 0.1)
+    energies = np.array([energy_of(body, s) for s in states])
+    assert np.all(np.diff(energies) < 0)
+
+
+def test_the_direction_of_no_slip_is_none():
+    assert direction_of((0.0, 0.0, 1.0), 0.3) == (0.0, 0.0)
+    assert direction_of((3.0, 4.0, 1.0), 0.0) == (0.0, 0.0)
+    assert direction_of((3.0, 4.0, 1.0), 0.3) == pytest.approx((0.6, 0.8))
