@@ -7,7 +7,7 @@ SCENARIOS := fig24a zloty
 
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
-.PHONY: report test test-all lint opengl clean
+.PHONY: report test test-all bench lint opengl clean
 
 report: $(READY) opengl
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
@@ -17,6 +17,10 @@ test: $(READY) opengl lint
 
 test-all: $(READY) opengl lint
 	$(BIN)/pytest -n 2 --dist loadfile -m "slow or not slow"
+
+# The tests there run the same tosses once; only here are they timed.
+bench: $(READY)
+	$(BIN)/pytest tests/benchmarks --benchmark-enable --benchmark-columns=min,median,rounds
 
 lint: $(READY)
 	$(BIN)/ruff check .

@@ -10,8 +10,9 @@ from models.vectors import Matrix, Vector
 class AirLaw(NamedTuple):
     """The air's resistance: the force on dA is -λ |v|^b v; see `models.scenario.Air`."""
 
-    exponent: float
-    """b, from 0 to 1."""
+    exponent: float | None
+    """b, above 0 to 1; None for b = 0. To numba None is a type of its own: it compiles linear air apart.
+    Beside the quadrature that b > 0 needs, linear air would not be inlined, and every toss in it slower."""
     normal: float
     """λ_n [kg m^(-2-b) s^(b-1)]."""
     tangential: float
@@ -33,7 +34,7 @@ class Body(NamedTuple):
     inertia_largest: float
     air: AirLaw
     drag: Drag
-    """Of linear air: of use where `air.exponent` is 0."""
+    """Of linear air: of use where `air.exponent` is None."""
     gravity: float
 
 

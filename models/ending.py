@@ -206,7 +206,7 @@ def _lies(body, rules, z, v, up, w):
     mu = rules.friction if rules.law == ContactLaw.COULOMB else 0.0
     if rules.law != ContactLaw.COULOMB and rules.law != ContactLaw.SMOOTH:
         return False
-    k, arm, turn_drag = drag_bound(body, v, w, 0.0)
+    k, arm, turn_drag = drag_bound(body, body.air.exponent, v, w, 0.0)
     drag = k * (norm(v) + arm * norm(w))
     slowing = (mu * weight * body.radius + turn_drag * abs(w[2]) + drag * arm) / J[2][2]
     moment = math.hypot(J[0][2], J[1][2]) * (w[2] * w[2] + slowing)

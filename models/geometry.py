@@ -76,7 +76,7 @@ def _spin_bound(body, w):
 
 
 @compiled
-def drag_bound(body, v, w, window):
+def drag_bound(body, b, v, w, window):
     """Bound the air's force and moment about C by k p and ℓ k p + d ω̃, with p = |v_C| + ω̃ ℓ, over a window.
 
     For b = 0 p bounds the speed of B: k and d are the largest coefficients, ℓ is B's distance from C.
@@ -86,6 +86,7 @@ def drag_bound(body, v, w, window):
 
     Args:
         body: the coin.
+        b: the exponent of its air; None for 0.
         v: velocity of C, (3,) [m/s].
         w: angular velocity, body frame, (3,) [rad/s].
         window: length of the time window [s].
@@ -94,7 +95,7 @@ def drag_bound(body, v, w, window):
         k [kg/s], ℓ [m], and d [kg m²/s].
     """
     air, drag, r, h = body.air, body.drag, body.radius, body.thickness
-    if air.exponent == 0:
+    if b is None:
         return (
             max(drag.force_tangential, drag.force_normal),
             norm(body.center),
@@ -104,7 +105,7 @@ def drag_bound(body, v, w, window):
     spin, ratio = _spin_bound(body, w), body.inertia_smallest / body.mass
     start = (dot(v, v) + ratio * spin * spin) ** 0.5
     fastest = (start + body.gravity * window) * (1 + arm * arm / ratio) ** 0.5
-    k = math.pi * r * (r + h) * (air.normal + 2 * air.tangential) * fastest**air.exponent
+    k = math.pi * r * (r + h) * (air.normal + 2 * air.tangential) * fastest**b
     return k, arm, 0.0
 
 
@@ -118,7 +119,7 @@ def damping_rate(body, v, w, window):
         w: angular velocity, body frame, (3,) [rad/s].
         window: length of the time window [s].
     """
-    k, arm, _ = drag_bound(body, v, w, window)
+    k, arm, _ = drag_bound(body, body.air.exponent, v, w, window)
     return k * (1 / body.mass + arm * arm / body.inertia_smallest)
 
 
@@ -157,7 +158,7 @@ def acceleration_bounds(body, v, up, w, window):
         window: length of the time window [s].
     """
     J, J_min = body.inertia, body.inertia_smallest
-    drag, arm, turn_drag = drag_bound(body, v, w, window)
+    drag, arm, turn_drag = drag_bound(body, body.air.exponent, v, w, window)
     spin = _spin_bound(body, w)
     speed = norm(v) + spin * arm
     if drag > 0:

@@ -265,7 +265,7 @@ class Scenario(_Part):
 
     @model_validator(mode="after")
     def _above_the_floor(self) -> Self:
-        numbers = np.hstack([np.ravel(part) for part in self.body])
+        numbers = np.hstack([np.ravel(part) for part in self.body if not isinstance(part, AirLaw)])
         if not np.all(np.isfinite(numbers)):
             raise FieldError(
                 "coin", self.coin, "a coin whose inertia, its inverse and drag are finite numbers"
@@ -305,7 +305,7 @@ class Scenario(_Part):
             inertia_inverse=_rows(np.linalg.inv(J)),
             inertia_smallest=float(moments[0]),
             inertia_largest=float(moments[-1]),
-            air=AirLaw(exponent=air.exponent, normal=air.normal, tangential=air.tangential),
+            air=AirLaw(exponent=air.exponent or None, normal=air.normal, tangential=air.tangential),
             drag=linear_drag(coin.radius, coin.thickness, air.normal, air.tangential),
             gravity=self.gravity,
         )

@@ -47,8 +47,13 @@ def _rotation(e: Any) -> list[list[Any]]:
 
 
 @cache
-def _integrator(with_floor: bool) -> Any:
-    """Compile the motion of (z, v, e, w) and, for each face, the event that its rim reaches the floor."""
+def integrator(number: Any, with_floor: bool) -> Any:
+    """Compile the motion of (z, v, e, w) and, for each face, the event that its rim reaches the floor.
+
+    Args:
+        number: type to compute with.
+        with_floor: whether the events are looked for; each ends the flight.
+    """
     z, *rest = hy.make_vars("z", "vx", "vy", "vz", "e0", "e1", "e2", "e3", "wx", "wy", "wz")
     v, e, w = rest[0:3], rest[3:7], rest[7:10]
     par = [hy.par[i] for i in range(_COUNT)]
@@ -78,14 +83,14 @@ def _integrator(with_floor: bool) -> Any:
         q = z - _dot(up, c) + side * par[_H] / 2 * up[2]
         rim = q * q - par[_R] * par[_R] * (up[0] * up[0] + up[1] * up[1])
         falling = hy.event_direction.negative
-        events.append(hy.t_event(rim, direction=falling, cooldown=Q(0), fp_type=Q))
+        events.append(hy.t_event(rim, direction=falling, cooldown=number(0), fp_type=number))
     system = list(zip([z, *v, *e, *w], rates, strict=True))
     return hy.taylor_adaptive(
         system,
-        [Q(0)] * 11,
-        pars=[Q(0)] * _COUNT,
+        [number(0)] * 11,
+        pars=[number(0)] * _COUNT,
         t_events=events if with_floor else [],
-        fp_type=Q,
+        fp_type=number,
         compact_mode=True,
     )
 
@@ -157,9 +162,9 @@ class Extended:
         Raises:
             RuntimeError: if the coin sinks into the floor, where a touch went unseen.
         """
-        free, coin = _integrator(False), _integrator(True)
-        for integrator in (free, coin):
-            integrator.pars[:] = self.parameters
+        free, coin = integrator(Q, False), integrator(Q, True)
+        for flight in (free, coin):
+            flight.pars[:] = self.parameters
         coin.state[:], coin.time = self.start, Q(0)
         while True:
             outcome = int(coin.step()[0])

@@ -2,7 +2,9 @@
 
 import math
 from itertools import pairwise
+from typing import Any, cast
 
+import numba
 import numpy as np
 import pytest
 from hypothesis import given
@@ -273,3 +275,16 @@ def test_vacuum_has_no_force_whatever_the_exponent():
     for b in (0.0, 0.5):
         f, m = force_and_moment(coin(b, ln=0.0, lt=0.0), (1.0, 2.0, 3.0), (4.0, 5.0, 6.0))
         assert np.all(np.array([*f, *m]) == 0)
+
+
+def test_linear_air_is_compiled_without_the_quadrature():
+    """Beside the quadrature the few lines of linear air are slower: their calls are no longer inlined."""
+    motion = ((0.3, -0.2, 0.1), (10.0, 20.0, 5.0))
+    code, function = {}, cast(Any, force_and_moment_change)
+    for b in (0.0, 0.5):
+        # Machine code from the disk can't be inspected.
+        fresh: Any = numba.njit(function.py_func)
+        fresh(coin(b), *motion, *motion)
+        code[b] = fresh.inspect_llvm(fresh.signatures[0])
+    assert "wall_friction" in code[0.5]
+    assert "wall_friction" not in code[0.0]

@@ -1,0 +1,64 @@
+"""The engine's mechanics of one coin, compiled as functions of its state alone.
+
+The other integrators call these: what is compared is how they fly and find the touch. A call from Python
+costs little so, as the whole body need not be passed.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numba
+import numpy as np
+
+from analytic.events import decided, hit
+from analytic.flight import STATE_SIZE, derivative
+from analytic.rim import closing_speed
+from models.records import IMPACT_ROW, Array, Ending
+from models.scenario import Scenario
+
+
+class OneCoin(NamedTuple):
+    """The mechanics of a scenario's coin; a state y is that of `analytic.flight`, (13,)."""
+
+    rate: Callable[[float, Array], Array]
+    """Of (t, y): the rate of change of y in flight."""
+    gap: Callable[[float, Array], float]
+    """Of (t, y): height of the lowest point [m]."""
+    gaps: Callable[[Array], Array]
+    """Of many states, (n, 13): their gaps, (n,) [m]."""
+    strike: Callable[[Array], tuple[int, bool]]
+    """Of y at a touch, which becomes the state after the impact: the face up, and whether the toss ends."""
+
+
+def mechanics(scenario: Scenario) -> OneCoin:
+    """Compile the mechanics of a scenario's coin."""
+    body, rules = scenario.body, scenario.rules
+    compiled = numba.njit(error_model="numpy")
+
+    @compiled
+    def rate(_, y):
+        dy = np.empty(STATE_SIZE)
+        derivative(body, y, dy)
+        return dy
+
+    @compiled
+    def gap(_, y):
+        return closing_speed(body, y)[0]
+
+    @compiled
+    def gaps(states):
+        heights = np.empty(len(states))
+        for i in range(len(states)):
+            heights[i] = closing_speed(body, states[i])[0]
+        return heights
+
+    @compiled
+    def strike(y):
+        row = np.zeros(1, dtype=IMPACT_ROW)
+        ending = hit(body, rules, y, row[0])
+        y[2] -= min(closing_speed(body, y)[0], 0.0)
+        if ending == Ending.NONE:
+            _, ending = decided(body, rules, y)
+        return row[0].face, ending != Ending.NONE
+
+    return OneCoin(rate, gap, gaps, strike)

@@ -1,0 +1,69 @@
+"""One toss, from release to its ending, by the engine and by two integrators of general use.
+
+`make bench` times them, warm, and prints the ratios in brackets; `make test` runs each once, to see that all
+of them still make the same toss.
+"""
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+import analytic
+from analytic.events import run
+from analytic.toss import state_of
+from models.reading import load
+from tests.benchmarks import scipy_toss
+from tests.benchmarks.one_coin import mechanics
+
+FIG24A = load("fig24a")
+COIN = mechanics(FIG24A)
+
+Answer = tuple[list[float], list[int]]
+"""Times of the impacts [s] and the faces that are up at them."""
+
+
+def by_the_engine() -> Answer:
+    """The whole answer, horizon of trust and all."""
+    impacts = analytic.toss(FIG24A).impacts
+    return impacts.time.tolist(), impacts.face.tolist()
+
+
+def by_its_event_loop() -> Answer:
+    rows = run(FIG24A.body, FIG24A.rules, state_of(FIG24A.release)).rows
+    return rows["time"].tolist(), rows["face"].tolist()
+
+
+def by_scipy() -> Answer:
+    return scipy_toss.toss(FIG24A, COIN)
+
+
+@cache
+def numbers_for_heyoka() -> Any:
+    pytest.importorskip("heyoka", reason="heyoka has wheels for Linux on x86-64 only")
+    from tests.extended import Extended
+
+    return Extended(FIG24A)
+
+
+def by_heyoka() -> Answer:
+    numbers = numbers_for_heyoka()
+    from tests.benchmarks import heyoka_toss
+
+    return heyoka_toss.toss(numbers, COIN, FIG24A.ending.max_time)
+
+
+@pytest.mark.parametrize("toss", [by_the_engine, by_its_event_loop, by_scipy, by_heyoka])
+def test_fig24a(benchmark, toss: Callable[[], Answer]):
+    """Past the horizon nothing need agree but that the toss ends."""
+    reference = analytic.toss(FIG24A)
+    trusted = reference.trusted_impacts
+    times, faces = toss()
+    assert trusted >= 5
+    assert len(times) > trusted
+    # The impacts have multiplied what rounding and tolerance differ by; any other error would be far larger.
+    assert np.abs(np.array(times[:trusted]) - reference.impacts.time[:trusted]).max() < 1e-9
+    assert faces[:trusted] == reference.impacts.face[:trusted].tolist()
+    benchmark(toss)
