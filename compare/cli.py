@@ -152,7 +152,7 @@ def compare(scenario: str, out: Path) -> None:
 
         from compare.report.folder import write_report
 
-        page = write_report(described, text, Path(scenario).stem, out, problem, _progress("video"))
+        page = write_report(described, text, Path(scenario).stem, out, problem, _progress("video", "frames"))
         click.echo(page)
 
 
@@ -179,15 +179,54 @@ def video(scenario: str, out: Path) -> None:
 
         result = coin_mj.toss(described)
         with written_whole(out) as aside:
-            write_video(result, aside, _progress("video"))
+            write_video(result, aside, _progress("video", "frames"))
         click.echo(out)
 
 
-def _progress(what: str) -> Callable[[int, int], None]:
-    """Give a function that shows on the terminal how far a job is."""
+@main.command()
+@click.argument("names", nargs=-1, metavar="[NAME ...]")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    help="Folder for the results; made if missing. NAME lies in NAME/.",
+)
+@click.pass_context
+def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None) -> None:
+    """Compute figures and studies anew, write their data and pictures, and check what they claim.
+
+    Without NAME, list what can be reproduced. Exit status 1: a claim does not hold.
+    """
+    from compare import reproduction
+
+    known = reproduction.names()
+    for name in names:
+        if name not in known:
+            ctx.fail(f"{name}: no such figure; accepted: {', '.join(known)}")
+    if not names and out is None:
+        for name in known:
+            figure = reproduction.find(name)
+            click.echo(f"{name:16}{figure.title} ({figure.seconds:g} s)")
+        return
+    if not names or out is None:
+        ctx.fail(f"accepted: NAME ... --out DIR, NAME one of: {', '.join(known)}; or neither, for a list")
+    with _plain_errors(str(out)):
+        for name in names:
+            reproduction.folder_of(name, out)
+        failed = []
+        for name in names:
+            made = reproduction.reproduce(name, out, _progress(name, "parts"))
+            click.echo(made.text)
+            failed += [f"{name}: {claim}" for claim in made.failed]
+    for claim in failed:
+        click.echo(f"cointoss: {claim}: not so", err=True)
+    sys.exit(1 if failed else 0)
+
+
+def _progress(what: str, parts: str) -> Callable[[int, int], None]:
+    """Give a function that shows on the terminal how far a job is, in its `parts`."""
 
     def show(done: int, count: int) -> None:
         if sys.stderr.isatty():
-            click.echo(f"\r{what}: {done}/{count} frames", err=True, nl=done == count)
+            click.echo(f"\r{what}: {done}/{count} {parts}", err=True, nl=done == count)
 
     return show

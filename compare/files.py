@@ -37,12 +37,35 @@ def require_file(path: Path, suffix: str, source: str) -> None:
             pass
 
 
-def require_replaceable(path: Path, source: str) -> None:
+def require_folder(folder: Path, names: tuple[str, ...], source: str | None = None) -> list[Path]:
+    """Check that files written to a folder would replace nothing but files.
+
+    Args:
+        folder: it need not exist.
+        names: of the files.
+        source: the scenario, if there is one, which must be another file.
+
+    Returns:
+        Those of the files that exist.
+
+    Raises:
+        UnwritableError: naming the folder or the file in the way, and why.
+    """
+    with _naming(folder):
+        if os.path.lexists(folder) and not folder.is_dir():
+            raise UnwritableError(f"{folder}: accepted: a folder (this is none)")
+        in_the_way = [folder / name for name in names if os.path.lexists(folder / name)]
+        for path in in_the_way:
+            require_replaceable(path, source)
+    return in_the_way
+
+
+def require_replaceable(path: Path, source: str | None = None) -> None:
     """Check that what is at `path` is a file that may be replaced.
 
     Args:
         path: of what exists.
-        source: the scenario, which must be another file.
+        source: the scenario, if there is one, which must be another file.
 
     Raises:
         UnwritableError: naming the file and why.
@@ -55,7 +78,7 @@ def require_replaceable(path: Path, source: str) -> None:
         raise UnwritableError(
             f"{path}: accepted: a new name or a file that can be written (this is read-only)"
         )
-    if Path(source).exists() and path.samefile(source):
+    if source is not None and Path(source).exists() and path.samefile(source):
         raise UnwritableError(f"{path}: accepted: another file than the scenario itself")
 
 

@@ -199,6 +199,22 @@ class Flag(StrEnum):
 _BEYOND_ROUNDING = 1e-9
 
 
+def raised_flags(impacts: Impacts, friction: float | Array) -> dict[Flag, NDArray[np.bool_]]:
+    """Tell for each flag which impacts raise it, (n,).
+
+    Args:
+        impacts: of any coins.
+        friction: μ of the floor, one number or (n,).
+    """
+    S = impacts.impulse
+    size = np.linalg.norm(S, axis=1)
+    return {
+        Flag.GAINS_ENERGY: impacts.energy_change > _BEYOND_ROUNDING * np.abs(impacts.energy),
+        Flag.PULLS: S[:, 2] < -_BEYOND_ROUNDING * size,
+        Flag.LEAVES_CONE: np.hypot(S[:, 0], S[:, 1]) - friction * S[:, 2] > _BEYOND_ROUNDING * size,
+    }
+
+
 class Path(Protocol):
     """A coin's motion that can be asked for its state at any time of the toss."""
 
@@ -249,15 +265,8 @@ class Toss:
     @property
     def flags(self) -> tuple[frozenset[Flag], ...]:
         """What each impact does that no passive floor could do."""
-        impacts, mu = self.impacts, self.scenario.floor.friction
-        S = impacts.impulse
-        size = np.linalg.norm(S, axis=1)
-        raised = {
-            Flag.GAINS_ENERGY: impacts.energy_change > _BEYOND_ROUNDING * np.abs(impacts.energy),
-            Flag.PULLS: S[:, 2] < -_BEYOND_ROUNDING * size,
-            Flag.LEAVES_CONE: np.hypot(S[:, 0], S[:, 1]) - mu * S[:, 2] > _BEYOND_ROUNDING * size,
-        }
-        return tuple(frozenset(flag for flag in Flag if raised[flag][i]) for i in range(len(impacts)))
+        raised = raised_flags(self.impacts, self.scenario.floor.friction)
+        return tuple(frozenset(flag for flag in Flag if raised[flag][i]) for i in range(len(self.impacts)))
 
     def sample(self, times: ArrayLike) -> States:
         """Give the coin's states at `times`.

@@ -1,10 +1,10 @@
 """The files of a report's folder, and whether a folder may take them."""
 
 import json
-import os
 from pathlib import Path
 
-from compare.files import UnwritableError, require_replaceable
+from compare import files
+from compare.files import UnwritableError
 
 FILES = ("report.html", "toss.mp4", "numbers.json", "path-analytic.csv", "path-mujoco.csv")
 
@@ -19,11 +19,7 @@ def require_folder(folder: Path, source: str) -> None:
     Raises:
         UnwritableError: naming the folder, the file in the way, and why.
     """
-    if os.path.lexists(folder) and not folder.is_dir():
-        raise UnwritableError(f"{folder}: accepted: a folder (this is none)")
-    in_the_way = [folder / name for name in FILES if os.path.lexists(folder / name)]
-    for path in in_the_way:
-        require_replaceable(path, source)
+    in_the_way = files.require_folder(folder, FILES, source)
     if in_the_way and not _is_of_a_report(folder / "numbers.json"):
         raise UnwritableError(
             f"{folder}: {in_the_way[0].name} is in the way, and is no report's; "

@@ -1,7 +1,6 @@
 """The report's figures, as SVG to stand in the page."""
 
 import io
-from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -10,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
 from compare.comparison import PARTED, Comparison
+from compare.plot_style import STYLE
 from compare.trajectories import tilt
 from models.ending import barrier
 from models.records import Array, States, Toss
@@ -19,20 +19,6 @@ COLORS = {"analytic": "#0072B2", "mujoco": "#D55E00"}
 LABELS = {"analytic": "paper's mechanics", "mujoco": "MuJoCo"}
 STYLES = {"analytic": "-", "mujoco": "--"}
 POINTS = 3000
-_STYLE: Any = {
-    "font.size": 9.5,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.color": "#d9dee5",
-    "grid.linewidth": 0.6,
-    "axes.edgecolor": "#5b6675",
-    "lines.linewidth": 1.4,
-    "legend.frameon": False,
-    "svg.fonttype": "path",
-    "svg.hashsalt": "cointoss",
-    "figure.constrained_layout.use": True,
-}
 
 
 def _svg(figure: Figure) -> str:
@@ -79,7 +65,7 @@ def draw(tosses: list[Toss], comparison: Comparison | None) -> dict[str, str]:
         SVG texts by the names the page knows them by.
     """
     sampled = [(toss, sample_evenly(toss)) for toss in tosses]
-    with mpl.rc_context(_STYLE):
+    with mpl.rc_context(STYLE):
         figures = {
             "path": _path(sampled),
             "height": _height(sampled),

@@ -1,0 +1,78 @@
+"""The figures and studies that can be reproduced, each a module of `compare.figures` named as it is."""
+
+import importlib
+import pkgutil
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from compare import figures
+from compare.files import require_folder, written_together
+
+Progress = Callable[[int, int], None]
+"""Called after each part of a job with their number so far and in all."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Made:
+    """What a run gave, beside its files."""
+
+    text: str
+    """The results, to be printed."""
+    failed: tuple[str, ...]
+    """The claims of the figure that its numbers don't bear out."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Figure:
+    """A figure or a study that can be reproduced."""
+
+    title: str
+    """What it shows, in a few words."""
+    seconds: float
+    """Roughly how long it takes on two cores [s]."""
+    files: tuple[str, ...]
+    """Names of the files it writes."""
+    run: Callable[[Path, Progress], Made]
+    """Compute it, write its files into a folder that exists, and check its claims."""
+
+
+def names() -> list[str]:
+    """Give the names of all that can be reproduced; no figure's module is imported."""
+    return sorted(module.name.replace("_", "-") for module in pkgutil.iter_modules(figures.__path__))
+
+
+def find(name: str) -> Figure:
+    """Give a figure by its name, one of `names`."""
+    return importlib.import_module(f"{figures.__name__}.{name.replace('-', '_')}").FIGURE
+
+
+def folder_of(name: str, out: Path) -> Path:
+    """Give the folder of a figure's files, and check that they would replace nothing but files.
+
+    Args:
+        name: of the figure.
+        out: folder of all figures; it need not exist.
+
+    Raises:
+        UnwritableError: naming what is in the way.
+    """
+    require_folder(out, ())
+    require_folder(out / name, find(name).files)
+    return out / name
+
+
+def reproduce(name: str, out: Path, progress: Progress) -> Made:
+    """Compute a figure and write its files into the folder `out`/`name`, all of them or none.
+
+    Args:
+        name: of the figure, one of `names`.
+        out: folder of all figures, made if missing.
+        progress: called as the work goes on.
+
+    Raises:
+        UnwritableError: naming the folder and why.
+    """
+    figure = find(name)
+    with written_together(folder_of(name, out), figure.files) as aside:
+        return figure.run(aside, progress)
