@@ -50,7 +50,8 @@ def uncertainty_exponent(
     out.
 
     ε must be small against the stripes: beyond, f levels off, and a smooth boundary too has a slope below 1.
-    `local` then rises towards 1 with falling ε; for a fractal boundary it stays.
+    `local` then rises towards 1 with falling ε; for a fractal boundary it stays. Stripes narrower than a
+    pixel give a slope near 0 whatever the boundary is: only a finer map tells these apart.
 
     The interval is a jackknife's: the map is cut into `BANDS` parallel bands, the slope is taken without each
     in turn, and Student's t gives the half width. What spans the map in some direction makes only the bands

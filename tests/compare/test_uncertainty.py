@@ -56,6 +56,13 @@ def test_stripes_narrower_than_epsilon_feign_a_fractal_and_the_local_slopes_tell
     assert (np.diff(found.local) < 0).all()
 
 
+def test_stripes_narrower_than_a_pixel_give_alpha_0_until_the_map_is_finer():
+    coarse = exponent(hyperbolas(np.linspace(1000, 9000, 1000), np.linspace(1, 3, 100)), [1, 2, 4])
+    finer = exponent(hyperbolas(np.linspace(1000, 1008, 1000), np.linspace(1, 3, 100)), [1, 2, 4])
+    assert coarse.alpha == pytest.approx(0, abs=0.05)
+    assert finer.alpha == pytest.approx(1, abs=0.01)
+
+
 def test_the_cantor_set_has_alpha_1_minus_its_dimension():
     # The colours of the gaps repeat every second level, and f with them: ε runs over powers of 9.
     found = exponent(cantor(13)[None], [9, 81, 729, 6561])
