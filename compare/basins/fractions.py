@@ -1,0 +1,21 @@
+"""How much of a map each outcome fills."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from compare.basins.maps import outcome_codes
+from models.records import Outcome
+
+
+def fractions(outcomes: ArrayLike) -> dict[Outcome, float]:
+    """Give the share of the pixels that each outcome fills; with that of the undecided they sum to 1.
+
+    Were all pixels decided, the share of an outcome would lie between its share here and that plus the share
+    of the undecided.
+
+    Args:
+        outcomes: of a map or of a line.
+    """
+    codes = outcome_codes(outcomes)
+    counts = np.bincount(codes.ravel(), minlength=len(Outcome))
+    return {outcome: float(counts[outcome] / codes.size) for outcome in Outcome}

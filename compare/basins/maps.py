@@ -1,0 +1,38 @@
+"""Check that an array is an outcome map."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from models.records import Outcome
+
+Outcomes = NDArray[np.int8]
+"""Codes of `Outcome`."""
+
+
+def outcome_map(outcomes: ArrayLike) -> Outcomes:
+    """Give an array as an outcome map, (y, x).
+
+    Raises:
+        ValueError: as `outcome_codes`, and unless it has two dimensions.
+    """
+    codes = outcome_codes(outcomes)
+    if codes.ndim != 2:
+        raise ValueError(f"outcomes: shape {codes.shape}, accepted: (y, x)")
+    return codes
+
+
+def outcome_codes(outcomes: ArrayLike) -> Outcomes:
+    """Give an array as outcomes, in any shape.
+
+    Raises:
+        ValueError: for an empty array, and for anything but whole numbers that are codes of `Outcome`.
+    """
+    codes = np.asarray(outcomes)
+    if codes.size == 0:
+        raise ValueError(f"outcomes: shape {codes.shape}, accepted: at least one outcome")
+    if not np.issubdtype(codes.dtype, np.integer):
+        raise ValueError(f"outcomes: of type {codes.dtype}, accepted: whole numbers, the codes of Outcome")
+    for code in (codes.min(), codes.max()):
+        if not min(Outcome) <= code <= max(Outcome):
+            raise ValueError(f"outcomes: {code} is no outcome, accepted: {min(Outcome)} to {max(Outcome)}")
+    return codes.astype(np.int8, copy=False)

@@ -1,0 +1,211 @@
+"""Pictures of outcome maps."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from numpy.typing import ArrayLike, NDArray
+
+from compare.basins.boundary import boundary_pixels
+from compare.basins.maps import Outcomes, outcome_map
+from compare.files import written_whole
+from models.records import Outcome
+
+PANEL_SIZE = (5.0, 4.5)
+"""Of one map, width and height [inches]."""
+DPI = 150
+_ENTRY_WIDTH = 1.2  # of the legend [inches]
+_INK = "#5b6675"
+_SAME, _DIFFERENT = "#e6e9ed", "#D55E00"
+
+
+class Palette(StrEnum):
+    """Colours of the outcomes."""
+
+    PAPER = "paper"
+    """Heads black and tails white, as in Figs 29 to 31."""
+    SAFE = "safe"
+    """Blue and orange, with others told apart by the colour-blind."""
+
+
+# Okabe and Ito's colours; undecided is a hue in print, since fine stripes of black and white make every grey.
+_COLORS = {
+    Palette.PAPER: {
+        Outcome.UNDECIDED: "#CC79A7",
+        Outcome.HEADS: "#000000",
+        Outcome.TAILS: "#FFFFFF",
+        Outcome.EDGE: "#009E73",
+        Outcome.PERPETUAL: "#56B4E9",
+    },
+    Palette.SAFE: {
+        Outcome.UNDECIDED: "#FFFFFF",
+        Outcome.HEADS: "#0072B2",
+        Outcome.TAILS: "#E69F00",
+        Outcome.EDGE: "#009E73",
+        Outcome.PERPETUAL: "#CC79A7",
+    },
+}
+_BOUNDARY = {Palette.PAPER: "#D55E00", Palette.SAFE: "#000000"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Axis:
+    """What a map's columns, or rows, stand for; they are evenly spaced."""
+
+    name: str
+    unit: str
+    start: float
+    """At the first pixel's centre."""
+    stop: float
+    """At the last pixel's centre."""
+
+
+def draw_map(
+    outcomes: ArrayLike,
+    *,
+    x: Axis,
+    y: Axis,
+    palette: Palette = Palette.PAPER,
+    boundaries: bool = False,
+    size: tuple[float, float] = PANEL_SIZE,
+) -> Figure:
+    """Draw a map.
+
+    Args:
+        outcomes: the map, (y, x).
+        x: of the columns.
+        y: of the rows.
+        palette: the outcomes' colours.
+        boundaries: whether pixels at a boundary are coloured as such.
+        size: width and height [inches].
+    """
+    codes = outcome_map(outcomes)
+    figure = Figure(figsize=size, layout="constrained")
+    axes = figure.add_subplot()
+    _show(axes, _colored(codes, palette, boundaries), x, y)
+    axes.set_ylabel(_label(y))
+    _legend(figure, _outcome_patches([codes], palette, boundaries))
+    return figure
+
+
+def draw_comparison(
+    analytic: ArrayLike,
+    mujoco: ArrayLike,
+    *,
+    x: Axis,
+    y: Axis,
+    palette: Palette = Palette.PAPER,
+    boundaries: bool = False,
+    size: tuple[float, float] = (3 * PANEL_SIZE[0], PANEL_SIZE[1]),
+) -> Figure:
+    """Draw the maps of both engines and where they differ, side by side.
+
+    Args:
+        analytic: the map by the paper's mechanics, (y, x).
+        mujoco: the map by MuJoCo on the same grid, (y, x).
+        x: of the columns.
+        y: of the rows.
+        palette: the outcomes' colours.
+        boundaries: whether pixels at a boundary are coloured as such.
+        size: width and height of the whole [inches].
+
+    Raises:
+        ValueError: for maps of two shapes.
+    """
+    a, b = outcome_map(analytic), outcome_map(mujoco)
+    if a.shape != b.shape:
+        raise ValueError(f"mujoco: shape {b.shape}, accepted: that of analytic, {a.shape}")
+    figure = Figure(figsize=size, layout="constrained")
+    panels = figure.subplots(1, 3, sharex=True, sharey=True)
+    decided = (a != Outcome.UNDECIDED) & (b != Outcome.UNDECIDED)
+    different = decided & (a != b)
+    difference = np.where(different[..., None], _rgb(_DIFFERENT), _rgb(_SAME))
+    difference[~decided] = _rgb(_COLORS[palette][Outcome.UNDECIDED])
+    for axes, title, colors in zip(
+        panels,
+        ("paper's mechanics", "MuJoCo", _difference_title(different, decided)),
+        (_colored(a, palette, boundaries), _colored(b, palette, boundaries), difference),
+        strict=True,
+    ):
+        _show(axes, colors, x, y)
+        axes.set_title(title)
+    panels[0].set_ylabel(_label(y))
+    patches = [_patch(_SAME, "both alike"), _patch(_DIFFERENT, "different")]
+    _legend(figure, [*_outcome_patches([a, b], palette, boundaries), *patches])
+    return figure
+
+
+def write_png(figure: Figure, path: Path, *, dpi: float = DPI) -> None:
+    """Write a figure as PNG, whole or not at all.
+
+    Args:
+        figure: what to write.
+        path: where.
+        dpi: pixels per inch.
+
+    Raises:
+        UnwritableError: naming the file and why.
+    """
+    with written_whole(path) as aside:
+        figure.savefig(aside, format="png", dpi=dpi)
+
+
+def _difference_title(different: NDArray[np.bool_], decided: NDArray[np.bool_]) -> str:
+    if not decided.any():
+        return "difference: no pixel decided by both"
+    return f"different: {100 * different.sum() / decided.sum():.3g} % of the pixels both decide"
+
+
+def _colored(codes: Outcomes, palette: Palette, boundaries: bool) -> NDArray[np.uint8]:
+    """Give each pixel's colour, (y, x, 3)."""
+    colors = np.array([_rgb(_COLORS[palette][outcome]) for outcome in Outcome])[codes]
+    if boundaries:
+        colors[boundary_pixels(codes)] = _rgb(_BOUNDARY[palette])
+    return colors
+
+
+def _rgb(color: str) -> NDArray[np.uint8]:
+    return np.round(255 * np.array(to_rgb(color))).astype(np.uint8)
+
+
+def _show(axes: Axes, colors: NDArray[np.uint8], x: Axis, y: Axis) -> None:
+    ny, nx = colors.shape[:2]
+    # Where several pixels share a dot, their colours are mixed: dropping some would make patterns.
+    axes.imshow(
+        colors, origin="lower", aspect="auto", extent=(*_ends(x, nx), *_ends(y, ny)), interpolation="auto"
+    )
+    axes.set_xlabel(_label(x))
+    axes.tick_params(color=_INK)
+    axes.spines[:].set_color(_INK)
+
+
+def _ends(axis: Axis, n: int) -> tuple[float, float]:
+    """Give the outer edges of the first and the last of n pixels."""
+    half = (axis.stop - axis.start) / (n - 1) / 2 if n > 1 else 0.5
+    return axis.start - half, axis.stop + half
+
+
+def _label(axis: Axis) -> str:
+    return f"{axis.name} [{axis.unit}]" if axis.unit else axis.name
+
+
+def _outcome_patches(maps: list[Outcomes], palette: Palette, boundaries: bool) -> list[Patch]:
+    present = [outcome for outcome in Outcome if any((codes == outcome).any() for codes in maps)]
+    present.sort(key=lambda outcome: outcome is Outcome.UNDECIDED)
+    patches = [_patch(_COLORS[palette][outcome], outcome.label) for outcome in present]
+    return [*patches, *([_patch(_BOUNDARY[palette], "boundary")] if boundaries else [])]
+
+
+def _patch(color: str, label: str) -> Patch:
+    return Patch(facecolor=color, edgecolor=_INK, linewidth=0.6, label=label)
+
+
+def _legend(figure: Figure, patches: list[Patch]) -> None:
+    room = max(1, int(figure.get_figwidth() / _ENTRY_WIDTH))
+    rows = -(-len(patches) // room)
+    figure.legend(handles=patches, loc="outside lower center", ncols=-(-len(patches) // rows), frameon=False)

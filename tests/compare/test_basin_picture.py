@@ -1,0 +1,134 @@
+"""Pictures of outcome maps: the right colour at the right place, named axes, and a file that is whole."""
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from PIL import Image
+
+from compare.basins.picture import Axis, Palette, draw_comparison, draw_map, write_png
+from compare.files import UnwritableError
+from models.records import Outcome
+from tests.made_maps import EDGE, HEADS, TAILS, UNDECIDED, halves, stripes
+
+X = Axis(name="release.angular_velocity.eta", unit="rad/s", start=20.0, stop=60.0)
+Y = Axis(name="floor.restitution", unit="", start=0.5, stop=0.9)
+BLACK, WHITE, VERMILION = (0, 0, 0), (255, 255, 255), (213, 94, 0)
+
+
+def drawn(figure, panel=0):
+    """Give a function that tells the colour drawn at a point of a panel."""
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    image = np.asarray(canvas.buffer_rgba())[::-1, :, :3]
+
+    def color(x, y):
+        column, row = figure.axes[panel].transData.transform((x, y))
+        return tuple(image[int(row), int(column)].tolist())
+
+    return color
+
+
+def legend(figure):
+    return [text.get_text() for text in figure.legends[0].get_texts()]
+
+
+def test_each_pixel_is_drawn_around_its_coordinates():
+    # Spaced by 10 in x and 0.2 in y; row 0 is the lowest.
+    outcomes = [[1, 1, 2, 2, 2], [1, 2, 2, 2, 1], [2, 2, 2, 2, 2]]
+    color = drawn(draw_map(outcomes, x=X, y=Y))
+    for row, y in enumerate([0.5, 0.7, 0.9]):
+        for column, x in enumerate([20, 30, 40, 50, 60]):
+            expected = BLACK if outcomes[row][column] == HEADS else WHITE
+            for dx, dy in ((0, 0), (-4.5, -0.09), (4.5, 0.09)):
+                assert color(x + dx, y + dy) == expected
+
+
+def test_an_axis_that_falls_keeps_pixel_and_coordinate_together():
+    falling = Axis(name=X.name, unit=X.unit, start=60.0, stop=20.0)
+    color = drawn(draw_map(halves(2, 4), x=falling, y=Y))
+    assert (color(60, 0.5), color(20, 0.5)) == (BLACK, WHITE)
+
+
+def test_axes_are_named_with_their_units_and_the_legend_names_what_is_there():
+    figure = draw_map([[1, 2, 0], [1, 1, 3]], x=X, y=Y)
+    axes = figure.axes[0]
+    assert axes.get_xlabel() == "release.angular_velocity.eta [rad/s]"
+    assert axes.get_ylabel() == "floor.restitution"
+    assert legend(figure) == ["heads", "tails", "edge", "undecided"]
+    assert legend(draw_map(halves(2, 4), x=X, y=Y, boundaries=True)) == ["heads", "tails", "boundary"]
+
+
+@pytest.mark.parametrize("palette", Palette)
+def test_a_palette_has_a_colour_for_every_outcome(palette):
+    color = drawn(draw_map(np.arange(5)[None], x=X, y=Y, palette=palette, boundaries=False))
+    assert len({color(x, 0.5) for x in (20, 30, 40, 50, 60)}) == len(Outcome)
+
+
+@pytest.mark.parametrize("palette", Palette)
+@pytest.mark.parametrize("width", [3.0, 5.0])
+def test_the_legend_stays_in_the_picture(palette, width):
+    figure = draw_map(np.arange(5)[None], x=X, y=Y, palette=palette, boundaries=True, size=(width, 4.0))
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    box = figure.legends[0].get_window_extent()
+    assert 0 <= box.x0 < box.x1 <= figure.bbox.width
+
+
+def test_boundary_pixels_are_coloured_where_asked():
+    plain, marked = (drawn(draw_map(halves(2, 5), x=X, y=Y, boundaries=on)) for on in (False, True))
+    assert [plain(x, 0.5) for x in (20, 30, 40, 50)] == [BLACK, BLACK, WHITE, WHITE]
+    assert [marked(x, 0.5) for x in (20, 30, 40, 50)] == [BLACK, VERMILION, VERMILION, WHITE]
+
+
+def test_stripes_finer_than_a_dot_are_mixed():
+    color = drawn(draw_map(stripes(1000, 1601, 1), x=X, y=Y))
+    seen = np.array([color(x, y) for x in np.linspace(22, 58, 40) for y in (0.55, 0.85)], dtype=float)
+    # Half of 255, and rounding.
+    assert np.abs(seen - 127.5).max() <= 2
+
+
+def test_a_comparison_shows_both_maps_and_where_they_differ():
+    a = np.array([[HEADS, HEADS, TAILS, TAILS, UNDECIDED]] * 2, dtype=np.int8)
+    b = np.array([[HEADS, TAILS, TAILS, EDGE, HEADS]] * 2, dtype=np.int8)
+    figure = draw_comparison(a, b, x=X, y=Y)
+    titles = [axes.get_title() for axes in figure.axes]
+    assert titles == ["paper's mechanics", "MuJoCo", "different: 50 % of the pixels both decide"]
+    left, middle, right = (drawn(figure, panel) for panel in range(3))
+    assert [left(x, 0.6) for x in (20, 30, 40, 50)] == [BLACK, BLACK, WHITE, WHITE]
+    assert [middle(x, 0.6) for x in (20, 30, 40, 60)] == [BLACK, WHITE, WHITE, BLACK]
+    assert right(30, 0.6) == right(50, 0.6) == VERMILION
+    assert right(20, 0.6) == right(40, 0.6) not in {VERMILION, BLACK, WHITE}
+    assert right(60, 0.6) == left(60, 0.6)
+    assert legend(figure) == ["heads", "tails", "edge", "undecided", "both alike", "different"]
+
+
+def test_a_comparison_of_nothing_says_so():
+    figure = draw_comparison(np.zeros((2, 3), int), halves(2, 3), x=X, y=Y)
+    assert figure.axes[2].get_title() == "difference: no pixel decided by both"
+    with pytest.raises(ValueError, match="that of analytic"):
+        draw_comparison(halves(2, 4), halves(4, 2), x=X, y=Y)
+
+
+def test_a_png_has_the_size_asked_for_and_replaces_whole(tmp_path):
+    target = tmp_path / "map.png"
+    target.write_bytes(b"old")
+    figure = draw_map(halves(4, 6), x=X, y=Y, size=(4.0, 3.0))
+    write_png(figure, target, dpi=50)
+    with Image.open(target) as image:
+        assert (image.format, image.size) == ("PNG", (200, 150))
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_a_png_that_cannot_be_written_leaves_nothing(tmp_path, monkeypatch):
+    figure = draw_map(halves(4, 6), x=X, y=Y)
+    with pytest.raises(UnwritableError, match="missing"):
+        write_png(figure, tmp_path / "missing" / "map.png")
+
+    def full(path, **_):
+        path.write_bytes(b"half")
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(figure, "savefig", full)
+    with pytest.raises(UnwritableError, match="No space left"):
+        write_png(figure, tmp_path / "map.png")
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,155 @@
+"""The uncertainty exponent, and how often its interval holds it, on made maps."""
+
+from typing import Literal
+
+import numpy as np
+import pytest
+
+from compare.basins.uncertainty import uncertainty_exponent
+from tests.made_maps import (
+    UNDECIDED,
+    cantor,
+    gaussian_faces,
+    halves,
+    hyperbolas,
+    stripes,
+    uncertain_fraction,
+)
+
+
+def exponent(outcomes, epsilons, along: Literal["x", "y"] = "x", **options):
+    found = uncertainty_exponent(outcomes, along=along, epsilons=epsilons, **options)
+    assert found is not None
+    return found
+
+
+def test_stripes_have_as_many_uncertain_pixels_as_lie_within_epsilon_of_a_boundary():
+    found = exponent(stripes(16, 1000, 100), [1, 2, 4, 8])
+    epsilon = np.array([1, 2, 4, 8])
+    # Nine boundaries, all farther than ε from the pixels at the ends, which are not known.
+    assert found.fractions == pytest.approx(2 * 9 * epsilon / (1000 - 2 * epsilon), rel=1e-14)
+    assert found.alpha == pytest.approx(1, abs=0.01)
+    assert found.low < 1 < found.high
+
+
+def test_the_axis_chooses_where_uncertainty_is_looked_for():
+    outcomes = stripes(1000, 1000, 100)
+    assert uncertainty_exponent(outcomes, along="y", epsilons=[1, 2]) is None
+    assert exponent(outcomes.T, [1, 2, 4], along="y").fractions.tolist() == (
+        exponent(outcomes, [1, 2, 4]).fractions.tolist()
+    )
+
+
+def test_smooth_hyperbolas_have_alpha_1():
+    outcomes = hyperbolas(np.linspace(1, 9, 1500), np.linspace(1, 3, 700))
+    for found in (exponent(outcomes, [1, 2, 4, 8], along="x"), exponent(outcomes, [1, 2, 4, 8], along="y")):
+        # Less than a thousandth: ε stays below half of the narrowest stripe, so only the map's ends count.
+        assert found.alpha == pytest.approx(1, abs=1e-3)
+        assert found.local == pytest.approx(np.ones(3), abs=1e-3)
+        assert found.low < 1 < found.high < 1.01
+
+
+def test_stripes_narrower_than_epsilon_feign_a_fractal_and_the_local_slopes_tell():
+    found = exponent(hyperbolas(np.linspace(1, 9, 1500), np.linspace(1, 30, 700)), [1, 2, 4, 8, 16])
+    assert found.alpha < 0.85
+    assert found.local[0] > 0.97
+    assert (np.diff(found.local) < 0).all()
+
+
+def test_stripes_narrower_than_a_pixel_give_alpha_0_until_the_map_is_finer():
+    coarse = exponent(hyperbolas(np.linspace(1000, 9000, 1000), np.linspace(1, 3, 100)), [1, 2, 4])
+    finer = exponent(hyperbolas(np.linspace(1000, 1008, 1000), np.linspace(1, 3, 100)), [1, 2, 4])
+    assert coarse.alpha == pytest.approx(0, abs=0.05)
+    assert finer.alpha == pytest.approx(1, abs=0.01)
+
+
+def test_the_cantor_set_has_alpha_1_minus_its_dimension():
+    # The colours of the gaps repeat every second level, and f with them: ε runs over powers of 9.
+    found = exponent(cantor(13)[None], [9, 81, 729, 6561])
+    alpha = 1 - np.log(2) / np.log(3)
+    assert found.alpha == pytest.approx(alpha, abs=0.01)
+    assert found.low < alpha < found.high < 0.4
+
+
+@pytest.mark.parametrize("hurst", [0.3, 0.5, 1.0])
+def test_the_sign_of_a_gaussian_field_has_the_fractions_of_three_gaussians(hurst):
+    epsilons = np.array([1, 2, 4, 8])
+    maps = [
+        gaussian_faces((256, 256), scale=20, hurst=hurst, random=np.random.default_rng(seed))
+        for seed in range(12)
+    ]
+    fractions = np.mean([exponent(outcomes, epsilons).fractions for outcomes in maps], axis=0)
+    # Twelve maps of 256 by 256 scatter by a percent.
+    assert fractions == pytest.approx(uncertain_fraction(epsilons, 20, hurst), rel=0.04)
+
+
+def oblique(line):
+    i, j = np.indices((256, 256))
+    return line[j + i]
+
+
+def bent(line):
+    i, j = np.indices((256, 256))
+    return line[j + i * i // 512]
+
+
+def upright(line):
+    return np.tile(line[:256], (256, 1))
+
+
+@pytest.mark.parametrize("hurst", [0.5, 1.0])
+@pytest.mark.parametrize(
+    ("laid", "at_least"),
+    # The standard error of a coverage over 100 maps is 2 to 4 %.
+    [(None, 0.95), (upright, 0.86), (oblique, 0.82), (bent, 0.72)],
+)
+def test_the_interval_covers_the_slope(hurst, laid, at_least):
+    random, epsilons, scale = np.random.default_rng(7), np.array([1, 2, 4, 8]), 10
+    slope = np.polyfit(np.log(epsilons), np.log(uncertain_fraction(epsilons, scale, hurst)), 1)[0]
+    if laid is None:
+        drawn = [gaussian_faces((256, 256), scale=scale, hurst=hurst, random=random) for _ in range(25)]
+    else:
+        drawn = [laid(gaussian_faces((512,), scale=scale, hurst=hurst, random=random)) for _ in range(100)]
+    found = [exponent(outcomes, epsilons) for outcomes in drawn]
+    covered = np.mean([one.low <= slope <= one.high for one in found])
+    assert covered >= at_least
+    # Nor is it wide beyond need: the half width is 1.96 standard deviations where it is exact.
+    half_width = np.median([one.high - one.alpha for one in found])
+    assert 1 < half_width / np.std([one.alpha for one in found]) < 4
+
+
+def test_the_interval_grows_with_the_confidence():
+    outcomes = gaussian_faces((200, 200), scale=10, hurst=0.5, random=np.random.default_rng(3))
+    half, most = exponent(outcomes, [1, 2, 4], confidence=0.5), exponent(outcomes, [1, 2, 4], confidence=0.99)
+    assert half.alpha == most.alpha
+    # Student's t at seven degrees of freedom: 0.711 and 3.499.
+    assert (most.high - most.low) / (half.high - half.low) == pytest.approx(3.499 / 0.711, rel=1e-3)
+
+
+def test_one_boundary_in_one_band_gives_no_bound():
+    outcomes = halves(64, 256)
+    outcomes[:, 128:144] = outcomes[0, 0]  # away from the edge between two bands
+    found = exponent(outcomes, [1, 2, 4])
+    assert (found.low, found.high) == (-np.inf, np.inf)
+    assert found.alpha == pytest.approx(1, abs=0.02)
+
+
+def test_undecided_pixels_leave_out_the_pairs_that_need_them():
+    outcomes = stripes(64, 1000, 100)
+    whole = exponent(outcomes, [1, 2, 4])
+    outcomes[::2] = UNDECIDED
+    assert exponent(outcomes, [1, 2, 4]).fractions.tolist() == whole.fractions.tolist()
+    outcomes[:, 99::100] = UNDECIDED  # the left pixel of every boundary
+    assert uncertainty_exponent(outcomes, along="x", epsilons=[1, 2]) is None
+    assert uncertainty_exponent(np.zeros((64, 64), np.int8), along="x", epsilons=[1, 2]) is None
+
+
+@pytest.mark.parametrize("epsilons", [[], [1], [2, 1], [1, 1], [0, 1], [1, 9], [1.0, 2.0], [[1, 2]]])
+def test_epsilons_that_cannot_be_fitted_are_refused(epsilons):
+    with pytest.raises(ValueError, match="accepted: two or more increasing whole numbers from 1 to 8"):
+        uncertainty_exponent(halves(64, 64), along="x", epsilons=epsilons)
+
+
+def test_a_confidence_is_a_probability():
+    with pytest.raises(ValueError, match="confidence: 95"):
+        uncertainty_exponent(halves(64, 64), along="x", epsilons=[1, 2], confidence=95)
