@@ -8,7 +8,7 @@ from importlib import resources
 import mujoco
 import numpy as np
 
-from coin_mj.contact import Spring
+from coin_mj.contact import Rebound
 from models.drag import linear_drag
 from models.scenario import Scenario
 
@@ -32,20 +32,21 @@ def floor_height(scenario: Scenario, thickness: float) -> float:
     return (scenario.coin.thickness - thickness) / 2
 
 
-def build(scenario: Scenario, spring: Spring, thickness: float) -> mujoco.MjModel:
+def build(scenario: Scenario, rebound: Rebound, friction: float, thickness: float) -> mujoco.MjModel:
     """Build the MuJoCo model of a scenario.
 
     Args:
         scenario: what to toss.
-        spring: the contact.
+        rebound: of the contact.
+        friction: coefficient of MuJoCo's own friction; 0 for a frictionless contact.
         thickness: of the coin's shape [m].
-
-    Returns:
-        The model, with RK4 and a frictionless contact.
     """
     spec = _described(scenario, thickness)
     spec.geom("floor").pos = (0.0, 0.0, floor_height(scenario, thickness))
-    spec.geom("coin").solref = (-spring.stiffness, -spring.damping)
+    coin = spec.geom("coin")
+    coin.solref = (-rebound.stiffness, -rebound.damping)
+    if friction > 0:
+        coin.condim, coin.friction = 3, (friction, 0.0, 0.0)
     _set_drag(spec, scenario)
     model = spec.compile()
     # MuJoCo's compiler takes two frames less than a micrometre apart for one.
