@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 from models.laws import ContactLaw
 from models.scenario import Floor
 
-ROUGH = 1e3
+ROUGH = 100.0
 """Coefficient of friction that stands for a perfectly rough floor."""
 
 
@@ -42,6 +42,8 @@ class ContactSettings(NamedTuple):
     """Steps in half a period of the spring."""
     step: float = 1e-7
     """Length of the one step [s]."""
+    slip_damping: float | None = None
+    """With which MuJoCo's own friction damps the slip, by default that of the normal motion [1/s]."""
 
     def softened(self, part: float) -> "ContactSettings":
         """Give a contact whose spring is softer by `part`, or whose one step is longer by `part`."""
@@ -55,6 +57,8 @@ class Rebound(NamedTuple):
     """k [1/s²]."""
     damping: float
     """d [1/s]."""
+    slip_damping: float
+    """With which MuJoCo's own friction damps the slip [1/s]."""
     step: float
     """Length of a step in contact [s]."""
     duration: float
@@ -68,11 +72,14 @@ def rebound_of(restitution: float, settings: ContactSettings) -> Rebound:
         ValueError: for a χ out of the realisation's reach.
     """
     if settings.realisation == Realisation.ONE_STEP:
-        return Rebound(0.0, (1 + restitution) / settings.step, settings.step, settings.step)
-    root = math.sqrt(settings.stiffness)
-    duration = math.pi / root
-    damping = 2 * damping_ratio_of(restitution) * root
-    return Rebound(settings.stiffness, damping, duration / settings.steps, duration)
+        stiffness, damping = 0.0, (1 + restitution) / settings.step
+        step, duration = settings.step, settings.step
+    else:
+        root = math.sqrt(settings.stiffness)
+        stiffness, damping = settings.stiffness, 2 * damping_ratio_of(restitution) * root
+        step, duration = math.pi / root / settings.steps, math.pi / root
+    slip_damping = damping if settings.slip_damping is None else settings.slip_damping
+    return Rebound(stiffness, damping, slip_damping, step, duration)
 
 
 def friction_of(floor: Floor) -> float:

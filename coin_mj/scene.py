@@ -14,6 +14,8 @@ from models.scenario import Scenario
 
 THIN_SHAPE = 1e-6
 """Thickness of the shape of a thin coin (h = 0), in radii; its inertia stays the scenario's."""
+NO_DAMPING = 1e-9
+"""A damping that damps nothing in the time of a contact [1/s]."""
 # A thin coin's inertia lies on the triangle equality, which MuJoCo refuses where rounding breaks it.
 INERTIA_WIDENED = 1e-12
 
@@ -46,7 +48,16 @@ def build(scenario: Scenario, rebound: Rebound, friction: float, thickness: floa
     coin = spec.geom("coin")
     coin.solref = (-rebound.stiffness, -rebound.damping)
     if friction > 0:
-        coin.condim, coin.friction = 3, (friction, 0.0, 0.0)
+        # Only a pair has a damping of its own for friction; where it is 0 MuJoCo takes the normal's.
+        spec.add_pair(
+            geomname1="floor",
+            geomname2="coin",
+            condim=3,
+            friction=(friction, friction, 0.0, 0.0, 0.0),
+            solref=coin.solref,
+            solreffriction=(0.0, -max(rebound.slip_damping, NO_DAMPING)),
+            solimp=coin.solimp,
+        )
     _set_drag(spec, scenario)
     model = spec.compile()
     # MuJoCo's compiler takes two frames less than a micrometre apart for one.

@@ -205,6 +205,18 @@ def toss(
     )
 
 
+def impacts_of(scenario: Scenario, settings: ContactSettings, thickness: float | None = None) -> Impacts:
+    """Toss a coin for its impacts alone: no path, no certificate, no horizon of trust.
+
+    Args:
+        scenario: what to toss.
+        settings: how MuJoCo realises the floor.
+        thickness: of the coin's shape, by default `shape_thickness` [m].
+    """
+    machine = machine_of(scenario, settings, thickness or shape_thickness(scenario))
+    return Impacts.from_rows(run(machine, scenario.rules).rows)
+
+
 def _contact_certificate(machine: Machine) -> tuple[Setting, ...]:
     settings, rebound = machine.settings, machine.rebound
     if settings.realisation == Realisation.ONE_STEP:
@@ -241,8 +253,9 @@ def _trusted_impacts(scenario: Scenario, settings: ContactSettings, impacts: Imp
     thickness = scenario.coin.thickness or 10 * shape_thickness(scenario)
     trusted = len(impacts)
     for part in SOFTER:
-        rules = scenario.rules._replace(max_impacts=trusted)
-        softer = Impacts.from_rows(run(machine_of(scenario, settings.softened(part), thickness), rules).rows)
+        ending = scenario.ending.model_copy(update={"max_impacts": trusted})
+        shorter = scenario.model_copy(update={"ending": ending})
+        softer = impacts_of(shorter, settings.softened(part), thickness)
         n = min(trusted, len(softer))
         change = np.linalg.norm(softer.impulse[:n] - impacts.impulse[:n], axis=1)
         agrees = (impacts.face[:n] == softer.face[:n]) & (

@@ -8,9 +8,9 @@ from coin_mj.contact import ContactSettings
 from coin_mj.impact import press
 from coin_mj.machine import fly, machine_of
 from coin_mj.scene import shape_thickness
-from coin_mj.toss import run, toss
+from coin_mj.toss import impacts_of, toss
 from compare.impulses import match
-from models.records import Ending, Impacts, UnsupportedError
+from models.records import Ending, UnsupportedError
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
 
 DOUBLE = 1e-4
@@ -38,8 +38,7 @@ def draw_single_impact(rng):
 
 
 def first_impact(case, **settings):
-    machine = machine_of(case, ContactSettings(**settings), shape_thickness(case))
-    return Impacts.from_rows(run(machine, case.rules).rows)
+    return impacts_of(case, ContactSettings(**settings))
 
 
 def test_first_impacts_meet_newtons_impulse():

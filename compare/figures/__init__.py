@@ -1,0 +1,1 @@
+"""What `cointoss reproduce` makes: each module here is one figure or study."""
