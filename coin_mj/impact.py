@@ -138,9 +138,13 @@ def _push_and_rub(machine: Machine, dt: float) -> None:
     machine.push(dt)
     normal = (_momentum(machine)[2] - momentum) / dt - other
     slip_free = grip.jacobian[:2] @ data.qvel
-    friction = coulomb_force(grip.mobility, machine.friction, normal, slip, slip_free, dt)
+    K = grip.mobility
+    x, y = coulomb_force(K, machine.friction, normal, slip, slip_free, dt)
+    # What the friction takes from the normal force goes with it: MuJoCo, which lets the share 1 - solimp of
+    # any other push through its contact, has nothing left to do.
+    taken = (K[0, 2] * x + K[1, 2] * y) / K[2, 2]
     machine.return_to(start)
-    data.qfrc_applied[:] = friction @ grip.jacobian[:2]
+    data.qfrc_applied[:] = np.array([x, y, -taken]) @ grip.jacobian
     machine.forward()
     machine.push(dt)
     data.qfrc_applied[:] = 0

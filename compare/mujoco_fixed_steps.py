@@ -21,11 +21,13 @@ _BALL = """
     <body pos="0 0 {height!r}">
       <freejoint/>
       <geom type="sphere" size="0.01" mass="0.01" condim="1" priority="1"
-            solref="{solref}" solimp="0.9999 0.9999 0.001 0.5 2"/>
+            solref="{solref}" solimp="{solimp}"/>
     </body>
   </worldbody>
 </mujoco>
 """
+HARDEST, DEFAULT = "0.9999 0.9999 0.001 0.5 2", "0.9 0.95 0.001 0.5 2"
+"""The largest impedance MuJoCo takes, and its own default, as solimp."""
 LONGEST = 2000
 """A contact that goes on for more steps is no rebound."""
 PHASES = 16
@@ -44,7 +46,7 @@ def spring_solref(restitution: float, dt: float, steps: int) -> tuple[float, flo
 
 
 def restitutions_of_a_ball(
-    solref: tuple[float, float], dt: float, integrator: str, speed: float = 2.0
+    solref: tuple[float, float], dt: float, integrator: str, solimp: str = HARDEST
 ) -> Array:
     """Drop a ball on a plane and step it with `mj_step`; give its speed after over that before.
 
@@ -52,16 +54,20 @@ def restitutions_of_a_ball(
         solref: of the contact, direct form.
         dt: length of a step [s].
         integrator: "Euler", "implicitfast" or "RK4".
-        speed: at the touch [m/s].
+        solimp: of the contact.
 
     Returns:
         For each of the `PHASES` of the touch between two steps, (PHASES,).
     """
-    found = np.empty(PHASES)
+    found, speed = np.empty(PHASES), 2.0
     for number in range(PHASES):
         height = 0.01 + speed * dt * (2 + (number + 0.5) / PHASES)
         described = _BALL.format(
-            dt=dt, integrator=integrator, height=height, solref=f"{solref[0]!r} {solref[1]!r}"
+            dt=dt,
+            integrator=integrator,
+            height=height,
+            solref=f"{solref[0]!r} {solref[1]!r}",
+            solimp=solimp,
         )
         model = mujoco.MjModel.from_xml_string(described)
         data = mujoco.MjData(model)

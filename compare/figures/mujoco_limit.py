@@ -10,7 +10,13 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure as Picture
 
-from compare.mujoco_fixed_steps import one_step_solref, restitutions_of_a_ball, spring_solref
+from compare.mujoco_fixed_steps import (
+    DEFAULT,
+    HARDEST,
+    one_step_solref,
+    restitutions_of_a_ball,
+    spring_solref,
+)
 from compare.mujoco_impacts import draw_touches
 from compare.mujoco_study import (
     FINE,
@@ -103,8 +109,8 @@ def study(sizes: Sizes, seed: int, progress: Callable[[int, int], None] = lambda
 
 
 def _users() -> dict[str, list[float]]:
-    def worst(e: float, solref: tuple[float, float], integrator: str) -> float:
-        return float(np.abs(restitutions_of_a_ball(solref, USERS_STEP, integrator) - e).max())
+    def worst(e: float, solref: tuple[float, float], integrator: str, solimp: str = HARDEST) -> float:
+        return float(np.abs(restitutions_of_a_ball(solref, USERS_STEP, integrator, solimp) - e).max())
 
     answers = {
         f"one step, {integrator}": [
@@ -112,6 +118,9 @@ def _users() -> dict[str, list[float]]:
         ]
         for integrator in INTEGRATORS
     }
+    answers["one step, Euler, MuJoCo's default solimp"] = [
+        worst(e, one_step_solref(e, USERS_STEP), "Euler", DEFAULT) for e in USERS_RESTITUTIONS
+    ]
     for integrator in (INTEGRATORS[0], INTEGRATORS[-1]):
         for n in USERS_STEPS:
             answers[f"spring of {n} steps, {integrator}"] = [

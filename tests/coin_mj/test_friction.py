@@ -78,8 +78,8 @@ def errors_and_kinds(rng, count, **settings):
 
 @pytest.mark.parametrize(
     ("realisation", "median", "worst"),
-    # Asked: median 2e-3, worst 1e-2. Measured over 400: 9e-6 and 2e-4; 1.5e-5 and 1e-3.
-    [(Realisation.SPRING, 3e-5, 1e-3), (Realisation.ONE_STEP, 5e-5, 3e-3)],
+    # Asked: median 2e-3, worst 1e-2. Measured over 150: 2.4e-5 and 4e-5; 1.3e-6 and 7e-4.
+    [(Realisation.SPRING, 6e-5, 5e-4), (Realisation.ONE_STEP, 1e-5, 3e-3)],
 )
 def test_first_impacts_meet_rouths_law(realisation, median, worst):
     errors, kinds = errors_and_kinds(np.random.default_rng(61), 100, realisation=realisation)

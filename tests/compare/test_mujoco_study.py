@@ -1,5 +1,8 @@
 """The studies of MuJoCo's contacts, at a small size: what they claim holds."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -103,6 +106,14 @@ def test_more_steps_make_a_springs_restitution_better():
     # A touch falls anywhere within a step: first order.
     assert errors[1] / errors[0] == pytest.approx(0.5, abs=0.1)
     assert errors[2] / errors[1] == pytest.approx(0.5, abs=0.1)
+
+
+def test_the_example_of_the_docs_rebounds_as_it_says(capsys):
+    page = (Path(__file__).parents[2] / "docs" / "MUJOCO.md").read_text(encoding="utf-8")
+    example = re.search(r"```python\n(.*?)```", page, re.DOTALL)
+    assert example is not None
+    exec(example[1], {})
+    assert float(capsys.readouterr().out) == pytest.approx(0.8, abs=1e-5)
 
 
 @pytest.mark.slow
