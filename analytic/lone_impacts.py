@@ -36,7 +36,7 @@ def strike(
 def _strike_each(body, rules, chi, mu, states, rows, solved):
     for i in range(len(rows)):
         floor = rules_at(rules, chi[i], mu[i])
-        solved[i] = hit(body, floor, states[i], rows[i]) == Ending.NONE
+        solved[i] = hit(body, floor, chi[i], states[i], rows[i]) == Ending.NONE
 
 
 @compiled

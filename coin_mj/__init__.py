@@ -1,5 +1,6 @@
 """The MuJoCo coin: an MJCF cylinder with an inertia offset, drag, and a tuned stiff contact."""
 
-from coin_mj.toss import toss
+from coin_mj.contact import ContactSettings, Friction, Realisation
+from coin_mj.toss import impacts_of, toss
 
-__all__ = ["toss"]
+__all__ = ["ContactSettings", "Friction", "Realisation", "impacts_of", "toss"]

@@ -1,26 +1,90 @@
-"""A restitution as a contact setting of MuJoCo: solref = "-stiffness -damping"."""
+"""A floor as contact settings of MuJoCo: its restitution as a solref, and who makes its friction."""
 
 import math
+from enum import StrEnum
 from typing import NamedTuple, cast
 
 from scipy.optimize import brentq
 
-STIFFNESS = 1e14
-"""Default stiffness k of the contact, per unit of effective mass [1/s²]."""
+from models.laws import ContactLaw
+from models.scenario import Floor
+
+ROUGH = 100.0
+"""Coefficient of friction that stands for a perfectly rough floor."""
 
 
-class Spring(NamedTuple):
-    """The contact as a damped spring per unit of effective mass: a = -k x - d ẋ while it pushes."""
+class Realisation(StrEnum):
+    """How a contact gives the restitution."""
+
+    SPRING = "spring"
+    """A stiff damped spring, solref = "-stiffness -damping", resolved in time; 0 < χ <= 1."""
+    ONE_STEP = "one_step"
+    """One step of semi-implicit Euler, solref = "0 -(1 + χ)/dt": Newton's law at once; 0 <= χ <= 1."""
+
+
+class Friction(StrEnum):
+    """Who makes the friction of a contact."""
+
+    EXPLICIT = "explicit"
+    """A frictionless contact, and Coulomb's force against the slip, μ times the normal force measured."""
+    NATIVE = "native"
+    """MuJoCo's own elliptic cone."""
+
+
+class ContactSettings(NamedTuple):
+    """How MuJoCo realises a floor."""
+
+    realisation: Realisation = Realisation.SPRING
+    friction: Friction = Friction.EXPLICIT
+    stiffness: float = 1e14
+    """k of the spring, per unit of effective mass [1/s²]."""
+    steps: int = 160
+    """Steps in half a period of the spring."""
+    step: float = 1e-7
+    """Length of the one step [s]."""
+    slip_damping: float | None = None
+    """With which MuJoCo's own friction damps the slip, by default that of the normal motion [1/s]."""
+
+    def softened(self, part: float) -> "ContactSettings":
+        """Give a contact whose spring is softer by `part`, or whose one step is longer by `part`."""
+        return self._replace(stiffness=self.stiffness / part, step=self.step * part)
+
+
+class Rebound(NamedTuple):
+    """The acceleration a = -k x - d ẋ that MuJoCo gives a contact while it pushes, and how to step it."""
 
     stiffness: float
     """k [1/s²]."""
     damping: float
     """d [1/s]."""
+    slip_damping: float
+    """With which MuJoCo's own friction damps the slip [1/s]."""
+    step: float
+    """Length of a step in contact [s]."""
+    duration: float
+    """Of a contact: half a period of the undamped spring, π/√k, or the one step [s]."""
 
-    @property
-    def duration(self) -> float:
-        """How long half a period of the undamped spring takes, π/√k [s]."""
-        return math.pi / math.sqrt(self.stiffness)
+
+def rebound_of(restitution: float, settings: ContactSettings) -> Rebound:
+    """Give the rebound with `restitution` χ at every point of the rim.
+
+    Raises:
+        ValueError: for a χ out of the realisation's reach.
+    """
+    if settings.realisation == Realisation.ONE_STEP:
+        stiffness, damping = 0.0, (1 + restitution) / settings.step
+        step, duration = settings.step, settings.step
+    else:
+        root = math.sqrt(settings.stiffness)
+        stiffness, damping = settings.stiffness, 2 * damping_ratio_of(restitution) * root
+        step, duration = math.pi / root / settings.steps, math.pi / root
+    slip_damping = damping if settings.slip_damping is None else settings.slip_damping
+    return Rebound(stiffness, damping, slip_damping, step, duration)
+
+
+def friction_of(floor: Floor) -> float:
+    """Give the coefficient of friction μ with which MuJoCo stands for a floor."""
+    return {ContactLaw.COULOMB: floor.friction, ContactLaw.PERFECTLY_ROUGH: ROUGH}.get(floor.contact, 0.0)
 
 
 def restitution_of(zeta: float) -> float:
@@ -58,13 +122,3 @@ def damping_ratio_of(restitution: float) -> float:
     # χ falls like 1/(4 ζ²) for large ζ, so the root lies below 1/√χ.
     widest = 1 + 1 / math.sqrt(restitution)
     return cast("float", brentq(lambda zeta: restitution_of(zeta) - restitution, 0.0, widest, xtol=1e-15))
-
-
-def spring_of(restitution: float, stiffness: float = STIFFNESS) -> Spring:
-    """Give the spring that rebounds with `restitution` at every point of the rim.
-
-    Args:
-        restitution: χ, 0 < χ <= 1.
-        stiffness: k [1/s²].
-    """
-    return Spring(stiffness, 2 * damping_ratio_of(restitution) * math.sqrt(stiffness))

@@ -1,6 +1,6 @@
-"""MuJoCo's coin in motion: steps chosen by the gap in flight, every contact resolved in time.
+"""MuJoCo's coin in motion, and the path that it leaves.
 
-RK4 throughout: of fourth order in a free joint's position and attitude.
+It flies with RK4, of fourth order in a free joint's position and attitude, in steps chosen by the gap.
 """
 
 # The MuJoCo wheel describes no types.
@@ -12,25 +12,16 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from coin_mj.contact import Spring, spring_of
+from coin_mj.contact import ContactSettings, Friction, Realisation, Rebound, friction_of, rebound_of
 from coin_mj.scene import build, floor_height
 from coin_mj.state import of_release, to_mass_center
 from coin_mj.stepping import Outlook, outlook
-from models.attitude import rotation_matrix
 from models.body import Body
 from models.records import Array, States
 from models.scenario import Scenario
 
-STEPS_PER_CONTACT = 160
-"""Steps in half a period of the contact's spring."""
 TOUCH_STEP = 1e-3
 """A touch is located to within this part of a contact step."""
-LASTING = 20
-"""A contact that lasts so many half periods of the spring is no impact."""
-
-
-FLAT = 1e-8
-"""A sine of the tilt that no contact can tell from flat: over the whole coin it is 1e-8 of its width."""
 
 
 class Knot(NamedTuple):
@@ -54,7 +45,10 @@ class Machine:
     """The body with the thickness of its shape."""
     floor: float
     """Height of MuJoCo's floor [m]."""
-    spring: Spring
+    rebound: Rebound
+    settings: ContactSettings
+    friction: float
+    """Coefficient of friction μ of the floor."""
     knots: list[Knot] = field(default_factory=list)
 
     def forward(self) -> float:
@@ -62,10 +56,22 @@ class Machine:
         mujoco.mj_forward(self.model, self.data)
         return float(self.data.qfrc_constraint[2])
 
-    def step(self, dt: float, pressed: bool = False) -> None:
-        """Advance by dt [s] with RK4, after `forward`, and keep the knot left behind."""
-        self.keep(pressed)
+    def step(self, dt: float) -> None:
+        """Advance by dt [s] of free flight, after `forward`, and keep the knot left behind."""
+        self.keep()
         _advance(self.model, self.data, dt)
+
+    def push(self, dt: float) -> None:
+        """Advance by dt [s] in contact with the integrator of the realisation, after `forward`."""
+        if self.settings.realisation == Realisation.ONE_STEP:
+            self.model.opt.timestep = dt
+            mujoco.mj_Euler(self.model, self.data)
+        else:
+            _advance(self.model, self.data, dt)
+
+    def return_to(self, knot: Knot) -> None:
+        """Go back to a knot of the path."""
+        self.data.time, self.data.qpos[:], self.data.qvel[:] = knot.time, knot.qpos, knot.qvel
 
     def set_contacts(self, on: bool) -> None:
         """Let MuJoCo look for contacts, or not."""
@@ -84,11 +90,6 @@ class Machine:
     def outlook(self) -> Outlook:
         """Look at the present state."""
         return outlook(self.shape, self.floor, self.data.qpos, self.data.qvel)
-
-    @property
-    def contact_step(self) -> float:
-        """Length of a step in contact [s]."""
-        return self.spring.duration / STEPS_PER_CONTACT
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -125,15 +126,24 @@ class Knots:
         return States(time=times.copy(), position=x, velocity=v, quaternion=e, angular_velocity=w)
 
 
-def machine_of(scenario: Scenario, stiffness: float, thickness: float) -> Machine:
+def machine_of(scenario: Scenario, settings: ContactSettings, thickness: float) -> Machine:
     """Build the MuJoCo coin of a scenario, with the thickness of its shape [m], and put it at its release."""
-    spring, body = spring_of(scenario.floor.restitution, stiffness), scenario.body
-    model = build(scenario, spring, thickness)
+    rebound, body = rebound_of(scenario.floor.restitution, settings), scenario.body
+    friction = friction_of(scenario.floor)
+    native = friction if settings.friction == Friction.NATIVE else 0.0
+    model = build(scenario, rebound, native, thickness)
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = of_release(body, scenario.release)
-    shape = body._replace(thickness=thickness)
-    floor = floor_height(scenario, thickness)
-    return Machine(model=model, data=data, body=body, shape=shape, floor=floor, spring=spring)
+    return Machine(
+        model=model,
+        data=data,
+        body=body,
+        shape=body._replace(thickness=thickness),
+        floor=floor_height(scenario, thickness),
+        rebound=rebound,
+        settings=settings,
+        friction=friction,
+    )
 
 
 def _advance(model: mujoco.MjModel, data: mujoco.MjData, dt: float) -> None:
@@ -145,7 +155,7 @@ def _advance(model: mujoco.MjModel, data: mujoco.MjData, dt: float) -> None:
 def fly(machine: Machine, max_time: float) -> bool:
     """Fly until the coin touches the floor; tell whether it does before max_time [s]."""
     data = machine.data
-    smallest = TOUCH_STEP * machine.contact_step
+    smallest = TOUCH_STEP * machine.rebound.step
     # The steps end before the touch. MuJoCo's own contacts are off meanwhile: of a coin that is flat within
     # rounding its plane-cylinder routine may take the radius for the height.
     machine.set_contacts(False)
@@ -157,107 +167,3 @@ def fly(machine: Machine, max_time: float) -> bool:
             return True
         machine.step(min(max(look.clear, smallest), max_time - data.time))
     return False
-
-
-class Contact(NamedTuple):
-    """One contact, from first touch to release."""
-
-    start: float
-    end: float
-    impulse: Array
-    """Integral of the floor's force, space frame, (3,) [N s]."""
-    lasts: bool
-    """Whether it went on for `LASTING` half periods of the spring, and was left there."""
-
-
-def press(machine: Machine) -> Contact | None:
-    """Follow a contact from the touch to the release of all rim points; None where nothing was pressed."""
-    level = _turned_level(machine)
-    if level is None:
-        return _press(machine)
-    first = len(machine.knots)
-    contact = _press(machine)
-    for number in range(first, len(machine.knots)):
-        machine.knots[number] = _turned_back(machine.knots[number], level)
-    machine.keep()
-    end = _turned_back(machine.knots.pop(), level)
-    machine.data.qpos[:], machine.data.qvel[:] = end.qpos, end.qvel
-    if contact is None:
-        return None
-    impulse = np.zeros(3)
-    mujoco.mju_rotVecQuat(impulse, contact.impulse, level.turn)
-    return contact._replace(impulse=impulse)
-
-
-class Level(NamedTuple):
-    """How a coin that landed flat was turned for its contact."""
-
-    time: float
-    turn: Array
-    """Euler parameters of the turn back, (4,)."""
-    spin: float
-    """ω_ζ, taken out during the contact [rad/s]."""
-
-
-def _turned_level(machine: Machine) -> Level | None:
-    """Turn a coin that is flat within `FLAT` about the vertical until its axes are MuJoCo's; stop its spin.
-
-    MuJoCo's plane-cylinder routine finds the lowest rim point from the tilt, and where that is nothing but
-    rounding it takes the radius for the height. With the axes of the world it finds the tilt to be exactly
-    nothing. The floor and the cylinder are round: neither the turn nor the spin about ζ changes the contact.
-    """
-    qpos, qvel = machine.data.qpos, machine.data.qvel
-    up = rotation_matrix(qpos[3:])[2]
-    if np.hypot(up[0], up[1]) > FLAT:
-        return None
-    flat = np.array([1.0, 0, 0, 0]) if up[2] > 0 else np.array([0, 1.0, 0, 0])
-    turn, back = np.zeros(4), np.zeros(4)
-    mujoco.mju_negQuat(back, flat)
-    mujoco.mju_mulQuat(turn, qpos[3:].copy(), back)
-    mujoco.mju_negQuat(back, turn)
-    velocity = np.zeros(3)
-    mujoco.mju_rotVecQuat(velocity, qvel[:3].copy(), back)
-    level = Level(machine.data.time, turn, float(qvel[5]))
-    qpos[3:], qvel[:3], qvel[5] = flat, velocity, 0.0
-    return level
-
-
-def _turned_back(knot: Knot, level: Level) -> Knot:
-    """Turn a state back, and give it its spin and the angle that it would have spun."""
-    angle = level.spin * (knot.time - level.time)
-    spun, turned, velocity = np.zeros(4), np.zeros(4), np.zeros(3)
-    mujoco.mju_mulQuat(turned, level.turn, knot.qpos[3:])
-    mujoco.mju_mulQuat(spun, turned, np.array([np.cos(angle / 2), 0, 0, np.sin(angle / 2)]))
-    mujoco.mju_rotVecQuat(velocity, knot.qvel[:3], level.turn)
-    w = knot.qvel[3:] + np.array([0, 0, level.spin])
-    return knot._replace(qpos=np.array([*knot.qpos[:3], *spun]), qvel=np.array([*velocity, *w]))
-
-
-def _press(machine: Machine) -> Contact | None:
-    data = machine.data
-    start, momentum, other = data.time, _momentum(machine), np.zeros(3)
-    pressed = False
-    while data.time - start <= LASTING * machine.spring.duration:
-        force = machine.forward()
-        if force == 0:
-            if pressed:
-                return Contact(start, data.time, _momentum(machine) - momentum - other, lasts=False)
-            if machine.outlook().speed >= 0:
-                return None
-        # Tiny steps up to the spring's onset, so that it falls between two steps, not into one.
-        dt = machine.contact_step * (1.0 if force > 0 else TOUCH_STEP)
-        pressed = pressed or force > 0
-        other += dt * _other_force(machine)
-        machine.step(dt, pressed=True)
-    return Contact(start, data.time, _momentum(machine) - momentum - other, lasts=True)
-
-
-def _momentum(machine: Machine) -> Array:
-    v = machine.state()[1]
-    return machine.body.mass * np.array(v)
-
-
-def _other_force(machine: Machine) -> Array:
-    """Weight and drag on the coin, space frame, (3,) [N]."""
-    weight = np.array([0.0, 0.0, -machine.body.mass * machine.body.gravity])
-    return weight + machine.data.qfrc_actuator[:3]

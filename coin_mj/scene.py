@@ -8,12 +8,14 @@ from importlib import resources
 import mujoco
 import numpy as np
 
-from coin_mj.contact import Spring
+from coin_mj.contact import Rebound
 from models.drag import linear_drag
 from models.scenario import Scenario
 
 THIN_SHAPE = 1e-6
 """Thickness of the shape of a thin coin (h = 0), in radii; its inertia stays the scenario's."""
+NO_DAMPING = 1e-9
+"""A damping that damps nothing in the time of a contact [1/s]."""
 # A thin coin's inertia lies on the triangle equality, which MuJoCo refuses where rounding breaks it.
 INERTIA_WIDENED = 1e-12
 
@@ -32,20 +34,30 @@ def floor_height(scenario: Scenario, thickness: float) -> float:
     return (scenario.coin.thickness - thickness) / 2
 
 
-def build(scenario: Scenario, spring: Spring, thickness: float) -> mujoco.MjModel:
+def build(scenario: Scenario, rebound: Rebound, friction: float, thickness: float) -> mujoco.MjModel:
     """Build the MuJoCo model of a scenario.
 
     Args:
         scenario: what to toss.
-        spring: the contact.
+        rebound: of the contact.
+        friction: coefficient of MuJoCo's own friction; 0 for a frictionless contact.
         thickness: of the coin's shape [m].
-
-    Returns:
-        The model, with RK4 and a frictionless contact.
     """
     spec = _described(scenario, thickness)
     spec.geom("floor").pos = (0.0, 0.0, floor_height(scenario, thickness))
-    spec.geom("coin").solref = (-spring.stiffness, -spring.damping)
+    coin = spec.geom("coin")
+    coin.solref = (-rebound.stiffness, -rebound.damping)
+    if friction > 0:
+        # Only a pair has a damping of its own for friction; where it is 0 MuJoCo takes the normal's.
+        spec.add_pair(
+            geomname1="floor",
+            geomname2="coin",
+            condim=3,
+            friction=(friction, friction, 0.0, 0.0, 0.0),
+            solref=coin.solref,
+            solreffriction=(0.0, -max(rebound.slip_damping, NO_DAMPING)),
+            solimp=coin.solimp,
+        )
     _set_drag(spec, scenario)
     model = spec.compile()
     # MuJoCo's compiler takes two frames less than a micrometre apart for one.

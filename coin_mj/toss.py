@@ -3,22 +3,25 @@
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
 
+import warnings
 from typing import NamedTuple
 
 import mujoco
 import numpy as np
 
-from coin_mj.contact import STIFFNESS
-from coin_mj.machine import STEPS_PER_CONTACT, Contact, Knots, Machine, fly, machine_of, press
+from coin_mj.contact import ROUGH, ContactSettings, Friction, Realisation
+from coin_mj.impact import Contact, press
+from coin_mj.machine import Knots, Machine, fly, machine_of
 from coin_mj.scene import shape_thickness
 from coin_mj.stepping import FLIGHT_ANGLE
 from models.attitude import rotation_matrix
 from models.body import Rules
 from models.ending import energy, face_up, judge
 from models.geometry import contact_velocity, lowest_point
-from models.laws import ContactLaw
+from models.laws import ContactLaw, RestitutionKind
 from models.records import (
     IMPACT_ROW,
+    ApproximationWarning,
     Array,
     Ending,
     Impacts,
@@ -29,8 +32,9 @@ from models.records import (
 )
 from models.scenario import Scenario
 
+REALISABLE = (ContactLaw.SMOOTH, ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH)
 HEAVY = 10
-"""A touch-down is no impact when gravity alone gives its speed in so many half periods of the spring."""
+"""A touch-down is no impact when gravity alone gives its speed in so many times the duration of a contact."""
 
 SOFTER = (10.0, 30.0)
 """How many times softer the contacts are that tell how far a toss can be trusted."""
@@ -54,7 +58,7 @@ def run(machine: Machine, rules: Rules) -> Run:
     rows: list[np.ndarray] = []
     contacts: list[tuple[float, float]] = []
     outcome, ending = Outcome.UNDECIDED, Ending.NONE
-    heavy = HEAVY * machine.body.gravity * machine.spring.duration
+    heavy = HEAVY * machine.body.gravity * machine.rebound.duration
     while ending == Ending.NONE:
         if len(rows) == rules.max_impacts:
             ending = Ending.MAX_IMPACTS
@@ -112,50 +116,75 @@ def _row(machine: Machine, contact: Contact, touch: tuple[Array, Array, Array, A
     return row
 
 
-def require_supported(scenario: Scenario) -> None:
+def require_supported(scenario: Scenario, realisation: Realisation) -> None:
     """Refuse what this engine doesn't realise.
 
     Raises:
         UnsupportedError: naming field, value and what is accepted.
     """
     air, floor = scenario.air, scenario.floor
-    if floor.contact != ContactLaw.SMOOTH:
+    if floor.contact not in REALISABLE:
+        accepted = ", ".join(f'"{law.label}"' for law in REALISABLE)
         raise UnsupportedError(
-            f'floor.contact = "{floor.contact.label}": accepted by the MuJoCo engine: "smooth"'
+            f'floor.contact = "{floor.contact.label}": accepted by the MuJoCo engine: {accepted}'
         )
-    if floor.restitution == 0:
+    if floor.restitution_kind != RestitutionKind.KINEMATIC:
         raise UnsupportedError(
-            "floor.restitution = 0: accepted by the MuJoCo engine: a number > 0 (a damped spring rebounds)"
+            f'floor.restitution_kind = "{floor.restitution_kind.label}": accepted by the MuJoCo engine: '
+            '"kinematic" (its contacts prescribe how the normal speed changes, whatever the work)'
+        )
+    if floor.restitution == 0 and realisation == Realisation.SPRING:
+        raise UnsupportedError(
+            "floor.restitution = 0: accepted by the MuJoCo engine: a number > 0 (a damped spring rebounds), "
+            "or one-step contacts"
         )
     if air.exponent != 0 and (air.normal > 0 or air.tangential > 0):
         raise UnsupportedError(f"air.exponent = {air.exponent}: accepted by the MuJoCo engine: 0")
 
 
-def toss(scenario: Scenario, stiffness: float = STIFFNESS) -> Toss:
+def toss(
+    scenario: Scenario,
+    *,
+    realisation: Realisation = Realisation.SPRING,
+    friction: Friction = Friction.EXPLICIT,
+    stiffness: float = ContactSettings().stiffness,
+) -> Toss:
     """Toss a coin in MuJoCo.
 
-    The contact is a damped spring, solref = "-stiffness -damping", whose damping gives the scenario's
-    restitution; it lasts about π/√stiffness, in which the coin turns a little: the impulse differs from
-    Newton's by a part that falls with 1/√stiffness.
+    A spring's contact lasts about π/√stiffness, in which the coin turns a little: the impulse differs from
+    Newton's by a part that falls with 1/√stiffness. A one-step contact is Newton's law at the attitude of
+    the touch.
 
     `trusted_impacts` counts the leading impacts that keep their faces, and their impulses to
-    `IMPULSE_CHANGE`, when the contact is softer by each of `SOFTER`: that error is then three and five times
-    larger. It is an estimate, no bound.
+    `IMPULSE_CHANGE`, when the contact is softer, or its one step longer, by each of `SOFTER`: that makes a
+    spring's error three and five times larger. It is an estimate, no bound.
 
     Args:
         scenario: what to toss.
-        stiffness: of the contact, per unit of effective mass [1/s²].
+        realisation: how a contact gives the restitution.
+        friction: who makes the friction of a floor that has one.
+        stiffness: of the spring, per unit of effective mass [1/s²].
 
     Raises:
-        UnsupportedError: for contact laws other than "smooth", restitution 0, or air with b > 0.
+        UnsupportedError: for contact laws other than "smooth", "coulomb" and "perfectly_rough"; energetic
+            restitution; restitution 0 of a spring; air with b > 0.
+
+    Warns:
+        ApproximationWarning: for a perfectly rough floor, which is one of friction `ROUGH`.
     """
-    require_supported(scenario)
-    rules, machine = scenario.rules, machine_of(scenario, stiffness, shape_thickness(scenario))
+    require_supported(scenario, realisation)
+    if scenario.floor.contact == ContactLaw.PERFECTLY_ROUGH:
+        warnings.warn(
+            f'floor.contact = "perfectly_rough": MuJoCo tosses on a floor of friction {ROUGH:g}',
+            ApproximationWarning,
+            stacklevel=2,
+        )
+    settings = ContactSettings(realisation=realisation, friction=friction, stiffness=stiffness)
+    rules, machine = scenario.rules, machine_of(scenario, settings, shape_thickness(scenario))
     answer = run(machine, rules)
     machine.keep()
     machine.set_contacts(False)  # from here on the model only samples flights
     impacts = Impacts.from_rows(answer.rows)
-    spring = machine.spring
     return Toss(
         engine="mujoco",
         scenario=scenario,
@@ -164,14 +193,10 @@ def toss(scenario: Scenario, stiffness: float = STIFFNESS) -> Toss:
         outcome=answer.outcome,
         ending=answer.ending,
         end_time=machine.data.time,
-        trusted_impacts=_trusted_impacts(scenario, stiffness, impacts),
+        trusted_impacts=_trusted_impacts(scenario, settings, impacts),
         certificate=(
             Setting(name="MuJoCo", value=mujoco.__version__),
-            Setting(name="integrator", value="RK4"),
-            Setting(name="contact stiffness", value=spring.stiffness, unit="1/s²"),
-            Setting(name="contact damping", value=spring.damping, unit="1/s"),
-            Setting(name="half a period of the contact", value=spring.duration, unit="s"),
-            Setting(name="steps in it", value=STEPS_PER_CONTACT),
+            *_contact_certificate(machine),
             Setting(name="largest turn in a step of flight", value=FLIGHT_ANGLE, unit="rad"),
             Setting(name="thickness of the shape", value=machine.shape.thickness, unit="m"),
             Setting(name="steps", value=len(machine.knots) - 1),
@@ -180,16 +205,57 @@ def toss(scenario: Scenario, stiffness: float = STIFFNESS) -> Toss:
     )
 
 
-def _trusted_impacts(scenario: Scenario, stiffness: float, impacts: Impacts) -> int:
+def impacts_of(scenario: Scenario, settings: ContactSettings, thickness: float | None = None) -> Impacts:
+    """Toss a coin for its impacts alone: no path, no certificate, no horizon of trust.
+
+    Args:
+        scenario: what to toss.
+        settings: how MuJoCo realises the floor.
+        thickness: of the coin's shape, by default `shape_thickness` [m].
+    """
+    machine = machine_of(scenario, settings, thickness or shape_thickness(scenario))
+    return Impacts.from_rows(run(machine, scenario.rules).rows)
+
+
+def _contact_certificate(machine: Machine) -> tuple[Setting, ...]:
+    settings, rebound = machine.settings, machine.rebound
+    if settings.realisation == Realisation.ONE_STEP:
+        made = (
+            Setting(name="integrator", value="RK4, in a contact semi-implicit Euler"),
+            Setting(name="contact", value="one step"),
+            Setting(name="contact damping", value=rebound.damping, unit="1/s"),
+            Setting(name="length of the step", value=rebound.step, unit="s"),
+        )
+    else:
+        made = (
+            Setting(name="integrator", value="RK4"),
+            Setting(name="contact", value="spring"),
+            Setting(name="contact stiffness", value=rebound.stiffness, unit="1/s²"),
+            Setting(name="contact damping", value=rebound.damping, unit="1/s"),
+            Setting(name="half a period of the contact", value=rebound.duration, unit="s"),
+            Setting(name="steps in it", value=settings.steps),
+        )
+    if machine.friction == 0:
+        return made
+    maker = "MuJoCo's cone" if settings.friction == Friction.NATIVE else "Coulomb's force"
+    return (
+        *made,
+        Setting(name="friction by", value=maker),
+        Setting(name="coefficient of friction", value=machine.friction),
+    )
+
+
+def _trusted_impacts(scenario: Scenario, settings: ContactSettings, impacts: Impacts) -> int:
     """Count the leading impacts that all coins share that are further from the hard limit.
 
-    Their contacts are softer by `SOFTER`, and their shapes ten times as thick where a thin coin's is made up.
+    Their contacts are softened by `SOFTER`; where a thin coin's shape is made up it is ten times as thick.
     """
     thickness = scenario.coin.thickness or 10 * shape_thickness(scenario)
     trusted = len(impacts)
     for part in SOFTER:
-        rules = scenario.rules._replace(max_impacts=trusted)
-        softer = Impacts.from_rows(run(machine_of(scenario, stiffness / part, thickness), rules).rows)
+        ending = scenario.ending.model_copy(update={"max_impacts": trusted})
+        shorter = scenario.model_copy(update={"ending": ending})
+        softer = impacts_of(shorter, settings.softened(part), thickness)
         n = min(trusted, len(softer))
         change = np.linalg.norm(softer.impulse[:n] - impacts.impulse[:n], axis=1)
         agrees = (impacts.face[:n] == softer.face[:n]) & (

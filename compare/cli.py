@@ -4,6 +4,7 @@ import json
 import os
 import signal
 import sys
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -69,23 +70,36 @@ def main() -> None:
 
 @contextmanager
 def _plain_errors(source: str) -> Iterator[None]:
-    """Turn the errors of bad input into one line and exit status 2."""
+    """Turn the errors of bad input into one line and exit status 2, and warnings into one line each."""
     from compare.files import UnwritableError
     from models.reading import ScenarioError
-    from models.records import UnsupportedError
+    from models.records import ApproximationWarning, UnsupportedError
 
-    try:
-        yield
-    except (ScenarioError, UnwritableError) as error:
-        _refuse(str(error))
-    except (UnsupportedError, FloatingPointError) as error:
-        _refuse(f"{source}: {error}")
+    def tell(message: Warning | str, category: type[Warning], *where: Any, **extra: Any) -> None:
+        if issubclass(category, ApproximationWarning):
+            _say(f"{source}: {message}")
+        else:
+            show(message, category, *where, **extra)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", ApproximationWarning)
+        show, warnings.showwarning = warnings.showwarning, tell
+        try:
+            yield
+        except (ScenarioError, UnwritableError) as error:
+            _refuse(str(error))
+        except (UnsupportedError, FloatingPointError) as error:
+            _refuse(f"{source}: {error}")
 
 
 def _refuse(message: str, status: int = 2) -> NoReturn:
+    _say(message)
+    sys.exit(status)
+
+
+def _say(message: str) -> None:
     shown = "".join(char if char.isprintable() else repr(char)[1:-1] for char in message)
     click.echo(f"cointoss: {shown}", err=True)
-    sys.exit(status)
 
 
 def _lose_stdout() -> None:
@@ -102,11 +116,25 @@ def _lose_stdout() -> None:
     show_default=True,
     help="Which engine.",
 )
+@click.option(
+    "--contact",
+    type=click.Choice(["spring", "one_step"]),
+    help="How MuJoCo realises the restitution; a spring by default.",
+)
 @click.option("--max-impacts", type=_Count(1, 1_000_000), help="Stop after so many impacts.")
 @click.option("--json", "as_json", is_flag=True, help="Answer in JSON, in full precision.")
 @click.option("--trajectory", type=click.Path(path_type=Path), help="Write the path to this .csv file too.")
-def toss(scenario: str, engine: str, max_impacts: int | None, as_json: bool, trajectory: Path | None) -> None:
+def toss(
+    scenario: str,
+    engine: str,
+    contact: str | None,
+    max_impacts: int | None,
+    as_json: bool,
+    trajectory: Path | None,
+) -> None:
     """Toss one coin and print its impacts."""
+    if contact is not None and engine != "mujoco":
+        raise click.UsageError(f"--contact {contact}: accepted: only beside --engine mujoco")
     with _plain_errors(scenario):
         from compare import answer
         from compare.engines import Engine
@@ -120,7 +148,7 @@ def toss(scenario: str, engine: str, max_impacts: int | None, as_json: bool, tra
         if max_impacts is not None:
             ending = described.ending.model_copy(update={"max_impacts": max_impacts})
             described = described.model_copy(update={"ending": ending})
-        result = toss_by(Engine(engine), described)
+        result = toss_by(Engine(engine), described, contact or "spring")
         if trajectory is not None:
             times = answer.path_times(result)
             write_text(trajectory, answer.path_csv(result.sample(times)))

@@ -13,12 +13,13 @@ class Engine(StrEnum):
     MUJOCO = "mujoco"
 
 
-def toss(engine: Engine, scenario: Scenario) -> Toss:
+def toss(engine: Engine, scenario: Scenario, contact: str = "spring") -> Toss:
     """Toss a coin by one engine.
 
     Args:
         engine: which.
         scenario: what to toss.
+        contact: how MuJoCo realises the restitution, "spring" or "one_step".
 
     Raises:
         UnsupportedError: for what the engine doesn't model.
@@ -29,4 +30,4 @@ def toss(engine: Engine, scenario: Scenario) -> Toss:
         return analytic.toss(scenario)
     import coin_mj
 
-    return coin_mj.toss(scenario)
+    return coin_mj.toss(scenario, realisation=coin_mj.Realisation(contact))

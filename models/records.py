@@ -291,3 +291,7 @@ class Toss:
 
 class UnsupportedError(ValueError):
     """A scenario that an engine can't toss; the message names the field, its value and what is accepted."""
+
+
+class ApproximationWarning(UserWarning):
+    """A scenario that an engine tosses by something near to it; the message names the field and by what."""

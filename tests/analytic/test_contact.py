@@ -198,7 +198,7 @@ def test_a_coin_that_slides_loses_what_friction_takes(seed):
     assert lost == pytest.approx(np.trapezoid(power, times), rel=1e-5)
     gained = body.mass * (states[-1][3:5] - states[0][3:5])
     pushed = np.trapezoid(-mu * N[:, None] * v_A[:, :2] / slip[:, None], times, axis=0)
-    assert gained == pytest.approx(pushed, abs=1e-5 * np.linalg.norm(pushed))
+    assert gained == pytest.approx(pushed, abs=1e-5 * float(np.linalg.norm(pushed)))
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -221,7 +221,7 @@ def test_slip_that_starts_keeps_the_direction_to_which_friction_turns_all_slip(s
         return (b + N * K @ direction)[:2]
 
     grown = rate(0, s)
-    assert np.cross([*s, 0], [*grown, 0])[2] == pytest.approx(0, abs=1e-12 * np.linalg.norm(b))
+    assert np.cross([*s, 0], [*grown, 0])[2] == pytest.approx(0, abs=1e-12 * float(np.linalg.norm(b)))
     assert grown @ s > 0
     for angle in np.linspace(0, 6, 5):
         v = 1e-6 * np.array([np.cos(angle), np.sin(angle)])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from analytic.coulomb import coulomb, friction_without_slip
+from analytic.coulomb import NO_SLIP, coulomb, friction_without_slip
 from analytic.coulomb_tangent import coulomb_change, friction_change
 from analytic.impact import mobility, perfectly_rough, sliding_friction, smooth
 from models.attitude import rotation_matrix
@@ -180,7 +180,7 @@ def test_slip_that_starts_keeps_its_direction():
     for _ in range(COUNT):
         K, _ = draw_contact(rng)
         mu = rng.uniform(0.01, 1.0)
-        f = np.array(friction_without_slip(K, (K[0][2], K[1][2]), mu))
+        f = np.array(friction_without_slip(K, mu))
         gained = np.array(K) @ [*f, 1.0]
         if np.hypot(*f) < mu * (1 - 1e-9):
             assert np.abs(gained[:2]).max() < 1e-11 * np.abs(K).max()
@@ -200,7 +200,7 @@ def test_painleves_attitude_compresses_and_ends():
         S = np.array(coulomb(K, v, 0.5, mu, kind))
         assert S[2] > 0
         assert after(K, v, S)[2] > 0
-        assert abs(after(K, v, S)[0]) < 1e-11
+        assert abs(after(K, v, S)[0]) < NO_SLIP * np.linalg.norm(v)
     assert after(K, v, coulomb(K, v, 0.5, mu, KINEMATIC))[2] == pytest.approx(0.5, rel=1e-12)
     stop = 1.0 / (mu * 1500 - 900)
     deepest = -1 + stop * (1000 - 900 * mu)
@@ -297,7 +297,7 @@ def test_slip_that_hardly_grows_or_dies_goes_straight(kind, seed):
         end = pressed(start, 2, 0.0)
         end = pressed(end, 6, (1 - chi**2) * end[6])
     S = coulomb(K, v, chi, mu, kind)
-    assert S == pytest.approx(end[3:6], abs=1e-6 * np.linalg.norm(S))
+    assert S == pytest.approx(end[3:6], abs=1e-6 * float(np.linalg.norm(S)))
 
 
 @pytest.mark.parametrize("kind", list(RestitutionKind))

@@ -23,7 +23,7 @@ def test_each_impact_is_that_of_a_toss(law):
     for i in range(3):
         rules = case.rules._replace(restitution=chi[i], friction=mu[i])
         row = np.zeros(1, IMPACT_ROW)
-        hit(case.body, rules, first.copy(), row[0])
+        hit(case.body, rules, chi[i], first.copy(), row[0])
         assert np.array_equal(impacts.impulse[i], row["impulse"][0])
         assert impacts.energy_change[i] == row["energy_change"][0]
 

@@ -55,7 +55,7 @@ def mechanics(scenario: Scenario) -> OneCoin:
     @compiled
     def strike(y):
         row = np.zeros(1, dtype=IMPACT_ROW)
-        ending = hit(body, rules, y, row[0])
+        ending = hit(body, rules, rules.restitution, y, row[0])
         y[2] -= min(closing_speed(body, y)[0], 0.0)
         if ending == Ending.NONE:
             _, ending = decided(body, rules, y)

@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 
 import analytic
-from coin_mj.machine import fly, machine_of, press
+from coin_mj.contact import ContactSettings
+from coin_mj.impact import press
+from coin_mj.machine import fly, machine_of
 from coin_mj.scene import shape_thickness
-from coin_mj.toss import run, toss
+from coin_mj.toss import impacts_of, toss
 from compare.impulses import match
-from models.records import Ending, Impacts, UnsupportedError
+from models.records import Ending, UnsupportedError
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
 
 DOUBLE = 1e-4
@@ -35,9 +37,8 @@ def draw_single_impact(rng):
             return one, impacts
 
 
-def first_impact(case, stiffness=1e14):
-    machine = machine_of(case, stiffness, shape_thickness(case))
-    return Impacts.from_rows(run(machine, case.rules).rows)
+def first_impact(case, **settings):
+    return impacts_of(case, ContactSettings(**settings))
 
 
 def test_first_impacts_meet_newtons_impulse():
@@ -98,7 +99,7 @@ def test_the_error_falls_with_the_root_of_the_stiffness():
         case, newton = draw_single_impact(rng)
         case = case.model_copy(update={"coin": case.coin.model_copy(update={"thickness": 2e-3})})
         newton = analytic.toss(case).impacts
-        row[:] = [match(newton, first_impact(case, k)).impulse[0] for k in stiffnesses]
+        row[:] = [match(newton, first_impact(case, stiffness=k)).impulse[0] for k in stiffnesses]
     order = np.polyfit(np.log(stiffnesses), np.log(np.median(errors, axis=0)), 1)[0]
     assert -0.6 < order < -0.4
 
@@ -110,7 +111,7 @@ def force_at(machine, knot):
 
 def test_the_impulse_is_the_integral_of_the_contact_force():
     case, _ = draw_single_impact(np.random.default_rng(43))
-    machine = machine_of(case, 1e14, shape_thickness(case))
+    machine = machine_of(case, ContactSettings(), shape_thickness(case))
     assert fly(machine, 10.0)
     first = len(machine.knots)
     contact = press(machine)
@@ -150,8 +151,11 @@ def test_a_contact_that_lasts_is_no_impact():
 @pytest.mark.parametrize(
     ("parts", "words"),
     [
-        ({"floor": {"contact": "knurled"}}, ['floor.contact = "knurled"', '"smooth"']),
-        ({"floor": {"contact": "coulomb"}}, ['floor.contact = "coulomb"', '"smooth"']),
+        ({"floor": {"contact": "knurled"}}, ['floor.contact = "knurled"', '"smooth", "coulomb", "perf']),
+        (
+            {"floor": {"contact": "coulomb", "restitution_kind": "energetic"}},
+            ['floor.restitution_kind = "energetic"', '"kinematic"'],
+        ),
         ({"floor": {"restitution": 0.0}}, ["floor.restitution = 0", "> 0"]),
         ({"air": {"normal": 0.8, "exponent": 1.0}}, ["air.exponent = 1", "0"]),
     ],

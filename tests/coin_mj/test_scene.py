@@ -7,7 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from coin_mj.contact import spring_of
+from coin_mj.contact import ContactSettings, rebound_of
 from coin_mj.scene import build, build_painted, shape_thickness
 from coin_mj.state import of_release, to_mass_center
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
@@ -16,7 +16,7 @@ IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 
 
 def built(case):
-    return build(case, spring_of(case.floor.restitution), shape_thickness(case))
+    return build(case, rebound_of(case.floor.restitution, ContactSettings()), 0.0, shape_thickness(case))
 
 
 def test_mass_and_inertia_are_the_scenarios():

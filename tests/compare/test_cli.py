@@ -95,10 +95,32 @@ def test_a_wrong_scenario_is_exit_status_2_and_one_line(tmp_path, command, text)
 
 def test_what_an_engine_cannot_do_is_exit_status_2(tmp_path):
     source = tmp_path / "rough.toml"
-    source.write_text(scenario_text("fig24a").replace('"smooth"', '"coulomb"'))
+    source.write_text(scenario_text("fig24a").replace('"smooth"', '"knurled"'))
     answered = cointoss("toss", source, "--engine", "mujoco")
     assert answered.exit_code == 2
-    assert answered.stderr.startswith(f'cointoss: {source}: floor.contact = "coulomb": accepted by the')
+    assert answered.stderr.startswith(f'cointoss: {source}: floor.contact = "knurled": accepted by the')
+
+
+def test_a_floor_that_mujoco_comes_near_to_is_told_in_one_line(tmp_path):
+    source = tmp_path / "rough.toml"
+    source.write_text(scenario_text("fig24a").replace('"smooth"', '"perfectly_rough"'))
+    answered = cointoss("toss", source, "--engine", "mujoco", "--max-impacts", 1)
+    assert answered.exit_code == 0
+    assert len(answered.stderr.splitlines()) == 1
+    assert answered.stderr.startswith(f'cointoss: {source}: floor.contact = "perfectly_rough": MuJoCo tosses')
+    assert cointoss("toss", source, "--max-impacts", 1).stderr == ""
+
+
+def test_a_contact_may_take_one_step(tmp_path):
+    source = tmp_path / "dead.toml"
+    source.write_text(scenario_text("fig24a").replace("restitution = 0.8", "restitution = 0"))
+    dead = ("toss", source, "--engine", "mujoco", "--max-impacts", 1)
+    assert "floor.restitution = 0" in cointoss(*dead).stderr
+    answered = cointoss(*dead, "--contact", "one_step", "--json")
+    assert len(json.loads(answered.stdout)["impacts"]) == 1
+    answered = cointoss("toss", source, "--contact", "one_step")
+    assert answered.exit_code == 2
+    assert answered.stderr.startswith("cointoss: --contact one_step: accepted: only beside --engine mujoco")
 
 
 @pytest.mark.parametrize(

@@ -129,7 +129,7 @@ def test_an_imperfect_coin_is_settled_on_a_smooth_floor_only_below_every_way_ove
 def test_a_flat_coin_lies_unless_its_unbalanced_spin_lifts_it(contact, spin, lies):
     """It takes the moment J_ηζ ω² to spin flat; the weight has m g (r - |c|) at most."""
     case = scenario(coin=IMPERFECT, air=AIR, floor={"contact": contact, "friction": 0.2})
-    J, c = case.body.inertia, np.hypot(*PAPER_OFFSET[:2])
+    J, c = case.body.inertia, float(np.linalg.norm(PAPER_OFFSET[:2]))
     moment = np.hypot(J[0][2], J[1][2]) * spin**2
     assert (moment < 0.5 * 2e-3 * 9.81 * (1.25e-2 - c)) == lies
     expected = (Outcome.HEADS, Ending.LYING) if lies else (Outcome.UNDECIDED, Ending.NONE)

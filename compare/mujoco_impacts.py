@@ -1,0 +1,135 @@
+"""Single impacts from random touches: MuJoCo's contacts beside the paper's laws."""
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+import analytic
+import coin_mj
+from coin_mj import ContactSettings
+from models.attitude import rotation_matrix
+from models.geometry import contact_velocity, gap, lowest_point
+from models.laws import ContactLaw, RestitutionKind
+from models.records import Array, Impacts
+from models.scenario import Ending, Floor, Release, Scenario, euler_parameters, vector
+
+CLEARANCE = 1e-9
+"""Height of the lowest rim point at release [m]: nothing happens on the way down."""
+ALONE = 1e-4
+"""No second rim point may land so soon after the first [s]."""
+SLOWEST = 0.3
+"""The contact point comes down at least so fast [m/s]."""
+OFFSET = (-1e-3, -1e-3, -2e-4)
+"""Mass centre of the paper's imperfect coin [m]."""
+
+
+def touch(
+    *,
+    attitude: Array,
+    velocity: Array,
+    spin: Array,
+    thickness: float = 2e-3,
+    offset: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    restitution: float = 0.8,
+) -> Scenario:
+    """Give the toss of the paper's 1 zloty coin that touches a smooth floor at once, for one impact.
+
+    Args:
+        attitude: Euler parameters of norm 1, body to space, (4,).
+        velocity: of C, space frame, (3,) [m/s].
+        spin: ω, body frame, (3,) [rad/s].
+        thickness: h [m].
+        offset: C from B, body frame [m].
+        restitution: χ.
+    """
+    high = Release(
+        position=(0.0, 0.0, 1.0),
+        velocity=vector(velocity),
+        quaternion=euler_parameters(attitude),
+        angular_velocity=vector(spin),
+    )
+    described: dict[str, Any] = {
+        "coin": {"mass": 2e-3, "radius": 1.25e-2, "thickness": thickness, "center_of_mass": offset},
+        "floor": Floor(restitution=restitution, contact=ContactLaw.SMOOTH),
+        "release": high,
+        "ending": Ending(max_impacts=1),
+    }
+    case = Scenario.model_validate(described)
+    z = 1.0 - gap(case.body, 1.0, rotation_matrix(high.attitude)[2]) + CLEARANCE
+    return case.model_copy(update={"release": high.model_copy(update={"position": (0.0, 0.0, z)})})
+
+
+def draw_touches(
+    rng: np.random.Generator, count: int, restitutions: tuple[float, float], spin: float = 40.0
+) -> list[Scenario]:
+    """Draw touches of the paper's four coins by one rim point.
+
+    Every attitude is equally likely; of C the speeds are up to 0.3 m/s along the floor and from 1 to 3 m/s
+    down.
+
+    Args:
+        rng: the source of chance.
+        count: how many.
+        restitutions: smallest and largest χ.
+        spin: largest |ω| about each axis [rad/s].
+    """
+    cases: list[Scenario] = []
+    while len(cases) < count:
+        e = rng.normal(size=4)
+        thickness = float(rng.choice([0.0, 2e-3]))
+        offset = np.array(OFFSET) * float(rng.integers(2))
+        if thickness == 0:
+            offset[2] = 0
+        case = touch(
+            attitude=e / np.linalg.norm(e),
+            velocity=rng.uniform([-0.3, -0.3, -3.0], [0.3, 0.3, -1.0]),
+            spin=rng.uniform(-spin, spin, 3),
+            thickness=thickness,
+            offset=vector(offset),
+            restitution=float(rng.uniform(*restitutions)),
+        )
+        if -velocity_at_touch(case)[2] > SLOWEST and _is_alone(case):
+            cases.append(case)
+    return cases
+
+
+def velocity_at_touch(case: Scenario) -> Array:
+    """Give the velocity of the lowest point at release, space frame, (3,) [m/s]."""
+    release, body = case.release, case.body
+    R = rotation_matrix(release.attitude)
+    point, _ = lowest_point(body, R[2], release.angular_velocity)
+    return np.array(contact_velocity(body, R, release.velocity, release.angular_velocity, point))
+
+
+def _is_alone(case: Scenario) -> bool:
+    ending = case.ending.model_copy(update={"max_impacts": 2})
+    times = analytic.toss(case.model_copy(update={"ending": ending})).impacts.time
+    return bool(np.all(np.diff(times) > ALONE))
+
+
+def on_floor(case: Scenario, law: ContactLaw, friction: float) -> Scenario:
+    """Give the same touch of a floor with another law."""
+    update = {"contact": law, "friction": friction, "restitution_kind": RestitutionKind.KINEMATIC}
+    return case.model_copy(update={"floor": case.floor.model_copy(update=update)})
+
+
+def by_law(cases: Iterable[Scenario]) -> list[Impacts]:
+    """Give the impacts by the paper's laws."""
+    return [analytic.toss(case).impacts for case in cases]
+
+
+def by_mujoco(cases: Iterable[Scenario], settings: ContactSettings) -> list[Impacts]:
+    """Give the impacts by MuJoCo, whose floor is smooth, or Coulomb's."""
+    return [coin_mj.impacts_of(case, settings) for case in cases]
+
+
+def first(impacts: list[Impacts], column: str) -> Array:
+    """Give a column of the first impact of each, infinite where there is none, (n, ...)."""
+    empty = np.full(getattr(impacts[0], column).shape[1:], np.inf)
+    return np.array([getattr(one, column)[0] if len(one) else empty for one in impacts])
+
+
+def relative_errors(a: Array, b: Array) -> Array:
+    """Give |a - b|/|a| for each row, (n,)."""
+    return np.linalg.norm(a - b, axis=1) / np.linalg.norm(a, axis=1)

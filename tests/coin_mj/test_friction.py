@@ -1,0 +1,160 @@
+"""Coulomb's force in MuJoCo's contacts: closed forms, then impacts against Routh's law."""
+
+import numpy as np
+import pytest
+
+import analytic
+from coin_mj import ContactSettings, Friction, Realisation, impacts_of, toss
+from coin_mj.friction import coulomb_force
+from compare.impulses import match
+from models.records import ApproximationWarning, Ending, Flag
+from tests.draws import ZLOTY, draw_coin, draw_release, scenario
+
+DOUBLE = 1e-4
+"""Where a second rim point lands so soon after the first [s], both are pressed at once."""
+BALL = np.diag([3.5, 3.5, 1.0])
+"""Mobility of a solid ball of 1 kg at its lowest point."""
+
+
+def test_a_sliding_ball_is_braked_by_mu_times_its_weight():
+    f = coulomb_force(BALL, 0.2, 10.0, np.array([3.0, -4.0]), np.array([3.0, -4.0]), 1e-3)
+    assert f == pytest.approx((-0.2 * 10 * 0.6, 0.2 * 10 * 0.8), rel=1e-12)
+
+
+def test_a_sticking_ball_is_held_by_what_pulls_it():
+    """At rest, and pulled by 1 N: 2/7 of a pull at the centre; here the pull is at the contact itself."""
+    pulled = np.array([3.5e-3, 0.0])
+    f = coulomb_force(BALL, 0.2, 10.0, np.zeros(2), pulled, 1e-3)
+    assert f == pytest.approx((-1.0, 0.0), rel=1e-12)
+    f = coulomb_force(BALL, 0.05, 10.0, np.zeros(2), pulled, 1e-3)
+    assert f == pytest.approx((-0.5, 0.0), rel=1e-9)
+
+
+def test_slip_that_stops_within_a_step_ends_at_nothing():
+    slip = np.array([1e-3, 0.0])
+    f = coulomb_force(BALL, 0.5, 10.0, slip, slip, 1e-3)
+    assert slip[0] + 3.5 * f[0] * 1e-3 == pytest.approx(0, abs=1e-15)
+
+
+def test_the_normal_force_gives_way_to_friction():
+    """With N = N_0 - g f and f = -mu N s: f = -mu N_0/(1 - mu g) for s = 1."""
+    K = np.array([[2.0, 0, 0.6], [0, 2.0, 0], [0.6, 0, 1.2]])
+    f = coulomb_force(K, 0.4, 10.0, np.array([5.0, 0]), np.array([5.0, 0]), 1e-3)
+    assert f == pytest.approx((-4 / (1 - 0.4 * 0.5), 0), rel=1e-12)
+
+
+def test_where_sliding_has_no_solution_the_slip_stops_at_once():
+    K = np.array([[2.0, 0, 1.2], [0, 2.0, 0], [1.2, 0, 1.0]])
+    slip = np.array([1.0, 0])
+    f = coulomb_force(K, 1.0, 10.0, slip, slip, 1e-3)
+    assert 1 + (2 - 1.44) * f[0] * 1e-3 == pytest.approx(0, abs=1e-12)
+
+
+def draw_single_impact(rng, law="coulomb", spin=40.0):
+    """A toss whose first impact is by one rim point, and its analytic impacts."""
+    while True:
+        floor = {
+            "contact": law,
+            "restitution": float(rng.uniform(0.01, 1.0)),
+            "friction": float(rng.uniform(0, 1)),
+        }
+        parts = {"coin": draw_coin(rng), "floor": floor, "release": draw_release(rng, spin)}
+        impacts = analytic.toss(scenario(**parts, ending={"max_impacts": 2})).impacts
+        if np.all(np.diff(impacts.time) > DOUBLE):
+            return scenario(**parts, ending={"max_impacts": 1}), impacts
+
+
+def errors_and_kinds(rng, count, **settings):
+    """Errors of impulses, and whether the slip stops, keeps its direction, or turns by a right angle."""
+    errors, kinds = [], []
+    for _ in range(count):
+        case, law = draw_single_impact(rng)
+        errors.append(match(law, impacts_of(case, ContactSettings(**settings))).impulse[0])
+        before, after = law.contact_velocity_before[0, :2], law.contact_velocity_after[0, :2]
+        sticks = np.hypot(*after) < 1e-9 * np.hypot(*before)
+        kinds.append("sticks" if sticks else "slides" if before @ after > 0 else "turns")
+    return np.array(errors), np.array(kinds)
+
+
+@pytest.mark.parametrize(
+    ("realisation", "median", "worst"),
+    # Asked: median 2e-3, worst 1e-2. Measured over 150: 2.4e-5 and 4e-5; 1.3e-6 and 7e-4.
+    [(Realisation.SPRING, 6e-5, 5e-4), (Realisation.ONE_STEP, 1e-5, 3e-3)],
+)
+def test_first_impacts_meet_rouths_law(realisation, median, worst):
+    errors, kinds = errors_and_kinds(np.random.default_rng(61), 100, realisation=realisation)
+    for kind in ("sticks", "slides", "turns"):
+        chosen = errors[kinds == kind]
+        assert len(chosen) > 10, kind
+        assert 1e-7 < np.median(chosen) < median, kind
+        assert chosen.max() < worst, kind
+
+
+def test_mujocos_own_friction_is_far_from_coulombs():
+    """Its convex cone pushes a sliding contact apart."""
+    errors, _ = errors_and_kinds(np.random.default_rng(61), 40, friction=Friction.NATIVE)
+    assert 5e-3 < np.median(errors) < 0.1
+
+
+def test_a_perfectly_rough_floor_is_one_of_large_friction():
+    rng = np.random.default_rng(62)
+    for _ in range(10):
+        case, law = draw_single_impact(rng, "perfectly_rough")
+        with pytest.warns(ApproximationWarning, match=r'"perfectly_rough": MuJoCo tosses .* friction 100'):
+            impacts = toss(case).impacts
+        assert match(law, impacts).impulse[0] < 1e-3
+
+
+def test_friction_needs_a_coefficient():
+    release = draw_release(np.random.default_rng(63))
+    rough, smooth = (
+        toss(scenario(floor={"contact": law}, release=release, ending={"max_impacts": 1}))
+        for law in ("coulomb", "smooth")
+    )
+    assert np.array_equal(rough.impacts.impulse, smooth.impacts.impulse)
+
+
+def test_a_flat_landing_is_without_friction():
+    """The impulse goes through C, as in the paper's mechanics."""
+    case = scenario(
+        floor={"contact": "coulomb", "friction": 0.5},
+        release={"velocity": [0.3, 0, 0], "angular_velocity": [0, 0, 5.0]},
+        ending={"max_impacts": 1},
+    )
+    after = toss(case).impacts.velocity_after[0]
+    assert after == pytest.approx(analytic.toss(case).impacts.velocity_after[0], rel=1e-4)
+
+
+def test_no_impact_leaves_the_cone():
+    case = scenario(
+        coin={**ZLOTY, "center_of_mass": [-1e-3, -1e-3, -2e-4]},
+        floor={"contact": "coulomb", "friction": 0.15},
+        release=draw_release(np.random.default_rng(64)),
+        ending={"max_impacts": 8},
+    )
+    tossed = toss(case)
+    assert len(tossed.impacts) == 8
+    used = np.hypot(*tossed.impacts.impulse[:, :2].T) / tossed.impacts.impulse[:, 2]
+    assert np.all(used < 0.15 * (1 + 1e-6))
+    assert used.max() > 0.14
+    assert not any(Flag.PULLS in flags for flags in tossed.flags)
+
+
+def test_one_step_contacts_meet_newtons_law_down_to_restitution_0():
+    rng = np.random.default_rng(65)
+    for restitution in (0.0, 0.005, 0.5, 1.0):
+        case = scenario(
+            floor={"restitution": restitution}, release=draw_release(rng), ending={"max_impacts": 1}
+        )
+        error = match(analytic.toss(case).impacts, toss(case, realisation=Realisation.ONE_STEP).impacts)
+        assert error.impulse[0] < 3e-5
+
+
+def test_a_toss_of_one_step_contacts_ends():
+    case = scenario(floor={"restitution": 0.5}, release=draw_release(np.random.default_rng(66)))
+    tossed = toss(case, realisation=Realisation.ONE_STEP)
+    assert tossed.ending == Ending.SETTLED
+    names = {setting.name for setting in tossed.certificate}
+    assert "length of the step" in names
+    dead = case.model_copy(update={"floor": case.floor.model_copy(update={"restitution": 0.0})})
+    assert toss(dead, realisation=Realisation.ONE_STEP).ending in (Ending.SETTLED, Ending.CHATTER)
