@@ -402,7 +402,9 @@ def next_motion(body, mu, motion, y):
     if mu == 0:
         return Motion.SLIDING
     slow = _CREEP * (body.gravity * body.radius) ** 0.5
-    if math.hypot(v_A[0], v_A[1]) > (slow / 2 if motion == Motion.SLIDING else (1 - _HOLD) * slow):
+    # A motion that ends at its bound must not go on for rounding.
+    least = (1 + _HOLD) * slow / 2 if motion == Motion.SLIDING else (1 - _HOLD) * slow
+    if math.hypot(v_A[0], v_A[1]) > least:
         s = direction_of(v_A, mu)
         if dot(K[2], (-mu * s[0], -mu * s[1], 1.0)) > 0:
             return Motion.SLIDING

@@ -29,6 +29,8 @@ PATH_COLUMNS = {
     "angular_velocity": ("w_xi [rad/s]", "w_eta [rad/s]", "w_zeta [rad/s]"),
 }
 """Columns of a path's CSV file, by the fields of `States`."""
+MOST_SHOWN = 200
+"""Symbols of a sequence, and impacts, that are shown to a person; a coin may bounce thousands of times."""
 ROWS_PER_SECOND = 1000
 MOST_ROWS = 1_000_000
 """Beyond it a path's CSV file has hundreds of megabytes."""
@@ -84,10 +86,16 @@ def counted(number: int, thing: str) -> str:
     return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
 
 
+def shortened(sequence: str) -> str:
+    """Give a sequence for a person: its first `MOST_SHOWN` symbols and how many are left out."""
+    left_out = len(sequence) - MOST_SHOWN
+    return sequence if left_out <= 0 else f"{sequence[:MOST_SHOWN]} ... and {left_out} more"
+
+
 def as_lines(toss: Toss) -> str:
     """Give a toss as text for a person."""
     sequence, trusted = toss.sequence, toss.trusted_impacts
-    shown = sequence if trusted >= len(sequence) else f"{sequence[:trusted]}|{sequence[trusted:]}"
+    shown = shortened(sequence if trusted >= len(sequence) else f"{sequence[:trusted]}|{sequence[trusted:]}")
     lines = [
         f"engine    {toss.engine}",
         f"outcome   {toss.outcome.label}",
@@ -96,16 +104,21 @@ def as_lines(toss: Toss) -> str:
         f"sequence  {shown}",
         f"trusted   {counted(trusted, 'impact')}" + ("" if trusted >= len(sequence) else ", before the bar"),
     ]
-    lines += [f"contact   from {start:.6f} to {end:.6f} s" for start, end in toss.contacts]
+    contacts = toss.contacts.tolist()
+    lines += [f"contact   from {start:.6f} to {end:.6f} s" for start, end in contacts[:MOST_SHOWN]]
+    if len(contacts) > MOST_SHOWN:
+        lines.append(f"contact   ... and {len(contacts) - MOST_SHOWN} more")
     if len(toss.impacts):
         lines += ["", "  n      t [s]  up  S_x [mN s]  S_y [mN s]  S_z [mN s]    E [mJ]  rim [deg]"]
     impacts = toss.impacts
     angles = np.degrees(np.arctan2(impacts.point[:, 1], impacts.point[:, 0]))
-    for i, flags in enumerate(toss.flags):
+    for i, flags in enumerate(toss.flags[:MOST_SHOWN]):
         S = 1e3 * impacts.impulse[i]
         lines.append(
             f"{i + 1:3d} {impacts.time[i]:10.6f}   {Face(impacts.face[i]).symbol} "
             f"{S[0]:11.5f} {S[1]:11.5f} {S[2]:11.5f} {1e3 * impacts.energy[i]:9.4f} {angles[i]:10.2f}"
             + "".join(f"  {flag.replace('_', ' ')}" for flag in sorted(flags))
         )
+    if len(impacts) > MOST_SHOWN:
+        lines.append(f"... and {len(impacts) - MOST_SHOWN} more; --json gives them all")
     return "\n".join(lines)

@@ -39,7 +39,8 @@ def agreement_horizon(toss: Toss, errors: Array) -> int:
                     _beyond(impacts.angular_velocity_before[i], impacts.angular_velocity_after[i], part)
                 ),
             )
-            again = analytic.toss(scenario.model_copy(update={"release": release}))
+            ending = scenario.ending.model_copy(update={"max_impacts": max(shared - i - 1, 1)})
+            again = analytic.toss(scenario.model_copy(update={"release": release, "ending": ending}))
             shared = min(shared, i + 1 + common_prefix(toss.sequence[i + 1 :], again.sequence))
     return shared
 

@@ -10,6 +10,7 @@ import jinja2
 import numpy as np
 from pydantic import BaseModel
 
+from compare.answer import MOST_SHOWN, shortened
 from compare.comparison import Comparison
 from compare.sequences import SAFETY, aligned
 from models.laws import ContactLaw, EndingTest
@@ -50,6 +51,8 @@ def render(page: Page) -> str:
         labels={"analytic": "the paper's mechanics", "mujoco": "MuJoCo"},
         parameters=_parameters(page.scenario),
         pairs=aligned(page.analytic.sequence, comparison.mujoco.sequence) if comparison else [],
+        most_shown=MOST_SHOWN,
+        sequence=shortened(page.analytic.sequence),
         impacts=_impact_rows(page.analytic, comparison),
         video=b64encode(page.video).decode("ascii") if page.video else None,
         safety=SAFETY,
@@ -88,7 +91,7 @@ def _shown(value: Any) -> str:
 
 
 def _impact_rows(analytic: Toss, comparison: Comparison | None) -> list[dict[str, Any]]:
-    """Give the rows of the table of impacts, as many as the longer toss has."""
+    """Give the rows of the table of impacts, as many as the longer toss has, or `MOST_SHOWN`."""
     b = comparison.mujoco if comparison else None
     count = max(len(analytic.impacts), len(b.impacts) if b else 0)
     matched = len(comparison.differences.time) if comparison else 0
@@ -102,7 +105,7 @@ def _impact_rows(analytic: Toss, comparison: Comparison | None) -> list[dict[str
             "error": comparison.errors[i] if comparison and i < len(comparison.errors) else None,
             "impulse_difference": comparison.differences.impulse[i] if comparison and i < matched else None,
         }
-        for i in range(count)
+        for i in range(min(count, MOST_SHOWN))
     ]
 
 

@@ -258,6 +258,26 @@ def test_slip_stops_where_friction_can_hold_it():
     assert velocity_of_lowest(body, y) == pytest.approx(0, abs=1e-13)
 
 
+@pytest.mark.parametrize(
+    ("motion", "slip", "expected"),
+    [
+        (Motion.SLIDING, 0.5, Motion.STICKING),
+        (Motion.SLIDING, 0.6, Motion.SLIDING),
+        (Motion.CREEPING, 1.0, Motion.SLIDING),
+        (Motion.CREEPING, 0.9, Motion.STICKING),
+    ],
+)
+@pytest.mark.parametrize("rounding", [-1e-12, 1e-12])
+def test_a_motion_that_ends_at_its_bound_of_slip_does_not_go_on_for_rounding(
+    motion, slip, expected, rounding
+):
+    """An upright disk that slips along its plane: slip in 1e-3 √(g r); it would stop where friction holds."""
+    body = scenario(coin=THIN).body
+    speed = slip * (1 + rounding) * 1e-3 * np.sqrt(G * R_COIN)
+    y = on_floor(body, Motion.SLIDING, (0.0, np.pi / 2, 0.0), (0.0, 0.0, 0.0), (speed, 0.0))
+    assert next_motion(body, 0.2, motion, y) == expected
+
+
 def test_a_coin_leaves_the_floor_when_it_would_have_to_be_held_back():
     """It rises fast from a small tilt: the force falls to zero, and the gap opens from there."""
     body = scenario(coin=THIN).body

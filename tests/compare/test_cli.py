@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -67,6 +68,15 @@ def test_text_shows_sequence_outcome_and_horizon():
     assert "outcome   heads" in text
     assert "settled: The energy is below the pass" in text
     assert "|" in text.split("sequence")[1].splitlines()[0]
+
+
+def test_text_shows_the_first_of_thousands_of_impacts():
+    text = cointoss("toss", "zloty").stdout
+    sequence = text.split("sequence")[1].splitlines()[0]
+    assert re.fullmatch(r" +[HT|]{200} \.\.\. and \d+ more", sequence)
+    assert "200 " in text
+    assert "201 " not in text
+    assert text.rstrip().endswith("more; --json gives them all")
 
 
 def test_the_trajectory_is_written_as_csv(tmp_path):
