@@ -62,6 +62,8 @@ _CREEP = 1e-3
 _HOLD = 1e-6
 # The angle by which a coin on its edge is tried on either rim.
 _TIP = 1e-9
+# In so many phases of its roll a coin on its edge is tried.
+_PHASES = 48
 _HALVINGS = 50
 _DIRECTIONS = 24
 
@@ -431,20 +433,59 @@ def sample_contact(body, mu, motion, start, start_time, times, states):
     """
     stages, y, y_new = np.empty((STAGES, STATE_SIZE)), start.copy(), np.empty(STATE_SIZE)
     elapsed, side = 0.0, side_of(start)
+    made = accepted_contact_step(body, mu, motion, side, y, np.inf, stages, y_new)
     for i in range(len(times)):
-        while True:
-            ahead = times[i] - start_time - elapsed
-            made = accepted_contact_step(body, mu, motion, side, y, max(ahead, 0.0), stages, y_new)
-            if made >= ahead:
-                states[i] = y_new if ahead > 0 else y
-                break
+        # The steps are those of `stay`: a time between them changes none.
+        while times[i] - start_time > elapsed + made:
             elapsed += made
             y[:] = y_new
+            made = accepted_contact_step(body, mu, motion, side, y, np.inf, stages, y_new)
+        contact_rate(body, mu, motion, side, y, stages[0])
+        contact_step(body, mu, motion, side, y, times[i] - start_time - elapsed, stages, states[i])
 
 
 @compiled
 def stands(body, mu, motion, y):
-    """Tell whether the floor's force on either rim turns a coin on its edge back to the other: so it stands.
+    """Tell whether a coin on its edge is held there however it rolls on.
+
+    Rolling brings C up and down, and so changes the roll rate: the floor must hold the coin in every phase
+    that it can reach, at rest and at the largest roll rate that its energy of turning leaves there. It turns
+    about the vertical as L_z has it.
+
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ, 0 on a smooth floor.
+        motion: `Motion` in contact.
+        y: state of a coin on its edge, (13,).
+    """
+    J, weight = body.inertia, body.mass * body.gravity
+    up, w = rotation_matrix(attitude_of(y))[2], spin_of(y)
+    L_z, energy = dot(up, apply(J, w)), dot(w, apply(J, w)) / 2 + weight * y[2]
+    if not held_on_edge(body, mu, motion, y):
+        return False
+    phase = y.copy()
+    e0, e1, e2, e3 = attitude_of(y)
+    for i in range(_PHASES):
+        c, s = math.cos(math.pi * i / _PHASES), math.sin(math.pi * i / _PHASES)
+        phase[6], phase[7] = c * e0 - s * e3, c * e1 + s * e2
+        phase[8], phase[9] = c * e2 - s * e1, c * e3 + s * e0
+        up = rotation_matrix(attitude_of(phase))[2]
+        phase[2] = body.radius * math.hypot(up[0], up[1]) + dot(up, body.center)
+        moment = dot(up, apply(J, up))
+        left = energy - weight * phase[2] - L_z * L_z / (2 * moment)
+        fastest = (2 * max(left, 0.0) / J[2][2]) ** 0.5
+        for rolling in (-fastest, 0.0, fastest):
+            for k in range(3):
+                phase[10 + k] = L_z / moment * up[k]
+            phase[12] += rolling
+            if left > -1e-9 * weight * body.radius and not held_on_edge(body, mu, motion, phase):
+                return False
+    return True
+
+
+@compiled
+def held_on_edge(body, mu, motion, y):
+    """Tell whether the floor's force on either rim turns a coin on its edge back to the other now.
 
     Args:
         body: the coin.

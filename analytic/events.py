@@ -5,7 +5,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.contact import Motion, Verdict, friction_in_contact, keeps_contact, next_motion, stands, stay
+from analytic.contact import (
+    Motion,
+    Verdict,
+    friction_in_contact,
+    held_on_edge,
+    keeps_contact,
+    next_motion,
+    stands,
+    stay,
+)
 from analytic.flight import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
 from analytic.impact import impulse, spin_gained
 from analytic.rim import closing_speed, crowded, fly
@@ -212,8 +221,12 @@ def keep_contact(body, rules, mu, motion, y, time, steps_left, looks):
         time += made
         steps_left -= 1
         outcome, ending = decided(body, rules, y)
-        if ending == Ending.NONE and on_edge(body, y) and stands(body, mu, motion, y):
-            outcome, ending = Outcome.EDGE, Ending.STANDING
+        if ending == Ending.NONE and on_edge(body, y) and held_on_edge(body, mu, motion, y):
+            if stands(body, mu, motion, y):
+                outcome, ending = Outcome.EDGE, Ending.STANDING
+            else:
+                # It stays on both rims until its roll tips it, a contact that is not followed.
+                ending = Ending.CHATTER
         if ending == Ending.NONE and dies_away(body, rules, y, time, looks):
             outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
         if ending != Ending.NONE:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from models.records import Face, Impacts, States, Toss, UnsupportedError
+from models.records import Face, Impacts, Outcome, States, Toss, UnsupportedError
 
 _JSON_FIELDS = (
     "impulse",
@@ -105,6 +105,11 @@ def as_lines(toss: Toss) -> str:
         f"trusted   {counted(trusted, 'impact')}" + ("" if trusted >= len(sequence) else ", before the bar"),
     ]
     contacts = toss.contacts.tolist()
+    if toss.outcome == Outcome.PERPETUAL:
+        energies = [
+            f"{item.name}: {1e3 * float(item.value):.4f} mJ" for item in toss.certificate if item.unit == "J"
+        ]
+        lines.append(f"evidence  {'; '.join(energies)}")
     lines += [f"contact   from {start:.6f} to {end:.6f} s" for start, end in contacts[:MOST_SHOWN]]
     if len(contacts) > MOST_SHOWN:
         lines.append(f"contact   ... and {len(contacts) - MOST_SHOWN} more")

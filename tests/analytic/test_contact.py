@@ -10,6 +10,7 @@ from analytic.contact import (
     contact,
     direction_of,
     force,
+    held_on_edge,
     holding_force,
     holds,
     next_motion,
@@ -24,7 +25,7 @@ from analytic.flight import derivative
 from models.attitude import quaternion_from_angles, rotation_matrix
 from models.ending import energy
 from models.geometry import contact_velocity, gap, lowest_point
-from tests.draws import AIR, ZLOTY, draw_coin, scenario
+from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, scenario
 
 G, R_COIN, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
 THIN = {**ZLOTY, "thickness": 0.0}
@@ -319,6 +320,31 @@ def test_a_coin_stands_on_its_edge_while_it_does_not_turn_and_roll_too_fast(spin
     y = on_floor(body, Motion.SLIDING, (0.0, np.pi / 2, 0.0), (0.0, spin, roll))
     assert (body.inertia[2][2] * spin * roll < M * G * body.thickness / 2) == steady
     assert stands(body, 0.0, Motion.SLIDING, y) == steady
+
+
+def test_an_unbalanced_coin_that_spins_upright_is_not_said_to_stand():
+    """It is held in this phase; as it rolls on, the moment of its spin about the vertical would tip it."""
+    body = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}).body
+    # C is level with B: it will swing down.
+    spinning, still = (
+        on_floor(body, Motion.SLIDING, (0.0, np.pi / 2, 3 * np.pi / 4), (s, -s, 0.0)) for s in (42.0, 0.0)
+    )
+    assert held_on_edge(body, 0.0, Motion.SLIDING, spinning)
+    assert not stands(body, 0.0, Motion.SLIDING, spinning)
+    assert stands(body, 0.0, Motion.SLIDING, still)
+
+
+@pytest.mark.parametrize("motion", [Motion.SLIDING, Motion.STICKING])
+def test_a_sampled_state_does_not_hang_on_the_other_times_asked_for(motion):
+    body = scenario(coin=THIN).body
+    y = on_floor(body, motion, (0.0, 1.0, 0.0), (3.0, 20.0, 3.0))
+    mu, end = 0.0 if motion == Motion.SLIDING else 50.0, 2.0
+    states, times = follow(body, mu, motion, y, end)
+    alone, among = np.empty((1, 13)), np.empty((301, 13))
+    sample_contact(body, mu, motion, y, 0.0, times[-2:-1], alone)
+    assert alone[0] == pytest.approx(states[-2], abs=1e-10)
+    sample_contact(body, mu, motion, y, 0.0, np.append(np.linspace(0, times[-2], 301)[:-1], times[-2]), among)
+    assert np.array_equal(among[-1], alone[0])
 
 
 def test_air_slows_a_wobbling_coin():

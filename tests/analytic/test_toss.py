@@ -218,10 +218,62 @@ def test_endings_have_their_names(ending, expected):
     assert tossed.ending.sentence
 
 
-def test_without_rebound_a_coin_that_stays_in_contact_is_not_decided():
+def test_without_rebound_a_coin_is_decided_soon():
     tossed = analytic.toss(scenario(floor={"restitution": 0.0}, release={"angles": [0, 0.3, 0]}))
-    assert tossed.ending in (Ending.CHATTER, Ending.SETTLED)
+    assert tossed.ending == Ending.SETTLED
     assert len(tossed.impacts) < 20
+
+
+WOBBLING = scenario(
+    coin={**ZLOTY, "thickness": 0.0},
+    floor={"restitution": 0.26},
+    release={"position": [0, 0, 0.013], "angles": [0, 1.2, 0], "angular_velocity": [0, 60, 0]},
+)
+
+
+def test_a_coin_that_loses_nothing_may_wobble_for_ever():
+    tossed = analytic.toss(WOBBLING)
+    assert (tossed.outcome, tossed.ending) == (Outcome.PERPETUAL, Ending.PERPETUAL)
+    energies = {item.name: float(item.value) for item in tossed.certificate if item.unit == "J"}
+    assert energies["energy at the end"] > energies["energy needed to turn over"]
+    start, end = tossed.contacts[-1]
+    assert end == tossed.end_time
+    states = tossed.sample(np.linspace(start, end, 500))
+    assert np.abs(states.normal[:, 2]).max() < 1
+    gaps = [
+        gap(WOBBLING.body, x[2], rotation_matrix(tuple(e))[2])
+        for x, e in zip(states.position, states.quaternion, strict=True)
+    ]
+    assert np.abs(gaps).max() < 1e-12 * ZLOTY["radius"]
+    again = analytic.toss(WOBBLING.model_copy(update={"air": WOBBLING.air.model_copy(update=AIR)}))
+    assert again.outcome in (Outcome.HEADS, Outcome.TAILS), "air takes what it keeps in vacuum"
+
+
+def test_a_path_goes_on_without_a_jump_into_and_out_of_contact():
+    tossed = analytic.toss(WOBBLING)
+    for start, end in tossed.contacts:
+        for time in (start, end):
+            before, after = np.nextafter(time, 0), min(np.nextafter(time, 100), tossed.end_time)
+            states = tossed.sample([before, after])
+            assert np.abs(np.diff(states.position, axis=0)).max() < 1e-10
+            assert np.abs(np.diff(states.quaternion, axis=0)).max() < 1e-10
+
+
+def test_trust_ends_where_contact_begins():
+    tossed = analytic.toss(WOBBLING)
+    assert tossed.trusted_impacts <= np.sum(tossed.impacts.time < tossed.contacts[0, 0])
+
+
+@pytest.mark.parametrize("law", [law for law in PAPER_LAWS if law.label not in ("smooth", "perfectly_rough")])
+def test_contact_is_not_followed_under_a_law_that_prescribes_the_slip(law):
+    """The flat drop ends by its energy; a slow spinning one would stay in contact."""
+    tossed = analytic.toss(
+        scenario(
+            floor={"restitution": 0.1, "contact": law.label, "friction": 0.2},
+            release={"position": [0, 0, 0.013], "angles": [0, 1.2, 0], "angular_velocity": [0, 60, 0]},
+        )
+    )
+    assert len(tossed.contacts) == 0
 
 
 def test_a_toss_is_reproducible_to_the_bit():
