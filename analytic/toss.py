@@ -99,7 +99,7 @@ def toss(scenario: Scenario) -> Toss:
             Setting(name="error of a step carried to the horizon: of the attitude", value=TURN_ERROR),
             Setting(name="safety factor of the horizon", value=SAFETY),
             Setting(name="energy at the end", value=_energy(body, end), unit="J"),
-            Setting(name="energy needed to turn over", value=_barrier(body, end), unit="J"),
+            Setting(name="energy of the lowest pass to the other face", value=_barrier(body, end), unit="J"),
         ),
         path=Pieces(
             body=body,

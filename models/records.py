@@ -74,7 +74,7 @@ _SENTENCES = {
     Ending.MAX_IMPACTS: "The largest number of impacts was reached.",
     Ending.MAX_TIME: "The largest time was reached.",
     Ending.CHATTER: "Impacts crowd together: the coin stays in contact, which is not followed here.",
-    Ending.NO_SOLUTION: "The contact law has no solution at this attitude.",
+    Ending.NO_SOLUTION: "The contact law has no solution in this state.",
     Ending.LYING: "The coin lies on a face; it only slides and spins, which can't tip it.",
     Ending.STANDING: "The coin stands on its edge: on either rim the floor turns it back to the other.",
     Ending.PERPETUAL: "What the coin loses dies away: it keeps enough energy to turn over for ever.",
