@@ -1,0 +1,95 @@
+"""The study of how tosses end: its page, its numbers, and that its check can fail."""
+
+import json
+from collections import Counter
+from dataclasses import asdict, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import analytic
+from compare.figures import endings
+from compare.figures.endings import (
+    COINS,
+    COUNT,
+    check,
+    compute,
+    draw_toss,
+    from_json,
+    probability,
+    share,
+    text,
+)
+from models.records import Outcome
+
+DOCS = Path(__file__).parents[2] / "docs"
+PAGE = (DOCS / "CONTACT.md").read_text(encoding="utf-8")
+SAVED = from_json((DOCS / "endings" / "numbers.json").read_text(encoding="utf-8"))
+BEGIN, END = "<!-- printed by: cointoss reproduce endings -->\n\n", "\n\n<!-- end -->\n"
+
+
+def test_the_page_shows_the_saved_numbers():
+    assert PAGE.split(BEGIN)[1].split(END)[0] == text(SAVED)
+    assert share(SAVED, "heads")[1] == len(COINS) * COUNT
+    assert "](endings/endings.png)" in PAGE
+    assert (DOCS / "endings" / "endings.png").stat().st_size < 150_000
+
+
+def test_every_claim_holds():
+    assert check(SAVED) == ()
+
+
+def test_other_tosses_end_as_the_saved_ones_do():
+    """Each share within five standard deviations of that of a hundred tosses."""
+    seen: Counter[Outcome] = Counter()
+    number = 50
+    for coin in COINS:
+        for i in range(number):
+            _, scenario = draw_toss(np.random.default_rng([1, i, len(coin)]), coin)
+            tossed = analytic.toss(scenario)
+            assert (
+                tossed.outcome != Outcome.UNDECIDED
+                or scenario.coin.thickness * scenario.coin.center_of_mass[0]
+            )
+            assert tossed.outcome != Outcome.PERPETUAL or scenario.air.normal == 0
+            seen[tossed.outcome] += 1
+    for outcome in (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.PERPETUAL):
+        of_outcome, whole = share(SAVED, outcome.label)
+        p = of_outcome / whole
+        assert seen[outcome] / (2 * number) == pytest.approx(p, abs=5 * np.sqrt(p / (2 * number)))
+
+
+def test_a_small_study_counts_every_toss():
+    told = []
+    study = compute(2, 1, 3, lambda done, whole: told.append((done, whole)))
+    assert share(study, "heads")[1] == 4
+    assert [sum(n) for counts in study.both.values() for n in counts.values()] == [1, 1, 1, 1]
+    assert told == [(n, 8) for n in range(1, 9)]
+    assert from_json(json.dumps(asdict(study))) == study
+
+
+@pytest.mark.parametrize(
+    ("kind", "end", "claim"),
+    [
+        ("ideal, thin, smooth, air", "perpetual, perpetual", "only in vacuum"),
+        ("imperfect, thin, smooth, vacuum", "undecided, max_impacts", "only a thick"),
+        ("imperfect, thick, coulomb, kinematic, vacuum", "undecided, max_impacts", "fewer than"),
+    ],
+)
+def test_a_claim_that_the_counts_do_not_bear_out_is_told(kind, end, claim):
+    changed = {**SAVED.outcomes, kind: {**SAVED.outcomes[kind], end: 1000}}
+    assert any(failed.startswith(claim) for failed in check(replace(SAVED, outcomes=changed)))
+
+
+def test_engines_that_end_otherwise_are_told_apart():
+    assert probability({"analytic": [50, 50, 100], "mujoco": [55, 45, 100]}) > 0.1
+    apart = {"analytic": [50, 50, 100], "mujoco": [90, 45, 65]}
+    assert probability(apart) < 1e-3
+    assert check(replace(SAVED, both={"smooth": apart})) == (
+        "the engines' ends differ no more than by chance",
+    )
+
+
+def test_the_list_knows_the_study():
+    assert endings.FIGURE.files == ("numbers.json", "endings.png")
