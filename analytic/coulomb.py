@@ -19,8 +19,8 @@ from models.vectors import apply, norm
 SIZE = 7
 V_Z, WORK = 2, 6
 TOLERANCE = 1e-13
-# Slip slower than this part of the speed of A is none; above the noise of the steps.
-NO_SLIP = 1e-11
+# Slip slower than this part of the speed of A is none.
+NO_SLIP = 1e-12
 # An acceleration of slip across itself, against that which friction makes of slip, that is none.
 STRAIGHT = 1e-11
 # After so many times the impulse in which slip turns, none is left of any other direction.
@@ -102,6 +102,16 @@ def go_straight(y, f, gained, p):
 
 
 @compiled
+def end_straight(y, f, gained, p, stops, component, target):
+    """Advance the state by the p of `straight_slip`, and take the rounding out of its end."""
+    go_straight(y, f, gained, p)
+    if stops:
+        y[0], y[1] = 0.0, 0.0
+    else:
+        y[component] = target
+
+
+@compiled
 def slide(K, y, mu, no_slip, component, target):
     """Follow the slip until it stops or a component has risen to its target; tell whether it has risen.
 
@@ -123,11 +133,7 @@ def slide(K, y, mu, no_slip, component, target):
             return False
         f, gained, _, p, stops = straight_slip(K, y, mu, component, target)
         if p > 0:
-            go_straight(y, f, gained, p)
-            if stops:
-                y[0], y[1] = 0.0, 0.0
-            else:
-                y[component] = target
+            end_straight(y, f, gained, p, stops, component, target)
             return not stops
         _, dt = accepted_slip_step(K, y, mu, speed, dt, stages, y_new, component, target)
         y[:] = y_new

@@ -13,9 +13,11 @@ from analytic.coulomb import (
     V_Z,
     WORK,
     accepted_slip_step,
+    end_straight,
     first_slip_step,
     friction_without_slip,
     go_straight,
+    impulse_to,
     resisted,
     slip_rate,
     straight_slip,
@@ -61,21 +63,17 @@ def press_change(K, dK, y, dy, mu, no_slip, component, target, d_target):
     direction, d_direction = (f[0], f[1], 1.0), (df[0], df[1], 0.0)
     gained = apply(K, direction)
     d_gained = add(apply(dK, direction), apply(K, d_direction))
-    missing, rise, d_rise = target - y[component], gained[2], d_gained[2]
+    rise, d_rise = gained[2], d_gained[2]
+    p = impulse_to(y, rise, component, target)
     if component == V_Z:
-        p = missing / rise
         dp = (d_target - dy[2] - d_rise * p) / rise
     else:
-        end_speed = (y[2] ** 2 + 2 * rise * missing) ** 0.5
-        p = (end_speed - y[2]) / rise
-        dp = (d_target - dy[WORK] - dy[2] * p - d_rise * p * p / 2) / end_speed
+        dp = (d_target - dy[WORK] - dy[2] * p - d_rise * p * p / 2) / (y[2] + rise * p)
     dy[WORK] += dy[2] * p + y[2] * dp + d_rise * p * p / 2 + rise * p * dp
-    y[WORK] += y[2] * p + rise * p * p / 2
     for i in range(3):
         dy[i] += d_gained[i] * p + gained[i] * dp
-        y[i] += gained[i] * p
         dy[3 + i] += d_direction[i] * p + direction[i] * dp
-        y[3 + i] += direction[i] * p
+    go_straight(y, f, gained, p)
 
 
 @compiled
@@ -89,11 +87,7 @@ def slide_change(K, dK, y, dy, mu, no_slip, component, target, d_target):
         f, gained, kappa, p, stops = straight_slip(K, y, mu, component, target)
         if p > 0:
             straight_change(K, dK, y, dy, mu, f, gained, kappa, p, stops, component, d_target)
-            go_straight(y, f, gained, p)
-            if stops:
-                y[0], y[1] = 0.0, 0.0
-            else:
-                y[component] = target
+            end_straight(y, f, gained, p, stops, component, target)
             return not stops
         made, dt = accepted_slip_step(K, y, mu, speed, dt, stages, y_new, component, target)
         slip_step_change(K, dK, y, dy, mu, made, stages)

@@ -5,38 +5,21 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.contact import (
-    Motion,
-    Verdict,
-    friction_in_contact,
-    held_on_edge,
-    keeps_contact,
-    next_motion,
-    stands,
-    stay,
-)
+from analytic.contact import Verdict, friction_in_contact, keeps_contact, next_motion, stay
+from analytic.edge import held_on_edge, on_edge, stands
 from analytic.flight import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
+from analytic.floor_force import Motion
 from analytic.impact import impulse, spin_gained
+from analytic.perpetual import dies_away, first_contact, no_looks
 from analytic.rim import closing_speed, crowded, fly
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
 from models.compiled import compiled
-from models.ending import barrier, energy, face_up, judge
+from models.ending import energy, face_up, judge
 from models.geometry import contact_velocity, lowest_point
-from models.laws import ContactLaw
 from models.records import IMPACT_ROW, Array, Ending, Outcome
-from models.vectors import add, apply, cross, scale, subtract
+from models.vectors import add, apply, scale, subtract
 
-# The energy of a toss in contact is looked at after so many √(r/g), and whenever that time has doubled.
-FIRST_LOOK = 64.0
-# What a coin loses dies away where it never grows from one such look to the next, and would leave enough
-# after so many more.
-MORE_LOOKS = 100
-# A loss that is none, against the energy.
-NO_LOSS = 1e-9
-LOOKS = 4
-# A sine of the angle off the edge, and its rate against √(g/r), below which a coin is on its edge.
-ON_EDGE = 1e-6
 # The most steps and changes of a toss in contact.
 CONTACT_STEPS = 5_000_000
 
@@ -137,7 +120,7 @@ def fly_and_hit(body, rules, y, rows):
     """
     pieces, contacts, spare = np.empty((64, 2 + STATE_SIZE)), np.empty((4, 2)), np.zeros(1, IMPACT_ROW)
     time, n, k, touched, steps_left = 0.0, 0, 0, 0, CONTACT_STEPS
-    motion, begun, looks = Motion.FLIGHT, 0.0, np.full(LOOKS + 2, np.inf)
+    motion, begun, looks = Motion.FLIGHT, 0.0, no_looks()
     outcome, ending = Outcome.UNDECIDED, Ending.NONE
     mu = friction_in_contact(rules)
     while True:
@@ -147,6 +130,8 @@ def fly_and_hit(body, rules, y, rows):
         pieces[k, 2:] = y
         k += 1
         if ending != Ending.NONE:
+            # Nothing starts here; as a flight, the end is sampled as it is.
+            pieces[k - 1, 1] = Motion.FLIGHT.value
             break
         before = motion
         if motion != Motion.FLIGHT:
@@ -168,8 +153,7 @@ def fly_and_hit(body, rules, y, rows):
                     ending = hit(body, rules, 0.0, y, spare[0])
                     motion = next_motion(body, mu, motion, y)
                     begun = time
-                    if looks[0] == np.inf:
-                        looks[0], looks[1] = time, time + FIRST_LOOK * (body.radius / body.gravity) ** 0.5
+                    first_contact(body, looks, time)
             else:
                 ending = hit(body, rules, rules.restitution, y, rows[n])
                 if ending == Ending.NONE:
@@ -180,7 +164,7 @@ def fly_and_hit(body, rules, y, rows):
                     outcome, ending = decided(body, rules, y)
                     if ending == Ending.NONE and dies_away(body, rules, y, time, looks):
                         outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
-        if motion == Motion.CREEPING and mu == np.inf:
+        if motion == Motion.IMPOSSIBLE:
             ending = Ending.NO_SOLUTION
         if before != Motion.FLIGHT and (motion == Motion.FLIGHT or ending != Ending.NONE):
             if touched == len(contacts):
@@ -238,48 +222,6 @@ def keep_contact(body, rules, mu, motion, y, time, steps_left, looks):
         if steps_left <= 0:
             return time, steps_left, motion, undecided, Ending.CHATTER
     return time, steps_left, motion, undecided, Ending.MAX_TIME
-
-
-@compiled
-def dies_away(body, rules, y, time, looks):
-    """Tell whether the energy that a coin loses in vacuum dies away before it is too low to turn over.
-
-    The energy is looked at whenever the time since the first contact has doubled. Where it loses no more in
-    one doubling than in that before, it loses ever more slowly: `MORE_LOOKS` doublings are for ever. On a
-    smooth floor the horizontal motion, which never changes, is left out.
-
-    Args:
-        body: the coin.
-        rules: floor and ending.
-        y: state, (13,).
-        time: now [s].
-        looks: start of the first contact and time of the next look [s], infinite before, and the energies at
-            the last looks [J], (2 + LOOKS,); kept up.
-    """
-    if time < looks[1] or body.air.normal != 0 or body.air.tangential != 0:
-        return False
-    v = velocity_of(y)
-    E = energy(body, y[2], v, spin_of(y))
-    if rules.law == ContactLaw.SMOOTH:
-        E -= body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
-    looks[1] += looks[1] - looks[0]
-    looks[2:-1] = looks[3:]
-    looks[-1] = E
-    losses = looks[2:-1] - looks[3:]
-    for i in range(1, LOOKS - 1):
-        # An infinite or undefined loss is one not looked at yet.
-        if not (abs(losses[i]) <= NO_LOSS * E or 0 < losses[i] <= losses[i - 1] < np.inf):
-            return False
-    return E - MORE_LOOKS * max(losses[-1], 0.0) > max(barrier(body, 1.0), barrier(body, -1.0))
-
-
-@compiled
-def on_edge(body, y):
-    """Tell whether a coin in contact is on its edge, and does not turn off it."""
-    up = rotation_matrix(attitude_of(y))[2]
-    n_z_rate = cross(up, spin_of(y))[2]
-    rate = (body.gravity / body.radius) ** 0.5
-    return body.thickness > 0 and abs(up[2]) < ON_EDGE and abs(n_z_rate) < ON_EDGE * rate
 
 
 @compiled

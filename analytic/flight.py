@@ -81,9 +81,15 @@ def step(body, y, dt, stages, y_new):
         stage_point(y, dt, stages, stage, y_new)
         derivative(body, y_new, stages[stage])
     end_point(y, dt, stages, y_new)
-    norm = (y_new[6] ** 2 + y_new[7] ** 2 + y_new[8] ** 2 + y_new[9] ** 2) ** 0.5
+    normalise(y_new)
+
+
+@compiled
+def normalise(y):
+    """Bring the Euler parameters of the state y back to norm 1."""
+    norm = (y[6] ** 2 + y[7] ** 2 + y[8] ** 2 + y[9] ** 2) ** 0.5
     for i in range(6, 10):
-        y_new[i] /= norm
+        y[i] /= norm
 
 
 @compiled

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.contact import Motion, friction_in_contact, sample_contact
+from analytic.contact import friction_in_contact, sample_contact
 from analytic.events import Run, run
 from analytic.flight import STATE_SIZE, TOLERANCE, sample_flight
+from analytic.floor_force import Motion
 from analytic.horizon import SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
 from models.attitude import rotation_matrix
 from models.body import Body

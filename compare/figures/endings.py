@@ -33,6 +33,7 @@ RESTITUTION = {"smooth": (0.1, 0.95), "coulomb, kinematic": (0.1, 0.7), "coulomb
 AIR = {"normal": 0.8, "tangential": 0.2}
 ENDS = ("heads before contact", "tails before contact", "contact")
 """Ends that both engines tell apart: MuJoCo's does not follow a coin that stays in contact."""
+_SHOWN = (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.PERPETUAL, Outcome.UNDECIDED)
 _BOUNCED = {Outcome.HEADS: 0, Outcome.TAILS: 1}
 
 
@@ -89,11 +90,10 @@ def compute(count: int, count_both: int, seed: int, progress: Progress) -> Study
             if outcome not in ("undecided", "perpetual"):
                 most, longest = max(most, impacts), max(longest, time)
             progress(done, whole)
-        for (done, end), job in zip(
-            enumerate(pool.map(_toss_by, jobs_both), start=1), jobs_both, strict=True
-        ):
-            both[job[1]][job[2]][end] += 1
-            progress(len(jobs) + done, whole)
+        ends = zip(jobs_both, pool.map(_toss_by, jobs_both), strict=True)
+        for done, ((_, floor, engine, _), end) in enumerate(ends, start=len(jobs) + 1):
+            both[floor][engine][end] += 1
+            progress(done, whole)
     ordered = {name: dict(sorted(outcomes[name].items())) for name in sorted(outcomes)}
     return Study(outcomes=ordered, both=both, most_impacts=most, longest=longest)
 
@@ -205,9 +205,6 @@ def _rows(study: Study) -> Iterator[tuple[str, list[float]]]:
         number = sum(ends.values())
         parts = [sum(n for end, n in ends.items() if end.startswith(f"{o.label}, ")) for o in _SHOWN]
         yield f"{name} ({number})", [100 * part / number for part in parts]
-
-
-_SHOWN = (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.PERPETUAL, Outcome.UNDECIDED)
 
 
 def text(study: Study) -> str:

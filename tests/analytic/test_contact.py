@@ -4,24 +4,19 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from analytic.contact import (
+from analytic.contact import Verdict, next_motion, put_on_floor, sample_contact, stay
+from analytic.edge import held_on_edge, stands
+from analytic.flight import derivative
+from analytic.floor_force import (
     Motion,
-    Verdict,
     contact,
     direction_of,
     force,
-    held_on_edge,
     holding_force,
     holds,
-    next_motion,
-    put_on_floor,
-    sample_contact,
     side_of,
     slip_direction,
-    stands,
-    stay,
 )
-from analytic.flight import derivative
 from models.attitude import quaternion_from_angles, rotation_matrix
 from models.ending import energy
 from models.geometry import contact_velocity, gap, lowest_point

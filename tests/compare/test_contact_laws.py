@@ -1,8 +1,6 @@
 """The study of the contact laws: its page, its numbers, its closed forms, and that its check can fail."""
 
-import re
 from dataclasses import asdict, replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,22 +15,20 @@ from compare.random_impacts import draw_states
 from models.attitude import rotation_matrix
 from models.geometry import lowest_point
 from models.vectors import apply
+from tests.compare.pages import DOCS, pictures, printed, saved_numbers
 
-DOCS = Path(__file__).parents[2] / "docs"
-PAGE = (DOCS / "CONTACT.md").read_text(encoding="utf-8")
-SAVED = from_json((DOCS / "contact-laws" / "numbers.json").read_text(encoding="utf-8"))
-BEGIN, END = "<!-- printed by: cointoss reproduce contact-laws -->\n\n", "\n\n<!-- end -->\n"
+SAVED = from_json(saved_numbers("contact-laws"))
 
 
 def test_the_page_shows_the_saved_numbers():
-    assert PAGE.split(BEGIN)[1].split(END)[0] == text(SAVED)
+    assert printed("CONTACT.md", "contact-laws") == text(SAVED)
     assert (SAVED.count, SAVED.seed) == (COUNT, SEED)
 
 
 def test_every_claim_holds_and_the_page_shows_every_picture():
     assert check(SAVED) == ()
-    shown = {Path(name).name for name in re.findall(r"\]\(contact-laws/(\w+\.png)\)", PAGE)}
-    assert shown == {name for name in contact_laws.FIGURE.files if name.endswith(".png")}
+    drawn = {name for name in contact_laws.FIGURE.files if name.endswith(".png")}
+    assert pictures("CONTACT.md", "contact-laws") == drawn
     for name in contact_laws.FIGURE.files:
         assert (DOCS / "contact-laws" / name).stat().st_size < 150_000
 

@@ -3,13 +3,11 @@
 import json
 from collections import Counter
 from dataclasses import asdict, replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import analytic
-from compare.figures import endings
 from compare.figures.endings import (
     COINS,
     COUNT,
@@ -22,17 +20,15 @@ from compare.figures.endings import (
     text,
 )
 from models.records import Outcome
+from tests.compare.pages import DOCS, pictures, printed, saved_numbers
 
-DOCS = Path(__file__).parents[2] / "docs"
-PAGE = (DOCS / "CONTACT.md").read_text(encoding="utf-8")
-SAVED = from_json((DOCS / "endings" / "numbers.json").read_text(encoding="utf-8"))
-BEGIN, END = "<!-- printed by: cointoss reproduce endings -->\n\n", "\n\n<!-- end -->\n"
+SAVED = from_json(saved_numbers("endings"))
 
 
 def test_the_page_shows_the_saved_numbers():
-    assert PAGE.split(BEGIN)[1].split(END)[0] == text(SAVED)
+    assert printed("CONTACT.md", "endings") == text(SAVED)
     assert share(SAVED, "heads")[1] == len(COINS) * COUNT
-    assert "](endings/endings.png)" in PAGE
+    assert pictures("CONTACT.md", "endings") == {"endings.png"}
     assert (DOCS / "endings" / "endings.png").stat().st_size < 150_000
 
 
@@ -89,7 +85,3 @@ def test_engines_that_end_otherwise_are_told_apart():
     assert check(replace(SAVED, both={"smooth": apart})) == (
         "the engines' ends differ no more than by chance",
     )
-
-
-def test_the_list_knows_the_study():
-    assert endings.FIGURE.files == ("numbers.json", "endings.png")

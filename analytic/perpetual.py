@@ -1,0 +1,69 @@
+"""Whether a coin in vacuum keeps enough energy to turn over for ever."""
+
+import numpy as np
+
+from analytic.flight import spin_of, velocity_of
+from models.compiled import compiled
+from models.ending import barrier, energy
+from models.laws import ContactLaw
+
+# The energy of a toss in contact is looked at after so many √(r/g), and whenever that time has doubled.
+_FIRST_LOOK = 64.0
+# What a coin loses dies away where it never grows from one such look to the next, and would leave enough
+# after so many more.
+_MORE_LOOKS = 100
+# A loss that is none, against the energy.
+_NO_LOSS = 1e-9
+_LOOKS = 4
+
+
+@compiled
+def no_looks():
+    """Give the `looks` of a toss that was not in contact yet; see `dies_away`."""
+    return np.full(_LOOKS + 2, np.inf)
+
+
+@compiled
+def first_contact(body, looks, time):
+    """Begin the `looks` at the start of a contact, unless there was one before.
+
+    Args:
+        body: the coin.
+        looks: see `dies_away`.
+        time: now [s].
+    """
+    if looks[0] == np.inf:
+        looks[0], looks[1] = time, time + _FIRST_LOOK * (body.radius / body.gravity) ** 0.5
+
+
+@compiled
+def dies_away(body, rules, y, time, looks):
+    """Tell whether the energy that a coin loses in vacuum dies away before it is too low to turn over.
+
+    The energy is looked at whenever the time since the first contact has doubled. Where it loses no more in
+    one doubling than in that before, it loses ever more slowly: `_MORE_LOOKS` doublings are for ever. On a
+    smooth floor the horizontal motion, which never changes, is left out.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        y: state, (13,).
+        time: now [s].
+        looks: start of the first contact and time of the next look [s], infinite before, and the energies at
+            the last looks [J], (6,); kept up.
+    """
+    if time < looks[1] or body.air.normal != 0 or body.air.tangential != 0:
+        return False
+    v = velocity_of(y)
+    E = energy(body, y[2], v, spin_of(y))
+    if rules.law == ContactLaw.SMOOTH:
+        E -= body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
+    looks[1] += looks[1] - looks[0]
+    looks[2:-1] = looks[3:]
+    looks[-1] = E
+    losses = looks[2:-1] - looks[3:]
+    for i in range(1, _LOOKS - 1):
+        # An infinite or undefined loss is one not looked at yet.
+        if not (abs(losses[i]) <= _NO_LOSS * E or 0 < losses[i] <= losses[i - 1] < np.inf):
+            return False
+    return E - _MORE_LOOKS * max(losses[-1], 0.0) > max(barrier(body, 1.0), barrier(body, -1.0))
