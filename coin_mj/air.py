@@ -85,7 +85,7 @@ def air_force(radius, thickness, normal, tangential, exponent, v, w):
 
 @compiled
 def _pressure(motion):
-    """Integrate over both faces, from where the normal velocity vanishes, and over the wall, where it is least."""
+    """Integrate over both faces, and over the wall, from where the normal velocity vanishes or is least."""
     v, w, half = motion.v, motion.w, motion.half
     W = math.hypot(w[0], w[1])
     still = math.acos(v[2] / W) if abs(v[2]) < W else 0.0
