@@ -158,4 +158,4 @@ def _momentum(machine: Machine) -> Array:
 def _other_force(machine: Machine) -> Array:
     """Weight and drag on the coin, space frame, (3,) [N]."""
     weight = np.array([0.0, 0.0, -machine.body.mass * machine.body.gravity])
-    return weight + machine.data.qfrc_actuator[:3]
+    return weight + machine.data.qfrc_actuator[:3] + machine.data.qfrc_passive[:3]

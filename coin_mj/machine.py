@@ -12,6 +12,7 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
+from coin_mj.air_callback import air_of
 from coin_mj.contact import ContactSettings, Friction, Realisation, Rebound, friction_of, rebound_of
 from coin_mj.scene import build, floor_height
 from coin_mj.state import of_release, to_mass_center
@@ -53,7 +54,7 @@ class Machine:
 
     def forward(self) -> float:
         """Compute the accelerations of the present state; give the floor's force along z [N]."""
-        mujoco.mj_forward(self.model, self.data)
+        _forward(self.model, self.data)
         return float(self.data.qfrc_constraint[2])
 
     def step(self, dt: float) -> None:
@@ -65,6 +66,7 @@ class Machine:
         """Advance by dt [s] in contact with the integrator of the realisation, after `forward`."""
         if self.settings.realisation == Realisation.ONE_STEP:
             self.model.opt.timestep = dt
+            # It takes the forces that `forward` found.
             mujoco.mj_Euler(self.model, self.data)
         else:
             _advance(self.model, self.data, dt)
@@ -119,7 +121,7 @@ class Knots:
                 data.qvel[:] += part * (after.qvel - knot.qvel)
                 mujoco.mju_normalize4(data.qpos[3:])
             elif time > knot.time:
-                mujoco.mj_forward(self.model, data)
+                _forward(self.model, data)
                 _advance(self.model, data, time - knot.time)
             row[:] = np.concatenate(to_mass_center(self.body, data.qpos, data.qvel))
         x, v, e, w = (part.copy() for part in np.split(rows, (3, 6, 10), axis=1))
@@ -146,10 +148,16 @@ def machine_of(scenario: Scenario, settings: ContactSettings, thickness: float) 
     )
 
 
+def _forward(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    with air_of(model):
+        mujoco.mj_forward(model, data)
+
+
 def _advance(model: mujoco.MjModel, data: mujoco.MjData, dt: float) -> None:
     """Advance by dt [s] with RK4, after mj_forward."""
     model.opt.timestep = dt
-    mujoco.mj_RungeKutta(model, data, 4)
+    with air_of(model):
+        mujoco.mj_RungeKutta(model, data, 4)
 
 
 def fly(machine: Machine, max_time: float) -> bool:

@@ -8,6 +8,7 @@ from importlib import resources
 import mujoco
 import numpy as np
 
+from coin_mj.air_callback import describe_air
 from coin_mj.contact import Rebound
 from models.drag import linear_drag
 from models.scenario import Scenario
@@ -58,7 +59,10 @@ def build(scenario: Scenario, rebound: Rebound, friction: float, thickness: floa
             solreffriction=(0.0, -max(rebound.slip_damping, NO_DAMPING)),
             solimp=coin.solimp,
         )
-    _set_drag(spec, scenario)
+    if scenario.air.exponent > 0:
+        describe_air(spec, scenario)
+    else:
+        _set_linear_drag(spec, scenario)
     model = spec.compile()
     # MuJoCo's compiler takes two frames less than a micrometre apart for one.
     apart = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
@@ -106,7 +110,7 @@ def _described(scenario: Scenario, thickness: float) -> mujoco.MjSpec:
     return spec
 
 
-def _set_drag(spec: mujoco.MjSpec, scenario: Scenario) -> None:
+def _set_linear_drag(spec: mujoco.MjSpec, scenario: Scenario) -> None:
     coin, air = scenario.coin, scenario.air
     drag = linear_drag(coin.radius, coin.thickness, air.normal, air.tangential)
     coefficients = {

@@ -122,7 +122,7 @@ def require_supported(scenario: Scenario, realisation: Realisation) -> None:
     Raises:
         UnsupportedError: naming field, value and what is accepted.
     """
-    air, floor = scenario.air, scenario.floor
+    floor = scenario.floor
     if floor.contact not in REALISABLE:
         accepted = ", ".join(f'"{law.label}"' for law in REALISABLE)
         raise UnsupportedError(
@@ -138,8 +138,6 @@ def require_supported(scenario: Scenario, realisation: Realisation) -> None:
             "floor.restitution = 0: accepted by the MuJoCo engine: a number > 0 (a damped spring rebounds), "
             "or one-step contacts"
         )
-    if air.exponent != 0 and (air.normal > 0 or air.tangential > 0):
-        raise UnsupportedError(f"air.exponent = {air.exponent}: accepted by the MuJoCo engine: 0")
 
 
 def toss(
@@ -167,7 +165,7 @@ def toss(
 
     Raises:
         UnsupportedError: for contact laws other than "smooth", "coulomb" and "perfectly_rough"; energetic
-            restitution; restitution 0 of a spring; air with b > 0.
+            restitution; restitution 0 of a spring.
 
     Warns:
         ApproximationWarning: for a perfectly rough floor, which is one of friction `ROUGH`.

@@ -157,7 +157,6 @@ def test_a_contact_that_lasts_is_no_impact():
             ['floor.restitution_kind = "energetic"', '"kinematic"'],
         ),
         ({"floor": {"restitution": 0.0}}, ["floor.restitution = 0", "> 0"]),
-        ({"air": {"normal": 0.8, "exponent": 1.0}}, ["air.exponent = 1", "0"]),
     ],
 )
 def test_what_is_not_realised_is_refused_by_name(parts, words):

@@ -1,0 +1,190 @@
+"""MuJoCo's air with b > 0: its force against the paper's mechanics, and the one callback of all models."""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
+import math
+from concurrent.futures import ThreadPoolExecutor
+
+import mujoco
+import numpy as np
+import pytest
+
+import analytic.air
+from coin_mj.air import air_force
+from coin_mj.air_callback import air_of
+from coin_mj.contact import ContactSettings
+from coin_mj.machine import machine_of
+from coin_mj.scene import shape_thickness
+from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+
+R, H = ZLOTY["radius"], ZLOTY["thickness"]
+LN, LT = AIR["normal"], AIR["tangential"]
+
+
+def vector(row):
+    return tuple(float(x) for x in row)
+
+
+def by_both(b, h, v, w):
+    """Force and moment about B over r by both engines, (6,) each, in units of λ (|v| + r |ω|)^(1+b) π r²."""
+    body = scenario(coin={"thickness": h}, air={**AIR, "exponent": b}).body
+    pairs = (
+        air_force(R, h, LN, LT, b, vector(v), vector(w)),
+        analytic.air.force_and_moment(body, vector(v), vector(w)),
+    )
+    speed = np.linalg.norm(v) + R * np.linalg.norm(w)
+    size = (LN + LT) * speed ** (1 + b) * np.pi * R**2 * (1 + h / R)
+    return [np.array([*f, *(x / R for x in m)]) / size for f, m in pairs]
+
+
+def at_rest_somewhere(rng, h):
+    """Draw a motion for which a point or a line of the surface is at rest, or nearly."""
+    v, w = rng.normal(size=3), rng.normal(size=3) * 10.0 ** rng.uniform(-1, 3)
+    near = 1 + rng.choice([0, 1e-12, 1e-8, -1e-8, 1e-4, -1e-4])
+    match rng.integers(6):
+        case 0:
+            v[2] = R * math.hypot(w[0], w[1]) * near
+        case 1:
+            v[:2] = R * w[2] * near, 0
+        case 2:
+            w[:2] *= rng.choice([0, 1e-9, 1e-4])
+        case 3:
+            v[:] *= rng.choice([0, 1e-9, 1e-4])
+        case 4:
+            w[:] *= rng.choice([0, 1e-9, 1e-4])
+        case 5:
+            theta, z = rng.uniform(0, 2 * np.pi), rng.uniform(-h / 2, h / 2) * near
+            v = -np.cross(w, [R * np.cos(theta), R * np.sin(theta), z])
+            v += rng.choice([0, 1e-12, 1e-6]) * rng.normal(size=3)
+    return v, w
+
+
+@pytest.mark.parametrize("b", [1e-3, 0.1, 0.5, 0.9, 1.0])
+@pytest.mark.parametrize("h", [0.0, H, 0.6 * R, 4 * R])
+def test_two_quadratures_give_one_force(b, h):
+    rng = np.random.default_rng([int(1000 * b), int(1e4 * h)])
+    motions = [(rng.normal(size=3), rng.normal(size=3) * 60) for _ in range(40)]
+    motions += [at_rest_somewhere(rng, h) for _ in range(40)]
+    for v, w in motions:
+        mine, other = by_both(b, h, v, w)
+        # On a rod the nodes of the paper's mechanics are good to 1e-11, as its own tests say.
+        assert np.abs(mine - other).max() < (1e-12 if h < R else 1e-11)
+        assert np.abs(other).max() > 0.01, "the unit should be that of the force"
+
+
+@pytest.mark.parametrize("b", [0.2, 0.5, 1.0])
+def test_motions_in_one_direction_have_closed_forms(b):
+    v, W, wall = 0.7, 30.0, 2 * np.pi * R * H
+    f, m = air_force(R, H, LN, LT, b, (0.0, 0.0, v), (0.0, 0.0, 0.0))
+    assert f == pytest.approx((0, 0, -(v ** (1 + b)) * (LN * np.pi * R**2 + LT * wall)), rel=1e-13, abs=1e-18)
+    f, m = air_force(R, H, LN, LT, b, (0.0, 0.0, 0.0), (0.0, 0.0, W))
+    spin = -LT * (W * R) ** (1 + b) * R * (2 * 2 * np.pi * R**2 / (b + 4) + wall)
+    assert m == pytest.approx((0, 0, spin), rel=1e-13, abs=1e-20)
+    assert f == pytest.approx((0, 0, 0), abs=1e-18)
+
+
+def test_a_coin_at_rest_feels_no_air():
+    assert air_force(R, H, LN, LT, 0.5, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)) == ((0, 0, 0), (0, 0, 0))
+
+
+def coin_in_air(b, normal=LN, tangential=LT):
+    case = scenario(
+        coin={**ZLOTY, "center_of_mass": PAPER_OFFSET},
+        air={"normal": normal, "tangential": tangential, "exponent": b},
+        release=draw_release(np.random.default_rng(1)),
+    )
+    return machine_of(case, ContactSettings(), shape_thickness(case))
+
+
+@pytest.mark.parametrize("b", [0.5, 1.0])
+def test_the_callback_gives_the_force_at_B_in_mujocos_frames(b):
+    machine = coin_in_air(b)
+    machine.forward()
+    data = machine.data
+    rotation = data.body("coin").xmat.reshape(3, 3)
+    f, m = air_force(R, H, LN, LT, b, vector(rotation.T @ data.qvel[:3]), vector(data.qvel[3:]))
+    assert np.linalg.norm(f) > 1e-6, "there should be drag"
+    assert data.qfrc_passive == pytest.approx([*(rotation @ f), *m], rel=1e-12, abs=1e-20)
+    assert np.all(data.qfrc_actuator == 0)
+
+
+@pytest.mark.parametrize("air", [{"b": 0.5, "normal": 0.0, "tangential": 0.0}, {"b": 0.0}])
+def test_vacuum_and_linear_air_need_no_callback(air):
+    machine = coin_in_air(**air)
+    with air_of(machine.model):
+        assert mujoco.get_mjcb_passive() is None
+    machine.forward()
+    assert np.all(machine.data.qfrc_passive == 0)
+
+
+def flown(machine, steps=20):
+    """The states of a coin on its way, (steps, 13)."""
+    return np.array([fly_a_step(machine) for _ in range(steps)])
+
+
+def fly_a_step(machine):
+    machine.forward()
+    machine.step(1e-3)
+    return np.concatenate([machine.data.qpos, machine.data.qvel])
+
+
+def test_interleaved_coins_each_feel_their_own_air():
+    cases = [{"b": 0.5}, {"b": 1.0, "normal": 3.0}, {"b": 0.0}, {"b": 0.5, "normal": 0.0, "tangential": 0.0}]
+    alone = [flown(coin_in_air(**case)) for case in cases]
+    machines = [coin_in_air(**case) for case in cases]
+    rows = [[fly_a_step(machine) for machine in machines] for _ in range(20)]
+    together = np.array(rows).transpose(1, 0, 2)
+    assert np.array_equal(together, np.array(alone))
+    # Within the air of another coin too.
+    with air_of(machines[0].model):
+        assert np.array_equal([flown(coin_in_air(**case)) for case in cases], alone)
+    ends = np.array(alone)[:, -1, 7:]
+    assert all(np.abs(ends[i] - ends[j]).max() > 1e-3 for i in range(4) for j in range(i))
+
+
+def test_coins_on_several_threads_each_feel_their_own_air():
+    exponents = [0.3, 0.5, 0.8, 1.0]
+    alone = [flown(coin_in_air(b), 100) for b in exponents]
+    with ThreadPoolExecutor(4) as pool:
+        together = list(pool.map(lambda b: flown(coin_in_air(b), 100), exponents))
+    assert np.array_equal(together, alone)
+    assert mujoco.get_mjcb_passive() is None
+
+
+class InterruptionError(Exception):
+    """What a step may raise."""
+
+
+def interrupted(model):
+    with air_of(model), air_of(model):
+        raise InterruptionError
+
+
+def test_an_exception_leaves_the_callback_that_was_there():
+    def users(_model, data):
+        data.qfrc_passive[0] = 1.0
+
+    machine, before = coin_in_air(0.5), flown(coin_in_air(0.5))
+    mujoco.set_mjcb_passive(users)
+    try:
+        with air_of(machine.model):
+            assert mujoco.get_mjcb_passive() is not users
+        with pytest.raises(InterruptionError):
+            interrupted(machine.model)
+        assert mujoco.get_mjcb_passive() is users
+        assert np.array_equal(flown(machine), before), "the user's own should not act on the coin"
+        assert mujoco.get_mjcb_passive() is users
+    finally:
+        mujoco.set_mjcb_passive(None)
+
+
+def test_a_model_without_air_is_left_alone():
+    model = mujoco.MjModel.from_xml_string(
+        '<mujoco><worldbody><body><freejoint/><geom size="1"/></body></worldbody></mujoco>'
+    )
+    data = mujoco.MjData(model)
+    data.qvel[:] = 1
+    with air_of(coin_in_air(0.5).model):
+        mujoco.mj_forward(model, data)
+    assert np.all(data.qfrc_passive == 0)
