@@ -39,8 +39,8 @@ def toss_many(scenario: Scenario, releases: Releases) -> Outcomes:
     def toss_tile(first: int) -> None:
         _toss_each(body, rules, *(column[first : first + TILE] for column in columns))
 
-    # numba's count of the cores this process may use, or NUMBA_NUM_THREADS.
-    with ThreadPoolExecutor(config.NUMBA_NUM_THREADS) as pool:
+    # The cores that this process may use, or what the environment sets in their place.
+    with ThreadPoolExecutor(config.__dict__["NUMBA_NUM_THREADS"]) as pool:
         # An exception, so also Ctrl-C, cancels the tiles not yet begun.
         for _ in pool.map(toss_tile, range(0, n, TILE)):
             pass
@@ -54,4 +54,4 @@ def _toss_each(body, rules, states, outcomes, endings, faces, impacts, end_times
     for i in range(len(states)):
         n, _, outcome, ending, end_time = fly_and_hit(body, rules, states[i], rows, False)
         outcomes[i], endings[i], impacts[i], end_times[i] = outcome.value, ending.value, n, end_time
-        faces[i] = rows[(n - 1) % 2].face if n > 0 else 0
+        faces[i] = rows[(n - 1) % 2]["face"] if n > 0 else 0

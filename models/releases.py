@@ -39,7 +39,7 @@ class Releases:
                 raise ValueError(f"Releases.{item.name}: shape {array.shape}, expected {(n, columns)}")
             _refuse(item.name, array, ~(np.abs(array) <= LARGEST).all(axis=1), f"numbers within {LARGEST:g}")
             if item.name == "quaternion":
-                size = np.array([math.hypot(*e) for e in array.tolist()])
+                size: Array = np.array([math.hypot(*e) for e in array.tolist()])
                 _refuse(item.name, array, ~(np.abs(size - 1) <= 1e-3), "four numbers of norm 1 within 1e-3")
                 array /= size[:, None]
             array.setflags(write=False)

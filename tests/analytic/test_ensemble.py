@@ -89,7 +89,7 @@ def test_the_face_after_impacts_is_the_face_of_that_touch_or_the_final_face():
     drawn, releases = draw_releases(np.random.default_rng(4), 60)
     whole = scenario(floor={"restitution": 0.4}, air=AIR)
     stopped = 0
-    for after in (0, 1, 4):
+    for after in (0, 1, 12):
         case = scenario(floor={"restitution": 0.4}, air=AIR, ending={"max_impacts": after + 1})
         faces = analytic.toss_many(case, releases).after(after)
         for face, release in zip(faces, drawn, strict=True):
@@ -97,7 +97,7 @@ def test_the_face_after_impacts_is_the_face_of_that_touch_or_the_final_face():
             there = len(tossed.impacts) > after
             stopped += not there
             assert face == (tossed.impacts.face[after] if there else tossed.outcome)
-    assert stopped > 0, "some toss should end before its fifth touch"
+    assert 0 < stopped < 60, "some of the tosses should end before their last touch"
     with pytest.raises(ValueError, match=r"set ending\.max_impacts = 1"):
         analytic.toss_many(whole, releases).after(0)
 
