@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass, fields
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from models.attitude import rotation_matrix
 from models.compiled import compiled
@@ -39,7 +40,7 @@ class Releases:
                 raise ValueError(f"Releases.{item.name}: shape {array.shape}, expected {(n, columns)}")
             _refuse(item.name, array, ~(np.abs(array) <= LARGEST).all(axis=1), f"numbers within {LARGEST:g}")
             if item.name == "quaternion":
-                size: Array = np.array([math.hypot(*e) for e in array.tolist()])
+                size = np.array([math.hypot(*e) for e in array.tolist()])
                 _refuse(item.name, array, ~(np.abs(size - 1) <= 1e-3), "four numbers of norm 1 within 1e-3")
                 array /= size[:, None]
             array.setflags(write=False)
@@ -79,8 +80,8 @@ def check_releases(scenario: Scenario, releases: Releases) -> None:
     _refuse("velocity", releases.velocity, ~(damping <= FASTEST_DRAG * rate), accepted)
 
 
-def _refuse(name: str, rows: Array, refused: np.ndarray, accepted: str) -> None:
-    if refused.any():
+def _refuse(name: str, rows: Array, refused: ArrayLike, accepted: str) -> None:
+    if np.any(refused):
         i = int(np.argmax(refused))
         raise ValueError(f"Releases.{name}: row {i} is {rows[i].tolist()}, accepted: {accepted}")
 
