@@ -56,10 +56,9 @@ def test_each_toss_is_that_of_toss_to_the_bit(law, air, thickness, offset):
 
 
 def test_the_endings_of_toss_are_all_met():
-    """Among them a touch without solution, whose face is not the last impact's, and the edge."""
     met = set()
     for law, chi, friction, ending in [
-        ("sliding_friction", 0.6, 3.0, {"max_impacts": 40}),
+        ("sliding_friction", 0.8, 1.5, {"max_impacts": 40}),
         ("smooth", 0.5, 0.0, {"max_impacts": 3}),
         ("smooth", 0.5, 0.0, {"max_time": 0.4}),
         ("smooth", 0.1, 0.0, {"max_time": 1.0}),
@@ -73,6 +72,20 @@ def test_the_endings_of_toss_are_all_met():
         assert_each_is_a_toss(case, drawn, outcomes)
         met |= set(outcomes.ending.tolist())
     assert met >= {Ending.SETTLED, Ending.MAX_IMPACTS, Ending.MAX_TIME, Ending.NO_SOLUTION, Ending.CHATTER}
+
+
+def test_a_touch_without_solution_is_no_impact_and_shows_no_face():
+    floor = {"restitution": 0.8, "contact": "sliding_friction", "friction": 1.5}
+    case = scenario(floor=floor, ending={"max_impacts": 40}, air=AIR)
+    drawn, releases = draw_releases(np.random.default_rng(7), 40)
+    outcomes = analytic.toss_many(case, releases)
+    turned = 0
+    for i in np.flatnonzero((outcomes.ending == Ending.NO_SOLUTION) & (outcomes.impacts > 0)):
+        tossed = analytic.toss(Scenario.model_validate({**case.model_dump(), "release": drawn[i]}))
+        assert outcomes.last_face[i] == tossed.impacts.face[-1]
+        face_at_end = Face.HEADS if tossed.sample(tossed.end_time).normal[0, 2] > 0 else Face.TAILS
+        turned += outcomes.last_face[i] != face_at_end
+    assert turned > 0, "some coin should turn over before the touch without solution"
 
 
 def test_the_order_is_that_of_the_releases_over_many_tiles():
