@@ -45,17 +45,24 @@ class Run(NamedTuple):
 def run(body: Body, rules: Rules, start: Array) -> Run:
     """Toss the coin in state `start`, (13,), until the toss is decided."""
     rows = np.zeros(rules.max_impacts, dtype=IMPACT_ROW)
-    n, pieces, contacts, outcome, ending, end_time = fly_and_hit(body, rules, start.copy(), rows)
+    n, pieces, outcome, ending, end_time = fly_and_hit(body, rules, start.copy(), rows, True)
+    start_times, motions = pieces[:, 0].copy(), pieces[:, 1].astype(np.int8)
     return Run(
         rows=rows[:n].copy(),
-        start_times=pieces[:, 0].copy(),
+        start_times=start_times,
         start_states=pieces[:, 2:].copy(),
-        motions=pieces[:, 1].astype(np.int8),
-        contacts=contacts,
+        motions=motions,
+        contacts=contacts_of(start_times, motions),
         outcome=Outcome(outcome),
         ending=Ending(ending),
         end_time=end_time,
     )
+
+
+def contacts_of(start_times: Array, motions: NDArray[np.int8]) -> Array:
+    """Give start and end of every contact that lasts, (n, 2) [s]; see `Run` for the arguments."""
+    changes = np.diff((motions != Motion.FLIGHT).astype(np.int8), prepend=0)
+    return np.stack([start_times[changes == 1], start_times[changes == -1]], axis=1)
 
 
 @compiled
@@ -105,35 +112,36 @@ def hit(body, rules, chi, y, row):
 
 
 @compiled
-def fly_and_hit(body, rules, y, rows):
+def fly_and_hit(body, rules, y, rows, keep_pieces):
     """Run the event loop.
 
     Args:
         body: the coin.
         rules: floor and ending.
         y: state at release, (13,); becomes the state at the end.
-        rows: where the impacts are recorded, (max_impacts,) of `IMPACT_ROW`.
+        rows: where the impacts are recorded, (m,) of `IMPACT_ROW`: impact number n in row n modulo m. A touch
+            for which the contact law has no solution uses up the row of the impact that it is not.
+        keep_pieces: whether flights and contacts are recorded.
 
     Returns:
         Number of impacts; flights and contacts, each with its start, `Motion` and state, and the end,
-        (k, 15); contacts, (n, 2) [s]; outcome; ending; and the time of the end [s].
+        (k, 15), or none; outcome; ending; and the time of the end [s].
     """
-    pieces, contacts, spare = np.empty((64, 2 + STATE_SIZE)), np.empty((4, 2)), np.zeros(1, IMPACT_ROW)
-    time, n, k, touched, steps_left = 0.0, 0, 0, 0, CONTACT_STEPS
-    motion, begun, looks = Motion.FLIGHT, 0.0, no_looks()
+    pieces, spare = np.empty((64 if keep_pieces else 0, 2 + STATE_SIZE)), np.zeros(1, IMPACT_ROW)
+    time, n, k, steps_left = 0.0, 0, 0, CONTACT_STEPS
+    motion, looks = Motion.FLIGHT, no_looks()
     outcome, ending = Outcome.UNDECIDED, Ending.NONE
     mu = friction_in_contact(rules)
     while True:
-        if k == len(pieces):
-            pieces = doubled(pieces)
-        pieces[k, 0], pieces[k, 1] = time, motion.value
-        pieces[k, 2:] = y
-        k += 1
+        if keep_pieces:
+            if k == len(pieces):
+                pieces = doubled(pieces)
+            # Nothing starts at the end; as a flight, it is sampled as it is.
+            pieces[k, 0], pieces[k, 1] = time, motion.value if ending == Ending.NONE else Motion.FLIGHT.value
+            pieces[k, 2:] = y
+            k += 1
         if ending != Ending.NONE:
-            # Nothing starts here; as a flight, the end is sampled as it is.
-            pieces[k - 1, 1] = Motion.FLIGHT.value
             break
-        before = motion
         if motion != Motion.FLIGHT:
             time, steps_left, motion, outcome, ending = keep_contact(
                 body, rules, mu, motion, y, time, steps_left, looks
@@ -152,12 +160,12 @@ def fly_and_hit(body, rules, y, rows):
                 if ending == Ending.NONE:
                     ending = hit(body, rules, 0.0, y, spare[0])
                     motion = next_motion(body, mu, motion, y)
-                    begun = time
                     first_contact(body, looks, time)
             else:
-                ending = hit(body, rules, rules.restitution, y, rows[n])
+                row = rows[n % len(rows)]
+                ending = hit(body, rules, rules.restitution, y, row)
                 if ending == Ending.NONE:
-                    rows[n].time = time
+                    row.time = time
                     n += 1
                     # A step forced at a grazing point may have left the coin a little below the floor.
                     y[2] -= min(closing_speed(body, y)[0], 0.0)
@@ -166,12 +174,7 @@ def fly_and_hit(body, rules, y, rows):
                         outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
         if motion == Motion.IMPOSSIBLE:
             ending = Ending.NO_SOLUTION
-        if before != Motion.FLIGHT and (motion == Motion.FLIGHT or ending != Ending.NONE):
-            if touched == len(contacts):
-                contacts = doubled(contacts)
-            contacts[touched, 0], contacts[touched, 1] = begun, time
-            touched += 1
-    return n, pieces[:k], contacts[:touched], outcome, ending, time
+    return n, pieces[:k], outcome, ending, time
 
 
 @compiled

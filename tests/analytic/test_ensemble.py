@@ -1,0 +1,139 @@
+"""Many tosses: each is that of `toss`, to the bit."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import analytic
+from analytic.events import run
+from analytic.toss import state_of
+from models.laws import ContactLaw
+from models.outcomes import Outcomes
+from models.records import Ending, Face, Outcome
+from models.releases import Releases
+from models.scenario import Release, Scenario
+from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+
+IDEAL, OFF_CENTER = [0.0, 0.0, 0.0], np.array(PAPER_OFFSET)
+
+
+def draw_releases(rng: np.random.Generator, n: int) -> tuple[list[dict[str, Any]], Releases]:
+    """Draw releases, one by one and as arrays."""
+    drawn = [draw_release(rng) for _ in range(n)]
+    return drawn, as_arrays(drawn)
+
+
+def as_arrays(drawn: list[dict[str, Any]]) -> Releases:
+    names = ("position", "velocity", "quaternion", "angular_velocity")
+    return Releases(**{name: np.array([one[name] for one in drawn]) for name in names})
+
+
+def assert_each_is_a_toss(case: Scenario, drawn: list[dict[str, Any]], outcomes: Outcomes) -> None:
+    for i, release in enumerate(drawn):
+        # What `toss` makes its record of; it also follows the errors, which takes ten times as long.
+        tossed = run(case.body, case.rules, state_of(Release.model_validate(release)))
+        assert outcomes.outcome[i] == tossed.outcome
+        assert outcomes.ending[i] == tossed.ending
+        assert outcomes.impacts[i] == len(tossed.rows)
+        assert outcomes.end_time[i] == tossed.end_time
+        assert outcomes.last_face[i] == (tossed.rows["face"][-1] if len(tossed.rows) else 0)
+
+
+@pytest.mark.parametrize("law", list(ContactLaw))
+@pytest.mark.parametrize("air", [{}, AIR])
+@pytest.mark.parametrize("thickness", [0.0, 2e-3])
+@pytest.mark.parametrize("offset", [0, 1])
+@pytest.mark.parametrize("n", [8, pytest.param(180, marks=pytest.mark.slow)])
+def test_each_toss_is_that_of_toss_to_the_bit(law, air, thickness, offset, n):
+    """All laws, with and without air, thin and thick, ideal and imperfect; whole tosses, contacts and all."""
+    rng = np.random.default_rng([int(law), bool(air), int(1e4 * thickness), offset])
+    center = OFF_CENTER * offset * [1, 1, thickness > 0]
+    case = scenario(
+        coin={**ZLOTY, "thickness": thickness, "center_of_mass": center.tolist()},
+        air=air,
+        floor={"restitution": 0.5, "contact": law.label, "friction": 0.3},
+        ending={"max_impacts": 30, "max_time": 2.0},
+    )
+    drawn, releases = draw_releases(rng, n)
+    assert_each_is_a_toss(case, drawn, analytic.toss_many(case, releases))
+
+
+def test_the_endings_of_toss_are_all_met():
+    met = set()
+    for law, chi, friction, ending in [
+        ("sliding_friction", 0.8, 1.5, {"max_impacts": 40}),
+        ("smooth", 0.5, 0.0, {"max_impacts": 3}),
+        ("smooth", 0.5, 0.0, {"max_time": 0.4}),
+        ("smooth", 0.1, 0.0, {"max_time": 1.0}),
+        ("sharp_edge", 0.2, 0.0, {"max_impacts": 100}),
+    ]:
+        case = scenario(
+            floor={"restitution": chi, "contact": law, "friction": friction}, ending=ending, air=AIR
+        )
+        drawn, releases = draw_releases(np.random.default_rng(7), 40)
+        outcomes = analytic.toss_many(case, releases)
+        assert_each_is_a_toss(case, drawn, outcomes)
+        met |= set(outcomes.ending.tolist())
+    assert met >= {Ending.SETTLED, Ending.MAX_IMPACTS, Ending.MAX_TIME, Ending.NO_SOLUTION, Ending.CHATTER}
+
+
+def test_a_touch_without_solution_is_no_impact_and_shows_no_face():
+    floor = {"restitution": 0.8, "contact": "sliding_friction", "friction": 1.5}
+    case = scenario(floor=floor, ending={"max_impacts": 40}, air=AIR)
+    drawn, releases = draw_releases(np.random.default_rng(7), 40)
+    outcomes = analytic.toss_many(case, releases)
+    turned = 0
+    for i in np.flatnonzero((outcomes.ending == Ending.NO_SOLUTION) & (outcomes.impacts > 0)):
+        tossed = analytic.toss(Scenario.model_validate({**case.model_dump(), "release": drawn[i]}))
+        assert outcomes.last_face[i] == tossed.impacts.face[-1]
+        face_at_end = Face.HEADS if tossed.sample(tossed.end_time).normal[0, 2] > 0 else Face.TAILS
+        turned += outcomes.last_face[i] != face_at_end
+    assert turned > 0, "some coin should turn over before the touch without solution"
+
+
+def test_the_order_is_that_of_the_releases_over_many_tiles():
+    rng = np.random.default_rng(3)
+    case = scenario(air=AIR, ending={"max_impacts": 3})
+    drawn, releases = draw_releases(rng, 1000)
+    here, there = analytic.toss_many(case, releases), analytic.toss_many(case, as_arrays(drawn[::-1]))
+    assert np.array_equal(here.end_time, there.end_time[::-1])
+    assert np.array_equal(here.outcome, there.outcome[::-1])
+    assert len(np.unique(here.end_time)) == 1000
+
+
+def test_the_face_after_impacts_is_the_face_of_that_touch_or_the_final_face():
+    drawn, releases = draw_releases(np.random.default_rng(4), 60)
+    whole = scenario(floor={"restitution": 0.4}, air=AIR)
+    stopped = 0
+    for after in (0, 1, 12):
+        case = scenario(floor={"restitution": 0.4}, air=AIR, ending={"max_impacts": after + 1})
+        faces = analytic.toss_many(case, releases).after(after)
+        for face, release in zip(faces, drawn, strict=True):
+            tossed = analytic.toss(Scenario.model_validate({**whole.model_dump(), "release": release}))
+            there = len(tossed.impacts) > after
+            stopped += not there
+            assert face == (tossed.impacts.face[after] if there else tossed.outcome)
+    assert 0 < stopped < 60, "some of the tosses should end before their last touch"
+    with pytest.raises(ValueError, match=r"set ending\.max_impacts = 1"):
+        analytic.toss_many(whole, releases).after(0)
+
+
+def test_no_releases_give_no_outcomes():
+    _, one = draw_releases(np.random.default_rng(0), 1)
+    none = Releases(**{name: array[:0] for name, array in vars(one).items()})
+    outcomes = analytic.toss_many(scenario(), none)
+    assert len(outcomes) == 0
+    assert outcomes.after(0).shape == (0,)
+
+
+def test_a_flat_drop_shows_its_face():
+    drop = Releases(
+        position=np.array([[0, 0, 0.3]] * 2),
+        velocity=np.zeros((2, 3)),
+        quaternion=np.array([[1.0, 0, 0, 0], [0, 1, 0, 0]]),
+        angular_velocity=np.zeros((2, 3)),
+    )
+    outcomes = analytic.toss_many(scenario(), drop)
+    assert outcomes.outcome.tolist() == [Outcome.HEADS, Outcome.TAILS]
+    assert outcomes.last_face.tolist() == [Face.HEADS, Face.TAILS]

@@ -1,0 +1,99 @@
+"""Many releases are checked as one is."""
+
+import numpy as np
+import pytest
+
+from models.outcomes import Outcomes
+from models.releases import Releases, check_releases
+from models.scenario import Release
+from tests.draws import scenario
+
+GOOD = {
+    "position": np.full((2, 3), 0.4),
+    "velocity": np.zeros((2, 3)),
+    "quaternion": np.array([[1.0, 0, 0, 0], [0.5, 0.5, 0.5, 0.5]]),
+    "angular_velocity": np.zeros((2, 3)),
+}
+
+
+def changed(name: str, column: int, value: float) -> Releases:
+    """Give good releases but for one number of the second."""
+    array = GOOD[name].copy()
+    array[1, column] = value
+    return Releases(**{**GOOD, name: array})
+
+
+@pytest.mark.parametrize(
+    ("name", "shape"),
+    [("position", (2, 2)), ("velocity", (3, 3)), ("quaternion", (2,)), ("quaternion", (2, 3))],
+)
+def test_a_wrong_shape_is_refused(name, shape):
+    with pytest.raises(ValueError, match=rf"Releases\.{name}: shape .*, expected \(2, "):
+        Releases(**{**GOOD, name: np.zeros(shape)})
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, 2e9])
+@pytest.mark.parametrize("name", list(GOOD))
+def test_a_number_beyond_all_coins_is_refused(name, value):
+    with pytest.raises(ValueError, match=rf"Releases\.{name}: row 1 is .*, accepted: numbers within"):
+        changed(name, 2, value)
+
+
+def test_euler_parameters_are_brought_to_norm_1_as_those_of_one_release():
+    rng = np.random.default_rng(1)
+    e = rng.normal(size=(50, 4))
+    e /= np.linalg.norm(e, axis=1)[:, None] * (1 + rng.uniform(-9e-4, 9e-4, 50))[:, None]
+    many = Releases(
+        position=np.full((50, 3), 0.4),
+        velocity=np.zeros((50, 3)),
+        quaternion=e,
+        angular_velocity=np.zeros((50, 3)),
+    )
+    for i in range(50):
+        one = Release(position=(0.4, 0.4, 0.4), quaternion=tuple(e[i].tolist()))
+        assert tuple(many.quaternion[i].tolist()) == one.attitude
+    with pytest.raises(ValueError, match=r"Releases\.quaternion: row 1 is .*norm 1"):
+        changed("quaternion", 0, 0.6)
+
+
+def test_the_arrays_are_copies_and_read_only():
+    position = GOOD["position"].copy()
+    releases = Releases(**{**GOOD, "position": position})
+    position[0, 2] = -1
+    assert releases.position[0, 2] == 0.4
+    with pytest.raises(ValueError, match="read-only"):
+        releases.position[0, 2] = 1
+
+
+@pytest.mark.parametrize(
+    ("name", "column", "value", "accepted"),
+    [
+        ("position", 2, 0.0, "a coin above the floor"),
+        ("angular_velocity", 0, 1e7, "a spin of at most"),
+        ("velocity", 1, 1e8, "air that slows the coin"),
+    ],
+)
+def test_a_release_that_a_scenario_refuses_is_refused(name, column, value, accepted):
+    air = {"normal": 0.8, "exponent": 1.0}
+    check_releases(scenario(air=air), Releases(**GOOD))
+    with pytest.raises(ValueError, match=rf"Releases\.{name}: row 1 is .*, accepted: {accepted}"):
+        check_releases(scenario(air=air), changed(name, column, value))
+    one = {key: array[1].tolist() for key, array in vars(changed(name, column, value)).items()}
+    with pytest.raises(ValueError, match=accepted):
+        scenario(air=air, release=one)
+
+
+def test_outcomes_check_their_shapes_and_are_read_only():
+    columns = {
+        "outcome": np.zeros(2, np.int8),
+        "ending": np.zeros(2, np.int8),
+        "impacts": np.zeros(2, np.int32),
+        "last_face": np.zeros(2, np.int8),
+        "end_time": np.zeros(2),
+    }
+    outcomes = Outcomes(**columns)
+    assert len(outcomes) == 2
+    with pytest.raises(ValueError, match="read-only"):
+        outcomes.impacts[0] = 1
+    with pytest.raises(ValueError, match=r"Outcomes\.end_time: shape \(3,\), expected \(2,\)"):
+        Outcomes(**{**columns, "end_time": np.zeros(3)})
