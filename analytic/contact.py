@@ -1,4 +1,4 @@
-"""A coin that stays in contact with the floor at one rim point: it slides, creeps, or sticks and rolls."""
+"""A coin that stays in contact with the floor: it slides, creeps, sticks and rolls, or stays upright."""
 
 import math
 from enum import IntEnum
@@ -20,6 +20,7 @@ from analytic.floor_force import (
 )
 from analytic.impact import spin_gained
 from analytic.runge_kutta import STAGES, end_point, stage_point, step_factor
+from analytic.upright import put_upright, rim_forces, tip_over, upright_rate
 from models.attitude import rotation_matrix
 from models.compiled import compiled
 from models.laws import ContactLaw, RestitutionKind
@@ -43,6 +44,9 @@ _FACE = 1e-7
 _CREEP = 1e-3
 # Friction holds a little more than it starts with, or a coin on the border would for ever start and stop.
 _HOLD = 1e-6
+# In a contact that lasts, a perfectly rough floor is nearly the limit of Coulomb's: it lets go a point that
+# it could only hold by pulling.
+_ROUGH = 1e4
 _HALVINGS = 50
 
 
@@ -54,15 +58,18 @@ def keeps_contact(law):
 
 @compiled
 def friction_in_contact(rules):
-    """Give the coefficient of friction μ of a contact that lasts: 0 smooth, infinite perfectly rough."""
+    """Give the coefficient of friction μ of a contact that lasts: 0 smooth, large perfectly rough."""
     if rules.law == ContactLaw.PERFECTLY_ROUGH:
-        return np.inf
+        return _ROUGH
     return rules.friction if rules.law == ContactLaw.COULOMB else 0.0
 
 
 @compiled
 def contact_rate(body, mu, motion, side, y, dy):
     """Write the rate of change of the state y of a coin in contact into dy; both (13,)."""
+    if motion == Motion.UPRIGHT:
+        upright_rate(body, y, dy)
+        return
     derivative(body, y, dy)
     R, arm, K, b, v_A = contact(body, y, dy, side)
     F = force(K, b, v_A, mu, motion)
@@ -101,6 +108,9 @@ def put_on_floor(body, mu, motion, side, y):
     A point that sticks has none; one that slides none upward; one that creeps moves in the direction in
     which its slip grows.
     """
+    if motion == Motion.UPRIGHT:
+        put_upright(body, y)
+        return
     dy = np.empty(STATE_SIZE)
     derivative(body, y, dy)
     R, arm, K, b, v_A = contact(body, y, dy, side)
@@ -140,6 +150,8 @@ def margin(body, mu, motion, side, y):
         side: of the rim that is in contact.
         y: state, (13,).
     """
+    if motion == Motion.UPRIGHT:
+        return min(rim_forces(body, y)) / (body.mass * body.gravity)
     dy = np.empty(STATE_SIZE)
     derivative(body, y, dy)
     R, _, K, b, v_A = contact(body, y, dy, side)
@@ -215,7 +227,8 @@ def stay(body, mu, motion, y, longest):
             high = middle
     contact_step(body, mu, motion, side, y, high, stages, y_new)
     up_new = rotation_matrix(attitude_of(y_new))[2]
-    if math.hypot(up_new[0], up_new[1]) <= _FACE or (body.thickness > 0 and side * up_new[2] <= 0):
+    onto_edge = body.thickness > 0 and motion != Motion.UPRIGHT and side * up_new[2] <= 0
+    if onto_edge or math.hypot(up_new[0], up_new[1]) <= _FACE:
         # The other rim point is still to land: its velocity is that before the crossing.
         contact_step(body, mu, motion, side, y, low, stages, y_new)
         y[:] = y_new
@@ -234,6 +247,8 @@ def next_motion(body, mu, motion, y):
         motion: `Motion` up to here.
         y: state, (13,).
     """
+    if motion == Motion.UPRIGHT:
+        tip_over(body, y)
     side, dy = side_of(y), np.empty(STATE_SIZE)
     derivative(body, y, dy)
     R, arm, K, b, v_A = contact(body, y, dy, side)
@@ -252,8 +267,6 @@ def next_motion(body, mu, motion, y):
         S = coulomb(K, (v_A[0], v_A[1], -1e-6 * slow), 0.0, mu, RestitutionKind.KINEMATIC)
         give_impulse(body, R, arm, S, y)
     going_on = Motion.STICKING if holds(mu, holding_force(K, b)) else Motion.CREEPING
-    if going_on == Motion.CREEPING and mu == np.inf:
-        return Motion.IMPOSSIBLE
     put_on_floor(body, mu, going_on, side, y)
     return going_on
 

@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from analytic.contact import contact_rate
-from analytic.flight import STATE_SIZE, attitude_of, spin_of
-from analytic.floor_force import side_of
+from analytic.flight import STATE_SIZE, attitude_of, spin_of, velocity_of
+from analytic.floor_force import Motion, side_of
 from analytic.rotation import quaternion_rate
 from models.attitude import rotation_matrix
 from models.compiled import compiled
@@ -34,38 +34,80 @@ def stands(body, mu, motion, y):
     """Tell whether a coin on its edge is held there however it rolls on.
 
     Rolling brings C up and down, and so changes the roll rate: the floor must hold the coin in every phase
-    that it can reach, at rest and at the largest roll rate that its energy of turning leaves there. It turns
-    about the vertical as L_z has it.
+    that it can reach. It turns about the vertical as L_z has it, and rolls at most as fast as its energy
+    leaves it there: just so fast on a smooth floor in vacuum, slower and either way where it loses energy.
 
     Args:
         body: the coin.
         mu: coefficient of friction μ, 0 on a smooth floor.
-        motion: `Motion` in contact.
+        motion: `Motion` in contact, at one rim point.
         y: state of a coin on its edge, (13,).
     """
-    J, weight = body.inertia, body.mass * body.gravity
-    up, w = rotation_matrix(attitude_of(y))[2], spin_of(y)
-    L_z, energy = dot(up, apply(J, w)), dot(w, apply(J, w)) / 2 + weight * y[2]
     if not held_on_edge(body, mu, motion, y):
         return False
-    phase = y.copy()
-    e0, e1, e2, e3 = attitude_of(y)
+    lossless = mu == 0 and body.air.normal == 0 and body.air.tangential == 0
+    phases, roll_rates = np.empty((_PHASES, STATE_SIZE)), np.empty(_PHASES)
     for i in range(_PHASES):
-        c, s = math.cos(math.pi * i / _PHASES), math.sin(math.pi * i / _PHASES)
-        phase[6], phase[7] = c * e0 - s * e3, c * e1 + s * e2
-        phase[8], phase[9] = c * e2 - s * e1, c * e3 + s * e0
-        up = rotation_matrix(attitude_of(phase))[2]
-        phase[2] = body.radius * math.hypot(up[0], up[1]) + dot(up, body.center)
-        moment = dot(up, apply(J, up))
-        left = energy - weight * phase[2] - L_z * L_z / (2 * moment)
-        fastest = (2 * max(left, 0.0) / J[2][2]) ** 0.5
-        for rolling in (-fastest, 0.0, fastest):
-            for k in range(3):
-                phase[10 + k] = L_z / moment * up[k]
-            phase[12] += rolling
-            if left > -1e-9 * weight * body.radius and not held_on_edge(body, mu, motion, phase):
+        roll_rates[i] = rolled_on(body, mu, motion, y, math.pi * i / _PHASES, phases[i])
+    one_way = lossless and roll_rates.min() > 0
+    L_z = dot(rotation_matrix(attitude_of(y))[2], apply(body.inertia, spin_of(y)))
+    for i in range(_PHASES):
+        for share in (1.0, -1.0, 0.0):
+            if roll_rates[i] < 0 or (one_way and share * y[12] < 0) or (lossless and share == 0):
+                continue
+            set_rolling(body, L_z, share * roll_rates[i], phases[i])
+            if not held_on_edge(body, mu, motion, phases[i]):
                 return False
     return True
+
+
+@compiled
+def rolled_on(body, mu, motion, y, half_angle, phase):
+    """Roll a coin on its edge on by an angle.
+
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ, 0 on a smooth floor.
+        motion: `Motion` in contact, at one rim point.
+        y: state of a coin on its edge, (13,).
+        half_angle: half the angle.
+        phase: where the state there goes, (13,), its velocities those of y.
+
+    Returns:
+        The largest roll rate that the energy leaves there [rad/s], -1 where the coin does not get there. On
+        a smooth floor the horizontal velocity takes no part; a coin that sticks rolls about the floor's line.
+    """
+    J, m, weight = body.inertia, body.mass, body.mass * body.gravity
+    up, w, v = rotation_matrix(attitude_of(y))[2], spin_of(y), velocity_of(y)
+    L_z = dot(up, apply(J, w))
+    energy = (dot(w, apply(J, w)) + m * v[2] * v[2]) / 2 + weight * y[2]
+    if mu > 0:
+        energy += m * (v[0] * v[0] + v[1] * v[1]) / 2
+    e0, e1, e2, e3 = attitude_of(y)
+    c, s = math.cos(half_angle), math.sin(half_angle)
+    phase[:] = y
+    phase[6], phase[7] = c * e0 - s * e3, c * e1 + s * e2
+    phase[8], phase[9] = c * e2 - s * e1, c * e3 + s * e0
+    up = rotation_matrix(attitude_of(phase))[2]
+    phase[2] = body.radius * math.hypot(up[0], up[1]) + dot(up, body.center)
+    moment, product = dot(up, apply(J, up)), dot(up, J[2])
+    rise = cross(up, (0.0, 0.0, 1.0))
+    roll_inertia = J[2][2] - product * product / moment + m * dot(rise, body.center) ** 2
+    if motion == Motion.STICKING:
+        roll_inertia += m * phase[2] * phase[2]
+    left = energy - weight * phase[2] - L_z * L_z / (2 * moment)
+    return (2 * max(left, 0.0) / roll_inertia) ** 0.5 if left > -1e-9 * weight * body.radius else -1.0
+
+
+@compiled
+def set_rolling(body, L_z, roll_rate, y):
+    """Let a coin on its edge turn as L_z has it, and roll at a rate [rad/s]; y: state, (13,)."""
+    up = rotation_matrix(attitude_of(y))[2]
+    about_vertical = apply(body.inertia, up)
+    turn_rate = (L_z - roll_rate * about_vertical[2]) / dot(up, about_vertical)
+    for k in range(3):
+        y[10 + k] = turn_rate * up[k]
+    y[12] += roll_rate
 
 
 @compiled

@@ -12,6 +12,7 @@ from analytic.floor_force import Motion
 from analytic.impact import impulse, spin_gained
 from analytic.perpetual import dies_away, first_contact, no_looks
 from analytic.rim import closing_speed, crowded, fly
+from analytic.upright import put_upright
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
 from models.compiled import compiled
@@ -172,8 +173,6 @@ def fly_and_hit(body, rules, y, rows, keep_pieces):
                     outcome, ending = decided(body, rules, y)
                     if ending == Ending.NONE and dies_away(body, rules, y, time, looks):
                         outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
-        if motion == Motion.IMPOSSIBLE:
-            ending = Ending.NO_SOLUTION
     return n, pieces[:k], outcome, ending, time
 
 
@@ -208,12 +207,17 @@ def keep_contact(body, rules, mu, motion, y, time, steps_left, looks):
         time += made
         steps_left -= 1
         outcome, ending = decided(body, rules, y)
-        if ending == Ending.NONE and on_edge(body, y) and held_on_edge(body, mu, motion, y):
-            if stands(body, mu, motion, y):
+        upright = motion == Motion.UPRIGHT
+        one_rim = Motion.SLIDING if upright else motion
+        if ending == Ending.NONE and (upright or (on_edge(body, y) and held_on_edge(body, mu, one_rim, y))):
+            if stands(body, mu, one_rim, y):
                 outcome, ending = Outcome.EDGE, Ending.STANDING
-            else:
+            elif mu > 0:
                 # It stays on both rims until its roll tips it, a contact that is not followed.
                 ending = Ending.CHATTER
+            elif not upright:
+                put_upright(body, y)
+                return time, steps_left, Motion.UPRIGHT, undecided, Ending.NONE
         if ending == Ending.NONE and dies_away(body, rules, y, time, looks):
             outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
         if ending != Ending.NONE:

@@ -31,8 +31,8 @@ class Motion(IntEnum):
     which it grows."""
     STICKING = 3
     """In contact, without slip."""
-    IMPOSSIBLE = 4
-    """No force keeps the contact, nor does it end: a perfectly rough floor would have to pull."""
+    UPRIGHT = 4
+    """In contact at both rims, on a smooth floor."""
 
 
 @compiled

@@ -9,9 +9,8 @@ from models.laws import ContactLaw
 
 # The energy of a toss in contact is looked at after so many √(r/g), and whenever that time has doubled.
 _FIRST_LOOK = 64.0
-# What a coin loses dies away where it never grows from one such look to the next, and would leave enough
-# after so many more.
-_MORE_LOOKS = 100
+# So many more doublings are for ever: from a second on, they take longer than the universe is old.
+_MORE_LOOKS = 60
 # A loss that is none, against the energy.
 _NO_LOSS = 1e-9
 _LOOKS = 4
@@ -40,9 +39,10 @@ def first_contact(body, looks, time):
 def dies_away(body, rules, y, time, looks):
     """Tell whether the energy that a coin loses in vacuum dies away before it is too low to turn over.
 
-    The energy is looked at whenever the time since the first contact has doubled. Where it loses no more in
-    one doubling than in that before, it loses ever more slowly: `_MORE_LOOKS` doublings are for ever. On a
-    smooth floor the horizontal motion, which never changes, is left out.
+    The energy is looked at whenever the time since the first contact has doubled. The loss of the last
+    doubling, growing in each that comes as it grew at most in those before, must leave enough after
+    `_MORE_LOOKS` more: so it does where a coin loses ever less in the same time. On a smooth floor the
+    horizontal motion, which never changes, is left out.
 
     Args:
         body: the coin.
@@ -62,8 +62,15 @@ def dies_away(body, rules, y, time, looks):
     looks[2:-1] = looks[3:]
     looks[-1] = E
     losses = looks[2:-1] - looks[3:]
+    none, growth = _NO_LOSS * E, 1.0
     for i in range(1, _LOOKS - 1):
-        # An infinite or undefined loss is one not looked at yet.
-        if not (abs(losses[i]) <= _NO_LOSS * E or 0 < losses[i] <= losses[i - 1] < np.inf):
+        # An infinite or undefined loss is one not looked at yet; energy gained is no evidence of anything.
+        if not losses[i - 1] < np.inf or losses[i] < -none:
             return False
-    return E - _MORE_LOOKS * max(losses[-1], 0.0) > max(barrier(body, 1.0), barrier(body, -1.0))
+        if losses[i] > none:
+            growth = max(growth, losses[i] / max(losses[i - 1], none))
+    to_come, loss = 0.0, max(losses[-1], none)
+    for _ in range(_MORE_LOOKS):
+        loss *= growth
+        to_come += loss
+    return E - to_come > max(barrier(body, 1.0), barrier(body, -1.0))

@@ -246,7 +246,7 @@ class Ending(_Part):
 
     test: Annotated[EndingTest, BeforeValidator(_named(EndingTest))] = EndingTest.RIGOROUS
     """What decides that the face up is final."""
-    max_impacts: Annotated[int, Field(ge=1, le=1_000_000)] = 100_000
+    max_impacts: Annotated[int, Field(ge=1, le=1_000_000)] = 1_000_000
     """The toss stops after so many impacts."""
     max_time: Annotated[float, _quantity("s"), _size] = 10_000.0
     """The toss stops at this time [s]."""

@@ -23,7 +23,7 @@ from compare.reproduction import Figure, Made, Progress
 from models.records import Ending, Outcome
 from models.scenario import Scenario
 
-COUNT, COUNT_BOTH, SEED = 2_000, 200, 2008
+COUNT, COUNT_BOTH, SEED = 10_000, 200, 2008
 """Tosses of each coin; tosses by each engine on each floor; and the seed."""
 PAPER_OFFSET = (-1e-3, -1e-3, -2e-4)
 THICKNESS = 2e-3
