@@ -35,6 +35,14 @@ class Figure:
     """Names of the files it writes."""
     run: Callable[[Path, Progress], Made]
     """Compute it, write its files into a folder that exists, and check its claims."""
+    quick: Callable[[Path, Progress], Made] | None = None
+    """The same at a smaller size, where there is one."""
+    quick_seconds: float = 0.0
+    """Roughly how long that takes on two cores [s]."""
+    paper: str = ""
+    """Its place in the paper, as in "Fig. 3"; empty for a study of our own."""
+    assumed: str = ""
+    """What the paper leaves unsaid, and what is taken here."""
 
 
 def names() -> list[str]:
