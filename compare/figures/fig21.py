@@ -16,7 +16,7 @@ from models.reading import load
 from models.records import Array, States
 from models.scenario import Air, Scenario
 
-SHOWN = 10.0
+SHOWN = 6.0
 """How long the picture follows the fall [s]."""
 COLUMNS = ("speed [m/s]", "acceleration [m/s²]", "cos θ", "f_rz [N]")
 
