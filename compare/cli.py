@@ -218,33 +218,45 @@ def video(scenario: str, out: Path) -> None:
     type=click.Path(path_type=Path),
     help="Folder for the results; made if missing. NAME lies in NAME/.",
 )
+@click.option("--quick", is_flag=True, help="Make the smaller size of what has one.")
 @click.pass_context
-def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None) -> None:
+def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quick: bool) -> None:
     """Compute figures and studies anew, write their data and pictures, and check what they claim.
 
-    Without NAME, list what can be reproduced. Exit status 1: a claim does not hold.
+    NAME may be `all`: all figures of the paper, with REPRODUCTION.md and gallery.html over them. Without
+    NAME, list what can be reproduced. Exit status 1: a claim does not come out as it is known to.
     """
-    from compare import reproduction
+    from compare import gallery, reproduction
+    from compare.files import require_folder
 
     known = reproduction.names()
+    pages = names == ("all",)
+    if pages:
+        names = tuple(gallery.of_paper())
     for name in names:
         if name not in known:
             ctx.fail(f"{name}: no such figure; accepted: {', '.join(known)}")
     if not names and out is None:
         for name in known:
             figure = reproduction.find(name)
-            click.echo(f"{name:16}{figure.title} ({figure.seconds:g} s)")
+            place = f"{figure.paper}: " if figure.paper else ""
+            click.echo(f"{name:24}{place}{figure.title} ({figure.seconds:g} s)")
         return
     if not names or out is None:
-        ctx.fail(f"accepted: NAME ... --out DIR, NAME one of: {', '.join(known)}; or neither, for a list")
+        ctx.fail(
+            f"accepted: NAME ... --out DIR, NAME one of: {', '.join(known)}, or all; or neither, for a list"
+        )
     with _plain_errors(str(out)):
+        require_folder(out, gallery.PAGES if pages else ())
         for name in names:
             reproduction.folder_of(name, out)
         failed = []
         for name in names:
-            made = reproduction.reproduce(name, out, _progress(name, "parts"))
+            made = reproduction.reproduce(name, out, _progress(name, "parts"), quick=quick)
             click.echo(made.text)
             failed += [f"{name}: {claim}" for claim in made.failed]
+        if pages:
+            gallery.write(out, names, quick=quick)
     for claim in failed:
         click.echo(f"cointoss: {claim}: not so", err=True)
     sys.exit(1 if failed else 0)

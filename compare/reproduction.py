@@ -70,17 +70,18 @@ def folder_of(name: str, out: Path) -> Path:
     return out / name
 
 
-def reproduce(name: str, out: Path, progress: Progress) -> Made:
+def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) -> Made:
     """Compute a figure and write its files into the folder `out`/`name`, all of them or none.
 
     Args:
         name: of the figure, one of `names`.
         out: folder of all figures, made if missing.
         progress: called as the work goes on.
+        quick: whether to make its quick size, if it has one.
 
     Raises:
         UnwritableError: naming the folder and why.
     """
     figure = find(name)
     with written_together(folder_of(name, out), figure.files) as aside:
-        return figure.run(aside, progress)
+        return (figure.quick if quick and figure.quick else figure.run)(aside, progress)
