@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure as Picture
 
-from compare import reproduction
+from compare import gallery, reproduction
 from compare.findings import FILES, Finding, Result, failed, paper_figure, read_findings, table
 
 
@@ -60,12 +60,13 @@ def test_a_claim_that_does_not_come_out_as_known_fails(holds):
     assert failed((KNOWN, other, REFUTED)) == ("it rains",)
 
 
-def paper_figures(longest: float) -> list[str]:
-    found = {name: reproduction.find(name) for name in reproduction.names()}
-    return [name for name, figure in found.items() if figure.paper and figure.quick_seconds <= longest]
-
-
-@pytest.mark.parametrize("name", paper_figures(10))
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.slow if reproduction.find(name).quick_seconds > 10 else ())
+        for name in gallery.of_paper()
+    ],
+)
 def test_the_papers_claims_come_out_as_known(name, tmp_path):
     quick = reproduction.find(name).quick
     assert quick is not None
