@@ -80,7 +80,9 @@ def paper_figure(
 def _saved(folder: Path, result: Result) -> Made:
     listed = [asdict(finding) for finding in result.findings]
     (folder / "findings.json").write_text(
-        json.dumps(listed, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
+        # What NumPy compares is of its own type.
+        json.dumps(listed, indent=1, ensure_ascii=False, default=bool) + "\n",
+        encoding="utf-8",
     )
     np.savez_compressed(folder / "data.npz", allow_pickle=False, **result.data)
     with mpl.rc_context(STYLE):

@@ -86,11 +86,23 @@ def draw_map(
     """
     codes = outcome_map(outcomes)
     figure = Figure(figsize=size, layout="constrained")
-    axes = figure.add_subplot()
-    _show(axes, _colored(codes, palette, boundaries), x, y)
-    axes.set_ylabel(_label(y))
+    draw_panel(figure.add_subplot(), codes, x=x, y=y, palette=palette, boundaries=boundaries)
     _legend(figure, _outcome_patches([codes], palette, boundaries))
     return figure
+
+
+def draw_panel(
+    axes: Axes,
+    outcomes: ArrayLike,
+    *,
+    x: Axis,
+    y: Axis,
+    palette: Palette = Palette.PAPER,
+    boundaries: bool = False,
+) -> None:
+    """Draw a map into `axes`, without a legend; see `draw_map` for the other arguments."""
+    _show(axes, _colored(outcome_map(outcomes), palette, boundaries), x, y)
+    axes.set_ylabel(_label(y))
 
 
 def draw_comparison(
