@@ -13,6 +13,10 @@ from models.records import Face, Outcome
 
 Color = tuple[int, int, int]
 
+Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
+
+EDGE = 2
+"""Of the letters [pixels]."""
 INK, WHITE, GREY = (27, 36, 48), (255, 255, 255), (91, 102, 117)
 TITLES: dict[str, tuple[str, Color]] = {
     "analytic": ("paper's mechanics", (0, 90, 142)),
@@ -61,7 +65,7 @@ def caption_of(play: Play, i: int) -> Caption:
     shown = play.impulses(i)
     if shown:
         size = np.linalg.norm(shown[-1].impulse)
-        lines.append(Line(f"impulse {1000 * size:.3g} mN s", _bytes(IMPULSE_COLOR)))
+        lines.append(Line(f"impulse {1000 * size:#.3g} mN s", _bytes(IMPULSE_COLOR)))
     if play.forces[i].any():
         weight = toss.scenario.coin.mass * toss.scenario.gravity
         weights = np.linalg.norm(play.forces[i]) / weight
@@ -86,19 +90,24 @@ def written(frame: np.ndarray, captions: Sequence[Caption], below: str) -> np.nd
     font, large = ImageFont.load_default(size), ImageFont.load_default(1.4 * size)
     for number, caption in enumerate(captions):
         left = number * image.width / len(captions) + size
-        draw.text((left, 1.4 * size), caption.title.text, font=large, fill=caption.title.color, anchor="lm")
+        _write(draw, (left, 1.4 * size), caption.title, large, "lm")
         right = left + draw.textlength(caption.label, font=large) + size
         draw.rounded_rectangle((left, 2.5 * size, right, 4.7 * size), size / 3, fill=caption.ground)
         draw.text((left + size / 2, 3.6 * size), caption.label, font=large, fill=caption.ink, anchor="lm")
         for i, line in enumerate(caption.lines):
-            place = (left, (5.6 + 1.4 * i) * size)
-            draw.text(place, line.text, font=font, fill=line.color, anchor="lm")
+            _write(draw, (left, (5.6 + 1.4 * i) * size), line, font, "lm")
         if number > 0:
             x = number * image.width // len(captions)
             draw.line((x, 0, x, image.height), fill=WHITE, width=max(2, image.width // 400))
-    place = (image.width / 2, image.height - size)
-    draw.text(place, below, font=font, fill=INK, anchor="mm", stroke_width=size / 6, stroke_fill=WHITE)
+    _write(draw, (image.width / 2, image.height - size), Line(below), font, "mm")
     return np.asarray(image)
+
+
+def _write(
+    draw: ImageDraw.ImageDraw, place: tuple[float, float], line: Line, font: Font, anchor: str
+) -> None:
+    """Write a line with a white edge, to be read on any ground."""
+    draw.text(place, line.text, line.color, font, anchor, stroke_width=EDGE, stroke_fill=WHITE)
 
 
 def _bytes(color: tuple[float, float, float]) -> Color:

@@ -25,7 +25,7 @@ THICKEST, THICKNESS = 0.04, 0.15
 """Of an arrow: in longest arrows, and in its own length."""
 IN_FRONT = 0.6
 """An arrow is drawn in this part of its distance from the camera, before the coin."""
-TRAIL_CORNERS, TRAIL_WIDTH, TRAIL_COLOR = 400, 2.0, (0.3, 0.35, 0.4)
+TRAIL_CORNERS, TRAIL_WIDTH, TRAIL_COLOR = 200, 2.0, (0.3, 0.35, 0.4)
 """Of the path in the pictures of a camera at rest; the width in pixels."""
 MARGIN = 1.1
 """A camera at rest sees so many times what it must."""

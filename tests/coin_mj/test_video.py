@@ -202,6 +202,21 @@ def test_the_overview_sees_the_coin_from_release_to_the_floor():
     assert rows[1] == pytest.approx((rows[0] + rows[2]) / 2, abs=2)
 
 
+@pytest.mark.parametrize("camera", [Camera.OVERVIEW, Camera.TOP])
+def test_a_camera_at_rest_shows_the_path_up_to_now(camera):
+    toss = made(Made(position=(0, 0, 0.2), velocity=(0.3, 0.002, -0.002)))
+    pictures = drawn(toss, [0, 0.5, 1], camera, height=192, width=256)
+    first, middle, last = (picture.sum(axis=2) for picture in pictures)
+    # Between where the coin is at these times.
+    early, late = slice(64, 104), slice(152, 192)
+    assert np.array_equal(middle[:, early], last[:, early])
+    assert np.array_equal(first[:, late], middle[:, late])
+    for columns in (early, late):
+        darker = np.argwhere(first[:, columns] - last[:, columns] > 60)
+        assert len(set(darker[:, 1])) > 35
+        assert np.ptp(darker[:, 0]) < 4
+
+
 def test_the_close_up_follows_the_coin():
     toss = made(Made(position=(0, 0, 0.3), velocity=(0.3, 0.2, -0.25)))
     for picture in drawn(toss, [0, 0.5, 1], Camera.CLOSE_UP):
@@ -304,7 +319,7 @@ def test_the_caption_tells_impacts_height_and_the_floors_action():
     assert told == [
         "0 impacts, height 12.3 cm",
         "1 impact, height 12.3 cm",
-        "2 impacts, height 12.3 cm; impulse 2.5 mN s",
+        "2 impacts, height 12.3 cm; impulse 2.50 mN s",
         "2 impacts, height 12.3 cm; floor's force 1.00 m g",
         "2 impacts, height 12.3 cm; ended: settled",
     ]
