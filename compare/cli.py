@@ -14,6 +14,9 @@ import click
 
 # Only click is imported here: `cointoss --help` answers at once, each command brings what it needs.
 
+_BAR = 30
+"""Width of a progress bar, in characters."""
+
 _SCENARIO_HELP = (
     "SCENARIO is a TOML file, or the name of a scenario that comes with the package, such as fig24a; "
     "a name that does not exist is answered with all that do."
@@ -72,6 +75,7 @@ def main() -> None:
 def _plain_errors(source: str) -> Iterator[None]:
     """Turn the errors of bad input into one line and exit status 2, and warnings into one line each."""
     from compare.files import UnwritableError
+    from compare.graphics import BackEndError
     from models.reading import ScenarioError
     from models.records import ApproximationWarning, UnsupportedError
 
@@ -86,7 +90,7 @@ def _plain_errors(source: str) -> Iterator[None]:
         show, warnings.showwarning = warnings.showwarning, tell
         try:
             yield
-        except (ScenarioError, UnwritableError) as error:
+        except (ScenarioError, UnwritableError, BackEndError) as error:
             _refuse(str(error))
         except (UnsupportedError, FloatingPointError) as error:
             _refuse(f"{source}: {error}")
@@ -140,9 +144,12 @@ def toss(
         from compare.engines import Engine
         from compare.engines import toss as toss_by
         from compare.files import is_stream, require_file, write_text
+        from compare.graphics import require_mujoco
         from models.reading import load
 
         described = load(scenario)
+        if engine == Engine.MUJOCO:
+            require_mujoco()
         if trajectory is not None and not is_stream(trajectory):
             require_file(trajectory, ".csv", scenario)
         if max_impacts is not None:
@@ -187,8 +194,22 @@ def compare(scenario: str, out: Path) -> None:
 @main.command(epilog=_SCENARIO_HELP)
 @click.argument("scenario")
 @click.option("--out", type=click.Path(path_type=Path), required=True, help="The mp4 file to write.")
-def video(scenario: str, out: Path) -> None:
-    """Film one toss in MuJoCo, in slow motion around the impacts."""
+@click.option(
+    "--engine",
+    type=click.Choice(["analytic", "mujoco", "both"]),
+    default="mujoco",
+    show_default=True,
+    help="Whose toss; both stand side by side.",
+)
+@click.option(
+    "--camera",
+    type=click.Choice(["overview", "close-up", "top"]),
+    default="close-up",
+    show_default=True,
+    help="From where; the close-up follows the coin.",
+)
+def video(scenario: str, out: Path, engine: str, camera: str) -> None:
+    """Film one toss, drawn by MuJoCo, in slow motion around the impacts."""
     with _plain_errors(scenario):
         from compare.files import require_file, written_whole
         from models.reading import load
@@ -202,12 +223,15 @@ def video(scenario: str, out: Path) -> None:
         if problem is not None:
             _refuse(problem)
 
-        import coin_mj
-        from coin_mj.video import write_video
+        from coin_mj.drawing import Camera
+        from coin_mj.video import FULL, write_video
+        from compare.engines import Engine
+        from compare.engines import toss as toss_by
 
-        result = coin_mj.toss(described)
+        engines = list(Engine) if engine == "both" else [Engine(engine)]
+        tosses = [toss_by(each, described) for each in engines]
         with written_whole(out) as aside:
-            write_video(result, aside, _progress("video", "frames"))
+            write_video(tosses, Camera(camera), FULL, aside, _progress("video", "frames"))
         click.echo(out)
 
 
@@ -247,6 +271,9 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
             f"accepted: NAME ... --out DIR, NAME one of: {', '.join(known)}, or all; or neither, for a list"
         )
     with _plain_errors(str(out)):
+        from compare.graphics import require_mujoco
+
+        require_mujoco()
         require_folder(out, gallery.PAGES if pages else ())
         for name in names:
             reproduction.folder_of(name, out)
@@ -263,10 +290,12 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
 
 
 def _progress(what: str, parts: str) -> Callable[[int, int], None]:
-    """Give a function that shows on the terminal how far a job is, in its `parts`."""
+    """Give a function that shows on the terminal how far a job is, in its `parts`, by a bar."""
 
     def show(done: int, count: int) -> None:
         if sys.stderr.isatty():
-            click.echo(f"\r{what}: {done}/{count} {parts}", err=True, nl=done == count)
+            full = _BAR * done // count
+            bar = full * "#" + (_BAR - full) * "-"
+            click.echo(f"\r{what}: [{bar}] {done}/{count} {parts}", err=True, nl=done == count)
 
     return show
