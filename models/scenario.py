@@ -60,7 +60,7 @@ LARGEST, SMALLEST = 1e9, 1e-9
 FASTEST_SPIN, FASTEST_DRAG = 1e5, 1e4
 # In an angle beyond it the digits that tell one attitude from another are gone [rad].
 LARGEST_ANGLE = 1e6
-# Euler parameters whose norm is 1 within rounding are left as they are: made from angles, or brought to norm 1
+# Euler parameters whose norm is 1 within rounding stay as they are: made from angles, or brought to norm 1
 # before, they would change in their last digit.
 NORM_ROUNDING = 1e-15
 

@@ -67,7 +67,9 @@ def test_the_arrays_are_copies_and_read_only():
 
 def test_an_attitude_from_angles_is_that_of_one_release_to_the_bit():
     angles = np.random.default_rng(2).uniform(-4, 4, (200, 3))
-    one_by_one = np.array([Release(position=(0, 0, 1), angles=tuple(row)).attitude for row in angles.tolist()])
+    one_by_one = np.array(
+        [Release(position=(0, 0, 1), angles=tuple(row)).attitude for row in angles.tolist()]
+    )
     assert np.any(np.sum(one_by_one**2, axis=1) != 1), "some norm should be off by rounding"
     many = Releases(**{**{name: np.zeros((200, 3)) for name in GOOD}, "quaternion": one_by_one})
     assert np.array_equal(many.quaternion, one_by_one)
