@@ -103,4 +103,4 @@ def with_values(scenario: Scenario, values: dict[str, float]) -> Scenario:
 
 
 def _whole(value: float) -> Any:
-    return int(value) if value.is_integer() else value
+    return int(value) if value == int(value) else value
