@@ -1,7 +1,7 @@
 """Make the maps, and the picture of them, that `cointoss basin` is asked for."""
 
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -82,13 +82,13 @@ def make(job: Job, watch: Watch) -> Iterator[str]:
         check(sweep)
         drawn = len(sweeps) > 1 or job.png is not None
         run.require_room(sweep, job.out.parent, maps=len(sweeps), drawn=drawn)
-    tosser = run.toss_here if job.scheduler is None else _on_cluster(job.scheduler)
-    for path, sweep in sweeps.items():
-        with store.opened(path, sweep, job.text, overwrite=job.overwrite) as map_:
-            left, whole = run.missing(map_), run.size(map_.tiles)
-            with watch(str(path), whole - run.size(left), whole) as progress:
-                run.fill(map_, sweep, left, tosser, progress)
-            yield show.describe_map(path, sweep, run.fractions_of(map_))
+    with _tosser(job.scheduler) as tosser:
+        for path, sweep in sweeps.items():
+            with store.opened(path, sweep, job.text, overwrite=job.overwrite) as map_:
+                left, whole = run.missing(map_), run.size(map_.tiles)
+                with watch(str(path), whole - run.size(left), whole) as progress:
+                    run.fill(map_, sweep, left, tosser, progress)
+                yield show.describe_map(path, sweep, run.fractions_of(map_))
     maps = [show.outcomes_of(path) for path in (sweeps if len(sweeps) > 1 or job.png else ())]
     if len(maps) > 1:
         yield show.describe_agreement(show.measure(*maps))
@@ -97,7 +97,9 @@ def make(job: Job, watch: Watch) -> Iterator[str]:
         yield f"picture    {job.png}"
 
 
-def _on_cluster(address: str) -> run.Tosser:
-    from compare.sweep.cluster import tosser_of
+def _tosser(scheduler: str | None) -> AbstractContextManager[run.Tosser]:
+    if scheduler is None:
+        return nullcontext(run.toss_here)
+    from compare.sweep.cluster import cluster
 
-    return tosser_of(address)
+    return cluster(scheduler)

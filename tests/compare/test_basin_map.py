@@ -5,18 +5,12 @@ import json
 import os
 import shutil
 import signal
-import subprocess
-import sys
-import time
-from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
-from click.testing import CliRunner
 from zarr.storage import LocalStore
 
-from compare.cli import main
 from compare.engines import Engine
 from compare.files import UnwritableError
 from compare.sweep import grid, run
@@ -25,26 +19,18 @@ from compare.sweep.grid import Sweep
 from compare.sweep.store import NOT_TOSSED, opened, require_place
 from models.reading import parse
 from models.records import Outcome
-
-SCENARIO = """
-[coin]
-mass = "2 g"
-radius = "1.25 cm"
-thickness = 0
-[floor]
-restitution = 0.6
-contact = "smooth"
-[release]
-position = [0, 0, 0.4]
-"""
-AXES = ("--x", "release.angular_velocity.eta=20:60:48", "--y", "release.position.z=0.2:0.6:40")
-SMALL, TILES = 64, 30
-"""Tosses in a tile of these tests, and tiles in a map."""
-HERE = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2]), "PYTHONDONTWRITEBYTECODE": "1"}
-
-
-def basin(*arguments):
-    return CliRunner().invoke(main, ["basin", *map(str, arguments)], catch_exceptions=False)
+from tests.basin_runs import (
+    AXES,
+    SCENARIO,
+    SMALL,
+    TILES,
+    assert_same,
+    basin,
+    begun,
+    pixels,
+    wait_for,
+    whole_tiles,
+)
 
 
 @pytest.fixture
@@ -71,19 +57,7 @@ def undisturbed(tmp_path_factory):
     return pixels(folder / "map.zarr")
 
 
-def pixels(path):
-    with xr.open_dataset(path, engine="zarr") as found:
-        return {name: found[name].to_numpy() for name in ("outcome", "impacts")}
-
-
-def assert_same(path, expected):
-    found = pixels(path)
-    for name, array in expected.items():
-        assert found[name].dtype == array.dtype
-        assert np.array_equal(found[name], array)
-
-
-def tossed_tiles(path, monkeypatch, resumed):
+def tossed_tiles(monkeypatch, resumed):
     """Count the tiles that a call of `resumed` tosses."""
     count, toss = [0], run.toss_pixels
 
@@ -96,34 +70,6 @@ def tossed_tiles(path, monkeypatch, resumed):
         answered = resumed()
     assert answered.exit_code == 0, answered.stderr
     return count[0]
-
-
-def whole_tiles(path):
-    """Count the tiles of whose two parts the second is there; a renamed file is whole."""
-    return len([entry for entry in path.glob("outcome/c/*/*") if entry.suffix == ""])
-
-
-def begun(coin, out, *extra):
-    """Start a process that makes the map in small tiles."""
-    script = (
-        "from compare.engines import Engine; from compare.sweep import grid\n"
-        f"grid.TILE_TOSSES[Engine.ANALYTIC] = {SMALL}\n"
-        "from compare.cli import main; main()"
-    )
-    return subprocess.Popen(
-        [sys.executable, "-c", script, "basin", coin, *AXES, "--out", out, *extra],
-        env=HERE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-
-
-def wait_for(process, out, count):
-    deadline = time.monotonic() + 200
-    while whole_tiles(out) < count and process.poll() is None and time.monotonic() < deadline:
-        time.sleep(0.01)
-    assert process.poll() is None, process.communicate()
 
 
 def test_the_map_has_the_agreed_form(undisturbed, coin, tmp_path):
@@ -167,13 +113,10 @@ def test_a_killed_map_is_resumed_to_the_same_pixels(undisturbed, coin, tmp_path,
         )
     done = whole_tiles(out)
     assert 6 <= done < TILES
-    assert (
-        tossed_tiles(out, monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume"))
-        <= TILES - done + 1
-    )
+    assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) <= TILES - done + 1
     assert_same(out, undisturbed)
     assert not list(out.rglob("*.partial"))
-    assert tossed_tiles(out, monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 0
+    assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 0
 
 
 @pytest.mark.parametrize(("sign", "status"), [(signal.SIGINT, 1), (signal.SIGTERM, 143)])
@@ -189,7 +132,7 @@ def test_an_interrupted_map_is_resumed_to_the_same_pixels(
     if sign == signal.SIGINT:
         kept = int(said.split("map.zarr: ")[1].split(" of 1920 tosses are kept; --resume goes on")[0])
         assert SMALL * whole_tiles(out) - SMALL <= kept <= SMALL * whole_tiles(out)
-    assert tossed_tiles(out, monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) <= TILES - 4
+    assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) <= TILES - 4
     assert_same(out, undisturbed)
 
 
@@ -210,9 +153,7 @@ def test_a_full_disk_is_one_line_and_what_was_tossed_is_kept(undisturbed, coin, 
     assert answered.stderr == f"cointoss: {out}: can't be written (No space left on device)\n"
     done = whole_tiles(out)
     assert done == 10
-    assert (
-        tossed_tiles(out, monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == TILES - done
-    )
+    assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == TILES - done
     assert_same(out, undisturbed)
 
 
@@ -244,7 +185,7 @@ def test_a_damaged_tile_is_tossed_again(undisturbed, coin, tmp_path, monkeypatch
                 "flipped": whole[:middle] + flipped + whole[middle + 1 :],
             }[damage]
         )
-    assert tossed_tiles(out, monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 1
+    assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 1
     assert_same(out, undisturbed)
 
 
