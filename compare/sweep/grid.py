@@ -12,8 +12,8 @@ from models.scenario import Scenario
 
 TILE_TOSSES = {Engine.ANALYTIC: 1 << 14, Engine.MUJOCO: 1 << 8}
 """Most tosses in a tile: seconds of work, so that little is lost with one and many workers have some."""
-SLOW_AIR = 1 << 4
-"""How many times fewer where the air is not linear, which makes each toss much slower."""
+SLOW_TILE_TOSSES = 1 << 6
+"""Where the air is not linear, each toss is thousands of times slower."""
 
 
 class Tile(NamedTuple):
@@ -61,7 +61,7 @@ def tile_shape(sweep: Sweep) -> tuple[int, int]:
     ny, nx = sweep.shape
     most = TILE_TOSSES[sweep.engine]
     if sweep.scenario.air.exponent > 0 or "air.exponent" in (sweep.x.field, sweep.y.field):
-        most //= SLOW_AIR
+        most = min(most, SLOW_TILE_TOSSES)
     x_of_release, y_of_release = is_of_release(sweep.x.field), is_of_release(sweep.y.field)
     if x_of_release and not y_of_release:
         columns = min(nx, most)

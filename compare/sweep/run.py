@@ -19,7 +19,7 @@ Tosser = Callable[[Sweep, Iterable[Tile]], Iterator[tuple[Tile, Pixels]]]
 Progress = Callable[[int], None]
 """Called with the number of pixels that were tossed."""
 
-DRAWING_BYTES_PER_PIXEL = 64
+DRAWING_BYTES_PER_PIXEL = 80
 """Memory that measuring and drawing a map takes, at most."""
 
 
