@@ -237,7 +237,7 @@ def video(scenario: str, out: Path) -> None:
 
 @main.command(epilog=_SCENARIO_HELP)
 @click.argument("scenario")
-@click.option("--x", required=True, metavar="FIELD=START:STOP:N", help="What varies along x, in N steps.")
+@click.option("--x", required=True, metavar="FIELD=START:STOP:N", help="What varies along x, by N values.")
 @click.option("--y", required=True, metavar="FIELD=START:STOP:N", help="What varies along y.")
 @click.option(
     "--out", type=click.Path(path_type=Path), required=True, help="The map, a Zarr store, MAP.zarr."
@@ -252,7 +252,7 @@ def video(scenario: str, out: Path) -> None:
     help="Make the map by both engines, MuJoCo's as MAP-mujoco.zarr, and compare them.",
 )
 @click.option(
-    "--after", type=_Count(0, 999_999), help="Map the face at the touch after so many impacts; 0: the first."
+    "--after", type=_Count(0, 999_999), help="Map the face at the touch after N impacts; 0: the first."
 )
 @click.option("--resume", is_flag=True, help="Go on with the map that is there, if any.")
 @click.option("--overwrite", is_flag=True, help="Replace the map that is there, if any.")

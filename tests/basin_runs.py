@@ -50,7 +50,7 @@ def whole_tiles(path):
     return len([entry for entry in path.glob("outcome/c/*/*") if entry.suffix == ""])
 
 
-def begun(coin, out, *extra):
+def begun(coin, out, *extra, stderr=subprocess.PIPE):
     """Start a process that makes the map in small tiles."""
     script = (
         "from compare.engines import Engine; from compare.sweep import grid\n"
@@ -61,7 +61,7 @@ def begun(coin, out, *extra):
         [sys.executable, "-c", script, "basin", coin, *AXES, "--out", out, *extra],
         env=HERE,
         stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
+        stderr=stderr,
         text=True,
     )
 

@@ -40,10 +40,11 @@ def outcomes_of(path: Path) -> NDArray[np.int8]:
 def describe_map(path: Path, sweep: Sweep, fractions: dict[Outcome, float]) -> str:
     """Give a map as text: where it is, what it is of, and the share of each outcome."""
     ny, nx = sweep.shape
-    shown = "final outcome" if sweep.after is None else f"face at touch {sweep.after + 1}, or final outcome"
+    shown = "" if sweep.after is None else f"face at touch {sweep.after + 1}, or "
     lines = [
         f"map        {path}",
-        f"tosses     {nx} by {ny} by {sweep.engine}, {shown}",
+        f"engine     {sweep.engine}",
+        f"tosses     {nx} by {ny}: {shown}final outcome",
         *(
             f"{outcome.label:11}{100 * share:.3f} %"
             for outcome, share in fractions.items()

@@ -1,10 +1,16 @@
 """A map on disk: it survives whatever ends the process, and belongs to one process and one sweep."""
 
+import contextlib
 import errno
+import fcntl
 import json
 import os
+import pty
+import re
 import shutil
 import signal
+import struct
+import termios
 
 import numpy as np
 import pytest
@@ -76,7 +82,7 @@ def test_the_map_has_the_agreed_form(undisturbed, coin, tmp_path):
     out = tmp_path / "map.zarr"
     answered = basin(coin, *AXES, "--out", out)
     assert answered.exit_code == 0
-    assert answered.stdout.startswith(f"map        {out}\ntosses     48 by 40 by analytic, final outcome\n")
+    assert answered.stdout.startswith(f"map        {out}\nengine     analytic\ntosses     48 by 40: final")
     found = xr.open_zarr(out, chunks=None)  # warnings are errors: a plain call must have none
     assert (found.outcome.dims, found.outcome.dtype) == (("y", "x"), np.int8)
     assert (found.impacts.dims, found.impacts.dtype) == (("y", "x"), np.int32)
@@ -134,6 +140,22 @@ def test_an_interrupted_map_is_resumed_to_the_same_pixels(
         assert SMALL * whole_tiles(out) - SMALL <= kept <= SMALL * whole_tiles(out)
     assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) <= TILES - 4
     assert_same(out, undisturbed)
+
+
+def test_a_terminal_is_shown_the_rate_and_the_time_left(coin, tmp_path):
+    ours, terminal = pty.openpty()
+    fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 100, 0, 0))
+    process = begun(coin, tmp_path / "map.zarr", stderr=terminal)
+    os.close(terminal)
+    said = b""
+    with contextlib.suppress(OSError):  # that is how a terminal ends
+        while more := os.read(ours, 1 << 16):
+            said += more
+    os.close(ours)
+    assert process.communicate()[0].startswith("map  ")
+    bars = said.decode().split("\r")
+    assert "map.zarr:   0%" in bars[1]
+    assert re.search(r"100%\|.*1\.92k/1\.92k \[\d\d:\d\d<00:00, .* tosses/s\]", bars[-2])
 
 
 def test_a_full_disk_is_one_line_and_what_was_tossed_is_kept(undisturbed, coin, tmp_path, monkeypatch):

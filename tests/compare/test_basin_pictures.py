@@ -31,8 +31,8 @@ def test_both_engines_make_a_map_each_and_are_compared(coin, tmp_path):
     assert np.array_equal(maps[0].outcome, maps[1].outcome)
     lines = answered.stdout.splitlines()
     assert [line.split()[0] for line in lines if not line.startswith(" ")] == [
-        *("map", "tosses", "heads", "tails"),
-        *("map", "tosses", "heads", "tails"),
+        *("map", "engine", "tosses", "heads", "tails"),
+        *("map", "engine", "tosses", "heads", "tails"),
         *("agreement", "picture"),
     ]
     near = lines[-3].split()
@@ -43,6 +43,14 @@ def test_both_engines_make_a_map_each_and_are_compared(coin, tmp_path):
         assert image.size == (2250, 675)
     again = basin(coin, *AXES, "--compare", "--out", out, "--resume")
     assert again.stdout.splitlines() == lines[:-1]
+
+
+def test_what_mujoco_comes_near_to_is_told_once(coin, tmp_path):
+    coin.write_text(SCENARIO.replace('"smooth"', '"perfectly_rough"'))
+    answered = basin(coin, *AXES, "--engine", "mujoco", "--out", tmp_path / "map.zarr")
+    assert answered.exit_code == 0
+    assert len(answered.stderr.splitlines()) == 1
+    assert 'floor.contact = "perfectly_rough": MuJoCo tosses on a floor of' in answered.stderr
 
 
 def test_what_mujoco_cannot_do_is_refused_before_any_map(coin, tmp_path):
