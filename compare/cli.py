@@ -231,9 +231,10 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None) -> N
         if name not in known:
             ctx.fail(f"{name}: no such figure; accepted: {', '.join(known)}")
     if not names and out is None:
+        width = max(map(len, known)) + 2
         for name in known:
             figure = reproduction.find(name)
-            click.echo(f"{name:16}{figure.title} ({figure.seconds:g} s)")
+            click.echo(f"{name:{width}}{figure.title} ({figure.seconds:g} s)")
         return
     if not names or out is None:
         ctx.fail(f"accepted: NAME ... --out DIR, NAME one of: {', '.join(known)}; or neither, for a list")
