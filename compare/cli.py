@@ -370,10 +370,11 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
         if name not in known:
             ctx.fail(f"{name}: no such figure; accepted: {', '.join(known)}")
     if not names and out is None:
+        width = max(map(len, known)) + 2
         for name in known:
             figure = reproduction.find(name)
             place = f"{figure.paper}: " if figure.paper else ""
-            click.echo(f"{name:24}{place}{figure.title} ({figure.seconds:g} s)")
+            click.echo(f"{name:{width}}{place}{figure.title} ({figure.seconds:g} s)")
         return
     if not names or out is None:
         ctx.fail(
