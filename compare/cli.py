@@ -225,11 +225,15 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None) -> N
     Without NAME, list what can be reproduced. Exit status 1: a claim does not hold.
     """
     from compare import reproduction
+    from compare.graphics import drawing_problem
 
     known = reproduction.names()
     for name in names:
         if name not in known:
             ctx.fail(f"{name}: no such figure; accepted: {', '.join(known)}")
+    if "MUJOCO_GL" in os.environ:
+        # MuJoCo can't even be imported for a back end that is missing; this turns it off.
+        drawing_problem()
     if not names and out is None:
         width = max(map(len, known)) + 2
         for name in known:

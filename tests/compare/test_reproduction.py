@@ -1,5 +1,6 @@
 """`cointoss reproduce`: the list, unknown names, places in the way, failed claims, files that are whole."""
 
+import os
 import subprocess
 import sys
 
@@ -58,6 +59,18 @@ def test_names_are_found_without_importing_what_they_name():
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_a_back_end_that_mujoco_lacks_is_no_hindrance():
+    """With it `import mujoco` fails."""
+    done = subprocess.run(
+        [sys.executable, "-c", "from compare.cli import main; main()", "reproduce"],
+        capture_output=True,
+        text=True,
+        check=True,
+        env=os.environ | {"MUJOCO_GL": "nonsense"},
+    )
+    assert [line.split()[0] for line in done.stdout.splitlines()] == reproduction.names()
 
 
 @pytest.mark.parametrize(
