@@ -37,12 +37,16 @@ def stills(scenario: Scenario, states: States) -> Stills | str:
     Returns:
         The stills, or why there are none.
     """
+    env = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    if env.get("MUJOCO_GL") == "disabled":
+        # So `drawing_problem` leaves it where MuJoCo can't draw; the child is to say why.
+        del env["MUJOCO_GL"]
     child = subprocess.run(
         [sys.executable, "-c", _CHILD],
         input=pickle.dumps((scenario, states.position, states.quaternion)),
         capture_output=True,
         check=False,
-        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
+        env=env,
     )
     if child.returncode != 0:
         said = child.stderr.decode(errors="replace").strip().splitlines()
