@@ -4,14 +4,15 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure as Picture
+from numpy.typing import NDArray
 
 from compare.plot_style import STYLE
 from compare.reproduction import Figure, Made, Progress
-from models.records import Array
 
 FILES = ("findings.json", "data.npz", "figure.png")
 """What every figure of the paper leaves."""
@@ -27,7 +28,7 @@ class Finding:
     """What the paper's mechanics gives here."""
     mujoco: str = "-"
     """What MuJoCo gives, or how far it is from ours; "-" where it has nothing to say."""
-    holds: bool
+    holds: bool | np.bool_
     """Whether the numbers bear the claim out."""
     expected: bool = True
     """Whether they are known to; a claim of the paper that fails is known not to."""
@@ -40,7 +41,7 @@ class Result:
     findings: Sequence[Finding]
     draw: Callable[[], Picture]
     """Draws it."""
-    data: Mapping[str, Array]
+    data: Mapping[str, NDArray[Any]]
     """The numbers of the picture, by name."""
 
 
