@@ -86,7 +86,7 @@ def make(job: Job, watch: Watch) -> Iterator[str]:
         for path, sweep in sweeps.items():
             with store.opened(path, sweep, job.text, overwrite=job.overwrite) as map_:
                 left, whole = run.missing(map_), run.size(map_.tiles)
-                with watch(str(path), whole - run.size(left), whole) as progress:
+                with watch(path.name, whole - run.size(left), whole) as progress:
                     run.fill(map_, sweep, left, tosser, progress)
                 yield show.describe_map(path, sweep, run.fractions_of(map_))
     maps = [show.outcomes_of(path) for path in (sweeps if len(sweeps) > 1 or job.png else ())]

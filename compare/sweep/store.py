@@ -122,7 +122,7 @@ def opened(path: Path, sweep: Sweep, scenario_text: str, *, overwrite: bool) -> 
     target = Path(os.path.realpath(path))
     with ExitStack() as kept:
         with naming(path):
-            if overwrite and target.exists():
+            if overwrite and _is_map(target):
                 with _locked(path, target):
                     _remove(target)
             if not _is_map(target):

@@ -297,9 +297,9 @@ def test_only_a_place_for_a_map_is_accepted(tmp_path):
     assert (tmp_path / "file.zarr").read_text() == "mine"
     (tmp_path / "empty.zarr").mkdir()
     (tmp_path / "link.zarr").symlink_to(tmp_path / "empty.zarr")
-    for name in ("new.zarr", "link.zarr"):
-        require_place(tmp_path / name, resume=False, overwrite=False)
-        with opened(tmp_path / name, sweep_of(), SCENARIO, overwrite=False):
+    for name, overwrite in (("new.zarr", False), ("link.zarr", True)):
+        require_place(tmp_path / name, resume=False, overwrite=overwrite)
+        with opened(tmp_path / name, sweep_of(), SCENARIO, overwrite=overwrite):
             pass
     assert (tmp_path / "link.zarr").is_symlink()
     assert (tmp_path / "empty.zarr" / "outcome").is_dir()

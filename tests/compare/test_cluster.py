@@ -67,7 +67,9 @@ def test_a_scheduler_that_cannot_be_reached_is_one_line(tmp_path, monkeypatch, a
     answered = basin(tmp_path / "coin.toml", *AXES, "--out", tmp_path / "map.zarr", "--scheduler", address)
     assert answered.exit_code == 2
     assert f"--scheduler {address}: accepted: the address of a running Dask scheduler" in answered.stderr
-    assert len(answered.stderr.splitlines()) == 1
+    # Dask may log that a busy machine keeps it waiting.
+    ours = [line for line in answered.stderr.splitlines() if not line.startswith(("distributed", "20"))]
+    assert len(ours) == 1
     assert not (tmp_path / "map.zarr").exists()
 
 
