@@ -178,7 +178,7 @@ def accepted_contact_step(body, mu, motion, side, y, dt, stages, y_new):
         motion: `Motion` in contact.
         side: of the rim that is in contact.
         y: state at the start, (13,).
-        dt: length to try first [s]; shorter where the coin turns by more than a few tenths of a radian.
+        dt: length to try first [s]; the coin's motion bounds it too, lest an end of the contact is passed by.
         stages: work space, (12, 13).
         y_new: where the state at the end goes, (13,).
 
@@ -206,17 +206,17 @@ def stay(body, mu, motion, y, dt):
         mu: coefficient of friction μ.
         motion: `Motion` in contact.
         y: state, (13,); advanced.
-        dt: length of step to try first, the longest wanted [s].
+        dt: length of the step to try first [s]; infinite at the start of a contact.
 
     Returns:
-        The time gone by [s], the `Verdict` on what comes next, and a length for the next step [s].
+        The time gone by, a length for the next step [s], and the `Verdict` on what comes next.
     """
     stages, y_new = np.empty((STAGES, STATE_SIZE)), np.empty(STATE_SIZE)
     side = side_of(y)
     high, dt = accepted_contact_step(body, mu, motion, side, y, dt, stages, y_new)
     if margin(body, mu, motion, side, y_new) > 0:
         y[:] = y_new
-        return high, Verdict.GOES_ON, dt
+        return high, dt, Verdict.GOES_ON
     low = 0.0
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
@@ -232,9 +232,9 @@ def stay(body, mu, motion, y, dt):
         # The other rim point is still to land: its velocity is that before the crossing.
         contact_step(body, mu, motion, side, y, low, stages, y_new)
         y[:] = y_new
-        return low, Verdict.LANDS, dt
+        return low, dt, Verdict.LANDS
     y[:] = y_new
-    return high, Verdict.CHANGES, dt
+    return high, dt, Verdict.CHANGES
 
 
 @compiled
@@ -285,8 +285,8 @@ def sample_contact(body, mu, motion, start, start_time, times, states):
         states: where they go, (n, 13).
     """
     stages, y, y_new = np.empty((STAGES, STATE_SIZE)), start.copy(), np.empty(STATE_SIZE)
-    elapsed, side, dt = 0.0, side_of(start), np.inf
-    made, dt = accepted_contact_step(body, mu, motion, side, y, dt, stages, y_new)
+    elapsed, side = 0.0, side_of(start)
+    made, dt = accepted_contact_step(body, mu, motion, side, y, np.inf, stages, y_new)
     for i in range(len(times)):
         # The steps are those of `stay`: a time between them changes none.
         while times[i] - start_time > elapsed + made:

@@ -205,7 +205,7 @@ def keep_contact(body, rules, mu, motion, y, time, steps_left, looks):
     """
     undecided, dt = Outcome.UNDECIDED, np.inf
     while time < rules.max_time:
-        made, verdict, dt = stay(body, mu, motion, y, min(dt, rules.max_time - time))
+        made, dt, verdict = stay(body, mu, motion, y, min(dt, rules.max_time - time))
         time += made
         steps_left -= 1
         outcome, ending = decided(body, rules, y)
