@@ -19,7 +19,7 @@ from models.scenario import Scenario
 
 TILE = 32
 """Tosses that a thread makes at a time, with one model; Ctrl-C waits for them."""
-STIFFNESS, STEPS, FLIGHT_ANGLE = 1e10, 12, 0.2
+STIFFNESS, STEPS, FLIGHT_ANGLE = 1e10, 12, 0.25
 """Of many tosses: softer, fewer and larger than those of one."""
 
 

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from coin_mj.glide import glide
 from coin_mj.impact import TOUCH_STEP, Pressed, press
-from coin_mj.machine import advance, forward, keep, knot_of, look, set_contacts, state_of
+from coin_mj.machine import keep, knot_of, look, state_of
 from coin_mj.rest import NO_LOSS, Left, rest, slow_speed
 from models.attitude import rotation_matrix
 from models.compiled import compiled
@@ -82,17 +83,15 @@ def fly(coin, time, max_time, knots):
         The time [s], and whether the coin touches before max_time.
     """
     smallest = TOUCH_STEP * coin.rebound.step
-    # The steps end before the touch. MuJoCo's own contacts are off meanwhile: of a coin that is flat within
-    # rounding its plane-cylinder routine may take the radius for the height.
-    set_contacts(coin, False)
+    # The steps end before the touch, and `glide` knows no contacts: of a coin that is flat within rounding
+    # MuJoCo's plane-cylinder routine may take the radius for the height.
     while time < max_time:
         seen = look(coin)
         if seen.clear < smallest and seen.speed < 0:
             return time, True
-        forward(coin)
         keep(coin, time, False, knots)
         dt = min(max(seen.clear, smallest), max_time - time)
-        advance(coin, dt)
+        glide(coin, dt)
         time += dt
     return time, False
 

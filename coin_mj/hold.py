@@ -12,15 +12,19 @@ from typing import NamedTuple
 import numpy as np
 from numba.np.numpy_support import carray
 
+from coin_mj.glide import place_body
 from coin_mj.library import (
     mj_acceleration,
     mj_actuation,
+    mj_collision,
     mj_constraint,
-    mj_position,
+    mj_make_constraint,
+    mj_project_constraint,
     mj_velocity,
     pointer_to,
 )
 from coin_mj.machine import motion_of, set_motion
+from coin_mj.runge_kutta import add_rate, end_motion, stage_motion
 from models.attitude import rotation_matrix
 from models.compiled import compiled
 from models.vectors import cross
@@ -52,7 +56,10 @@ def feel(coin, grip):
         coin: MuJoCo's, with a margin.
         grip: how the floor holds it.
     """
-    mj_position(coin.model, coin.data)
+    place_body(coin)
+    mj_collision(coin.model, coin.data)
+    mj_make_constraint(coin.model, coin.data)
+    mj_project_constraint(coin.model, coin.data)
     mj_velocity(coin.model, coin.data)
     _set_rows(coin, grip)
     mj_actuation(coin.model, coin.data)
@@ -65,39 +72,15 @@ def feel(coin, grip):
 def hold(coin, grip, dt):
     """Advance by dt [s] with RK4, after `feel`; see there for the arguments."""
     start = motion_of(coin)
-    motion, rate, total = np.empty(13), np.empty(13), np.zeros(13)
+    rate, total, motion = np.empty(13), np.zeros(13), np.empty(13)
+    motion[:] = start
     for stage in range(4):
         if stage > 0:
-            part = dt if stage == 3 else dt / 2
-            for i in range(13):
-                motion[i] = start[i] + part * rate[i]
-            # MuJoCo's own rates do not depend on the norm of the Euler parameters; theirs, below, is linear.
+            stage_motion(start, rate, stage, dt, motion)
             set_motion(coin, motion)
             feel(coin, grip)
-        else:
-            motion[:] = start
-        _set_rate(coin, motion, rate)
-        weight = 1.0 if stage in (0, 3) else 2.0
-        for i in range(13):
-            total[i] += weight * rate[i]
-    for i in range(13):
-        motion[i] = start[i] + dt / 6 * total[i]
-    motion[3:7] /= math.sqrt(np.sum(motion[3:7] ** 2))
-    set_motion(coin, motion)
-
-
-@compiled
-def _set_rate(coin, motion, rate):
-    """Write the rate of change of qpos and qvel, (13,), after `feel`."""
-    e0, e1, e2, e3, a, b, c = motion[3], motion[4], motion[5], motion[6], motion[10], motion[11], motion[12]
-    for i in range(3):
-        rate[i] = motion[7 + i]
-    rate[3] = (-e1 * a - e2 * b - e3 * c) / 2
-    rate[4] = (e0 * a + e2 * c - e3 * b) / 2
-    rate[5] = (e0 * b + e3 * a - e1 * c) / 2
-    rate[6] = (e0 * c + e1 * b - e2 * a) / 2
-    for i in range(6):
-        rate[7 + i] = coin.qacc[i]
+        add_rate(motion, coin.qacc, stage, rate, total)
+    set_motion(coin, end_motion(start, total, dt, motion))
 
 
 @compiled

@@ -13,7 +13,6 @@ from coin_mj.machine import (
     motion_of,
     other_force,
     push,
-    set_contacts,
     set_margin,
     set_motion,
     set_spring,
@@ -58,7 +57,6 @@ def press(coin, time, knots):
     Returns:
         `Pressed`; the time of release [s]; and the integral of the floor's force, space frame, (3,) [N s].
     """
-    set_contacts(coin, True)
     set_margin(coin, 0.0)
     set_spring(coin, coin.rebound.stiffness, coin.rebound.damping, coin.rebound.slip_damping)
     up = rotation_matrix(coin.qpos[3:])[2]

@@ -24,9 +24,14 @@ from models.vectors import scale
 
 _BALLS = 7
 _Disable = mujoco.mjtDisableBit
-NO_CONTACTS = int(_Disable.mjDSBL_CONTACT)
 # What a lone coin has no use for. Without a warm start a step depends on nothing but the state.
-_UNUSED = int(_Disable.mjDSBL_ISLAND) | int(_Disable.mjDSBL_MIDPHASE) | int(_Disable.mjDSBL_WARMSTART)
+# Euler's step takes damping as any other force.
+_UNUSED = (
+    int(_Disable.mjDSBL_ISLAND)
+    | int(_Disable.mjDSBL_MIDPHASE)
+    | int(_Disable.mjDSBL_WARMSTART)
+    | int(_Disable.mjDSBL_EULERDAMP)
+)
 
 
 class Coin(NamedTuple):
@@ -38,8 +43,6 @@ class Coin(NamedTuple):
     """Address of the mjData."""
     timestep: Array
     """(1,) [s]."""
-    disabled: NDArray[np.int32]
-    """MuJoCo's flags of what is disabled, (1,)."""
     solref: Array
     """Of the contact: minus its stiffness [1/s²] and damping [1/s], (2,)."""
     solref_of_slip: Array
@@ -52,6 +55,8 @@ class Coin(NamedTuple):
     """Where the arrays of those rows are now: J, position, D, R and reference acceleration; each (1,)."""
     qacc: Array
     """Rate of `qvel`, (6,)."""
+    qacc_free: Array
+    """And that without the floor, (6,)."""
     qpos: Array
     """Position of B and Euler parameters, (7,)."""
     qvel: Array
@@ -59,9 +64,9 @@ class Coin(NamedTuple):
     of_floor: Array
     """Force and moment of the contact, as those of `qvel`, (6,)."""
     of_actuators: Array
-    """Of linear air, as `of_floor`, (6,)."""
-    of_callback: Array
-    """Of other air, as `of_floor`, (6,)."""
+    """A part of linear air, as `of_floor`, (6,)."""
+    passive: Array
+    """Of other air, or the rest of linear air, as `of_floor`, (6,)."""
     applied: Array
     """Of Coulomb's friction, as `of_floor`, (6,)."""
     body: Body
@@ -106,18 +111,18 @@ def machine_of(scenario: Scenario, settings: ContactSettings, thickness: float) 
         model=model._address,
         data=data._address,
         timestep=_view(model, places.timestep, ctypes.c_double),
-        disabled=_view(model, places.disabled, ctypes.c_int32),
         solref=model.pair_solref[0] if native > 0 else model.geom("coin").solref,
         solref_of_slip=model.pair_solreffriction[0] if native > 0 else spare,
         margin=model.pair_margin[:1] if native > 0 else model.geom("coin").margin,
         rows=_view(data, places.rows, ctypes.c_int32),
         row_arrays=tuple(_view(data, place, ctypes.c_int64) for place in places.row_arrays),
         qacc=data.qacc,
+        qacc_free=data.qacc_smooth,
         qpos=data.qpos,
         qvel=data.qvel,
         of_floor=data.qfrc_constraint,
         of_actuators=data.qfrc_actuator,
-        of_callback=data.qfrc_passive,
+        passive=data.qfrc_passive,
         applied=data.qfrc_applied,
         body=body,
         shape=body._replace(thickness=thickness),
@@ -177,7 +182,7 @@ def momentum_of(coin):
 @compiled
 def other_force(coin):
     """Give weight and drag, space frame, (3,) [N], after `forward`."""
-    f, g = coin.of_actuators, coin.of_callback
+    f, g = coin.of_actuators, coin.passive
     return f[0] + g[0], f[1] + g[1], f[2] + g[2] - coin.body.mass * coin.body.gravity
 
 
@@ -219,15 +224,6 @@ def set_margin(coin, margin):
 
 
 @compiled
-def set_contacts(coin, on):
-    """Let MuJoCo look for contacts, or not."""
-    if on:
-        coin.disabled[0] &= ~NO_CONTACTS
-    else:
-        coin.disabled[0] |= NO_CONTACTS
-
-
-@compiled
 def set_spring(coin, stiffness, damping, slip_damping):
     """Set the contact's stiffness [1/s²] and damping [1/s], and the damping of MuJoCo's friction [1/s]."""
     coin.solref[0], coin.solref[1] = -stiffness, -damping
@@ -264,7 +260,6 @@ class _Places(NamedTuple):
     """Where fields lie in an mjModel and an mjData [bytes]."""
 
     timestep: int
-    disabled: int
     rows: int
     row_arrays: tuple[int, ...]
 
@@ -282,10 +277,9 @@ def _places() -> _Places:
     # ncon, ne, nf, nl and nefc stand side by side.
     counts = (ctypes.c_int32 * 5)(_BALLS, 0, 0, 0, _BALLS)
     arrays = (data.efc_J, data.efc_pos, data.efc_D, data.efc_R, data.efc_aref)
-    model.opt.timestep, model.opt.disableflags = 0.123456789, 0x2B5A3C69
+    model.opt.timestep = 0.123456789
     return _Places(
         timestep=place_of(model, ctypes.c_double(model.opt.timestep)),
-        disabled=place_of(model, ctypes.c_int32(model.opt.disableflags)),
         rows=place_of(data, counts) + 4 * ctypes.sizeof(ctypes.c_int32),
         row_arrays=tuple(place_of(data, ctypes.c_int64(array.ctypes.data)) for array in arrays),
     )

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from coin_mj.air_callback import air_of
-from coin_mj.machine import Machine, advance, forward, set_contacts, set_motion, state_of
+from coin_mj.glide import glide
+from coin_mj.machine import Machine, set_motion, state_of
 from models.records import Array, States
 
 TIME, PRESSED, MOTION = 0, 1, slice(2, 15)
@@ -34,7 +35,6 @@ class Knots:
         rows = np.empty((len(times), 13))
         before = np.searchsorted(self.knots[:, TIME], times, side="right") - 1
         with air_of(self.machine.model):
-            set_contacts(coin, False)
             for row, time, number in zip(rows, times, before, strict=True):
                 knot = self.knots[number]
                 set_motion(coin, knot[MOTION])
@@ -45,8 +45,7 @@ class Knots:
                     between[5:9] /= np.linalg.norm(between[5:9])
                     set_motion(coin, between[MOTION])
                 elif time > knot[TIME]:
-                    forward(coin)
-                    advance(coin, time - knot[TIME])
+                    glide(coin, time - knot[TIME])
                 row[:] = np.concatenate(state_of(coin))
         x, v, e, w = (part.copy() for part in np.split(rows, (3, 6, 10), axis=1))
         return States(time=times.copy(), position=x, velocity=v, quaternion=e, angular_velocity=w)

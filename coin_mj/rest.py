@@ -4,8 +4,9 @@ import math
 from enum import IntEnum
 
 from coin_mj.friction import push_and_rub
+from coin_mj.glide import glide
 from coin_mj.hold import Grip, feel, hold
-from coin_mj.machine import advance, forward, keep, look, set_contacts, set_margin, set_spring, state_of
+from coin_mj.machine import keep, look, set_margin, set_spring, state_of
 from coin_mj.stepping import turning_rate
 from models.attitude import rotation_matrix
 from models.compiled import compiled
@@ -16,7 +17,7 @@ from models.vectors import cross
 
 HEAVY = 10
 """A touch is no impact when gravity alone gives its speed in so many times the duration of a contact."""
-ANGLE = 0.1
+ANGLE = 0.12
 """Largest turn of the coin, and of its lowest point round the rim, in a step [rad]."""
 SOFTNESS = 0.5
 """√k times the step: RK4 follows a critically damped spring up to twice as much."""
@@ -32,9 +33,9 @@ APPROACH = 0.99
 """Part of the time to a landing that a step goes."""
 UPRIGHT = 1e-4
 """A sine of the angle off the edge, its rate against √(g/r), in which a thick coin is on both rims."""
-NO_LOSS = 1e-2
+NO_LOSS = 2e-2
 """A loss between two looks at the energy that is none, against the energy: the steps alone change it by up to
-1e-3 in a second."""
+1e-3 in a second, and the last looks are ten seconds apart."""
 
 
 class Left(IntEnum):
@@ -81,7 +82,6 @@ def rest(coin, rules, time, steps_left, looks, knots):
     body = coin.body
     rate = (body.gravity / body.radius) ** 0.5
     unloaded, upright = 0.0, 0.0
-    set_contacts(coin, True)
     set_margin(coin, REACH * body.radius)
     while time < rules.max_time:
         x, v, e, w = state_of(coin)
@@ -156,8 +156,5 @@ def next_step(coin, chi, up, up_rate, w):
 @compiled
 def _pass_over(coin, dt):
     """Let the coin pass over its edge, or face, in a time dt [s], and put it on the rim point that lands."""
-    set_contacts(coin, False)
-    forward(coin)
-    advance(coin, dt / APPROACH * (2 - APPROACH))
-    set_contacts(coin, True)
+    glide(coin, dt / APPROACH * (2 - APPROACH))
     coin.qpos[2] -= look(coin).height

@@ -91,7 +91,7 @@ def test_a_toss_is_that_of_toss_with_the_same_settings():
 @pytest.mark.parametrize(
     ("exponent", "n", "longest"),
     # Air with b > 0 costs a quadrature for each force.
-    [(0.0, 3 * TILE + 5, 100.0), (0.5, TILE + 3, 0.08)],
+    [(0.0, 3 * TILE + 5, 100.0), (0.5, TILE + 3, 0.15)],
 )
 def test_neither_threads_nor_tiles_nor_order_change_a_toss(exponent, n, longest, monkeypatch):
     case = scenario(
