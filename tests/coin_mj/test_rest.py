@@ -65,7 +65,7 @@ def test_a_coin_turns_steadily_at_the_rate_of_the_closed_form(thickness):
     times, states, _ = contact_of(steady(tilt, thickness, max_time=2.0))
     assert times[-1] > 1.9
     tilts = [np.arccos(rotation_matrix(e)[2][2]) for _, _, e, _ in states]
-    # The steps turn it by 0.1 each; an orbit that is a little off would swing as much.
+    # The steps turn it by 0.12 each; an orbit that is a little off would swing as much.
     assert np.abs(np.array(tilts) - tilt).max() < 1e-4
 
 
@@ -95,12 +95,12 @@ def test_a_smooth_floor_takes_no_energy_and_no_spin_about_the_vertical(offset):
     energies = [energy(body, x[2], v, w) for x, v, _, w in states]
     spins = [np.dot(rotation_matrix(e)[2], np.array(body.inertia) @ w) for _, _, e, w in states]
     gaps = [gap(body, x[2], rotation_matrix(e)[2]) for x, _, e, _ in states]
-    # Steps of 0.1 change the energy by up to 1e-3 in a second.
-    assert np.ptp(energies) < 1e-3 * energies[0]
-    assert np.ptp(spins) < 1e-3 * abs(spins[0])
+    # Steps of 0.12 change the energy by about 1e-3 in a second.
+    assert np.ptp(energies) < 3e-3 * energies[0]
+    assert np.ptp(spins) < 3e-3 * abs(spins[0])
     # The spring takes the touch-down up in a few steps; then the point is held.
     assert np.abs(gaps).max() < 1e-3 * R
-    assert np.median(np.abs(gaps)) < 2e-5 * R
+    assert np.median(np.abs(gaps)) < 1e-4 * R
 
 
 def test_a_coin_that_rolls_without_slip_keeps_its_energy():
