@@ -68,7 +68,9 @@ def dies_away(body, rules, z, v, w, no_loss, time, looks):
             return False
         if losses[i] > none:
             growth = max(growth, losses[i] / max(losses[i - 1], none))
-    to_come, loss = 0.0, losses[-1] if losses[-1] > none else 0.0
+    to_come, loss = 0.0, losses[-1]
+    if loss <= none:
+        loss = none if growth > 1 else 0.0
     for _ in range(_MORE_LOOKS):
         loss *= growth
         to_come += loss

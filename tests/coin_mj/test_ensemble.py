@@ -97,7 +97,7 @@ def test_neither_threads_nor_tiles_nor_order_change_a_toss(exponent, n, longest,
     case = scenario(
         air={**AIR, "exponent": exponent},
         floor={"contact": "coulomb", "friction": 0.3},
-        ending={"max_impacts": 2, "max_time": longest},
+        ending={"max_impacts": 1, "max_time": longest},
     )
     drawn, releases = draw_releases(np.random.default_rng(2), n)
     answers = []
