@@ -58,6 +58,11 @@ def build(scenario: Scenario, rebound: Rebound, friction: float, thickness: floa
             solreffriction=(0.0, -max(rebound.slip_damping, NO_DAMPING)),
             solimp=coin.solimp,
         )
+    return compile_coin(spec, scenario)
+
+
+def compile_coin(spec: mujoco.MjSpec, scenario: Scenario) -> mujoco.MjModel:
+    """Compile the description of a scenario's coin, and set what a description cannot tell."""
     model = spec.compile()
     # MuJoCo's compiler takes two frames less than a micrometre apart for one.
     apart = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
@@ -69,7 +74,7 @@ def build(scenario: Scenario, rebound: Rebound, friction: float, thickness: floa
 
 
 def described(scenario: Scenario, thickness: float) -> mujoco.MjSpec:
-    """Describe the coin in its air, over a floor whose contact is still that of coin.xml.
+    """Describe the coin over a floor whose contact is still that of coin.xml; see `compile_coin`.
 
     Args:
         scenario: what to toss.
