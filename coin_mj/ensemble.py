@@ -19,8 +19,8 @@ from models.scenario import Scenario
 
 TILE = 32
 """Tosses that a thread makes at a time, with one model; Ctrl-C waits for them."""
-STIFFNESS, STEPS, FLIGHT_ANGLE = 1e10, 12, 0.25
-"""Of many tosses: softer, fewer and larger than those of one."""
+MANY = ContactSettings(stiffness=1e10, steps=12, flight_angle=0.25)
+"""Of many tosses: a softer spring, fewer and larger steps than those of one."""
 
 
 def toss_many(
@@ -29,9 +29,9 @@ def toss_many(
     *,
     realisation: Realisation = Realisation.SPRING,
     friction: Friction = Friction.EXPLICIT,
-    stiffness: float = STIFFNESS,
-    steps: int = STEPS,
-    flight_angle: float = FLIGHT_ANGLE,
+    stiffness: float = MANY.stiffness,
+    steps: int = MANY.steps,
+    flight_angle: float = MANY.flight_angle,
 ) -> Outcomes:
     """Toss the coin once from each release, by the event loop of `toss`.
 

@@ -8,8 +8,8 @@ import pytest
 from numba import config
 
 import coin_mj
-from coin_mj import ContactSettings, Friction, Realisation
-from coin_mj.ensemble import FLIGHT_ANGLE, STEPS, STIFFNESS, TILE
+from coin_mj import MANY, Friction, Realisation
+from coin_mj.ensemble import TILE
 from coin_mj.machine import machine_of
 from coin_mj.scene import shape_thickness
 from coin_mj.toss import run
@@ -19,7 +19,6 @@ from models.releases import Releases
 from models.scenario import Release, Scenario
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
-COARSE = {"stiffness": STIFFNESS, "steps": STEPS, "flight_angle": FLIGHT_ANGLE}
 NAMES = ("position", "velocity", "quaternion", "angular_velocity")
 
 
@@ -45,7 +44,7 @@ def assert_each_is_a_toss(
         one = case.model_copy(update={"release": Release.model_validate(release)})
         # What `toss` makes its record of; it also tosses softer coins, for its horizon of trust.
         tossed = run(
-            machine_of(one, ContactSettings(**{**COARSE, **settings}), shape_thickness(one)), one.rules, True
+            machine_of(one, MANY._replace(**settings), shape_thickness(one)), one.rules, True
         )
         assert outcomes.outcome[i] == tossed.outcome
         assert outcomes.ending[i] == tossed.ending
@@ -78,11 +77,13 @@ def test_each_toss_is_that_of_toss_to_the_bit(law, air, thickness, realisation, 
 def test_a_toss_is_that_of_toss_with_the_same_settings():
     case = scenario(air=AIR, floor={"restitution": 0.5})
     drawn, releases = draw_releases(np.random.default_rng(1), 3)
-    for settings in ({}, {"stiffness": 1e12, "steps": 40, "flight_angle": 0.05}):
+    coarse = {name: getattr(MANY, name) for name in ("stiffness", "steps", "flight_angle")}
+    finer = {"stiffness": 1e12, "steps": 40, "flight_angle": 0.05}
+    for settings, same in (({}, coarse), (finer, finer)):
         outcomes = coin_mj.toss_many(case, releases, **settings)
         for i, release in enumerate(drawn):
             one = case.model_copy(update={"release": Release.model_validate(release)})
-            tossed = coin_mj.toss(one, **{**COARSE, **settings})
+            tossed = coin_mj.toss(one, **same)
             assert (outcomes.outcome[i], outcomes.ending[i]) == (tossed.outcome, tossed.ending)
             assert outcomes.impacts[i] == len(tossed.impacts)
             assert outcomes.end_time[i] == tossed.end_time
