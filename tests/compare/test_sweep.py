@@ -242,7 +242,9 @@ def test_a_pixel_by_mujoco_is_the_toss_with_the_settings_that_its_map_records():
     sweep = sweep_of(*axes, engine=Engine.MUJOCO)
     made = toss_pixels(sweep, Tile(slice(0, 2), slice(0, 2)))
     names = {"contact": "realisation"}
-    recorded = {names.get(name, name): value for name, value in settings(Engine.MUJOCO).items()}
+    recorded: dict[str, Any] = {
+        names.get(name, name): value for name, value in settings(Engine.MUJOCO).items()
+    }
     for row, y in enumerate(sweep.y.values):
         for column, x in enumerate(sweep.x.values):
             one = coin_mj.toss(pixel_scenario(sweep, y, x), **recorded)
