@@ -155,10 +155,10 @@ def _integral(case: Scenario, b: float) -> Wrench:
 
 
 def _by_mujoco(case: Scenario) -> Wrench:
-    """Give the forces of MuJoCo's actuators on the released coin."""
+    """Give the forces of MuJoCo's actuators and its damping on the released coin."""
     machine = machine_of(case, ContactSettings(), shape_thickness(case))
     forward(machine.coin)
-    force = machine.data.qfrc_actuator
+    force = machine.data.qfrc_actuator + machine.data.qfrc_passive
     return Wrench(force[:3].copy(), force[3:].copy())
 
 
