@@ -9,9 +9,10 @@ from analytic.contact import Verdict, friction_in_contact, keeps_contact, next_m
 from analytic.edge import held_on_edge, on_edge, stands
 from analytic.flight import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
 from analytic.floor_force import Motion
+from analytic.flying import fly
 from analytic.impact import impulse, spin_gained
 from analytic.perpetual import dies_away, first_contact, no_looks
-from analytic.rim import closing_speed, crowded, fly
+from analytic.rim import closing_speed, crowded
 from analytic.upright import put_upright
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
@@ -150,7 +151,7 @@ def fly_and_hit(body, rules, y, rows, keep_pieces):
         elif n == rules.max_impacts:
             ending = Ending.MAX_IMPACTS
         else:
-            flown, touches, _ = fly(body, y, rules.max_time - time)
+            flown, touches, _, _ = fly(body, y, rules.max_time - time)
             time += flown
             if not touches:
                 ending = Ending.MAX_TIME

@@ -10,8 +10,9 @@ import numpy as np
 from analytic.events import Run
 from analytic.flight import STATE_SIZE
 from analytic.flight_tangent import flight_tangent
+from analytic.flying import fly
 from analytic.impact_tangent import Touch, touch_tangent
-from analytic.rim import TOUCH, fly
+from analytic.rim import TOUCH
 from analytic.sensitivity import delay_of, flight_map, impact_map, touch_map
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
@@ -77,7 +78,7 @@ def _flight(
         errors as if all were made at its end; its duration [s]; and the graze of `rim.fly`.
     """
     start, at_first = y.copy(), _step_errors(body, y)
-    duration, _, graze = fly(body, y, rules.max_time - start_time)
+    duration, _, graze, _ = fly(body, y, rules.max_time - start_time)
     tangents, moved = np.eye(STATE_SIZE), np.zeros(STATE_SIZE, dtype=np.bool_)
     steps = flight_tangent(body, start, duration, tangents, moved)
     # What stays exactly zero is kept so by symmetry: rounding too keeps a flat coin flat.

@@ -1,4 +1,4 @@
-"""The first contact of a flight."""
+"""What the lowest point of a flying coin does, and the first contact of a flight that is integrated."""
 
 import numpy as np
 
@@ -106,7 +106,7 @@ def smallest_flight(body, y):
 
 
 @compiled
-def fly(body, y, longest):
+def fly_by_steps(body, y, longest):
     """Fly until the coin first touches the floor.
 
     Every accepted step of the integrator is searched by steps of `clear_time`, which never pass a touch;
@@ -118,8 +118,8 @@ def fly(body, y, longest):
         longest: the longest flight wanted [s].
 
     Returns:
-        The time of flight [s], whether the coin touches, and a graze: a height such that no minimum of the
-        gap on the way is below half of it, infinite where the gap has none [m].
+        The time of flight [s], whether the coin touches, a graze: a height such that no minimum of the gap on
+        the way is below half of it, infinite where the gap has none [m]; and how often the gap was looked at.
     """
     stages = np.empty((STAGES, STATE_SIZE))
     y_end, y_near = np.empty(STATE_SIZE), np.empty(STATE_SIZE)
@@ -127,13 +127,14 @@ def fly(body, y, longest):
     # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch at once.
     touching_speed = -smallest_flight(body, y)[1]
     # The steps shrink towards a minimum of the gap, so that the last one before it starts hardly higher.
-    graze, height_before, speed_before = np.inf, np.inf, 0.0
+    graze, height_before, speed_before, looks = np.inf, np.inf, 0.0, 0
     while elapsed < longest:
         made, dt = accepted_step(body, y, min(dt, longest - elapsed), stages, y_end)
         y_near[:] = y
         inside = 0.0
         while inside < made:
             height, speed = closing_speed(body, y_near)
+            looks += 1
             if speed_before < 0 <= speed:
                 graze = min(graze, height_before, height)
             height_before, speed_before = height, speed
@@ -142,7 +143,7 @@ def fly(body, y, longest):
             if height <= TOUCH * body.radius or inside + ahead == inside:
                 if speed < touching_speed:
                     y[:] = y_near
-                    return elapsed + inside, True, graze
+                    return elapsed + inside, True, graze, looks
                 ahead = max(ahead, smallest_flight(body, y_near)[0], TIME_STEP * inside)
             touching_speed = 0.0
             inside += ahead
@@ -151,4 +152,4 @@ def fly(body, y, longest):
                 step(body, y, inside, stages, y_near)
         elapsed += made
         y[:] = y_end
-    return longest, False, graze
+    return longest, False, graze, looks

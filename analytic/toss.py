@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 
 from analytic.contact import friction_in_contact, sample_contact
 from analytic.events import Run, run
-from analytic.flight import STATE_SIZE, TOLERANCE, sample_flight
+from analytic.flight import STATE_SIZE, TOLERANCE
 from analytic.floor_force import Motion
+from analytic.flying import sample
 from analytic.horizon import SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
 from models.attitude import rotation_matrix
 from models.body import Body
@@ -55,7 +56,7 @@ class Pieces:
             self.motions[number],
         )
         if motion == Motion.FLIGHT:
-            sample_flight(self.body, start, start_time, times, states)
+            sample(self.body, start, start_time, times, states)
         else:
             sample_contact(self.body, self.friction, motion, start, start_time, times, states)
         return states

@@ -1,0 +1,42 @@
+"""A flight: its first touch, and its states; in closed form where the coin turns so, else integrated."""
+
+from analytic.closed_flight import fly_closed, sample_closed
+from analytic.flight import sample_flight, spin_of
+from analytic.rim import fly_by_steps
+from analytic.turning import turns_in_closed_form
+from models.compiled import compiled
+
+
+@compiled
+def fly(body, y, longest):
+    """Fly until the coin first touches the floor.
+
+    Args:
+        body: the coin.
+        y: state at the start, (13,); becomes the state at the touch, or at the end of the flight.
+        longest: the longest flight wanted [s].
+
+    Returns:
+        The time of flight [s], whether the coin touches, a graze: a height such that no minimum of the gap on
+        the way is below half of it, infinite where the gap has none [m]; and how often the gap was looked at.
+    """
+    if turns_in_closed_form(body, spin_of(y)):
+        return fly_closed(body, y, longest)
+    return fly_by_steps(body, y, longest)
+
+
+@compiled
+def sample(body, start, start_time, times, states):
+    """Write the states of one flight at `times` into `states`.
+
+    Args:
+        body: the coin.
+        start: state at the start of the flight, (13,).
+        start_time: its time [s].
+        times: increasing, none before start_time, (n,) [s].
+        states: where they go, (n, 13).
+    """
+    if turns_in_closed_form(body, spin_of(start)):
+        sample_closed(body, start, start_time, times, states)
+    else:
+        sample_flight(body, start, start_time, times, states)
