@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from analytic.fall import ORDER, ROWS, Z, expand, fallen, piece_length
+from analytic.fall import ORDER, clock, expand, fallen, slowing_of, time_of
 from analytic.first_touch import Found, begun, bounds_of, first_touch
-from analytic.flight import attitude_of, position_of, spin_of, velocity_of
+from analytic.flight import attitude_of, spin_of, velocity_of
 from analytic.rim import TOUCH, closing_speed, smallest_flight
 from analytic.turning import turn, turning_of
 from models.body import in_vacuum
@@ -18,21 +18,20 @@ def fly_closed(body, y, longest):
 
     The coin is one that `turns_in_closed_form`.
     """
-    time, graze, looks = 0.0, np.inf, 0
+    time, inside, graze, looks = 0.0, 0.0, np.inf, 0
+    height, speed = closing_speed(body, y)
+    if height <= TOUCH * body.radius and speed <= 0:
+        # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch.
+        inside, slowest, _ = smallest_flight(body, y)
+        if speed < -slowest:
+            return time, True, graze, looks
     while True:
-        height, speed = closing_speed(body, y)
-        inside = 0.0
-        if height <= TOUCH * body.radius:
-            # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch.
-            shortest, slowest = smallest_flight(body, y)
-            if speed < -slowest:
-                return time, True, graze, looks
-            inside = shortest
         found, flown, search = _search(body, y, inside, longest - time)
         time, graze, looks = time + flown, min(graze, search.graze), looks + search.looks
-        # After a graze it flies on from there.
         if found != Found.GRAZE:
             return time, found == Found.TOUCH, graze, looks
+        # It flies on from there, where it hardly sinks for a while.
+        inside = smallest_flight(body, y)[0]
 
 
 @compiled
@@ -48,37 +47,37 @@ def _search(body, y, inside, longest):
     Returns:
         What is `Found`, when, and the `Search`.
     """
-    turning = turning_of(body, attitude_of(y), spin_of(y))
-    search = begun()
     if in_vacuum(body):
-        heights = (y[2], y[5], -body.gravity / 2)
-        bounds = bounds_of(turning, body.gravity, 0.0, 0.0)
-        found, t, search = first_touch(body, turning, heights, 0.0, inside, longest, bounds, search)
+        turning = turning_of(body, attitude_of(y), spin_of(y))
+        heights, bounds = (y[2], y[5], -body.gravity / 2), bounds_of(turning, body.gravity, 0.0, 0.0)
+        found, t, search = first_touch(body, turning, heights, inside, longest, bounds, begun())
         fall_freely(body, y, t, y)
-        turn(turning, y, t, y)
+        turn(turning, y, t, 1.0, y)
         return found, t, search
-    series = np.empty((ROWS, ORDER + 1))
-    x, v, t, found = position_of(y), velocity_of(y), 0.0, Found.NOTHING
-    while t < longest and found == Found.NOTHING:
-        length = min(piece_length(body, turning, t), longest - t)
-        frame = expand(body, turning, t, x, v, series)
-        bounds = _bounds(body, turning, v, length)
-        found, made, search = first_touch(body, turning, series[Z], t, inside, length, bounds, search)
-        x, v = fallen(frame, series, made)
-        t, inside = t + made, max(inside - made, 0.0)
-    y[0], y[1], y[2] = x
-    y[3], y[4], y[5] = v
-    turn(turning, y, t, y)
-    return found, t, search
+    series, search = np.empty((4, ORDER + 1)), begun()
+    time, found = 0.0, Found.NOTHING
+    while time < longest and found == Found.NOTHING:
+        turning = turning_of(body, attitude_of(y), spin_of(y))
+        piece = expand(body, turning, y, clock(slowing_of(body), longest - time), series)
+        heights, bounds = series[3, : piece.order + 1], _bounds(body, turning, piece, velocity_of(y))
+        found, s, search = first_touch(body, turning, heights, inside, piece.length, bounds, search)
+        fallen(piece, series, s, y, y)
+        turn(turning, y, s, 1 - piece.slowing * s, y)
+        time, inside = time + time_of(piece.slowing, s), 0.0
+    return found, min(time, longest), search
 
 
 @compiled
-def _bounds(body, turning, v, length):
-    """Give the `Bounds` of a piece in air that starts with the velocity v; drag never speeds the coin up."""
+def _bounds(body, turning, piece, v):
+    """Give the `Bounds` of a piece that starts with the velocity v; drag never speeds the coin up."""
     rate = max(body.drag.force_tangential, body.drag.force_normal) / body.mass
-    drag = rate * (norm(v) + body.gravity * length)
-    jerk = rate * (body.gravity + drag) + 2 * turning.rate * drag
-    return bounds_of(turning, body.gravity + drag, max(drag - body.gravity, 0.0), jerk)
+    # The clock is slower than time: dt = ds/left.
+    left = 1 - piece.slowing * piece.length
+    speed = norm(v) + body.gravity * time_of(piece.slowing, piece.length)
+    drag = (rate + piece.slowing) * speed
+    jerk = (rate + 3 * piece.slowing) * (body.gravity + drag) + 2 * turning.rate * rate * speed
+    down, up = body.gravity + drag, max(drag - body.gravity, 0.0)
+    return bounds_of(turning, down / left**2, up / left**2, jerk / left**3)
 
 
 @compiled
@@ -97,28 +96,29 @@ def fall_freely(body, y, t, y_new):
 
 @compiled
 def sample_closed(body, start, start_time, times, states):
-    """Write the states of one flight at `times` into `states`; see `flying.sample_flight`.
+    """Write the states of one flight at `times` into `states`; see `flying.sample`.
 
     Returns:
         The number of pieces of the flight up to the last time.
     """
-    turning, pieces = turning_of(body, attitude_of(start), spin_of(start)), 1
+    y, time, pieces, turning = start.copy(), 0.0, 1, turning_of(body, attitude_of(start), spin_of(start))
     if in_vacuum(body):
         for i in range(len(times)):
-            fall_freely(body, start, times[i] - start_time, states[i])
-            turn(turning, start, times[i] - start_time, states[i])
+            t = times[i] - start_time
+            fall_freely(body, y, t, states[i])
+            turn(turning, y, t, 1.0, states[i])
         return pieces
-    series = np.empty((ROWS, ORDER + 1))
-    x, v, t = position_of(start), velocity_of(start), 0.0
-    length, frame = piece_length(body, turning, t), expand(body, turning, t, x, v, series)
+    series = np.empty((4, ORDER + 1))
+    piece = expand(body, turning, y, np.inf, series)
     for i in range(len(times)):
-        while times[i] - start_time > t + length:
-            x, v = fallen(frame, series, length)
-            t += length
-            length, frame = piece_length(body, turning, t), expand(body, turning, t, x, v, series)
+        while times[i] - start_time > time + time_of(piece.slowing, piece.length):
+            fallen(piece, series, piece.length, y, y)
+            turn(turning, y, piece.length, 1 - piece.slowing * piece.length, y)
+            time += time_of(piece.slowing, piece.length)
+            turning = turning_of(body, attitude_of(y), spin_of(y))
+            piece = expand(body, turning, y, np.inf, series)
             pieces += 1
-        x_now, v_now = fallen(frame, series, times[i] - start_time - t)
-        for k in range(3):
-            states[i, k], states[i, 3 + k] = x_now[k], v_now[k]
-        turn(turning, start, times[i] - start_time, states[i])
+        s = clock(piece.slowing, times[i] - start_time - time)
+        fallen(piece, series, s, y, states[i])
+        turn(turning, y, s, 1 - piece.slowing * s, states[i])
     return pieces

@@ -1,112 +1,135 @@
-"""The fall through linear air of an ideal coin that turns in closed form: Taylor series of its velocity.
+"""The fall through linear air of an ideal coin that turns in closed form: a power series of its position.
 
-With n the normal, v' = -c_t/m v - (c_n - c_t)/m (n . v) n - g ẑ. In the plane in which n turns, n = (cos φ,
-sin φ) from the start of a piece on, n (n . v) is half of v and of its mirror image, by C = cos 2φ and
-S = sin 2φ; along the axis of turning the velocity only dies away. φ'' = -(d_t/J_ξ) φ' and C' = -2 φ' S,
-S' = 2 φ' C complete the system, whose coefficients follow one from the other.
+With n the normal, v' = -c_t/m v - (c_n - c_t)/m (n . v) n - g ẑ. In the plane in which n turns, as complex
+numbers, n = exp(iφ) and φ = rate s, s the clock of `turning`, dt = ds/(1 - δ s). There n (n . v) is
+(V + W)/2, with W = exp(2iφ) V* the mirror image of V. Both obey linear equations,
+
+    (1 - δ s) dV/ds = -α V - β W - G
+    (1 - δ s) dW/ds = -α W - β V - G* exp(2iφ) + 2i rate (1 - δ s) W
+
+with α, β = (c_n ± c_t)/2m and G = g (z_n + i z_⊥); along the axis the velocity only dies away. So the terms
+of their series follow one from the other.
 """
 
+import math
 from typing import NamedTuple
 
-from analytic.turning import angle_turned, normal_at
+import numpy as np
+
 from models.compiled import compiled
 from models.vectors import Vector, add, cross, dot, scale
 
-ORDER = 28
-# The motion's own rates times the length of a piece. A term of the series is at most PIECE^k/k! of the whole:
-# the first one left out is below 1e-16 of it.
-PIECE = 3.0
-# The part of φ' in the series dies away so much more slowly that further terms are below rounding.
-TERMS = 10
+ORDER = 40
+# What the motion turns, and what the air takes, in a piece. The first term left out is at most
+# TURNED^41/41! = 2e-17 of the whole.
+TURNED, TAKEN = 6.0, 1.0
+# Terms of the height below this part of the radius are left out.
+SMALLEST = 1e-17
 
-# Rows of a series: C and S; the velocity in the plane and along the axis; the height.
-C, S, P, Q, A, Z = range(6)
-ROWS = 6
+_INVERSE = 1 / np.arange(1, ORDER + 1)
 
 
-class Frame(NamedTuple):
-    """Where a piece starts, and the directions to which its series refers."""
+class Piece(NamedTuple):
+    """A piece of a fall; its series are those of the clock s [s]."""
 
-    position: Vector
-    """Of C, space frame [m]."""
     first: Vector
-    """The normal at the start of the piece, space frame."""
+    """The normal at its start, space frame."""
     second: Vector
     """Towards which it turns."""
     axis: Vector
+    slowing: float
+    """δ [1/s]."""
+    length: float
+    """By the clock [s]."""
+    order: int
+    """Of the series of the height."""
 
 
 @compiled
-def piece_length(body, turning, t):
-    """Give how long a series that starts at the time t of the flight holds to rounding [s]."""
-    rate = angle_turned(turning, t)[1]
-    fastest = max(body.drag.force_tangential, body.drag.force_normal) / body.mass
-    rates = 2 * rate + fastest + turning.slowing
-    return PIECE / rates
+def slowing_of(body):
+    """Give δ = d_t/J_ξ, at which linear air slows the turning [1/s]."""
+    return body.drag.moment_tangential / body.inertia[0][0]
 
 
 @compiled
-def expand(body, turning, t, x, v, series):
-    """Expand the fall from the time t of the flight on.
+def clock(slowing, t):
+    """Give the clock s [s] at the time t [s]."""
+    return -math.expm1(-slowing * t) / slowing if slowing > 0 else t
+
+
+@compiled
+def time_of(slowing, s):
+    """Give the time t [s] at the clock s [s]."""
+    return -math.log1p(-slowing * s) / slowing if slowing > 0 else s
+
+
+@compiled
+def longest_piece(body, rate):
+    """Give by the clock how long a series holds to rounding [s]."""
+    taken = 2 * max(body.drag.force_normal, body.drag.force_tangential) / body.mass + slowing_of(body)
+    return min(TURNED / (2 * rate + taken), TAKEN / taken)
+
+
+@compiled
+def expand(body, turning, y, longest, series):
+    """Expand the fall of a coin from the state y on.
 
     Args:
         body: the coin.
-        turning: of the flight.
-        t: time of the flight at which the piece starts [s].
-        x: position of C there, space frame, (3,) [m].
-        v: its velocity, (3,) [m/s].
-        series: where the coefficients go, (ROWS, ORDER + 1).
+        turning: from y on.
+        y: state, (13,).
+        longest: the longest piece wanted, by the clock [s].
+        series: where the coefficients of the position go, (4, ORDER + 1): what is added to it along `first`,
+            `second` and the axis, and the height of C.
 
     Returns:
-        The `Frame` of the piece.
+        The `Piece`.
     """
-    axis, first, rate = turning.axis, normal_at(turning, t)[0], angle_turned(turning, t)[1]
+    axis, v, slowing = turning.axis, (y[3], y[4], y[5]), slowing_of(body)
+    first = add(turning.mean, turning.cosine)
     second = cross(axis, first)
-    mean = (body.drag.force_normal + body.drag.force_tangential) / (2 * body.mass)
-    half = (body.drag.force_normal - body.drag.force_tangential) / (2 * body.mass)
-    along = body.drag.force_tangential / body.mass
-    g, slowing = body.gravity, turning.slowing
-    series[C, 0], series[S, 0] = 1.0, 0.0
-    series[P, 0], series[Q, 0], series[A, 0] = dot(first, v), dot(second, v), dot(axis, v)
-    series[Z, 0] = x[2]
+    length = min(longest_piece(body, turning.rate), longest)
+    n, t = body.drag.force_normal / body.mass, body.drag.force_tangential / body.mass
+    alpha, beta = (n + t) / 2, (n - t) / 2
+    whirl = 2j * turning.rate
+    V = complex(dot(first, v), dot(second, v))
+    W, W_before, G = V.conjugate(), 0j, body.gravity * complex(first[2], second[2])
+    E, A, g_axis = G.conjugate(), dot(axis, v), body.gravity * axis[2]
+    x, x_axis = 0j, 0.0
+    series[0, 0], series[1, 0], series[2, 0], series[3, 0] = 0.0, 0.0, 0.0, y[2]
+    order, size = 0, 1.0
     for k in range(ORDER):
-        c, s, p, q = 0.0, 0.0, 0.0, 0.0
-        # The terms of 2 φ', one from the other.
-        turned = 2 * rate
-        for j in range(min(k + 1, TERMS)):
-            c -= turned * series[S, k - j]
-            s += turned * series[C, k - j]
-            turned *= -slowing / (j + 1)
-        for j in range(k + 1):
-            p += series[C, j] * series[P, k - j] + series[S, j] * series[Q, k - j]
-            q += series[S, j] * series[P, k - j] - series[C, j] * series[Q, k - j]
-        p, q, a = -mean * series[P, k] - half * p, -mean * series[Q, k] - half * q, -along * series[A, k]
-        if k == 0:
-            p, q, a = p - g * first[2], q - g * second[2], a - g * axis[2]
-        n = k + 1
-        series[C, n], series[S, n] = c / n, s / n
-        series[P, n], series[Q, n], series[A, n] = p / n, q / n, a / n
-    for k in range(ORDER):
-        v_z = first[2] * series[P, k] + second[2] * series[Q, k] + axis[2] * series[A, k]
-        series[Z, k + 1] = v_z / (k + 1)
-    return Frame(x, first, second, axis)
+        part, slowed = _INVERSE[k], slowing * k
+        x, x_axis = part * (slowed * x + V), part * (slowed * x_axis + A)
+        z = first[2] * x.real + second[2] * x.imag + axis[2] * x_axis
+        series[0, k + 1], series[1, k + 1], series[2, k + 1] = x.real, x.imag, x_axis
+        series[3, k + 1] = z
+        size *= length
+        if abs(z) * size > SMALLEST * body.radius:
+            order = k + 1
+        W_next = part * ((slowed - alpha) * W + whirl * (W - slowing * W_before) - beta * V - E)
+        V, A = part * ((slowed - alpha) * V - beta * W - G), part * ((slowed - t) * A - g_axis)
+        W_before, W, E = W, W_next, part * whirl * E
+        G, g_axis = 0j, 0.0
+    return Piece(first, second, axis, slowing, length, order)
 
 
 @compiled
-def fallen(frame, series, t):
-    """Give position [m] and velocity [m/s] of C at the time t of a piece, space frame, (3,) each."""
-    p, P_ = _sum_and_integral(series[P], t)
-    q, Q_ = _sum_and_integral(series[Q], t)
-    a, A_ = _sum_and_integral(series[A], t)
-    x = add(scale(P_, frame.first), add(scale(Q_, frame.second), scale(A_, frame.axis)))
-    v = add(scale(p, frame.first), add(scale(q, frame.second), scale(a, frame.axis)))
-    return add(frame.position, x), v
+def fallen(piece, series, s, y, y_new):
+    """Write position and velocity of the state at the clock s of a piece into y_new.
 
-
-@compiled
-def _sum_and_integral(coefficients, t):
-    value, integral = 0.0, 0.0
-    for k in range(len(coefficients) - 1, -1, -1):
-        value = value * t + coefficients[k]
-        integral = integral * t + coefficients[k] / (k + 1)
-    return value, integral * t
+    Args:
+        piece: of the fall.
+        series: its coefficients.
+        s: clock [s].
+        y: state at the start of the piece, (13,).
+        y_new: state, (13,).
+    """
+    x, v = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    for k in range(ORDER, -1, -1):
+        v = add(scale(s, v), x)
+        x = add(scale(s, x), (series[0, k], series[1, k], series[2, k]))
+    v = scale(1 - piece.slowing * s, v)
+    for i in range(3):
+        y_new[i] = y[i] + piece.first[i] * x[0] + piece.second[i] * x[1] + piece.axis[i] * x[2]
+        y_new[3 + i] = piece.first[i] * v[0] + piece.second[i] * v[1] + piece.axis[i] * v[2]

@@ -1,21 +1,22 @@
-"""The first touch of an ideal coin that turns in closed form, while its height is a polynomial of time.
+"""The first touch of an ideal coin that turns in closed form, while its height is a polynomial.
+
+Time is that of the clock of `turning`, in which the normal turns at a constant rate.
 
 The rim of the face at ζ = ±h/2, whose centre is at height q, is clear while F = q² - r² (1 - n_z²) > 0. With
-a bound on its bend F'', each look at F and F' gives a time that is surely clear, or the assurance that F falls
-through zero once in a time to come. From there on steps of third order find the touch.
+a bound on its bend F'', each look at F and F' gives a time that is surely clear, or the assurance that F
+falls through zero once in a time to come. From there on steps of third order find the touch.
 """
 
 import math
 from enum import IntEnum
 from typing import NamedTuple
 
-from analytic.rim import TOUCH
-from analytic.turning import angle_turned
+from analytic.rim import SINK, TOUCH
 from models.compiled import compiled
 from models.geometry import FLAT_SINE
 from models.vectors import Vector, add, scale
 
-# A coin higher than `_HIGH` times the reach of its rim is followed by its height alone, down to `_NEAR` times.
+# A coin higher than `_HIGH` times the reach of its rim is followed by its height alone, down to `_NEAR`.
 _HIGH, _NEAR = 2.0, 1.1
 # On the way to a sure touch; two are common.
 _MOST_LOOKS = 10
@@ -27,7 +28,7 @@ class Found(IntEnum):
     NOTHING = 0
     TOUCH = 1
     GRAZE = 2
-    """The coin touches and does not move down."""
+    """The coin touches and does not move down, nor clearly up."""
 
 
 class Search(NamedTuple):
@@ -85,27 +86,27 @@ def begun():
 @compiled
 def bounds_of(turning, down, up, jerk):
     """Give the `Bounds` of a turning coin, those of C given."""
-    rate, fast = turning.rate, turning.rate + turning.slowing
-    mean, swing = abs(turning.mean[2]), math.hypot(turning.cosine[2], turning.sine[2])
-    # n_z'' = -φ'² (n_z - mean) - slowing n_z', and φ' only slows down.
-    normal = rate * fast * swing
-    return Bounds(down, up, jerk, normal, normal * (swing + mean), 5 * fast)
+    rate, mean = turning.rate, abs(turning.mean[2])
+    swing = math.hypot(turning.cosine[2], turning.sine[2])
+    # n_z'' is -rate² times the swing, (n_z²)''/2 is -rate² (swing² cos 2φ + mean swing cos φ).
+    normal = rate * rate * swing
+    return Bounds(down, up, jerk, normal, normal * (swing + mean), 4 * rate)
 
 
 @compiled
-def look(turning, heights, start, t):
-    """Look at a turning coin at the time t of a piece [s]; for the other arguments see `first_touch`."""
+def look(turning, heights, t):
+    """Look at a turning coin at the time t [s]; for the other arguments see `first_touch`."""
     z, z_rate, z_half = 0.0, 0.0, 0.0
     for k in range(len(heights) - 1, -1, -1):
         z_half = z_half * t + z_rate
         z_rate = z_rate * t + z
         z = z * t + heights[k]
-    angle, rate = angle_turned(turning, start + t)
-    c, s = math.cos(angle), math.sin(angle)
+    rate = turning.rate
+    c, s = math.cos(rate * t), math.sin(rate * t)
     swing = add(scale(c, turning.cosine), scale(s, turning.sine))
     n, n_rate = add(turning.mean, swing), scale(rate, add(scale(-s, turning.cosine), scale(c, turning.sine)))
-    n_acceleration = -rate * rate * swing[2] - turning.slowing * n_rate[2]
-    return Look(z, z_rate, 2 * z_half, n, n_rate, n_acceleration, (n[0] * n[0] + n[1] * n[1]) ** 0.5)
+    sine = (n[0] * n[0] + n[1] * n[1]) ** 0.5
+    return Look(z, z_rate, 2 * z_half, n, n_rate, -rate * rate * swing[2], sine)
 
 
 @compiled
@@ -126,7 +127,7 @@ def rim(body, seen, side):
 
 @compiled
 def closing(body, seen):
-    """Give the gap [m] and its rate [m/s]; of a coin that lies flat and turns, that of the point going down."""
+    """Give the gap [m] and its rate [m/s]; of a flat coin that turns, that of the point going down."""
     side = -1.0 if seen.normal[2] > 0 else 1.0
     arm, r, n, n_rate = side * body.thickness / 2, body.radius, seen.normal, seen.normal_rate
     if seen.sine > FLAT_SINE:
@@ -137,28 +138,27 @@ def closing(body, seen):
 
 
 @compiled
-def first_touch(body, turning, heights, start, inside, length, bounds, search):
+def first_touch(body, turning, heights, inside, length, bounds, search):
     """Search a piece of a flight for the first touch.
 
     Args:
         body: the coin.
-        turning: its turning, from the start of the flight on.
-        heights: coefficients of the height of C as a polynomial of the time of the piece [m, m/s, ..].
-        start: time of the flight at which the piece starts [s].
-        inside: where in the piece the search starts [s].
+        turning: its turning, from the start of the piece on.
+        heights: coefficients of the height of C as a polynomial of time [m, m/s, ..].
+        inside: when the search starts [s].
         length: of the piece [s].
         bounds: on it.
         search: so far.
 
     Returns:
-        What is `Found`, when, in the time of the piece [s], and the `Search`.
+        What is `Found`, when [s], and the `Search`.
     """
     r, half = body.radius, body.thickness / 2
-    reach = math.hypot(r, half)
+    reach, hop = math.hypot(r, half), (2 * SINK * r / body.gravity) ** 0.5
     looks, graze, height_before, fell = search
     while inside < length:
         looks += 1
-        seen = look(turning, heights, start, inside)
+        seen = look(turning, heights, inside)
         z, z_rate = seen.z, seen.z_rate
         if z > _HIGH * reach:
             # No minimum of the gap that is passed by is lower than the rest.
@@ -186,7 +186,7 @@ def first_touch(body, turning, heights, start, inside, length, bounds, search):
             ahead = min(ahead, clear_above)
             latest = latest if latest <= clear_above else 0.0
         # Also where time itself has no finer step than the coin still has to fall.
-        if height <= TOUCH * r or inside + ahead == inside:
+        if (height <= TOUCH * r and (speed <= 0 or ahead < hop)) or inside + ahead == inside:
             found = Found.TOUCH if speed < 0 else Found.GRAZE
             return found, inside, Search(looks, graze, height, fell)
         if 0 < latest <= window:
@@ -197,7 +197,7 @@ def first_touch(body, turning, heights, start, inside, length, bounds, search):
                 # F falls through zero once, by then.
                 q_jerk = bounds.jerk + half * bounds.normal * bounds.rate
                 third = fastest * sideways + (highest * q_jerk + r * r * bounds.square * bounds.rate) / 3
-                touch, more = _sure_touch(body, turning, heights, start, inside, latest, seen, lower, third)
+                touch, more = _sure_touch(body, turning, heights, inside, latest, seen, lower, third)
                 looks += more
                 if touch > inside:
                     return Found.TOUCH, touch, Search(looks, graze, height, fell)
@@ -217,22 +217,21 @@ def _clear(F, F_rate, bend):
 
 
 @compiled
-def _sure_touch(body, turning, heights, start, low, latest, seen, side, third):
+def _sure_touch(body, turning, heights, low, latest, seen, side, third):
     """Find the one zero of a rim's F in a time to come, to `TOUCH`.
 
     Args:
         body: the coin.
         turning: its turning.
         heights: coefficients of the height of C.
-        start: time of the flight at which the piece starts [s].
-        low: start of the search, in the time of the piece [s].
+        low: start of the search [s].
         latest: its length [s].
         seen: the `Look` at its start.
         side: ±1, of the face with this rim.
         third: a sixth of the largest third derivative of F on the way [m²/s³].
 
     Returns:
-        The time of the piece [s], or `low` where rounding hides it, and the number of looks.
+        The time [s], or `low` where rounding hides it, and the number of looks.
     """
     t, looks = low, 0
     while looks < _MOST_LOOKS:
@@ -244,6 +243,6 @@ def _sure_touch(body, turning, heights, start, low, latest, seen, side, third):
         # What F may be after the step, against what it is at the gap `TOUCH` r.
         if third * abs(step) ** 3 <= TOUCH * body.radius * body.radius * seen.sine:
             return t, looks
-        seen = look(turning, heights, start, t)
+        seen = look(turning, heights, t)
         looks += 1
     return low, looks

@@ -1,7 +1,9 @@
 """A flight: its first touch, and its states; in closed form where the coin turns so, else integrated."""
 
+import numpy as np
+
 from analytic.closed_flight import fly_closed, sample_closed
-from analytic.flight import sample_flight, spin_of
+from analytic.flight import STATE_SIZE, sample_flight, spin_of
 from analytic.rim import fly_by_steps
 from analytic.turning import turns_in_closed_form
 from models.compiled import compiled
@@ -35,8 +37,16 @@ def sample(body, start, start_time, times, states):
         start_time: its time [s].
         times: increasing, none before start_time, (n,) [s].
         states: where they go, (n, 13).
+
+    Returns:
+        The number of steps up to the last time: on a parabola one.
     """
     if turns_in_closed_form(body, spin_of(start)):
-        sample_closed(body, start, start_time, times, states)
-    else:
-        sample_flight(body, start, start_time, times, states)
+        return sample_closed(body, start, start_time, times, states)
+    return sample_flight(body, start, start_time, times, states)
+
+
+@compiled
+def steps_of(body, start, duration):
+    """Give the number of steps of a flight of this duration [s] from the state `start`, (13,)."""
+    return sample(body, start, 0.0, np.array([duration]), np.empty((1, STATE_SIZE)))

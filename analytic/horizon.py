@@ -10,7 +10,7 @@ import numpy as np
 from analytic.events import Run
 from analytic.flight import STATE_SIZE
 from analytic.flight_tangent import flight_tangent
-from analytic.flying import fly
+from analytic.flying import fly, steps_of
 from analytic.impact_tangent import Touch, touch_tangent
 from analytic.rim import TOUCH
 from analytic.sensitivity import delay_of, flight_map, impact_map, touch_map
@@ -80,7 +80,8 @@ def _flight(
     start, at_first = y.copy(), _step_errors(body, y)
     duration, _, graze, _ = fly(body, y, rules.max_time - start_time)
     tangents, moved = np.eye(STATE_SIZE), np.zeros(STATE_SIZE, dtype=np.bool_)
-    steps = flight_tangent(body, start, duration, tangents, moved)
+    steps = steps_of(body, start, duration)
+    flight_tangent(body, start, duration, tangents, moved)
     # What stays exactly zero is kept so by symmetry: rounding too keeps a flat coin flat.
     at_start, at_end = (
         np.eye(STATE_SIZE + 1, STATE_SIZE) * steps * moved * errors

@@ -71,15 +71,17 @@ def crowded(body, chi, y):
         y: state at the touch, (13,).
     """
     up, w = rotation_matrix(attitude_of(y))[2], spin_of(y)
-    speed = -closing_speed(body, y)[1]
-    if speed < smallest_flight(body, y)[1]:
+    speed, (_, slowest, most) = -closing_speed(body, y)[1], smallest_flight(body, y)
+    if speed < slowest:
         return True
+    least = 2 * speed * (norm(w) + (body.gravity / body.radius) ** 0.5) / (CROWDED * (1 - chi))
+    if least >= most:
+        return False
     if up[0] * up[0] + up[1] * up[1] <= FLAT_SINE * FLAT_SINE:
         falling = body.gravity
     else:
         falling = -gap_acceleration(body, y)
-    rate = norm(w) + (body.gravity / body.radius) ** 0.5
-    return falling > 0 and 2 * speed * rate < CROWDED * falling * (1 - chi)
+    return falling > 0 and least < falling
 
 
 @compiled
@@ -97,12 +99,12 @@ def smallest_flight(body, y):
     least 2 v/A, A the largest acceleration of the gap: it outlasts that time at √(8 SINK r A).
 
     Returns:
-        Time [s] and speed [m/s].
+        Time [s], speed [m/s], and A [m/s²].
     """
     up = rotation_matrix(attitude_of(y))[2]
     sink = SINK * body.radius
     time, acceleration = grazing_time(body, velocity_of(y), up, spin_of(y), sink)
-    return time, (8 * sink * acceleration) ** 0.5
+    return time, (8 * sink * acceleration) ** 0.5, acceleration
 
 
 @compiled

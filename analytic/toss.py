@@ -12,10 +12,12 @@ from analytic.floor_force import Motion
 from analytic.flying import sample
 from analytic.horizon import SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
 from models.attitude import rotation_matrix
-from models.body import Body
+from models.body import Body, in_vacuum, is_ideal
 from models.ending import barrier, energy
 from models.records import Array, Impacts, Setting, States, Toss
 from models.scenario import Release, Scenario
+
+_INTEGRATED = "Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -93,9 +95,7 @@ def toss(scenario: Scenario) -> Toss:
         end_time=answer.end_time,
         trusted_impacts=trusted_impacts(body, rules, _before_contact(answer)),
         certificate=(
-            Setting(
-                name="integrator", value="Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"
-            ),
+            Setting(name="flight", value=_flight(body)),
             Setting(name="error allowed in a step, relative", value=TOLERANCE),
             Setting(name="error of a step carried to the horizon: of the motion, relative", value=STEP_ERROR),
             Setting(name="error of a step carried to the horizon: of the attitude", value=TURN_ERROR),
@@ -111,6 +111,14 @@ def toss(scenario: Scenario) -> Toss:
             motions=answer.motions,
         ),
     )
+
+
+def _flight(body: Body) -> str:
+    if not is_ideal(body) or (body.air.exponent is not None and not in_vacuum(body)):
+        return _INTEGRATED
+    if in_vacuum(body):
+        return "closed form of the symmetric top"
+    return f"power series without spin about the normal, else {_INTEGRATED}"
 
 
 def _before_contact(answer: Run) -> Run:

@@ -85,8 +85,8 @@ def _top_barrier(body, up, w):
 def _top_ceiling(body, up, w):
     """Bound `_top_barrier` from above without trying tilts [J].
 
-    What the spin needs has no maximum inside: it is largest at today's tilt, where L_z - L_ζ cos s is the part
-    of L_z across the normal, or upright.
+    What the spin needs has no maximum inside: it is largest at today's tilt, where L_z - L_ζ cos s is the
+    part of L_z across the normal, or upright.
     """
     J = body.inertia
     L = apply(J, w)
