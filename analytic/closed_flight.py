@@ -5,7 +5,7 @@ import numpy as np
 from analytic.fall import ORDER, clock, expand, fallen, slowing_of, time_of
 from analytic.first_touch import Found, begun, bounds_of, first_touch
 from analytic.flight import attitude_of, spin_of, velocity_of
-from analytic.rim import TOUCH, closing_speed, smallest_flight
+from analytic.rim import closing_speed, smallest_flight
 from analytic.turning import turn, turning_of
 from models.body import in_vacuum
 from models.compiled import compiled
@@ -19,15 +19,12 @@ def fly_closed(body, y, longest):
     The coin is one that `turns_in_closed_form`.
     """
     time, inside, graze, looks = 0.0, 0.0, np.inf, 0
-    height, speed = closing_speed(body, y)
-    if height <= TOUCH * body.radius and speed <= 0:
-        # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch.
-        inside, slowest, _ = smallest_flight(body, y)
-        if speed < -slowest:
-            return time, True, graze, looks
     while True:
         found, flown, search = _search(body, y, inside, longest - time)
         time, graze, looks = time + flown, min(graze, search.graze), looks + search.looks
+        if found == Found.TOUCH and time == 0 and closing_speed(body, y)[1] >= -smallest_flight(body, y)[1]:
+            # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch.
+            found = Found.GRAZE
         if found != Found.GRAZE:
             return time, found == Found.TOUCH, graze, looks
         # It flies on from there, where it hardly sinks for a while.
