@@ -11,11 +11,13 @@ import math
 from enum import IntEnum
 from typing import NamedTuple
 
-from analytic.rim import SINK, TOUCH
+from analytic.rim import SINK
 from models.compiled import compiled
 from models.geometry import FLAT_SINE
 from models.vectors import Vector, add, scale
 
+# A gap below this part of the radius is zero within rounding.
+TOUCH = 2e-15
 # A coin higher than `_HIGH` times the reach of its rim is followed by its height alone, down to `_NEAR`.
 _HIGH, _NEAR = 2.0, 1.1
 # On the way to a sure touch; two are common.

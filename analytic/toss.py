@@ -10,7 +10,7 @@ from analytic.events import Run, run
 from analytic.flight import STATE_SIZE, TOLERANCE
 from analytic.floor_force import Motion
 from analytic.flying import sample
-from analytic.horizon import SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
+from analytic.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
 from models.attitude import rotation_matrix
 from models.body import Body, in_vacuum, is_ideal
 from models.ending import barrier, energy
@@ -99,6 +99,7 @@ def toss(scenario: Scenario) -> Toss:
             Setting(name="error allowed in a step, relative", value=TOLERANCE),
             Setting(name="error of a step carried to the horizon: of the motion, relative", value=STEP_ERROR),
             Setting(name="error of a step carried to the horizon: of the attitude", value=TURN_ERROR),
+            Setting(name="part of these errors in a step in closed form", value=CLOSED_FORM),
             Setting(name="safety factor of the horizon", value=SAFETY),
             Setting(name="energy at the end", value=_energy(body, end), unit="J"),
             Setting(name="energy of the lowest pass to the other face", value=_barrier(body, end), unit="J"),

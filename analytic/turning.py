@@ -54,7 +54,8 @@ def turning_of(body, e, w):
     ratio = J[2][2] / J[0][0]
     turn = apply(R, (w[0], w[1], ratio * w[2]))
     rate = norm(turn)
-    axis = scale(1 / rate, turn) if rate > 0 else (0.0, 0.0, 1.0)
+    # In air it is across the normal; so let it be where there is none.
+    axis = scale(1 / rate, turn) if rate > 0 else (R[0][0], R[1][0], R[2][0])
     n = (R[0][2], R[1][2], R[2][2])
     mean = scale(dot(axis, n), axis)
     return Turning(axis, rate, (1 - ratio) * w[2], mean, subtract(n, mean), cross(axis, n))
