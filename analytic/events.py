@@ -151,7 +151,7 @@ def fly_and_hit(body, rules, y, rows, keep_pieces):
         elif n == rules.max_impacts:
             ending = Ending.MAX_IMPACTS
         else:
-            flown, touches, _, _ = fly(body, y, rules.max_time - time)
+            flown, touches, _ = fly(body, y, rules.max_time - time)
             time += flown
             if not touches:
                 ending = Ending.MAX_TIME

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from analytic.closed_flight import fly_closed, sample_closed
+from analytic.closed_flight import closed_graze, fly_closed, sample_closed
 from analytic.flight import STATE_SIZE, sample_flight, spin_of
 from analytic.rim import fly_by_steps
 from analytic.turning import turns_in_closed_form
@@ -19,12 +19,26 @@ def fly(body, y, longest):
         longest: the longest flight wanted [s].
 
     Returns:
-        The time of flight [s], whether the coin touches, a graze: a height such that no minimum of the gap on
-        the way is below half of it, infinite where the gap has none [m]; and how often the gap was looked at.
+        The time of flight [s], whether the coin touches, and how often the gap was looked at.
     """
     if turns_in_closed_form(body, spin_of(y)):
         return fly_closed(body, y, longest)
-    return fly_by_steps(body, y, longest)
+    flown, touches, looks, _ = fly_by_steps(body, y, longest)
+    return flown, touches, looks
+
+
+@compiled
+def graze(body, start, duration):
+    """Give a height such that no minimum of the gap in a flight is below half of it, or infinity [m].
+
+    Args:
+        body: the coin.
+        start: state at the start of the flight, (13,).
+        duration: of the flight [s].
+    """
+    if turns_in_closed_form(body, spin_of(start)):
+        return closed_graze(body, start, duration)
+    return fly_by_steps(body, start.copy(), duration)[3]
 
 
 @compiled

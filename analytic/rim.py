@@ -120,8 +120,8 @@ def fly_by_steps(body, y, longest):
         longest: the longest flight wanted [s].
 
     Returns:
-        The time of flight [s], whether the coin touches, a graze: a height such that no minimum of the gap on
-        the way is below half of it, infinite where the gap has none [m]; and how often the gap was looked at.
+        The time of flight [s], whether the coin touches, how often the gap was looked at, and a graze: a
+        height such that no minimum of the gap on the way is below half of it, infinite where it has none [m].
     """
     stages = np.empty((STAGES, STATE_SIZE))
     y_end, y_near = np.empty(STATE_SIZE), np.empty(STATE_SIZE)
@@ -145,7 +145,7 @@ def fly_by_steps(body, y, longest):
             if height <= TOUCH * body.radius or inside + ahead == inside:
                 if speed < touching_speed:
                     y[:] = y_near
-                    return elapsed + inside, True, graze, looks
+                    return elapsed + inside, True, looks, graze
                 ahead = max(ahead, smallest_flight(body, y_near)[0], TIME_STEP * inside)
             touching_speed = 0.0
             inside += ahead
@@ -154,4 +154,4 @@ def fly_by_steps(body, y, longest):
                 step(body, y, inside, stages, y_near)
         elapsed += made
         y[:] = y_end
-    return longest, False, graze, looks
+    return longest, False, looks, graze

@@ -63,8 +63,7 @@ def test_fig24a(benchmark, toss: Callable[[], Answer]):
     times, faces = toss()
     assert trusted >= 5
     assert len(times) > trusted
-    # The impacts have multiplied what rounding and tolerances of 1e-12 differ by; any other error would be far
-    # larger.
+    # The impacts have multiplied what rounding and tolerances of 1e-12 differ by.
     assert np.abs(np.array(times[:trusted]) - reference.impacts.time[:trusted]).max() < 1e-7
     assert faces[:trusted] == reference.impacts.face[:trusted].tolist()
     benchmark(toss)
