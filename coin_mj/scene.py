@@ -44,7 +44,7 @@ def build(scenario: Scenario, rebound: Rebound, friction: float, thickness: floa
         friction: coefficient of MuJoCo's own friction; 0 for a frictionless contact.
         thickness: of the coin's shape [m].
     """
-    spec = _described(scenario, thickness)
+    spec = described(scenario, thickness)
     spec.geom("floor").pos = (0.0, 0.0, floor_height(scenario, thickness))
     coin = spec.geom("coin")
     coin.solref = (-rebound.stiffness, -rebound.damping)
@@ -59,10 +59,6 @@ def build(scenario: Scenario, rebound: Rebound, friction: float, thickness: floa
             solreffriction=(0.0, -max(rebound.slip_damping, NO_DAMPING)),
             solimp=coin.solimp,
         )
-    if scenario.air.exponent > 0:
-        describe_air(spec, scenario)
-    else:
-        _set_linear_drag(spec, scenario)
     model = spec.compile()
     # MuJoCo's compiler takes two frames less than a micrometre apart for one.
     apart = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
@@ -71,33 +67,13 @@ def build(scenario: Scenario, rebound: Rebound, friction: float, thickness: floa
     return model
 
 
-def build_painted(scenario: Scenario, span: float) -> mujoco.MjModel:
-    """Build a model to look at: heads golden with a bar, tails blue with a dot.
+def described(scenario: Scenario, thickness: float) -> mujoco.MjSpec:
+    """Describe the coin in its air, over a floor whose contact is still that of coin.xml.
 
     Args:
-        scenario: what is tossed.
-        span: size of the scene, to which light, shadow and floor are fitted [m].
+        scenario: what to toss.
+        thickness: of the coin's shape [m].
     """
-    spec = _described(scenario, shape_thickness(scenario))
-    spec.stat.extent = span
-    spec.light("sun").pos = (0, 0, 2 * span)
-    spec.material("floor").texrepeat = (10 / span, 10 / span)
-    body, r, half = spec.body("coin"), scenario.coin.radius, shape_thickness(scenario) / 2
-    skin = max(0.04 * half, 0.004 * r)
-    cylinder, box = mujoco.mjtGeom.mjGEOM_CYLINDER, mujoco.mjtGeom.mjGEOM_BOX
-    shapes = (
-        (cylinder, "heads", (0.94 * r, skin, 0), half),
-        (cylinder, "tails", (0.94 * r, skin, 0), -half),
-        (box, "mark", (0.62 * r, 0.09 * r, 2 * skin), half),
-        (cylinder, "mark", (0.22 * r, 2 * skin, 0), -half),
-    )
-    for kind, material, size, z in shapes:
-        geom = body.add_geom(type=kind, size=size, pos=(0, 0, z), material=material)
-        geom.contype, geom.conaffinity, geom.mass = 0, 0, 0
-    return spec.compile()
-
-
-def _described(scenario: Scenario, thickness: float) -> mujoco.MjSpec:
     spec = mujoco.MjSpec.from_string((resources.files("models") / "coin.xml").read_text(encoding="utf-8"))
     spec.option.gravity = (0.0, 0.0, -scenario.gravity)
     coin, body = scenario.coin, spec.body("coin")
@@ -107,6 +83,10 @@ def _described(scenario: Scenario, thickness: float) -> mujoco.MjSpec:
     body.ipos = coin.center_of_mass
     body.fullinertia = (J[0, 0], J[1, 1], J[2, 2], J[0, 1], J[0, 2], J[1, 2])
     spec.geom("coin").size = (coin.radius, thickness / 2, 0.0)
+    if scenario.air.exponent > 0:
+        describe_air(spec, scenario)
+    else:
+        _set_linear_drag(spec, scenario)
     return spec
 
 

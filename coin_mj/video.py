@@ -1,103 +1,77 @@
-"""A toss as a video: an overview beside a close-up, in slow motion around the impacts."""
-
-# The MuJoCo wheel describes no types.
-# pyright: reportAttributeAccessIssue=false
+"""A toss, or two side by side, as a video file."""
 
 import errno
-from collections.abc import Callable, Iterator
+import itertools
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
 from pathlib import Path
+from typing import NamedTuple
 
 import imageio_ffmpeg
 import mediapy
-import mujoco
 import numpy as np
-from PIL import Image, ImageDraw, ImageFont
 
-from coin_mj.scene import build_painted
-from coin_mj.state import of_release
-from models.ending import face_up
-from models.records import Array, States, Toss
-from models.scenario import Release, euler_parameters, vector
+from coin_mj.captions import caption_of, written
+from coin_mj.drawing import Camera, Drawer, box_of
+from coin_mj.play import play_of
+from coin_mj.slow_motion import film_times
+from models.records import Toss
 
-FRAMES_PER_SECOND = 30
-HEIGHT = 480
-OVERVIEW_WIDTH, CLOSE_UP_WIDTH = 320, 640
-FAST, SLOW = 1 / 4, 1 / 60
-"""Speed of the film far from an impact and at one, relative to the clock."""
-SLOW_FOR = 0.03
-"""How long before and after an impact the film is slowed down [s]."""
-LONGEST = 40.0
-"""A longer film is sped up to this length [s]."""
+HELD = 1.5
+"""How long the last picture stays [s]."""
 
 
-def film_times(toss: Toss) -> tuple[Array, Array]:
-    """Choose the times of a toss that the film shows.
+class Format(NamedTuple):
+    """Of a film."""
 
-    Args:
-        toss: what to show.
-
-    Returns:
-        times: of the frames, increasing from 0 to the end of the toss, (n,) [s].
-        speeds: of the film at these times, relative to the clock, (n,).
-    """
-    # Film time as the integral of 1/speed over the toss, inverted on a fine grid.
-    grid = np.unique(np.concatenate([np.linspace(0, toss.end_time, 20_001), toss.impacts.time]))
-    if len(toss.impacts):
-        nearest = np.abs(grid[:, None] - toss.impacts.time[None, :]).min(axis=1)
-    else:
-        nearest = np.full(len(grid), np.inf)
-    part = np.clip(nearest / SLOW_FOR, 0, 1)
-    speed = SLOW + (FAST - SLOW) * part * part * (3 - 2 * part)
-    film = np.concatenate([[0.0], np.cumsum(np.diff(grid) * (1 / speed[1:] + 1 / speed[:-1]) / 2)])
-    stretch = max(1.0, film[-1] / LONGEST)
-    count = max(2, round(film[-1] / stretch * FRAMES_PER_SECOND))
-    times = np.interp(np.linspace(0, film[-1], count), film, grid)
-    return times, np.interp(times, grid, speed) * stretch
+    width: int
+    """[pixels]."""
+    height: int
+    """[pixels]."""
+    frames_per_second: int
 
 
-def frames(toss: Toss) -> Iterator[np.ndarray]:
-    """Give the frames of a toss's film, (height, width, 3) of uint8.
+FULL, SMALL = Format(1280, 720, 60), Format(960, 540, 30)
+"""Of a film that stands alone, and of one in a page."""
+
+
+def frame_count(tosses: Sequence[Toss], form: Format) -> int:
+    """Give the number of frames of a film."""
+    return len(film_times(tosses, form.frames_per_second)[0]) + _held(form)
+
+
+def frames(tosses: Sequence[Toss], camera: Camera, form: Format) -> Iterator[np.ndarray]:
+    """Draw the frames of a film, one at a time, (height, width, 3) of uint8.
 
     Args:
-        toss: by either engine; it is drawn by MuJoCo.
+        tosses: by either engine, of coins of one radius; they stand side by side and are drawn by MuJoCo.
+        camera: from where.
+        form: of the film.
     """
-    times, speeds = film_times(toss)
-    states = toss.sample(times)
-    span = _span(toss, states)
-    model = build_painted(toss.scenario, span)
-    data = mujoco.MjData(model)
-    body = toss.scenario.body
-    overview, close_up = _overview(states, span), _close_up(toss)
-    font = ImageFont.load_default(size=17)
-    with (
-        mujoco.Renderer(model, HEIGHT, OVERVIEW_WIDTH) as far,
-        mujoco.Renderer(model, HEIGHT, CLOSE_UP_WIDTH) as near,
-    ):
+    times, speeds = film_times(tosses, form.frames_per_second)
+    plays = [play_of(toss, times) for toss in tosses]
+    box, width = box_of(plays), form.width // len(tosses)
+    with ExitStack() as stack:
+        drawers = [
+            stack.enter_context(Drawer(play, camera, box, height=form.height, width=width)) for play in plays
+        ]
         for i, (time, speed) in enumerate(zip(times, speeds, strict=True)):
-            x, e = vector(states.position[i]), euler_parameters(states.quaternion[i])
-            data.qpos[:], data.qvel[:] = of_release(body, Release(position=x, quaternion=e))
-            mujoco.mj_forward(model, data)
-            close_up.lookat[:] = states.position[i]
-            far.update_scene(data, overview)
-            # So far from the light the shadow map is too coarse.
-            far.scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = False
-            near.update_scene(data, close_up)
-            frame = np.concatenate([far.render(), near.render()], axis=1)
-            up = face_up(states.normal[i, 2])
-            hits = int(np.searchsorted(toss.impacts.time, time, side="right"))
-            yield _captioned(
-                frame,
-                font,
-                left=f"{toss.engine}   t = {time:.4f} s",
-                right=f"{up.name.lower()} up   impacts: {hits}   speed 1/{1 / speed:.0f}",
-            )
+            picture = np.concatenate([drawer.draw(i) for drawer in drawers], axis=1)
+            captions = [caption_of(play, i) for play in plays]
+            frame = written(picture, captions, f"t = {time:.4f} s    shown at {_told(speed)} speed")
+            held = _held(form) if i == len(times) - 1 else 0
+            yield from itertools.repeat(frame, 1 + held)
 
 
-def write_video(toss: Toss, path: Path, progress: Callable[[int, int], None]) -> None:
-    """Write a toss's film as an mp4 file.
+def write_video(
+    tosses: Sequence[Toss], camera: Camera, form: Format, path: Path, progress: Callable[[int, int], None]
+) -> None:
+    """Write a film as an mp4 file.
 
     Args:
-        toss: by either engine.
+        tosses: by either engine, of one coin; they stand side by side.
+        camera: from where.
+        form: of the film.
         path: of the file.
         progress: called after each frame with their number so far and in all.
 
@@ -105,11 +79,10 @@ def write_video(toss: Toss, path: Path, progress: Callable[[int, int], None]) ->
         OSError: if the encoder can't write the file.
     """
     mediapy.set_ffmpeg(imageio_ffmpeg.get_ffmpeg_exe())
-    count = len(film_times(toss)[0])
-    shape = (HEIGHT, OVERVIEW_WIDTH + CLOSE_UP_WIDTH)
+    count, shape = frame_count(tosses, form), (form.height, form.width)
     try:
-        with mediapy.VideoWriter(str(path), shape, fps=FRAMES_PER_SECOND, crf=21) as writer:
-            for number, frame in enumerate(frames(toss), start=1):
+        with mediapy.VideoWriter(str(path), shape, fps=form.frames_per_second, crf=21) as writer:
+            for number, frame in enumerate(frames(tosses, camera, form), start=1):
                 writer.add_image(frame)
                 progress(number, count)
     except (RuntimeError, BrokenPipeError) as error:
@@ -121,35 +94,10 @@ def write_video(toss: Toss, path: Path, progress: Callable[[int, int], None]) ->
         raise OSError(errno.EIO, f"ffmpeg: {reason}", str(path)) from error
 
 
-def _span(toss: Toss, states: States) -> float:
-    """Size of the scene: the height of the path, or twice its width where that is larger [m]."""
-    low, high = states.position.min(axis=0), states.position.max(axis=0)
-    width = float(np.hypot(high[0] - low[0], high[1] - low[1]))
-    return max(float(high[2]), 2 * width, 8 * toss.scenario.coin.radius)
+def _held(form: Format) -> int:
+    """Give how many frames longer the last picture stays."""
+    return round(HELD * form.frames_per_second)
 
 
-def _overview(states: States, span: float) -> mujoco.MjvCamera:
-    """A camera at rest that sees the whole path."""
-    middle = (states.position.min(axis=0) + states.position.max(axis=0)) / 2
-    camera = mujoco.MjvCamera()
-    camera.lookat[:] = (middle[0], middle[1], 0.45 * span)
-    camera.distance, camera.azimuth, camera.elevation = 1.9 * span, 90, -9
-    return camera
-
-
-def _close_up(toss: Toss) -> mujoco.MjvCamera:
-    """A camera that follows the coin."""
-    camera = mujoco.MjvCamera()
-    camera.distance, camera.azimuth, camera.elevation = 7 * toss.scenario.coin.radius, 90, -22
-    return camera
-
-
-def _captioned(
-    frame: np.ndarray, font: ImageFont.FreeTypeFont | ImageFont.ImageFont, left: str, right: str
-) -> np.ndarray:
-    image = Image.fromarray(frame)
-    draw = ImageDraw.Draw(image)
-    for x, text in ((12, left), (OVERVIEW_WIDTH + 12, right)):
-        draw.text((x, 10), text, font=font, fill=(25, 30, 40))
-    draw.line([(OVERVIEW_WIDTH, 0), (OVERVIEW_WIDTH, HEIGHT)], fill=(255, 255, 255), width=2)
-    return np.asarray(image)
+def _told(speed: float) -> str:
+    return f"1/{1 / speed:.2g}" if speed < 1 else f"{speed:.3g} times"

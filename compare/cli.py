@@ -14,6 +14,9 @@ import click
 
 # Only click is imported here: `cointoss --help` answers at once, each command brings what it needs.
 
+_BAR = 30
+"""Width of a progress bar, in characters."""
+
 _SCENARIO_HELP = (
     "SCENARIO is a TOML file, or the name of a scenario that comes with the package, such as fig24a; "
     "a name that does not exist is answered with all that do."
@@ -47,7 +50,7 @@ class _Commands(click.Group):
 
 
 class _Count(click.IntRange):
-    """A whole number from 1 on; the message says so where it is no number too."""
+    """A whole number within bounds; the message says so where it is no number too."""
 
     name = "count"
 
@@ -56,6 +59,25 @@ class _Count(click.IntRange):
             return super().convert(value, param, ctx)
         except click.BadParameter:
             self.fail(f"{value}; accepted: an integer >= {self.min} and <= {self.max}", param, ctx)
+
+
+class _Size(click.ParamType):
+    """Width and height in inches, as in 6x4.5."""
+
+    name = "size"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, float]:
+        try:
+            width, height = (float(part) for part in value.split("x"))
+        except ValueError:
+            width = height = 0.0
+        if not (1 <= width <= 100 and 1 <= height <= 100):
+            self.fail(
+                f"{value}; accepted: WIDTHxHEIGHT in inches, each from 1 to 100, as in 6x4.5", param, ctx
+            )
+        return width, height
 
 
 @click.group(
@@ -72,12 +94,18 @@ def main() -> None:
 def _plain_errors(source: str) -> Iterator[None]:
     """Turn the errors of bad input into one line and exit status 2, and warnings into one line each."""
     from compare.files import UnwritableError
+    from compare.graphics import BackEndError
+    from compare.sweep.fields import SweepError
     from models.reading import ScenarioError
     from models.records import ApproximationWarning, UnsupportedError
 
+    told = set()
+
     def tell(message: Warning | str, category: type[Warning], *where: Any, **extra: Any) -> None:
         if issubclass(category, ApproximationWarning):
-            _say(f"{source}: {message}")
+            if str(message) not in told:
+                _say(f"{source}: {message}")
+            told.add(str(message))
         else:
             show(message, category, *where, **extra)
 
@@ -86,9 +114,9 @@ def _plain_errors(source: str) -> Iterator[None]:
         show, warnings.showwarning = warnings.showwarning, tell
         try:
             yield
-        except (ScenarioError, UnwritableError) as error:
+        except (ScenarioError, UnwritableError, BackEndError) as error:
             _refuse(str(error))
-        except (UnsupportedError, FloatingPointError) as error:
+        except (SweepError, UnsupportedError, FloatingPointError) as error:
             _refuse(f"{source}: {error}")
 
 
@@ -140,9 +168,12 @@ def toss(
         from compare.engines import Engine
         from compare.engines import toss as toss_by
         from compare.files import is_stream, require_file, write_text
+        from compare.graphics import require_mujoco
         from models.reading import load
 
         described = load(scenario)
+        if engine == Engine.MUJOCO:
+            require_mujoco()
         if trajectory is not None and not is_stream(trajectory):
             require_file(trajectory, ".csv", scenario)
         if max_impacts is not None:
@@ -187,8 +218,22 @@ def compare(scenario: str, out: Path) -> None:
 @main.command(epilog=_SCENARIO_HELP)
 @click.argument("scenario")
 @click.option("--out", type=click.Path(path_type=Path), required=True, help="The mp4 file to write.")
-def video(scenario: str, out: Path) -> None:
-    """Film one toss in MuJoCo, in slow motion around the impacts."""
+@click.option(
+    "--engine",
+    type=click.Choice(["analytic", "mujoco", "both"]),
+    default="mujoco",
+    show_default=True,
+    help="Whose toss; both stand side by side.",
+)
+@click.option(
+    "--camera",
+    type=click.Choice(["overview", "close-up", "top"]),
+    default="close-up",
+    show_default=True,
+    help="From where; the close-up follows the coin.",
+)
+def video(scenario: str, out: Path, engine: str, camera: str) -> None:
+    """Film one toss, drawn by MuJoCo, in slow motion around the impacts."""
     with _plain_errors(scenario):
         from compare.files import require_file, written_whole
         from models.reading import load
@@ -202,13 +247,98 @@ def video(scenario: str, out: Path) -> None:
         if problem is not None:
             _refuse(problem)
 
-        import coin_mj
-        from coin_mj.video import write_video
+        from coin_mj.drawing import Camera
+        from coin_mj.video import FULL, write_video
+        from compare.engines import Engine
+        from compare.engines import toss as toss_by
 
-        result = coin_mj.toss(described)
+        engines = list(Engine) if engine == "both" else [Engine(engine)]
+        tosses = [toss_by(each, described) for each in engines]
         with written_whole(out) as aside:
-            write_video(result, aside, _progress("video", "frames"))
+            write_video(tosses, Camera(camera), FULL, aside, _progress("video", "frames"))
         click.echo(out)
+
+
+@main.command(epilog=_SCENARIO_HELP)
+@click.argument("scenario")
+@click.option("--x", required=True, metavar="FIELD=START:STOP:N", help="What varies along x, by N values.")
+@click.option("--y", required=True, metavar="FIELD=START:STOP:N", help="What varies along y.")
+@click.option(
+    "--out", type=click.Path(path_type=Path), required=True, help="The map, a Zarr store, MAP.zarr."
+)
+@click.option(
+    "--engine", type=click.Choice(["analytic", "mujoco"]), help="Which engine; analytic by default."
+)
+@click.option(
+    "--compare",
+    "both",
+    is_flag=True,
+    help="Make the map by both engines, MuJoCo's as MAP-mujoco.zarr, and compare them.",
+)
+@click.option(
+    "--after", type=_Count(0, 999_999), help="Map the face at the touch after N impacts; 0: the first."
+)
+@click.option("--resume", is_flag=True, help="Go on with the map that is there, if any.")
+@click.option("--overwrite", is_flag=True, help="Replace the map that is there, if any.")
+@click.option("--scheduler", metavar="ADDRESS", help="Toss on the Dask cluster of this scheduler.")
+@click.option("--png", type=click.Path(path_type=Path), help="Draw the map to this .png file.")
+@click.option(
+    "--palette", type=click.Choice(["paper", "safe"]), help="Black and white, or safe for the colour-blind."
+)
+@click.option("--boundaries", is_flag=True, help="Colour the pixels at a boundary in the picture.")
+@click.option("--size", type=_Size(), metavar="WIDTHxHEIGHT", help="Of the picture, in inches.")
+@click.option("--dpi", type=_Count(10, 2400), help="Pixels per inch of the picture.")
+def basin(
+    scenario: str,
+    x: str,
+    y: str,
+    out: Path,
+    engine: str | None,
+    both: bool,
+    after: int | None,
+    resume: bool,
+    overwrite: bool,
+    scheduler: str | None,
+    png: Path | None,
+    palette: str | None,
+    boundaries: bool,
+    size: tuple[float, float] | None,
+    dpi: int | None,
+) -> None:
+    """Map the outcome of a toss over two fields of the scenario, each pixel one toss.
+
+    FIELD is a dotted path into the scenario, components by name: release.position.z,
+    release.angular_velocity.xi, floor.restitution. START and STOP are both included, in SI or with a unit.
+    """
+    if resume and overwrite:
+        raise click.UsageError("--resume and --overwrite: accepted: one of them")
+    if both and engine is not None:
+        raise click.UsageError("--engine and --compare: accepted: one of them")
+    if png is None and (palette or boundaries or size or dpi):
+        raise click.UsageError("--palette, --boundaries, --size and --dpi: accepted: only beside --png")
+    with _plain_errors(scenario):
+        from compare.basins.picture import DPI, Palette
+        from compare.engines import Engine
+        from compare.sweep.job import Job, make
+        from compare.sweep.show import Look
+        from models.reading import scenario_text
+
+        job = Job(
+            source=scenario,
+            text=scenario_text(scenario),
+            x=x,
+            y=y,
+            out=out,
+            engine=None if both else Engine(engine or "analytic"),
+            after=after,
+            resume=resume,
+            overwrite=overwrite,
+            scheduler=scheduler,
+            png=png,
+            look=Look(palette=Palette(palette or "paper"), boundaries=boundaries, size=size, dpi=dpi or DPI),
+        )
+        for result in make(job, _watched):
+            click.echo(result)
 
 
 @main.command()
@@ -218,43 +348,83 @@ def video(scenario: str, out: Path) -> None:
     type=click.Path(path_type=Path),
     help="Folder for the results; made if missing. NAME lies in NAME/.",
 )
+@click.option("--quick", is_flag=True, help="Make the smaller size of what has one.")
 @click.pass_context
-def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None) -> None:
+def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quick: bool) -> None:
     """Compute figures and studies anew, write their data and pictures, and check what they claim.
 
-    Without NAME, list what can be reproduced. Exit status 1: a claim does not hold.
+    NAME may be `all`: all figures of the paper, with REPRODUCTION.md and gallery.html over them. Without
+    NAME, list what can be reproduced. Exit status 1: a claim does not come out as it is known to.
     """
-    from compare import reproduction
+    from compare import gallery, reproduction
+    from compare.files import require_folder
+    from compare.graphics import require_mujoco
 
+    with _plain_errors("reproduce"):
+        require_mujoco()
     known = reproduction.names()
+    pages = names == ("all",)
+    if pages:
+        names = tuple(gallery.of_paper())
     for name in names:
         if name not in known:
             ctx.fail(f"{name}: no such figure; accepted: {', '.join(known)}")
     if not names and out is None:
+        width = max(map(len, known)) + 2
         for name in known:
             figure = reproduction.find(name)
-            click.echo(f"{name:16}{figure.title} ({figure.seconds:g} s)")
+            place = f"{figure.paper}: " if figure.paper else ""
+            click.echo(f"{name:{width}}{place}{figure.title} ({figure.seconds:g} s)")
         return
     if not names or out is None:
-        ctx.fail(f"accepted: NAME ... --out DIR, NAME one of: {', '.join(known)}; or neither, for a list")
+        ctx.fail(
+            f"accepted: NAME ... --out DIR, NAME one of: {', '.join(known)}, or all; or neither, for a list"
+        )
     with _plain_errors(str(out)):
+        require_folder(out, gallery.PAGES if pages else ())
         for name in names:
             reproduction.folder_of(name, out)
         failed = []
         for name in names:
-            made = reproduction.reproduce(name, out, _progress(name, "parts"))
+            made = reproduction.reproduce(name, out, _progress(name, "parts"), quick=quick)
             click.echo(made.text)
             failed += [f"{name}: {claim}" for claim in made.failed]
+        if pages:
+            gallery.write(out, names, quick=quick)
     for claim in failed:
         click.echo(f"cointoss: {claim}: not so", err=True)
     sys.exit(1 if failed else 0)
 
 
+@contextmanager
+def _watched(name: str, done: int, count: int) -> Iterator[Callable[[int], None]]:
+    """Give a function to be told of tosses made; show on the terminal their number, rate, and time left."""
+    from tqdm import tqdm
+
+    kept = done
+
+    def more(tosses: int) -> None:
+        nonlocal kept
+        kept += tosses
+        bar.update(tosses)
+
+    # Not on a terminal, it shows nothing.
+    with tqdm(desc=name, initial=done, total=count, unit=" tosses", unit_scale=True, disable=None) as bar:
+        try:
+            yield more
+        except KeyboardInterrupt:
+            bar.close()
+            _say(f"{name}: {kept} of {count} tosses are kept; --resume goes on with them")
+            raise
+
+
 def _progress(what: str, parts: str) -> Callable[[int, int], None]:
-    """Give a function that shows on the terminal how far a job is, in its `parts`."""
+    """Give a function that shows on the terminal how far a job is, in its `parts`, by a bar."""
 
     def show(done: int, count: int) -> None:
         if sys.stderr.isatty():
-            click.echo(f"\r{what}: {done}/{count} {parts}", err=True, nl=done == count)
+            full = _BAR * done // count
+            bar = full * "#" + (_BAR - full) * "-"
+            click.echo(f"\r{what}: [{bar}] {done}/{count} {parts}", err=True, nl=done == count)
 
     return show

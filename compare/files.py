@@ -27,7 +27,7 @@ def require_file(path: Path, suffix: str, source: str) -> None:
     """
     if path.suffix.lower() != suffix:
         raise UnwritableError(f"{path}: accepted: a file name that ends in {suffix}")
-    with _naming(path):
+    with naming(path):
         if not path.parent.is_dir():
             raise UnwritableError(f"{path}: accepted: a file in a folder that exists")
         target = _target(path)
@@ -51,7 +51,7 @@ def require_folder(folder: Path, names: tuple[str, ...], source: str | None = No
     Raises:
         UnwritableError: naming the folder or the file in the way, and why.
     """
-    with _naming(folder):
+    with naming(folder):
         if os.path.lexists(folder) and not folder.is_dir():
             raise UnwritableError(f"{folder}: accepted: a folder (this is none)")
         in_the_way = [folder / name for name in names if os.path.lexists(folder / name)]
@@ -84,7 +84,7 @@ def require_replaceable(path: Path, source: str | None = None) -> None:
 
 def is_stream(path: Path) -> bool:
     """Tell whether `path` is a device, a pipe, or where standard output goes: no file to replace."""
-    with _naming(path):
+    with naming(path):
         return path.exists() and (_is_stdout(path) or not (path.is_file() or path.is_dir()))
 
 
@@ -94,7 +94,7 @@ def write_text(path: Path, text: str) -> None:
     Raises:
         UnwritableError: naming the file and why.
     """
-    with _naming(path):
+    with naming(path):
         if not is_stream(path):
             with written_whole(path) as aside:
                 aside.write_text(text, encoding="utf-8")
@@ -112,7 +112,7 @@ def written_whole(path: Path) -> Iterator[Path]:
     Raises:
         UnwritableError: naming the file and why, for every error of the system on the way.
     """
-    with _naming(path):
+    with naming(path):
         target = _target(path)
         handle, name = tempfile.mkstemp(dir=target.parent, prefix=".cointoss-", suffix=path.suffix)
         os.close(handle)
@@ -135,7 +135,7 @@ def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
         UnwritableError: naming the folder and why, for every error of the system on the way.
     """
     made = [part for part in (folder, *folder.parents) if not os.path.lexists(part)]
-    with _naming(folder):
+    with naming(folder):
         try:
             folder.mkdir(parents=True, exist_ok=True)
             # Inside, because the rename must stay on one disk.
@@ -157,7 +157,7 @@ def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
 
 
 @contextmanager
-def _naming(path: Path) -> Iterator[None]:
+def naming(path: Path) -> Iterator[None]:
     """Name a path in the system's errors about it."""
     try:
         yield

@@ -24,6 +24,26 @@ ADVICE = (
 )
 
 UNKNOWN = "video can't be drawn here"
+BACK_ENDS = "accepted as MUJOCO_GL: egl, glfw, osmesa where it is installed, disable, or nothing"
+
+
+class BackEndError(RuntimeError):
+    """MuJoCo's back end for drawing keeps it from being imported; the message says what is accepted."""
+
+
+def require_mujoco() -> None:
+    """Import MuJoCo to compute with.
+
+    Raises:
+        BackEndError: where MUJOCO_GL names a back end that there is none of, or not here.
+    """
+    try:
+        import mujoco  # noqa: F401
+    # Each back end fails in its own way, from ImportError to AttributeError.
+    except Exception as error:
+        raise BackEndError(
+            f"MUJOCO_GL = {os.environ.get('MUJOCO_GL', '')}: MuJoCo can't be used ({error}); {BACK_ENDS}"
+        ) from None
 
 
 def drawing_problem() -> str | None:
@@ -34,14 +54,16 @@ def drawing_problem() -> str | None:
     Returns:
         None if drawing works, else what to install, or what went wrong.
     """
-    if sys.platform == "linux" and "DISPLAY" not in os.environ:
-        os.environ.setdefault("MUJOCO_GL", "egl")
+    if sys.platform == "linux" and "DISPLAY" not in os.environ and not os.environ.get("MUJOCO_GL"):
+        os.environ["MUJOCO_GL"] = "egl"
     said = _drawing_complaint()
     if said is None:
         return None
     # Importing MuJoCo for a back end that is missing would fail too.
     os.environ["MUJOCO_GL"] = "disabled"
-    lacks_library = re.search("gl|mesa|signal", said, re.IGNORECASE) and "invalid value" not in said
+    if "invalid value" in said:
+        return f"{UNKNOWN} ({said}); {BACK_ENDS}"
+    lacks_library = re.search("gl|mesa|signal", said, re.IGNORECASE)
     return f"{ADVICE if lacks_library else UNKNOWN} ({said})"
 
 

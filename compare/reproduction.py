@@ -35,6 +35,14 @@ class Figure:
     """Names of the files it writes."""
     run: Callable[[Path, Progress], Made]
     """Compute it, write its files into a folder that exists, and check its claims."""
+    quick: Callable[[Path, Progress], Made] | None = None
+    """The same at a smaller size, where there is one."""
+    quick_seconds: float = 0.0
+    """Roughly how long that takes on two cores [s]."""
+    paper: str = ""
+    """Its place in the paper, as in "Fig. 3"; empty for a study of our own."""
+    assumed: str = ""
+    """What the paper leaves unsaid, and what is taken here."""
 
 
 def names() -> list[str]:
@@ -62,17 +70,18 @@ def folder_of(name: str, out: Path) -> Path:
     return out / name
 
 
-def reproduce(name: str, out: Path, progress: Progress) -> Made:
+def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) -> Made:
     """Compute a figure and write its files into the folder `out`/`name`, all of them or none.
 
     Args:
         name: of the figure, one of `names`.
         out: folder of all figures, made if missing.
         progress: called as the work goes on.
+        quick: whether to make its quick size, if it has one.
 
     Raises:
         UnwritableError: naming the folder and why.
     """
     figure = find(name)
     with written_together(folder_of(name, out), figure.files) as aside:
-        return figure.run(aside, progress)
+        return (figure.quick if quick and figure.quick else figure.run)(aside, progress)

@@ -10,7 +10,7 @@ from models.attitude import rotation_matrix
 from models.compiled import compiled
 from models.geometry import damping_rate, gap
 from models.records import Array
-from models.scenario import FASTEST_DRAG, FASTEST_SPIN, LARGEST, Scenario
+from models.scenario import FASTEST_DRAG, FASTEST_SPIN, LARGEST, NORM_ROUNDING, Scenario
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -22,7 +22,7 @@ class Releases:
     velocity: Array
     """Of C, space frame, (n, 3) [m/s]."""
     quaternion: Array
-    """Euler parameters, body to space, (n, 4); brought to norm 1."""
+    """Euler parameters, body to space, (n, 4); brought to norm 1 as those of a `Release` are."""
     angular_velocity: Array
     """ω, body frame, (n, 3) [rad/s]."""
 
@@ -42,7 +42,7 @@ class Releases:
             if item.name == "quaternion":
                 size = np.array([math.hypot(*e) for e in array.tolist()])
                 _refuse(item.name, array, ~(np.abs(size - 1) <= 1e-3), "four numbers of norm 1 within 1e-3")
-                array /= size[:, None]
+                array /= np.where(np.abs(size - 1) <= NORM_ROUNDING, 1.0, size)[:, None]
             array.setflags(write=False)
             object.__setattr__(self, item.name, array)
 

@@ -60,6 +60,9 @@ LARGEST, SMALLEST = 1e9, 1e-9
 FASTEST_SPIN, FASTEST_DRAG = 1e5, 1e4
 # In an angle beyond it the digits that tell one attitude from another are gone [rad].
 LARGEST_ANGLE = 1e6
+# Euler parameters whose norm is 1 within rounding stay as they are: made from angles, or brought to norm 1
+# before, they would change in their last digit.
+NORM_ROUNDING = 1e-15
 
 _within = Field(ge=-LARGEST, le=LARGEST)
 _size = Field(ge=SMALLEST, le=LARGEST)
@@ -227,7 +230,9 @@ class Release(_Part):
         size = math.hypot(*e)
         if not abs(size - 1) <= 1e-3:
             raise ValueError(f"four numbers of norm 1 within 1e-3 (the norm here is {size:.6g})")
-        return tuple(x / size for x in e) if size != 1 else e  # pyright: ignore[reportReturnType]
+        if abs(size - 1) <= NORM_ROUNDING:
+            return e
+        return tuple(x / size for x in e)  # pyright: ignore[reportReturnType]
 
     @model_validator(mode="after")
     def _one_attitude(self) -> Self:

@@ -18,6 +18,8 @@ from models.records import Outcome
 
 PANEL_SIZE = (5.0, 4.5)
 """Of one map, width and height [inches]."""
+COMPARISON_SIZE = (3 * PANEL_SIZE[0], PANEL_SIZE[1])
+"""Of three maps side by side, width and height [inches]."""
 DPI = 150
 _ENTRY_WIDTH = 1.2  # of the legend [inches]
 _INK = "#5b6675"
@@ -86,11 +88,23 @@ def draw_map(
     """
     codes = outcome_map(outcomes)
     figure = Figure(figsize=size, layout="constrained")
-    axes = figure.add_subplot()
-    _show(axes, _colored(codes, palette, boundaries), x, y)
-    axes.set_ylabel(_label(y))
+    draw_panel(figure.add_subplot(), codes, x=x, y=y, palette=palette, boundaries=boundaries)
     _legend(figure, _outcome_patches([codes], palette, boundaries))
     return figure
+
+
+def draw_panel(
+    axes: Axes,
+    outcomes: ArrayLike,
+    *,
+    x: Axis,
+    y: Axis,
+    palette: Palette = Palette.PAPER,
+    boundaries: bool = False,
+) -> None:
+    """Draw a map into `axes`, without a legend; see `draw_map` for the other arguments."""
+    _show(axes, _colored(outcome_map(outcomes), palette, boundaries), x, y)
+    axes.set_ylabel(_label(y))
 
 
 def draw_comparison(
@@ -101,7 +115,8 @@ def draw_comparison(
     y: Axis,
     palette: Palette = Palette.PAPER,
     boundaries: bool = False,
-    size: tuple[float, float] = (3 * PANEL_SIZE[0], PANEL_SIZE[1]),
+    size: tuple[float, float] = COMPARISON_SIZE,
+    note: str = "",
 ) -> Figure:
     """Draw the maps of both engines and where they differ, side by side.
 
@@ -113,6 +128,7 @@ def draw_comparison(
         palette: the outcomes' colours.
         boundaries: whether pixels at a boundary are coloured as such.
         size: width and height of the whole [inches].
+        note: more lines over the difference.
 
     Raises:
         ValueError: for maps of two shapes.
@@ -128,7 +144,7 @@ def draw_comparison(
     difference[~decided] = _rgb(_COLORS[palette][Outcome.UNDECIDED])
     for axes, title, colors in zip(
         panels,
-        ("paper's mechanics", "MuJoCo", _difference_title(different, decided)),
+        ("paper's mechanics", "MuJoCo", f"{_difference_title(different, decided)}\n{note}".rstrip()),
         (_colored(a, palette, boundaries), _colored(b, palette, boundaries), difference),
         strict=True,
     ):

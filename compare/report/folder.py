@@ -56,9 +56,10 @@ def write_report(
 
         video = None
         if comparison and no_video is None:
-            from coin_mj.video import write_video
+            from coin_mj.drawing import Camera
+            from coin_mj.video import SMALL, write_video
 
-            write_video(comparison.mujoco, aside / "toss.mp4", progress)
+            write_video(tosses, Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress)
             video = (aside / "toss.mp4").read_bytes()
 
         page = Page(

@@ -6,6 +6,8 @@ import pytest
 import analytic
 from analytic.euler_angles import axis_rotation
 from analytic.flight import derivative
+from analytic.flight_tangent import flight_tangent
+from analytic.toss import state_of
 from models.ending import barrier
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
@@ -128,3 +130,33 @@ def test_forces_that_depend_on_the_attitude_alone_couple_eqs_21_and_22():
     assert np.array_equal(rates(case, flat, slow)[1], rates(case, leaning, slow)[1])
     # ... and yet the path needs the attitude.
     assert np.abs(rates(case, flat, slow)[0] - rates(case, leaning, slow)[0]).max() > 0.1
+
+
+def growth_of_spin(case, change, duration):
+    """Give by how much a small change of the angular velocity has grown after a flight."""
+    y, changes = state_of(case.release), np.zeros((1, 13))
+    changes[0, 10:] = change
+    flight_tangent(case.body, y, duration, changes, np.zeros(13, dtype=np.bool_))
+    return np.linalg.norm(changes[0, 10:]) / np.linalg.norm(change)
+
+
+@pytest.mark.parametrize("duration", [0.3, 0.6])
+def test_about_its_middle_axis_the_imperfect_coin_has_a_lyapunov_exponent_above_zero(duration):
+    coin, spin = {**ZLOTY, "center_of_mass": PAPER_OFFSET}, 40.0
+    J, axes = np.linalg.eigh(scenario(coin=coin).coin.inertia_about_C)
+    w = (spin * axes[:, 1]).tolist()
+    case = scenario(coin=coin, release={"position": [0, 0, 50.0], "angular_velocity": w})
+    # J_1 dw_1/dt = (J_2 - J_3) spin w_3 and J_3 dw_3/dt = (J_1 - J_2) spin w_1, in axes of the right hand.
+    rate = spin * np.sqrt((J[1] - J[0]) * (J[2] - J[1]) / (J[0] * J[2]))
+    ratio = np.linalg.det(axes) * rate * J[0] / ((J[1] - J[2]) * spin)
+    grown = growth_of_spin(case, axes[:, 0] + ratio * axes[:, 2], duration)
+    assert np.log(grown) / duration == pytest.approx(rate, rel=1e-9)
+    assert rate > 6
+
+
+@pytest.mark.parametrize("duration", [0.5, 5.0])
+def test_in_air_a_lyapunov_exponent_stays_below_zero(duration):
+    case = scenario(air=AIR, release={"position": [0, 0, 500.0], "angular_velocity": [0.0, 0.0, 40.0]})
+    exponent = np.log(growth_of_spin(case, np.array([0, 0, 1.0]), duration)) / duration
+    assert exponent == pytest.approx(-case.body.drag.moment_normal / case.body.inertia[2][2], rel=1e-9)
+    assert exponent < -0.1

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from coin_mj.contact import ContactSettings, rebound_of
-from coin_mj.scene import build, build_painted, shape_thickness
+from coin_mj.scene import build, shape_thickness
 from coin_mj.state import of_release, to_mass_center
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
@@ -59,15 +59,6 @@ def test_a_mass_center_less_than_a_micrometre_off_is_kept():
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     assert data.body("coin").xipos[2] - data.body("coin").xpos[2] == pytest.approx(5e-7, abs=1e-15)
-
-
-def test_only_the_painted_model_has_paint():
-    case = scenario(coin=IMPERFECT)
-    plain, painted = built(case), build_painted(case, span=0.5)
-    assert plain.ngeom == 2
-    assert painted.ngeom == 6
-    assert painted.body("coin").mass[0] == plain.body("coin").mass[0]
-    assert painted.body("coin").inertia == pytest.approx(plain.body("coin").inertia, rel=1e-15)
 
 
 def test_a_release_converts_to_mujocos_state_and_back():

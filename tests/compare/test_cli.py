@@ -8,12 +8,18 @@ import signal
 import subprocess
 import sys
 import time
+from io import StringIO
 from pathlib import Path
+from typing import Any
+from unittest.mock import patch
 
+import imageio_ffmpeg
 import pytest
 from click.testing import CliRunner
 
-from compare.cli import main
+from coin_mj.drawing import Drawer
+from coin_mj.video import Format
+from compare.cli import _progress, main
 from compare.files import UnwritableError, require_file, write_text
 from compare.graphics import drawing_problem
 from models.reading import scenario_text
@@ -146,6 +152,7 @@ def test_a_contact_may_take_one_step(tmp_path):
         ["throw", "fig24a"],
         ["toss", "no_such_scenario"],
         ["video", "fig24a", "--out", "film.gif"],
+        ["video", "fig24a", "--out", "film.mp4", "--camera", "below"],
     ],
 )
 def test_wrong_arguments_are_exit_status_2(arguments):
@@ -325,8 +332,93 @@ def test_a_film_that_is_interrupted_leaves_nothing(tmp_path, sign, status):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.fixture
+def small_films(monkeypatch):
+    """Films of the size of a stamp, of two frames a second."""
+    monkeypatch.setattr("coin_mj.video.FULL", Format(64, 48, 2))
+
+
+@pytest.fixture
+def short(tmp_path):
+    """A scenario that ends at its first impact."""
+    source = tmp_path / "short.toml"
+    source.write_text(scenario_text("fig24a") + "\n[ending]\nmax_impacts = 1\n")
+    return source
+
+
+@pytest.mark.parametrize(
+    ("engine", "camera"), [("analytic", "overview"), ("mujoco", "top"), ("both", "close-up")]
+)
+@pytest.mark.usefixtures("small_films")
+def test_a_film_has_one_panel_for_each_toss(tmp_path, short, engine, camera):
+    film = tmp_path / "film.mp4"
+    with patch("coin_mj.video.Drawer", side_effect=Drawer) as drawers:
+        answered = cointoss("video", short, "--engine", engine, "--camera", camera, "--out", film)
+    assert answered.exit_code == 0
+    assert answered.stdout == f"{film}\n"
+    engines = ["analytic", "mujoco"] if engine == "both" else [engine]
+    assert [call.args[0].toss.engine for call in drawers.call_args_list] == engines
+    assert {call.args[1] for call in drawers.call_args_list} == {camera}
+    assert {call.kwargs["width"] for call in drawers.call_args_list} == {64 // len(engines)}
+    counted: Any = imageio_ffmpeg.count_frames_and_secs(str(film))
+    assert counted[0] >= 2
+    assert {path.name for path in tmp_path.iterdir()} == {"short.toml", "film.mp4"}
+
+
+@pytest.mark.usefixtures("small_films")
+def test_an_interrupted_film_leaves_what_was_there(tmp_path, short):
+    film = tmp_path / "film.mp4"
+    film.write_text("an earlier film")
+    with patch("coin_mj.video.written", side_effect=KeyboardInterrupt):
+        answered = cointoss("video", short, "--out", film)
+    assert answered.exit_code == 1
+    assert answered.stderr.strip() == "Aborted!"
+    assert film.read_text() == "an earlier film"
+    assert {path.name for path in tmp_path.iterdir()} == {"short.toml", "film.mp4"}
+
+
+@pytest.mark.usefixtures("small_films")
+def test_a_law_that_mujoco_lacks_is_filmed_by_the_papers_mechanics_alone(tmp_path):
+    film = tmp_path / "film.mp4"
+    for engine in ("mujoco", "both"):
+        answered = cointoss("video", "contact_knurled", "--engine", engine, "--out", film)
+        assert answered.exit_code == 2
+        assert 'floor.contact = "knurled": accepted by the MuJoCo engine' in answered.stderr
+        assert not film.exists()
+    source = tmp_path / "knurled.toml"
+    source.write_text(scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 1"))
+    assert cointoss("video", source, "--engine", "analytic", "--out", film).exit_code == 0
+    assert film.exists()
+
+
+@pytest.mark.parametrize(
+    "command", ["toss fig24a --engine mujoco", "video fig24a --out film.mp4", "reproduce endings --out out"]
+)
+def test_a_back_end_that_is_none_is_one_line_and_exit_status_2(tmp_path, command):
+    done = in_a_shell(f"export MUJOCO_GL=nonsense; cointoss {command}; echo $?", tmp_path)
+    assert done.stdout == "2\n"
+    assert len(done.stderr.splitlines()) == 1
+    assert "accepted as MUJOCO_GL: egl" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_progress_is_a_bar_on_a_terminal_alone(monkeypatch):
+    told = StringIO()
+    monkeypatch.setattr("sys.stderr", told)
+    show = _progress("video", "frames")
+    show(1, 2)
+    assert told.getvalue() == ""
+    monkeypatch.setattr(told, "isatty", lambda: True)
+    show(1, 2)
+    show(2, 2)
+    half, whole = 15 * "#", 30 * "#"
+    assert told.getvalue() == f"\rvideo: [{half}{15 * '-'}] 1/2 frames\rvideo: [{whole}] 2/2 frames\n"
+
+
 def test_a_film_that_cannot_be_written_is_one_line(tmp_path):
-    done = in_a_shell("ulimit -f 8; cointoss video zloty --out film.mp4; echo $?", tmp_path)
+    small = "import coin_mj.video as v; v.FULL = v.Format(320, 240, 6); from compare.cli import main; main()"
+    command = f'"{sys.executable}" -c "{small}" video fig24a --out film.mp4'
+    done = in_a_shell(f"ulimit -f 8; {command}; echo $?", tmp_path)
     assert done.stdout == "2\n"
     assert done.stderr.startswith("cointoss: film.mp4: can't be written (ffmpeg: ")
     assert len(done.stderr.splitlines()) == 1

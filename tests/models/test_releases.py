@@ -65,6 +65,18 @@ def test_the_arrays_are_copies_and_read_only():
         releases.position[0, 2] = 1
 
 
+def test_an_attitude_from_angles_is_that_of_one_release_to_the_bit():
+    angles = np.random.default_rng(2).uniform(-4, 4, (200, 3))
+    one_by_one = np.array(
+        [Release(position=(0, 0, 1), angles=tuple(row)).attitude for row in angles.tolist()]
+    )
+    assert np.any(np.sum(one_by_one**2, axis=1) != 1), "some norm should be off by rounding"
+    many = Releases(**{**{name: np.zeros((200, 3)) for name in GOOD}, "quaternion": one_by_one})
+    assert np.array_equal(many.quaternion, one_by_one)
+    again = [Release(position=(0, 0, 1), quaternion=tuple(row)).attitude for row in one_by_one.tolist()]
+    assert np.array_equal(again, one_by_one)
+
+
 @pytest.mark.parametrize(
     ("name", "column", "value", "accepted"),
     [

@@ -1,0 +1,84 @@
+"""The maps of Figs 29 to 31: faces of the planar thin coin over its release height and spin."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+import analytic
+from compare.basins.maps import Outcomes
+from models.outcomes import Outcomes as Ended
+from models.reading import load
+from models.records import Array
+from models.releases import Releases
+from models.scenario import Air, Scenario
+
+HEIGHTS, SPINS = (0.2, 0.6), (20.0, 60.0)
+"""Ranges of the axes: release height [m] and spin about ξ [rad/s]."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Grid:
+    """Points of a map: every spin with every height."""
+
+    heights: Array
+    """(x) [m]."""
+    spins: Array
+    """(y) [rad/s]."""
+
+    @property
+    def releases(self) -> Releases:
+        """All points, row by row, (y x)."""
+        z, w = (part.ravel() for part in np.meshgrid(self.heights, self.spins))
+        return releases(z, w)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Shape of a map, (y, x)."""
+        return len(self.spins), len(self.heights)
+
+
+def whole_grid(points: int) -> Grid:
+    """Give the grid of a whole map with so many points along each side."""
+    return Grid(heights=np.linspace(*HEIGHTS, points), spins=np.linspace(*SPINS, points))
+
+
+def releases(heights: Array, spins: Array) -> Releases:
+    """Give releases of the coin flat, heads up, at rest but for its spin about ξ; both arguments (n,)."""
+    zero, one = np.zeros_like(heights), np.ones_like(heights)
+    return Releases(
+        position=np.stack([zero, zero, heights], axis=1),
+        velocity=np.stack([zero, zero, zero], axis=1),
+        quaternion=np.stack([one, zero, zero, zero], axis=1),
+        angular_velocity=np.stack([spins, zero, zero], axis=1),
+    )
+
+
+def case(*, air: bool, restitution: float = 0.6, max_impacts: int | None = None) -> Scenario:
+    """Give the scenario of the maps.
+
+    Args:
+        air: whether there is any.
+        restitution: χ.
+        max_impacts: as many as that end a toss, by default those of the scenario.
+    """
+    scenario = load("fig29")
+    changes = {
+        "air": scenario.air if air else Air(),
+        "floor": scenario.floor.model_copy(update={"restitution": restitution}),
+    }
+    if max_impacts is not None:
+        changes["ending"] = scenario.ending.model_copy(update={"max_impacts": max_impacts})
+    return scenario.model_copy(update=changes)
+
+
+def final_faces(scenario: Scenario, grid: Grid) -> Outcomes:
+    """Give the map of the outcomes, (y, x)."""
+    return analytic.toss_many(scenario, grid.releases).outcome.reshape(grid.shape)
+
+
+def faces_after(scenario: Scenario, points: Releases, impacts: int) -> NDArray[np.int8]:
+    """Give the face up at the touch after so many impacts, the outcome where the toss ended before, (n,)."""
+    ending = scenario.ending.model_copy(update={"max_impacts": impacts + 1})
+    ended: Ended = analytic.toss_many(scenario.model_copy(update={"ending": ending}), points)
+    return ended.after(impacts)

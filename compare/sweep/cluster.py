@@ -1,0 +1,84 @@
+"""Toss tiles on the workers of a Dask cluster."""
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from itertools import islice
+from typing import Any
+
+from compare.engines import versions
+from compare.sweep.fields import SweepError
+from compare.sweep.grid import Sweep, Tile
+from compare.sweep.pixels import Pixels, toss_pixels
+from compare.sweep.run import Tosser
+
+AHEAD = 2
+"""Tiles given out for each thread of a worker: one that it tosses, and one that waits."""
+PATIENCE = 60
+"""How long to wait for the scheduler, and for a first worker [s]."""
+
+
+@contextmanager
+def cluster(address: str) -> Iterator[Tosser]:
+    """Give a tosser that has the workers of a cluster toss the tiles.
+
+    The workers keep nothing: a tile lost with its worker is tossed again by another. A worker tosses on all
+    its cores, so one thread for each is enough.
+
+    Args:
+        address: of the Dask scheduler, such as tcp://10.0.0.1:8786.
+
+    Raises:
+        SweepError: if dask.distributed is not installed, or the cluster can't be reached or has no worker;
+            while tossing, if the cluster is lost, or a worker has other versions of what makes a toss.
+    """
+    try:
+        import distributed
+    except ImportError:
+        raise SweepError(
+            f'--scheduler {address}: needs dask.distributed; accepted: pip install "cointoss[cluster]"'
+        ) from None
+    try:
+        client: Any = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
+    except (OSError, ValueError, TypeError) as error:
+        raise SweepError(
+            f"--scheduler {address}: accepted: the address of a running Dask scheduler ({error})"
+        ) from None
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=PATIENCE)
+        except TimeoutError:
+            raise SweepError(f"--scheduler {address}: accepted: a cluster with a worker") from None
+
+        def toss(sweep: Sweep, tiles: Iterable[Tile]) -> Iterator[tuple[Tile, Pixels]]:
+            here, waiting = versions(sweep.engine), iter(tiles)
+            running = distributed.as_completed(loop=client.loop)
+
+            def give_out(count: int) -> None:
+                for tile in islice(waiting, count):
+                    running.add(client.submit(_toss_there, sweep, tile, here, pure=False))
+
+            give_out(_room(client))
+            for future in running:
+                # Workers may have come since.
+                give_out(max(1, _room(client) - running.count()))
+                try:
+                    tossed = future.result()
+                except (distributed.CancelledError, distributed.KilledWorker) as error:
+                    raise SweepError(
+                        f"--scheduler {address}: the cluster lost a tile ({error}); --resume goes on"
+                    ) from None
+                yield tossed
+
+        yield toss
+
+
+def _room(client: Any) -> int:
+    """Give how many tiles may be out at a time."""
+    return max(1, AHEAD * sum(client.nthreads().values()))
+
+
+def _toss_there(sweep: Sweep, tile: Tile, expected: dict[str, str]) -> tuple[Tile, Pixels]:
+    there = versions(sweep.engine)
+    if there != expected:
+        raise SweepError(f"--scheduler: a worker has {there}; accepted: {expected}, as here")
+    return tile, toss_pixels(sweep, tile)

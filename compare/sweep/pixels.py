@@ -1,0 +1,164 @@
+"""The tosses of a part of a map."""
+
+from collections.abc import Iterator
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.engines import require_supported, toss_many
+from compare.sweep.axes import Axis
+from compare.sweep.fields import SweepError, is_of_release, split, with_values
+from compare.sweep.grid import Sweep, Tile
+from models.attitude import quaternion_from_angles
+from models.records import Array
+from models.releases import Releases, check_releases
+from models.scenario import Scenario
+
+_ENDS_SUFFICE = (
+    "gravity",
+    "coin.mass",
+    "air.normal",
+    "air.tangential",
+    "floor.",
+    "release.position.",
+    "release.velocity.",
+    "release.angular_velocity.",
+    "ending.",
+)
+"""Fields in each of which all conditions on a scenario are monotone or convex."""
+
+
+class Pixels(NamedTuple):
+    """What is known of the pixels of a tile."""
+
+    outcome: NDArray[np.int8]
+    """`Outcome`, (y, x)."""
+    impacts: NDArray[np.int32]
+    """Number of impacts, (y, x)."""
+
+
+class Group(NamedTuple):
+    """Pixels whose tosses differ in their release alone."""
+
+    scenario: Scenario
+    """That of the first."""
+    releases: Releases
+    """Row by row."""
+    rows: slice
+    columns: slice
+
+
+def toss_pixels(sweep: Sweep, tile: Tile) -> Pixels:
+    """Toss all pixels of a tile.
+
+    Raises:
+        SweepError: for values that make no valid scenario.
+        UnsupportedError: for a scenario that the engine can't toss.
+    """
+    y, x = sweep.y.values[tile.rows], sweep.x.values[tile.columns]
+    outcome, impacts = np.empty((len(y), len(x)), dtype=np.int8), np.empty((len(y), len(x)), dtype=np.int32)
+    for group in groups(sweep, y, x):
+        tossed = toss_many(sweep.engine, group.scenario, group.releases)
+        shown = tossed.outcome if sweep.after is None else tossed.after(sweep.after)
+        for whole, part in ((outcome, shown), (impacts, tossed.impacts)):
+            block = whole[group.rows, group.columns]
+            block[:] = part.reshape(block.shape)
+    return Pixels(outcome, impacts)
+
+
+def pixel_scenario(sweep: Sweep, y: float, x: float) -> Scenario:
+    """Give the scenario of the toss at a point of the map.
+
+    Raises:
+        SweepError: for values that make no valid scenario, naming them.
+    """
+    try:
+        scenario = with_values(sweep.scenario, {sweep.y.field: y, sweep.x.field: x})
+    except SweepError as error:
+        raise SweepError(f"{error} (at {sweep.x.field} = {x:g}, {sweep.y.field} = {y:g})") from None
+    if sweep.after is None:
+        return scenario
+    most = min(sweep.after + 1, scenario.ending.max_impacts)
+    return scenario.model_copy(update={"ending": scenario.ending.model_copy(update={"max_impacts": most})})
+
+
+def groups(sweep: Sweep, y: Array, x: Array) -> Iterator[Group]:
+    """Give the tosses at points of the map, those of one coin on one floor together.
+
+    Args:
+        sweep: whose fields vary.
+        y: values of the field of the rows, (ny,).
+        x: values of the field of the columns, (nx,).
+    """
+    for rows, columns in _blocks(sweep, len(y), len(x)):
+        first = pixel_scenario(sweep, float(y[rows][0]), float(x[columns][0]))
+        yield Group(first, _releases(sweep, first, y[rows], x[columns]), rows, columns)
+
+
+def check(sweep: Sweep) -> None:
+    """Refuse a sweep with a pixel that is no valid scenario, or that its engine can't toss.
+
+    Every value of an axis is tried, or its two ends where these suffice.
+
+    Raises:
+        SweepError: naming field, value, and what is accepted.
+        UnsupportedError: likewise.
+    """
+    y, x = _tried(sweep.y), _tried(sweep.x)
+    rows_at_once = max(1, (1 << 14) // len(x))
+    for top in range(0, len(y), rows_at_once):
+        some = y[top : top + rows_at_once]
+        for rows, columns in _blocks(sweep, len(some), len(x)):
+            _check_together(sweep, some[rows], x[columns])
+
+
+def _check_together(sweep: Sweep, y: Array, x: Array) -> None:
+    """Refuse points whose tosses can be made together."""
+    first = pixel_scenario(sweep, float(y[0]), float(x[0]))
+    require_supported(sweep.engine, first)
+    try:
+        check_releases(first, _releases(sweep, first, y, x))
+    except ValueError:
+        # One by one, as scenarios, which name the field.
+        for at_y, at_x in product(y.tolist(), x.tolist()):
+            pixel_scenario(sweep, at_y, at_x)
+        raise
+
+
+def _tried(axis: Axis) -> Array:
+    return np.array([axis.start, axis.stop]) if axis.field.startswith(_ENDS_SUFFICE) else axis.values
+
+
+def _blocks(sweep: Sweep, ny: int, nx: int) -> Iterator[tuple[slice, slice]]:
+    """Give the rows and columns whose tosses can be made together."""
+    yield from product(_parts(sweep.y, ny), _parts(sweep.x, nx))
+
+
+def _parts(axis: Axis, count: int) -> list[slice]:
+    return [slice(0, count)] if is_of_release(axis.field) else [slice(i, i + 1) for i in range(count)]
+
+
+def _releases(sweep: Sweep, first: Scenario, y: Array, x: Array) -> Releases:
+    count = len(y) * len(x)
+    release = first.release
+    numbers = {
+        "position": release.position,
+        "velocity": release.velocity,
+        "angles": release.angles or (0.0, 0.0, 0.0),
+        "quaternion": release.attitude,
+        "angular_velocity": release.angular_velocity,
+    }
+    varied = {split(axis.field)[1] for axis in (sweep.y, sweep.x) if is_of_release(axis.field)}
+    if "quaternion" in varied:  # the first pixel's is brought to norm 1 as a whole
+        numbers["quaternion"] = sweep.scenario.release.attitude
+    columns = {name: np.tile(row, (count, 1)) for name, row in numbers.items()}
+    for axis, values in ((sweep.y, np.repeat(y, len(x))), (sweep.x, np.tile(x, len(y)))):
+        if is_of_release(axis.field):
+            _, key, index = split(axis.field)
+            columns[key][:, index] = values
+    angles = columns.pop("angles")
+    if "angles" in varied:
+        columns["quaternion"] = np.array([quaternion_from_angles((a, b, c)) for a, b, c in angles.tolist()])
+    return Releases(**columns)

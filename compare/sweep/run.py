@@ -1,0 +1,92 @@
+"""Fill a map with the tosses that it lacks."""
+
+import os
+import shutil
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+
+import numpy as np
+
+from compare.files import UnwritableError
+from compare.sweep.fields import SweepError
+from compare.sweep.grid import Sweep, Tile
+from compare.sweep.pixels import Pixels, toss_pixels
+from compare.sweep.store import BYTES_PER_PIXEL, Map
+from models.records import Outcome
+
+Tosser = Callable[[Sweep, Iterable[Tile]], Iterator[tuple[Tile, Pixels]]]
+"""Tosses all pixels of tiles and gives the tiles, in any order."""
+Progress = Callable[[int], None]
+"""Called with the number of pixels that were tossed."""
+
+DRAWING_BYTES_PER_PIXEL = 80
+"""Memory that measuring and drawing a map takes, at most."""
+
+
+def toss_here(sweep: Sweep, tiles: Iterable[Tile]) -> Iterator[tuple[Tile, Pixels]]:
+    """Toss tiles one after the other, each on all cores of this machine."""
+    for tile in tiles:
+        yield tile, toss_pixels(sweep, tile)
+
+
+def missing(map_: Map) -> list[Tile]:
+    """Give the tiles of a map that are not on disk yet."""
+    return [tile for tile in map_.tiles if not map_.is_tossed(tile)]
+
+
+def fill(map_: Map, sweep: Sweep, tiles: Iterable[Tile], tosser: Tosser, progress: Progress) -> None:
+    """Toss tiles and keep each as soon as it is whole.
+
+    Raises:
+        UnwritableError: naming the map and why.
+        SweepError, UnsupportedError: for a pixel that can't be tossed.
+    """
+    for tile, pixels in tosser(sweep, tiles):
+        map_.write(tile, pixels)
+        progress(pixels.outcome.size)
+
+
+def fractions_of(map_: Map) -> dict[Outcome, float]:
+    """Give the share of a map's pixels that each outcome fills, without the whole map in memory."""
+    counts = np.zeros(len(Outcome), dtype=np.int64)
+    for tile in map_.tiles:
+        counts += np.bincount(map_.read(tile).ravel(), minlength=len(Outcome))
+    return {outcome: float(counts[outcome] / counts.sum()) for outcome in Outcome}
+
+
+def size(tiles: Iterable[Tile]) -> int:
+    """Give the number of pixels of tiles."""
+    return sum((rows.stop - rows.start) * (columns.stop - columns.start) for rows, columns in tiles)
+
+
+def require_room(sweep: Sweep, folder: Path, *, maps: int, drawn: bool) -> None:
+    """Refuse a grid beyond the disk, or one to be drawn beyond the memory; the message says what it needs.
+
+    Args:
+        sweep: whose grid.
+        folder: where the maps will be.
+        maps: how many of them.
+        drawn: whether they are measured or drawn as a whole.
+
+    Raises:
+        UnwritableError: if the disk has not room enough for maps that can't be compressed.
+        SweepError: if the machine has not the memory.
+    """
+    pixels = sweep.shape[0] * sweep.shape[1]
+    grid = f"{sweep.shape[1]} by {sweep.shape[0]} tosses"
+    needed, free = maps * pixels * BYTES_PER_PIXEL, shutil.disk_usage(folder).free
+    if needed > free:
+        raise UnwritableError(
+            f"{folder}: {grid} need up to {_gigabytes(needed)} of disk; accepted: a grid for the "
+            f"{_gigabytes(free)} that are free"
+        )
+    needed, there = pixels * DRAWING_BYTES_PER_PIXEL, os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    if drawn and needed > there:
+        raise SweepError(
+            f"{grid}: to draw or compare them needs up to {_gigabytes(needed)} of memory; accepted: "
+            f"a grid for the {_gigabytes(there)} of this machine, or the map alone"
+        )
+
+
+def _gigabytes(count: int) -> str:
+    return f"{count / 1e9:,.2f} GB"

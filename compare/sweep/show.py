@@ -1,0 +1,106 @@
+"""Maps for a person: their pictures, and what is measured on them in a few lines."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray
+from numpy.typing import NDArray
+
+from compare.basins import picture
+from compare.basins.agreement import Agreement, Share, agreement
+from compare.sweep.axes import Axis
+from compare.sweep.grid import Sweep
+from models.records import Outcome
+
+AWAY = 2.0
+"""A pixel is away from the boundaries where all within this distance have its outcome [pixels]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Look:
+    """How a picture is drawn."""
+
+    palette: picture.Palette = picture.Palette.PAPER
+    boundaries: bool = False
+    """Whether pixels at a boundary are coloured as such."""
+    size: tuple[float, float] | None = None
+    """Width and height of the whole, by default those of `picture` [inches]."""
+    dpi: float = picture.DPI
+    """Pixels per inch."""
+
+
+def outcomes_of(path: Path) -> NDArray[np.int8]:
+    """Read the outcomes of a map, (y, x)."""
+    with xarray.open_dataset(path, engine="zarr", consolidated=True) as dataset:
+        return dataset["outcome"].to_numpy()
+
+
+def describe_map(path: Path, sweep: Sweep, fractions: dict[Outcome, float]) -> str:
+    """Give a map as text: where it is, what it is of, and the share of each outcome."""
+    ny, nx = sweep.shape
+    shown = "" if sweep.after is None else f"face at touch {sweep.after + 1}, or "
+    lines = [
+        f"map        {path}",
+        f"engine     {sweep.engine}",
+        f"tosses     {nx} by {ny}: {shown}final outcome",
+        *(
+            f"{outcome.label:11}{100 * share:.3f} %"
+            for outcome, share in fractions.items()
+            if share > 0 or outcome in (Outcome.HEADS, Outcome.TAILS)
+        ),
+    ]
+    return "\n".join(lines)
+
+
+def describe_agreement(measured: Agreement) -> str:
+    """Give how far two maps agree as text."""
+    return "\n".join(
+        [
+            f"agreement  {_share(measured.away)} more than {AWAY:g} pixels from the boundaries of the first",
+            f"           {_share(measured.near)} nearer to them",
+            f"           {measured.undecided} pixels are undecided in one or both",
+        ]
+    )
+
+
+def write(png: Path, maps: list[NDArray[np.int8]], sweep: Sweep, look: Look) -> None:
+    """Draw one map, or those of both engines and where they differ, with the numbers of their agreement.
+
+    Args:
+        png: the file.
+        maps: (y, x) each, the first by the paper's mechanics if there are two.
+        sweep: what the first was made of.
+        look: how to draw.
+
+    Raises:
+        UnwritableError: naming the file and why.
+    """
+    x, y = _drawn(sweep.x), _drawn(sweep.y)
+    common: Any = {"x": x, "y": y, "palette": look.palette, "boundaries": look.boundaries}
+    if len(maps) > 1:
+        measured = measure(*maps)
+        figure = picture.draw_comparison(
+            *maps,
+            **common,
+            size=look.size or picture.COMPARISON_SIZE,
+            note=f"alike: {_share(measured.away)} away from boundaries,\n{_share(measured.near)} near them",
+        )
+    else:
+        figure = picture.draw_map(maps[0], **common, size=look.size or picture.PANEL_SIZE)
+    picture.write_png(figure, png, dpi=look.dpi)
+
+
+def measure(analytic: NDArray[np.int8], mujoco: NDArray[np.int8]) -> Agreement:
+    """Compare the maps of both engines; the boundaries are those of the paper's mechanics."""
+    return agreement(analytic, mujoco, distance=AWAY)
+
+
+def _share(share: Share) -> str:
+    part = share.fraction
+    return f"none of {share.compared}" if part is None else f"{100 * part:.3f} % of {share.compared}"
+
+
+def _drawn(axis: Axis) -> picture.Axis:
+    return picture.Axis(name=axis.field, unit=axis.unit.replace("**", "^"), start=axis.start, stop=axis.stop)

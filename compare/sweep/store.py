@@ -1,0 +1,256 @@
+"""A map on disk: a Zarr store that is filled tile by tile, by one process at a time."""
+
+import fcntl
+import json
+import os
+import shutil
+import uuid
+import warnings
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import zarr
+from numpy.typing import NDArray
+from zarr.codecs import ZstdCodec
+from zarr.errors import ZarrUserWarning
+
+from compare.engines import settings, versions
+from compare.files import UnwritableError, naming
+from compare.sweep.axes import Axis
+from compare.sweep.grid import Sweep, Tile, tile_shape, tiles
+from compare.sweep.pixels import Pixels
+from models.reading import ScenarioError, parse
+from models.records import Outcome
+
+FORMAT = 1
+"""Of a map, under the attribute `cointoss_map`."""
+NOT_TOSSED = -1
+"""What `outcome` and `impacts` hold where no toss was made yet."""
+BYTES_PER_PIXEL = np.dtype(np.int8).itemsize + np.dtype(np.int32).itemsize
+"""On disk, before compression."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Map:
+    """A map that this process may fill."""
+
+    path: Path
+    group: zarr.Group
+
+    @property
+    def tiles(self) -> list[Tile]:
+        """All tiles."""
+        outcome = self._array("outcome")
+        return list(tiles(_pair(outcome.shape), _pair(outcome.chunks)))
+
+    def is_tossed(self, tile: Tile) -> bool:
+        """Tell whether a tile is on disk, whole."""
+        try:
+            return all(
+                not (self._array(name)[tile.rows, tile.columns] == NOT_TOSSED).any()
+                for name in ("outcome", "impacts")
+            )
+        except (RuntimeError, ValueError):  # its checksum is wrong, or it breaks off
+            return False
+
+    def read(self, tile: Tile) -> NDArray[np.int8]:
+        """Give the outcomes of a tile, (y, x)."""
+        return self._array("outcome")[tile.rows, tile.columns]
+
+    def write(self, tile: Tile, pixels: Pixels) -> None:
+        """Keep what is known of a tile.
+
+        Raises:
+            UnwritableError: naming the map and why, for every error of the system.
+        """
+        with naming(self.path):
+            self._array("impacts")[tile.rows, tile.columns] = pixels.impacts
+            self._array("outcome")[tile.rows, tile.columns] = pixels.outcome
+
+    def _array(self, name: str) -> Any:
+        return self.group[name]
+
+
+def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
+    """Check that a map can be made at a path, and that nothing is lost.
+
+    Args:
+        path: a name that ends in .zarr, in a folder that exists.
+        resume: whether a map there is to be gone on with.
+        overwrite: whether a map there is to be replaced.
+
+    Raises:
+        UnwritableError: naming the path and why.
+    """
+    if path.suffix != ".zarr":
+        raise UnwritableError(f"{path}: accepted: a folder's name that ends in .zarr")
+    with naming(path):
+        target = Path(os.path.realpath(path))
+        if not target.parent.is_dir():
+            raise UnwritableError(f"{path}: accepted: a name in a folder that exists")
+        if not target.exists() or (target.is_dir() and not any(target.iterdir())):
+            probe = _aside(target)
+            probe.mkdir()
+            probe.rmdir()
+        elif not _is_map(target):
+            raise UnwritableError(f"{path}: accepted: a new name, or a map of cointoss (this is none)")
+        elif not (resume or overwrite):
+            raise UnwritableError(
+                f"{path}: accepted: a new name (this map exists: --resume goes on with it, --overwrite "
+                "replaces it)"
+            )
+
+
+@contextmanager
+def opened(path: Path, sweep: Sweep, scenario_text: str, *, overwrite: bool) -> Iterator[Map]:
+    """Open the map of a sweep for this process alone: a new one, or what is there of it.
+
+    Args:
+        path: of the map; checked by `require_place`.
+        sweep: what the map is made of.
+        scenario_text: the scenario's TOML.
+        overwrite: whether a map that is there is replaced.
+
+    Raises:
+        UnwritableError: naming the path and why: another process is at it, or it is another sweep's map.
+    """
+    target = Path(os.path.realpath(path))
+    with ExitStack() as kept:
+        with naming(path):
+            if overwrite and _is_map(target):
+                with _locked(path, target):
+                    _remove(target)
+            if not _is_map(target):
+                _create(target, sweep, scenario_text)
+            kept.enter_context(_locked(path, target))
+            group = zarr.open_group(target, mode="r+", use_consolidated=False)
+            _require_same(path, group, sweep)
+            for left in target.rglob("*.partial"):  # by a process that was killed
+                left.unlink()
+        yield Map(path=path, group=group)
+
+
+def _create(target: Path, sweep: Sweep, scenario_text: str) -> None:
+    """Make an empty map, whole or not at all; where one has come up meanwhile, leave it."""
+    aside = _aside(target)
+    try:
+        _write_empty(aside, sweep, scenario_text)
+        try:
+            aside.rename(target)
+        except OSError:
+            if not _is_map(target):
+                raise
+    finally:
+        shutil.rmtree(aside, ignore_errors=True)
+
+
+def _write_empty(folder: Path, sweep: Sweep, scenario_text: str) -> None:
+    group = zarr.create_group(folder, zarr_format=3, attributes=_attributes(sweep, scenario_text))
+    meanings = {int(outcome): outcome.label for outcome in Outcome}
+    for name, kind, long_name in (
+        ("outcome", np.int8, ", ".join(f"{code} {label}" for code, label in meanings.items())),
+        ("impacts", np.int32, "number of impacts"),
+    ):
+        group.create_array(
+            name,
+            shape=sweep.shape,
+            chunks=tile_shape(sweep),
+            dtype=kind,
+            fill_value=NOT_TOSSED,
+            dimension_names=("y", "x"),
+            # A tile that breaks off must not pass for one.
+            compressors=ZstdCodec(checksum=True),
+            attributes={"long_name": long_name, "coordinates": f"{sweep.y.field} {sweep.x.field}"},
+        )
+    for axis, dimension in ((sweep.y, "y"), (sweep.x, "x")):
+        group.create_array(
+            axis.field, data=axis.values, dimension_names=(dimension,), attributes={"units": axis.unit}
+        )
+    with warnings.catch_warnings():
+        # Not yet in the specification of Zarr 3, but xarray asks for it.
+        warnings.simplefilter("ignore", ZarrUserWarning)
+        zarr.consolidate_metadata(group.store)
+
+
+def _attributes(sweep: Sweep, scenario_text: str) -> dict[str, Any]:
+    return {
+        "cointoss_map": FORMAT,
+        "scenario": scenario_text,
+        "engine": sweep.engine.value,
+        "engine_settings": settings(sweep.engine),
+        "after": sweep.after,
+        "versions": {**versions(sweep.engine), "zarr": version("zarr")},
+    }
+
+
+def _require_same(path: Path, group: zarr.Group, sweep: Sweep) -> None:
+    """Refuse to go on with a map of another sweep, or of other versions: its pixels would be of two kinds."""
+    found: dict[str, Any] = dict(group.attrs)
+    made_by = {name: found["versions"].get(name) for name in versions(sweep.engine)}
+    try:
+        same_scenario = parse(found["scenario"], str(path)) == sweep.scenario
+    except ScenarioError:
+        same_scenario = False
+    for what, same in (
+        ("scenario", same_scenario),
+        ("engine", found["engine"] == sweep.engine),
+        ("engine's settings", found["engine_settings"] == settings(sweep.engine)),
+        ("number of impacts (--after)", found["after"] == sweep.after),
+        ("grid in x", _is_axis(group, "x", sweep.x)),
+        ("grid in y", _is_axis(group, "y", sweep.y)),
+        (f"versions, {json.dumps(made_by)}", made_by == versions(sweep.engine)),
+    ):
+        if not same:
+            raise UnwritableError(
+                f"{path}: is a map with another {what}; accepted: a new name, or --overwrite"
+            )
+
+
+def _is_axis(group: zarr.Group, dimension: str, axis: Axis) -> bool:
+    if axis.field not in group:
+        return False
+    array: Any = group[axis.field]
+    return array.metadata.dimension_names == (dimension,) and np.array_equal(array[:], axis.values)
+
+
+def _is_map(path: Path) -> bool:
+    try:
+        description = json.loads((path / "zarr.json").read_text(encoding="utf-8"))
+        return description["attributes"]["cointoss_map"] == FORMAT
+    except (OSError, ValueError, KeyError, TypeError):
+        return False
+
+
+@contextmanager
+def _locked(path: Path, target: Path) -> Iterator[None]:
+    """Keep a map for this process; the system lets go of it when the process ends, however it ends."""
+    with (target / "zarr.json").open("r+b") as description:
+        try:
+            fcntl.flock(description, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            still_there = os.path.samestat(os.fstat(description.fileno()), (target / "zarr.json").stat())
+        except (BlockingIOError, FileNotFoundError):
+            still_there = False
+        if not still_there:
+            raise UnwritableError(f"{path}: another process is at this map; accepted: wait for its end")
+        yield
+
+
+def _remove(target: Path) -> None:
+    """Remove a map; renamed first, so that no half of it is left under its name."""
+    aside = _aside(target)
+    target.rename(aside)
+    shutil.rmtree(aside)
+
+
+def _aside(target: Path) -> Path:
+    return target.with_name(f".cointoss-{uuid.uuid4().hex}")
+
+
+def _pair(numbers: tuple[int, ...]) -> tuple[int, int]:
+    first, second = numbers
+    return first, second

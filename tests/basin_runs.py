@@ -1,0 +1,73 @@
+"""Maps of a coin made in small tiles, here or in another process."""
+
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from click.testing import CliRunner
+
+from compare.cli import main
+
+SCENARIO = """
+[coin]
+mass = "2 g"
+radius = "1.25 cm"
+thickness = 0
+[floor]
+restitution = 0.6
+contact = "smooth"
+[release]
+position = [0, 0, 0.4]
+"""
+AXES = ("--x", "release.angular_velocity.eta=20:60:48", "--y", "release.position.z=0.2:0.6:40")
+SMALL, TILES = 64, 30
+"""Tosses in a tile of these tests, and tiles in a map."""
+HERE = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[1]), "PYTHONDONTWRITEBYTECODE": "1"}
+
+
+def basin(*arguments):
+    return CliRunner().invoke(main, ["basin", *map(str, arguments)], catch_exceptions=False)
+
+
+def pixels(path):
+    with xr.open_dataset(path, engine="zarr") as found:
+        return {name: found[name].to_numpy() for name in ("outcome", "impacts")}
+
+
+def assert_same(path, expected):
+    found = pixels(path)
+    for name, array in expected.items():
+        assert found[name].dtype == array.dtype
+        assert np.array_equal(found[name], array)
+
+
+def whole_tiles(path):
+    """Count the tiles of whose two parts the second is there; a renamed file is whole."""
+    return len([entry for entry in path.glob("outcome/c/*/*") if entry.suffix == ""])
+
+
+def begun(coin, out, *extra, stderr=subprocess.PIPE):
+    """Start a process that makes the map in small tiles."""
+    script = (
+        "from compare.engines import Engine; from compare.sweep import grid\n"
+        f"grid.TILE_TOSSES[Engine.ANALYTIC] = {SMALL}\n"
+        "from compare.cli import main; main()"
+    )
+    return subprocess.Popen(
+        [sys.executable, "-c", script, "basin", coin, *AXES, "--out", out, *extra],
+        env=HERE,
+        stdout=subprocess.PIPE,
+        stderr=stderr,
+        text=True,
+    )
+
+
+def wait_for(process, out, count):
+    deadline = time.monotonic() + 200
+    while whole_tiles(out) < count and process.poll() is None and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert process.poll() is None, process.communicate()

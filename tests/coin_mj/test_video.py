@@ -1,0 +1,388 @@
+"""A film shows the coin where its path is, the floor's action as arrows, and says what it shows.
+
+The tosses are made by formulas, and drawn small.
+"""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
+from dataclasses import dataclass
+from typing import Any
+from unittest.mock import patch
+
+import imageio_ffmpeg
+import mujoco
+import numpy as np
+import pytest
+
+from coin_mj.captions import caption_of, written
+from coin_mj.drawing import LONGEST_FAR, LONGEST_NEAR, MARGIN, Box, Camera, Drawer, box_of
+from coin_mj.painted import build_painted
+from coin_mj.play import SHOWN_FOR, WEAKEST, floor_forces, play_of
+from coin_mj.slow_motion import FAST, LONGEST, SLOW, SLOW_FOR, WEAK, film_times
+from coin_mj.video import HELD, Format, frame_count, frames, write_video
+from models.drag import linear_drag
+from models.records import IMPACT_ROW, Array, Ending, Face, Impacts, Outcome, States, Toss
+from tests.draws import AIR, ZLOTY, scenario
+
+TINY = Format(64, 48, 4)
+R = ZLOTY["radius"]
+FLAT, TURNED = (1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)
+UPRIGHT = (0.5**0.5, 0.5**0.5, 0.0, 0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Made:
+    """A path at constant attitude: position + velocity t + acceleration t²/2, from `start` on."""
+
+    position: tuple[float, float, float]
+    velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    acceleration: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    quaternion: tuple[float, float, float, float] = FLAT
+    start: float = 0.0
+
+    def sample(self, times: Array) -> States:
+        x, v, a = (np.array(part) for part in (self.position, self.velocity, self.acceleration))
+        t = np.maximum(times - self.start, 0.0)[:, None]
+        return States(
+            time=times.copy(),
+            position=x + v * t + a * t * t / 2,
+            velocity=np.where(t > 0, v + a * t, 0.0) if self.start else v + a * t,
+            quaternion=np.tile(self.quaternion, (len(times), 1)),
+            angular_velocity=np.zeros((len(times), 3)),
+        )
+
+
+def made(path, *, impacts=(), contacts=(), end=1.0, engine="mujoco", outcome=Outcome.HEADS, **parts):
+    """Make a toss: a path, impacts as (time, S_z) below the coin, and lasting contacts."""
+    rows = np.zeros(len(impacts), IMPACT_ROW)
+    for row, (time, S_z) in zip(rows, impacts, strict=True):
+        row["time"], row["impulse"], row["face"] = time, (0, 0, S_z), Face.HEADS
+        row["position"] = path.sample(np.array([time])).position[0]
+        row["quaternion"] = path.quaternion
+        row["point"] = (0, 0, -ZLOTY["thickness"] / 2)
+    return Toss(
+        engine=engine,
+        scenario=scenario(**parts),
+        impacts=Impacts.from_rows(rows),
+        contacts=np.array(contacts, dtype=float).reshape(-1, 2),
+        outcome=outcome,
+        ending=Ending.SETTLED,
+        end_time=end,
+        trusted_impacts=0,
+        certificate=(),
+        path=path,
+    )
+
+
+def drawn(toss, times, camera, *, height=48, width=64, box=None):
+    """Draw a toss at some times."""
+    play = play_of(toss, np.array(times))
+    with Drawer(play, camera, box or box_of([play]), height=height, width=width) as drawer:
+        return [drawer.draw(i).astype(int) for i in range(len(times))]
+
+
+def golden(picture):
+    return (picture[..., 0] > picture[..., 2] + 60) & (picture[..., 1] > picture[..., 2] + 30)
+
+
+def blue(picture):
+    return picture[..., 2] > picture[..., 0] + 60
+
+
+def pink(picture):
+    return (picture[..., 0] > picture[..., 1] + 60) & (picture[..., 2] > picture[..., 1] + 30)
+
+
+def green(picture):
+    return (picture[..., 1] > picture[..., 0] + 50) & (picture[..., 1] > picture[..., 2] + 15)
+
+
+def center(mask):
+    """Give the mean row and column of a mask that is not empty."""
+    assert mask.any()
+    return np.argwhere(mask).mean(axis=0)
+
+
+# What is shown when.
+
+
+def test_the_film_runs_from_release_to_the_last_end_and_slows_down_at_impacts():
+    path = Made(position=(0, 0, 0.1))
+    tosses = [made(path, impacts=[(0.3, 1e-3)]), made(path, impacts=[(0.7, 1e-3)], end=1.5)]
+    times, speeds = film_times(tosses, 60)
+    assert (times[0], times[-1]) == (0, 1.5)
+    assert np.all(np.diff(times) > 0)
+    for impact in (0.3, 0.7):
+        assert speeds[np.abs(times - impact).argmin()] == pytest.approx(SLOW, rel=0.05)
+    far = np.abs(times[:, None] - [0.3, 0.7]).min(axis=1) > SLOW_FOR
+    assert speeds[far] == pytest.approx(FAST, rel=1e-12)
+    # One frame further the clock goes by the film's speed over the frames' rate.
+    mean = (speeds[1:] + speeds[:-1]) / 2
+    assert np.diff(times) * 60 / mean == pytest.approx(1, abs=0.1)
+
+
+def test_the_film_is_not_slowed_down_for_weak_impacts_which_show_no_arrow():
+    path = Made(position=(0, 0, 0.1))
+    toss = made(path, impacts=[(0.3, 1e-3), (0.6, 0.99 * WEAK * 1e-3), (0.8, 0.99 * WEAKEST * 1e-3)])
+    times, speeds = film_times([toss], 60)
+    assert min(speeds[times > 0.5]) == pytest.approx(FAST, rel=1e-12)
+    assert [len(play_of(toss, np.array([t])).impulses(0)) for t in (0.301, 0.601, 0.801)] == [1, 1, 0]
+
+
+@pytest.mark.parametrize("impacts", [0, 2000])
+def test_the_longest_toss_has_no_more_frames_than_fit(impacts):
+    path = Made(position=(0, 0, 0.1))
+    end = 5000.0
+    toss = made(path, impacts=[(t, 1e-3) for t in np.linspace(1, end, impacts)], end=end)
+    times, speeds = film_times([toss], 60)
+    assert len(times) == LONGEST * 60
+    assert (times[0], times[-1]) == (0, end)
+    assert np.mean(speeds) == pytest.approx(end / LONGEST, rel=0.1)
+
+
+# The coin.
+
+
+@pytest.mark.parametrize("thickness", [0.0, 2e-3])
+@pytest.mark.parametrize(("quaternion", "color"), [(FLAT, golden), (TURNED, blue)])
+def test_the_face_that_is_up_shows_its_colour(thickness, quaternion, color):
+    """The faces of a thin coin are in one plane, too."""
+    toss = made(Made(position=(0, 0, 0.05), quaternion=quaternion), coin={"thickness": thickness})
+    (picture,) = drawn(toss, [0], Camera.TOP)
+    other = blue if color is golden else golden
+    assert not other(picture).any()
+    # Of the disc a ring of 12 % and a letter of 10 to 15 % have other colours; some pixels hold several.
+    disc = np.pi * (48 * R / (4 * R * MARGIN)) ** 2
+    assert color(picture).sum() / disc == pytest.approx(0.76, abs=0.1)
+
+
+def test_the_faces_and_their_letters_differ_in_brightness_too():
+    model = build_painted(scenario(), extent=1.0, tile=0.1)
+
+    def luminance(name):
+        color = model.material(name).rgba[:3]
+        linear = np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
+        return float(linear @ [0.2126, 0.7152, 0.0722]) + 0.05  # as contrast is told on the web
+
+    assert luminance("heads") / luminance("tails") > 3
+    assert luminance("heads") / luminance("heads_letter") > 3
+    assert luminance("tails_letter") / luminance("tails") > 3
+
+
+def test_the_painted_coin_has_no_contacts_and_the_same_mass():
+    case = scenario(coin={"center_of_mass": [-1e-3, -1e-3, -2e-4]})
+    model = build_painted(case, extent=1.0, tile=0.1)
+    data = mujoco.MjData(model)
+    data.qpos[2] = 0
+    mujoco.mj_forward(model, data)
+    assert data.ncon == 0
+    assert model.body("coin").mass[0] == case.coin.mass
+    assert model.body("coin").ipos == pytest.approx(case.coin.center_of_mass)
+
+
+def test_the_coin_is_where_its_path_is_seen_from_above():
+    """From afar, so a length is the same number of pixels at every height."""
+    toss = made(Made(position=(0, 0, 0.3), velocity=(0.06, 0.04, -0.25)))
+    first, last = drawn(toss, [0, 1], Camera.TOP)
+    deep = 0.04 + 4 * R
+    scale = 48 / (MARGIN * max(deep, (0.06 + 4 * R) * 48 / 64))
+    assert center(golden(last)) - center(golden(first)) == pytest.approx(
+        [-0.04 * scale, 0.06 * scale], abs=0.7
+    )
+    assert golden(last).sum() == pytest.approx(golden(first).sum(), rel=0.15)
+
+
+def test_the_overview_sees_the_coin_from_release_to_the_floor():
+    toss = made(Made(position=(0, 0, 0.2), velocity=(0, 0, -0.19), quaternion=UPRIGHT))
+    pictures = drawn(toss, [0, 0.5, 1], Camera.OVERVIEW)
+    rows = [center(blue(picture) | golden(picture))[0] for picture in pictures]
+    assert rows[0] < 12
+    assert rows[2] > 36
+    assert rows[1] == pytest.approx((rows[0] + rows[2]) / 2, abs=2)
+
+
+@pytest.mark.parametrize("camera", [Camera.OVERVIEW, Camera.TOP])
+def test_a_camera_at_rest_shows_the_path_up_to_now(camera):
+    toss = made(Made(position=(0, 0, 0.2), velocity=(0.3, 0.002, -0.002)))
+    pictures = drawn(toss, [0, 0.5, 1], camera, height=192, width=256)
+    first, middle, last = (picture.sum(axis=2) for picture in pictures)
+    # Between where the coin is at these times.
+    early, late = slice(64, 104), slice(152, 192)
+    assert np.array_equal(middle[:, early], last[:, early])
+    assert np.array_equal(first[:, late], middle[:, late])
+    for columns in (early, late):
+        darker = np.argwhere(first[:, columns] - last[:, columns] > 60)
+        assert len(set(darker[:, 1])) > 35
+        assert np.ptp(darker[:, 0]) < 4
+
+
+def test_the_close_up_follows_the_coin():
+    toss = made(Made(position=(0, 0, 0.3), velocity=(0.3, 0.2, -0.25)))
+    for picture in drawn(toss, [0, 0.5, 1], Camera.CLOSE_UP):
+        assert center(golden(picture)) == pytest.approx([24, 32], abs=2)
+
+
+def test_a_coin_high_up_is_seen_close_by():
+    """The nearest that a camera draws is a part of the scene's extent."""
+    toss = made(Made(position=(0, 0, 1000.0), velocity=(0, 0, -1000.0)))
+    box = box_of([play_of(toss, np.array([0, 0.99]))])
+    (picture,) = drawn(toss, [0], Camera.CLOSE_UP, box=box)
+    assert golden(picture).any()
+
+
+# Arrows.
+
+
+def test_an_impulse_is_an_arrow_from_the_impact_on_and_not_for_long():
+    toss = made(Made(position=(0, 0, 0.001), quaternion=FLAT), impacts=[(0.5, 1e-3)])
+    times = [0.499, 0.5, 0.5 + SHOWN_FOR / 2, 0.5 + 1.01 * SHOWN_FOR]
+    seen = [pink(picture).sum() for picture in drawn(toss, times, Camera.CLOSE_UP)]
+    assert seen[0] == seen[3] == 0
+    assert seen[1] > 10
+    fading = [shown.freshness for i in (1, 2) for shown in play_of(toss, np.array(times)).impulses(i)]
+    assert fading == pytest.approx([1, 0.5])
+
+
+@pytest.mark.parametrize(
+    ("camera", "part"), [(Camera.CLOSE_UP, LONGEST_NEAR), (Camera.OVERVIEW, LONGEST_FAR)]
+)
+def test_an_arrow_is_as_long_as_the_impulse_is_large(camera, part):
+    toss = made(Made(position=(0, 0, 0.001)), impacts=[(0.4, 2e-3), (0.6, 1e-3)])
+    high, box = [], Box(np.array([-0.1, -0.02, -0.02]), np.array([0.1, 0.02, 0.5]))
+    for picture in drawn(toss, [0.4, 0.6], camera, height=192, width=192, box=box):
+        rows = np.argwhere(pink(picture))[:, 0]
+        high.append(rows.max() - rows.min())
+    assert high[1] / high[0] == pytest.approx(0.5, abs=0.1)
+    # The line of sight slopes, and the floor is farther away than what the camera aims at.
+    assert high[0] == pytest.approx(192 * part, rel=0.2)
+
+
+def test_the_coin_does_not_hide_an_arrow():
+    toss = made(Made(position=(0, 0, R), quaternion=UPRIGHT), impacts=[(0.5, 1e-3)])
+    with_arrow = pink(drawn(toss, [0.5], Camera.CLOSE_UP)[0]).sum()
+    away = made(Made(position=(0, 0, 20 * R), quaternion=UPRIGHT), impacts=[(0.5, 1e-3)])
+    assert pink(drawn(away, [0.5], Camera.CLOSE_UP)[0]).sum() == pytest.approx(with_arrow, rel=0.3)
+
+
+def test_the_floors_force_carries_the_coin_drags_it_and_balances_the_air():
+    """m (a + g) and, without air, nothing else; at constant speed the floor pulls against the drag."""
+    weight = 2e-3 * 9.81
+    times = np.array([0.1, 0.2, 0.35, 0.5, 0.9])
+    sliding = Made(position=(0, 0, 0.001), velocity=(0.3, 0, 0), acceleration=(-0.7, 0, 0))
+    toss = made(sliding, contacts=[(0.2, 0.5)])
+    expected = np.zeros((5, 3))
+    expected[1:4] = (-0.7 * 2e-3, 0, weight)
+    assert floor_forces(toss, times) == pytest.approx(expected, abs=1e-9 * weight)
+    steady = made(Made(position=(0, 0, 0.001), velocity=(0.3, 0, 0)), contacts=[(0, 1)], air=AIR)
+    drag = linear_drag(ZLOTY["radius"], ZLOTY["thickness"], AIR["normal"], AIR["tangential"])
+    force = floor_forces(steady, times)[2]
+    assert force == pytest.approx([0.3 * drag.force_tangential, 0, weight], abs=1e-9 * weight)
+
+
+def test_a_force_is_an_arrow_as_long_as_the_contact_lasts():
+    toss = made(Made(position=(0, 0, R), quaternion=UPRIGHT), contacts=[(0.4, 0.6)])
+    pictures = drawn(toss, [0.3, 0.5, 0.7], Camera.CLOSE_UP)
+    seen = [green(picture).sum() for picture in pictures]
+    assert seen[0] == seen[2] == 0
+    assert seen[1] > 10
+
+
+# Words.
+
+
+def test_the_label_has_the_colour_of_the_face_and_then_of_the_outcome():
+    blank = np.full((480, 640, 3), 220, np.uint8)
+    for quaternion, outcome, labels in (
+        (FLAT, Outcome.TAILS, ["HEADS UP", "TAILS"]),
+        (TURNED, Outcome.HEADS, ["TAILS UP", "HEADS"]),
+        (TURNED, Outcome.UNDECIDED, ["TAILS UP", "UNDECIDED"]),
+    ):
+        play = play_of(
+            made(Made(position=(0, 0, 0.1), quaternion=quaternion), outcome=outcome), np.array([0, 1])
+        )
+        captions = [caption_of(play, i) for i in range(2)]
+        assert [caption.label for caption in captions] == labels
+        for caption in captions:
+            corner = written(blank, [caption], "").astype(int)[:90, :200]
+            assert bool(golden(corner).sum() > 1000) is caption.label.startswith("HEADS")
+            assert bool(blue(corner).sum() > 1000) is caption.label.startswith("TAILS")
+
+
+def test_the_caption_tells_impacts_height_and_the_floors_action():
+    path = Made(position=(0, 0, 0.123))
+    play = play_of(
+        made(path, impacts=[(0.2, 1e-3), (0.5, 2.5e-3)], contacts=[(0.6, 0.8)]),
+        np.array([0.1, 0.3, 0.5, 0.7, 1]),
+    )
+    told = ["; ".join(line.text for line in caption_of(play, i).lines) for i in range(5)]
+    assert told == [
+        "0 impacts, height 12.3 cm",
+        "1 impact, height 12.3 cm",
+        "2 impacts, height 12.3 cm; impulse 2.50 mN s",
+        "2 impacts, height 12.3 cm; floor's force 1.00 m g",
+        "2 impacts, height 12.3 cm; ended: settled",
+    ]
+
+
+def test_the_time_is_written_into_the_frame():
+    """A still coin's frames differ in the line below alone."""
+    form = Format(320, 240, 8)
+    toss = made(Made(position=(0, 0, 0.1)))
+    film = frames([toss], Camera.CLOSE_UP, form)
+    first, second = next(film), next(film)
+    rows = np.flatnonzero((first != second).any(axis=(1, 2)))
+    assert len(rows) > 3
+    assert min(rows) > 0.9 * 240
+
+
+# The film.
+
+
+def test_two_tosses_stand_side_by_side_and_differ_where_their_paths_do():
+    path = Made(position=(0, 0, 0.1))
+    parting = Made(position=(0, 0, 0.1), velocity=(0.1, 0, 0), start=0.5)
+    tosses = [made(path), made(parting)]
+    film = list(frames(tosses, Camera.TOP, Format(256, 128, 2)))
+    times, _ = film_times(tosses, 2)
+    scale = 128 / (MARGIN * (0.05 + 4 * R))
+    for i, part in ((0, 0.0), (len(times) - 1, 0.1 * 0.5)):
+        below = film[i][60:].astype(int)  # the captions
+        left, right = center(golden(below[:, :126])), center(golden(below[:, 130:]))
+        assert right - left == pytest.approx([0, part * scale - 2], abs=0.7)
+
+
+def test_frames_are_drawn_one_at_a_time_and_the_last_one_stays():
+    toss = made(Made(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), end=0.5)
+    draws = []
+    draw = Drawer.draw
+
+    def counted(self, i):
+        draws.append(i)
+        return draw(self, i)
+
+    with patch.object(Drawer, "draw", counted):
+        film = frames([toss], Camera.OVERVIEW, TINY)
+        next(film)
+        assert draws == [0]
+        rest = list(film)
+    held = round(HELD * TINY.frames_per_second)
+    assert len(draws) + held == 1 + len(rest) == frame_count([toss], TINY)
+    assert all(np.array_equal(frame, rest[-1]) for frame in rest[-held - 1 :])
+    assert not np.array_equal(rest[-held - 2], rest[-1])
+
+
+def test_the_file_plays_at_its_size_and_rate(tmp_path):
+    toss = made(Made(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), impacts=[(0.1, 1e-3)], end=0.2)
+    form, shown = Format(64, 48, 12), []
+    path = tmp_path / "film.mp4"
+    write_video([toss, toss], Camera.TOP, form, path, lambda done, count: shown.append((done, count)))
+    count = frame_count([toss], form)
+    assert shown == [(i + 1, count) for i in range(count)]
+    reader: Any = imageio_ffmpeg.read_frames(str(path))
+    told = next(reader)
+    reader.close()
+    assert told["source_size"] == (64, 48)
+    assert told["fps"] == 12
+    counted: Any = imageio_ffmpeg.count_frames_and_secs(str(path))
+    assert counted[0] == count

@@ -1,0 +1,357 @@
+"""A map on disk: it survives whatever ends the process, and belongs to one process and one sweep."""
+
+import contextlib
+import errno
+import fcntl
+import json
+import os
+import pty
+import re
+import shutil
+import signal
+import struct
+import termios
+
+import numpy as np
+import pytest
+import xarray as xr
+from zarr.storage import LocalStore
+
+from compare.engines import Engine
+from compare.files import UnwritableError
+from compare.sweep import grid, run
+from compare.sweep.axes import parse_axis
+from compare.sweep.grid import Sweep
+from compare.sweep.store import NOT_TOSSED, opened, require_place
+from models.reading import parse
+from models.records import Outcome
+from tests.basin_runs import (
+    AXES,
+    SCENARIO,
+    SMALL,
+    TILES,
+    assert_same,
+    basin,
+    begun,
+    pixels,
+    wait_for,
+    whole_tiles,
+)
+
+
+@pytest.fixture
+def coin(tmp_path, monkeypatch):
+    """A scenario's file; the tiles of its maps are small."""
+    monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, SMALL)
+    (tmp_path / "coin.toml").write_text(SCENARIO)
+    return tmp_path / "coin.toml"
+
+
+def sweep_of(x=AXES[1], y=AXES[3], text=SCENARIO, after=None):
+    case = parse(text, "coin")
+    return Sweep(
+        scenario=case, engine=Engine.ANALYTIC, x=parse_axis(x, case), y=parse_axis(y, case), after=after
+    )
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory):
+    """The pixels of the map, made at one go in one tile."""
+    folder = tmp_path_factory.mktemp("undisturbed")
+    (folder / "coin.toml").write_text(SCENARIO)
+    assert basin(folder / "coin.toml", *AXES, "--out", folder / "map.zarr").exit_code == 0
+    return pixels(folder / "map.zarr")
+
+
+def tossed_tiles(monkeypatch, resumed):
+    """Count the tiles that a call of `resumed` tosses."""
+    count, toss = [0], run.toss_pixels
+
+    def counted(*arguments):
+        count[0] += 1
+        return toss(*arguments)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(run, "toss_pixels", counted)
+        answered = resumed()
+    assert answered.exit_code == 0, answered.stderr
+    return count[0]
+
+
+def test_the_map_has_the_agreed_form(undisturbed, coin, tmp_path):
+    out = tmp_path / "map.zarr"
+    answered = basin(coin, *AXES, "--out", out)
+    assert answered.exit_code == 0
+    assert answered.stdout.startswith(f"map        {out}\nengine     analytic\ntosses     48 by 40: final")
+    found = xr.open_zarr(out, chunks=None)  # warnings are errors: a plain call must have none
+    assert (found.outcome.dims, found.outcome.dtype) == (("y", "x"), np.int8)
+    assert (found.impacts.dims, found.impacts.dtype) == (("y", "x"), np.int32)
+    z, eta = found.outcome["release.position.z"], found.outcome["release.angular_velocity.eta"]
+    assert (z.dims, z.attrs["units"], z.to_numpy().tolist()) == (
+        ("y",),
+        "m",
+        np.linspace(0.2, 0.6, 40).tolist(),
+    )
+    assert (eta.dims, eta.attrs["units"]) == (("x",), "rad/s")
+    assert (eta.to_numpy() == np.linspace(20, 60, 48)).all()
+    assert found.attrs["scenario"] == SCENARIO
+    assert (found.attrs["engine"], found.attrs["after"]) == ("analytic", None)
+    assert found.attrs["engine_settings"].keys() == {"tolerance"}
+    assert found.attrs["versions"].keys() == {"cointoss", "numba", "numpy", "zarr"}
+    assert_same(out, undisturbed)
+    heads = 100 * np.mean(undisturbed["outcome"] == Outcome.HEADS)
+    assert f"heads      {heads:.3f} %\n" in answered.stdout
+    assert not list(tmp_path.glob(".cointoss-*"))
+
+
+def test_a_killed_map_is_resumed_to_the_same_pixels(undisturbed, coin, tmp_path, monkeypatch):
+    out = tmp_path / "map.zarr"
+    process = begun(coin, out)
+    wait_for(process, out, 6)
+    meanwhile = basin(coin, *AXES, "--out", out, "--resume")
+    overwritten = basin(coin, *AXES, "--out", out, "--overwrite")
+    os.kill(process.pid, signal.SIGKILL)
+    process.communicate()
+    for refused in (meanwhile, overwritten):
+        assert refused.exit_code == 2
+        assert (
+            refused.stderr == f"cointoss: {out}: another process is at this map; accepted: wait for its end\n"
+        )
+    done = whole_tiles(out)
+    assert 6 <= done < TILES
+    assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) <= TILES - done + 1
+    assert_same(out, undisturbed)
+    assert not list(out.rglob("*.partial"))
+    assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 0
+
+
+@pytest.mark.parametrize(("sign", "status"), [(signal.SIGINT, 1), (signal.SIGTERM, 143)])
+def test_an_interrupted_map_is_resumed_to_the_same_pixels(
+    undisturbed, coin, tmp_path, monkeypatch, sign, status
+):
+    out = tmp_path / "map.zarr"
+    process = begun(coin, out)
+    wait_for(process, out, 4)
+    process.send_signal(sign)
+    said = process.communicate(timeout=60)[1]
+    assert process.returncode == status
+    if sign == signal.SIGINT:
+        kept = int(said.split("map.zarr: ")[1].split(" of 1920 tosses are kept; --resume goes on")[0])
+        assert SMALL * whole_tiles(out) - SMALL <= kept <= SMALL * whole_tiles(out)
+    assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) <= TILES - 4
+    assert_same(out, undisturbed)
+
+
+def test_a_terminal_is_shown_the_rate_and_the_time_left(coin, tmp_path):
+    ours, terminal = pty.openpty()
+    fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 100, 0, 0))
+    process = begun(coin, tmp_path / "map.zarr", stderr=terminal)
+    os.close(terminal)
+    said = b""
+    with contextlib.suppress(OSError):  # that is how a terminal ends
+        while more := os.read(ours, 1 << 16):
+            said += more
+    os.close(ours)
+    assert process.communicate()[0].startswith("map  ")
+    bars = said.decode().split("\r")
+    assert "map.zarr:   0%" in bars[1]
+    assert re.search(r"100%\|.*1\.92k/1\.92k \[\d\d:\d\d<00:00, .* tosses/s\]", bars[-2])
+
+
+def test_a_full_disk_is_one_line_and_what_was_tossed_is_kept(undisturbed, coin, tmp_path, monkeypatch):
+    out, room, put = tmp_path / "map.zarr", [20], LocalStore.set
+
+    async def set_while_there_is_room(self, key, value):
+        if "/c/" in key and "map.zarr" in str(self.root):
+            room[0] -= 1
+            if room[0] < 0:
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        await put(self, key, value)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(LocalStore, "set", set_while_there_is_room)
+        answered = basin(coin, *AXES, "--out", out)
+    assert answered.exit_code == 2
+    assert answered.stderr == f"cointoss: {out}: can't be written (No space left on device)\n"
+    done = whole_tiles(out)
+    assert done == 10
+    assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == TILES - done
+    assert_same(out, undisturbed)
+
+
+def test_a_disk_that_is_full_at_the_start_leaves_nothing(coin, tmp_path, monkeypatch):
+    async def full(*_):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(LocalStore, "set", full)
+    assert "No space left" in basin(coin, *AXES, "--out", tmp_path / "map.zarr").stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["coin.toml"]
+
+
+@pytest.mark.parametrize("damage", ["empty", "cut", "flipped", "lost"])
+@pytest.mark.parametrize("name", ["outcome", "impacts"])
+def test_a_damaged_tile_is_tossed_again(undisturbed, coin, tmp_path, monkeypatch, name, damage):
+    out = tmp_path / "map.zarr"
+    assert basin(coin, *AXES, "--out", out).exit_code == 0
+    part = next((out / name / "c").glob("2/*"))
+    whole = part.read_bytes()
+    middle = len(whole) // 2
+    if damage == "lost":
+        part.unlink()
+    else:
+        flipped = bytes([whole[middle] ^ 1])
+        part.write_bytes(
+            {
+                "empty": b"",
+                "cut": whole[:middle],
+                "flipped": whole[:middle] + flipped + whole[middle + 1 :],
+            }[damage]
+        )
+    assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 1
+    assert_same(out, undisturbed)
+
+
+def test_a_map_is_replaced_only_where_asked(coin, tmp_path):
+    out = tmp_path / "map.zarr"
+    assert basin(coin, *AXES, "--out", out).exit_code == 0
+    first = pixels(out)
+    answered = basin(coin, *AXES, "--after", 0, "--out", out)
+    assert answered.exit_code == 2
+    assert "this map exists: --resume goes on with it, --overwrite replaces it" in answered.stderr
+    assert_same(out, first)
+    assert basin(coin, *AXES, "--after", 0, "--out", out, "--overwrite").exit_code == 0
+    assert np.all(pixels(out)["impacts"] == 1)
+    assert not list(tmp_path.glob(".cointoss-*"))
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        ({"text": SCENARIO.replace("0.6", "0.7")}, "scenario"),
+        ({"after": 0}, "number of impacts"),
+        ({"x": "release.angular_velocity.eta=20:60:49"}, "grid in x"),
+        ({"x": "release.angular_velocity.eta=20:61:48"}, "grid in x"),
+        ({"y": "release.position.y=0.2:0.6:40"}, "grid in y"),
+        ({"x": AXES[3], "y": AXES[1]}, "grid in x"),
+    ],
+)
+def test_a_map_of_something_else_is_not_gone_on_with(tmp_path, change, named):
+    out = tmp_path / "map.zarr"
+    with opened(out, sweep_of(), SCENARIO, overwrite=False):
+        pass
+    with pytest.raises(UnwritableError, match=f"is a map with another {named}"):
+        opened(out, sweep_of(**change), change.get("text", SCENARIO), overwrite=False).__enter__()
+    same = SCENARIO + "# another word for the same coin\n"
+    with opened(out, sweep_of(text=same), same, overwrite=False) as map_:
+        assert map_.group.attrs["scenario"] == SCENARIO
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "named"),
+    [
+        ("engine", "mujoco", "engine"),
+        ("engine_settings", {"tolerance": 1e-9}, "engine's settings"),
+        ("versions", {"cointoss": "0.0.1"}, "versions"),
+    ],
+)
+def test_a_map_made_otherwise_is_not_gone_on_with(tmp_path, key, value, named):
+    out = tmp_path / "map.zarr"
+    with opened(out, sweep_of(), SCENARIO, overwrite=False) as map_:
+        map_.group.attrs[key] = value
+    with pytest.raises(UnwritableError, match=f"is a map with another {named}"):
+        opened(out, sweep_of(), SCENARIO, overwrite=False).__enter__()
+
+
+def test_a_map_in_use_is_refused_and_free_again_after(tmp_path):
+    out = tmp_path / "map.zarr"
+    with opened(out, sweep_of(), SCENARIO, overwrite=False):
+        for overwrite in (False, True):
+            with pytest.raises(UnwritableError, match="another process"):
+                opened(out, sweep_of(), SCENARIO, overwrite=overwrite).__enter__()
+    with opened(out, sweep_of(), SCENARIO, overwrite=True) as map_:
+        assert len(run.missing(map_)) == len(map_.tiles)
+
+
+def test_only_a_place_for_a_map_is_accepted(tmp_path):
+    for name in ("mine.zarr", "half.zarr", "other.zarr"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "mine.zarr" / "letter.txt").write_text("mine")
+    (tmp_path / "half.zarr" / "zarr.json").write_text('{"attributes": ')
+    other = {"zarr_format": 3, "node_type": "group", "attributes": {}}
+    (tmp_path / "other.zarr" / "zarr.json").write_text(json.dumps(other))
+    (tmp_path / "file.zarr").write_text("mine")
+    for name, said in (
+        ("map", "ends in .zarr"),
+        ("nowhere/map.zarr", "a folder that exists"),
+        ("mine.zarr", "this is none"),
+        ("half.zarr", "this is none"),
+        ("other.zarr", "this is none"),
+        ("file.zarr", "this is none"),
+        ("file.zarr/map.zarr", "a folder that exists"),
+        (300 * "a" + ".zarr", "name too long"),
+    ):
+        for overwrite in (False, True):
+            with pytest.raises(UnwritableError, match=said):
+                require_place(tmp_path / name, resume=not overwrite, overwrite=overwrite)
+    assert (tmp_path / "mine.zarr" / "letter.txt").read_text() == "mine"
+    assert (tmp_path / "file.zarr").read_text() == "mine"
+    (tmp_path / "empty.zarr").mkdir()
+    (tmp_path / "link.zarr").symlink_to(tmp_path / "empty.zarr")
+    for name, overwrite in (("new.zarr", False), ("link.zarr", True)):
+        require_place(tmp_path / name, resume=False, overwrite=overwrite)
+        with opened(tmp_path / name, sweep_of(), SCENARIO, overwrite=overwrite):
+            pass
+    assert (tmp_path / "link.zarr").is_symlink()
+    assert (tmp_path / "empty.zarr" / "outcome").is_dir()
+
+
+def test_what_was_not_tossed_is_told_from_every_outcome(tmp_path):
+    assert NOT_TOSSED not in set(Outcome)
+    with opened(tmp_path / "map.zarr", sweep_of(), SCENARIO, overwrite=False):
+        pass
+    found = pixels(tmp_path / "map.zarr")
+    assert np.all(found["outcome"] == NOT_TOSSED)
+    assert np.all(found["impacts"] == NOT_TOSSED)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--x", "floor.contact=0:1:3", "--y", AXES[3]], "no numeric field"),
+        (["--x", "gravity=9:9:3", "--y", AXES[3]], "START = STOP"),
+        (["--x", "release.position.z=-1:1:3", "--y", "gravity=9:10:3"], "above the floor"),
+        ([*AXES, "--resume", "--overwrite"], "one of them"),
+        ([*AXES, "--compare", "--engine", "mujoco"], "one of them"),
+        ([*AXES, "--palette", "safe"], "only beside --png"),
+        ([*AXES, "--png", "map.gif"], "ends in .png"),
+        ([*AXES, "--png", "map.png", "--size", "6"], "WIDTHxHEIGHT"),
+        ([*AXES, "--png", "map.png", "--size", "0x4"], "WIDTHxHEIGHT"),
+        ([*AXES, "--after", "-1"], "accepted: an integer >= 0"),
+        (
+            ["--x", "release.position.x=0:1:1000000", "--y", "release.position.y=0:1:1000000"],
+            "need up to 5,000",
+        ),
+        (AXES[:2], "--y"),
+    ],
+)
+def test_wrong_requests_are_one_line_and_leave_nothing(coin, tmp_path, monkeypatch, arguments, said):
+    monkeypatch.chdir(tmp_path)
+    answered = basin(coin, *arguments, "--out", "map.zarr")
+    assert answered.exit_code == 2
+    assert answered.stdout == ""
+    assert len(answered.stderr.splitlines()) == 1
+    assert said in answered.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["coin.toml"]
+
+
+def test_a_grid_beyond_disk_or_memory_is_refused_with_its_need(coin, tmp_path, monkeypatch):
+    usage = shutil.disk_usage(tmp_path)
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage._replace(free=5000))
+    answered = basin(coin, *AXES, "--out", tmp_path / "map.zarr")
+    assert answered.exit_code == 2
+    assert "48 by 40 tosses need up to 0.00 GB of disk" in answered.stderr
+    monkeypatch.undo()
+    monkeypatch.setattr(os, "sysconf", lambda _: 100)
+    answered = basin(coin, *AXES, "--out", tmp_path / "map.zarr", "--png", tmp_path / "map.png")
+    assert answered.exit_code == 2
+    assert "of memory; accepted: a grid for" in answered.stderr

@@ -1,0 +1,84 @@
+"""A map tossed on a Dask cluster is that tossed here, even where a worker is lost."""
+
+import importlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import distributed
+import pytest
+
+from tests.basin_runs import AXES, HERE, SCENARIO, assert_same, basin, begun, pixels, wait_for, whole_tiles
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """A scheduler and two workers as processes; gives its address and the workers."""
+    address = tmp_path / "scheduler.json"
+    local = ["--scheduler-file", str(address), "--no-dashboard"]
+    scheduler = _started("dask_scheduler", *local, "--host", "127.0.0.1", "--port", "0")
+    deadline = time.monotonic() + 100
+    while not address.exists() and time.monotonic() < deadline:
+        time.sleep(0.1)
+    worker = ("dask_worker", *local, "--nthreads", "1", "--no-nanny", "--local-directory", str(tmp_path))
+    workers = [_started(*worker), _started(*worker)]
+    where = json.loads(address.read_text())["address"]
+    with distributed.Client(where, set_as_default=False) as client:
+        client.wait_for_workers(2, timeout=100)
+    yield where, workers
+    for process in (*workers, scheduler):
+        process.kill()
+        process.communicate()
+
+
+def _started(module, *arguments):
+    return subprocess.Popen(
+        [sys.executable, "-m", f"distributed.cli.{module}", *arguments],
+        env=HERE,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+
+
+@pytest.mark.slow
+def test_a_worker_lost_on_the_way_changes_no_pixel(cluster, tmp_path):
+    address, workers = cluster
+    coin, out = tmp_path / "coin.toml", tmp_path / "map.zarr"
+    coin.write_text(SCENARIO)
+    process = begun(coin, out, "--scheduler", address)
+    wait_for(process, out, 4)
+    os.kill(workers[0].pid, signal.SIGKILL)
+    at_the_loss = whole_tiles(out)
+    _, said = process.communicate(timeout=200)
+    assert process.returncode == 0, said
+    assert at_the_loss < whole_tiles(out)
+    assert workers[1].poll() is None
+    assert basin(coin, *AXES, "--out", tmp_path / "here.zarr").exit_code == 0
+    assert_same(out, pixels(tmp_path / "here.zarr"))
+
+
+@pytest.mark.parametrize("address", ["nonsense", "tcp://127.0.0.1:1", "127.0.0.1:x"])
+def test_a_scheduler_that_cannot_be_reached_is_one_line(tmp_path, monkeypatch, address):
+    monkeypatch.setattr(importlib.import_module("compare.sweep.cluster"), "PATIENCE", 0.5)
+    (tmp_path / "coin.toml").write_text(SCENARIO)
+    answered = basin(tmp_path / "coin.toml", *AXES, "--out", tmp_path / "map.zarr", "--scheduler", address)
+    assert answered.exit_code == 2
+    assert f"--scheduler {address}: accepted: the address of a running Dask scheduler" in answered.stderr
+    # Dask may log that a busy machine keeps it waiting.
+    ours = [line for line in answered.stderr.splitlines() if not line.startswith(("distributed", "20"))]
+    assert len(ours) == 1
+    assert not (tmp_path / "map.zarr").exists()
+
+
+def test_without_dask_the_extra_is_named(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    (tmp_path / "coin.toml").write_text(SCENARIO)
+    answered = basin(
+        tmp_path / "coin.toml", *AXES, "--out", tmp_path / "map.zarr", "--scheduler", "tcp://h:1"
+    )
+    assert answered.exit_code == 2
+    assert 'pip install "cointoss[cluster]"' in answered.stderr
+    assert not (tmp_path / "map.zarr").exists()

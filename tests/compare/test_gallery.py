@@ -1,0 +1,75 @@
+"""The pages over all reproduced figures: their order, what they show, and that docs/ has the saved one."""
+
+import re
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure as Picture
+
+from compare import gallery, reproduction
+from compare.findings import Finding, Result, paper_figure, read_findings
+from tests.compare.pages import DOCS
+from tests.compare.test_cli import cointoss
+
+
+def test_figures_stand_in_the_papers_order():
+    places = [reproduction.find(name).paper for name in gallery.of_paper()]
+    numbers = [int(re.findall(r"\d+", place)[0]) for place in places if place.startswith("Fig")]
+    assert numbers == sorted(numbers)
+    kinds = [place.split()[0].rstrip("s.") for place in places]
+    assert kinds == sorted(kinds, key=("Table", "Fig", "Section", "Claim").index)
+
+
+@pytest.fixture
+def made(tmp_path, monkeypatch):
+    """Put two small figures in the place of the paper's and run `cointoss reproduce all`."""
+    figures = {
+        name: paper_figure(
+            paper=place,
+            title=f"a <sum> of {place}",
+            assumed="that it rains",
+            seconds=1,
+            make=lambda progress, holds=holds: result(progress, holds),
+        )
+        for name, place, holds in (("second", "Fig. 10", False), ("first", "Fig. 9", True))
+    }
+    monkeypatch.setattr(reproduction, "names", lambda: sorted(figures))
+    monkeypatch.setattr(reproduction, "find", figures.__getitem__)
+    answered = cointoss("reproduce", "all", "--quick", "--out", tmp_path)
+    assert answered.exit_code == 0
+    return tmp_path
+
+
+def result(progress, holds):
+    progress(1, 1)
+    finding = Finding(claim="1 < 2", ours="so it is", holds=holds, expected=holds)
+    return Result(findings=(finding,), draw=Picture, data={"one": np.ones(1)})
+
+
+def test_all_makes_both_pages(made):
+    page = (made / "REPRODUCTION.md").read_text(encoding="utf-8")
+    assert page.index("| [Fig. 9](#first) | 1 < 2 | so it is | - | holds |") < page.index(
+        "| [Fig. 10](#second) | 1 < 2 | so it is | - | does not hold |"
+    )
+    assert "cointoss reproduce all --quick --out docs" in page
+    assert "![a <sum> of Fig. 9](first/figure.png)" in page
+    assert "Assumed: that it rains" in page
+    shown = (made / "gallery.html").read_text(encoding="utf-8")
+    assert "a &lt;sum&gt; of Fig. 9" in shown
+    assert shown.count("data:image/png;base64,") == 2
+
+
+def test_a_page_in_the_way_is_refused_before_any_work(made, tmp_path):
+    (tmp_path / "gallery.html").unlink()
+    (tmp_path / "gallery.html").mkdir()
+    answered = cointoss("reproduce", "all", "--out", made)
+    assert (answered.exit_code, answered.stdout) == (2, "")
+    assert "gallery.html" in answered.stderr
+
+
+def test_the_page_in_docs_shows_the_saved_findings():
+    shown = gallery.entries(DOCS, gallery.of_paper())
+    assert (DOCS / "REPRODUCTION.md").read_text(encoding="utf-8") == gallery.markdown(shown, quick=False)
+    for entry in shown:
+        assert entry.picture.stat().st_size < 150_000
+        assert all(finding.holds == finding.expected for finding in read_findings(DOCS / entry.name))
