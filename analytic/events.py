@@ -202,9 +202,9 @@ def keep_contact(body, rules, mu, motion, y, time, steps_left, looks):
     Returns:
         The time [s], the steps left, the next `Motion`, the outcome and the ending.
     """
-    undecided = Outcome.UNDECIDED
+    undecided, dt = Outcome.UNDECIDED, np.inf
     while time < rules.max_time:
-        made, verdict = stay(body, mu, motion, y, rules.max_time - time)
+        made, dt, verdict = stay(body, mu, motion, y, min(dt, rules.max_time - time))
         time += made
         steps_left -= 1
         outcome, ending = decided(body, rules, y)

@@ -1,14 +1,15 @@
 """The fall through linear air of an ideal coin that turns in closed form: a power series of its position.
 
-With n the normal, v' = -c_t/m v - (c_n - c_t)/m (n . v) n - g ẑ. In the plane in which n turns, as complex
-numbers, n = exp(iφ) and φ = rate s, s the clock of `turning`, dt = ds/(1 - δ s). There n (n . v) is
-(V + W)/2, with W = exp(2iφ) V* the mirror image of V. Both obey linear equations,
+With n the normal, v' = -c_t/m v - (c_n - c_t)/m n (n . v) - g ẑ. There n (n . v) is (v + w)/2, where
+w = 2 n (n . v) - v is v mirrored at the line of n. As n turns about a fixed axis a, at a constant rate by the
+clock s of `turning`, dt = ds/(1 - δ s), both obey linear equations,
 
-    (1 - δ s) dV/ds = -α V - β W - G
-    (1 - δ s) dW/ds = -α W - β V - G* exp(2iφ) + 2i rate (1 - δ s) W
+    (1 - δ s) dv/ds = -α v - β w - g ẑ
+    (1 - δ s) dw/ds = -α w - β v - g ẑ_w + 2 rate (1 - δ s) a × w
 
-with α, β = (c_n ± c_t)/2m and G = g (z_n + i z_⊥); along the axis the velocity only dies away. So the terms
-of their series follow one from the other.
+with α, β = (c_n ± c_t)/2m and ẑ_w the mirror image of ẑ, for which dẑ_w/ds = 2 rate a × ẑ_w but along the
+axis. So the terms of their series follow one from the other. Derived from eqs (49)-(74) of Strzalko et al.
+2008 at b = 0, where the drag is that of `air_law`.
 """
 
 import math
@@ -17,15 +18,18 @@ from typing import NamedTuple
 import numpy as np
 
 from models.compiled import compiled
-from models.vectors import Vector, add, cross, dot, scale
+from models.vectors import Vector, add, cross, dot, norm, scale, subtract
 
 ORDER = 40
 # What the motion turns, and what the air takes, in a piece. The first term left out is at most
 # TURNED^41/41! = 2e-17 of the whole.
 TURNED, TAKEN = 6.0, 1.0
-# Terms of the height below this part of the radius are left out.
+# A piece lasts no longer than a free fall to the floor, but for this part of the longest.
+_SHORTEST = 1 / 8
+# Terms below this part of the radius are left out.
 SMALLEST = 1e-17
 
+_NONE = (0.0, 0.0, 0.0)
 _INVERSE = 1 / np.arange(1, ORDER + 1)
 
 
@@ -42,7 +46,7 @@ class Piece(NamedTuple):
     length: float
     """By the clock [s]."""
     order: int
-    """Of the series of the height."""
+    """Of the series: the rest is nothing."""
 
 
 @compiled
@@ -64,10 +68,15 @@ def time_of(slowing, s):
 
 
 @compiled
-def longest_piece(body, rate):
-    """Give by the clock how long a series holds to rounding [s]."""
+def longest_piece(body, rate, y):
+    """Give by the clock how long a piece from the state y, (13,), is: the series holds to rounding [s].
+
+    Where the coin will touch before, fewer terms do for a shorter piece.
+    """
     taken = 2 * max(body.drag.force_normal, body.drag.force_tangential) / body.mass + slowing_of(body)
-    return min(TURNED / (2 * rate + taken), TAKEN / taken)
+    longest = min(TURNED / (2 * rate + taken), TAKEN / taken)
+    fall = (y[5] + (y[5] * y[5] + 2 * body.gravity * max(y[2], 0.0)) ** 0.5) / body.gravity
+    return min(longest, max(fall, _SHORTEST * longest))
 
 
 @compiled
@@ -88,30 +97,38 @@ def expand(body, turning, y, longest, series):
     axis, v, slowing = turning.axis, (y[3], y[4], y[5]), slowing_of(body)
     first = add(turning.mean, turning.cosine)
     second = cross(axis, first)
-    length = min(longest_piece(body, turning.rate), longest)
+    length = min(longest_piece(body, turning.rate, y), longest)
     n, t = body.drag.force_normal / body.mass, body.drag.force_tangential / body.mass
-    alpha, beta = (n + t) / 2, (n - t) / 2
-    whirl = 2j * turning.rate
-    V = complex(dot(first, v), dot(second, v))
-    W, W_before, G = V.conjugate(), 0j, body.gravity * complex(first[2], second[2])
-    E, A, g_axis = G.conjugate(), dot(axis, v), body.gravity * axis[2]
-    x, x_axis = 0j, 0.0
+    alpha, beta, whirl = (n + t) / 2, (n - t) / 2, 2 * turning.rate
+    # Vectors have their parts along `first`, `second` and the axis from here on.
+    up, V, x = (first[2], second[2], axis[2]), (dot(first, v), dot(second, v), dot(axis, v)), _NONE
+    W, W_before, weight = (V[0], -V[1], -V[2]), _NONE, scale(body.gravity, up)
+    weight_mirrored = (weight[0], -weight[1], -weight[2])
     series[0, 0], series[1, 0], series[2, 0], series[3, 0] = 0.0, 0.0, 0.0, y[2]
     order, size = 0, 1.0
     for k in range(ORDER):
         part, slowed = _INVERSE[k], slowing * k
-        x, x_axis = part * (slowed * x + V), part * (slowed * x_axis + A)
-        z = first[2] * x.real + second[2] * x.imag + axis[2] * x_axis
-        series[0, k + 1], series[1, k + 1], series[2, k + 1] = x.real, x.imag, x_axis
-        series[3, k + 1] = z
+        x = scale(part, add(scale(slowed, x), V))
+        series[0, k + 1], series[1, k + 1], series[2, k + 1] = x
+        series[3, k + 1] = dot(up, x)
         size *= length
-        if abs(z) * size > SMALLEST * body.radius:
+        # Times k + 1, for the velocity too.
+        if norm(x) * size * (k + 1) > SMALLEST * body.radius:
             order = k + 1
-        W_next = part * ((slowed - alpha) * W + whirl * (W - slowing * W_before) - beta * V - E)
-        V, A = part * ((slowed - alpha) * V - beta * W - G), part * ((slowed - t) * A - g_axis)
-        W_before, W, E = W, W_next, part * whirl * E
-        G, g_axis = 0j, 0.0
+        elif k > max(order, TURNED):
+            break
+        turned = _across(subtract(W, scale(slowing, W_before)))
+        forces = add(scale(beta, V), weight_mirrored)
+        W_next = scale(part, subtract(add(scale(slowed - alpha, W), scale(whirl, turned)), forces))
+        V = scale(part, subtract(scale(slowed - alpha, V), add(scale(beta, W), weight)))
+        W_before, W, weight, weight_mirrored = W, W_next, _NONE, scale(part * whirl, _across(weight_mirrored))
     return Piece(first, second, axis, slowing, length, order)
+
+
+@compiled
+def _across(a):
+    """Give axis × a."""
+    return -a[1], a[0], 0.0
 
 
 @compiled
@@ -126,7 +143,7 @@ def fallen(piece, series, s, y, y_new):
         y_new: state, (13,).
     """
     x, v = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
-    for k in range(ORDER, -1, -1):
+    for k in range(piece.order, -1, -1):
         v = add(scale(s, v), x)
         x = add(scale(s, x), (series[0, k], series[1, k], series[2, k]))
     v = scale(1 - piece.slowing * s, v)

@@ -120,6 +120,12 @@ def closing(body, seen):
     return seen.z + arm * n[2] - r * seen.sine, seen.z_rate + arm * n_rate[2] - r * sine_rate
 
 
+@compiled
+def _reach(body):
+    """Give how far the rim is from C [m]."""
+    return (body.radius * body.radius + body.thickness * body.thickness / 4) ** 0.5
+
+
 class Outlook(NamedTuple):
     """What one look tells of the time to come."""
 
@@ -142,13 +148,13 @@ class Outlook(NamedTuple):
 @compiled
 def high(body, z):
     """Tell whether a coin whose C is at the height z is far above the reach of its rim."""
-    return z > _HIGH * math.hypot(body.radius, body.thickness / 2)
+    return z > _HIGH * _reach(body)
 
 
 @compiled
 def time_to_fall(body, seen, down):
     """Give a time in which a high coin surely does not come down to the reach of its rim [s]."""
-    fall = seen.z - _NEAR * math.hypot(body.radius, body.thickness / 2)
+    fall = seen.z - _NEAR * _reach(body)
     return (seen.z_rate + (seen.z_rate * seen.z_rate + 2 * down * fall) ** 0.5) / down
 
 
@@ -157,7 +163,7 @@ def outlook(body, seen, bounds, window):
     """Give the `Outlook` of a coin that is not high, over a window of time [s]."""
     r, half = body.radius, body.thickness / 2
     if seen.z_rate > 0:
-        window = min(window, (_HIGH + 1) * math.hypot(r, half) / seen.z_rate)
+        window = min(window, (_HIGH + 1) * _reach(body) / seen.z_rate)
     highest = seen.z + max(seen.z_rate, 0.0) * window + bounds.up * window * window / 2 + half
     bend = highest * (bounds.down + half * bounds.normal) + r * r * bounds.square
     lower = -1.0 if seen.normal[2] > 0 else 1.0
