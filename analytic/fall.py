@@ -7,9 +7,8 @@ clock s of `turning`, dt = ds/(1 - δ s), both obey linear equations,
     (1 - δ s) dv/ds = -α v - β w - g ẑ
     (1 - δ s) dw/ds = -α w - β v - g ẑ_w + 2 rate (1 - δ s) a × w
 
-with α, β = (c_n ± c_t)/2m and ẑ_w the mirror image of ẑ, for which dẑ_w/ds = 2 rate a × ẑ_w but along the
-axis. So the terms of their series follow one from the other. Derived from eqs (49)-(74) of Strzalko et al.
-2008 at b = 0, where the drag is that of `air_law`.
+with α, β = (c_n ± c_t)/2m and ẑ_w the mirror image of ẑ, for which dẑ_w/ds = 2 rate a × ẑ_w. So the
+terms of their series follow one from the other; docs/FLIGHT.md derives them.
 """
 
 import math

@@ -28,17 +28,19 @@ def fly(body, y, longest):
 
 
 @compiled
-def graze(body, start, duration):
-    """Give a height such that no minimum of the gap in a flight is below half of it, or infinity [m].
+def fly_with_graze(body, y, longest):
+    """Fly as `fly` does, and tell how near to the floor the coin came before.
 
-    Args:
-        body: the coin.
-        start: state at the start of the flight, (13,).
-        duration: of the flight [s].
+    Returns:
+        The time of flight [s], and a graze: a height such that no minimum of the gap on the way is below half
+        of it, or infinity [m].
     """
-    if turns_in_closed_form(body, spin_of(start)):
-        return closed_graze(body, start, duration)
-    return fly_by_steps(body, start.copy(), duration)[3]
+    if turns_in_closed_form(body, spin_of(y)):
+        start = y.copy()
+        flown, _, _ = fly_closed(body, y, longest)
+        return flown, closed_graze(body, start, flown)
+    flown, _, _, graze = fly_by_steps(body, y, longest)
+    return flown, graze
 
 
 @compiled

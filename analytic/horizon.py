@@ -10,7 +10,7 @@ import numpy as np
 from analytic.events import Run
 from analytic.flight import STATE_SIZE
 from analytic.flight_tangent import flight_tangent
-from analytic.flying import fly, graze, steps_of
+from analytic.flying import fly_with_graze, steps_of
 from analytic.impact_tangent import Touch, touch_tangent
 from analytic.rim import TIME_STEP, TOUCH
 from analytic.sensitivity import delay_of, flight_map, impact_map, touch_map
@@ -56,7 +56,7 @@ def trusted_impacts(body: Body, rules: Rules, toss: Run) -> int:
     for i, row in enumerate(toss.rows):
         y = toss.start_states[i].copy()
         closed = turns_in_closed_form(body, y[10:13])
-        at_start, flight, at_end, duration, clear = _flight(
+        at_start, flight, at_end, duration, graze = _flight(
             body, rules, y, toss.start_times[i], CLOSED_FORM if closed else 1.0
         )
         errors = np.hstack([flight @ np.hstack([errors, at_start]), at_end])
@@ -70,7 +70,7 @@ def trusted_impacts(body: Body, rules: Rules, toss: Run) -> int:
         sinking = _sinking(body, errors)
         errors = np.column_stack([touch_map(touch) @ errors, early * np.append(touch.rate, 1)])
         # The first touch has none before it with which to change places.
-        in_order = sinking < clear / 2 and (i == 0 or _size(delay) <= LINEAR_RANGE * duration)
+        in_order = sinking < graze / 2 and (i == 0 or _size(delay) <= LINEAR_RANGE * duration)
         if not (in_order and _holds(rules, row, touch, errors)):
             return i
         # A triangle of as many error vectors as dimensions has the same covariance.
@@ -92,19 +92,19 @@ def _flight(
 
     Returns:
         Errors that the flight makes, as vectors at its start, (14, 13); its tangent map, (14, 14); the same
-        errors as if all were made at its end; its duration [s]; and its `graze`.
+        errors as if all were made at its end; its duration [s]; and its graze, see `fly_with_graze`.
     """
     start, at_first = y.copy(), _step_errors(body, y)
-    duration, *_ = fly(body, y, rules.max_time - start_time)
+    duration, graze = fly_with_graze(body, y, rules.max_time - start_time)
     tangents, moved = np.eye(STATE_SIZE), np.zeros(STATE_SIZE, dtype=np.bool_)
-    made, clear = part * steps_of(body, start, duration), graze(body, start, duration)
+    made = part * steps_of(body, start, duration)
     flight_tangent(body, start, duration, tangents, moved)
     # What stays exactly zero is kept so by symmetry: rounding too keeps a flat coin flat.
     at_start, at_end = (
         np.eye(STATE_SIZE + 1, STATE_SIZE) * made * moved * errors
         for errors in (at_first, _step_errors(body, y))
     )
-    return at_start, flight_map(tangents), at_end, duration, clear
+    return at_start, flight_map(tangents), at_end, duration, graze
 
 
 def _step_errors(body: Body, y: Array) -> Array:

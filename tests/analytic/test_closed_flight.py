@@ -6,7 +6,7 @@ import pytest
 from analytic.closed_flight import fly_closed, sample_closed
 from analytic.events import run
 from analytic.flight import sample_flight
-from analytic.flying import fly, graze, sample
+from analytic.flying import fly_with_graze, sample
 from analytic.rim import closing_speed, fly_by_steps
 from analytic.toss import state_of
 from analytic.turning import turns_in_closed_form
@@ -110,14 +110,13 @@ def test_no_touch_is_passed_and_no_minimum_is_below_half_of_the_graze(thickness,
     for _ in range(150):
         case, start = draw_flight(rng, thickness, air)
         body, end = case.body, start.copy()
-        flown, *_ = fly(body, end, 10.0)
+        flown, height = fly_with_graze(body, end, 10.0)
         states = np.empty((1500, 13))
         sample(body, start, 0.0, flown * np.linspace(1e-6, 1 - 1e-6, len(states)), states)
         gaps = np.array([closing_speed(body, y)[0] for y in states])
         assert gaps.min() > 0
         inner = gaps[1:-1][(gaps[1:-1] < gaps[:-2]) & (gaps[1:-1] <= gaps[2:])]
         minima += len(inner)
-        height = graze(body, start, flown)
         assert inner.min(initial=np.inf) >= height / 2
         # Not far below them, unless the coin goes high: then it is a tenth of the reach of its rim.
         tight += height > 0.05 * inner.min(initial=np.inf)
