@@ -1,9 +1,6 @@
 """Many tosses by the paper's mechanics, on all cores."""
 
-from concurrent.futures import ThreadPoolExecutor
-
 import numpy as np
-from numba import config
 
 from analytic.events import fly_and_hit
 from models.compiled import compiled
@@ -11,9 +8,10 @@ from models.outcomes import Outcomes
 from models.records import IMPACT_ROW
 from models.releases import Releases, check_releases
 from models.scenario import Scenario
+from models.tiles import toss_in_tiles
 
 TILE, SLOW_TILE = 512, 8
-"""Tosses that a thread makes at a time, in air with b > 0 the second; Ctrl-C waits for them."""
+"""Tosses that a thread makes at a time, in air with b > 0 the second."""
 
 
 def toss_many(scenario: Scenario, releases: Releases) -> Outcomes:
@@ -30,23 +28,9 @@ def toss_many(scenario: Scenario, releases: Releases) -> Outcomes:
         ValueError: for a release that a scenario with this coin and air would refuse.
     """
     check_releases(scenario, releases)
-    body, rules, n = scenario.body, scenario.rules, len(releases)
-    states = np.hstack([releases.position, releases.velocity, releases.quaternion, releases.angular_velocity])
-    outcome, ending, face = (np.empty(n, dtype=np.int8) for _ in range(3))
-    impacts, end_time = np.empty(n, dtype=np.int32), np.empty(n)
-    columns = (states, outcome, ending, face, impacts, end_time)
-
+    body, rules = scenario.body, scenario.rules
     tile = TILE if body.air.exponent is None else SLOW_TILE
-
-    def toss_tile(first: int) -> None:
-        _toss_each(body, rules, *(column[first : first + tile] for column in columns))
-
-    # The cores that this process may use, or what the environment sets in their place.
-    with ThreadPoolExecutor(config.__dict__["NUMBA_NUM_THREADS"]) as pool:
-        # An exception, so also Ctrl-C, cancels the tiles not yet begun.
-        for _ in pool.map(toss_tile, range(0, n, tile)):
-            pass
-    return Outcomes(outcome=outcome, ending=ending, impacts=impacts, last_face=face, end_time=end_time)
+    return toss_in_tiles(releases, tile, lambda *columns: _toss_each(body, rules, *columns))
 
 
 @compiled

@@ -1,9 +1,9 @@
 """Many tosses in MuJoCo, on all cores."""
 
-from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import numpy as np
-from numba import config
+from numpy.typing import NDArray
 
 from coin_mj.air_callback import air_of
 from coin_mj.contact import ContactSettings, Friction, Realisation
@@ -16,9 +16,10 @@ from models.outcomes import Outcomes
 from models.records import IMPACT_ROW
 from models.releases import Releases, check_releases
 from models.scenario import Scenario
+from models.tiles import toss_in_tiles
 
 TILE = 32
-"""Tosses that a thread makes at a time, with one model; Ctrl-C waits for them."""
+"""Tosses that a thread makes at a time, with one model."""
 MANY = ContactSettings(stiffness=1e10, steps=12, flight_angle=0.25)
 """Of many tosses: a softer spring, fewer and larger steps than those of one."""
 
@@ -67,23 +68,14 @@ def toss_many(
         steps=steps,
         flight_angle=flight_angle,
     )
-    thickness, rules, n = shape_thickness(scenario), scenario.rules, len(releases)
-    states = np.hstack([releases.position, releases.velocity, releases.quaternion, releases.angular_velocity])
-    outcome, ending, face = (np.empty(n, dtype=np.int8) for _ in range(3))
-    impacts, end_time = np.empty(n, dtype=np.int32), np.empty(n)
-    columns = (states, outcome, ending, face, impacts, end_time)
+    thickness, rules = shape_thickness(scenario), scenario.rules
 
-    def toss_tile(first: int) -> None:
+    def toss_tile(*columns: NDArray[Any]) -> None:
         machine = machine_of(scenario, settings, thickness)
         with air_of(machine.model):
-            _toss_each(machine.coin, rules, *(column[first : first + TILE] for column in columns))
+            _toss_each(machine.coin, rules, *columns)
 
-    # The cores that this process may use, or what the environment sets in their place.
-    with ThreadPoolExecutor(config.__dict__["NUMBA_NUM_THREADS"]) as pool:
-        # An exception, so also Ctrl-C, cancels the tiles not yet begun.
-        for _ in pool.map(toss_tile, range(0, n, TILE)):
-            pass
-    return Outcomes(outcome=outcome, ending=ending, impacts=impacts, last_face=face, end_time=end_time)
+    return toss_in_tiles(releases, TILE, toss_tile)
 
 
 @compiled

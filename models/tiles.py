@@ -1,0 +1,42 @@
+"""Many tosses cut into tiles, made on all cores."""
+
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+from numba import config
+
+from models.outcomes import Outcomes
+from models.releases import Releases
+
+
+def toss_in_tiles(releases: Releases, tile: int, toss_tile: Callable[..., Any]) -> Outcomes:
+    """Make tosses, tile by tile, on the cores that this process may use or `NUMBA_NUM_THREADS` sets.
+
+    Args:
+        releases: the states at time 0.
+        tile: tosses that a thread makes at a time; Ctrl-C waits for them.
+        toss_tile: makes some tosses. It is given their states (k, 13), and outcomes, endings, last faces,
+            numbers of impacts and end times, (k,) each, to be written. It should not hold Python's lock.
+
+    Returns:
+        How each toss ended, in the order of `releases`.
+    """
+    n = len(releases)
+    states = np.hstack([releases.position, releases.velocity, releases.quaternion, releases.angular_velocity])
+    outcome, ending, face = (np.empty(n, dtype=np.int8) for _ in range(3))
+    impacts, end_time = np.empty(n, dtype=np.int32), np.empty(n)
+    columns = (states, outcome, ending, face, impacts, end_time)
+
+    def toss_some(first: int) -> None:
+        toss_tile(*(column[first : first + tile] for column in columns))
+
+    if n <= tile:
+        toss_some(0)
+    else:
+        with ThreadPoolExecutor(config.__dict__["NUMBA_NUM_THREADS"]) as pool:
+            # An exception, so also Ctrl-C, cancels the tiles not yet begun.
+            for _ in pool.map(toss_some, range(0, n, tile)):
+                pass
+    return Outcomes(outcome=outcome, ending=ending, impacts=impacts, last_face=face, end_time=end_time)
