@@ -135,6 +135,13 @@ def _lose_stdout() -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
+_contact = click.option(
+    "--contact",
+    type=click.Choice(["spring", "one_step"]),
+    help="How MuJoCo realises the restitution; a spring by default.",
+)
+
+
 @main.command(epilog=_SCENARIO_HELP)
 @click.argument("scenario")
 @click.option(
@@ -144,11 +151,7 @@ def _lose_stdout() -> None:
     show_default=True,
     help="Which engine.",
 )
-@click.option(
-    "--contact",
-    type=click.Choice(["spring", "one_step"]),
-    help="How MuJoCo realises the restitution; a spring by default.",
-)
+@_contact
 @click.option("--max-impacts", type=_Count(1, 1_000_000), help="Stop after so many impacts.")
 @click.option("--json", "as_json", is_flag=True, help="Answer in JSON, in full precision.")
 @click.option("--trajectory", type=click.Path(path_type=Path), help="Write the path to this .csv file too.")
@@ -275,6 +278,7 @@ def video(scenario: str, out: Path, engine: str, camera: str) -> None:
     is_flag=True,
     help="Make the map by both engines, MuJoCo's as MAP-mujoco.zarr, and compare them.",
 )
+@_contact
 @click.option(
     "--after", type=_Count(0, 999_999), help="Map the face at the touch after N impacts; 0: the first."
 )
@@ -295,6 +299,7 @@ def basin(
     out: Path,
     engine: str | None,
     both: bool,
+    contact: str | None,
     after: int | None,
     resume: bool,
     overwrite: bool,
@@ -314,6 +319,8 @@ def basin(
         raise click.UsageError("--resume and --overwrite: accepted: one of them")
     if both and engine is not None:
         raise click.UsageError("--engine and --compare: accepted: one of them")
+    if contact is not None and not (both or engine == "mujoco"):
+        raise click.UsageError(f"--contact {contact}: accepted: only beside --engine mujoco or --compare")
     if png is None and (palette or boundaries or size or dpi):
         raise click.UsageError("--palette, --boundaries, --size and --dpi: accepted: only beside --png")
     with _plain_errors(scenario):
@@ -330,6 +337,7 @@ def basin(
             y=y,
             out=out,
             engine=None if both else Engine(engine or "analytic"),
+            contact=contact or "spring",
             after=after,
             resume=resume,
             overwrite=overwrite,

@@ -33,6 +33,8 @@ class Job:
     """The map's folder."""
     engine: Engine | None
     """None for both, the second's map beside the first."""
+    contact: str
+    """As of a `Sweep`."""
     after: int | None
     """As of a `Sweep`."""
     resume: bool
@@ -59,7 +61,7 @@ def sweeps_of(job: Job) -> dict[Path, Sweep]:
     second = job.out.with_name(f"{job.out.stem}-mujoco.zarr")
     engines = {job.out: job.engine or Engine.ANALYTIC} | ({} if job.engine else {second: Engine.MUJOCO})
     return {
-        path: Sweep(scenario=scenario, engine=engine, x=x, y=y, after=job.after)
+        path: Sweep(scenario=scenario, engine=engine, x=x, y=y, after=job.after, contact=job.contact)
         for path, engine in engines.items()
     }
 
@@ -74,8 +76,10 @@ def make(job: Job, watch: Watch) -> Iterator[str]:
         UnwritableError: for what can't be written.
     """
     sweeps = sweeps_of(job)
-    for path in sweeps:
+    for path, sweep in sweeps.items():
         store.require_place(path, resume=job.resume, overwrite=job.overwrite)
+        if job.resume:
+            store.require_same(path, sweep)
     if job.png is not None:
         require_file(job.png, ".png", job.source)
     for sweep in sweeps.values():
