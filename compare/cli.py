@@ -292,6 +292,11 @@ def video(scenario: str, out: Path, engine: str, camera: str) -> None:
 @click.option("--boundaries", is_flag=True, help="Colour the pixels at a boundary in the picture.")
 @click.option("--size", type=_Size(), metavar="WIDTHxHEIGHT", help="Of the picture, in inches.")
 @click.option("--dpi", type=_Count(10, 2400), help="Pixels per inch of the picture.")
+@click.option(
+    "--report",
+    type=click.Path(path_type=Path),
+    help="Folder for the report of `cointoss compare`, with both maps; beside --compare.",
+)
 def basin(
     scenario: str,
     x: str,
@@ -309,6 +314,7 @@ def basin(
     boundaries: bool,
     size: tuple[float, float] | None,
     dpi: int | None,
+    report: Path | None,
 ) -> None:
     """Map the outcome of a toss over two fields of the scenario, each pixel one toss.
 
@@ -321,8 +327,12 @@ def basin(
         raise click.UsageError("--engine and --compare: accepted: one of them")
     if contact is not None and not (both or engine == "mujoco"):
         raise click.UsageError(f"--contact {contact}: accepted: only beside --engine mujoco or --compare")
-    if png is None and (palette or boundaries or size or dpi):
-        raise click.UsageError("--palette, --boundaries, --size and --dpi: accepted: only beside --png")
+    if report is not None and not both:
+        raise click.UsageError(f"--report {report}: accepted: only beside --compare")
+    if png is None and report is None and (palette or boundaries or size or dpi):
+        raise click.UsageError(
+            "--palette, --boundaries, --size and --dpi: accepted: only beside --png or --report"
+        )
     with _plain_errors(scenario):
         from compare.basins.picture import DPI, Palette
         from compare.engines import Engine
@@ -344,8 +354,9 @@ def basin(
             scheduler=scheduler,
             png=png,
             look=Look(palette=Palette(palette or "paper"), boundaries=boundaries, size=size, dpi=dpi or DPI),
+            report=report,
         )
-        for result in make(job, _watched):
+        for result in make(job, _watched, _progress("video", "frames")):
             click.echo(result)
 
 
