@@ -85,18 +85,20 @@ def make(job: Job, watch: Watch, frames: Frames) -> Iterator[str]:
         BackEndError: where MuJoCo can't be used.
     """
     sweeps = sweeps_of(job)
-    for path, sweep in sweeps.items():
+    for path in sweeps:
         store.require_place(path, resume=job.resume, overwrite=job.overwrite)
-        if job.resume:
-            store.require_same(path, sweep)
     if job.png is not None:
         require_file(job.png, ".png", job.source)
     no_video = None
     if job.report is not None:
         _require_report(job.report, sweeps, job.source)
         no_video = drawing_problem()
+    # From here on MuJoCo is imported: its back end is chosen.
     if any(sweep.engine is Engine.MUJOCO for sweep in sweeps.values()):
         require_mujoco()
+    if job.resume:
+        for path, sweep in sweeps.items():
+            store.require_same(path, sweep)
     for sweep in sweeps.values():
         check(sweep)
         drawn = len(sweeps) > 1 or job.png is not None

@@ -5,6 +5,8 @@ import io
 import json
 import re
 import shlex
+import subprocess
+import sys
 from html import unescape
 
 import numpy as np
@@ -20,9 +22,10 @@ from compare.report.folder import write_report
 from compare.sweep import job, show
 from compare.sweep.axes import parse_axis
 from compare.sweep.grid import Sweep
+from compare.sweep.store import opened
 from models.reading import parse
 from models.records import Outcome
-from tests.basin_runs import SCENARIO, basin
+from tests.basin_runs import HERE, SCENARIO, basin
 from tests.made_maps import halves
 
 COIN = f"{SCENARIO}[ending]\nmax_impacts = 2\n"
@@ -152,3 +155,22 @@ def test_a_folder_that_is_no_reports_is_refused_before_any_map(coin, tmp_path):
     assert len(answered.stderr.splitlines()) == 1
     assert {path.name for path in tmp_path.iterdir()} == {"coin.toml", "mine"}
     assert (tmp_path / "mine" / "report.html").read_text() == "mine"
+
+
+def test_a_back_end_for_drawing_is_chosen_before_mujoco_is_imported(coin, tmp_path):
+    case = parse(COIN, "coin")
+    for engine, name in zip(Engine, ("map.zarr", "map-mujoco.zarr"), strict=True):
+        sweep = Sweep(scenario=case, engine=engine, x=parse_axis(X, case), y=parse_axis(Y, case))
+        with opened(tmp_path / name, sweep, COIN, overwrite=False):
+            pass
+    script = (
+        "import sys; from compare.cli import main; from compare.sweep import job\n"
+        "job.drawing_problem = lambda: sys.exit(f'imported: {\"mujoco\" in sys.modules}')\n"
+        "main()"
+    )
+    asked = ("--x", X, "--y", Y, "--compare", "--resume", "--out", "map.zarr", "--report", "report")
+    done = subprocess.run(
+        [sys.executable, "-c", script, "basin", coin, *asked],
+        **{"env": HERE, "cwd": tmp_path, "capture_output": True, "text": True, "check": False},
+    )
+    assert done.stderr == "imported: False\n"
