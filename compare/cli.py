@@ -135,6 +135,13 @@ def _lose_stdout() -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
+_contact = click.option(
+    "--contact",
+    type=click.Choice(["spring", "one_step"]),
+    help="How MuJoCo realises the restitution; a spring by default.",
+)
+
+
 @main.command(epilog=_SCENARIO_HELP)
 @click.argument("scenario")
 @click.option(
@@ -144,11 +151,7 @@ def _lose_stdout() -> None:
     show_default=True,
     help="Which engine.",
 )
-@click.option(
-    "--contact",
-    type=click.Choice(["spring", "one_step"]),
-    help="How MuJoCo realises the restitution; a spring by default.",
-)
+@_contact
 @click.option("--max-impacts", type=_Count(1, 1_000_000), help="Stop after so many impacts.")
 @click.option("--json", "as_json", is_flag=True, help="Answer in JSON, in full precision.")
 @click.option("--trajectory", type=click.Path(path_type=Path), help="Write the path to this .csv file too.")
@@ -275,6 +278,7 @@ def video(scenario: str, out: Path, engine: str, camera: str) -> None:
     is_flag=True,
     help="Make the map by both engines, MuJoCo's as MAP-mujoco.zarr, and compare them.",
 )
+@_contact
 @click.option(
     "--after", type=_Count(0, 999_999), help="Map the face at the touch after N impacts; 0: the first."
 )
@@ -288,6 +292,11 @@ def video(scenario: str, out: Path, engine: str, camera: str) -> None:
 @click.option("--boundaries", is_flag=True, help="Colour the pixels at a boundary in the picture.")
 @click.option("--size", type=_Size(), metavar="WIDTHxHEIGHT", help="Of the picture, in inches.")
 @click.option("--dpi", type=_Count(10, 2400), help="Pixels per inch of the picture.")
+@click.option(
+    "--report",
+    type=click.Path(path_type=Path),
+    help="Folder for the report of `cointoss compare`, with both maps; beside --compare.",
+)
 def basin(
     scenario: str,
     x: str,
@@ -295,6 +304,7 @@ def basin(
     out: Path,
     engine: str | None,
     both: bool,
+    contact: str | None,
     after: int | None,
     resume: bool,
     overwrite: bool,
@@ -304,6 +314,7 @@ def basin(
     boundaries: bool,
     size: tuple[float, float] | None,
     dpi: int | None,
+    report: Path | None,
 ) -> None:
     """Map the outcome of a toss over two fields of the scenario, each pixel one toss.
 
@@ -314,8 +325,14 @@ def basin(
         raise click.UsageError("--resume and --overwrite: accepted: one of them")
     if both and engine is not None:
         raise click.UsageError("--engine and --compare: accepted: one of them")
-    if png is None and (palette or boundaries or size or dpi):
-        raise click.UsageError("--palette, --boundaries, --size and --dpi: accepted: only beside --png")
+    if contact is not None and not (both or engine == "mujoco"):
+        raise click.UsageError(f"--contact {contact}: accepted: only beside --engine mujoco or --compare")
+    if report is not None and not both:
+        raise click.UsageError(f"--report {report}: accepted: only beside --compare")
+    if png is None and report is None and (palette or boundaries or size or dpi):
+        raise click.UsageError(
+            "--palette, --boundaries, --size and --dpi: accepted: only beside --png or --report"
+        )
     with _plain_errors(scenario):
         from compare.basins.picture import DPI, Palette
         from compare.engines import Engine
@@ -330,14 +347,16 @@ def basin(
             y=y,
             out=out,
             engine=None if both else Engine(engine or "analytic"),
+            contact=contact or "spring",
             after=after,
             resume=resume,
             overwrite=overwrite,
             scheduler=scheduler,
             png=png,
             look=Look(palette=Palette(palette or "paper"), boundaries=boundaries, size=size, dpi=dpi or DPI),
+            report=report,
         )
-        for result in make(job, _watched):
+        for result in make(job, _watched, _progress("video", "frames")):
             click.echo(result)
 
 

@@ -58,8 +58,12 @@ class Comparison:
         self.errors.setflags(write=False)
 
 
-def compare(scenario: Scenario) -> Comparison | tuple[Toss, str]:
+def compare(scenario: Scenario, contact: str = "spring") -> Comparison | tuple[Toss, str]:
     """Toss a scenario by both engines and compare the answers.
+
+    Args:
+        scenario: what to toss.
+        contact: how MuJoCo realises the restitution, "spring" or "one_step".
 
     Returns:
         The comparison; or, where MuJoCo can't realise the scenario, the analytic toss and why.
@@ -69,7 +73,7 @@ def compare(scenario: Scenario) -> Comparison | tuple[Toss, str]:
     """
     a = toss(Engine.ANALYTIC, scenario)
     try:
-        b = toss(Engine.MUJOCO, scenario)
+        b = toss(Engine.MUJOCO, scenario, contact)
     except UnsupportedError as error:
         return a, str(error)
     errors = errors_of_impacts(b)

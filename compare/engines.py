@@ -36,13 +36,14 @@ def toss(engine: Engine, scenario: Scenario, contact: str = "spring") -> Toss:
     return coin_mj.toss(scenario, realisation=coin_mj.Realisation(contact))
 
 
-def toss_many(engine: Engine, scenario: Scenario, releases: Releases) -> Outcomes:
+def toss_many(engine: Engine, scenario: Scenario, releases: Releases, contact: str = "spring") -> Outcomes:
     """Toss a coin by one engine once from each release.
 
     Args:
         engine: which.
         scenario: what to toss; its own release is not used.
         releases: the states at time 0.
+        contact: how MuJoCo realises the restitution, "spring" or "one_step".
 
     Raises:
         UnsupportedError: for what the engine doesn't model.
@@ -54,11 +55,16 @@ def toss_many(engine: Engine, scenario: Scenario, releases: Releases) -> Outcome
         return analytic.toss_many(scenario, releases)
     import coin_mj
 
-    return coin_mj.toss_many(scenario, releases)
+    return coin_mj.toss_many(scenario, releases, realisation=coin_mj.Realisation(contact))
 
 
-def require_supported(engine: Engine, scenario: Scenario) -> None:
+def require_supported(engine: Engine, scenario: Scenario, contact: str = "spring") -> None:
     """Refuse what an engine doesn't model, before the first toss.
+
+    Args:
+        engine: which.
+        scenario: what to toss.
+        contact: how MuJoCo realises the restitution, "spring" or "one_step".
 
     Raises:
         UnsupportedError: naming field, value and what is accepted.
@@ -67,22 +73,31 @@ def require_supported(engine: Engine, scenario: Scenario) -> None:
         from coin_mj import Realisation
         from coin_mj.toss import require_supported as require
 
-        require(scenario, Realisation.SPRING)
+        require(scenario, Realisation(contact))
 
 
-def settings(engine: Engine) -> dict[str, str | float]:
-    """Give the settings with which an engine makes many tosses; another result may follow from others."""
+def settings(engine: Engine, contact: str = "spring") -> dict[str, str | float]:
+    """Give the settings with which an engine makes many tosses; another result may follow from others.
+
+    Args:
+        engine: which.
+        contact: how MuJoCo realises the restitution, "spring" or "one_step".
+    """
     if engine is Engine.ANALYTIC:
         from analytic.flight import TOLERANCE
 
         return {"tolerance": TOLERANCE}
-    from coin_mj import MANY
+    from coin_mj import MANY, Realisation
 
+    resolved: dict[str, str | float] = (
+        {"step": MANY.step}
+        if Realisation(contact) is Realisation.ONE_STEP
+        else {"stiffness": MANY.stiffness, "steps": MANY.steps}
+    )
     return {
-        "contact": MANY.realisation.value,
+        "contact": contact,
         "friction": MANY.friction.value,
-        "stiffness": MANY.stiffness,
-        "steps": MANY.steps,
+        **resolved,
         "flight_angle": MANY.flight_angle,
     }
 

@@ -38,7 +38,7 @@ def require_file(path: Path, suffix: str, source: str) -> None:
 
 
 def require_folder(folder: Path, names: tuple[str, ...], source: str | None = None) -> list[Path]:
-    """Check that files written to a folder would replace nothing but files.
+    """Check that files can be written to a folder, and would replace nothing but files.
 
     Args:
         folder: it need not exist.
@@ -54,6 +54,9 @@ def require_folder(folder: Path, names: tuple[str, ...], source: str | None = No
     with naming(folder):
         if os.path.lexists(folder) and not folder.is_dir():
             raise UnwritableError(f"{folder}: accepted: a folder (this is none)")
+        there = next(part for part in (folder, *folder.parents) if os.path.lexists(part))
+        with tempfile.TemporaryFile(dir=there):
+            pass
         in_the_way = [folder / name for name in names if os.path.lexists(folder / name)]
         for path in in_the_way:
             require_replaceable(path, source)

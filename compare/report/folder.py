@@ -13,6 +13,7 @@ from compare.comparison import Comparison, compare
 from compare.files import written_together
 from compare.report import plots
 from compare.report.contents import FILES
+from compare.report.map_section import MapSection
 from compare.report.page import Page, render, versions
 from models.records import Array, Toss
 from models.scenario import Scenario
@@ -25,6 +26,9 @@ def write_report(
     folder: Path,
     no_video: str | None,
     progress: Callable[[int, int], None],
+    *,
+    contact: str = "spring",
+    maps: MapSection | None = None,
 ) -> Path:
     """Toss a scenario by both engines and write everything about it.
 
@@ -35,6 +39,8 @@ def write_report(
         folder: where to write, made if missing; an earlier report there is replaced as a whole, at the end.
         no_video: why no video can be drawn, or None.
         progress: called after each frame of the video with their number so far and in all.
+        contact: how MuJoCo realises the restitution, "spring" or "one_step".
+        maps: what the report also shows.
 
     Returns:
         The page, report.html. Beside it lie toss.mp4, numbers.json, and path-*.csv of each engine.
@@ -44,11 +50,11 @@ def write_report(
         UnwritableError: naming the folder and why.
     """
     with written_together(folder, FILES) as aside:
-        answered = compare(scenario)
+        answered = compare(scenario, contact)
         comparison = answered if isinstance(answered, Comparison) else None
         analytic, not_realisable = (comparison.analytic, None) if comparison else answered  # pyright: ignore
         tosses = [analytic, *([comparison.mujoco] if comparison else [])]
-        numbers = _numbers(name, tosses, comparison, not_realisable)
+        numbers = _numbers(name, tosses, comparison, not_realisable) | ({"map": maps.numbers} if maps else {})
         (aside / "numbers.json").write_text(json.dumps(numbers, indent=1, allow_nan=False), encoding="utf-8")
         for toss in tosses:
             states = toss.sample(answer.path_times(toss))
@@ -72,6 +78,7 @@ def write_report(
             figures=plots.draw(tosses, comparison),
             video=video,
             no_video=no_video or not_realisable,
+            maps=maps,
         )
         (aside / "report.html").write_text(render(page), encoding="utf-8")
     return folder / "report.html"

@@ -12,6 +12,7 @@ from pydantic import BaseModel
 
 from compare.answer import MOST_SHOWN, shortened
 from compare.comparison import Comparison
+from compare.report.map_section import MapSection
 from compare.sequences import SAFETY, aligned
 from models.laws import ContactLaw, EndingTest
 from models.records import Face, Toss
@@ -37,6 +38,7 @@ class Page:
     """The mp4."""
     no_video: str | None
     """Why there is no video, where there is none."""
+    maps: MapSection | None
 
 
 def render(page: Page) -> str:
@@ -55,6 +57,7 @@ def render(page: Page) -> str:
         sequence=shortened(page.analytic.sequence),
         impacts=_impact_rows(page.analytic, comparison),
         video=b64encode(page.video).decode("ascii") if page.video else None,
+        map_picture=b64encode(page.maps.picture).decode("ascii") if page.maps else None,
         safety=SAFETY,
         versions=versions(),
     )

@@ -1,5 +1,6 @@
 """Toss tiles on the workers of a Dask cluster."""
 
+import asyncio
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from itertools import islice
@@ -38,10 +39,12 @@ def cluster(address: str) -> Iterator[Tosser]:
             f'--scheduler {address}: needs dask.distributed; accepted: pip install "cointoss[cluster]"'
         ) from None
     try:
+        asyncio.run(_reach(address))
         client: Any = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
+        why = str(error) or f"no answer within {PATIENCE} s"
         raise SweepError(
-            f"--scheduler {address}: accepted: the address of a running Dask scheduler ({error})"
+            f"--scheduler {address}: accepted: the address of a running Dask scheduler ({why})"
         ) from None
     with client:
         try:
@@ -70,6 +73,21 @@ def cluster(address: str) -> Iterator[Tosser]:
                 yield tossed
 
         yield toss
+
+
+async def _reach(address: str) -> None:
+    """Connect to the scheduler once, and let go.
+
+    A `Client` that can't connect leaves its thread behind, or is closed when Python collects it, which fails
+    on a busy machine; and it waits for ever where something else answers nothing.
+    """
+    from distributed import Security
+    from distributed.comm.core import connect
+
+    async with asyncio.timeout(PATIENCE):
+        allowed = Security().get_connection_args("client")
+        comm: Any = await connect(address, timeout=PATIENCE, **allowed)
+        await comm.close()
 
 
 def _room(client: Any) -> int:

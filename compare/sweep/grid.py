@@ -33,6 +33,8 @@ class Sweep:
     y: Axis
     after: int | None = None
     """The map shows the face at the touch after so many impacts; None for the final outcome."""
+    contact: str = "spring"
+    """How MuJoCo realises the restitution, "spring" or "one_step"."""
 
     def __post_init__(self) -> None:
         """Check that the axes and `after` go together.

@@ -1,12 +1,16 @@
-"""Make the maps, and the picture of them, that `cointoss basin` is asked for."""
+"""Make the maps, their picture and their report that `cointoss basin` is asked for."""
 
-from collections.abc import Callable, Iterator
+import os
+import shlex
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
 from compare.engines import Engine
-from compare.files import require_file
+from compare.files import UnwritableError, require_file
+from compare.graphics import drawing_problem, require_mujoco
+from compare.report.contents import require_folder
 from compare.sweep import run, show, store
 from compare.sweep.axes import parse_axis
 from compare.sweep.grid import Sweep
@@ -15,6 +19,8 @@ from models.reading import parse
 
 Watch = Callable[[str, int, int], AbstractContextManager[run.Progress]]
 """Called with a map's name, the pixels that it has, and how many it will have; gives what to tell of more."""
+Frames = Callable[[int, int], None]
+"""Called with the number of the video's frames that are drawn, and of all."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,6 +39,8 @@ class Job:
     """The map's folder."""
     engine: Engine | None
     """None for both, the second's map beside the first."""
+    contact: str
+    """As of a `Sweep`."""
     after: int | None
     """As of a `Sweep`."""
     resume: bool
@@ -45,6 +53,8 @@ class Job:
     """Where to draw."""
     look: show.Look
     """How to draw."""
+    report: Path | None
+    """Folder of a report on both engines' maps and tosses; accepted for both engines only."""
 
 
 def sweeps_of(job: Job) -> dict[Path, Sweep]:
@@ -59,12 +69,12 @@ def sweeps_of(job: Job) -> dict[Path, Sweep]:
     second = job.out.with_name(f"{job.out.stem}-mujoco.zarr")
     engines = {job.out: job.engine or Engine.ANALYTIC} | ({} if job.engine else {second: Engine.MUJOCO})
     return {
-        path: Sweep(scenario=scenario, engine=engine, x=x, y=y, after=job.after)
+        path: Sweep(scenario=scenario, engine=engine, x=x, y=y, after=job.after, contact=job.contact)
         for path, engine in engines.items()
     }
 
 
-def make(job: Job, watch: Watch) -> Iterator[str]:
+def make(job: Job, watch: Watch, frames: Frames) -> Iterator[str]:
     """Make what is asked for, and give the results as text, each as soon as it is there.
 
     Nothing is begun before all is checked that can be.
@@ -72,12 +82,23 @@ def make(job: Job, watch: Watch) -> Iterator[str]:
     Raises:
         ScenarioError, SweepError, UnsupportedError: for what can't be tossed.
         UnwritableError: for what can't be written.
+        BackEndError: where MuJoCo can't be used.
     """
     sweeps = sweeps_of(job)
     for path in sweeps:
         store.require_place(path, resume=job.resume, overwrite=job.overwrite)
     if job.png is not None:
         require_file(job.png, ".png", job.source)
+    no_video = None
+    if job.report is not None:
+        _require_report(job.report, sweeps, job.source)
+        no_video = drawing_problem()
+    # From here on MuJoCo is imported: its back end is chosen.
+    if any(sweep.engine is Engine.MUJOCO for sweep in sweeps.values()):
+        require_mujoco()
+    if job.resume:
+        for path, sweep in sweeps.items():
+            store.require_same(path, sweep)
     for sweep in sweeps.values():
         check(sweep)
         drawn = len(sweeps) > 1 or job.png is not None
@@ -90,11 +111,42 @@ def make(job: Job, watch: Watch) -> Iterator[str]:
                     run.fill(map_, sweep, left, tosser, progress)
                 yield show.describe_map(path, sweep, run.fractions_of(map_))
     maps = [show.outcomes_of(path) for path in (sweeps if len(sweeps) > 1 or job.png else ())]
+    first = next(iter(sweeps.values()))
     if len(maps) > 1:
         yield show.describe_agreement(show.measure(*maps))
     if job.png is not None:
-        show.write(job.png, maps, next(iter(sweeps.values())), job.look)
+        show.write(job.png, maps, first, job.look)
         yield f"picture    {job.png}"
+    if job.report is not None:
+        from compare.report.folder import write_report
+
+        page = write_report(
+            first.scenario,
+            job.text,
+            Path(job.source).stem,
+            job.report,
+            no_video,
+            frames,
+            contact=job.contact,
+            maps=show.section(maps, first, job.look, _command(job)),
+        )
+        yield f"report     {page}"
+
+
+def _require_report(folder: Path, maps: Iterable[Path], source: str) -> None:
+    require_folder(folder, source)
+    for path in maps:
+        if Path(os.path.realpath(folder)).is_relative_to(os.path.realpath(path)):
+            raise UnwritableError(f"{folder}: accepted: a folder outside of the map {path}")
+
+
+def _command(job: Job) -> str:
+    """Give the command line that makes the maps of both engines and their report."""
+    after = [] if job.after is None else ["--after", str(job.after)]
+    made = ["--contact", job.contact, "--out", str(job.out), "--report", str(job.report)]
+    return shlex.join(
+        ["cointoss", "basin", job.source, "--x", job.x, "--y", job.y, *after, "--compare", *made]
+    )
 
 
 def _tosser(scheduler: str | None) -> AbstractContextManager[run.Tosser]:

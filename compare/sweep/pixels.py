@@ -60,7 +60,7 @@ def toss_pixels(sweep: Sweep, tile: Tile) -> Pixels:
     y, x = sweep.y.values[tile.rows], sweep.x.values[tile.columns]
     outcome, impacts = np.empty((len(y), len(x)), dtype=np.int8), np.empty((len(y), len(x)), dtype=np.int32)
     for group in groups(sweep, y, x):
-        tossed = toss_many(sweep.engine, group.scenario, group.releases)
+        tossed = toss_many(sweep.engine, group.scenario, group.releases, sweep.contact)
         shown = tossed.outcome if sweep.after is None else tossed.after(sweep.after)
         for whole, part in ((outcome, shown), (impacts, tossed.impacts)):
             block = whole[group.rows, group.columns]
@@ -117,7 +117,7 @@ def check(sweep: Sweep) -> None:
 def _check_together(sweep: Sweep, y: Array, x: Array) -> None:
     """Refuse points whose tosses can be made together."""
     first = pixel_scenario(sweep, float(y[0]), float(x[0]))
-    require_supported(sweep.engine, first)
+    require_supported(sweep.engine, first, sweep.contact)
     try:
         check_releases(first, _releases(sweep, first, y, x))
     except ValueError:

@@ -1,15 +1,20 @@
 """Maps for a person: their pictures, and what is measured on them in a few lines."""
 
-from dataclasses import dataclass
+import io
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from compare.basins import picture
 from compare.basins.agreement import Agreement, Share, agreement
+from compare.basins.fractions import fractions
+from compare.engines import Engine, settings
+from compare.report.map_section import MapSection
 from compare.sweep.axes import Axis
 from compare.sweep.grid import Sweep
 from models.records import Outcome
@@ -77,19 +82,49 @@ def write(png: Path, maps: list[NDArray[np.int8]], sweep: Sweep, look: Look) -> 
     Raises:
         UnwritableError: naming the file and why.
     """
+    picture.write_png(_figure(maps, sweep, look), png, dpi=look.dpi)
+
+
+def section(maps: list[NDArray[np.int8]], sweep: Sweep, look: Look, command: str) -> MapSection:
+    """Give what a report shows of the maps of both engines.
+
+    Args:
+        maps: (y, x) each, the first by the paper's mechanics.
+        sweep: what the first was made of.
+        look: how to draw.
+        command: that makes the maps.
+    """
+    drawn = io.BytesIO()
+    _figure(maps, sweep, look).savefig(drawn, format="png", dpi=look.dpi)
+    shares = {
+        engine.value: {outcome.label: share for outcome, share in fractions(outcomes).items()}
+        for engine, outcomes in zip(Engine, maps, strict=True)
+    }
+    return MapSection(
+        picture=drawn.getvalue(),
+        numbers={
+            "axes": {"x": asdict(sweep.x), "y": asdict(sweep.y)},
+            "after": sweep.after,
+            "fractions": shares,
+            "agreement": {"distance": AWAY, **asdict(measure(*maps))},
+            "settings": {engine.value: settings(engine, sweep.contact) for engine in Engine},
+            "command": command,
+        },
+    )
+
+
+def _figure(maps: list[NDArray[np.int8]], sweep: Sweep, look: Look) -> Figure:
     x, y = _drawn(sweep.x), _drawn(sweep.y)
     common: Any = {"x": x, "y": y, "palette": look.palette, "boundaries": look.boundaries}
     if len(maps) > 1:
         measured = measure(*maps)
-        figure = picture.draw_comparison(
+        return picture.draw_comparison(
             *maps,
             **common,
             size=look.size or picture.COMPARISON_SIZE,
             note=f"alike: {_share(measured.away)} away from boundaries,\n{_share(measured.near)} near them",
         )
-    else:
-        figure = picture.draw_map(maps[0], **common, size=look.size or picture.PANEL_SIZE)
-    picture.write_png(figure, png, dpi=look.dpi)
+    return picture.draw_map(maps[0], **common, size=look.size or picture.PANEL_SIZE)
 
 
 def measure(analytic: NDArray[np.int8], mujoco: NDArray[np.int8]) -> Agreement:

@@ -106,6 +106,18 @@ def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
             )
 
 
+def require_same(path: Path, sweep: Sweep) -> None:
+    """Check that a map at a path, if there is one, is that of a sweep.
+
+    Raises:
+        UnwritableError: naming the path and what is not the same.
+    """
+    with naming(path):
+        target = Path(os.path.realpath(path))
+        if _is_map(target):
+            _require_same(path, zarr.open_group(target, mode="r", use_consolidated=False), sweep)
+
+
 @contextmanager
 def opened(path: Path, sweep: Sweep, scenario_text: str, *, overwrite: bool) -> Iterator[Map]:
     """Open the map of a sweep for this process alone: a new one, or what is there of it.
@@ -182,7 +194,7 @@ def _attributes(sweep: Sweep, scenario_text: str) -> dict[str, Any]:
         "cointoss_map": FORMAT,
         "scenario": scenario_text,
         "engine": sweep.engine.value,
-        "engine_settings": settings(sweep.engine),
+        "engine_settings": settings(sweep.engine, sweep.contact),
         "after": sweep.after,
         "versions": {**versions(sweep.engine), "zarr": version("zarr")},
     }
@@ -199,7 +211,10 @@ def _require_same(path: Path, group: zarr.Group, sweep: Sweep) -> None:
     for what, same in (
         ("scenario", same_scenario),
         ("engine", found["engine"] == sweep.engine),
-        ("engine's settings", found["engine_settings"] == settings(sweep.engine)),
+        (
+            f"engine's settings, {json.dumps(found['engine_settings'])}",
+            found["engine_settings"] == settings(sweep.engine, sweep.contact),
+        ),
         ("number of impacts (--after)", found["after"] == sweep.after),
         ("grid in x", _is_axis(group, "x", sweep.x)),
         ("grid in y", _is_axis(group, "y", sweep.y)),

@@ -47,11 +47,9 @@ def coin(tmp_path, monkeypatch):
     return tmp_path / "coin.toml"
 
 
-def sweep_of(x=AXES[1], y=AXES[3], text=SCENARIO, after=None):
+def sweep_of(x=AXES[1], y=AXES[3], text=SCENARIO, engine=Engine.ANALYTIC, **extra):
     case = parse(text, "coin")
-    return Sweep(
-        scenario=case, engine=Engine.ANALYTIC, x=parse_axis(x, case), y=parse_axis(y, case), after=after
-    )
+    return Sweep(scenario=case, engine=engine, x=parse_axis(x, case), y=parse_axis(y, case), **extra)
 
 
 @pytest.fixture(scope="module")
@@ -262,6 +260,20 @@ def test_a_map_made_otherwise_is_not_gone_on_with(tmp_path, key, value, named):
         opened(out, sweep_of(), SCENARIO, overwrite=False).__enter__()
 
 
+@pytest.mark.parametrize(("made", "asked"), [("one_step", "spring"), ("spring", "one_step")])
+def test_a_map_with_another_contact_is_refused_before_the_first_toss(coin, tmp_path, made, asked):
+    second = tmp_path / "map-mujoco.zarr"
+    with opened(second, sweep_of(engine=Engine.MUJOCO, contact=made), SCENARIO, overwrite=False):
+        pass
+    assert xr.open_zarr(second, chunks=None).attrs["engine_settings"]["contact"] == made
+    both = ("--compare", "--contact", asked, "--out", tmp_path / "map.zarr")
+    answered = basin(coin, *AXES, *both, "--resume")
+    assert (answered.exit_code, answered.stdout) == (2, "")
+    assert len(answered.stderr.splitlines()) == 1
+    assert f'is a map with another engine\'s settings, {{"contact": "{made}"' in answered.stderr
+    assert not (tmp_path / "map.zarr").exists()
+
+
 def test_a_map_in_use_is_refused_and_free_again_after(tmp_path):
     out = tmp_path / "map.zarr"
     with opened(out, sweep_of(), SCENARIO, overwrite=False):
@@ -322,7 +334,16 @@ def test_what_was_not_tossed_is_told_from_every_outcome(tmp_path):
         (["--x", "release.position.z=-1:1:3", "--y", "gravity=9:10:3"], "above the floor"),
         ([*AXES, "--resume", "--overwrite"], "one of them"),
         ([*AXES, "--compare", "--engine", "mujoco"], "one of them"),
-        ([*AXES, "--palette", "safe"], "only beside --png"),
+        ([*AXES, "--palette", "safe"], "only beside --png or --report"),
+        ([*AXES, "--contact", "one_step"], "only beside --engine mujoco or --compare"),
+        ([*AXES, "--engine", "analytic", "--contact", "spring"], "only beside --engine mujoco or --compare"),
+        ([*AXES, "--engine", "mujoco", "--contact", "hard"], "'spring', 'one_step'"),
+        ([*AXES, "--report", "report"], "only beside --compare"),
+        ([*AXES, "--engine", "mujoco", "--report", "report"], "only beside --compare"),
+        ([*AXES, "--compare", "--report", "coin.toml"], "accepted: a folder"),
+        ([*AXES, "--compare", "--report", "coin.toml/report"], "can't be written"),
+        ([*AXES, "--compare", "--report", "map.zarr"], "outside of the map map.zarr"),
+        ([*AXES, "--compare", "--report", "map-mujoco.zarr/report"], "outside of the map map-mujoco.zarr"),
         ([*AXES, "--png", "map.gif"], "ends in .png"),
         ([*AXES, "--png", "map.png", "--size", "6"], "WIDTHxHEIGHT"),
         ([*AXES, "--png", "map.png", "--size", "0x4"], "WIDTHxHEIGHT"),

@@ -392,7 +392,13 @@ def test_a_law_that_mujoco_lacks_is_filmed_by_the_papers_mechanics_alone(tmp_pat
 
 
 @pytest.mark.parametrize(
-    "command", ["toss fig24a --engine mujoco", "video fig24a --out film.mp4", "reproduce endings --out out"]
+    "command",
+    [
+        "toss fig24a --engine mujoco",
+        "video fig24a --out film.mp4",
+        "reproduce endings --out out",
+        "basin fig24a --x gravity=9:10:2 --y coin.mass=1:2:2 --compare --out map.zarr",
+    ],
 )
 def test_a_back_end_that_is_none_is_one_line_and_exit_status_2(tmp_path, command):
     done = in_a_shell(f"export MUJOCO_GL=nonsense; cointoss {command}; echo $?", tmp_path)

@@ -8,6 +8,7 @@ from pydantic import BaseModel
 
 import analytic
 import coin_mj
+from coin_mj import ContactSettings
 from compare.engines import Engine, settings
 from compare.sweep import grid
 from compare.sweep.axes import Axis, parse_axis
@@ -235,16 +236,21 @@ def test_what_mujoco_cannot_toss_is_refused_at_either_end_of_an_axis():
     check(sweep_of(*axes))
     with pytest.raises(UnsupportedError, match=r"floor\.restitution = 0"):
         check(sweep_of(*axes, engine=Engine.MUJOCO))
+    check(sweep_of(*axes, engine=Engine.MUJOCO, contact="one_step"))
 
 
-def test_a_pixel_by_mujoco_is_the_toss_with_the_settings_that_its_map_records():
+@pytest.mark.parametrize("contact", ["spring", "one_step"])
+def test_a_pixel_by_mujoco_is_the_toss_with_the_settings_that_its_map_records(contact):
     axes = ("release.angular_velocity.eta=20:40:2", "release.position.z=0.2:0.3:2")
-    sweep = sweep_of(*axes, engine=Engine.MUJOCO)
+    sweep = sweep_of(*axes, engine=Engine.MUJOCO, contact=contact)
     made = toss_pixels(sweep, Tile(slice(0, 2), slice(0, 2)))
     names = {"contact": "realisation"}
     recorded: dict[str, Any] = {
-        names.get(name, name): value for name, value in settings(Engine.MUJOCO).items()
+        names.get(name, name): value for name, value in settings(Engine.MUJOCO, contact).items()
     }
+    assert recorded["realisation"] == contact
+    # `toss` takes one step of this length and no other.
+    assert recorded.pop("step", None) == {"spring": None, "one_step": ContactSettings().step}[contact]
     for row, y in enumerate(sweep.y.values):
         for column, x in enumerate(sweep.x.values):
             one = coin_mj.toss(pixel_scenario(sweep, y, x), **recorded)

@@ -1,0 +1,15 @@
+"""What a report shows of the outcome maps of both engines."""
+
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True, kw_only=True)
+class MapSection:
+    """Maps over two fields of the scenario, one by each engine, and how far they agree."""
+
+    picture: bytes
+    """PNG: the map by the paper's mechanics, that by MuJoCo, and where they differ."""
+    numbers: dict[str, Any]
+    """As in numbers.json under `map`: `axes`, `after`, `fractions` and `settings` by engine, `agreement`, and
+    the `command` that makes the maps anew."""
