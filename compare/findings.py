@@ -10,12 +10,14 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure as Picture
 from numpy.typing import NDArray
+from PIL import Image
 
 from compare.plot_style import STYLE
 from compare.reproduction import Figure, Made, Progress
 
 FILES = ("findings.json", "data.npz", "figure.png")
 """What every figure of the paper leaves."""
+_COLORS = 128
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,6 +90,10 @@ def _saved(folder: Path, result: Result) -> Made:
     np.savez_compressed(folder / "data.npz", allow_pickle=False, **result.data)
     with mpl.rc_context(STYLE):
         result.draw().savefig(folder / "figure.png", dpi=110)
+    # A map's fine stripes would make a large file in full colour.
+    with Image.open(folder / "figure.png") as drawn:
+        few = drawn.convert("RGB").quantize(_COLORS)
+    few.save(folder / "figure.png", optimize=True)
     return Made(text=table(result.findings), failed=failed(result.findings))
 
 

@@ -71,14 +71,14 @@ def draw(scenario: Scenario, positions: Array, quaternions: Array) -> Stills | s
 
     import mujoco
 
-    from coin_mj.scene import build_painted
+    from coin_mj.painted import build_painted
     from coin_mj.state import of_release
 
     body = scenario.body
     low, high = positions.min(axis=0), positions.max(axis=0)
     span = float(np.linalg.norm(high - low)) + 4 * body.radius
     # Shadows are ragged at the border of the scene, so that is put out of sight.
-    model = build_painted(scenario, 4 * span)
+    model = build_painted(scenario, extent=4 * span, tile=2 * body.radius)
     data = mujoco.MjData(model)
     camera = mujoco.MjvCamera()
     camera.lookat[:] = (low + high) / 2

@@ -103,7 +103,7 @@ def _closed_form(grid: Grid) -> Outcomes:
 
 
 def _draw(data: dict[str, Outcomes]) -> Picture:
-    picture = Picture(figsize=(8, 7))
+    picture = Picture(figsize=(6.4, 5.6))
     order = ("first touch, air", "first touch, vacuum", "final, air", "final, vacuum")
     for axes, letter, name in zip(picture.subplots(2, 2).flat, "abcd", order, strict=True):
         draw_panel(axes, data[name], x=HEIGHT, y=SPIN)

@@ -69,7 +69,7 @@ def test_a_small_study_counts_every_toss():
     ("kind", "end", "claim"),
     [
         ("ideal, thin, smooth, air", "perpetual, perpetual", "only in vacuum"),
-        ("imperfect, thin, smooth, vacuum", "undecided, max_impacts", "only a thick"),
+        ("imperfect, thin, smooth, air", "undecided, max_impacts", "in air fewer"),
         ("imperfect, thick, coulomb, kinematic, vacuum", "undecided, max_impacts", "fewer than"),
     ],
 )
