@@ -44,9 +44,11 @@ TERMINAL_TIMES = {0.0: 40.0, 1.0: 8.0}
 def make(progress: Progress, count: int = 1000) -> Result:
     """Let `count` spinning coins fall from each height in air and in vacuum, and single ones without spin."""
     spins = np.random.default_rng(SEED).uniform(*SPINS, count)
-    later, turned, aside, changed = np.array(
-        [_compared(height, spins, progress, i) for i, height in enumerate(FALLS)]
-    ).T
+    rows = []
+    for done, height in enumerate(FALLS.tolist(), start=1):
+        rows.append(_compared(height, spins))
+        progress(done, len(FALLS) + 1)
+    later, turned, aside, changed = np.array(rows).T
     bounced = _bounced(spins)
     drops = {name: _tilts(analytic, name, FALLS) for name in DROPPED}
     by_mujoco = {name: _tilts(coin_mj, name, FALLS[LONG:]) for name in DROPPED}
@@ -138,9 +140,7 @@ def make(progress: Progress, count: int = 1000) -> Result:
     return Result(findings=findings, draw=partial(_draw, data), data=data)
 
 
-def _compared(
-    height: float, spins: Array, progress: Progress, done: int
-) -> tuple[float, float, float, float]:
+def _compared(height: float, spins: Array) -> tuple[float, ...]:
     """Compare coins that fall from one height in air with the same in vacuum, up to the first touch.
 
     Returns:
@@ -158,7 +158,6 @@ def _compared(
     rate = body.drag.moment_tangential / body.inertia[0][0]
     # About a fixed axis the spin dies out exponentially.
     turned = spins * (vacuum["time"] - (1 - np.exp(-rate * air["time"])) / rate)
-    progress(done + 1, len(FALLS) + 1)
     return (
         float(np.median(air["time"] - vacuum["time"])),
         float(np.median(np.abs(turned))),
