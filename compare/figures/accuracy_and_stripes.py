@@ -132,9 +132,9 @@ FIGURE = paper_figure(
     title="the accuracy of a release against the width of the stripes",
     assumed=(
         "Accuracy and width are those of the height, at random releases in the map of Fig. 29 in air, "
-        "χ = 0.6; soft floor: the face at the first touch. W reaches from the next boundary below to the next "
-        "above, sought up to 0.1 m off in steps of a quarter; stripes narrower than a step can be passed "
-        "over. The line on the right is 1 mm."
+        "χ = 0.6; soft floor: the face at the first touch. W reaches from the next boundary below to the "
+        "next above, sought up to 0.1 m off in steps of a quarter; stripes narrower than a step can be "
+        "passed over. The line on the right is 1 mm."
     ),
     seconds=25,
     make=make,

@@ -137,7 +137,8 @@ def _same_by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
 
 def _draw(data: dict[str, NDArray[Any]]) -> Picture:
     picture = Picture(figsize=(10, 7.5))
-    maps, numbers = picture.subfigures(2, 1, height_ratios=(2, 1.1))
+    halves = picture.add_gridspec(2, 1, height_ratios=(2, 1.1))
+    maps, numbers = (picture.add_subfigure(half) for half in halves)
     for row, medium in zip(maps.subplots(2, len(SHOWN), sharex=True, sharey=True), MEDIA, strict=True):
         for axes, n in zip(row, SHOWN, strict=True):
             draw_panel(axes, data[f"{medium}, map {n}"], x=HEIGHT_AXIS, y=SPIN_AXIS)
