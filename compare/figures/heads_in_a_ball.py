@@ -22,8 +22,8 @@ SEED = 52
 RADII = 10.0 ** -np.arange(1, 13)
 """ε, of the balls; lengths are measured by r, speeds by √(g r), angles in rad, spins by √(g/r)."""
 MUJOCO_RADIUS = 1e-12
-APART = 0.01
-"""Between the two releases from which a boundary is sought [m]."""
+REACH, LOOKS = 0.1, 200
+"""How far up a boundary is sought [m], and at how many heights."""
 KINDS = {"inside a basin": "#0072B2", "on a boundary": "#D55E00"}
 
 
@@ -82,12 +82,12 @@ def make(progress: Progress, centers: int = 10, count: int = 150, tosses_mujoco:
 
 
 def _boundary(scenario: Scenario, height: float, spin: float) -> float:
-    """Give the height of a boundary near a height, to rounding [m]."""
+    """Give the height of a boundary above a height, to rounding [m]."""
 
     def outcome(z: float) -> int:
         return int(analytic.toss_many(scenario, releases(np.array([z]), np.array([spin]))).outcome[0])
 
-    line = np.linspace(height, height + APART, 50)
+    line = np.linspace(height, height + REACH, LOOKS)
     faces = analytic.toss_many(scenario, releases(line, np.full_like(line, spin))).outcome
     change = int(np.flatnonzero(faces[1:] != faces[:-1])[0])
     low, high = line[change], line[change + 1]
