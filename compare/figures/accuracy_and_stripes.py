@@ -34,7 +34,7 @@ def make(progress: Progress, centers: int = 60, count: int = 60) -> Result:
     data: dict[str, NDArray[Any]] = {"ratio": RATIOS}
     at_hand = {}
     for landing in LANDINGS:
-        width = np.array([_width(landing, z, w) for z, w in zip(heights, spins, strict=True)])
+        width = np.array([stripe_width(landing, z, w) for z, w in zip(heights, spins, strict=True)])
         progress(2 * len(at_hand) + 1, 2 * len(LANDINGS))
         rows = []
         for ratio in RATIOS:
@@ -90,8 +90,14 @@ def _faces(landing: str, heights: Array, spins: Array) -> NDArray[np.int8]:
     return analytic.toss_many(case(air=True), releases(heights, spins)).outcome
 
 
-def _width(landing: str, height: float, spin: float) -> float:
-    """Give how far apart the next boundaries above and below a release are, as the ladder finds them [m]."""
+def stripe_width(landing: str, height: float, spin: float) -> float:
+    """Give how far apart the next boundaries above and below a release are, as `LADDER` finds them [m].
+
+    Args:
+        landing: one of `LANDINGS`.
+        height: of the release [m].
+        spin: about ξ [rad/s].
+    """
     steps = np.concatenate([[0.0], LADDER, -LADDER])
     faces = _faces(landing, height + steps, np.full(len(steps), spin))
     other = faces[1:].reshape(2, -1) != faces[0]

@@ -46,14 +46,14 @@ def make(progress: Progress, count: int = 1000) -> Result:
     spins = np.random.default_rng(SEED).uniform(*SPINS, count)
     rows = []
     for done, height in enumerate(FALLS.tolist(), start=1):
-        rows.append(_compared(height, spins))
+        rows.append(landing_shifts(height, spins))
         progress(done, len(FALLS) + 1)
     later, turned, aside, changed = np.array(rows).T
     bounced = _bounced(spins)
     drops = {name: _tilts(analytic, name, FALLS) for name in DROPPED}
     by_mujoco = {name: _tilts(coin_mj, name, FALLS[LONG:]) for name in DROPPED}
-    reversals = {name: [_turning_points(tilt) for tilt in tilts] for name, (_, tilts, _) in drops.items()}
-    reversals_mujoco = {name: _turning_points(tilts[0]) for name, (_, tilts, _) in by_mujoco.items()}
+    reversals = {name: [turning_points(tilt) for tilt in tilts] for name, (_, tilts, _) in drops.items()}
+    reversals_mujoco = {name: turning_points(tilts[0]) for name, (_, tilts, _) in by_mujoco.items()}
     glided = drops[IDEAL][2][LONG]
     terminal = [_terminal(engine, b) for engine in (analytic, coin_mj) for b in TERMINAL_TIMES]
     progress(len(FALLS) + 1, len(FALLS) + 1)
@@ -140,8 +140,12 @@ def make(progress: Progress, count: int = 1000) -> Result:
     return Result(findings=findings, draw=partial(_draw, data), data=data)
 
 
-def _compared(height: float, spins: Array) -> tuple[float, ...]:
+def landing_shifts(height: float, spins: Array) -> tuple[float, ...]:
     """Compare coins that fall from one height in air with the same in vacuum, up to the first touch.
+
+    Args:
+        height: of the release [m].
+        spins: about ξ, (n,) [rad/s].
 
     Returns:
         Medians of how much later [s], how much less turned [rad] and how far aside [m] they land, and the
@@ -208,7 +212,7 @@ def _tilts(engine: ModuleType, name: str, falls: Array) -> tuple[list[Array], li
     return times, tilts, aside
 
 
-def _turning_points(tilt: Array) -> int:
+def turning_points(tilt: Array) -> int:
     """Count how often a tilt turns back by more than rounding."""
     steps = np.diff(tilt)
     signs = np.sign(steps[np.abs(steps) > 1e-9])

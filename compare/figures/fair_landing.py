@@ -51,7 +51,7 @@ def make(progress: Progress, hands: int = 300, each: int = 15, tosses_mujoco: in
     few = Releases(**{name: part[:: len(tossed) // tosses_mujoco] for name, part in vars(tossed).items()})
     same = _mujoco_same(scenario, few, first_faces[:: len(tossed) // tosses_mujoco])
     progress(whole, whole)
-    bias = {key: _bias(shares, each) for key, shares in heads.items()}
+    bias = {key: bias_of_hands(shares, each) for key, shares in heads.items()}
     error = max(float(np.std(shares)) for shares in heads.values()) / np.sqrt(hands)
     plain, all_axes = ASIDE
     smooth, rough = FLOORS
@@ -129,8 +129,13 @@ def _mujoco_same(scenario: Scenario, tossed: Releases, faces: NDArray[np.int8]) 
     return int(np.sum(engines.toss_many(Engine.MUJOCO, once, tossed).last_face == faces))
 
 
-def _bias(shares: Array, each: int) -> float:
-    """Give the root of the mean square of p - 1/2 over the hands, less what counting `each` tosses adds."""
+def bias_of_hands(shares: Array, each: int) -> float:
+    """Give the root of the mean square of p - 1/2 over the hands, less what counting adds.
+
+    Args:
+        shares: of heads of each hand, (hands,).
+        each: tosses that they were counted in.
+    """
     by_chance = shares * (1 - shares) / (each - 1)
     return float(np.sqrt(max(np.mean((shares - 1 / 2) ** 2 - by_chance), 0)))
 

@@ -75,7 +75,7 @@ def make(
         last = np.array(stripes)[:, -1]
         alone = [np.flatnonzero(np.array(line) > 1)[-1] + 1 for line in stripes]
         widest = (HEIGHTS[1] - HEIGHTS[0]) / MAGNIFICATION ** np.array(alone, dtype=float)
-        slope, error = _exponent(flags)
+        slope, error = exponent(flags)
         findings += [
             Finding(
                 claim=f"under further magnification boundaries are smooth, no new structure (in {medium})",
@@ -139,8 +139,12 @@ def _uncertain(scenario: Scenario, heights: Array, spins: Array) -> NDArray[np.b
     return np.array([(a != outcome[0]) | (b != outcome[0]) for a, b in zip(above, below, strict=True)])
 
 
-def _exponent(flags: NDArray[np.bool_]) -> tuple[float, float]:
-    """Give α of the fine accuracies, and its standard error by a jackknife over the tosses."""
+def exponent(flags: NDArray[np.bool_]) -> tuple[float, float]:
+    """Give α of the fine accuracies, and its standard error by a jackknife over the tosses.
+
+    Args:
+        flags: which tosses are uncertain at each of `ACCURACIES`, (ε, n).
+    """
     parts = np.arange(flags.shape[1]) % PARTS
     without = [_slope(flags[:, parts != part]) for part in range(PARTS)]
     return _slope(flags), float(np.sqrt((PARTS - 1) * np.var(without)))

@@ -32,17 +32,17 @@ def make(progress: Progress, centers: int = 10, count: int = 150, tosses_mujoco:
     scenario = case(air=True)
     rng = np.random.default_rng(SEED)
     inside = np.column_stack([rng.uniform(*HEIGHTS, centers), rng.uniform(*SPINS, centers)])
-    border = np.array([[_boundary(scenario, z, w), w] for z, w in inside])
+    border = np.array([[boundary_above(scenario, z, w), w] for z, w in inside])
     heads: dict[str, Array] = {}
     for kind, points in zip(KINDS, (inside, border), strict=True):
         rows = []
         for z, w in points:
-            balls = [_ball(scenario, z, w, radius, count, rng) for radius in RADII]
+            balls = [ball_about(scenario, z, w, radius, count, rng) for radius in RADII]
             rows.append([_heads(analytic.toss_many(scenario, ball).outcome) for ball in balls])
             progress(len(heads) * centers + len(rows), 2 * centers + 1)
         heads[kind] = np.array(rows)
     z, w = inside[0]
-    ball = _ball(scenario, z, w, MUJOCO_RADIUS, tosses_mujoco, rng)
+    ball = ball_about(scenario, z, w, MUJOCO_RADIUS, tosses_mujoco, rng)
     mujoco = _heads(engines.toss_many(Engine.MUJOCO, scenario, ball).outcome)
     progress(2 * centers + 1, 2 * centers + 1)
     sure, even = heads.values()
@@ -81,8 +81,17 @@ def make(progress: Progress, centers: int = 10, count: int = 150, tosses_mujoco:
     return Result(findings=findings, draw=partial(_draw, data), data=data)
 
 
-def _boundary(scenario: Scenario, height: float, spin: float) -> float:
-    """Give the height of a boundary above a height, to rounding [m]."""
+def boundary_above(scenario: Scenario, height: float, spin: float) -> float:
+    """Find a boundary above a release of the map, to rounding.
+
+    Args:
+        scenario: of the map.
+        height: of the release [m].
+        spin: of both, about ξ [rad/s].
+
+    Returns:
+        The height of the last double before the outcome changes [m].
+    """
 
     def outcome(z: float) -> int:
         return int(analytic.toss_many(scenario, releases(np.array([z]), np.array([spin]))).outcome[0])
@@ -96,10 +105,19 @@ def _boundary(scenario: Scenario, height: float, spin: float) -> float:
     return float(low)
 
 
-def _ball(
+def ball_about(
     scenario: Scenario, height: float, spin: float, radius: float, count: int, rng: np.random.Generator
 ) -> Releases:
-    """Draw releases from the ball about that at a height with a spin about ξ; all twelve numbers vary."""
+    """Draw releases uniformly from a ball about one of the map; all twelve numbers vary.
+
+    Args:
+        scenario: of the map.
+        height: of the centre [m].
+        spin: of the centre, about ξ [rad/s].
+        radius: in the units of `RADII`.
+        count: how many.
+        rng: the source of chance.
+    """
     r, g = scenario.coin.radius, scenario.gravity
     drawn = rng.normal(size=(count, 12))
     drawn *= radius * rng.uniform(0, 1, (count, 1)) ** (1 / 12) / np.linalg.norm(drawn, axis=1, keepdims=True)

@@ -36,7 +36,9 @@ def make(progress: Progress, tosses: int = 60_000) -> Result:
     bouncing = analytic.toss_many(scenario, start).outcome == Face.HEADS
     progress(2, 2)
     heads = dict(zip(LANDINGS, (soft, bouncing), strict=True))
-    spread = {landing: np.array([_spread(z, w, up, n) for n in CELLS]) for landing, up in heads.items()}
+    spread = {
+        landing: np.array([spread_over_cells(z, w, up, n) for n in CELLS]) for landing, up in heads.items()
+    }
     densities = _densities(z, w)
     errors = np.array([_error(weights) for weights in densities])
     shares = {
@@ -103,8 +105,15 @@ def _shares(z: Array, w: Array, heads: NDArray[np.bool_], cells: int) -> tuple[A
     return np.bincount(cell, weights=heads, minlength=cells**2) / np.maximum(count, 1), count
 
 
-def _spread(z: Array, w: Array, heads: NDArray[np.bool_], cells: int) -> float:
-    """Give the standard deviation of the share of heads from 1/2 over the cells, less that of counting."""
+def spread_over_cells(z: Array, w: Array, heads: NDArray[np.bool_], cells: int) -> float:
+    """Give the root of the mean square of p - 1/2 over the cells of the map, less what counting adds.
+
+    Args:
+        z: heights, from 0 to 1 over the map, (n,).
+        w: spins, likewise, (n,).
+        heads: whether a toss ends so, (n,).
+        cells: along each side.
+    """
     p, count = _shares(z, w, heads, cells)
     told = count > 1
     by_chance = p[told] * (1 - p[told]) / (count[told] - 1)
