@@ -10,7 +10,6 @@ from analytic.edge import held_on_edge, on_edge, stands
 from analytic.flight import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
 from analytic.floor_force import Motion
 from analytic.impact import impulse, spin_gained
-from analytic.perpetual import dies_away, first_contact, no_looks
 from analytic.rim import closing_speed, crowded, fly
 from analytic.upright import put_upright
 from models.attitude import rotation_matrix
@@ -18,11 +17,14 @@ from models.body import Body, Rules
 from models.compiled import compiled
 from models.ending import energy, face_up, judge
 from models.geometry import contact_velocity, lowest_point
+from models.perpetual import dies_away, first_contact, no_looks
 from models.records import IMPACT_ROW, Array, Ending, Outcome
 from models.vectors import add, apply, scale, subtract
 
 # The most steps and changes of a toss in contact.
 CONTACT_STEPS = 5_000_000
+# A loss that is none, against the energy.
+NO_LOSS = 1e-9
 
 
 class Run(NamedTuple):
@@ -171,7 +173,7 @@ def fly_and_hit(body, rules, y, rows, keep_pieces):
                     # A step forced at a grazing point may have left the coin a little below the floor.
                     y[2] -= min(closing_speed(body, y)[0], 0.0)
                     outcome, ending = decided(body, rules, y)
-                    if ending == Ending.NONE and dies_away(body, rules, y, time, looks):
+                    if ending == Ending.NONE and _goes_on(body, rules, y, time, looks):
                         outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
     return n, pieces[:k], outcome, ending, time
 
@@ -196,7 +198,7 @@ def keep_contact(body, rules, mu, motion, y, time, steps_left, looks):
         y: state, (13,); advanced.
         time: now [s].
         steps_left: the most steps wanted.
-        looks: see `dies_away`.
+        looks: see `models.perpetual.dies_away`.
 
     Returns:
         The time [s], the steps left, the next `Motion`, the outcome and the ending.
@@ -218,7 +220,7 @@ def keep_contact(body, rules, mu, motion, y, time, steps_left, looks):
             elif not upright:
                 put_upright(body, y)
                 return time, steps_left, Motion.UPRIGHT, undecided, Ending.NONE
-        if ending == Ending.NONE and dies_away(body, rules, y, time, looks):
+        if ending == Ending.NONE and _goes_on(body, rules, y, time, looks):
             outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
         if ending != Ending.NONE:
             return time, steps_left, motion, outcome, ending
@@ -236,3 +238,9 @@ def decided(body, rules, y):
     """Give the outcome and the ending that `judge` gives of the state y, (13,)."""
     up = rotation_matrix(attitude_of(y))[2]
     return judge(body, rules, y[2], velocity_of(y), up, spin_of(y))
+
+
+@compiled
+def _goes_on(body, rules, y, time, looks):
+    """Tell whether a coin in state y, (13,), turns over for ever."""
+    return dies_away(body, rules, y[2], velocity_of(y), spin_of(y), NO_LOSS, time, looks)

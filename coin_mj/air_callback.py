@@ -14,9 +14,9 @@ import mujoco
 import numba
 import numpy as np
 from numba import types
-from numba.extending import intrinsic
 
 from coin_mj.air import air_force
+from coin_mj.library import place_of, pointer_to
 from models.attitude import rotation_matrix
 from models.scenario import Scenario
 from models.vectors import apply, apply_transposed
@@ -80,30 +80,29 @@ def air_of(model: mujoco.MjModel) -> Iterator[None]:
 def _callback() -> Any:
     """Compile the callback and give it as a pointer that MuJoCo takes.
 
-    Python does not tell where the fields of mjModel and mjData lie. That is found in a model made for it; so
-    the machine code holds for this MuJoCo alone, and is not kept on disk.
+    The places of the fields of mjModel and mjData are written into the machine code; so it holds for this
+    MuJoCo alone, and is not kept on disk.
     """
     model = mujoco.MjModel.from_xml_string(
         f'<mujoco><custom><numeric name="{NUMERIC}" size="{_SIZE}" data="0"/></custom>'
         '<worldbody><body><freejoint/><geom size="1"/></body></worldbody></mujoco>'
     )
     data = mujoco.MjData(model)
-    count_at = _place(model, _SIZE)
-    numbers_at = _place(model, model.numeric_data.ctypes.data)
-    qpos_at = _place(data, data.qpos.ctypes.data)
-    qvel_at = _place(data, data.qvel.ctypes.data)
-    passive_at = _place(data, data.qfrc_passive.ctypes.data)
-    pointer: Any = _pointer
+    count_at = _word(model, _SIZE)
+    numbers_at = _word(model, model.numeric_data.ctypes.data)
+    qpos_at = _word(data, data.qpos.ctypes.data)
+    qvel_at = _word(data, data.qvel.ctypes.data)
+    passive_at = _word(data, data.qfrc_passive.ctypes.data)
 
     def callback(model, data):
         model = numba.carray(model, numbers_at + 1, np.int64)
         data = numba.carray(data, passive_at + 1, np.int64)
         if model[count_at] != NUMBERS:
             return
-        numbers = numba.carray(pointer(model[numbers_at]), NUMBERS, np.float64)
-        qpos = numba.carray(pointer(data[qpos_at]), 7, np.float64)
-        qvel = numba.carray(pointer(data[qvel_at]), 6, np.float64)
-        passive = numba.carray(pointer(data[passive_at]), 6, np.float64)
+        numbers = numba.carray(pointer_to(model[numbers_at], np.float64), NUMBERS)
+        qpos = numba.carray(pointer_to(data[qpos_at], np.float64), 7)
+        qvel = numba.carray(pointer_to(data[qvel_at], np.float64), 6)
+        passive = numba.carray(pointer_to(data[passive_at], np.float64), 6)
         R = rotation_matrix((qpos[3], qpos[4], qpos[5], qpos[6]))
         v, w = apply_transposed(R, (qvel[0], qvel[1], qvel[2])), (qvel[3], qvel[4], qvel[5])
         f, m = air_force(numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], v, w)
@@ -117,20 +116,6 @@ def _callback() -> Any:
     return compiled.ctypes
 
 
-def _place(struct: Any, value: int) -> int:
-    """Give which word of a model or its data is `value`, one that lies in it."""
-    words = ctypes.cast(struct._address, ctypes.POINTER(ctypes.c_int64))
-    place = 0
-    while words[place] != value:
-        place += 1
-    return place
-
-
-@intrinsic
-def _pointer(_context, _address):
-    """Give an address as a pointer."""
-
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        return builder.inttoptr(arguments[0], context.get_value_type(signature.return_type))
-
-    return types.voidptr(types.int64), code
+def _word(struct: Any, value: int) -> int:
+    """Give which word of a model or its data is `value`."""
+    return place_of(struct, ctypes.c_int64(value)) // _WORD

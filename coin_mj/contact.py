@@ -32,7 +32,7 @@ class Friction(StrEnum):
 
 
 class ContactSettings(NamedTuple):
-    """How MuJoCo realises a floor."""
+    """How MuJoCo realises a floor, and how finely it steps."""
 
     realisation: Realisation = Realisation.SPRING
     friction: Friction = Friction.EXPLICIT
@@ -44,6 +44,8 @@ class ContactSettings(NamedTuple):
     """Length of the one step [s]."""
     slip_damping: float | None = None
     """With which MuJoCo's own friction damps the slip, by default that of the normal motion [1/s]."""
+    flight_angle: float = 0.02
+    """Largest turn of the coin in a step of free flight [rad]."""
 
     def softened(self, part: float) -> "ContactSettings":
         """Give a contact whose spring is softer by `part`, or whose one step is longer by `part`."""

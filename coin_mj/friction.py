@@ -1,16 +1,15 @@
 """Coulomb's force on a frictionless MuJoCo contact, from the normal force that MuJoCo measures."""
 
-# The MuJoCo wheel describes no types.
-# pyright: reportAttributeAccessIssue=false
-
 import math
-from typing import NamedTuple
 
-import mujoco
 import numpy as np
 
+from coin_mj.hold import feel, hold
+from coin_mj.library import mj_solve_mass
+from coin_mj.machine import forward, momentum_of, motion_of, other_force, push, set_motion
+from models.attitude import rotation_matrix
 from models.compiled import compiled
-from models.records import Array
+from models.vectors import add, apply, apply_transposed, cross
 
 PARTS = 512
 """Of a step in which the slip may turn or stop."""
@@ -22,24 +21,97 @@ SAME = 1e-13
 """Two directions that differ by less are one."""
 
 
-class Grip(NamedTuple):
-    """The point at which the floor holds the coin: the centre of pressure."""
+@compiled
+def push_and_rub(coin, grip, dt):
+    """Advance by dt [s] with Coulomb's force in a frictionless contact.
 
-    jacobian: Array
-    """From qvel to the velocity of the coin there, space frame, (3, 6)."""
-    mobility: Array
-    """K, its change by an impulse there, space frame, (3, 3) [1/kg]."""
+    The step is made without friction, to measure the normal force, and made again with it. The force acts
+    as in the middle between the points where the floor presses at the start and at the end of the step.
+
+    Args:
+        coin: MuJoCo's, pressed, after `forward`, or after `feel` where the contact lasts.
+        grip: how the floor holds it.
+        dt: length of the step [s].
+    """
+    start, momentum, other = motion_of(coin), momentum_of(coin)[2], other_force(coin)[2]
+    R, point = rotation_matrix(start[3:7]), pressed_point(coin)
+    K = mobility(coin, R, point)
+    _make_step(coin, grip, dt)
+    normal = max((momentum_of(coin)[2] - momentum) / dt - other, 0.0)
+    end = motion_of(coin)
+    R_end, point_end = rotation_matrix(end[3:7]), point
+    if _forces(coin, grip) > 0:
+        point_end = pressed_point(coin)
+    slip, slip_free = _velocity(start, R, point), _velocity(end, R_end, point_end)
+    x, y = coulomb_force(K, coin.friction, normal, slip[:2], slip_free[:2], dt)
+    # What the friction takes from the normal force goes with it: MuJoCo, which lets the share 1 - solimp of
+    # any other push through its contact, has nothing left to do.
+    F = (x, y, -(K[0, 2] * x + K[1, 2] * y) / K[2, 2])
+    at_start, at_end = apply_transposed(R, cross(point, F)), apply_transposed(R_end, cross(point_end, F))
+    for i in range(3):
+        coin.applied[i], coin.applied[3 + i] = F[i], (at_start[i] + at_end[i]) / 2
+    set_motion(coin, start)
+    _forces(coin, grip)
+    _make_step(coin, grip, dt)
+    coin.applied[:] = 0
 
 
-def grip_of(model: mujoco.MjModel, data: mujoco.MjData) -> Grip:
-    """Give the grip of a coin that is pressed, after mj_forward."""
-    contacts = [data.contact[i] for i in range(data.ncon) if data.contact[i].efc_address >= 0]
-    forces = np.array([data.efc_force[contact.efc_address] for contact in contacts])
-    point = forces @ np.array([contact.pos for contact in contacts]) / forces.sum()
-    jacobian, gained = np.zeros((3, 6)), np.zeros((3, 6))
-    mujoco.mj_jac(model, data, jacobian, None, point, model.body("coin").id)
-    mujoco.mj_solveM(model, data, gained, jacobian)
-    return Grip(jacobian, jacobian @ gained.T)
+@compiled
+def _forces(coin, grip):
+    return feel(coin, grip) if grip.root > 0 else forward(coin)
+
+
+@compiled
+def _make_step(coin, grip, dt):
+    if grip.root > 0:
+        hold(coin, grip, dt)
+    else:
+        push(coin, dt)
+
+
+@compiled
+def pressed_point(coin):
+    """Give the centre of the floor's pressure on a pressed coin from B, space frame, (3,) [m].
+
+    The moment of the normal forces about B, which `forward` or `feel` found, tells it.
+    """
+    f = coin.of_floor
+    moment = apply(rotation_matrix(coin.qpos[3:]), (f[3], f[4], f[5]))
+    return -moment[1] / f[2], moment[0] / f[2], coin.floor - coin.qpos[2]
+
+
+@compiled
+def _velocity(motion, R, point):
+    """Give the velocity of the coin's point that is at `point` from B, space frame, (3,) [m/s]."""
+    return add(motion[7:10], cross(apply(R, motion[10:13]), point))
+
+
+@compiled
+def mobility(coin, R, point):
+    """Give K, the change of the velocity of the coin's point at `point` from B by an impulse there.
+
+    Args:
+        coin: MuJoCo's, after `forward`.
+        R: rotation matrix, body to space.
+        point: space frame, (3,) [m].
+
+    Returns:
+        K: space frame, (3, 3) [1/kg].
+    """
+    jacobian, gained = np.zeros((3, 6)), np.empty((3, 6))
+    for i in range(3):
+        unit = (1.0 if i == 0 else 0.0, 1.0 if i == 1 else 0.0, 1.0 if i == 2 else 0.0)
+        turning = apply_transposed(R, cross(point, unit))
+        jacobian[i, i] = 1.0
+        for j in range(3):
+            jacobian[i, 3 + j] = turning[j]
+    mj_solve_mass(coin.model, coin.data, gained.ctypes, jacobian.ctypes, 3)
+    K = np.zeros((3, 3))
+    for i in range(3):
+        for j in range(3):
+            for k in range(6):
+                K[i, j] += jacobian[i, k] * gained[j, k]
+    return K
 
 
 @compiled

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 
 from coin_mj.air_callback import air_of
-from coin_mj.scene import described, shape_thickness
+from coin_mj.scene import compile_coin, described, shape_thickness
 from coin_mj.state import of_release
 from models.attitude import rotation_matrix
 from models.geometry import lowest_point
@@ -123,7 +123,7 @@ def floor_forces(toss: Toss, times: Array) -> Array:
     before, after = toss.sample(first), toss.sample(first + BETWEEN)
     spec = described(toss.scenario, shape_thickness(toss.scenario))
     spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
-    model = spec.compile()
+    model = compile_coin(spec, toss.scenario)
     data, force = mujoco.MjData(model), np.zeros(6)
     with air_of(model):
         for i, frame in enumerate(held):

@@ -10,7 +10,6 @@ import numpy as np
 
 from coin_mj.air_callback import describe_air
 from coin_mj.contact import Rebound
-from models.drag import linear_drag
 from models.scenario import Scenario
 
 THIN_SHAPE = 1e-6
@@ -59,16 +58,23 @@ def build(scenario: Scenario, rebound: Rebound, friction: float, thickness: floa
             solreffriction=(0.0, -max(rebound.slip_damping, NO_DAMPING)),
             solimp=coin.solimp,
         )
+    return compile_coin(spec, scenario)
+
+
+def compile_coin(spec: mujoco.MjSpec, scenario: Scenario) -> mujoco.MjModel:
+    """Compile the description of a scenario's coin, and set what a description cannot tell."""
     model = spec.compile()
     # MuJoCo's compiler takes two frames less than a micrometre apart for one.
     apart = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
     model.geom("floor").sameframe[:] = apart
     model.body("coin").sameframe[:] = apart
+    if scenario.air.exponent == 0:
+        _damp(model, scenario)
     return model
 
 
 def described(scenario: Scenario, thickness: float) -> mujoco.MjSpec:
-    """Describe the coin in its air, over a floor whose contact is still that of coin.xml.
+    """Describe the coin over a floor whose contact is still that of coin.xml; see `compile_coin`.
 
     Args:
         scenario: what to toss.
@@ -91,15 +97,13 @@ def described(scenario: Scenario, thickness: float) -> mujoco.MjSpec:
 
 
 def _set_linear_drag(spec: mujoco.MjSpec, scenario: Scenario) -> None:
-    coin, air = scenario.coin, scenario.air
-    drag = linear_drag(coin.radius, coin.thickness, air.normal, air.tangential)
-    coefficients = {
-        "drag_xi": drag.force_tangential,
-        "drag_eta": drag.force_tangential,
-        "drag_zeta": drag.force_normal,
-        "turn_drag_xi": drag.moment_tangential,
-        "turn_drag_eta": drag.moment_tangential,
-        "turn_drag_zeta": drag.moment_normal,
-    }
-    for name, coefficient in coefficients.items():
-        spec.actuator(name).biasprm[2] = -coefficient
+    """Set what the force of linear air along the normal has more than that along the faces."""
+    drag = scenario.body.drag
+    spec.actuator("drag").biasprm[2] = drag.force_tangential - drag.force_normal
+
+
+def _damp(model: mujoco.MjModel, scenario: Scenario) -> None:
+    """Set the rest of linear air as damping of the free joint, whose turning is told in body axes."""
+    drag = scenario.body.drag
+    model.dof_damping[:3] = drag.force_tangential
+    model.dof_damping[3:] = (drag.moment_tangential, drag.moment_tangential, drag.moment_normal)

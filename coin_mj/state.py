@@ -29,6 +29,21 @@ def to_mass_center(body, qpos, qvel):
     return x, v, e, w
 
 
+@compiled
+def of_mass_center(body, x, v, e, w):
+    """Give position and velocity of B, space frame, of a state in which C is at x with the velocity v.
+
+    Args:
+        body: the coin.
+        x: position of C, (3,) [m].
+        v: velocity of C, (3,) [m/s].
+        e: Euler parameters, (4,).
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    R = rotation_matrix(e)
+    return subtract(x, apply(R, body.center)), subtract(v, apply(R, cross(w, body.center)))
+
+
 def of_release(body, release: Release) -> tuple[Array, Array]:
     """Give qpos, (7,), and qvel, (6,), of a release.
 
@@ -37,7 +52,5 @@ def of_release(body, release: Release) -> tuple[Array, Array]:
         release: position and velocity of C, attitude, angular velocity.
     """
     e, w = release.attitude, release.angular_velocity
-    R = rotation_matrix(e)
-    x_B = subtract(release.position, apply(R, body.center))
-    v_B = subtract(release.velocity, apply(R, cross(w, body.center)))
+    x_B, v_B = of_mass_center(body, release.position, release.velocity, e, w)
     return np.array([*x_B, *e]), np.array([*v_B, *w])

@@ -8,9 +8,6 @@ from models.compiled import compiled
 from models.geometry import clear_time, contact_velocity, gap, lowest_point
 from models.vectors import norm
 
-FLIGHT_ANGLE = 0.02
-"""Largest turn of the coin in a step of free flight [rad]."""
-
 
 class Outlook(NamedTuple):
     """What a state of the coin says about its next step."""
@@ -24,12 +21,13 @@ class Outlook(NamedTuple):
 
 
 @compiled
-def outlook(shape, floor, qpos, qvel):
+def outlook(shape, floor, flight_angle, qpos, qvel):
     """Look at a state of the coin.
 
     Args:
         shape: the coin, with the thickness of its shape.
         floor: height of the floor below the shape [m].
+        flight_angle: largest turn of the coin in a step of free flight [rad].
         qpos: of the free joint, (7,).
         qvel: of the free joint, (6,).
     """
@@ -38,5 +36,11 @@ def outlook(shape, floor, qpos, qvel):
     z = x[2] - floor
     point, flat = lowest_point(shape, R[2], w)
     speed = v[2] if flat else contact_velocity(shape, R, v, w, point)[2]
-    longest = FLIGHT_ANGLE / (norm(w) + (shape.gravity / shape.radius) ** 0.5)
+    longest = flight_angle / turning_rate(shape, w)
     return Outlook(gap(shape, z, R[2]), speed, clear_time(shape, z, v, R[2], w, longest))
+
+
+@compiled
+def turning_rate(body, w):
+    """Give the rate at which the coin turns, or would soon turn in contact [rad/s]."""
+    return max(norm(w), (body.gravity / body.radius) ** 0.5)

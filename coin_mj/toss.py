@@ -1,4 +1,4 @@
-"""One toss in MuJoCo: fly, press, record, until the toss is decided."""
+"""One toss in MuJoCo, and what the engine says of it."""
 
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
@@ -9,15 +9,13 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
+from coin_mj.air_callback import air_of
 from coin_mj.contact import ROUGH, ContactSettings, Friction, Realisation
-from coin_mj.impact import Contact, press
-from coin_mj.machine import Knots, Machine, fly, machine_of
+from coin_mj.events import toss_coin
+from coin_mj.machine import Machine, machine_of
+from coin_mj.path import Knots
 from coin_mj.scene import shape_thickness
-from coin_mj.stepping import FLIGHT_ANGLE
-from models.attitude import rotation_matrix
 from models.body import Rules
-from models.ending import energy, face_up, judge
-from models.geometry import contact_velocity, lowest_point
 from models.laws import ContactLaw, RestitutionKind
 from models.records import (
     IMPACT_ROW,
@@ -33,9 +31,6 @@ from models.records import (
 from models.scenario import Scenario
 
 REALISABLE = (ContactLaw.SMOOTH, ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH)
-HEAVY = 10
-"""A touch-down is no impact when gravity alone gives its speed in so many times the duration of a contact."""
-
 SOFTER = (10.0, 30.0)
 """How many times softer the contacts are that tell how far a toss can be trusted."""
 IMPULSE_CHANGE = 0.03
@@ -47,73 +42,21 @@ class Run(NamedTuple):
 
     rows: np.ndarray
     """Impacts, (n,) of `IMPACT_ROW`."""
-    contacts: list[tuple[float, float]]
-    """Contacts that last [s]."""
+    knots: Array
+    """Of the path, see `Knots`; none where it was not asked for."""
+    contacts: Array
+    """Start and end of every contact that lasts, (n, 2) [s]."""
     outcome: Outcome
     ending: Ending
+    end_time: float
 
 
-def run(machine: Machine, rules: Rules) -> Run:
+def run(machine: Machine, rules: Rules, keep_path: bool = False) -> Run:
     """Toss the coin from its present state until the toss is decided."""
-    rows: list[np.ndarray] = []
-    contacts: list[tuple[float, float]] = []
-    outcome, ending = Outcome.UNDECIDED, Ending.NONE
-    heavy = HEAVY * machine.body.gravity * machine.rebound.duration
-    while ending == Ending.NONE:
-        if len(rows) == rules.max_impacts:
-            ending = Ending.MAX_IMPACTS
-        elif not fly(machine, rules.max_time):
-            ending = Ending.MAX_TIME
-        elif -machine.outlook().speed < heavy:
-            outcome, ending = _at_rest(machine, rules)
-        else:
-            touch = machine.state()
-            contact = press(machine)
-            if contact is None:
-                continue
-            if contact.lasts:
-                contacts.append((contact.start, contact.end))
-                outcome, ending = _at_rest(machine, rules)
-                continue
-            rows.append(_row(machine, contact, touch))
-            outcome, ending = _decided(machine, rules)
-    return Run(
-        np.concatenate(rows) if rows else np.zeros(0, IMPACT_ROW), contacts, Outcome(outcome), Ending(ending)
-    )
-
-
-def _decided(machine: Machine, rules: Rules) -> tuple[Outcome, Ending]:
-    """Judge the present state."""
-    x, v, e, w = machine.state()
-    return judge(machine.body, rules, x[2], v, rotation_matrix(e)[2], w)
-
-
-def _at_rest(machine: Machine, rules: Rules) -> tuple[Outcome, Ending]:
-    """Judge a coin that stays in contact: what is not decided ends as chatter."""
-    outcome, ending = _decided(machine, rules)
-    return outcome, Ending.CHATTER if ending == Ending.NONE else ending
-
-
-def _row(machine: Machine, contact: Contact, touch: tuple[Array, Array, Array, Array]) -> np.ndarray:
-    """Record an impact: the state at first touch, the velocities at release, the impulse in between."""
-    body = machine.body
-    x, v, e, w = touch
-    x_after, v_after, e_after, w_after = machine.state()
-    R, R_after = rotation_matrix(e), rotation_matrix(e_after)
-    point, _ = lowest_point(body, R[2], w)
-    E_before, E_after = energy(body, x[2], v, w), energy(body, x_after[2], v_after, w_after)
-    row = np.zeros(1, IMPACT_ROW)
-    row["time"] = contact.start
-    row["face"] = face_up(R[2][2])
-    row["impulse"] = contact.impulse
-    row["point"] = point
-    row["position"], row["quaternion"] = x, e
-    row["velocity_before"], row["velocity_after"] = v, v_after
-    row["angular_velocity_before"], row["angular_velocity_after"] = w, w_after
-    row["contact_velocity_before"] = contact_velocity(body, R, v, w, point)
-    row["contact_velocity_after"] = contact_velocity(body, R_after, v_after, w_after, point)
-    row["energy"], row["energy_change"] = E_after, E_after - E_before
-    return row
+    rows = np.zeros(rules.max_impacts, IMPACT_ROW)
+    with air_of(machine.model):
+        n, knots, contacts, outcome, ending, end_time = toss_coin(machine.coin, rules, rows, keep_path)
+    return Run(rows[:n].copy(), knots, contacts, Outcome(outcome), Ending(ending), end_time)
 
 
 def require_supported(scenario: Scenario, realisation: Realisation) -> None:
@@ -146,12 +89,14 @@ def toss(
     realisation: Realisation = Realisation.SPRING,
     friction: Friction = Friction.EXPLICIT,
     stiffness: float = ContactSettings().stiffness,
+    steps: int = ContactSettings().steps,
+    flight_angle: float = ContactSettings().flight_angle,
 ) -> Toss:
     """Toss a coin in MuJoCo.
 
     A spring's contact lasts about π/√stiffness, in which the coin turns a little: the impulse differs from
     Newton's by a part that falls with 1/√stiffness. A one-step contact is Newton's law at the attitude of
-    the touch.
+    the touch. A coin that stays in contact is followed there, until the toss is decided.
 
     `trusted_impacts` counts the leading impacts that keep their faces, and their impulses to
     `IMPULSE_CHANGE`, when the contact is softer, or its one step longer, by each of `SOFTER`: that makes a
@@ -162,6 +107,8 @@ def toss(
         realisation: how a contact gives the restitution.
         friction: who makes the friction of a floor that has one.
         stiffness: of the spring, per unit of effective mass [1/s²].
+        steps: in half a period of the spring.
+        flight_angle: largest turn of the coin in a step of free flight [rad].
 
     Raises:
         UnsupportedError: for contact laws other than "smooth", "coulomb" and "perfectly_rough"; energetic
@@ -171,36 +118,51 @@ def toss(
         ApproximationWarning: for a perfectly rough floor, which is one of friction `ROUGH`.
     """
     require_supported(scenario, realisation)
-    if scenario.floor.contact == ContactLaw.PERFECTLY_ROUGH:
-        warnings.warn(
-            f'floor.contact = "perfectly_rough": MuJoCo tosses on a floor of friction {ROUGH:g}',
-            ApproximationWarning,
-            stacklevel=2,
-        )
-    settings = ContactSettings(realisation=realisation, friction=friction, stiffness=stiffness)
-    rules, machine = scenario.rules, machine_of(scenario, settings, shape_thickness(scenario))
-    answer = run(machine, rules)
-    machine.keep()
-    machine.set_contacts(False)  # from here on the model only samples flights
+    warn_of_approximation(scenario)
+    settings = ContactSettings(
+        realisation=realisation,
+        friction=friction,
+        stiffness=stiffness,
+        steps=steps,
+        flight_angle=flight_angle,
+    )
+    machine = machine_of(scenario, settings, shape_thickness(scenario))
+    answer = run(machine, scenario.rules, keep_path=True)
     impacts = Impacts.from_rows(answer.rows)
     return Toss(
         engine="mujoco",
         scenario=scenario,
         impacts=impacts,
-        contacts=np.array(answer.contacts).reshape(-1, 2),
+        contacts=answer.contacts,
         outcome=answer.outcome,
         ending=answer.ending,
-        end_time=machine.data.time,
-        trusted_impacts=_trusted_impacts(scenario, settings, impacts),
+        end_time=answer.end_time,
+        trusted_impacts=_trusted_impacts(scenario, settings, _before_contact(answer)),
         certificate=(
             Setting(name="MuJoCo", value=mujoco.__version__),
             *_contact_certificate(machine),
-            Setting(name="largest turn in a step of flight", value=FLIGHT_ANGLE, unit="rad"),
-            Setting(name="thickness of the shape", value=machine.shape.thickness, unit="m"),
-            Setting(name="steps", value=len(machine.knots) - 1),
+            Setting(name="largest turn in a step of flight", value=flight_angle, unit="rad"),
+            Setting(name="thickness of the shape", value=machine.coin.shape.thickness, unit="m"),
+            Setting(name="steps", value=len(answer.knots) - 1),
         ),
-        path=Knots(model=machine.model, body=machine.body, knots=tuple(machine.knots)),
+        path=Knots(machine=machine, knots=answer.knots),
     )
+
+
+def warn_of_approximation(scenario: Scenario) -> None:
+    """Warn of what this engine tosses by something near to it."""
+    if scenario.floor.contact == ContactLaw.PERFECTLY_ROUGH:
+        warnings.warn(
+            f'floor.contact = "perfectly_rough": MuJoCo tosses on a floor of friction {ROUGH:g}',
+            ApproximationWarning,
+            stacklevel=3,
+        )
+
+
+def _before_contact(answer: Run) -> Impacts:
+    """Give the impacts before the first contact that lasts."""
+    first = answer.contacts[0, 0] if len(answer.contacts) else np.inf
+    return Impacts.from_rows(answer.rows[answer.rows["time"] < first])
 
 
 def impacts_of(scenario: Scenario, settings: ContactSettings, thickness: float | None = None) -> Impacts:
@@ -216,7 +178,7 @@ def impacts_of(scenario: Scenario, settings: ContactSettings, thickness: float |
 
 
 def _contact_certificate(machine: Machine) -> tuple[Setting, ...]:
-    settings, rebound = machine.settings, machine.rebound
+    settings, rebound, friction = machine.settings, machine.coin.rebound, machine.coin.friction
     if settings.realisation == Realisation.ONE_STEP:
         made = (
             Setting(name="integrator", value="RK4, in a contact semi-implicit Euler"),
@@ -233,13 +195,13 @@ def _contact_certificate(machine: Machine) -> tuple[Setting, ...]:
             Setting(name="half a period of the contact", value=rebound.duration, unit="s"),
             Setting(name="steps in it", value=settings.steps),
         )
-    if machine.friction == 0:
+    if friction == 0:
         return made
     maker = "MuJoCo's cone" if settings.friction == Friction.NATIVE else "Coulomb's force"
     return (
         *made,
         Setting(name="friction by", value=maker),
-        Setting(name="coefficient of friction", value=machine.friction),
+        Setting(name="coefficient of friction", value=friction),
     )
 
 

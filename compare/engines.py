@@ -3,12 +3,10 @@
 from enum import StrEnum
 from importlib.metadata import version
 
-import numpy as np
-
 from models.outcomes import Outcomes
 from models.records import Toss
 from models.releases import Releases
-from models.scenario import Release, Scenario, euler_parameters, vector
+from models.scenario import Scenario
 
 
 class Engine(StrEnum):
@@ -54,35 +52,9 @@ def toss_many(engine: Engine, scenario: Scenario, releases: Releases) -> Outcome
         import analytic
 
         return analytic.toss_many(scenario, releases)
-    return _toss_each_in_mujoco(scenario, releases)
-
-
-def _toss_each_in_mujoco(scenario: Scenario, releases: Releases) -> Outcomes:
     import coin_mj
 
-    tosses = [
-        coin_mj.toss(
-            scenario.model_copy(
-                update={
-                    "release": Release(
-                        position=vector(releases.position[i]),
-                        velocity=vector(releases.velocity[i]),
-                        quaternion=euler_parameters(releases.quaternion[i]),
-                        angular_velocity=vector(releases.angular_velocity[i]),
-                    )
-                }
-            )
-        )
-        for i in range(len(releases))
-    ]
-    faces = [toss.impacts.face[-1] if len(toss.impacts) else 0 for toss in tosses]
-    return Outcomes(
-        outcome=np.array([toss.outcome for toss in tosses], dtype=np.int8),
-        ending=np.array([toss.ending for toss in tosses], dtype=np.int8),
-        impacts=np.array([len(toss.impacts) for toss in tosses], dtype=np.int32),
-        last_face=np.array(faces, dtype=np.int8),
-        end_time=np.array([toss.end_time for toss in tosses], dtype=float),
-    )
+    return coin_mj.toss_many(scenario, releases)
 
 
 def require_supported(engine: Engine, scenario: Scenario) -> None:
@@ -104,14 +76,14 @@ def settings(engine: Engine) -> dict[str, str | float]:
         from analytic.flight import TOLERANCE
 
         return {"tolerance": TOLERANCE}
-    from coin_mj import ContactSettings
+    from coin_mj import MANY
 
-    contact = ContactSettings()
     return {
-        "contact": contact.realisation.value,
-        "friction": contact.friction.value,
-        "stiffness": contact.stiffness,
-        "steps": contact.steps,
+        "contact": MANY.realisation.value,
+        "friction": MANY.friction.value,
+        "stiffness": MANY.stiffness,
+        "steps": MANY.steps,
+        "flight_angle": MANY.flight_angle,
     }
 
 

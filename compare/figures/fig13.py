@@ -10,7 +10,7 @@ from matplotlib.figure import Figure as Picture
 from analytic.air import force_and_moment
 from analytic.velocity_field import SurfaceFields, velocity_fields
 from coin_mj import ContactSettings
-from coin_mj.machine import machine_of
+from coin_mj.machine import forward, machine_of
 from coin_mj.scene import shape_thickness
 from compare.findings import Finding, Result, paper_figure
 from compare.reproduction import Progress
@@ -155,10 +155,10 @@ def _integral(case: Scenario, b: float) -> Wrench:
 
 
 def _by_mujoco(case: Scenario) -> Wrench:
-    """Give the forces of MuJoCo's actuators on the released coin."""
+    """Give the forces of MuJoCo's actuators and its damping on the released coin."""
     machine = machine_of(case, ContactSettings(), shape_thickness(case))
-    machine.forward()
-    force = machine.data.qfrc_actuator
+    forward(machine.coin)
+    force = machine.data.qfrc_actuator + machine.data.qfrc_passive
     return Wrench(force[:3].copy(), force[3:].copy())
 
 

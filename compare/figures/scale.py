@@ -42,7 +42,7 @@ FLOOR = ("floor.restitution=0.5:0.7:{}", "gravity=9:10:{}")
 """Axes of which every pixel is another floor, so that no two tosses are made together."""
 SIDE = 317
 """Pixels along a side of the map: 1e5 tosses; every third along each is tossed to time the other kinds."""
-MUJOCO_SIDE = 15
+MUJOCO_SIDE = 60
 TILED_SIDE, TILE_SIDES = 100, (10, 32, 100)
 """Pixels along a side of a map that is cut into tiles, and of these: of 1e2, 1e3, 1e4 tosses."""
 TOSSES = (1e6, 1e9, 1e12)

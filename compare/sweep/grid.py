@@ -10,7 +10,7 @@ from compare.sweep.axes import Axis
 from compare.sweep.fields import SweepError, is_of_release
 from models.scenario import Scenario
 
-TILE_TOSSES = {Engine.ANALYTIC: 1 << 14, Engine.MUJOCO: 1 << 8}
+TILE_TOSSES = {Engine.ANALYTIC: 1 << 14, Engine.MUJOCO: 1 << 10}
 """Most tosses in a tile: seconds of work, so that little is lost with one and many workers have some."""
 SLOW_TILE_TOSSES = 1 << 6
 """Where the air is not linear, each toss is thousands of times slower."""

@@ -86,7 +86,7 @@ def test_mujoco_agrees_about_the_velocity_of_the_mass_center():
     assert R @ velocity[3:] == pytest.approx(case.release.velocity, abs=1e-14)
 
 
-def test_the_actuators_are_the_closed_form_drag():
+def test_damping_and_actuator_are_the_closed_form_drag():
     rng = np.random.default_rng(4)
     case = scenario(coin=IMPERFECT, air=AIR, release=draw_release(rng))
     model, body = built(case), case.body
@@ -99,4 +99,4 @@ def test_the_actuators_are_the_closed_form_drag():
     force = -R @ (np.array([d.force_tangential, d.force_tangential, d.force_normal]) * v_B)
     moment = -np.array([d.moment_tangential, d.moment_tangential, d.moment_normal]) * w
     assert np.linalg.norm(force) > 1e-6, "there should be drag"
-    assert data.qfrc_actuator == pytest.approx([*force, *moment], rel=1e-12, abs=1e-20)
+    assert data.qfrc_actuator + data.qfrc_passive == pytest.approx([*force, *moment], rel=1e-12, abs=1e-20)

@@ -9,8 +9,12 @@ import pytest
 
 import analytic
 from compare.figures.endings import (
+    BY_BOTH,
     COINS,
     COUNT,
+    COUNT_MUJOCO,
+    MEDIA,
+    by_both,
     check,
     compute,
     draw_toss,
@@ -18,6 +22,7 @@ from compare.figures.endings import (
     probability,
     share,
     text,
+    toss_by_mujoco,
 )
 from models.records import Outcome
 from tests.compare.pages import DOCS, pictures, printed, saved_numbers
@@ -27,7 +32,8 @@ SAVED = from_json(saved_numbers("endings"))
 
 def test_the_page_shows_the_saved_numbers():
     assert printed("CONTACT.md", "endings") == text(SAVED)
-    assert share(SAVED, "heads")[1] == len(COINS) * COUNT
+    assert share(SAVED.outcomes, "heads")[1] == len(COINS) * COUNT
+    assert share(SAVED.mujoco, "heads")[1] == len(COINS) * COUNT_MUJOCO
     assert pictures("CONTACT.md", "endings") == {"endings.png"}
     assert (DOCS / "endings" / "endings.png").stat().st_size < 150_000
 
@@ -51,7 +57,7 @@ def test_other_tosses_end_as_the_saved_ones_do():
             assert tossed.outcome != Outcome.PERPETUAL or scenario.air.normal == 0
             seen[tossed.outcome] += 1
     for outcome in (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.PERPETUAL):
-        of_outcome, whole = share(SAVED, outcome.label)
+        of_outcome, whole = share(SAVED.outcomes, outcome.label)
         p = of_outcome / whole
         assert seen[outcome] / (2 * number) == pytest.approx(p, abs=5 * np.sqrt(p / (2 * number)))
 
@@ -59,9 +65,9 @@ def test_other_tosses_end_as_the_saved_ones_do():
 def test_a_small_study_counts_every_toss():
     told = []
     study = compute(2, 1, 3, lambda done, whole: told.append((done, whole)))
-    assert share(study, "heads")[1] == 4
-    assert [sum(n) for counts in study.both.values() for n in counts.values()] == [1, 1, 1, 1]
-    assert told == [(n, 8) for n in range(1, 9)]
+    assert share(study.outcomes, "heads")[1] == 4
+    assert share(study.mujoco, "heads")[1] == 2
+    assert told == [(n, 6) for n in range(1, 7)]
     assert from_json(json.dumps(asdict(study))) == study
 
 
@@ -74,14 +80,30 @@ def test_a_small_study_counts_every_toss():
     ],
 )
 def test_a_claim_that_the_counts_do_not_bear_out_is_told(kind, end, claim):
-    changed = {**SAVED.outcomes, kind: {**SAVED.outcomes[kind], end: 1000}}
-    assert any(failed.startswith(claim) for failed in check(replace(SAVED, outcomes=changed)))
+    for engine, outcomes in (("outcomes", SAVED.outcomes), ("mujoco", SAVED.mujoco)):
+        changed = {**outcomes, kind: {**outcomes[kind], end: 1000}}
+        assert any(failed.startswith(claim) for failed in check(replace(SAVED, **{engine: changed})))
 
 
 def test_engines_that_end_otherwise_are_told_apart():
     assert probability({"analytic": [50, 50, 100], "mujoco": [55, 45, 100]}) > 0.1
     apart = {"analytic": [50, 50, 100], "mujoco": [90, 45, 65]}
     assert probability(apart) < 1e-3
-    assert check(replace(SAVED, both={"smooth": apart})) == (
-        "the engines' ends differ no more than by chance",
-    )
+    kind = "ideal, thick, smooth, air"
+    changed = replace(SAVED, mujoco={**SAVED.mujoco, kind: {**SAVED.mujoco[kind], "edge, standing": 1000}})
+    assert check(changed) == ("in air the engines' ends differ no more than by chance",)
+
+
+def test_the_engines_are_compared_on_the_floors_that_both_realise():
+    both = {f"{floor}, {medium}": by_both(SAVED, [floor, medium]) for floor in BY_BOTH for medium in MEDIA}
+    assert list(both) == [
+        "smooth, air",
+        "smooth, vacuum",
+        "coulomb, kinematic, air",
+        "coulomb, kinematic, vacuum",
+    ]
+    for engine, outcomes in (("analytic", SAVED.outcomes), ("mujoco", SAVED.mujoco)):
+        energetic = share(outcomes, "heads", ["energetic"])[1]
+        assert sum(sum(counts[engine]) for counts in both.values()) == share(outcomes, "heads")[1] - energetic
+    assert share(SAVED.outcomes, "heads", ["energetic"])[1] > 6000
+    assert toss_by_mujoco((3, 1, 1))[0].floor in BY_BOTH

@@ -1,13 +1,20 @@
 """The studies of MuJoCo's contacts, at a small size: what they claim holds."""
 
 import re
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from coin_mj import ContactSettings, Realisation
 from compare.figures import mujoco_laws, mujoco_limit
-from compare.mujoco_fixed_steps import one_step_solref, restitutions_of_a_ball, spring_solref
+from compare.mujoco_fixed_steps import (
+    one_step_solref,
+    restitutions_of_a_ball,
+    restitutions_of_coins,
+    spring_solref,
+)
 from compare.mujoco_impacts import by_law, draw_touches, first, on_floor, velocity_at_touch
 from compare.mujoco_study import (
     cone_formula,
@@ -106,6 +113,19 @@ def test_more_steps_make_a_springs_restitution_better():
     # A touch falls anywhere within a step: first order.
     assert errors[1] / errors[0] == pytest.approx(0.5, abs=0.1)
     assert errors[2] / errors[1] == pytest.approx(0.5, abs=0.1)
+
+
+@pytest.mark.parametrize(("realisation", "dt"), [("one_step", 1e-4), ("spring", 5e-8)])
+def test_shorter_fixed_steps_make_a_coins_restitution_better(realisation, dt):
+    cases = draw_touches(np.random.default_rng(4), 32, (0.2, 1.0))
+    chi = np.array([case.floor.restitution for case in cases])
+    # A spring so stiff that the coin hardly turns in its contact.
+    settings = ContactSettings(realisation=Realisation(realisation), stiffness=1e13)
+    errors = [np.abs(restitutions_of_coins(cases, settings, dt / part) - chi) for part in (1, 2, 4)]
+    # A touch falls anywhere within a step: first order.
+    for coarse, fine in pairwise(errors):
+        assert np.mean(fine) / np.mean(coarse) == pytest.approx(0.5, abs=0.1)
+    assert 1e-4 < np.max(errors) < 0.1
 
 
 def test_the_example_of_the_docs_rebounds_as_it_says(capsys):

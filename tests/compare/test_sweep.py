@@ -7,7 +7,8 @@ import pytest
 from pydantic import BaseModel
 
 import analytic
-from compare.engines import Engine
+import coin_mj
+from compare.engines import Engine, settings
 from compare.sweep import grid
 from compare.sweep.axes import Axis, parse_axis
 from compare.sweep.fields import UNITS, SweepError, split, unit_of, with_values
@@ -234,6 +235,21 @@ def test_what_mujoco_cannot_toss_is_refused_at_either_end_of_an_axis():
     check(sweep_of(*axes))
     with pytest.raises(UnsupportedError, match=r"floor\.restitution = 0"):
         check(sweep_of(*axes, engine=Engine.MUJOCO))
+
+
+def test_a_pixel_by_mujoco_is_the_toss_with_the_settings_that_its_map_records():
+    axes = ("release.angular_velocity.eta=20:40:2", "release.position.z=0.2:0.3:2")
+    sweep = sweep_of(*axes, engine=Engine.MUJOCO)
+    made = toss_pixels(sweep, Tile(slice(0, 2), slice(0, 2)))
+    names = {"contact": "realisation"}
+    recorded: dict[str, Any] = {
+        names.get(name, name): value for name, value in settings(Engine.MUJOCO).items()
+    }
+    for row, y in enumerate(sweep.y.values):
+        for column, x in enumerate(sweep.x.values):
+            one = coin_mj.toss(pixel_scenario(sweep, y, x), **recorded)
+            assert made.outcome[row, column] == one.outcome
+            assert made.impacts[row, column] == len(one.impacts) > 0
 
 
 def test_axes_that_exclude_each_other_are_refused():

@@ -2,17 +2,14 @@
 
 import numpy as np
 
-from analytic.flight import spin_of, velocity_of
 from models.compiled import compiled
 from models.ending import barrier, energy
 from models.laws import ContactLaw
 
 # The energy of a toss in contact is looked at after so many √(r/g), and whenever that time has doubled.
-_FIRST_LOOK = 64.0
+FIRST_LOOK = 64.0
 # So many more doublings are for ever: from a second on, they take longer than the universe is old.
 _MORE_LOOKS = 60
-# A loss that is none, against the energy.
-_NO_LOSS = 1e-9
 _LOOKS = 4
 
 
@@ -32,11 +29,11 @@ def first_contact(body, looks, time):
         time: now [s].
     """
     if looks[0] == np.inf:
-        looks[0], looks[1] = time, time + _FIRST_LOOK * (body.radius / body.gravity) ** 0.5
+        looks[0], looks[1] = time, time + FIRST_LOOK * (body.radius / body.gravity) ** 0.5
 
 
 @compiled
-def dies_away(body, rules, y, time, looks):
+def dies_away(body, rules, z, v, w, no_loss, time, looks):
     """Tell whether the energy that a coin loses in vacuum dies away before it is too low to turn over.
 
     The energy is looked at whenever the time since the first contact has doubled. The loss of the last
@@ -47,29 +44,33 @@ def dies_away(body, rules, y, time, looks):
     Args:
         body: the coin.
         rules: floor and ending.
-        y: state, (13,).
+        z: height of C [m].
+        v: velocity of C, space frame, (3,) [m/s].
+        w: angular velocity, body frame, (3,) [rad/s].
+        no_loss: a loss that an engine cannot tell from none, against the energy.
         time: now [s].
         looks: start of the first contact and time of the next look [s], infinite before, and the energies at
             the last looks [J], (6,); kept up.
     """
     if time < looks[1] or body.air.normal != 0 or body.air.tangential != 0:
         return False
-    v = velocity_of(y)
-    E = energy(body, y[2], v, spin_of(y))
+    E = energy(body, z, v, w)
     if rules.law == ContactLaw.SMOOTH:
         E -= body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
     looks[1] += looks[1] - looks[0]
     looks[2:-1] = looks[3:]
     looks[-1] = E
     losses = looks[2:-1] - looks[3:]
-    none, growth = _NO_LOSS * E, 1.0
+    none, growth = no_loss * E, 1.0
     for i in range(1, _LOOKS - 1):
         # An infinite or undefined loss is one not looked at yet; energy gained is no evidence of anything.
         if not losses[i - 1] < np.inf or losses[i] < -none:
             return False
         if losses[i] > none:
             growth = max(growth, losses[i] / max(losses[i - 1], none))
-    to_come, loss = 0.0, max(losses[-1], none)
+    to_come, loss = 0.0, losses[-1]
+    if loss <= none:
+        loss = none if growth > 1 else 0.0
     for _ in range(_MORE_LOOKS):
         loss *= growth
         to_come += loss

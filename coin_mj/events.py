@@ -1,0 +1,166 @@
+"""The event loop of a toss in MuJoCo: fly, press, rest, stop."""
+
+import numpy as np
+
+from coin_mj.glide import glide
+from coin_mj.impact import TOUCH_STEP, Pressed, press
+from coin_mj.machine import keep, knot_of, look, state_of
+from coin_mj.rest import NO_LOSS, Left, rest, slow_speed
+from models.attitude import rotation_matrix
+from models.compiled import compiled
+from models.ending import energy, face_up, judge
+from models.geometry import contact_velocity, lowest_point
+from models.perpetual import dies_away, first_contact, no_looks
+from models.records import Ending, Outcome
+
+# The most steps of a toss in contacts that last.
+CONTACT_STEPS = 1_000_000
+
+
+@compiled
+def toss_coin(coin, rules, rows, keep_path):
+    """Toss the coin from its present state until the toss is decided.
+
+    Args:
+        coin: MuJoCo's, at its release.
+        rules: floor and ending.
+        rows: where the impacts are recorded, (m,) of `IMPACT_ROW`: impact number n in row n modulo m.
+        keep_path: whether the path is recorded.
+
+    Returns:
+        Number of impacts; knots of the path, see `path.Knots`, (k, 15), or none; start and end of every
+        contact that lasts, (c, 2) [s]; outcome; ending; and the time of the end [s].
+    """
+    time, n, steps_left, looks = 0.0, 0, CONTACT_STEPS, no_looks()
+    knots, contacts = [knot_of(coin, time, False)], [(time, time)]
+    contacts.clear()
+    if not keep_path:
+        knots.clear()
+    outcome, ending = Outcome.UNDECIDED, Ending.NONE
+    lands = False
+    while ending == Ending.NONE:
+        if n == rules.max_impacts:
+            ending = Ending.MAX_IMPACTS
+            break
+        if not lands:
+            time, touches = fly(coin, time, rules.max_time, knots)
+            if not touches:
+                ending = Ending.MAX_TIME
+                break
+        start, touch = time, state_of(coin)
+        rests = not lands and -look(coin).speed < slow_speed(coin, rules.restitution, touch[3])
+        if not rests:
+            pressed, time, impulse = press(coin, time, knots)
+            rests = pressed == Pressed.LASTS
+            if pressed == Pressed.IMPACT:
+                record(coin.body, start, touch, impulse, state_of(coin), rows[n % len(rows)])
+                n += 1
+                outcome, ending = decided(coin, rules)
+                if ending == Ending.NONE and goes_on(coin, rules, time, looks):
+                    outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
+        lands = False
+        if rests:
+            first_contact(coin.body, looks, time)
+            left, time, steps_left, outcome, ending = rest(coin, rules, time, steps_left, looks, knots)
+            if time > start:
+                contacts.append((start, time))
+            lands = left == Left.LANDS
+    keep(coin, time, False, knots)
+    return n, _table(knots), _pairs(contacts), outcome, ending, time
+
+
+@compiled
+def fly(coin, time, max_time, knots):
+    """Fly until the coin touches the floor.
+
+    Args:
+        coin: MuJoCo's.
+        time: now [s].
+        max_time: when to stop [s].
+        knots: of the path, kept up; see `machine.keep`.
+
+    Returns:
+        The time [s], and whether the coin touches before max_time.
+    """
+    smallest = TOUCH_STEP * coin.rebound.step
+    # The steps end before the touch, and `glide` knows no contacts: of a coin that is flat within rounding
+    # MuJoCo's plane-cylinder routine may take the radius for the height.
+    while time < max_time:
+        seen = look(coin)
+        if seen.clear < smallest and seen.speed < 0:
+            return time, True
+        keep(coin, time, False, knots)
+        dt = min(max(seen.clear, smallest), max_time - time)
+        glide(coin, dt)
+        time += dt
+    return time, False
+
+
+@compiled
+def decided(coin, rules):
+    """Give the outcome and the ending that `judge` gives of the present state."""
+    x, v, e, w = state_of(coin)
+    return judge(coin.body, rules, x[2], v, rotation_matrix(e)[2], w)
+
+
+@compiled
+def goes_on(coin, rules, time, looks):
+    """Tell whether the coin, bouncing between contacts that last, turns over for ever."""
+    x, v, _, w = state_of(coin)
+    return dies_away(coin.body, rules, x[2], v, w, NO_LOSS, time, looks)
+
+
+@compiled
+def record(body, time, touch, impulse, release, row):
+    """Record an impact.
+
+    Args:
+        body: the coin.
+        time: of first touch [s].
+        touch: position and velocity of C (space), Euler parameters and angular velocity (body) then.
+        impulse: integral of the floor's force, space frame, (3,) [N s].
+        release: as `touch`, at release.
+        row: where it goes, one `IMPACT_ROW`.
+    """
+    x, v, e, w = touch
+    x_after, v_after, e_after, w_after = release
+    R, R_after = rotation_matrix(e), rotation_matrix(e_after)
+    point, _ = lowest_point(body, R[2], w)
+    v_A, v_A_after = (
+        contact_velocity(body, R, v, w, point),
+        contact_velocity(body, R_after, v_after, w_after, point),
+    )
+    E_before, E_after = energy(body, x[2], v, w), energy(body, x_after[2], v_after, w_after)
+    row.time = time
+    row.face = face_up(R[2][2])
+    for i in range(3):
+        row.impulse[i] = impulse[i]
+        row.point[i] = point[i]
+        row.position[i] = x[i]
+        row.velocity_before[i] = v[i]
+        row.velocity_after[i] = v_after[i]
+        row.angular_velocity_before[i] = w[i]
+        row.angular_velocity_after[i] = w_after[i]
+        row.contact_velocity_before[i] = v_A[i]
+        row.contact_velocity_after[i] = v_A_after[i]
+    for i in range(4):
+        row.quaternion[i] = e[i]
+    row.energy = E_after
+    row.energy_change = E_after - E_before
+
+
+@compiled
+def _table(knots):
+    table = np.empty((len(knots), 15))
+    for i in range(len(knots)):
+        for j in range(15):
+            table[i, j] = knots[i][j]
+    return table
+
+
+@compiled
+def _pairs(contacts):
+    pairs = np.empty((len(contacts), 2))
+    for i in range(len(contacts)):
+        pairs[i, 0], pairs[i, 1] = contacts[i]
+    return pairs

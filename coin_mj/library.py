@@ -1,0 +1,73 @@
+"""MuJoCo's own functions, and where the fields of its structs lie, for compiled code."""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
+
+import ctypes
+from pathlib import Path
+from typing import Any
+
+import llvmlite.binding
+import mujoco
+from numba import types
+from numba.extending import intrinsic
+
+# The library that the bindings have loaded already: compiled code finds its functions by their names.
+llvmlite.binding.load_library_permanently(str(next(Path(mujoco.__file__).parent.glob("*mujoco.*"))))
+
+_model_and_data = (types.intp, types.intp)
+mj_forward: Any = types.ExternalFunction("mj_forward", types.void(*_model_and_data))
+"""Takes the addresses of an mjModel and an mjData."""
+mj_reset: Any = types.ExternalFunction("mj_resetData", types.void(*_model_and_data))
+"""Takes the addresses of an mjModel and an mjData."""
+mj_runge_kutta: Any = types.ExternalFunction("mj_RungeKutta", types.void(*_model_and_data, types.intc))
+"""Takes the addresses of an mjModel and an mjData, and the order."""
+mj_euler: Any = types.ExternalFunction("mj_Euler", types.void(*_model_and_data))
+"""Takes the addresses of an mjModel and an mjData."""
+mj_kinematics: Any = types.ExternalFunction("mj_kinematics", types.void(*_model_and_data))
+mj_center: Any = types.ExternalFunction("mj_comPos", types.void(*_model_and_data))
+mj_make_mass: Any = types.ExternalFunction("mj_makeM", types.void(*_model_and_data))
+mj_factor_mass: Any = types.ExternalFunction("mj_factorM", types.void(*_model_and_data))
+mj_transmission: Any = types.ExternalFunction("mj_transmission", types.void(*_model_and_data))
+mj_collision: Any = types.ExternalFunction("mj_collision", types.void(*_model_and_data))
+mj_make_constraint: Any = types.ExternalFunction("mj_makeConstraint", types.void(*_model_and_data))
+mj_project_constraint: Any = types.ExternalFunction("mj_projectConstraint", types.void(*_model_and_data))
+mj_velocity: Any = types.ExternalFunction("mj_fwdVelocity", types.void(*_model_and_data))
+mj_actuation: Any = types.ExternalFunction("mj_fwdActuation", types.void(*_model_and_data))
+mj_acceleration: Any = types.ExternalFunction("mj_fwdAcceleration", types.void(*_model_and_data))
+mj_constraint: Any = types.ExternalFunction("mj_fwdConstraint", types.void(*_model_and_data))
+"""The parts of `mj_forward` that a lone free body needs; each takes addresses as `mj_forward` does."""
+_numbers = types.CPointer(types.float64)
+mj_solve_mass: Any = types.ExternalFunction(
+    "mj_solveM", types.void(*_model_and_data, _numbers, _numbers, types.intc)
+)
+"""Solves M x = y for several y; takes the addresses of an mjModel and an mjData, x, y, and their number."""
+
+
+def place_of(struct: Any, value: Any) -> int:
+    """Give where a value lies in a model or its data, as an offset in bytes.
+
+    Python does not tell where the fields of mjModel and mjData lie; a value that no other field has shows it.
+
+    Args:
+        struct: MjModel or MjData.
+        value: of a ctypes type, as the struct holds it; it must be there.
+    """
+    sought, place = bytes(value), 0
+    while ctypes.string_at(struct._address + place, len(sought)) != sought:
+        place += ctypes.alignment(value)
+    return place
+
+
+@intrinsic
+def _pointer_to(_context, _address, kind):
+    target = types.CPointer(kind.instance_type)
+
+    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return builder.inttoptr(arguments[0], context.get_value_type(signature.return_type))
+
+    return target(types.int64, kind), code
+
+
+pointer_to: Any = _pointer_to
+"""Takes an address and a type, in compiled code: gives the address as a pointer to values of the type."""

@@ -1,0 +1,131 @@
+"""Many tosses in MuJoCo: each is that of `toss`, to the bit."""
+
+import warnings
+from typing import Any
+
+import numpy as np
+import pytest
+from numba import config
+
+import coin_mj
+from coin_mj import MANY, Friction, Realisation
+from coin_mj.ensemble import TILE
+from coin_mj.machine import machine_of
+from coin_mj.scene import shape_thickness
+from coin_mj.toss import run
+from models.outcomes import Outcomes
+from models.records import ApproximationWarning, Ending, UnsupportedError
+from models.releases import Releases
+from models.scenario import Release, Scenario
+from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+
+NAMES = ("position", "velocity", "quaternion", "angular_velocity")
+
+
+def draw_releases(rng: np.random.Generator, n: int) -> tuple[list[dict[str, Any]], Releases]:
+    """Draw releases, one by one and as arrays."""
+    drawn = [draw_release(rng) for _ in range(n)]
+    return drawn, as_arrays(drawn)
+
+
+def as_arrays(drawn: list[dict[str, Any]]) -> Releases:
+    return Releases(**{name: np.array([one[name] for one in drawn]) for name in NAMES})
+
+
+def assert_same(a: Outcomes, b: Outcomes) -> None:
+    for name in vars(a):
+        assert np.array_equal(getattr(a, name), getattr(b, name)), name
+
+
+def assert_each_is_a_toss(
+    case: Scenario, drawn: list[dict[str, Any]], outcomes: Outcomes, **settings
+) -> None:
+    for i, release in enumerate(drawn):
+        one = case.model_copy(update={"release": Release.model_validate(release)})
+        # What `toss` makes its record of; it also tosses softer coins, for its horizon of trust.
+        tossed = run(machine_of(one, MANY._replace(**settings), shape_thickness(one)), one.rules, True)
+        assert outcomes.outcome[i] == tossed.outcome
+        assert outcomes.ending[i] == tossed.ending
+        assert outcomes.impacts[i] == len(tossed.rows)
+        assert outcomes.end_time[i] == tossed.end_time
+        assert outcomes.last_face[i] == (tossed.rows["face"][-1] if len(tossed.rows) else 0)
+
+
+@pytest.mark.parametrize("law", ["smooth", "coulomb", "perfectly_rough"])
+@pytest.mark.parametrize("air", [{}, AIR])
+@pytest.mark.parametrize("thickness", [0.0, 2e-3])
+@pytest.mark.parametrize("realisation", list(Realisation))
+@pytest.mark.parametrize("friction", list(Friction))
+def test_each_toss_is_that_of_toss_to_the_bit(law, air, thickness, realisation, friction):
+    """All laws that are realised, with and without air, thin and thick; whole tosses, contacts and all."""
+    center = np.array(PAPER_OFFSET) * [1, 1, thickness > 0]
+    case = scenario(
+        coin={**ZLOTY, "thickness": thickness, "center_of_mass": center.tolist()},
+        air=air,
+        floor={"restitution": 0.5, "contact": law, "friction": 0.3},
+        ending={"max_impacts": 30, "max_time": 2.0},
+    )
+    drawn, releases = draw_releases(np.random.default_rng([len(law), len(air), int(1e4 * thickness)]), 4)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ApproximationWarning)
+        outcomes = coin_mj.toss_many(case, releases, realisation=realisation, friction=friction)
+    assert_each_is_a_toss(case, drawn, outcomes, realisation=realisation, friction=friction)
+
+
+def test_a_toss_is_that_of_toss_with_the_same_settings():
+    case = scenario(air=AIR, floor={"restitution": 0.5})
+    drawn, releases = draw_releases(np.random.default_rng(1), 3)
+    coarse = {name: getattr(MANY, name) for name in ("stiffness", "steps", "flight_angle")}
+    finer = {"stiffness": 1e12, "steps": 40, "flight_angle": 0.05}
+    for settings, same in (({}, coarse), (finer, finer)):
+        outcomes = coin_mj.toss_many(case, releases, **settings)
+        for i, release in enumerate(drawn):
+            one = case.model_copy(update={"release": Release.model_validate(release)})
+            tossed = coin_mj.toss(one, **same)
+            assert (outcomes.outcome[i], outcomes.ending[i]) == (tossed.outcome, tossed.ending)
+            assert outcomes.impacts[i] == len(tossed.impacts)
+            assert outcomes.end_time[i] == tossed.end_time
+
+
+@pytest.mark.parametrize(
+    ("exponent", "n", "longest"),
+    # Air with b > 0 costs a quadrature for each force.
+    [(0.0, 3 * TILE + 5, 100.0), (0.5, TILE + 3, 0.15)],
+)
+def test_neither_threads_nor_tiles_nor_order_change_a_toss(exponent, n, longest, monkeypatch):
+    case = scenario(
+        air={**AIR, "exponent": exponent},
+        floor={"contact": "coulomb", "friction": 0.3},
+        ending={"max_impacts": 1, "max_time": longest},
+    )
+    drawn, releases = draw_releases(np.random.default_rng(2), n)
+    answers = []
+    for threads in (1, 2, 5):
+        monkeypatch.setitem(config.__dict__, "NUMBA_NUM_THREADS", threads)
+        answers.append(coin_mj.toss_many(case, releases))
+    assert_same(answers[0], answers[1])
+    assert_same(answers[0], answers[2])
+    assert len(np.unique(answers[0].end_time)) > (n - 1 if exponent == 0 else 1)
+    there = coin_mj.toss_many(case, as_arrays(drawn[::-1]))
+    assert_same(answers[0], Outcomes(**{name: array[::-1].copy() for name, array in vars(there).items()}))
+    part = Outcomes(**{name: array[TILE - 2 : TILE + 2].copy() for name, array in vars(answers[0]).items()})
+    assert_each_is_a_toss(case, drawn[TILE - 2 : TILE + 2], part)
+
+
+def test_no_releases_give_no_outcomes():
+    _, one = draw_releases(np.random.default_rng(0), 1)
+    none = Releases(**{name: array[:0] for name, array in vars(one).items()})
+    assert len(coin_mj.toss_many(scenario(), none)) == 0
+
+
+def test_what_toss_refuses_is_refused_and_what_it_warns_of_is_warned_of():
+    _, releases = draw_releases(np.random.default_rng(0), 1)
+    with pytest.raises(UnsupportedError, match=r"floor\.restitution = 0"):
+        coin_mj.toss_many(scenario(floor={"restitution": 0.0}), releases)
+    below = Releases(**{**vars(releases), "position": np.zeros((1, 3))})
+    with pytest.raises(ValueError, match="a coin above the floor"):
+        coin_mj.toss_many(scenario(), below)
+    rough = scenario(floor={"contact": "perfectly_rough"}, ending={"max_impacts": 1})
+    with pytest.warns(ApproximationWarning, match="friction 100"):
+        outcomes = coin_mj.toss_many(rough, releases)
+    assert outcomes.ending.tolist() == [Ending.MAX_IMPACTS]
