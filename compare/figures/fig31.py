@@ -174,6 +174,6 @@ FIGURE = paper_figure(
     ),
     seconds=75,
     make=make,
-    quick_seconds=12,
+    quick_seconds=9,
     quick=partial(make, points=40, tosses=500, elastic=100, tosses_mujoco=2),
 )
