@@ -9,11 +9,10 @@ from numpy.typing import NDArray
 
 import analytic
 from analytic.flight import sample_flight
-from compare import engines
-from compare.engines import Engine
 from compare.findings import Finding, Result, paper_figure
 from compare.hands import releases_of_hands, states_of
 from compare.reproduction import Progress
+from compare.stiff_tosses import stiff_tosses
 from models.laws import ContactLaw
 from models.reading import load
 from models.records import Array, Face
@@ -32,7 +31,7 @@ FLOORS = {
 LANDINGS = ("caught", "soft floor", *FLOORS)
 
 
-def make(progress: Progress, hands: int = 300, each: int = 15, tosses_mujoco: int = 30) -> Result:
+def make(progress: Progress, hands: int = 300, each: int = 15, tosses_mujoco: int = 300) -> Result:
     """Let hands toss a thin ideal coin with two kinds of spin, and end each toss in four ways."""
     scenario = load("fig29")
     rng = np.random.default_rng(SEED)
@@ -126,7 +125,7 @@ def _caught(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
 
 def _mujoco_same(scenario: Scenario, tossed: Releases, faces: NDArray[np.int8]) -> int:
     once = scenario.model_copy(update={"ending": Ending(max_impacts=1)})
-    return int(np.sum(engines.toss_many(Engine.MUJOCO, once, tossed).last_face == faces))
+    return int(np.sum(stiff_tosses(once, tossed).last_face == faces))
 
 
 def bias_of_hands(shares: Array, each: int) -> float:
@@ -172,5 +171,5 @@ FIGURE = paper_figure(
     seconds=55,
     make=make,
     quick_seconds=10,
-    quick=partial(make, hands=100, each=10, tosses_mujoco=6),
+    quick=partial(make, hands=100, each=10, tosses_mujoco=20),
 )

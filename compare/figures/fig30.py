@@ -8,13 +8,12 @@ from matplotlib.figure import Figure as Picture
 from numpy.typing import NDArray
 
 import analytic
-from compare import engines
 from compare.basins.picture import Axis, draw_panel
 from compare.basins.stripes import crossings
-from compare.engines import Engine
 from compare.findings import Finding, Result, paper_figure
 from compare.planar_maps import HEIGHTS, SPINS, Grid, case, final_faces, releases
 from compare.reproduction import Progress
+from compare.stiff_tosses import stiff_tosses
 from models.records import Array
 from models.scenario import Scenario
 
@@ -42,7 +41,7 @@ ACCURACY_MUJOCO = 1e-4
 
 
 def make(
-    progress: Progress, points: int = 100, lines: int = 10, tosses: int = 3000, tosses_mujoco: int = 30
+    progress: Progress, points: int = 100, lines: int = 10, tosses: int = 3000, tosses_mujoco: int = 200
 ) -> Result:
     """Enlarge the maps of Fig. 29(c, d) and lines through them, and toss at random within ε."""
     whole = len(MEDIA) * (len(WINDOWS) + lines + 1) + 1
@@ -175,8 +174,7 @@ def _by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
     start = releases(heights, spins)
     ours = analytic.toss_many(scenario, start).outcome
     theirs, twins = (
-        engines.toss_many(Engine.MUJOCO, scenario, releases(heights + step, spins)).outcome
-        for step in (0.0, ACCURACY_MUJOCO)
+        stiff_tosses(scenario, releases(heights + step, spins)).outcome for step in (0.0, ACCURACY_MUJOCO)
     )
     our_twins = analytic.toss_many(scenario, releases(heights + ACCURACY_MUJOCO, spins)).outcome
     return (
@@ -230,5 +228,5 @@ FIGURE = paper_figure(
     seconds=90,
     make=make,
     quick_seconds=10,
-    quick=partial(make, points=25, lines=2, tosses=150, tosses_mujoco=2),
+    quick=partial(make, points=25, lines=2, tosses=150, tosses_mujoco=10),
 )

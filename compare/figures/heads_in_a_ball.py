@@ -9,11 +9,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 import analytic
-from compare import engines
-from compare.engines import Engine
 from compare.findings import Finding, Result, paper_figure
 from compare.planar_maps import HEIGHTS, SPINS, case, releases
 from compare.reproduction import Progress
+from compare.stiff_tosses import stiff_tosses
 from models.records import Array, Outcome
 from models.releases import Releases
 from models.scenario import Scenario
@@ -27,7 +26,7 @@ REACH, LOOKS = 0.1, 200
 KINDS = {"inside a basin": "#0072B2", "on a boundary": "#D55E00"}
 
 
-def make(progress: Progress, centers: int = 10, count: int = 150, tosses_mujoco: int = 10) -> Result:
+def make(progress: Progress, centers: int = 10, count: int = 150, tosses_mujoco: int = 100) -> Result:
     """Toss from balls about random releases, and about releases on boundaries."""
     scenario = case(air=True)
     rng = np.random.default_rng(SEED)
@@ -43,7 +42,7 @@ def make(progress: Progress, centers: int = 10, count: int = 150, tosses_mujoco:
         heads[kind] = np.array(rows)
     z, w = inside[0]
     ball = ball_about(scenario, z, w, MUJOCO_RADIUS, tosses_mujoco, rng)
-    mujoco = _heads(engines.toss_many(Engine.MUJOCO, scenario, ball).outcome)
+    mujoco = _heads(stiff_tosses(scenario, ball).outcome)
     progress(2 * centers + 1, 2 * centers + 1)
     sure, even = heads.values()
     pure = (sure == 0) | (sure == 1)
@@ -157,5 +156,5 @@ FIGURE = paper_figure(
     seconds=60,
     make=make,
     quick_seconds=10,
-    quick=partial(make, centers=3, count=60, tosses_mujoco=2),
+    quick=partial(make, centers=3, count=60, tosses_mujoco=10),
 )

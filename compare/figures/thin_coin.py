@@ -10,12 +10,11 @@ from numpy.typing import NDArray
 
 import analytic
 from analytic.events import run
-from compare import engines
-from compare.engines import Engine
 from compare.figures.fig28 import changes
 from compare.findings import Finding, Result, paper_figure
 from compare.hands import releases_of_hands, states_of
 from compare.reproduction import Progress
+from compare.stiff_tosses import stiff_tosses
 from models.laws import ContactLaw
 from models.reading import load
 from models.records import Outcome
@@ -57,7 +56,7 @@ class Statistics:
     """Part whose outcome `STEP` changes."""
 
 
-def make(progress: Progress, count: int = 200, followed: int = 100, tosses_mujoco: int = 20) -> Result:
+def make(progress: Progress, count: int = 200, followed: int = 100, tosses_mujoco: int = 200) -> Result:
     """Toss the three coins from the same random releases on two floors; follow the faces of some tosses."""
     tossed = releases_of_hands(np.random.default_rng(SEED), count, aside=ASIDE)
     whole = len(FLOORS) * len(COINS) + 2
@@ -168,7 +167,7 @@ def _first_faces(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
 
 
 def _first_faces_by_mujoco(scenario: Scenario, tossed: Releases, count: int) -> NDArray[np.int8]:
-    return engines.toss_many(Engine.MUJOCO, _first_touch(scenario), _part(tossed, count)).last_face
+    return stiff_tosses(_first_touch(scenario), _part(tossed, count)).last_face
 
 
 def _part(tossed: Releases, count: int, higher: float = 0.0) -> Releases:
@@ -231,5 +230,5 @@ FIGURE = paper_figure(
     seconds=50,
     make=make,
     quick_seconds=10,
-    quick=partial(make, count=30, followed=10, tosses_mujoco=3),
+    quick=partial(make, count=30, followed=10, tosses_mujoco=20),
 )
