@@ -39,8 +39,3 @@ def releases_of_hands(
 
 def _along_z(values: Array) -> Array:
     return values[:, None] * np.array([0.0, 0.0, 1.0])
-
-
-def states_of(releases: Releases) -> Array:
-    """Give the states of releases as the engine's flight takes them, (n, 13)."""
-    return np.hstack([releases.position, releases.velocity, releases.quaternion, releases.angular_velocity])

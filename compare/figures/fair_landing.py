@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 import analytic
 from analytic.flight import sample_flight
 from compare.findings import Finding, Result, paper_figure
-from compare.hands import releases_of_hands, states_of
+from compare.hands import releases_of_hands
+from compare.release_arrays import chosen, states_of
 from compare.reproduction import Progress
 from compare.stiff_tosses import stiff_tosses
 from models.laws import ContactLaw
@@ -47,8 +48,11 @@ def make(progress: Progress, hands: int = 300, each: int = 15, tosses_mujoco: in
             heads[kind, landing] = np.mean((face == Face.HEADS).reshape(hands, each), axis=1)
             progress(len(heads), whole)
     assert tossed is not None
-    few = Releases(**{name: part[:: len(tossed) // tosses_mujoco] for name, part in vars(tossed).items()})
-    same = _mujoco_same(scenario, few, first_faces[:: len(tossed) // tosses_mujoco])
+    every = slice(None, None, len(tossed) // tosses_mujoco)
+    few = chosen(tossed, every)
+    same = int(np.sum(stiff_tosses(_once(scenario), few).last_face == first_faces[every]))
+    ended = stiff_tosses(_on(scenario, next(iter(FLOORS.values()))), few).outcome
+    heads_mujoco = float(np.mean(ended == Face.HEADS))
     progress(whole, whole)
     bias = {key: bias_of_hands(shares, each) for key, shares in heads.items()}
     error = max(float(np.std(shares)) for shares in heads.values()) / np.sqrt(hands)
@@ -83,6 +87,7 @@ def make(progress: Progress, hands: int = 300, each: int = 15, tosses_mujoco: in
                 f"{heads[all_axes, LANDINGS[0]].mean():.1%} (± {error:.1%}): smooth impacts keep the angular "
                 "momenta about the normal and the vertical"
             ),
+            mujoco=f"{heads_mujoco:.1%} of {len(few)} tosses on a smooth floor",
             holds=_off_half(heads[all_axes, smooth])
             > max(_off_half(heads[all_axes, landing]) for landing in LANDINGS[:2]),
         ),
@@ -109,8 +114,11 @@ def _on(scenario: Scenario, floor: Floor) -> Scenario:
 
 def _landed(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
     """Give the face up at the first touch, where a floor without restitution keeps the coin, (n,)."""
-    once = scenario.model_copy(update={"ending": Ending(max_impacts=1)})
-    return analytic.toss_many(once, tossed).last_face
+    return analytic.toss_many(_once(scenario), tossed).last_face
+
+
+def _once(scenario: Scenario) -> Scenario:
+    return scenario.model_copy(update={"ending": Ending(max_impacts=1)})
 
 
 def _caught(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
@@ -121,11 +129,6 @@ def _caught(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
         e = state[0, 6:10]
         faces.append(Face.HEADS if e[1] ** 2 + e[2] ** 2 < 1 / 2 else Face.TAILS)
     return np.array(faces, dtype=np.int8)
-
-
-def _mujoco_same(scenario: Scenario, tossed: Releases, faces: NDArray[np.int8]) -> int:
-    once = scenario.model_copy(update={"ending": Ending(max_impacts=1)})
-    return int(np.sum(stiff_tosses(once, tossed).last_face == faces))
 
 
 def bias_of_hands(shares: Array, each: int) -> float:

@@ -12,7 +12,8 @@ import analytic
 from analytic.events import run
 from compare.figures.fig28 import changes
 from compare.findings import Finding, Result, paper_figure
-from compare.hands import releases_of_hands, states_of
+from compare.hands import releases_of_hands
+from compare.release_arrays import chosen, moved, states_of
 from compare.reproduction import Progress
 from compare.stiff_tosses import stiff_tosses
 from models.laws import ContactLaw
@@ -167,21 +168,13 @@ def _first_faces(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
 
 
 def _first_faces_by_mujoco(scenario: Scenario, tossed: Releases, count: int) -> NDArray[np.int8]:
-    return stiff_tosses(_first_touch(scenario), _part(tossed, count)).last_face
-
-
-def _part(tossed: Releases, count: int, higher: float = 0.0) -> Releases:
-    """Give the first releases, some metres higher."""
-    return Releases(
-        position=tossed.position[:count] + np.array([0.0, 0.0, higher]),
-        velocity=tossed.velocity[:count],
-        quaternion=tossed.quaternion[:count],
-        angular_velocity=tossed.angular_velocity[:count],
-    )
+    return stiff_tosses(_first_touch(scenario), chosen(tossed, slice(count))).last_face
 
 
 def _uncertain(scenario: Scenario, tossed: Releases, outcome: NDArray[np.int8], count: int) -> float:
-    higher = analytic.toss_many(scenario, _part(tossed, count, STEP)).outcome
+    higher = analytic.toss_many(
+        scenario, moved(chosen(tossed, slice(count)), position=np.array([0.0, 0.0, STEP]))
+    ).outcome
     return float(np.mean(higher != outcome[:count]))
 
 
