@@ -169,8 +169,8 @@ def margin(body, mu, motion, side, y):
 
 
 @compiled
-def accepted_contact_step(body, mu, motion, side, y, longest, stages, y_new):
-    """Advance the state by a contact step whose error is within `TOLERANCE`.
+def accepted_contact_step(body, mu, motion, side, y, dt, stages, y_new):
+    """Advance the state by a contact step whose error is within `TOLERANCE`, at most dt long.
 
     Args:
         body: the coin.
@@ -178,27 +178,27 @@ def accepted_contact_step(body, mu, motion, side, y, longest, stages, y_new):
         motion: `Motion` in contact.
         side: of the rim that is in contact.
         y: state at the start, (13,).
-        longest: the longest step wanted [s].
+        dt: length to try first [s]; the coin's motion bounds it too, lest an end of the contact is passed by.
         stages: work space, (12, 13).
         y_new: where the state at the end goes, (13,).
 
     Returns:
-        The length of the step made [s].
+        The length of the step made, and a length for the next [s].
     """
     contact_rate(body, mu, motion, side, y, stages[0])
-    dt = min(8 * first_step(body, y), longest)
+    dt = min(8 * first_step(body, y), dt)
     while True:
         contact_step(body, mu, motion, side, y, dt, stages, y_new)
         error = step_error(body, y, dt, stages) / TOLERANCE
         if error <= 1:
-            return dt
+            return dt, dt * step_factor(error)
         dt *= step_factor(error)
         if dt == 0:
             raise FloatingPointError("the contact leaves the range of floating-point numbers")
 
 
 @compiled
-def stay(body, mu, motion, y, longest):
+def stay(body, mu, motion, y, dt):
     """Follow a contact for one step of the integrator, or to its end.
 
     Args:
@@ -206,17 +206,17 @@ def stay(body, mu, motion, y, longest):
         mu: coefficient of friction μ.
         motion: `Motion` in contact.
         y: state, (13,); advanced.
-        longest: the longest step wanted [s].
+        dt: length of the step to try first [s]; infinite at the start of a contact.
 
     Returns:
-        The time gone by [s], and the `Verdict` on what comes next.
+        The time gone by, a length for the next step [s], and the `Verdict` on what comes next.
     """
     stages, y_new = np.empty((STAGES, STATE_SIZE)), np.empty(STATE_SIZE)
     side = side_of(y)
-    high = accepted_contact_step(body, mu, motion, side, y, longest, stages, y_new)
+    high, dt = accepted_contact_step(body, mu, motion, side, y, dt, stages, y_new)
     if margin(body, mu, motion, side, y_new) > 0:
         y[:] = y_new
-        return high, Verdict.GOES_ON
+        return high, dt, Verdict.GOES_ON
     low = 0.0
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
@@ -232,9 +232,9 @@ def stay(body, mu, motion, y, longest):
         # The other rim point is still to land: its velocity is that before the crossing.
         contact_step(body, mu, motion, side, y, low, stages, y_new)
         y[:] = y_new
-        return low, Verdict.LANDS
+        return low, dt, Verdict.LANDS
     y[:] = y_new
-    return high, Verdict.CHANGES
+    return high, dt, Verdict.CHANGES
 
 
 @compiled
@@ -286,12 +286,12 @@ def sample_contact(body, mu, motion, start, start_time, times, states):
     """
     stages, y, y_new = np.empty((STAGES, STATE_SIZE)), start.copy(), np.empty(STATE_SIZE)
     elapsed, side = 0.0, side_of(start)
-    made = accepted_contact_step(body, mu, motion, side, y, np.inf, stages, y_new)
+    made, dt = accepted_contact_step(body, mu, motion, side, y, np.inf, stages, y_new)
     for i in range(len(times)):
         # The steps are those of `stay`: a time between them changes none.
         while times[i] - start_time > elapsed + made:
             elapsed += made
             y[:] = y_new
-            made = accepted_contact_step(body, mu, motion, side, y, np.inf, stages, y_new)
+            made, dt = accepted_contact_step(body, mu, motion, side, y, dt, stages, y_new)
         contact_rate(body, mu, motion, side, y, stages[0])
         contact_step(body, mu, motion, side, y, times[i] - start_time - elapsed, stages, states[i])

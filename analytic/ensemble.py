@@ -12,8 +12,8 @@ from models.records import IMPACT_ROW
 from models.releases import Releases, check_releases
 from models.scenario import Scenario
 
-TILE = 64
-"""Tosses that a thread makes at a time; Ctrl-C waits for them."""
+TILE, SLOW_TILE = 512, 8
+"""Tosses that a thread makes at a time, in air with b > 0 the second; Ctrl-C waits for them."""
 
 
 def toss_many(scenario: Scenario, releases: Releases) -> Outcomes:
@@ -36,13 +36,15 @@ def toss_many(scenario: Scenario, releases: Releases) -> Outcomes:
     impacts, end_time = np.empty(n, dtype=np.int32), np.empty(n)
     columns = (states, outcome, ending, face, impacts, end_time)
 
+    tile = TILE if body.air.exponent is None else SLOW_TILE
+
     def toss_tile(first: int) -> None:
-        _toss_each(body, rules, *(column[first : first + TILE] for column in columns))
+        _toss_each(body, rules, *(column[first : first + tile] for column in columns))
 
     # The cores that this process may use, or what the environment sets in their place.
     with ThreadPoolExecutor(config.__dict__["NUMBA_NUM_THREADS"]) as pool:
         # An exception, so also Ctrl-C, cancels the tiles not yet begun.
-        for _ in pool.map(toss_tile, range(0, n, TILE)):
+        for _ in pool.map(toss_tile, range(0, n, tile)):
             pass
     return Outcomes(outcome=outcome, ending=ending, impacts=impacts, last_face=face, end_time=end_time)
 

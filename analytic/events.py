@@ -9,8 +9,9 @@ from analytic.contact import Verdict, friction_in_contact, keeps_contact, next_m
 from analytic.edge import held_on_edge, on_edge, stands
 from analytic.flight import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
 from analytic.floor_force import Motion
+from analytic.flying import fly
 from analytic.impact import impulse, spin_gained
-from analytic.rim import closing_speed, crowded, fly
+from analytic.rim import closing_speed, crowded
 from analytic.upright import put_upright
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
@@ -203,9 +204,9 @@ def keep_contact(body, rules, mu, motion, y, time, steps_left, looks):
     Returns:
         The time [s], the steps left, the next `Motion`, the outcome and the ending.
     """
-    undecided = Outcome.UNDECIDED
+    undecided, dt = Outcome.UNDECIDED, np.inf
     while time < rules.max_time:
-        made, verdict = stay(body, mu, motion, y, rules.max_time - time)
+        made, dt, verdict = stay(body, mu, motion, y, min(dt, rules.max_time - time))
         time += made
         steps_left -= 1
         outcome, ending = decided(body, rules, y)

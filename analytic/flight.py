@@ -155,10 +155,13 @@ def sample_flight(body, start, start_time, times, states):
         start_time: its time [s].
         times: increasing, none before start_time, (n,) [s].
         states: where they go, (n, 13).
+
+    Returns:
+        The number of steps up to the last time.
     """
     stages = np.empty((STAGES, STATE_SIZE))
     y, y_new = start.copy(), np.empty(STATE_SIZE)
-    elapsed, dt = 0.0, first_step(body, y)
+    elapsed, dt, steps = 0.0, first_step(body, y), 1
     for i in range(len(times)):
         while True:
             ahead = times[i] - start_time - elapsed
@@ -166,6 +169,8 @@ def sample_flight(body, start, start_time, times, states):
                 break
             made, dt = accepted_step(body, y, dt, stages, y_new)
             elapsed += made
+            steps += 1
             y[:] = y_new
         derivative(body, y, stages[0])
         step(body, y, ahead, stages, states[i])
+    return steps

@@ -92,12 +92,9 @@ def flight_tangent(body, y, duration, changes, moved):
         duration: of the flight [s].
         changes: one change of the state in each row, (n, 13); become those at the end of the flight.
         moved: set to True for the components of the state that do not stay exactly zero, (13,).
-
-    Returns:
-        The number of steps.
     """
     stages, y_new = np.empty((STAGES, STATE_SIZE)), np.empty(STATE_SIZE)
-    elapsed, dt, steps = 0.0, first_step(body, y), 0
+    elapsed, dt = 0.0, first_step(body, y)
     while elapsed < duration:
         made, dt_next = accepted_step(body, y, dt, stages, y_new)
         if elapsed + made >= duration:
@@ -110,5 +107,3 @@ def flight_tangent(body, y, duration, changes, moved):
         y[:] = y_new
         elapsed += made
         dt = dt_next
-        steps += 1
-    return steps

@@ -10,9 +10,11 @@ import numpy as np
 from analytic.events import Run
 from analytic.flight import STATE_SIZE
 from analytic.flight_tangent import flight_tangent
+from analytic.flying import fly_with_graze, steps_of
 from analytic.impact_tangent import Touch, touch_tangent
-from analytic.rim import TOUCH, fly
+from analytic.rim import TIME_STEP, TOUCH
 from analytic.sensitivity import delay_of, flight_map, impact_map, touch_map
+from analytic.turning import turns_in_closed_form
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
 from models.geometry import FLAT_SINE
@@ -24,6 +26,12 @@ STEP_ERROR = 1e-15
 rounding. Against 113-bit arithmetic 99 of 100 flights stayed below 1.5e-15, one half below 1e-16."""
 TURN_ERROR = 3e-15
 """Likewise for the Euler parameters; the largest measured was 2.7e-15, one half stayed below 1.2e-15."""
+CLOSED_FORM = 0.2
+"""Part of these errors that a step in closed form makes: in 99 of 100 flights at most 5e-16 of the motion; of
+the attitude at most 3e-15, which grows with the angle turned and is carried by the error of the spin."""
+CLOSED_TOUCH = 2e-16
+"""A touch in closed form is found up to this part of the radius, and up to the rounding of its time. Against
+extended precision the root mean square of what the gap was then is 0.74 of that, in 580 flights."""
 SAFETY = 2.0
 """The carried standard deviations are taken so many times."""
 TIME_ERROR = 1e-7
@@ -47,14 +55,17 @@ def trusted_impacts(body: Body, rules: Rules, toss: Run) -> int:
     errors = np.zeros((STATE_SIZE + 1, 0))
     for i, row in enumerate(toss.rows):
         y = toss.start_states[i].copy()
-        at_start, flight, at_end, duration, graze = _flight(body, rules, y, toss.start_times[i])
+        closed = turns_in_closed_form(body, y[10:13])
+        at_start, flight, at_end, duration, graze = _flight(
+            body, rules, y, toss.start_times[i], CLOSED_FORM if closed else 1.0
+        )
         errors = np.hstack([flight @ np.hstack([errors, at_start]), at_end])
         touch = touch_tangent(body, rules, y)
         closing = touch.gap @ touch.rate
         if not closing < 0:
             return i
-        # The touch is found up to `TOUCH` too early.
-        early = TOUCH * body.radius / closing
+        found_to = CLOSED_TOUCH if closed else TOUCH
+        early = found_to * body.radius / closing - closed * TIME_STEP * duration
         delay = np.append(delay_of(touch) @ errors, early)
         sinking = _sinking(body, errors)
         errors = np.column_stack([touch_map(touch) @ errors, early * np.append(touch.rate, 1)])
@@ -68,21 +79,29 @@ def trusted_impacts(body: Body, rules: Rules, toss: Run) -> int:
 
 
 def _flight(
-    body: Body, rules: Rules, y: Array, start_time: float
+    body: Body, rules: Rules, y: Array, start_time: float, part: float
 ) -> tuple[Array, Array, Array, float, float]:
     """Fly from y to the next touch.
 
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        y: state at the start, (13,); becomes that at the touch.
+        start_time: its time [s].
+        part: of the errors of a step that the flight makes.
+
     Returns:
         Errors that the flight makes, as vectors at its start, (14, 13); its tangent map, (14, 14); the same
-        errors as if all were made at its end; its duration [s]; and the graze of `rim.fly`.
+        errors as if all were made at its end; its duration [s]; and its graze, see `fly_with_graze`.
     """
     start, at_first = y.copy(), _step_errors(body, y)
-    duration, _, graze = fly(body, y, rules.max_time - start_time)
+    duration, graze = fly_with_graze(body, y, rules.max_time - start_time)
     tangents, moved = np.eye(STATE_SIZE), np.zeros(STATE_SIZE, dtype=np.bool_)
-    steps = flight_tangent(body, start, duration, tangents, moved)
+    made = part * steps_of(body, start, duration)
+    flight_tangent(body, start, duration, tangents, moved)
     # What stays exactly zero is kept so by symmetry: rounding too keeps a flat coin flat.
     at_start, at_end = (
-        np.eye(STATE_SIZE + 1, STATE_SIZE) * steps * moved * errors
+        np.eye(STATE_SIZE + 1, STATE_SIZE) * made * moved * errors
         for errors in (at_first, _step_errors(body, y))
     )
     return at_start, flight_map(tangents), at_end, duration, graze

@@ -1,4 +1,4 @@
-"""The first contact of a flight."""
+"""What the lowest point of a flying coin does, and the first contact of a flight that is integrated."""
 
 import numpy as np
 
@@ -71,15 +71,17 @@ def crowded(body, chi, y):
         y: state at the touch, (13,).
     """
     up, w = rotation_matrix(attitude_of(y))[2], spin_of(y)
-    speed = -closing_speed(body, y)[1]
-    if speed < smallest_flight(body, y)[1]:
+    speed, (_, slowest, most) = -closing_speed(body, y)[1], smallest_flight(body, y)
+    if speed < slowest:
         return True
+    least = 2 * speed * (norm(w) + (body.gravity / body.radius) ** 0.5) / (CROWDED * (1 - chi))
+    if least >= most:
+        return False
     if up[0] * up[0] + up[1] * up[1] <= FLAT_SINE * FLAT_SINE:
         falling = body.gravity
     else:
         falling = -gap_acceleration(body, y)
-    rate = norm(w) + (body.gravity / body.radius) ** 0.5
-    return falling > 0 and 2 * speed * rate < CROWDED * falling * (1 - chi)
+    return falling > 0 and least < falling
 
 
 @compiled
@@ -97,16 +99,16 @@ def smallest_flight(body, y):
     least 2 v/A, A the largest acceleration of the gap: it outlasts that time at √(8 SINK r A).
 
     Returns:
-        Time [s] and speed [m/s].
+        Time [s], speed [m/s], and A [m/s²].
     """
     up = rotation_matrix(attitude_of(y))[2]
     sink = SINK * body.radius
     time, acceleration = grazing_time(body, velocity_of(y), up, spin_of(y), sink)
-    return time, (8 * sink * acceleration) ** 0.5
+    return time, (8 * sink * acceleration) ** 0.5, acceleration
 
 
 @compiled
-def fly(body, y, longest):
+def fly_by_steps(body, y, longest):
     """Fly until the coin first touches the floor.
 
     Every accepted step of the integrator is searched by steps of `clear_time`, which never pass a touch;
@@ -118,8 +120,8 @@ def fly(body, y, longest):
         longest: the longest flight wanted [s].
 
     Returns:
-        The time of flight [s], whether the coin touches, and a graze: a height such that no minimum of the
-        gap on the way is below half of it, infinite where the gap has none [m].
+        The time of flight [s], whether the coin touches, how often the gap was looked at, and a graze: a
+        height such that no minimum of the gap on the way is below half of it, infinite where it has none [m].
     """
     stages = np.empty((STAGES, STATE_SIZE))
     y_end, y_near = np.empty(STATE_SIZE), np.empty(STATE_SIZE)
@@ -127,13 +129,14 @@ def fly(body, y, longest):
     # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch at once.
     touching_speed = -smallest_flight(body, y)[1]
     # The steps shrink towards a minimum of the gap, so that the last one before it starts hardly higher.
-    graze, height_before, speed_before = np.inf, np.inf, 0.0
+    graze, height_before, speed_before, looks = np.inf, np.inf, 0.0, 0
     while elapsed < longest:
         made, dt = accepted_step(body, y, min(dt, longest - elapsed), stages, y_end)
         y_near[:] = y
         inside = 0.0
         while inside < made:
             height, speed = closing_speed(body, y_near)
+            looks += 1
             if speed_before < 0 <= speed:
                 graze = min(graze, height_before, height)
             height_before, speed_before = height, speed
@@ -142,7 +145,7 @@ def fly(body, y, longest):
             if height <= TOUCH * body.radius or inside + ahead == inside:
                 if speed < touching_speed:
                     y[:] = y_near
-                    return elapsed + inside, True, graze
+                    return elapsed + inside, True, looks, graze
                 ahead = max(ahead, smallest_flight(body, y_near)[0], TIME_STEP * inside)
             touching_speed = 0.0
             inside += ahead
@@ -151,4 +154,4 @@ def fly(body, y, longest):
                 step(body, y, inside, stages, y_near)
         elapsed += made
         y[:] = y_end
-    return longest, False, graze
+    return longest, False, looks, graze

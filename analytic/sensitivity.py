@@ -15,8 +15,8 @@ import numpy as np
 from analytic.events import Run
 from analytic.flight import STATE_SIZE
 from analytic.flight_tangent import flight_tangent
+from analytic.flying import fly
 from analytic.impact_tangent import Touch, touch_tangent
-from analytic.rim import fly
 from models.body import Body, Rules
 from models.records import Array
 
@@ -51,7 +51,7 @@ def event_tangent(body: Body, rules: Rules, toss: Run, number: int) -> Array:
         number: of the impact, from 0; the first map starts at the release.
     """
     y, start = toss.start_states[number].copy(), toss.start_states[number].copy()
-    duration, _, _ = fly(body, y, rules.max_time - toss.start_times[number])
+    duration, *_ = fly(body, y, rules.max_time - toss.start_times[number])
     tangents = np.eye(STATE_SIZE)
     flight_tangent(body, start, duration, tangents, np.zeros(STATE_SIZE, dtype=np.bool_))
     touch = touch_tangent(body, rules, y)

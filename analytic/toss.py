@@ -7,14 +7,17 @@ from numpy.typing import NDArray
 
 from analytic.contact import friction_in_contact, sample_contact
 from analytic.events import Run, run
-from analytic.flight import STATE_SIZE, TOLERANCE, sample_flight
+from analytic.flight import STATE_SIZE, TOLERANCE
 from analytic.floor_force import Motion
-from analytic.horizon import SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
+from analytic.flying import sample
+from analytic.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
 from models.attitude import rotation_matrix
-from models.body import Body
+from models.body import Body, in_vacuum, is_ideal
 from models.ending import barrier, energy
 from models.records import Array, Impacts, Setting, States, Toss
 from models.scenario import Release, Scenario
+
+_INTEGRATED = "Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -55,7 +58,7 @@ class Pieces:
             self.motions[number],
         )
         if motion == Motion.FLIGHT:
-            sample_flight(self.body, start, start_time, times, states)
+            sample(self.body, start, start_time, times, states)
         else:
             sample_contact(self.body, self.friction, motion, start, start_time, times, states)
         return states
@@ -92,12 +95,11 @@ def toss(scenario: Scenario) -> Toss:
         end_time=answer.end_time,
         trusted_impacts=trusted_impacts(body, rules, _before_contact(answer)),
         certificate=(
-            Setting(
-                name="integrator", value="Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"
-            ),
+            Setting(name="flight", value=_flight(body)),
             Setting(name="error allowed in a step, relative", value=TOLERANCE),
             Setting(name="error of a step carried to the horizon: of the motion, relative", value=STEP_ERROR),
             Setting(name="error of a step carried to the horizon: of the attitude", value=TURN_ERROR),
+            Setting(name="part of these errors in a step in closed form", value=CLOSED_FORM),
             Setting(name="safety factor of the horizon", value=SAFETY),
             Setting(name="energy at the end", value=_energy(body, end), unit="J"),
             Setting(name="energy of the lowest pass to the other face", value=_barrier(body, end), unit="J"),
@@ -110,6 +112,14 @@ def toss(scenario: Scenario) -> Toss:
             motions=answer.motions,
         ),
     )
+
+
+def _flight(body: Body) -> str:
+    if not is_ideal(body) or (body.air.exponent is not None and not in_vacuum(body)):
+        return _INTEGRATED
+    if in_vacuum(body):
+        return "closed form of the symmetric top"
+    return f"power series without spin about the normal, else {_INTEGRATED}"
 
 
 def _before_contact(answer: Run) -> Run:

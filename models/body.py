@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+from models.compiled import compiled
 from models.drag import Drag
 from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.vectors import Matrix, Vector
@@ -48,3 +49,17 @@ class Rules(NamedTuple):
     test: EndingTest
     max_impacts: int
     max_time: float
+
+
+@compiled
+def is_ideal(body):
+    """Tell whether the coin is balanced, with the inertia of a symmetric top about its normal."""
+    c, J = body.center, body.inertia
+    balanced = c[0] == 0 and c[1] == 0 and c[2] == 0
+    return balanced and J[0][0] == J[1][1] and J[0][1] == 0 and J[0][2] == 0 and J[1][2] == 0
+
+
+@compiled
+def in_vacuum(body):
+    """Tell whether there is no air."""
+    return body.air.normal == 0 and body.air.tangential == 0

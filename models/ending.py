@@ -2,6 +2,7 @@
 
 import math
 
+from models.body import in_vacuum, is_ideal
 from models.compiled import compiled
 from models.geometry import drag_bound
 from models.laws import ContactLaw, EndingTest, RestitutionKind
@@ -9,6 +10,8 @@ from models.records import Ending, Face, Outcome
 from models.vectors import apply, dot, norm
 
 TILTS_TRIED = 128
+# A bound times it stays a bound whatever rounding does.
+BEYOND_ROUNDING = 1 + 1e-12
 # What is left of the energy of tilting, against m g r, in a coin that lies flat.
 WOBBLE = 1e-9
 
@@ -57,14 +60,6 @@ def _pass(body, n_z):
 
 
 @compiled
-def _is_ideal(body):
-    c, J = body.center, body.inertia
-    balanced = c[0] == 0 and c[1] == 0 and c[2] == 0
-    round_inertia = J[0][0] == J[1][1] and J[0][1] == 0 and J[0][2] == 0 and J[1][2] == 0
-    return balanced and round_inertia
-
-
-@compiled
 def _top_barrier(body, up, w):
     """Bound from below the energy at which the ideal coin on a smooth floor in vacuum can turn over [J].
 
@@ -84,6 +79,21 @@ def _top_barrier(body, up, w):
         weight = body.mass * body.gravity * (body.radius * sine + body.thickness / 2 * cosine)
         highest = max(highest, weight + (L_z - L_zeta * cosine) ** 2 / (2 * J_across * sine * sine))
     return highest + L_zeta * L_zeta / (2 * J_normal)
+
+
+@compiled
+def _top_ceiling(body, up, w):
+    """Bound `_top_barrier` from above without trying tilts [J].
+
+    What the spin needs has no maximum inside: it is largest at today's tilt, where L_z - L_ζ cos s is the
+    part of L_z across the normal, or upright.
+    """
+    J = body.inertia
+    L = apply(J, w)
+    L_z, across = dot(up, L), L[0] * up[0] + L[1] * up[1]
+    spinning = max(L_z * L_z, across * across / (up[0] * up[0] + up[1] * up[1])) / (2 * J[0][0])
+    weight = body.mass * body.gravity * math.hypot(body.radius, body.thickness / 2)
+    return BEYOND_ROUNDING * (weight + spinning + L[2] * L[2] / (2 * J[2][2]))
 
 
 @compiled
@@ -131,11 +141,13 @@ def judge(body, rules, z, v, up, w):
             return face, ending
         if E < barrier(body, -up[2]) and _beyond_the_pass(body, up, tilt_sine):
             return Outcome.EDGE, ending
-    in_vacuum = body.air.normal == 0 and body.air.tangential == 0
-    if on_face and smooth and in_vacuum:
+    if on_face and smooth and in_vacuum(body):
         E_turning = E - body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
-        needed = _top_barrier(body, up, w) if _is_ideal(body) else _spin_barrier(body, up, w)
-        if E_turning < needed:
+        if is_ideal(body):
+            settled = not E_turning > _top_ceiling(body, up, w) and E_turning < _top_barrier(body, up, w)
+        else:
+            settled = not E_turning > _spin_ceiling(body, up, w) and E_turning < _spin_barrier(body, up, w)
+        if settled:
             return face, Ending.SETTLED
     if _lies(body, rules, z, v, up, w):
         return face, Ending.LYING
@@ -177,6 +189,13 @@ def _spin_barrier(body, up, w):
         moment += 2 * sine * cosine * math.hypot(J[0][2], J[1][2])
         highest = max(highest, body.mass * body.gravity * z + L_z * L_z / (2 * moment))
     return highest
+
+
+@compiled
+def _spin_ceiling(body, up, w):
+    """Bound `_spin_barrier` from above without trying tilts [J]."""
+    L_z = dot(up, apply(body.inertia, w))
+    return BEYOND_ROUNDING * (barrier(body, up[2]) + L_z * L_z / (2 * body.inertia_smallest))
 
 
 @compiled

@@ -40,8 +40,8 @@ angular_velocity = [0, 40, 0]
 RELEASE = ("release.angular_velocity.eta=20:60:{}", "release.position.z=0.2:0.6:{}")
 FLOOR = ("floor.restitution=0.5:0.7:{}", "gravity=9:10:{}")
 """Axes of which every pixel is another floor, so that no two tosses are made together."""
-SIDE = 317
-"""Pixels along a side of the map: 1e5 tosses; every third along each is tossed to time the other kinds."""
+SIDE = 1000
+"""Pixels along a side of the map: 1e6 tosses; every third along each is tossed to time the other kinds."""
 MUJOCO_SIDE = 60
 TILED_SIDE, TILE_SIDES = 100, (10, 32, 100)
 """Pixels along a side of a map that is cut into tiles, and of these: of 1e2, 1e3, 1e4 tosses."""

@@ -57,9 +57,9 @@ def floor_force(body, mu, motion, y):
 
 def follow(body, mu, motion, y, time):
     """Give the states and times after every step of a contact that goes on for `time`."""
-    y, states, times = y.copy(), [y.copy()], [0.0]
+    y, states, times, dt = y.copy(), [y.copy()], [0.0], np.inf
     while times[-1] < time:
-        made, verdict = stay(body, mu, motion, y, time - times[-1])
+        made, dt, verdict = stay(body, mu, motion, y, min(dt, time - times[-1]))
         assert verdict == Verdict.GOES_ON
         states.append(y.copy())
         times.append(times[-1] + made)
@@ -68,9 +68,9 @@ def follow(body, mu, motion, y, time):
 
 def follow_to_its_end(body, mu, motion, y):
     """Advance y to the end of a contact that ends within a second; give the `Verdict` and the time."""
-    time, verdict = 0.0, Verdict.GOES_ON
+    time, dt, verdict = 0.0, np.inf, Verdict.GOES_ON
     while verdict == Verdict.GOES_ON:
-        made, verdict = stay(body, mu, motion, y, 1.0)
+        made, dt, verdict = stay(body, mu, motion, y, dt)
         time += made
         assert time < 1
     return verdict, time
@@ -89,7 +89,7 @@ def test_a_coin_on_a_smooth_floor_keeps_energy_and_momentum_and_does_not_leave_i
     start = draw_wobble(rng, body, Motion.SLIDING)
     y, time, turned = start.copy(), 0.0, 0.0
     while time < 0.2:
-        made, verdict = stay(body, 0.0, Motion.SLIDING, y, 0.2 - time)
+        made, _, verdict = stay(body, 0.0, Motion.SLIDING, y, 0.2 - time)
         time += made
         turned += made * np.linalg.norm(y[10:13])
         assert abs(gap(body, y[2], tuple(up_of(y)))) < 1e-14
@@ -165,7 +165,7 @@ def test_a_coin_that_rolls_keeps_its_energy(seed):
     start = draw_wobble(rng, body, Motion.STICKING)
     y, time = start.copy(), 0.0
     while time < 0.1:
-        made, verdict = stay(body, 100.0, Motion.STICKING, y, 0.1 - time)
+        made, _, verdict = stay(body, 100.0, Motion.STICKING, y, 0.1 - time)
         time += made
         assert np.abs(velocity_of_lowest(body, y)).max() < 1e-12
         if verdict != Verdict.GOES_ON:
@@ -234,7 +234,7 @@ def test_friction_holds_just_within_the_cone():
     assert next_motion(body, 1.001 * needed, Motion.FLIGHT, y.copy()) == Motion.STICKING
     creeping = y.copy()
     assert next_motion(body, 0.999 * needed, Motion.FLIGHT, creeping) == Motion.CREEPING
-    made, verdict = stay(body, 0.999 * needed, Motion.CREEPING, creeping, 1e-3)
+    made, _, verdict = stay(body, 0.999 * needed, Motion.CREEPING, creeping, 1e-3)
     assert (made, verdict) == (1e-3, Verdict.GOES_ON)
     slip = velocity_of_lowest(body, creeping)
     assert 0 < np.hypot(slip[0], slip[1])

@@ -37,7 +37,7 @@ def follow(body, y, time, longest):
     """Give the states and times of a coin that stays upright for `time`."""
     y, states, times = y.copy(), [y.copy()], [0.0]
     while times[-1] < time:
-        made, verdict = stay(body, 0.0, Motion.UPRIGHT, y, min(longest, time - times[-1]))
+        made, _, verdict = stay(body, 0.0, Motion.UPRIGHT, y, min(longest, time - times[-1]))
         assert verdict == Verdict.GOES_ON
         states.append(y.copy())
         times.append(times[-1] + made)
@@ -91,7 +91,7 @@ def test_a_coin_that_its_roll_tips_leaves_one_rim_and_falls_to_that_side():
     assert min(rim_forces(body, y)) > 0
     verdict, time = Verdict.GOES_ON, 0.0
     while verdict == Verdict.GOES_ON:
-        made, verdict = stay(body, 0.0, Motion.UPRIGHT, y, 0.01)
+        made, _, verdict = stay(body, 0.0, Motion.UPRIGHT, y, 0.01)
         time += made
         assert time < 0.2
     assert verdict == Verdict.CHANGES
@@ -100,7 +100,7 @@ def test_a_coin_that_its_roll_tips_leaves_one_rim_and_falls_to_that_side():
     assert next_motion(body, 0.0, Motion.UPRIGHT, y) == Motion.SLIDING
     side = 1 if N_tails > N_heads else -1
     for _ in range(20):
-        made, verdict = stay(body, 0.0, Motion.SLIDING, y, 1e-3)
+        made, _, verdict = stay(body, 0.0, Motion.SLIDING, y, 1e-3)
         assert verdict == Verdict.GOES_ON
     assert side * rotation_matrix(tuple(y[6:10]))[2][2] > 1e-4
 

@@ -16,6 +16,9 @@ from analytic.rim import closing_speed
 from models.records import IMPACT_ROW, Array, Ending
 from models.scenario import Scenario
 
+LIFT = 1e-16
+"""Above the floor at lift-off [m]: else that too would be a zero of the gap to the other integrators."""
+
 
 class OneCoin(NamedTuple):
     """The mechanics of a scenario's coin; a state y is that of `analytic.flight`, (13,)."""
@@ -56,7 +59,7 @@ def mechanics(scenario: Scenario) -> OneCoin:
     def strike(y):
         row = np.zeros(1, dtype=IMPACT_ROW)
         ending = hit(body, rules, rules.restitution, y, row[0])
-        y[2] -= min(closing_speed(body, y)[0], 0.0)
+        y[2] += max(LIFT - closing_speed(body, y)[0], 0.0)
         if ending == Ending.NONE:
             _, ending = decided(body, rules, y)
         return row[0].face, ending != Ending.NONE

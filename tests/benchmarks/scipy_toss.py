@@ -44,7 +44,7 @@ def _first_touch(coin: OneCoin, start: float, y: np.ndarray, latest: float) -> t
         dense_output=True,
     )
     end = flight.t[-1]
-    looks = np.linspace(start, end, int((end - start) / LOOK_EVERY) + 2)[1:-1]
+    looks = np.linspace(start, end, int((end - start) / LOOK_EVERY) + 3)[1:-1]
     if (coin.gaps(np.ascontiguousarray(flight.sol(looks).T)) < 0).any():
         raise RuntimeError("a touch went unseen between two steps")
     return end, flight.y[:, -1].copy()

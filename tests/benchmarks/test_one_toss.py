@@ -61,9 +61,10 @@ def test_fig24a(benchmark, toss: Callable[[], Answer]):
     reference = analytic.toss(FIG24A)
     trusted = reference.trusted_impacts
     times, faces = toss()
-    assert trusted >= 5
+    assert trusted >= 8
     assert len(times) > trusted
-    # The impacts have multiplied what rounding and tolerance differ by; any other error would be far larger.
-    assert np.abs(np.array(times[:trusted]) - reference.impacts.time[:trusted]).max() < 1e-9
+    # Eight impacts have multiplied what rounding and tolerances of 1e-12 differ by; other errors would be far
+    # larger.
+    assert np.abs(np.array(times[:8]) - reference.impacts.time[:8]).max() < 1e-9
     assert faces[:trusted] == reference.impacts.face[:trusted].tolist()
     benchmark(toss)

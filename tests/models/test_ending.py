@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from models import ending
 from models.attitude import quaternion_from_angles, rotation_matrix
 from models.ending import barrier, energy, face_up, judge
 from models.geometry import gap
@@ -145,3 +146,21 @@ def test_an_imperfect_coin_is_caught_on_its_edge_below_both_passes():
         assert (outcome, ending) == (Outcome.EDGE, Ending.SETTLED)
     fast = judged(scenario(coin=coin, air=AIR), np.pi / 2 - 0.05, v=(0.0, 0.0, 0.2))
     assert fast[0] == (Outcome.UNDECIDED, Ending.NONE)
+
+
+@pytest.mark.parametrize("coin", [ZLOTY, IMPERFECT, {**ZLOTY, "thickness": 0.0}])
+def test_what_the_spin_needs_is_never_above_its_ceiling_and_often_near(coin):
+    """Else the judge would pass over a coin that is settled, or never gain by the ceiling."""
+    rng, body = np.random.default_rng(21), scenario(coin=coin).body
+    ideal = "center_of_mass" not in coin
+    needed, most = (
+        (ending._top_barrier, ending._top_ceiling) if ideal else (ending._spin_barrier, ending._spin_ceiling)
+    )
+    near = 0
+    for _ in range(500):
+        angles = (0.0, rng.uniform(0.01, np.pi - 0.01), rng.uniform(0, 6))
+        up = rotation_matrix(quaternion_from_angles(angles))[2]
+        w = tuple(rng.uniform(-1, 1, 3) * 10 ** rng.uniform(-1, 2))
+        assert needed(body, up, w) <= most(body, up, w)
+        near += needed(body, up, w) > 0.5 * most(body, up, w)
+    assert near > 100

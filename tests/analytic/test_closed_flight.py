@@ -1,0 +1,150 @@
+"""Flights in closed form: against the integrated ones, against closed forms, and that no touch is missed."""
+
+import numpy as np
+import pytest
+
+from analytic.closed_flight import fly_closed, sample_closed
+from analytic.events import run
+from analytic.flight import sample_flight
+from analytic.flying import fly_with_graze, sample
+from analytic.rim import closing_speed, fly_by_steps
+from analytic.toss import state_of
+from analytic.turning import turns_in_closed_form
+from models.records import Ending
+from models.scenario import Scenario
+from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+
+STRONG_AIR = {"normal": 40.0, "tangential": 10.0}
+
+
+def draw_flight(
+    rng: np.random.Generator, thickness: float, air: dict[str, float]
+) -> tuple[Scenario, np.ndarray]:
+    """Draw a coin that turns in closed form: high up, or just lifted off the floor."""
+    release = draw_release(rng, spin=80.0)
+    if air:
+        release["angular_velocity"][2] = 0.0
+    case = scenario(coin={**ZLOTY, "thickness": thickness}, air=air, release=release)
+    y = state_of(case.release)
+    if rng.integers(2):
+        y[2] -= closing_speed(case.body, y)[0]
+        y[5] += rng.uniform(0.01, 1.0) - closing_speed(case.body, y)[1]
+    return case, y
+
+
+@pytest.mark.parametrize("thickness", [0.0, 2e-3, 2e-2])
+@pytest.mark.parametrize("air", [{}, AIR, STRONG_AIR])
+def test_a_flight_in_closed_form_is_the_integrated_one(thickness, air):
+    rng = np.random.default_rng([61, int(1e4 * thickness), len(air)])
+    turned, looks = 0.0, 0
+    for _ in range(100):
+        case, start = draw_flight(rng, thickness, air)
+        body, closed, integrated = case.body, start.copy(), start.copy()
+        assert turns_in_closed_form(body, start[10:13])
+        flown, touches, looked = fly_closed(body, closed, 10.0)
+        other, also_touches, *_ = fly_by_steps(body, integrated, 10.0)
+        assert touches
+        assert also_touches
+        # The integrated flight errs by 1e-13 on the scales of the coin, over tens of steps.
+        assert flown == pytest.approx(other, abs=1e-12)
+        assert closed[:10] == pytest.approx(integrated[:10], abs=1e-11)
+        assert closed[10:] == pytest.approx(integrated[10:], abs=1e-10)
+        # Late in a long flight one step of floating-point time lowers the coin by 1e-14 of its radius.
+        assert abs(closing_speed(body, closed)[0]) < 1e-13 * body.radius
+        turned += float(np.linalg.norm(start[10:13])) * flown
+        looks += looked
+    assert turned > 300, "the coins should turn"
+    # In strong air the bounds are wide.
+    assert looks < 100 * (40 if air == STRONG_AIR else 12)
+
+
+@pytest.mark.parametrize("air", [{}, AIR, STRONG_AIR])
+def test_samples_are_states_of_the_flight(air):
+    rng = np.random.default_rng(62)
+    for _ in range(20):
+        case, start = draw_flight(rng, 2e-3, air)
+        body, end = case.body, start.copy()
+        times = np.linspace(0, fly_closed(body, end, 10.0)[0], 9)
+        closed, integrated = np.empty((9, 13)), np.empty((9, 13))
+        sample_closed(body, start, 0.0, times, closed)
+        sample_flight(body, start, 0.0, times, integrated)
+        assert closed[0] == pytest.approx(start, abs=1e-15)
+        assert closed[-1] == pytest.approx(end, abs=1e-13)
+        assert closed[:, :10] == pytest.approx(integrated[:, :10], abs=1e-11)
+
+
+def test_a_coin_at_rest_sinks_through_air_as_its_drag_says():
+    """It keeps its attitude; edge-on it falls as v = (g m/c_t)(1 - exp(-c_t t/m)), broadside with c_n."""
+    for angle, across in ((np.pi / 2, False), (0.0, True)):
+        case = scenario(air=STRONG_AIR, release={"position": [0, 0, 5.0], "angles": [0.4, angle, 0.0]})
+        body, times, states = case.body, np.linspace(0, 0.5, 20), np.empty((20, 13))
+        rate = (body.drag.force_normal if across else body.drag.force_tangential) / body.mass
+        sample(body, state_of(case.release), 0.0, times, states)
+        speed = body.gravity / rate * -np.expm1(-rate * times)
+        assert rate * 0.5 > 1, "the air should matter"
+        assert states[:, 5] == pytest.approx(-speed, abs=1e-13)
+        assert states[:, 2] == pytest.approx(5 - (body.gravity * times - speed) / rate, abs=1e-13)
+        assert np.all(states[:, 6:10] == states[0, 6:10])
+
+
+def test_thin_air_is_nearly_none():
+    """The change is of first order in λ, whichever of the two forms a flight has."""
+    rng = np.random.default_rng(63)
+    release = draw_release(rng)
+    release["angular_velocity"][2] = 0.0
+    ends = []
+    for share in (0.0, 1e-8, 2e-8):
+        case = scenario(air={"normal": 0.8 * share, "tangential": 0.2 * share}, release=release)
+        states = np.empty((1, 13))
+        sample(case.body, state_of(case.release), 0.0, np.array([0.3]), states)
+        ends.append(states[0])
+    assert np.abs(ends[1] - ends[0]).max() > 1e-10
+    assert ends[2] - ends[0] == pytest.approx(2 * (ends[1] - ends[0]), abs=1e-13)
+
+
+@pytest.mark.parametrize("thickness", [0.0, 2e-3, 2e-2])
+@pytest.mark.parametrize("air", [{}, AIR])
+def test_no_touch_is_passed_and_no_minimum_is_below_half_of_the_graze(thickness, air):
+    rng = np.random.default_rng([64, int(1e4 * thickness), len(air)])
+    minima, tight = 0, 0
+    for _ in range(150):
+        case, start = draw_flight(rng, thickness, air)
+        body, end = case.body, start.copy()
+        flown, height = fly_with_graze(body, end, 10.0)
+        states = np.empty((1500, 13))
+        sample(body, start, 0.0, flown * np.linspace(1e-6, 1 - 1e-6, len(states)), states)
+        gaps = np.array([closing_speed(body, y)[0] for y in states])
+        assert gaps.min() > 0
+        inner = gaps[1:-1][(gaps[1:-1] < gaps[:-2]) & (gaps[1:-1] <= gaps[2:])]
+        minima += len(inner)
+        assert inner.min(initial=np.inf) >= height / 2
+        # Not far below them, unless the coin goes high: then it is a tenth of the reach of its rim.
+        tight += height > 0.05 * inner.min(initial=np.inf)
+    assert minima > 20
+    assert tight > 10
+
+
+def test_other_coins_are_integrated():
+    spinning, turning = (1.0, 2.0, 3.0), (1.0, 2.0, 0.0)
+    ideal, off_center = scenario().body, scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}).body
+    linear, quadratic = scenario(air=AIR).body, scenario(air={**AIR, "exponent": 1.0}).body
+    assert turns_in_closed_form(ideal, spinning)
+    assert turns_in_closed_form(linear, turning)
+    assert not turns_in_closed_form(linear, spinning)
+    assert not turns_in_closed_form(off_center, turning)
+    assert not turns_in_closed_form(quadratic, turning)
+
+
+def test_a_coin_that_comes_to_lie_out_of_a_contact_goes_on():
+    """Its lowest point is at rest within rounding, and its other side about to land: that is no touch yet."""
+    rng = np.random.default_rng(1)
+    z, w = (rng.uniform(*limits, 4096)[3618] for limits in ((0.2, 0.6), (20, 60)))
+    case = scenario(
+        coin={**ZLOTY, "thickness": 0.0},
+        floor={"restitution": 0.6},
+        release={"position": [0, 0, z], "angular_velocity": [0, w, 0]},
+        ending={"max_impacts": 1000},
+    )
+    tossed = run(case.body, case.rules, state_of(case.release))
+    assert len(tossed.contacts) > 0
+    assert tossed.ending == Ending.SETTLED

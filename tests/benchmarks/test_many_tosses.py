@@ -1,0 +1,137 @@
+"""Whole tosses of a thin coin, by the engine and, in air, by two integrators of general use.
+
+The coin falls on a smooth floor, χ = 0.6, from heights of 0.2 to 0.6 m with spins of 20 to 60 rad/s.
+`make bench` prints how many each makes in a second; `make test` makes a few, to see that they are the same.
+"""
+
+import time
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from numba import config
+
+import analytic
+from analytic.events import run
+from analytic.flying import fly
+from analytic.toss import state_of
+from models.releases import Releases
+from models.scenario import Scenario
+from tests.benchmarks import scipy_toss
+from tests.benchmarks.one_coin import OneCoin, mechanics
+from tests.draws import AIR, ZLOTY, scenario
+
+MANY, FEW = 8192, 8
+RATES: dict[str, np.ndarray] = {}
+"""Tosses in a second, and in a second of processor time, by whom."""
+
+
+def family(n: int, air: dict[str, float]) -> list[Scenario]:
+    """Draw tosses of the coin."""
+    rng = np.random.default_rng(8)
+    return [
+        scenario(
+            coin={**ZLOTY, "thickness": 0.0},
+            air=air,
+            floor={"restitution": 0.6},
+            release={
+                "position": [0, 0, rng.uniform(0.2, 0.6)],
+                "angular_velocity": [0, rng.uniform(20, 60), 0],
+            },
+        )
+        for _ in range(n)
+    ]
+
+
+def releases_of(cases: list[Scenario]) -> Releases:
+    states = np.array([state_of(case.release) for case in cases])
+    parts = (slice(0, 3), slice(3, 6), slice(6, 10), slice(10, 13))
+    names = ("position", "velocity", "quaternion", "angular_velocity")
+    return Releases(**{name: states[:, part].copy() for name, part in zip(names, parts, strict=True)})
+
+
+IN_AIR = family(FEW, AIR)
+
+
+@cache
+def coin() -> OneCoin:
+    return mechanics(IN_AIR[0])
+
+
+@cache
+def numbers_for_heyoka() -> list[Any]:
+    pytest.importorskip("heyoka", reason="heyoka has wheels for Linux on x86-64 only")
+    from tests.extended import Extended
+
+    return [Extended(case) for case in IN_AIR]
+
+
+def by_heyoka() -> list[tuple[list[float], list[int]]]:
+    numbers = numbers_for_heyoka()
+    from tests.benchmarks import heyoka_toss
+
+    return [heyoka_toss.toss(one, coin(), 10.0) for one in numbers]
+
+
+def by_scipy() -> list[tuple[list[float], list[int]]]:
+    return [scipy_toss.toss(case, coin()) for case in IN_AIR]
+
+
+def report(capsys: Any, benchmark: Any, name: str, tosses: int, toss: Callable[[], Any]) -> None:
+    """Print the rate of the best round where it was timed, that by processor time, and ratios to heyoka's."""
+    if not benchmark.stats:
+        return
+    start = time.process_time()
+    toss()
+    RATES[name] = tosses / np.array([benchmark.stats.stats.min, time.process_time() - start])
+    (rate, by_processor), ratios = RATES[name], RATES[name] / RATES.get("by_heyoka", np.nan)
+    with capsys.disabled():
+        print(f"\n{name}: {rate:.0f} tosses/s, {ratios[0]:.3g} times heyoka's;", end=" ")
+        print(f"{by_processor:.0f} in a second of processor time, {ratios[1]:.3g} times", end="")
+
+
+@pytest.mark.parametrize("toss", [by_heyoka, by_scipy])
+def test_other_integrators_make_the_same_tosses(benchmark, capsys, toss: Callable[[], list[Any]]):
+    for (times, faces), case in zip(toss(), IN_AIR, strict=True):
+        rows = run(case.body, case.rules, state_of(case.release)).rows[:3]
+        # Three impacts multiply what tolerances differ by by less than 1e4.
+        assert times[:3] == pytest.approx(rows["time"], abs=1e-7)
+        assert faces[:3] == rows["face"].tolist()
+    benchmark(toss)
+    report(capsys, benchmark, toss.__name__, FEW, toss)
+
+
+@pytest.mark.parametrize("air", [AIR, {}])
+@pytest.mark.parametrize("cores", ["one", "all"])
+def test_many_tosses(benchmark, capsys, monkeypatch, air, cores):
+    # As many as are worth timing only where they are timed.
+    cases = family(FEW if benchmark.disabled else MANY, air)
+    releases = releases_of(cases)
+    outcomes = analytic.toss_many(cases[0], releases)
+    for i in range(FEW):
+        tossed = run(cases[i].body, cases[i].rules, state_of(cases[i].release))
+        assert outcomes.end_time[i] == tossed.end_time
+    if cores == "one":
+        monkeypatch.setitem(config.__dict__, "NUMBA_NUM_THREADS", 1)
+
+    def toss():
+        return analytic.toss_many(cases[0], releases)
+
+    benchmark(toss)
+    name = f"analytic.toss_many, {'in air' if air else 'in vacuum'}, cores: {cores}"
+    report(capsys, benchmark, name, len(cases), toss)
+
+
+@pytest.mark.parametrize(("air", "most"), [({}, 8), (AIR, 10)])
+def test_few_looks_at_the_gap_find_a_touch(capsys, air, most):
+    looks, flights = 0, 0
+    for case in family(40, air):
+        for start in run(case.body, case.rules, state_of(case.release)).start_states[:-1]:
+            looks += fly(case.body, start.copy(), 10.0)[2]
+            flights += 1
+    assert looks < most * flights
+    with capsys.disabled():
+        where = "in air" if air else "in vacuum"
+        print(f"\n{looks / flights:.1f} looks at the gap for an impact {where}", end="")
