@@ -27,7 +27,7 @@ FEWEST = 5
 """Tosses from which a ratio is given."""
 
 
-def make(progress: Progress, centers: int = 60, count: int = 60) -> Result:
+def make(progress: Progress, centers: int = 200, count: int = 60) -> Result:
     """Measure the stripe of each random release, and toss within ε of it."""
     rng = np.random.default_rng(SEED)
     heights, spins = rng.uniform(*HEIGHTS, centers), rng.uniform(*SPINS, centers)
@@ -142,7 +142,7 @@ FIGURE = paper_figure(
         "next above, sought up to 0.1 m off in steps of a quarter; stripes narrower than a step can be "
         "passed over. The line on the right is 1 mm."
     ),
-    seconds=25,
+    seconds=15,
     make=make,
     quick_seconds=8,
     quick=partial(make, centers=15, count=20),

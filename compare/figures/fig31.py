@@ -169,7 +169,7 @@ FIGURE = paper_figure(
         "ε is below the width of the stripes. Where N still grows with falling ε, as from n = 4 on, it is a "
         "lower bound."
     ),
-    seconds=75,
+    seconds=40,
     make=make,
     quick_seconds=9,
     quick=partial(make, points=40, tosses=500, elastic=100, tosses_mujoco=10),

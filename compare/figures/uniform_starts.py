@@ -25,7 +25,7 @@ HABITS = ("low", "fast", "at the corner", "about the middle", "about a quarter")
 """Densities of a hand's releases over the map."""
 
 
-def make(progress: Progress, tosses: int = 60_000) -> Result:
+def make(progress: Progress, tosses: int = 200_000) -> Result:
     """Toss from everywhere in the map, and count heads cell by cell and for each habit of a hand."""
     rng = np.random.default_rng(SEED)
     z, w = rng.uniform(size=(2, tosses))
@@ -168,7 +168,7 @@ FIGURE = paper_figure(
         "square by which a cell's share of heads is off 1/2, less what counting adds. The hands' habits are "
         "densities over the map."
     ),
-    seconds=35,
+    seconds=20,
     make=make,
     quick_seconds=6,
     quick=partial(make, tosses=8000),
