@@ -68,7 +68,7 @@ def friction_in_contact(rules):
 def contact_rate(body, mu, motion, side, y, dy):
     """Write the rate of change of the state y of a coin in contact into dy; both (13,)."""
     if motion == Motion.UPRIGHT:
-        upright_rate(body, y, dy)
+        upright_rate(body, mu, y, dy)
         return
     derivative(body, y, dy)
     R, arm, K, b, v_A = contact(body, y, dy, side)
@@ -151,7 +151,7 @@ def margin(body, mu, motion, side, y):
         y: state, (13,).
     """
     if motion == Motion.UPRIGHT:
-        return min(rim_forces(body, y)) / (body.mass * body.gravity)
+        return min(rim_forces(body, mu, y)) / (body.mass * body.gravity)
     dy = np.empty(STATE_SIZE)
     derivative(body, y, dy)
     R, _, K, b, v_A = contact(body, y, dy, side)
@@ -248,7 +248,7 @@ def next_motion(body, mu, motion, y):
         y: state, (13,).
     """
     if motion == Motion.UPRIGHT:
-        tip_over(body, y)
+        tip_over(body, mu, y)
     side, dy = side_of(y), np.empty(STATE_SIZE)
     derivative(body, y, dy)
     R, arm, K, b, v_A = contact(body, y, dy, side)

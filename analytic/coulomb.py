@@ -21,6 +21,8 @@ V_Z, WORK = 2, 6
 TOLERANCE = 1e-13
 # Slip slower than this part of the speed of A is none.
 NO_SLIP = 1e-12
+# Slip slower than this part of it is followed to the error of slip as fast as this, well below `NO_SLIP`.
+SLOW_SLIP = 1e-2
 # An acceleration of slip across itself, against that which friction makes of slip, that is none.
 STRAIGHT = 1e-11
 # After so many times the impulse in which slip turns, none is left of any other direction.
@@ -206,7 +208,8 @@ def accepted_slip_step(K, y, mu, speed, dt, stages, y_new, component, target):
     slip_rate(K, y, mu, stages[0])
     while True:
         slip_step(K, y, mu, dt, stages, y_new)
-        error = slip_error(dt, stages, math.hypot(y[0], y[1]), speed, speed / K[2][2]) / TOLERANCE
+        slip = max(math.hypot(y[0], y[1]), SLOW_SLIP * speed)
+        error = slip_error(dt, stages, slip, speed, speed / K[2][2]) / TOLERANCE
         if error <= 1:
             break
         dt *= step_factor(error)

@@ -5,9 +5,10 @@ import math
 import numpy as np
 
 from analytic.contact import contact_rate
-from analytic.flight import STATE_SIZE, attitude_of, spin_of, velocity_of
-from analytic.floor_force import Motion, side_of
+from analytic.flight import STATE_SIZE, attitude_of, derivative, spin_of, velocity_of
+from analytic.floor_force import Motion, contact, holding_force, holds, side_of
 from analytic.rotation import quaternion_rate
+from analytic.upright import SLOW
 from models.attitude import rotation_matrix
 from models.compiled import compiled
 from models.vectors import apply, cross, dot, scale
@@ -30,12 +31,31 @@ def on_edge(body, y):
 
 
 @compiled
+def rolls(body, mu, y):
+    """Tell whether a coin on its edge rolls straight on: neither rim slips on a rough floor.
+
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ, 0 on a smooth floor.
+        y: state of a coin on its edge, (13,).
+    """
+    if mu == 0:
+        return False
+    dy = np.empty(STATE_SIZE)
+    derivative(body, y, dy)
+    tails, heads = contact(body, y, dy, 1.0)[4], contact(body, y, dy, -1.0)[4]
+    slip = max(math.hypot(tails[0], tails[1]), math.hypot(heads[0], heads[1]))
+    return slip < SLOW * (body.gravity * body.radius) ** 0.5
+
+
+@compiled
 def stands(body, mu, motion, y):
     """Tell whether a coin on its edge is held there however it rolls on.
 
     Rolling brings C up and down, and so changes the roll rate: the floor must hold the coin in every phase
-    that it can reach. It turns about the vertical as L_z has it, and rolls at most as fast as its energy
-    leaves it there: just so fast on a smooth floor in vacuum, slower and either way where it loses energy.
+    that it can reach. It rolls at most as fast as its energy leaves it there: just so fast in vacuum on a
+    smooth floor or without slip, slower and either way where it loses energy. It turns about the vertical as
+    L_z has it, unless it `rolls`: then not at all.
 
     Args:
         body: the coin.
@@ -43,32 +63,50 @@ def stands(body, mu, motion, y):
         motion: `Motion` in contact, at one rim point.
         y: state of a coin on its edge, (13,).
     """
+    straight = rolls(body, mu, y)
+    if straight:
+        motion = Motion.STICKING
     if not held_on_edge(body, mu, motion, y):
         return False
-    lossless = mu == 0 and body.air.normal == 0 and body.air.tangential == 0
+    lossless = (mu == 0 or straight) and body.air.normal == 0 and body.air.tangential == 0
     phases, roll_rates = np.empty((_PHASES, STATE_SIZE)), np.empty(_PHASES)
     for i in range(_PHASES):
-        roll_rates[i] = rolled_on(body, mu, motion, y, math.pi * i / _PHASES, phases[i])
+        roll_rates[i] = rolled_on(body, mu, motion, straight, y, math.pi * i / _PHASES, phases[i])
     one_way = lossless and roll_rates.min() > 0
     L_z = dot(rotation_matrix(attitude_of(y))[2], apply(body.inertia, spin_of(y)))
     for i in range(_PHASES):
         for share in (1.0, -1.0, 0.0):
             if roll_rates[i] < 0 or (one_way and share * y[12] < 0) or (lossless and share == 0):
                 continue
-            set_rolling(body, L_z, share * roll_rates[i], phases[i])
-            if not held_on_edge(body, mu, motion, phases[i]):
+            set_rolling(body, L_z, straight, share * roll_rates[i], phases[i])
+            if not held_on_edge(body, mu, motion, phases[i]) or (
+                straight and not _sticks(body, mu, phases[i])
+            ):
                 return False
     return True
 
 
 @compiled
-def rolled_on(body, mu, motion, y, half_angle, phase):
+def _sticks(body, mu, y):
+    """Tell whether friction can hold a coin on its edge by either rim; y: state, (13,)."""
+    dy = np.empty(STATE_SIZE)
+    derivative(body, y, dy)
+    for side in (-1.0, 1.0):
+        _, _, K, b, _ = contact(body, y, dy, side)
+        if not holds(mu, holding_force(K, b)):
+            return False
+    return True
+
+
+@compiled
+def rolled_on(body, mu, motion, straight, y, half_angle, phase):
     """Roll a coin on its edge on by an angle.
 
     Args:
         body: the coin.
         mu: coefficient of friction μ, 0 on a smooth floor.
         motion: `Motion` in contact, at one rim point.
+        straight: whether it does not turn about the vertical.
         y: state of a coin on its edge, (13,).
         half_angle: half the angle.
         phase: where the state there goes, (13,), its velocities those of y.
@@ -90,21 +128,34 @@ def rolled_on(body, mu, motion, y, half_angle, phase):
     phase[8], phase[9] = c * e2 - s * e1, c * e3 + s * e0
     up = rotation_matrix(attitude_of(phase))[2]
     phase[2] = body.radius * math.hypot(up[0], up[1]) + dot(up, body.center)
-    moment, product = dot(up, apply(J, up)), dot(up, J[2])
     rise = cross(up, (0.0, 0.0, 1.0))
-    roll_inertia = J[2][2] - product * product / moment + m * dot(rise, body.center) ** 2
+    roll_inertia = J[2][2] + m * dot(rise, body.center) ** 2
     if motion == Motion.STICKING:
         roll_inertia += m * phase[2] * phase[2]
-    left = energy - weight * phase[2] - L_z * L_z / (2 * moment)
+    left = energy - weight * phase[2]
+    if not straight:
+        moment, product = dot(up, apply(J, up)), dot(up, J[2])
+        roll_inertia -= product * product / moment
+        left -= L_z * L_z / (2 * moment)
     return (2 * max(left, 0.0) / roll_inertia) ** 0.5 if left > -1e-9 * weight * body.radius else -1.0
 
 
 @compiled
-def set_rolling(body, L_z, roll_rate, y):
-    """Let a coin on its edge turn as L_z has it, and roll at a rate [rad/s]; y: state, (13,)."""
+def set_rolling(body, L_z, straight, roll_rate, y):
+    """Let a coin on its edge roll at a rate, and turn about the vertical as L_z has it, or not at all.
+
+    Args:
+        body: the coin.
+        L_z: angular momentum about the vertical [kg m²/s].
+        straight: whether it does not turn.
+        roll_rate: about ζ [rad/s].
+        y: state, (13,); its velocities change.
+    """
+    turn_rate = 0.0
     up = rotation_matrix(attitude_of(y))[2]
-    about_vertical = apply(body.inertia, up)
-    turn_rate = (L_z - roll_rate * about_vertical[2]) / dot(up, about_vertical)
+    if not straight:
+        about_vertical = apply(body.inertia, up)
+        turn_rate = (L_z - roll_rate * about_vertical[2]) / dot(up, about_vertical)
     for k in range(3):
         y[10 + k] = turn_rate * up[k]
     y[12] += roll_rate

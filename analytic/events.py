@@ -24,6 +24,8 @@ from models.vectors import add, apply, scale, subtract
 
 # The most steps and changes of a toss in contact.
 CONTACT_STEPS = 5_000_000
+# An upright coin is tried for whether it stands once in so many of them.
+_UPRIGHT_LOOK = 64
 # A loss that is none, against the energy.
 NO_LOSS = 1e-9
 
@@ -212,12 +214,10 @@ def keep_contact(body, rules, mu, motion, y, time, steps_left, looks):
         outcome, ending = decided(body, rules, y)
         upright = motion == Motion.UPRIGHT
         one_rim = Motion.SLIDING if upright else motion
-        if ending == Ending.NONE and (upright or (on_edge(body, y) and held_on_edge(body, mu, one_rim, y))):
+        looked_at = steps_left % _UPRIGHT_LOOK == 0 if upright else on_edge(body, y)
+        if ending == Ending.NONE and looked_at and held_on_edge(body, mu, one_rim, y):
             if stands(body, mu, one_rim, y):
                 outcome, ending = Outcome.EDGE, Ending.STANDING
-            elif mu > 0:
-                # It stays on both rims until its roll tips it, a contact that is not followed.
-                ending = Ending.CHATTER
             elif not upright:
                 put_upright(body, y)
                 return time, steps_left, Motion.UPRIGHT, undecided, Ending.NONE

@@ -32,7 +32,7 @@ class Motion(IntEnum):
     STICKING = 3
     """In contact, without slip."""
     UPRIGHT = 4
-    """In contact at both rims, on a smooth floor."""
+    """In contact at both rims."""
 
 
 @compiled

@@ -1,4 +1,6 @@
-"""A thick coin that stays upright on a smooth floor, on the rims of both faces."""
+"""A thick coin that stays upright on the floor, on the rims of both faces."""
+
+import math
 
 import numpy as np
 
@@ -8,37 +10,48 @@ from analytic.impact import spin_gained
 from analytic.rotation import quaternion_rate
 from models.attitude import rotation_matrix
 from models.compiled import compiled
-from models.vectors import add, apply, cross, scale
+from models.vectors import add, apply, cross, dot, scale
 
 # The angle by which a coin is tipped off the rim that lifts.
 _TIP = 1e-12
+# Against √(g r). Friction on slower slip grows in proportion to it: a rigid body leaves open how two points
+# share the force that holds both.
+SLOW = 1e-3
 
 
 @compiled
-def rim_forces(body, y):
+def rim_forces(body, mu, y):
     """Give the floor's vertical forces on the lowest points of tails' and of heads' rim, (2,) [N].
 
     They hold both points on the floor; a negative one would have to pull.
 
     Args:
         body: the coin.
+        mu: coefficient of friction μ, 0 on a smooth floor.
         y: state of an upright coin, (13,).
     """
     dy = np.empty(STATE_SIZE)
     derivative(body, y, dy)
     tails, heads = contact(body, y, dy, 1.0), contact(body, y, dy, -1.0)
-    N, _ = _holding(body, tails, heads, (tails[3][2], heads[3][2]))
+    N, _, _ = _holding(body, mu, tails, heads, (tails[3][2], heads[3][2]))
     return N
 
 
 @compiled
-def upright_rate(body, y, dy):
-    """Write the rate of change of the state y of an upright coin into dy; both (13,)."""
+def upright_rate(body, mu, y, dy):
+    """Write the rate of change of the state y of an upright coin into dy; both (13,).
+
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ, 0 on a smooth floor; it acts on each rim against that rim's slip.
+        y: state, (13,).
+        dy: where its rate of change goes, (13,).
+    """
     derivative(body, y, dy)
     tails, heads = contact(body, y, dy, 1.0), contact(body, y, dy, -1.0)
-    N, turned = _holding(body, tails, heads, (tails[3][2], heads[3][2]))
-    dy[5] += (N[0] + N[1]) / body.mass
+    _, F, turned = _holding(body, mu, tails, heads, (tails[3][2], heads[3][2]))
     for i in range(3):
+        dy[3 + i] += F[i] / body.mass
         dy[10 + i] += turned[i]
 
 
@@ -54,49 +67,63 @@ def put_upright(body, y):
     dy = np.empty(STATE_SIZE)
     derivative(body, y, dy)
     tails, heads = contact(body, y, dy, 1.0), contact(body, y, dy, -1.0)
-    S, turned = _holding(body, tails, heads, (tails[4][2], heads[4][2]))
+    _, S, turned = _holding(body, 0.0, tails, heads, (tails[4][2], heads[4][2]))
     y[2] = -tails[1][2]
-    y[5] += (S[0] + S[1]) / body.mass
+    y[5] += S[2] / body.mass
     for i in range(3):
         y[10 + i] += turned[i]
 
 
 @compiled
-def tip_over(body, y):
+def tip_over(body, mu, y):
     """Tip an upright coin a little onto the rim that is pressed harder.
 
     Args:
         body: the coin.
+        mu: coefficient of friction μ, 0 on a smooth floor.
         y: state, (13,).
     """
-    on_tails, on_heads = rim_forces(body, y)
+    on_tails, on_heads = rim_forces(body, mu, y)
     # Tails' rim is the lower one of a coin with heads up.
     _tilt(y, -_TIP if on_tails > on_heads else _TIP)
 
 
 @compiled
-def _holding(body, tails, heads, fall):
+def _holding(body, mu, tails, heads, fall):
     """Give what takes the vertical motion `fall` of both points from them.
 
     Args:
         body: the coin.
+        mu: coefficient of friction μ.
         tails: `contact` of tails' rim.
         heads: `contact` of heads' rim.
         fall: accelerations, or velocities, (2,).
 
     Returns:
-        The vertical forces, or impulses, (2,), and the change of the angular velocity, body frame, (3,).
+        The vertical forces, or impulses, (2,), both with their friction, space frame, (3,), and the change of
+        the angular velocity, body frame, (3,).
     """
-    R, arm_tails, K_tails, _, _ = tails
-    _, arm_heads, K_heads, _, _ = heads
-    by_tails = spin_gained(body, R, arm_tails, (0.0, 0.0, 1.0))
-    by_heads = spin_gained(body, R, arm_heads, (0.0, 0.0, 1.0))
-    k_tails, k_heads = K_tails[2][2], K_heads[2][2]
-    k_both = 1 / body.mass + cross(apply(R, by_heads), arm_tails)[2]
-    determinant = k_tails * k_heads - k_both * k_both
-    N_tails = (k_both * fall[1] - k_heads * fall[0]) / determinant
-    N_heads = (k_both * fall[0] - k_tails * fall[1]) / determinant
-    return (N_tails, N_heads), add(scale(N_tails, by_tails), scale(N_heads, by_heads))
+    R, arm_tails, K_tails, _, v_tails = tails
+    _, arm_heads, K_heads, _, v_heads = heads
+    along_tails, along_heads = _with_friction(body, mu, v_tails), _with_friction(body, mu, v_heads)
+    by_tails = spin_gained(body, R, arm_tails, along_tails)
+    by_heads = spin_gained(body, R, arm_heads, along_heads)
+    # The vertical motion of the first point by a unit force at the second.
+    tails_tails, heads_heads = dot(K_tails[2], along_tails), dot(K_heads[2], along_heads)
+    tails_heads = 1 / body.mass + cross(apply(R, by_heads), arm_tails)[2]
+    heads_tails = 1 / body.mass + cross(apply(R, by_tails), arm_heads)[2]
+    determinant = tails_tails * heads_heads - tails_heads * heads_tails
+    N_tails = (tails_heads * fall[1] - heads_heads * fall[0]) / determinant
+    N_heads = (heads_tails * fall[0] - tails_tails * fall[1]) / determinant
+    F = add(scale(N_tails, along_tails), scale(N_heads, along_heads))
+    return (N_tails, N_heads), F, add(scale(N_tails, by_tails), scale(N_heads, by_heads))
+
+
+@compiled
+def _with_friction(body, mu, v_A):
+    """Give a force with the vertical part 1 and its friction at a point with velocity v_A, (3,)."""
+    slip = max(math.hypot(v_A[0], v_A[1]), SLOW * (body.gravity * body.radius) ** 0.5)
+    return -mu * v_A[0] / slip, -mu * v_A[1] / slip, 1.0
 
 
 @compiled

@@ -253,7 +253,7 @@ class Ending(_Part):
     """What decides that the face up is final."""
     max_impacts: Annotated[int, Field(ge=1, le=1_000_000)] = 1_000_000
     """The toss stops after so many impacts."""
-    max_time: Annotated[float, _quantity("s"), _size] = 10_000.0
+    max_time: Annotated[float, _quantity("s"), _size] = 1_000_000.0
     """The toss stops at this time [s]."""
 
 

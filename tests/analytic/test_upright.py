@@ -1,14 +1,15 @@
-"""A thick coin upright on both rims of a smooth floor: what is conserved, what presses it, when it tips."""
+"""A thick coin upright on both rims: what is conserved, what friction does, what presses it, when it tips."""
 
 import numpy as np
 import pytest
 
 from analytic.contact import Verdict, next_motion, stay
-from analytic.edge import stands
+from analytic.edge import rolls, stands
 from analytic.events import run
 from analytic.floor_force import Motion
 from analytic.toss import state_of
 from analytic.upright import put_upright, rim_forces
+from compare.figures.endings import draw_toss
 from models.attitude import quaternion_from_angles, rotation_matrix
 from models.ending import energy
 from models.geometry import gap
@@ -33,11 +34,11 @@ def momenta(body, y):
     return M * y[3:6], np.array(rotation_matrix(tuple(y[6:10]))) @ np.array(body.inertia) @ y[10:13]
 
 
-def follow(body, y, time, longest):
+def follow(body, y, time, longest, mu=0.0):
     """Give the states and times of a coin that stays upright for `time`."""
     y, states, times = y.copy(), [y.copy()], [0.0]
     while times[-1] < time:
-        made, _, verdict = stay(body, 0.0, Motion.UPRIGHT, y, min(longest, time - times[-1]))
+        made, _, verdict = stay(body, mu, Motion.UPRIGHT, y, min(longest, time - times[-1]))
         assert verdict == Verdict.GOES_ON
         states.append(y.copy())
         times.append(times[-1] + made)
@@ -67,7 +68,7 @@ def test_the_rims_forces_are_what_changes_momentum_and_angular_momentum():
     states, times = follow(body, y, 2 * dt, dt)
     assert times == pytest.approx([0.0, dt, 2 * dt], rel=1e-12)
     (p_0, L_0), (p_1, L_1) = momenta(body, states[0]), momenta(body, states[2])
-    N_tails, N_heads = rim_forces(body, states[1])
+    N_tails, N_heads = rim_forces(body, 0.0, states[1])
     R = np.array(rotation_matrix(tuple(states[1, 6:10])))
     below = -R_COIN * R[2] / np.hypot(R[2, 0], R[2, 1]) - np.array(body.center)
     half = np.array([0, 0, ZLOTY["thickness"] / 2])
@@ -79,7 +80,7 @@ def test_the_rims_forces_are_what_changes_momentum_and_angular_momentum():
 
 def test_a_still_coin_presses_its_rims_as_the_lever_says():
     body = scenario(coin={**ZLOTY, "center_of_mass": (0.0, 0.0, 2e-4)}).body
-    N_tails, N_heads = rim_forces(body, upright(body, 0.4, 0.0, 0.0))
+    N_tails, N_heads = rim_forces(body, 0.0, upright(body, 0.4, 0.0, 0.0))
     # Heads' face is at ζ = h/2 = 1 mm.
     assert N_heads == pytest.approx(0.6 * M * G, rel=1e-12)
     assert N_tails == pytest.approx(0.4 * M * G, rel=1e-12)
@@ -88,14 +89,14 @@ def test_a_still_coin_presses_its_rims_as_the_lever_says():
 def test_a_coin_that_its_roll_tips_leaves_one_rim_and_falls_to_that_side():
     body = scenario(coin=UNBALANCED).body
     y = upright(body, 3 * np.pi / 4, 59.4, 0.0)
-    assert min(rim_forces(body, y)) > 0
+    assert min(rim_forces(body, 0.0, y)) > 0
     verdict, time = Verdict.GOES_ON, 0.0
     while verdict == Verdict.GOES_ON:
         made, _, verdict = stay(body, 0.0, Motion.UPRIGHT, y, 0.01)
         time += made
         assert time < 0.2
     assert verdict == Verdict.CHANGES
-    N_tails, N_heads = rim_forces(body, y)
+    N_tails, N_heads = rim_forces(body, 0.0, y)
     assert min(N_tails, N_heads) == pytest.approx(0, abs=1e-9 * M * G)
     assert next_motion(body, 0.0, Motion.UPRIGHT, y) == Motion.SLIDING
     side = 1 if N_tails > N_heads else -1
@@ -136,3 +137,74 @@ def test_a_toss_that_comes_upright_is_followed_until_it_stands():
     tossed = run(case.body, case.rules, state_of(case.release))
     assert (tossed.outcome, tossed.ending) == (Outcome.EDGE, Ending.STANDING)
     assert Motion.UPRIGHT in tossed.motions
+
+
+def rolling(body, roll_rate):
+    """Give a coin upright on the floor that rolls straight on [rad/s]."""
+    y = upright(body, 0.4, 0.0, roll_rate)
+    R = np.array(rotation_matrix(tuple(y[6:10])))
+    y[3:5] = -np.cross(R @ y[10:13], lowest_arm(body, R))[:2]
+    return y
+
+
+def lowest_arm(body, R):
+    """Give the point of the floor below an upright coin, seen from C, space frame, (3,)."""
+    return np.array([0, 0, -R_COIN]) - R @ np.array(body.center)
+
+
+def test_friction_at_both_rims_stops_a_coin_that_turns_upright_on_the_spot():
+    """Each rim slips at Ω h/2 against μ m g/2, so that J_ξ dΩ/dt = -μ m g h/2."""
+    body, mu, turn = scenario(coin=ZLOTY).body, 0.3, 60.0
+    slowing = mu * M * G * ZLOTY["thickness"] / 2 / body.inertia[0][0]
+    # Later the least sideways motion grows: friction along the axle tips the load from rim to rim.
+    time = 0.15 * turn / slowing
+    start = upright(body, 0.4, turn, 0.0)
+    start[3:5] = 0.0
+    states, times = follow(body, start, time, np.inf, mu)
+    left = [rotation_matrix(tuple(y[6:10]))[2] @ y[10:13] for y in states]
+    assert left == pytest.approx(turn - slowing * times, rel=1e-9)
+
+
+def test_a_coin_that_slides_upright_ends_rolling_at_two_thirds_of_its_speed():
+    """Angular momentum about a point of the floor: m v₀ r = m v r + (m r²/2) v/r."""
+    body, mu = scenario(coin=ZLOTY).body, 0.3
+    y = upright(body, 0.4, 0.0, 0.0)
+    n = np.array(rotation_matrix(tuple(y[6:10])))[:, 2]
+    along = np.cross([0, 0, 1], n)
+    y[3:6] = 0.5 * along
+    assert not rolls(body, mu, y)
+    states, _ = follow(body, y, 2 * 0.5 / (mu * G), np.inf, mu)
+    assert states[-1][3:6] == pytest.approx(0.5 * 2 / 3 * along, abs=1e-6)
+    assert rolls(body, mu, states[-1])
+    assert stands(body, mu, Motion.STICKING, states[-1])
+
+
+def test_an_unbalanced_coin_that_rolls_upright_keeps_its_energy_but_for_a_creep():
+    """The friction that it needs, f of μ N, makes it slip at f/(μ N) 1e-3 √(g r): so much power is lost."""
+    body, mu = scenario(coin=UNBALANCED).body, 0.5
+    start = rolling(body, 20.0)
+    states, times = follow(body, start, 1.0, np.inf, mu)
+    energies = np.array([energy(body, y[2], tuple(y[3:6]), tuple(y[10:13])) for y in states])
+    ups = np.array([rotation_matrix(tuple(y[6:10]))[2] for y in states])
+    assert np.ptp(np.unwrap(np.arctan2(ups[:, 1], ups[:, 0]))) > 2 * np.pi, "it rolls round"
+    most = mu * M * G * 1e-3 * (G * R_COIN) ** 0.5 * times[-1]
+    assert -most < energies[-1] - energies[0] < 0
+    assert np.all(np.diff(energies) < 1e-14)
+    assert all(rolls(body, mu, y) for y in states)
+
+
+@pytest.mark.parametrize(
+    ("roll_rate", "mu", "held"), [(12.0, 0.5, True), (12.0, 0.01, False), (100.0, 0.5, False)]
+)
+def test_a_rolling_coin_stands_unless_it_skids_or_its_roll_tips_it(roll_rate, mu, held):
+    body = scenario(coin=UNBALANCED).body
+    assert stands(body, mu, Motion.STICKING, rolling(body, roll_rate)) == held
+
+
+@pytest.mark.parametrize("number", [5496, 4614, 7739])
+def test_a_toss_that_comes_upright_on_a_rough_floor_is_followed_to_its_end(number):
+    """Tosses of the study of endings in which the coin skids or rolls on both rims for a while."""
+    _, case = draw_toss(np.random.default_rng((2008, 1, number)), "imperfect")
+    tossed = run(case.body, case.rules, state_of(case.release))
+    assert Motion.UPRIGHT in tossed.motions
+    assert tossed.outcome != Outcome.UNDECIDED
