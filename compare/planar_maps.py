@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import analytic
+from analytic.events import run
 from compare.basins.maps import Outcomes
 from models.outcomes import Outcomes as Ended
 from models.reading import load
@@ -82,3 +83,22 @@ def faces_after(scenario: Scenario, points: Releases, impacts: int) -> NDArray[n
     ending = scenario.ending.model_copy(update={"max_impacts": impacts + 1})
     ended: Ended = analytic.toss_many(scenario.model_copy(update={"ending": ending}), points)
     return ended.after(impacts)
+
+
+def touched_faces(scenario: Scenario, heights: Array, spins: Array, touches: int) -> NDArray[np.int8]:
+    """Give the faces up at the first touches, the outcome once the toss has ended, (n, touches).
+
+    Args:
+        scenario: of the maps.
+        heights: (n,) [m].
+        spins: (n,) [rad/s].
+        touches: how many.
+    """
+    ending = scenario.ending.model_copy(update={"max_impacts": touches})
+    body, rules = scenario.body, scenario.model_copy(update={"ending": ending}).rules
+    faces = np.empty((len(heights), touches), dtype=np.int8)
+    for row, z, w in zip(faces, heights, spins, strict=True):
+        tossed = run(body, rules, np.array([0, 0, z, 0, 0, 0, 1.0, 0, 0, 0, w, 0, 0]))
+        row[: len(tossed.rows)] = tossed.rows["face"]
+        row[len(tossed.rows) :] = tossed.outcome
+    return faces

@@ -1,0 +1,37 @@
+"""Many releases picked, changed, and as states of the engine."""
+
+from dataclasses import fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from models.records import Array
+from models.releases import Releases
+
+
+def chosen(releases: Releases, which: slice | NDArray[np.intp]) -> Releases:
+    """Give some of many releases."""
+    return Releases(**{item.name: getattr(releases, item.name)[which] for item in fields(Releases)})
+
+
+def moved(
+    releases: Releases, *, position: Array | float = 0.0, angular_velocity: Array | float = 0.0
+) -> Releases:
+    """Give releases from elsewhere or with more spin.
+
+    Args:
+        releases: those to change.
+        position: added to the positions of C, space frame [m].
+        angular_velocity: added to ω, body frame [rad/s].
+    """
+    return Releases(
+        position=releases.position + position,
+        velocity=releases.velocity,
+        quaternion=releases.quaternion,
+        angular_velocity=releases.angular_velocity + angular_velocity,
+    )
+
+
+def states_of(releases: Releases) -> Array:
+    """Give the states of releases as the engine's flight takes them, (n, 13)."""
+    return np.hstack([releases.position, releases.velocity, releases.quaternion, releases.angular_velocity])

@@ -1,0 +1,114 @@
+"""How the paper's claims are measured, on cases whose answer is known."""
+
+import numpy as np
+import pytest
+
+from analytic.toss import toss
+from compare.figures import accuracy_and_stripes, air_in_a_fall, fair_landing, heads_in_a_ball, uniform_starts
+from compare.figures.fig30 import ACCURACIES, FINE, exponent
+from compare.hands import HEIGHTS, SPINS, releases_of_hands
+from compare.planar_maps import case, faces_after, releases, touched_faces
+from models.scenario import Release
+
+
+def test_turns_back_are_counted_rounding_is_not():
+    t = np.linspace(0, 3.2, 1000)
+    assert air_in_a_fall.turning_points(np.cos(2 * np.pi * t)) == 6
+    assert air_in_a_fall.turning_points(1 + 1e-14 * np.cos(2 * np.pi * t)) == 0
+    assert air_in_a_fall.turning_points(t) == 0
+
+
+def test_a_coin_without_spin_is_not_turned_by_air_and_a_spinning_one_is():
+    later, turned, aside, _ = air_in_a_fall.landing_shifts(1.0, np.array([40.0]))
+    # To first order the drag c_n v of a flat coin delays it by (c_n/m) t²/6; turning shows it less.
+    t = np.sqrt(2 / 9.81)
+    rate = case(air=True).body.drag.force_normal / 2e-3
+    assert 0 < later < rate * t**2 / 6
+    assert turned == pytest.approx(40 * 0.196 * t**2 / 2, rel=0.3)
+    assert 0 < aside < 1e-4
+
+
+@pytest.mark.parametrize(("p", "bias"), [(0.5, 0.0), (0.9, 0.4)])
+def test_the_bias_of_hands_is_freed_of_chance(p, bias):
+    each = 10
+    shares = np.random.default_rng(0).binomial(each, p, 20_000) / each
+    assert fair_landing.bias_of_hands(shares, each) == pytest.approx(bias, abs=0.02)
+    # Chance alone would look like a bias of 0.16.
+    assert np.sqrt(np.mean((shares - p) ** 2)) > 0.09
+
+
+def test_hands_keep_their_habit():
+    drawn = releases_of_hands(np.random.default_rng(1), 50, 40, spread=0.02, aside=10.0)
+    spin = drawn.angular_velocity[:, 1].reshape(50, 40)
+    assert np.all(spin.std(axis=1) / spin.mean(axis=1) < 0.035)
+    assert spin.mean(axis=1).std() > 8
+    exact = releases_of_hands(np.random.default_rng(1), 500, aside=10.0)
+    assert HEIGHTS[0] <= exact.position[:, 2].min() < exact.position[:, 2].max() <= HEIGHTS[1]
+    assert SPINS[0] <= exact.angular_velocity[:, 1].min() < exact.angular_velocity[:, 1].max() <= SPINS[1]
+    assert np.abs(exact.angular_velocity[:, [0, 2]]).max() <= 10
+
+
+def test_spread_over_cells_is_that_of_stripes_and_none_of_chance():
+    rng = np.random.default_rng(2)
+    z, w = rng.uniform(size=(2, 40_000))
+    striped = np.floor(8 * z) % 2 == 0
+    assert uniform_starts.spread_over_cells(z, w, striped, 8) == pytest.approx(0.5)
+    assert uniform_starts.spread_over_cells(z, w, striped, 4) < 0.02
+    assert uniform_starts.spread_over_cells(z, w, rng.uniform(size=40_000) < 0.5, 32) < 0.03
+
+
+@pytest.mark.parametrize("alpha", [1.0, 0.4])
+def test_the_exponent_of_uncertain_tosses_is_found_within_its_error(alpha):
+    distance = np.random.default_rng(3).uniform(size=200_000) ** (1 / alpha)
+    flags = distance < (ACCURACIES / ACCURACIES[FINE])[:, None] * 0.5
+    found, error = exponent(flags)
+    assert abs(found - alpha) < 4 * error
+    assert error < 0.3
+
+
+def test_touched_faces_are_those_of_single_tosses():
+    z, w = np.array([0.25, 0.41, 0.55]), np.array([25.0, 41.0, 57.0])
+    scenario = case(air=True)
+    faces = touched_faces(scenario, z, w, 15)
+    for n in (0, 5, 14):
+        assert faces[:, n].tolist() == faces_after(scenario, releases(z, w), n).tolist()
+    release = Release(position=(0.0, 0.0, 0.41), angular_velocity=(41.0, 0.0, 0.0))
+    whole = toss(scenario.model_copy(update={"release": release}))
+    told = [*whole.impacts.face.tolist(), *[int(whole.outcome)] * 15][:15]
+    assert len(whole.impacts) < 15
+    assert faces[1].tolist() == told
+
+
+def test_a_ball_has_its_radius_in_twelve_dimensions():
+    scenario = case(air=True)
+    r, g, radius = scenario.coin.radius, scenario.gravity, 0.01
+    ball = heads_in_a_ball.ball_about(scenario, 0.4, 40.0, radius, 4000, np.random.default_rng(4))
+    size = np.sqrt(
+        np.sum((ball.position - [0, 0, 0.4]) ** 2, axis=1) / r**2
+        + np.sum(ball.velocity**2, axis=1) / (g * r)
+        + 4 * np.sum(ball.quaternion[:, 1:] ** 2, axis=1)
+        + np.sum((ball.angular_velocity - [40.0, 0, 0]) ** 2, axis=1) * r / g
+    )
+    # The angle of a turn differs from twice its sine's half by a part in 10⁵.
+    assert size.max() < radius * (1 + 1e-4)
+    # Half of a ball's volume lies beyond 0.5^(1/12) of its radius.
+    assert np.mean(size > 0.5 ** (1 / 12) * radius) == pytest.approx(0.5, abs=0.04)
+
+
+def test_a_boundary_is_found_to_rounding():
+    scenario = case(air=True)
+    z = heads_in_a_ball.boundary_above(scenario, 0.33, 37.0)
+    beyond = np.array([z, np.nextafter(z, 1)])
+    faces = faces_after(scenario, releases(beyond, np.full(2, 37.0)), 50)
+    assert faces[0] != faces[1]
+
+
+def test_a_stripe_on_a_soft_floor_is_as_wide_as_its_map_shows():
+    line = np.linspace(0.2, 0.6, 4001)
+    faces = faces_after(case(air=True), releases(line, np.full_like(line, 55.0)), 0)
+    changes = line[np.flatnonzero(np.diff(faces))]
+    low, high = changes[:2]
+    middle = (low + high) / 2
+    # A ladder of ten steps in a decade finds each end at most a quarter too far.
+    width = accuracy_and_stripes.stripe_width("soft floor", middle, 55.0)
+    assert high - low - 2e-4 < width < 1.3 * (high - low)
