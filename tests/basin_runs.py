@@ -51,10 +51,12 @@ def whole_tiles(path):
 
 
 def begun(coin, out, *extra, stderr=subprocess.PIPE):
-    """Start a process that makes the map in small tiles."""
+    """Start a process that makes the map in small tiles, slowly enough to be met at it."""
     script = (
-        "from compare.engines import Engine; from compare.sweep import grid\n"
+        "import time; from compare.engines import Engine; from compare.sweep import grid, run\n"
         f"grid.TILE_TOSSES[Engine.ANALYTIC] = {SMALL}\n"
+        "toss = run.toss_pixels\n"
+        "run.toss_pixels = lambda *tile: time.sleep(0.05) or toss(*tile)\n"
         "from compare.cli import main; main()"
     )
     return subprocess.Popen(

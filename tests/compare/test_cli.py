@@ -327,8 +327,7 @@ def test_a_film_that_is_interrupted_leaves_nothing(tmp_path, sign, status):
         time.sleep(0.05)
     os.killpg(filming.pid, sign)  # the encoder is stopped too, as by Ctrl-C
     _, told = filming.communicate(timeout=60)
-    assert filming.returncode == status
-    assert told.strip() == ("Aborted!" if sign == signal.SIGINT else "")
+    assert (filming.returncode, told.strip()) == (status, "Aborted!" if sign == signal.SIGINT else "")
     assert list(tmp_path.iterdir()) == []
 
 

@@ -47,7 +47,7 @@ def test_what_is_left_out_has_its_documented_default():
     assert read.floor.friction == 0
     assert read.release.velocity == (0, 0, 0)
     assert read.coin.center_of_mass == (0, 0, 0)
-    assert read.ending.max_time == 10_000
+    assert read.ending.max_time == 1_000_000
 
 
 def test_the_unit_of_lambda_follows_the_exponent():
