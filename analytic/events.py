@@ -24,6 +24,8 @@ from models.vectors import add, apply, scale, subtract
 
 # The most steps and changes of a toss in contact.
 CONTACT_STEPS = 5_000_000
+# A change that takes less than this part of √(r/g) costs so many of them.
+_NO_TIME, _STALLED = 1e-12, 1000
 # An upright coin is tried for whether it stands once in so many of them.
 _UPRIGHT_LOOK = 64
 # A loss that is none, against the energy.
@@ -210,7 +212,8 @@ def keep_contact(body, rules, mu, motion, y, time, steps_left, looks):
     while time < rules.max_time:
         made, dt, verdict = stay(body, mu, motion, y, min(dt, rules.max_time - time))
         time += made
-        steps_left -= 1
+        stalled = verdict == Verdict.CHANGES and made < _NO_TIME * (body.radius / body.gravity) ** 0.5
+        steps_left -= _STALLED if stalled else 1
         outcome, ending = decided(body, rules, y)
         upright = motion == Motion.UPRIGHT
         one_rim = Motion.SLIDING if upright else motion
@@ -225,12 +228,12 @@ def keep_contact(body, rules, mu, motion, y, time, steps_left, looks):
             outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
         if ending != Ending.NONE:
             return time, steps_left, motion, outcome, ending
+        if steps_left <= 0:
+            return time, steps_left, motion, undecided, Ending.CHATTER
         if verdict == Verdict.LANDS:
             return time, steps_left, Motion.FLIGHT, undecided, Ending.NONE
         if verdict == Verdict.CHANGES:
             return time, steps_left, next_motion(body, mu, motion, y), undecided, Ending.NONE
-        if steps_left <= 0:
-            return time, steps_left, motion, undecided, Ending.CHATTER
     return time, steps_left, motion, undecided, Ending.MAX_TIME
 
 

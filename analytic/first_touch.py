@@ -109,9 +109,16 @@ def rim(body, seen, side):
 
 
 @compiled
+def lower_side(seen):
+    """Give the side, ±1, of the face whose rim is lower, or will be of a coin on its edge."""
+    n_z = seen.normal[2] if abs(seen.normal[2]) > FLAT_SINE else seen.normal_rate[2]
+    return -1.0 if n_z > 0 else 1.0
+
+
+@compiled
 def closing(body, seen):
     """Give the gap [m] and its rate [m/s]; of a flat coin that turns, that of the point going down."""
-    side = -1.0 if seen.normal[2] > 0 else 1.0
+    side = lower_side(seen)
     arm, r, n, n_rate = side * body.thickness / 2, body.radius, seen.normal, seen.normal_rate
     if seen.sine > FLAT_SINE:
         sine_rate = -n[2] * n_rate[2] / seen.sine
@@ -166,7 +173,7 @@ def outlook(body, seen, bounds, window):
         window = min(window, (_HIGH + 1) * _reach(body) / seen.z_rate)
     highest = seen.z + max(seen.z_rate, 0.0) * window + bounds.up * window * window / 2 + half
     bend = highest * (bounds.down + half * bounds.normal) + r * r * bounds.square
-    lower = -1.0 if seen.normal[2] > 0 else 1.0
+    lower = lower_side(seen)
     F, F_rate, _ = rim(body, seen, lower)
     ahead = min(window, _clear(F, F_rate, bend))
     latest = F / -F_rate if F > 0 and F_rate < 0 else 0.0

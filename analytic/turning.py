@@ -14,6 +14,9 @@ from models.body import in_vacuum, is_ideal
 from models.compiled import compiled
 from models.vectors import Vector, apply, cross, dot, norm, scale, subtract
 
+# Turning slower than that is none [rad/s]: the squares of its parts would be below the range of numbers.
+_STILL = 1e-150
+
 
 class Turning(NamedTuple):
     """How the coin turns: n = mean + cosine cos φ + sine sin φ, φ = rate s."""
@@ -55,7 +58,11 @@ def turning_of(body, e, w):
     turn = apply(R, (w[0], w[1], ratio * w[2]))
     rate = norm(turn)
     # In air it is across the normal; so let it be where there is none.
-    axis = scale(1 / rate, turn) if rate > 0 else (R[0][0], R[1][0], R[2][0])
+    axis = (R[0][0], R[1][0], R[2][0])
+    if rate > _STILL:
+        axis = scale(1 / rate, turn)
+    else:
+        rate = 0.0
     n = (R[0][2], R[1][2], R[2][2])
     mean = scale(dot(axis, n), axis)
     return Turning(axis, rate, (1 - ratio) * w[2], mean, subtract(n, mean), cross(axis, n))

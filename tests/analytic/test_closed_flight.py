@@ -148,3 +148,24 @@ def test_a_coin_that_comes_to_lie_out_of_a_contact_goes_on():
     tossed = run(case.body, case.rules, state_of(case.release))
     assert len(tossed.contacts) > 0
     assert tossed.ending == Ending.SETTLED
+
+
+@pytest.mark.parametrize("spin", [40.0, 1e-150, 1e-158, 3e-162])
+def test_a_spin_that_dies_away_to_nothing_leaves_the_fall_right(spin):
+    """In a long fall it passes all sizes down to none, also those whose squares have no digits."""
+    air, release = {"normal": 50.0, "tangential": 12.5}, {"position": [0, 0, 60.0], "angles": [0.3, 1.0, 0.2]}
+    case = scenario(air=air, release={**release, "angular_velocity": [spin, spin / 2, 0.0]})
+    closed, integrated = state_of(case.release), state_of(case.release)
+    flown, *_ = fly_closed(case.body, closed, 500.0)
+    other, *_ = fly_by_steps(case.body, integrated, 500.0)
+    assert flown == pytest.approx(other, rel=1e-12)
+    assert closed[:10] == pytest.approx(integrated[:10], abs=1e-11)
+
+
+def test_a_coin_released_upright_on_the_floor_touches_it_at_once():
+    release = {"position": [0, 0, ZLOTY["radius"]], "angles": [0.3, np.pi / 2, 0.2]}
+    case = scenario(release={**release, "angular_velocity": [20.0, 10.0, 5.0]})
+    y = state_of(case.release)
+    flown, touches, _ = fly_closed(case.body, y, 1.0)
+    assert (flown, touches) == (0.0, True)
+    assert abs(closing_speed(case.body, y)[0]) < 1e-13 * case.body.radius

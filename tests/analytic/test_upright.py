@@ -208,3 +208,11 @@ def test_a_toss_that_comes_upright_on_a_rough_floor_is_followed_to_its_end(numbe
     tossed = run(case.body, case.rules, state_of(case.release))
     assert Motion.UPRIGHT in tossed.motions
     assert tossed.outcome != Outcome.UNDECIDED
+
+
+def test_a_coin_that_either_rim_holds_but_not_both_ends_as_chatter():
+    """It pivots on one rim; friction on the other, which it comes down upon, would lift that one off."""
+    _, case = draw_toss(np.random.default_rng((2008, 1, 9428)), "imperfect")
+    tossed = run(case.body, case.rules, state_of(case.release))
+    assert (tossed.outcome, tossed.ending) == (Outcome.UNDECIDED, Ending.CHATTER)
+    assert len(tossed.motions) < 20_000, "it gives up soon"
