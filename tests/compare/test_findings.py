@@ -63,7 +63,7 @@ def test_a_claim_that_does_not_come_out_as_known_fails(holds):
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(name, marks=pytest.mark.slow if reproduction.find(name).quick_seconds > 10 else ())
+        pytest.param(name, marks=pytest.mark.slow if reproduction.find(name).quick_seconds >= 10 else ())
         for name in gallery.of_paper()
     ],
 )
