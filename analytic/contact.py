@@ -8,6 +8,7 @@ import numpy as np
 from analytic.coulomb import coulomb
 from analytic.flight import STATE_SIZE, TOLERANCE, attitude_of, derivative, first_step, normalise, step_error
 from analytic.floor_force import (
+    SLOW,
     Motion,
     contact,
     direction_of,
@@ -39,9 +40,6 @@ class Verdict(IntEnum):
 
 # Below this sine of the tilt the rim turns under the coin too fast to follow: a face lands.
 _FACE = 1e-7
-# Against √(g r). Slip slower than this is stopped where friction can hold it, and creeps elsewhere: friction
-# would turn it in the time of slip/(μ g). Sliding is kept down to half of it.
-_CREEP = 1e-3
 # Friction holds a little more than it starts with, or a coin on the border would for ever start and stop.
 _HOLD = 1e-6
 # In a contact that lasts, a perfectly rough floor is nearly the limit of Coulomb's: it lets go a point that
@@ -164,8 +162,8 @@ def margin(body, mu, motion, side, y):
     if motion == Motion.STICKING:
         return min(left, (mu * F[2] * (1 + _HOLD) - math.hypot(F[0], F[1])) / weight)
     if motion == Motion.CREEPING:
-        return min(left, _CREEP - slip) if not holds(mu, holding_force(K, b)) else 0.0
-    return min(left, slip - _CREEP / 2) if mu > 0 else left
+        return min(left, SLOW - slip) if not holds(mu, holding_force(K, b)) else 0.0
+    return min(left, slip - SLOW / 2) if mu > 0 else left
 
 
 @compiled
@@ -256,7 +254,7 @@ def next_motion(body, mu, motion, y):
         return Motion.FLIGHT
     if mu == 0:
         return Motion.SLIDING
-    slow = _CREEP * (body.gravity * body.radius) ** 0.5
+    slow = SLOW * (body.gravity * body.radius) ** 0.5
     # A motion that ends at its bound must not go on for rounding.
     least = (1 + _HOLD) * slow / 2 if motion == Motion.SLIDING else (1 - _HOLD) * slow
     if math.hypot(v_A[0], v_A[1]) > least:

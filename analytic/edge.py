@@ -6,10 +6,10 @@ import numpy as np
 
 from analytic.contact import contact_rate
 from analytic.flight import STATE_SIZE, attitude_of, derivative, spin_of, velocity_of
-from analytic.floor_force import Motion, contact, holding_force, holds, side_of
+from analytic.floor_force import SLOW, Motion, contact, holding_force, holds, side_of
 from analytic.rotation import quaternion_rate
-from analytic.upright import SLOW
 from models.attitude import rotation_matrix
+from models.body import in_vacuum
 from models.compiled import compiled
 from models.vectors import apply, cross, dot, scale
 
@@ -68,7 +68,7 @@ def stands(body, mu, motion, y):
         motion = Motion.STICKING
     if not held_on_edge(body, mu, motion, y):
         return False
-    lossless = (mu == 0 or straight) and body.air.normal == 0 and body.air.tangential == 0
+    lossless = (mu == 0 or straight) and in_vacuum(body)
     phases, roll_rates = np.empty((_PHASES, STATE_SIZE)), np.empty(_PHASES)
     for i in range(_PHASES):
         roll_rates[i] = rolled_on(body, mu, motion, straight, y, math.pi * i / _PHASES, phases[i])

@@ -16,8 +16,9 @@ from analytic.upright import put_upright
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
 from models.compiled import compiled
-from models.ending import energy, face_up, judge
+from models.ending import judge
 from models.geometry import contact_velocity, lowest_point
+from models.impact_row import write_impact
 from models.perpetual import dies_away, first_contact, no_looks
 from models.records import IMPACT_ROW, Array, Ending, Outcome
 from models.vectors import add, apply, scale, subtract
@@ -97,23 +98,8 @@ def hit(body, rules, chi, y, row):
     v_after = add(v, scale(1 / body.mass, S))
     w_after = w if flat else add(w, spin_gained(body, R, arm, S))
     v_A_after = contact_velocity(body, R, v_after, w_after, point)
-    E_before, E_after = energy(body, y[2], v, w), energy(body, y[2], v_after, w_after)
-    x, e = position_of(y), attitude_of(y)
-    for i in range(3):
-        row.impulse[i] = S[i]
-        row.point[i] = point[i]
-        row.position[i] = x[i]
-        row.velocity_before[i] = v[i]
-        row.velocity_after[i] = v_after[i]
-        row.angular_velocity_before[i] = w[i]
-        row.angular_velocity_after[i] = w_after[i]
-        row.contact_velocity_before[i] = v_A[i]
-        row.contact_velocity_after[i] = v_A_after[i]
-    for i in range(4):
-        row.quaternion[i] = e[i]
-    row.face = face_up(R[2][2])
-    row.energy = E_after
-    row.energy_change = E_after - E_before
+    touch, release = (position_of(y), v, attitude_of(y), w, v_A), (y[2], v_after, w_after, v_A_after)
+    write_impact(body, S, point, R[2][2], touch, release, row)
     y[3], y[4], y[5] = v_after
     y[10], y[11], y[12] = w_after
     return ending

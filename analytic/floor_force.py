@@ -16,6 +16,9 @@ from models.attitude import rotation_matrix
 from models.compiled import compiled
 from models.vectors import add, apply, cross, dot, scale, solve, subtract
 
+SLOW = 1e-3
+"""Against √(g r): slip slower than this is stopped where friction can hold it, and creeps elsewhere, for
+there friction would turn it in the time of slip/(μ g). Sliding is kept down to half of it."""
 # The direction of slip is sought from the best of so many.
 _DIRECTIONS = 24
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from analytic.flight import STATE_SIZE, attitude_of, derivative, normalise
-from analytic.floor_force import contact
+from analytic.floor_force import SLOW, contact
 from analytic.impact import spin_gained
 from analytic.rotation import quaternion_rate
 from models.attitude import rotation_matrix
@@ -14,9 +14,6 @@ from models.vectors import add, apply, cross, dot, scale
 
 # The angle by which a coin is tipped off the rim that lifts.
 _TIP = 1e-12
-# Against √(g r). Friction on slower slip grows in proportion to it: a rigid body leaves open how two points
-# share the force that holds both.
-SLOW = 1e-3
 
 
 @compiled
@@ -121,7 +118,11 @@ def _holding(body, mu, tails, heads, fall):
 
 @compiled
 def _with_friction(body, mu, v_A):
-    """Give a force with the vertical part 1 and its friction at a point with velocity v_A, (3,)."""
+    """Give a force with the vertical part 1 and its friction at a point with velocity v_A, (3,).
+
+    A rigid body leaves open how two points share the force that holds both: friction on slip slower than
+    `SLOW` grows in proportion to it.
+    """
     slip = max(math.hypot(v_A[0], v_A[1]), SLOW * (body.gravity * body.radius) ** 0.5)
     return -mu * v_A[0] / slip, -mu * v_A[1] / slip, 1.0
 

@@ -8,8 +8,9 @@ from coin_mj.machine import keep, knot_of, look, state_of
 from coin_mj.rest import NO_LOSS, Left, rest, slow_speed
 from models.attitude import rotation_matrix
 from models.compiled import compiled
-from models.ending import energy, face_up, judge
+from models.ending import judge
 from models.geometry import contact_velocity, lowest_point
+from models.impact_row import write_impact
 from models.perpetual import dies_away, first_contact, no_looks
 from models.records import Ending, Outcome
 
@@ -126,27 +127,11 @@ def record(body, time, touch, impulse, release, row):
     x_after, v_after, e_after, w_after = release
     R, R_after = rotation_matrix(e), rotation_matrix(e_after)
     point, _ = lowest_point(body, R[2], w)
-    v_A, v_A_after = (
-        contact_velocity(body, R, v, w, point),
-        contact_velocity(body, R_after, v_after, w_after, point),
-    )
-    E_before, E_after = energy(body, x[2], v, w), energy(body, x_after[2], v_after, w_after)
+    v_A = contact_velocity(body, R, v, w, point)
+    v_A_after = contact_velocity(body, R_after, v_after, w_after, point)
+    after = (x_after[2], v_after, w_after, v_A_after)
+    write_impact(body, impulse, point, R[2][2], (x, v, e, w, v_A), after, row)
     row.time = time
-    row.face = face_up(R[2][2])
-    for i in range(3):
-        row.impulse[i] = impulse[i]
-        row.point[i] = point[i]
-        row.position[i] = x[i]
-        row.velocity_before[i] = v[i]
-        row.velocity_after[i] = v_after[i]
-        row.angular_velocity_before[i] = w[i]
-        row.angular_velocity_after[i] = w_after[i]
-        row.contact_velocity_before[i] = v_A[i]
-        row.contact_velocity_after[i] = v_A_after[i]
-    for i in range(4):
-        row.quaternion[i] = e[i]
-    row.energy = E_after
-    row.energy_change = E_after - E_before
 
 
 @compiled

@@ -248,7 +248,8 @@ def keep(coin, time, pressed, knots):
 @compiled
 def knot_of(coin, time, pressed):
     """Give the present state as a knot, (15,); see `keep`."""
-    return (time, 1.0 if pressed else 0.0) + motion_of(coin)  # noqa: RUF005 numba adds tuples
+    when = (time, 1.0 if pressed else 0.0)
+    return when + motion_of(coin)
 
 
 def _view(struct: Any, place: int, kind: Any) -> NDArray[Any]:

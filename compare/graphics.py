@@ -8,6 +8,7 @@ import os
 import re
 import subprocess
 import sys
+from importlib import import_module
 
 _DRAW_ONE_FRAME = """
 import mujoco
@@ -38,7 +39,7 @@ def require_mujoco() -> None:
         BackEndError: where MUJOCO_GL names a back end that there is none of, or not here.
     """
     try:
-        import mujoco  # noqa: F401
+        import_module("mujoco")
     # Each back end fails in its own way, from ImportError to AttributeError.
     except Exception as error:
         raise BackEndError(

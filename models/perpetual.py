@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from models.body import in_vacuum
 from models.compiled import compiled
 from models.ending import barrier, energy
 from models.laws import ContactLaw
@@ -52,7 +53,7 @@ def dies_away(body, rules, z, v, w, no_loss, time, looks):
         looks: start of the first contact and time of the next look [s], infinite before, and the energies at
             the last looks [J], (6,); kept up.
     """
-    if time < looks[1] or body.air.normal != 0 or body.air.tangential != 0:
+    if time < looks[1] or not in_vacuum(body):
         return False
     E = energy(body, z, v, w)
     if rules.law == ContactLaw.SMOOTH:

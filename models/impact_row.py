@@ -1,0 +1,38 @@
+"""How either engine writes down an impact."""
+
+from models.compiled import compiled
+from models.ending import energy, face_up
+
+
+@compiled
+def write_impact(body, impulse, point, n_z, touch, release, row):
+    """Write an impact, all but its time, into a row.
+
+    Args:
+        body: the coin.
+        impulse: of the floor, space frame, (3,) [N s].
+        point: that touches, from B, body frame, (3,) [m].
+        n_z: upward component of the coin's normal at first touch.
+        touch: position and velocity of C (space), Euler parameters, angular velocity (body), and velocity of
+            the point (space), at first touch.
+        release: height of C, then as `touch` without the attitude, when the floor has acted.
+        row: one `IMPACT_ROW`.
+    """
+    x, v, e, w, v_A = touch
+    z_after, v_after, w_after, v_A_after = release
+    E_before, E_after = energy(body, x[2], v, w), energy(body, z_after, v_after, w_after)
+    for i in range(3):
+        row.impulse[i] = impulse[i]
+        row.point[i] = point[i]
+        row.position[i] = x[i]
+        row.velocity_before[i] = v[i]
+        row.velocity_after[i] = v_after[i]
+        row.angular_velocity_before[i] = w[i]
+        row.angular_velocity_after[i] = w_after[i]
+        row.contact_velocity_before[i] = v_A[i]
+        row.contact_velocity_after[i] = v_A_after[i]
+    for i in range(4):
+        row.quaternion[i] = e[i]
+    row.face = face_up(n_z)
+    row.energy = E_after
+    row.energy_change = E_after - E_before
