@@ -13,6 +13,7 @@ from analytic.floor_force import (
     contact,
     direction_of,
     force,
+    give_impulse,
     holding_force,
     holds,
     side_of,
@@ -45,7 +46,8 @@ _HOLD = 1e-6
 # In a contact that lasts, a perfectly rough floor is nearly the limit of Coulomb's: it lets go a point that
 # it could only hold by pulling.
 _ROUGH = 1e4
-_HALVINGS = 50
+# The end of a contact is bracketed as tightly as so many bisections of a step would.
+_HALVINGS, _MOST_TRIES = 50, 150
 
 
 @compiled
@@ -122,15 +124,6 @@ def put_on_floor(body, mu, motion, side, y):
     else:
         S = sliding_force(K, v_A, mu, direction_of(v_A, mu))
     give_impulse(body, R, arm, S, y)
-
-
-@compiled
-def give_impulse(body, R, arm, S, y):
-    """Change the velocities of the state y by an impulse S at A, space frame, (3,) [N s]."""
-    turned = spin_gained(body, R, arm, S)
-    for i in range(3):
-        y[3 + i] += S[i] / body.mass
-        y[10 + i] += turned[i]
 
 
 @compiled
@@ -215,14 +208,7 @@ def stay(body, mu, motion, y, dt):
     if margin(body, mu, motion, side, y_new) > 0:
         y[:] = y_new
         return high, dt, Verdict.GOES_ON
-    low = 0.0
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
-        contact_step(body, mu, motion, side, y, middle, stages, y_new)
-        if margin(body, mu, motion, side, y_new) > 0:
-            low = middle
-        else:
-            high = middle
+    low, high = _bracket_end(body, mu, motion, side, y, high, stages, y_new)
     contact_step(body, mu, motion, side, y, high, stages, y_new)
     up_new = rotation_matrix(attitude_of(y_new))[2]
     onto_edge = body.thickness > 0 and motion != Motion.UPRIGHT and side * up_new[2] <= 0
@@ -233,6 +219,64 @@ def stay(body, mu, motion, y, dt):
         return low, dt, Verdict.LANDS
     y[:] = y_new
     return high, dt, Verdict.CHANGES
+
+
+@compiled
+def _bracket_end(body, mu, motion, side, y, longest, stages, y_new):
+    """Bracket the end of a contact in a step, as tightly as `_HALVINGS` bisections of it would.
+
+    By Chandrupatla's method (Adv. Eng. Softw. 28 (1997) 145).
+
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ.
+        motion: `Motion` in contact.
+        side: of the rim that is in contact.
+        y: state at the start, (13,).
+        longest: length of the step, at whose end the contact is over [s].
+        stages: work space, (12, 13); its first row holds the rate of change of y.
+        y_new: where states are tried, (13,).
+
+    Returns:
+        A length of the step at whose end the contact goes on, and one at which it does not [s].
+    """
+    low, high = 0.0, longest
+    old, old_value = low, margin(body, mu, motion, side, y)
+    new, new_value = high, margin(body, mu, motion, side, y_new)
+    share, tolerance = 0.5, longest * 0.5**_HALVINGS
+    for _ in range(_MOST_TRIES):
+        tried = new + share * (old - new)
+        contact_step(body, mu, motion, side, y, tried, stages, y_new)
+        value = margin(body, mu, motion, side, y_new)
+        if value > 0:
+            low = tried
+        else:
+            high = tried
+        # Of the three last lengths `new` and `old` bracket the end, `new` the one just tried.
+        if (value > 0) == (new_value > 0):
+            left, left_value = new, new_value
+        else:
+            left, left_value, old, old_value = old, old_value, new, new_value
+        new, new_value = tried, value
+        least = tolerance / (high - low)
+        if least > 0.5:
+            break
+        share = min(max(_zero_between(new, new_value, old, old_value, left, left_value), least), 1 - least)
+    return low, high
+
+
+@compiled
+def _zero_between(x_1, f_1, x_2, f_2, x_3, f_3):
+    """Give the part of the way from x_1 to x_2 where the inverse parabola through all three passes zero.
+
+    A half where that parabola would not be one-valued between them.
+    """
+    place, height = (x_1 - x_2) / (x_3 - x_2), (f_1 - f_2) / (f_3 - f_2)
+    if not (height * height < place and (1 - height) * (1 - height) < 1 - place):
+        return 0.5
+    return f_1 / (f_2 - f_1) * f_3 / (f_2 - f_3) + (x_3 - x_1) / (x_2 - x_1) * f_1 / (f_3 - f_1) * f_2 / (
+        f_3 - f_2
+    )
 
 
 @compiled

@@ -38,6 +38,6 @@ def _toss_each(body, rules, states, outcomes, endings, faces, impacts, end_times
     # Two rows, so that a touch without solution leaves the last impact's.
     rows = np.zeros(2, IMPACT_ROW)
     for i in range(len(states)):
-        n, _, outcome, ending, end_time = fly_and_hit(body, rules, states[i], rows, False)
+        n, _, _, outcome, ending, end_time = fly_and_hit(body, rules, states[i], rows, False)
         outcomes[i], endings[i], impacts[i], end_times[i] = outcome.value, ending.value, n, end_time
         faces[i] = rows[(n - 1) % 2]["face"] if n > 0 else 0

@@ -8,29 +8,31 @@ from numpy.typing import NDArray
 from analytic.contact import Verdict, friction_in_contact, keeps_contact, next_motion, stay
 from analytic.edge import held_on_edge, on_edge, stands
 from analytic.flight import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
-from analytic.floor_force import Motion
+from analytic.floor_force import Motion, side_of
 from analytic.flying import fly
 from analytic.impact import impulse, spin_gained
 from analytic.rim import closing_speed, crowded
-from analytic.upright import put_upright
+from analytic.upright import put_upright, start_creep
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
 from models.compiled import compiled
 from models.ending import judge
 from models.geometry import contact_velocity, lowest_point
-from models.impact_row import write_impact
+from models.impact_row import with_room, write_impact
 from models.perpetual import dies_away, first_contact, no_looks
 from models.records import IMPACT_ROW, Array, Ending, Outcome
 from models.vectors import add, apply, scale, subtract
 
+# A toss starts with room for so many impacts.
+_FIRST_ROWS = 64
 # The most steps and changes of a toss in contact.
-CONTACT_STEPS = 5_000_000
+CONTACT_STEPS = 50_000_000
 # A change that takes less than this part of √(r/g) costs so many of them.
 _NO_TIME, _STALLED = 1e-12, 1000
 # An upright coin is tried for whether it stands once in so many of them.
 _UPRIGHT_LOOK = 64
-# A loss that is none, against the energy.
-NO_LOSS = 1e-9
+# A loss in the time √(r/g) that is none, against the energy: rounding takes up to a tenth of it.
+NO_LOSS = 1e-12
 
 
 class Run(NamedTuple):
@@ -53,8 +55,8 @@ class Run(NamedTuple):
 
 def run(body: Body, rules: Rules, start: Array) -> Run:
     """Toss the coin in state `start`, (13,), until the toss is decided."""
-    rows = np.zeros(rules.max_impacts, dtype=IMPACT_ROW)
-    n, pieces, outcome, ending, end_time = fly_and_hit(body, rules, start.copy(), rows, True)
+    few = np.zeros(_FIRST_ROWS, IMPACT_ROW)
+    n, rows, pieces, outcome, ending, end_time = fly_and_hit(body, rules, start.copy(), few, True)
     start_times, motions = pieces[:, 0].copy(), pieces[:, 1].astype(np.int8)
     return Run(
         rows=rows[:n].copy(),
@@ -106,28 +108,29 @@ def hit(body, rules, chi, y, row):
 
 
 @compiled
-def fly_and_hit(body, rules, y, rows, keep_pieces):
+def fly_and_hit(body, rules, y, rows, keep_all):
     """Run the event loop.
 
     Args:
         body: the coin.
         rules: floor and ending.
         y: state at release, (13,); becomes the state at the end.
-        rows: where the impacts are recorded, (m,) of `IMPACT_ROW`: impact number n in row n modulo m. A touch
-            for which the contact law has no solution uses up the row of the impact that it is not.
-        keep_pieces: whether flights and contacts are recorded.
+        rows: where the impacts are recorded, (m,) of `IMPACT_ROW`. A touch for which the contact law has no
+            solution uses up the row of the impact that it is not.
+        keep_all: whether all impacts are recorded, in as many rows as they need, and flights and contacts;
+            else impact number n is recorded in row n modulo m.
 
     Returns:
-        Number of impacts; flights and contacts, each with its start, `Motion` and state, and the end,
-        (k, 15), or none; outcome; ending; and the time of the end [s].
+        Number of impacts; the rows; flights and contacts, each with its start, `Motion` and state, and the
+        end, (k, 15), or none; outcome; ending; and the time of the end [s].
     """
-    pieces, spare = np.empty((64 if keep_pieces else 0, 2 + STATE_SIZE)), np.zeros(1, IMPACT_ROW)
+    pieces, spare = np.empty((64 if keep_all else 0, 2 + STATE_SIZE)), np.zeros(1, IMPACT_ROW)
     time, n, k, steps_left = 0.0, 0, 0, CONTACT_STEPS
     motion, looks = Motion.FLIGHT, no_looks()
     outcome, ending = Outcome.UNDECIDED, Ending.NONE
     mu = friction_in_contact(rules)
     while True:
-        if keep_pieces:
+        if keep_all:
             if k == len(pieces):
                 pieces = doubled(pieces)
             # Nothing starts at the end; as a flight, it is sampled as it is.
@@ -156,6 +159,8 @@ def fly_and_hit(body, rules, y, rows, keep_pieces):
                     motion = next_motion(body, mu, motion, y)
                     first_contact(body, looks, time)
             else:
+                if keep_all:
+                    rows = with_room(rows, n)
                 row = rows[n % len(rows)]
                 ending = hit(body, rules, rules.restitution, y, row)
                 if ending == Ending.NONE:
@@ -166,7 +171,7 @@ def fly_and_hit(body, rules, y, rows, keep_pieces):
                     outcome, ending = decided(body, rules, y)
                     if ending == Ending.NONE and _goes_on(body, rules, y, time, looks):
                         outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
-    return n, pieces[:k], outcome, ending, time
+    return n, rows, pieces[:k], outcome, ending, time
 
 
 @compiled
@@ -208,7 +213,10 @@ def keep_contact(body, rules, mu, motion, y, time, steps_left, looks):
             if stands(body, mu, one_rim, y):
                 outcome, ending = Outcome.EDGE, Ending.STANDING
             elif not upright:
+                side = side_of(y)
                 put_upright(body, y)
+                if motion == Motion.STICKING:
+                    start_creep(body, mu, side, y)
                 return time, steps_left, Motion.UPRIGHT, undecided, Ending.NONE
         if ending == Ending.NONE and _goes_on(body, rules, y, time, looks):
             outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL

@@ -11,7 +11,7 @@ from enum import IntEnum
 import numpy as np
 
 from analytic.flight import attitude_of, spin_of, velocity_of
-from analytic.impact import mobility
+from analytic.impact import mobility, spin_gained
 from models.attitude import rotation_matrix
 from models.compiled import compiled
 from models.vectors import add, apply, cross, dot, scale, solve, subtract
@@ -123,6 +123,15 @@ def direction_of(v_A, mu):
     if mu == 0 or speed == 0:
         return 0.0, 0.0
     return v_A[0] / speed, v_A[1] / speed
+
+
+@compiled
+def give_impulse(body, R, arm, S, y):
+    """Change the velocities of the state y by an impulse S at A, space frame, (3,) [N s]."""
+    turned = spin_gained(body, R, arm, S)
+    for i in range(3):
+        y[3 + i] += S[i] / body.mass
+        y[10 + i] += turned[i]
 
 
 @compiled

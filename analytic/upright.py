@@ -5,12 +5,12 @@ import math
 import numpy as np
 
 from analytic.flight import STATE_SIZE, attitude_of, derivative, normalise
-from analytic.floor_force import SLOW, contact
+from analytic.floor_force import SLOW, contact, give_impulse, holding_force, holds
 from analytic.impact import spin_gained
 from analytic.rotation import quaternion_rate
 from models.attitude import rotation_matrix
 from models.compiled import compiled
-from models.vectors import add, apply, cross, dot, scale
+from models.vectors import add, apply, cross, dot, scale, subtract
 
 # The angle by which a coin is tipped off the rim that lifts.
 _TIP = 1e-12
@@ -83,6 +83,62 @@ def tip_over(body, mu, y):
     on_tails, on_heads = rim_forces(body, mu, y)
     # Tails' rim is the lower one of a coin with heads up.
     _tilt(y, -_TIP if on_tails > on_heads else _TIP)
+
+
+@compiled
+def start_creep(body, mu, side, y):
+    """Give the rim that stuck before the other landed the slow slip at which friction is what holds it there.
+
+    Without it that rim would have no friction at first, and the other might lift at once. Where no friction
+    can hold it, or the floor would have to pull, nothing is changed.
+
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ.
+        side: of the rim that stuck.
+        y: state of an upright coin, (13,).
+    """
+    dy = np.empty(STATE_SIZE)
+    derivative(body, y, dy)
+    held, other = contact(body, y, dy, side), contact(body, y, dy, -side)
+    F, N = _gripping(body, held, other, _with_friction(body, mu, other[4]), held[3], other[3][2])
+    if N < 0 or not holds(mu, F):
+        return
+    slip = -SLOW * (body.gravity * body.radius) ** 0.5 / (mu * F[2])
+    change = subtract(held[4], (slip * F[0], slip * F[1], 0.0))
+    S, S_other = _gripping(body, held, other, (0.0, 0.0, 1.0), change, other[4][2])
+    give_impulse(body, held[0], held[1], S, y)
+    give_impulse(body, other[0], other[1], (0.0, 0.0, S_other), y)
+
+
+@compiled
+def _gripping(body, held, other, along, motion, fall):
+    """Give what takes all motion from one rim's lowest point, and the vertical one from the other's.
+
+    Args:
+        body: the coin.
+        held: `contact` of the one rim.
+        other: `contact` of the other.
+        along: a force at the other with the vertical part 1, (3,).
+        motion: acceleration, or velocity, of the one, (3,).
+        fall: vertical acceleration, or velocity, of the other.
+
+    Returns:
+        The force, or impulse, on the one, space frame, (3,), and the vertical one on the other.
+    """
+    R, arm, K, _, _ = held
+    _, arm_other, K_other, _, _ = other
+    # The force on the one for its own motion, and for each unit of the other's.
+    F, more = holding_force(K, motion), holding_force(K, _gained(body, R, arm_other, along, arm))
+    rise = dot(K_other[2], along) + _gained(body, R, arm, more, arm_other)[2]
+    N = -(fall + _gained(body, R, arm, F, arm_other)[2]) / rise
+    return add(F, scale(N, more)), N
+
+
+@compiled
+def _gained(body, R, arm, S, at):
+    """Give the velocity that an impulse S at one point gives to another point `at`, space frame, (3,)."""
+    return add(scale(1 / body.mass, S), cross(apply(R, spin_gained(body, R, arm, S)), at))
 
 
 @compiled

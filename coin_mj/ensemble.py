@@ -83,6 +83,6 @@ def _toss_each(coin, rules, states, outcomes, endings, faces, impacts, end_times
     rows = np.zeros(1, IMPACT_ROW)
     for i in range(len(states)):
         put_at(coin, states[i])
-        n, _, _, outcome, ending, end_time = toss_coin(coin, rules, rows, False)
+        n, _, _, _, outcome, ending, end_time = toss_coin(coin, rules, rows, False)
         outcomes[i], endings[i], impacts[i], end_times[i] = outcome.value, ending.value, n, end_time
         faces[i] = rows[0].face if n > 0 else 0

@@ -10,7 +10,7 @@ from models.attitude import rotation_matrix
 from models.compiled import compiled
 from models.ending import judge
 from models.geometry import contact_velocity, lowest_point
-from models.impact_row import write_impact
+from models.impact_row import with_room, write_impact
 from models.perpetual import dies_away, first_contact, no_looks
 from models.records import Ending, Outcome
 
@@ -19,23 +19,24 @@ CONTACT_STEPS = 1_000_000
 
 
 @compiled
-def toss_coin(coin, rules, rows, keep_path):
+def toss_coin(coin, rules, rows, keep_all):
     """Toss the coin from its present state until the toss is decided.
 
     Args:
         coin: MuJoCo's, at its release.
         rules: floor and ending.
-        rows: where the impacts are recorded, (m,) of `IMPACT_ROW`: impact number n in row n modulo m.
-        keep_path: whether the path is recorded.
+        rows: where the impacts are recorded, (m,) of `IMPACT_ROW`.
+        keep_all: whether all impacts are recorded, in as many rows as they need, and the path; else impact
+            number n is recorded in row n modulo m.
 
     Returns:
-        Number of impacts; knots of the path, see `path.Knots`, (k, 15), or none; start and end of every
-        contact that lasts, (c, 2) [s]; outcome; ending; and the time of the end [s].
+        Number of impacts; the rows; knots of the path, see `path.Knots`, (k, 15), or none; start and end of
+        every contact that lasts, (c, 2) [s]; outcome; ending; and the time of the end [s].
     """
     time, n, steps_left, looks = 0.0, 0, CONTACT_STEPS, no_looks()
     knots, contacts = [knot_of(coin, time, False)], [(time, time)]
     contacts.clear()
-    if not keep_path:
+    if not keep_all:
         knots.clear()
     outcome, ending = Outcome.UNDECIDED, Ending.NONE
     lands = False
@@ -54,6 +55,8 @@ def toss_coin(coin, rules, rows, keep_path):
             pressed, time, impulse = press(coin, time, knots)
             rests = pressed == Pressed.LASTS
             if pressed == Pressed.IMPACT:
+                if keep_all:
+                    rows = with_room(rows, n)
                 record(coin.body, start, touch, impulse, state_of(coin), rows[n % len(rows)])
                 n += 1
                 outcome, ending = decided(coin, rules)
@@ -67,7 +70,7 @@ def toss_coin(coin, rules, rows, keep_path):
                 contacts.append((start, time))
             lands = left == Left.LANDS
     keep(coin, time, False, knots)
-    return n, _table(knots), _pairs(contacts), outcome, ending, time
+    return n, rows, _table(knots), _pairs(contacts), outcome, ending, time
 
 
 @compiled

@@ -33,9 +33,8 @@ APPROACH = 0.99
 """Part of the time to a landing that a step goes."""
 UPRIGHT = 1e-4
 """A sine of the angle off the edge, its rate against √(g/r), in which a thick coin is on both rims."""
-NO_LOSS = 2e-2
-"""A loss between two looks at the energy that is none, against the energy: the steps alone change it by up to
-1e-3 in a second, and the last looks are ten seconds apart."""
+NO_LOSS = 8e-5
+"""A loss in the time √(r/g) that is none, against the energy: the steps alone change it by up to 4e-5."""
 
 
 class Left(IntEnum):

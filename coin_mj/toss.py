@@ -35,6 +35,8 @@ SOFTER = (10.0, 30.0)
 """How many times softer the contacts are that tell how far a toss can be trusted."""
 IMPULSE_CHANGE = 0.03
 """Within the horizon no softer contact changes an impulse by more than this part."""
+# A toss starts with room for so many impacts.
+_FIRST_ROWS = 64
 
 
 class Run(NamedTuple):
@@ -43,7 +45,7 @@ class Run(NamedTuple):
     rows: np.ndarray
     """Impacts, (n,) of `IMPACT_ROW`."""
     knots: Array
-    """Of the path, see `Knots`; none where it was not asked for."""
+    """Of the path, see `Knots`."""
     contacts: Array
     """Start and end of every contact that lasts, (n, 2) [s]."""
     outcome: Outcome
@@ -51,11 +53,11 @@ class Run(NamedTuple):
     end_time: float
 
 
-def run(machine: Machine, rules: Rules, keep_path: bool = False) -> Run:
+def run(machine: Machine, rules: Rules) -> Run:
     """Toss the coin from its present state until the toss is decided."""
-    rows = np.zeros(rules.max_impacts, IMPACT_ROW)
+    few = np.zeros(_FIRST_ROWS, IMPACT_ROW)
     with air_of(machine.model):
-        n, knots, contacts, outcome, ending, end_time = toss_coin(machine.coin, rules, rows, keep_path)
+        n, rows, knots, contacts, outcome, ending, end_time = toss_coin(machine.coin, rules, few, True)
     return Run(rows[:n].copy(), knots, contacts, Outcome(outcome), Ending(ending), end_time)
 
 
@@ -127,7 +129,7 @@ def toss(
         flight_angle=flight_angle,
     )
     machine = machine_of(scenario, settings, shape_thickness(scenario))
-    answer = run(machine, scenario.rules, keep_path=True)
+    answer = run(machine, scenario.rules)
     impacts = Impacts.from_rows(answer.rows)
     return Toss(
         engine="mujoco",

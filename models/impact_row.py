@@ -1,7 +1,10 @@
-"""How either engine writes down an impact."""
+"""How either engine writes down its impacts."""
+
+import numpy as np
 
 from models.compiled import compiled
 from models.ending import energy, face_up
+from models.records import IMPACT_ROW
 
 
 @compiled
@@ -36,3 +39,14 @@ def write_impact(body, impulse, point, n_z, touch, release, row):
     row.face = face_up(n_z)
     row.energy = E_after
     row.energy_change = E_after - E_before
+
+
+@compiled
+def with_room(rows, n):
+    """Give rows with room for impact number n: these, or twice as many."""
+    if n < len(rows):
+        return rows
+    more = np.zeros(2 * len(rows), IMPACT_ROW)
+    for i in range(len(rows)):
+        more[i] = rows[i]
+    return more

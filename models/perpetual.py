@@ -1,5 +1,7 @@
 """Whether a coin in vacuum keeps enough energy to turn over for ever."""
 
+import math
+
 import numpy as np
 
 from models.body import in_vacuum
@@ -9,9 +11,10 @@ from models.laws import ContactLaw
 
 # The energy of a toss in contact is looked at after so many √(r/g), and whenever that time has doubled.
 FIRST_LOOK = 64.0
-# So many more doublings are for ever: from a second on, they take longer than the universe is old.
-_MORE_LOOKS = 60
-_LOOKS = 4
+# For ever: so many doublings of √(r/g), which takes longer than the universe is old.
+_DOUBLINGS = 64
+# So many looks are remembered, of which the last few are enough to tell a loss that does not grow.
+_LOOKS, _FEW = 6, 4
 
 
 @compiled
@@ -37,10 +40,8 @@ def first_contact(body, looks, time):
 def dies_away(body, rules, z, v, w, no_loss, time, looks):
     """Tell whether the energy that a coin loses in vacuum dies away before it is too low to turn over.
 
-    The energy is looked at whenever the time since the first contact has doubled. The loss of the last
-    doubling, growing in each that comes as it grew at most in those before, must leave enough after
-    `_MORE_LOOKS` more: so it does where a coin loses ever less in the same time. On a smooth floor the
-    horizontal motion, which never changes, is left out.
+    The energy is looked at whenever the time since the first contact has doubled, and `loss_to_come` must
+    leave enough. On a smooth floor the horizontal motion, which never changes, is left out.
 
     Args:
         body: the coin.
@@ -48,31 +49,61 @@ def dies_away(body, rules, z, v, w, no_loss, time, looks):
         z: height of C [m].
         v: velocity of C, space frame, (3,) [m/s].
         w: angular velocity, body frame, (3,) [rad/s].
-        no_loss: a loss that an engine cannot tell from none, against the energy.
+        no_loss: a loss in the time √(r/g) that an engine cannot tell from none, against the energy.
         time: now [s].
         looks: start of the first contact and time of the next look [s], infinite before, and the energies at
-            the last looks [J], (6,); kept up.
+            the last looks [J], (8,); kept up.
     """
     if time < looks[1] or not in_vacuum(body):
         return False
     E = energy(body, z, v, w)
     if rules.law == ContactLaw.SMOOTH:
         E -= body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
-    looks[1] += looks[1] - looks[0]
+    gone_by = looks[1] - looks[0]
+    looks[1] += gone_by
     looks[2:-1] = looks[3:]
     looks[-1] = E
-    losses = looks[2:-1] - looks[3:]
-    none, growth = no_loss * E, 1.0
-    for i in range(1, _LOOKS - 1):
-        # An infinite or undefined loss is one not looked at yet; energy gained is no evidence of anything.
-        if not losses[i - 1] < np.inf or losses[i] < -none:
-            return False
-        if losses[i] > none:
-            growth = max(growth, losses[i] / max(losses[i - 1], none))
-    to_come, loss = 0.0, losses[-1]
+    if not looks[-_FEW] < np.inf:
+        return False
+    gone_by /= (body.radius / body.gravity) ** 0.5
+    to_come = loss_to_come(looks[2:], no_loss * E * gone_by / 2, _DOUBLINGS - math.log2(gone_by))
+    return E - to_come > max(barrier(body, 1.0), barrier(body, -1.0))
+
+
+@compiled
+def loss_to_come(energies, none, doublings):
+    """Estimate from above the energy that will be lost while the time gone by doubles so many times [J].
+
+    The loss of the last doubling grows in each that comes as it grew at most in the last few; it shrinks
+    only where it shrank in all that are remembered. So a coin that loses ever less in the same time loses
+    little. Energy gained is no evidence of anything: the loss to come is infinite.
+
+    Args:
+        energies: after each doubling up to now, the oldest first, infinite where there was none, (n,) [J].
+        none: a loss that cannot be told from none [J].
+        doublings: how many.
+    """
+    losses = energies[:-1] - energies[1:]
+    few = losses[1 - _FEW :]
+    if few.min() < -none:
+        return np.inf
+    growth = _largest_growth(losses, none) if energies[0] < np.inf else np.inf
+    if growth >= 1:
+        growth = max(_largest_growth(few, none), 1.0)
+    loss, to_come = losses[-1], 0.0
     if loss <= none:
         loss = none if growth > 1 else 0.0
-    for _ in range(_MORE_LOOKS):
+    for _ in range(math.ceil(doublings)):
         loss *= growth
         to_come += loss
-    return E - to_come > max(barrier(body, 1.0), barrier(body, -1.0))
+    return to_come
+
+
+@compiled
+def _largest_growth(losses, none):
+    """Give the largest ratio of a loss to the one before, but for losses that are none; 0 without any."""
+    growth = 0.0
+    for i in range(1, len(losses)):
+        if losses[i] > none:
+            growth = max(growth, losses[i] / max(losses[i - 1], none))
+    return growth

@@ -60,6 +60,8 @@ LARGEST, SMALLEST = 1e9, 1e-9
 FASTEST_SPIN, FASTEST_DRAG = 1e5, 1e4
 # In an angle beyond it the digits that tell one attitude from another are gone [rad].
 LARGEST_ANGLE = 1e6
+# More impacts than a coin needs that loses energy; and enough of one that may never lose any.
+MOST_IMPACTS, MOST_LOSSLESS = 100_000_000, 1_000_000
 # Euler parameters whose norm is 1 within rounding stay as they are: made from angles, or brought to norm 1
 # before, they would change in their last digit.
 NORM_ROUNDING = 1e-15
@@ -82,6 +84,7 @@ Spins = Annotated[tuple[Spin, Spin, Spin], _Sequence]
 EulerParameters = Annotated[tuple[Number, Number, Number, Number], _Sequence]
 _Row = Annotated[tuple[Inertia, Inertia, Inertia], _Sequence]
 _ZERO = (0.0, 0.0, 0.0)
+_TAKING = (ContactLaw.SMOOTH, ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH)
 
 
 class _Part(BaseModel):
@@ -207,6 +210,11 @@ class Floor(_Part):
             )
         return self
 
+    @property
+    def takes_energy(self) -> bool:
+        """Whether impacts take energy on the whole: where χ < 1, and the law adds none, or seldom."""
+        return self.restitution < 1 and self.contact in _TAKING
+
 
 class Release(_Part):
     """The state at time 0."""
@@ -251,8 +259,9 @@ class Ending(_Part):
 
     test: Annotated[EndingTest, BeforeValidator(_named(EndingTest))] = EndingTest.RIGOROUS
     """What decides that the face up is final."""
-    max_impacts: Annotated[int, Field(ge=1, le=1_000_000)] = 1_000_000
-    """The toss stops after so many impacts."""
+    max_impacts: Annotated[int | None, Field(ge=1, le=MOST_IMPACTS)] = None
+    """The toss stops after so many impacts; by default after `MOST_IMPACTS`, or after `MOST_LOSSLESS` where
+    impacts may take no energy."""
     max_time: Annotated[float, _quantity("s"), _size] = 1_000_000.0
     """The toss stops at this time [s]."""
 
@@ -325,7 +334,7 @@ class Scenario(_Part):
             restitution_kind=floor.restitution_kind,
             friction=floor.friction,
             test=ending.test,
-            max_impacts=ending.max_impacts,
+            max_impacts=ending.max_impacts or (MOST_IMPACTS if floor.takes_energy else MOST_LOSSLESS),
             max_time=ending.max_time,
         )
 

@@ -15,14 +15,13 @@ import numpy as np
 from matplotlib.figure import Figure as Picture
 from scipy.stats import chi2_contingency
 
+import analytic
 import coin_mj
-from analytic.events import run as run_events
-from analytic.toss import state_of
 from compare.plot_style import STYLE
 from compare.reproduction import Figure, Made, Progress
 from models.records import Ending, Outcome
 from models.releases import Releases
-from models.scenario import Scenario
+from models.scenario import Release, Scenario
 
 COUNT, COUNT_MUJOCO, SEED = 10_000, 2_500, 2008
 """Tosses of each coin by the paper's mechanics, and by MuJoCo; and the seed."""
@@ -139,8 +138,9 @@ def _release(rng: np.random.Generator) -> dict[str, Any]:
 
 def _toss(job: tuple[int, int, int]) -> tuple[Kind, str, str, int, float]:
     kind, scenario = draw_toss(np.random.default_rng(job), COINS[job[1]])
-    ended = run_events(scenario.body, scenario.rules, state_of(scenario.release))
-    return kind, ended.outcome.label, ended.ending.label, len(ended.rows), ended.end_time
+    ended = analytic.toss_many(scenario, _only(scenario.release))
+    outcome, ending = Outcome(ended.outcome[0]), Ending(ended.ending[0])
+    return kind, outcome.label, ending.label, int(ended.impacts[0]), float(ended.end_time[0])
 
 
 def toss_by_mujoco(job: tuple[int, int, int]) -> tuple[Kind, str, str]:
@@ -149,15 +149,17 @@ def toss_by_mujoco(job: tuple[int, int, int]) -> tuple[Kind, str, str]:
     kind, scenario = draw_toss(rng, COINS[job[1]])
     while kind.floor not in BY_BOTH:
         kind, scenario = draw_toss(rng, COINS[job[1]])
-    release = scenario.release
-    releases = Releases(
+    ended = coin_mj.toss_many(scenario, _only(scenario.release))
+    return kind, Outcome(ended.outcome[0]).label, Ending(ended.ending[0]).label
+
+
+def _only(release: Release) -> Releases:
+    return Releases(
         position=np.array([release.position]),
         velocity=np.array([release.velocity]),
         quaternion=np.array([release.attitude]),
         angular_velocity=np.array([release.angular_velocity]),
     )
-    tossed = coin_mj.toss_many(scenario, releases)
-    return kind, Outcome(tossed.outcome[0]).label, Ending(tossed.ending[0]).label
 
 
 def _name(kind: Kind) -> str:

@@ -93,7 +93,7 @@ def _other_spins(scenario: Scenario) -> Array:
 
 def _shorter(scenario: Scenario) -> Scenario:
     """Give the scenario with half the impacts: MuJoCo's take longer, and show the same."""
-    ending = scenario.ending.model_copy(update={"max_impacts": scenario.ending.max_impacts // 2})
+    ending = scenario.ending.model_copy(update={"max_impacts": scenario.rules.max_impacts // 2})
     return scenario.model_copy(update={"ending": ending})
 
 

@@ -80,7 +80,7 @@ def pixel_scenario(sweep: Sweep, y: float, x: float) -> Scenario:
         raise SweepError(f"{error} (at {sweep.x.field} = {x:g}, {sweep.y.field} = {y:g})") from None
     if sweep.after is None:
         return scenario
-    most = min(sweep.after + 1, scenario.ending.max_impacts)
+    most = min(sweep.after + 1, scenario.rules.max_impacts)
     return scenario.model_copy(update={"ending": scenario.ending.model_copy(update={"max_impacts": most})})
 
 

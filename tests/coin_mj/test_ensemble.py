@@ -43,7 +43,7 @@ def assert_each_is_a_toss(
     for i, release in enumerate(drawn):
         one = case.model_copy(update={"release": Release.model_validate(release)})
         # What `toss` makes its record of; it also tosses softer coins, for its horizon of trust.
-        tossed = run(machine_of(one, MANY._replace(**settings), shape_thickness(one)), one.rules, True)
+        tossed = run(machine_of(one, MANY._replace(**settings), shape_thickness(one)), one.rules)
         assert outcomes.outcome[i] == tossed.outcome
         assert outcomes.ending[i] == tossed.ending
         assert outcomes.impacts[i] == len(tossed.rows)

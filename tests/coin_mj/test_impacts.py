@@ -112,7 +112,7 @@ def force_at(coin, knot):
 def test_the_impulse_is_the_integral_of_the_contact_force():
     case, _ = draw_single_impact(np.random.default_rng(43))
     machine = machine_of(case, ContactSettings(), shape_thickness(case))
-    answer = run(machine, case.rules, keep_path=True)
+    answer = run(machine, case.rules)
     assert len(answer.rows) == 1
     pressed = answer.knots[answer.knots[:, PRESSED] > 0]
     forces = [force_at(machine.coin, knot) for knot in pressed]

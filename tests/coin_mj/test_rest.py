@@ -26,7 +26,7 @@ DECIDED = {Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.PERPETUAL}
 def contact_of(case):
     """States of a toss in contact that lasts: time, and position, velocity, Euler parameters, spin, body."""
     machine = machine_of(case, ContactSettings(), shape_thickness(case))
-    answer = run(machine, case.rules, keep_path=True)
+    answer = run(machine, case.rules)
     assert len(answer.contacts) == 1
     chosen = answer.knots[answer.knots[:, PRESSED] > 0]
     return (
@@ -87,7 +87,7 @@ def test_a_smooth_floor_takes_no_energy_and_no_spin_about_the_vertical(offset):
         },
         ending={"test": "paper", "max_time": 1.0},
     )
-    answer = run(machine_of(case, ContactSettings(), shape_thickness(case)), case.rules, True)
+    answer = run(machine_of(case, ContactSettings(), shape_thickness(case)), case.rules)
     start, end = answer.contacts[np.argmax(np.diff(answer.contacts, axis=1))]
     assert end - start > 0.2
     rows = answer.knots[(answer.knots[:, TIME] > start + 0.02) & (answer.knots[:, TIME] < end - 0.02)]

@@ -1,0 +1,84 @@
+"""When the energy that a coin loses in vacuum is said to die away."""
+
+import numpy as np
+import pytest
+
+from models.perpetual import FIRST_LOOK, dies_away, first_contact, loss_to_come, no_looks
+from tests.draws import AIR, ZLOTY, scenario
+
+G = 9.81
+NONE = 1e-9
+UNKNOWN = np.inf
+RATE = 1e-6
+
+
+def energies(losses, known=6):
+    """Give the energies at the last six looks [J], of which so many are known, for the losses between."""
+    seen = 1.0 - np.cumsum([0.0, *losses])
+    return np.array([UNKNOWN] * (6 - known) + list(seen[-known:]))
+
+
+def test_a_loss_at_a_steady_rate_doubles_with_every_doubling_of_time():
+    """After time T and n more doublings (2ⁿ - 1) T are still to come."""
+    seen = energies(RATE * 2.0 ** np.arange(5))
+    for doublings in (1, 10, 60):
+        lost = RATE * 2.0**5 * (2.0**doublings - 1)
+        assert loss_to_come(seen, NONE, doublings) == pytest.approx(lost, rel=1e-6)
+
+
+def test_a_loss_that_falls_with_time_is_the_same_in_every_doubling():
+    assert loss_to_come(energies([1e-3] * 5), NONE, 50.0) == pytest.approx(50e-3, rel=1e-9)
+
+
+def test_a_loss_that_shrinks_is_summed_to_its_limit_only_after_six_looks():
+    shrinking = 1e-2 * 0.5 ** np.arange(5)
+    assert loss_to_come(energies(shrinking), NONE, 60) == pytest.approx(shrinking[-1], rel=1e-9)
+    for known in (4, 5):
+        assert loss_to_come(energies(shrinking, known), NONE, 60) == pytest.approx(60 * shrinking[-1])
+
+
+def test_one_loss_that_grew_is_taken_for_what_is_to_come():
+    """Of the last three: an older one does not count unless all have shrunk."""
+    grew = [1e-3, 1e-3, 1e-3, 2e-3, 1e-3]
+    assert loss_to_come(energies(grew), NONE, 3) == pytest.approx(1e-3 * (2 + 4 + 8), rel=1e-9)
+    grew_before = [1e-3, 2e-3, 1e-3, 1e-3, 1e-3]
+    assert loss_to_come(energies(grew_before), NONE, 3) == pytest.approx(3e-3, rel=1e-9)
+
+
+def test_what_cannot_be_told_from_no_loss_is_none_and_energy_gained_is_no_evidence():
+    assert loss_to_come(energies([NONE / 2] * 5), NONE, 60) == 0
+    assert loss_to_come(energies([1e-3, 1e-4, 1e-6, -NONE / 2, NONE / 2]), NONE, 60) == 0
+    assert loss_to_come(energies([0, 0, 0, -2 * NONE, 0]), NONE, 60) == np.inf
+    began = loss_to_come(energies([0, 0, 0, 1e-6, 0]), NONE, 60)
+    assert began > 1, "a loss out of nothing grows without bound"
+
+
+def watched(case, share_at, until):
+    """Tell when a coin is said to turn over for ever, in √(r/g) from its first contact on.
+
+    Its energy is that of C at a share of twice the radius.
+    """
+    looks, unit = no_looks(), (ZLOTY["radius"] / G) ** 0.5
+    first_contact(case.body, looks, 0.0)
+    for gone_by in np.arange(1.0, until):
+        z, still = 2 * ZLOTY["radius"] * share_at(gone_by), (0.0, 0.0, 0.0)
+        if dies_away(case.body, case.rules, z, still, still, 1e-12, gone_by * unit, looks):
+            return gone_by
+    return None
+
+
+def test_a_coin_that_loses_nothing_is_known_after_four_looks_if_it_can_turn_over():
+    case = scenario(coin=ZLOTY)
+    assert watched(case, lambda _: 1.0, 1000) == pytest.approx(8 * FIRST_LOOK, abs=1)
+    assert watched(case, lambda _: 0.4, 1000) is None
+    assert watched(scenario(coin=ZLOTY, air=AIR), lambda _: 1.0, 1000) is None
+
+
+def test_a_coin_that_loses_steadily_is_never_said_to_go_on_for_ever():
+    """The pass is at half the energy; 55 doublings are to come after the fourth look, fewer after others."""
+    case = scenario(coin=ZLOTY)
+    assert watched(case, lambda t: 1 - 1e-9 * t, 5000) is None
+    assert watched(case, lambda t: 1 - 7e-3 * np.log2(t), 5000) is not None
+    assert watched(case, lambda t: 1 - 8e-3 * np.log2(t), 5000) is None
+    assert watched(case, lambda t: 1 - 1e-3 * t**0.3, 5000) is None
+    assert watched(case, lambda t: 0.6 + t**-0.5, 5000) is not None
