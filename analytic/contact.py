@@ -154,6 +154,8 @@ def margin(body, mu, motion, side, y):
         left = min(left, side * up[2])
     if motion == Motion.STICKING:
         return min(left, (mu * F[2] * (1 + _HOLD) - math.hypot(F[0], F[1])) / weight)
+    # Where friction would press a point down that free flight lifts, it lifts off (Painlevé).
+    left = min(left, -b[2] / body.gravity)
     if motion == Motion.CREEPING:
         return min(left, SLOW - slip) if not holds(mu, holding_force(K, b)) else 0.0
     return min(left, slip - SLOW / 2) if mu > 0 else left

@@ -26,7 +26,7 @@ from models.vectors import add, apply, scale, subtract
 # A toss starts with room for so many impacts.
 _FIRST_ROWS = 64
 # The most steps and changes of a toss in contact.
-CONTACT_STEPS = 50_000_000
+CONTACT_STEPS = 20_000_000
 # A change that takes less than this part of √(r/g) costs so many of them.
 _NO_TIME, _STALLED = 1e-12, 1000
 # An upright coin is tried for whether it stands once in so many of them.
@@ -241,4 +241,5 @@ def decided(body, rules, y):
 @compiled
 def _goes_on(body, rules, y, time, looks):
     """Tell whether a coin in state y, (13,), turns over for ever."""
-    return dies_away(body, rules, y[2], velocity_of(y), spin_of(y), NO_LOSS, time, looks)
+    up = rotation_matrix(attitude_of(y))[2]
+    return dies_away(body, rules, y[2], velocity_of(y), up, spin_of(y), NO_LOSS, time, looks)

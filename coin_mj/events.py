@@ -110,8 +110,8 @@ def decided(coin, rules):
 @compiled
 def goes_on(coin, rules, time, looks):
     """Tell whether the coin, bouncing between contacts that last, turns over for ever."""
-    x, v, _, w = state_of(coin)
-    return dies_away(coin.body, rules, x[2], v, w, NO_LOSS, time, looks)
+    x, v, e, w = state_of(coin)
+    return dies_away(coin.body, rules, x[2], v, rotation_matrix(e)[2], w, NO_LOSS, time, looks)
 
 
 @compiled

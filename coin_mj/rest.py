@@ -89,7 +89,7 @@ def rest(coin, rules, time, steps_left, looks, knots):
         # Where the coin would be if it did not sink: the energy tests are finer than that.
         z = x[2] - min(look(coin).height, 0.0)
         outcome, ending = judge(body, rules, z, v, up, w)
-        if ending == Ending.NONE and dies_away(body, rules, z, v, w, NO_LOSS, time, looks):
+        if ending == Ending.NONE and dies_away(body, rules, z, v, up, w, NO_LOSS, time, looks):
             outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
         if ending == Ending.NONE and upright * rate > FIRST_LOOK:
             outcome, ending = Outcome.EDGE, Ending.STANDING

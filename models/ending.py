@@ -82,6 +82,20 @@ def _top_barrier(body, up, w):
 
 
 @compiled
+def spin_barrier(body, up, w):
+    """Bound from below the energy at which a coin on a smooth floor in vacuum can turn over [J].
+
+    It leaves the horizontal motion out, and counts what the conserved spin needs.
+
+    Args:
+        body: the coin.
+        up: the upward unit vector in the body frame, (3,).
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    return _top_barrier(body, up, w) if is_ideal(body) else _spin_barrier(body, up, w)
+
+
+@compiled
 def _top_ceiling(body, up, w):
     """Bound `_top_barrier` from above without trying tilts [J].
 
@@ -143,11 +157,8 @@ def judge(body, rules, z, v, up, w):
             return Outcome.EDGE, ending
     if on_face and smooth and in_vacuum(body):
         E_turning = E - body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
-        if is_ideal(body):
-            settled = not E_turning > _top_ceiling(body, up, w) and E_turning < _top_barrier(body, up, w)
-        else:
-            settled = not E_turning > _spin_ceiling(body, up, w) and E_turning < _spin_barrier(body, up, w)
-        if settled:
+        ceiling = _top_ceiling(body, up, w) if is_ideal(body) else _spin_ceiling(body, up, w)
+        if not E_turning > ceiling and E_turning < spin_barrier(body, up, w):
             return face, Ending.SETTLED
     if _lies(body, rules, z, v, up, w):
         return face, Ending.LYING

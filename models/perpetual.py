@@ -6,7 +6,7 @@ import numpy as np
 
 from models.body import in_vacuum
 from models.compiled import compiled
-from models.ending import barrier, energy
+from models.ending import barrier, energy, spin_barrier
 from models.laws import ContactLaw
 
 # The energy of a toss in contact is looked at after so many √(r/g), and whenever that time has doubled.
@@ -37,17 +37,19 @@ def first_contact(body, looks, time):
 
 
 @compiled
-def dies_away(body, rules, z, v, w, no_loss, time, looks):
+def dies_away(body, rules, z, v, up, w, no_loss, time, looks):
     """Tell whether the energy that a coin loses in vacuum dies away before it is too low to turn over.
 
     The energy is looked at whenever the time since the first contact has doubled, and `loss_to_come` must
-    leave enough. On a smooth floor the horizontal motion, which never changes, is left out.
+    leave enough; on a smooth floor, where horizontal motion and spin about the vertical never change, without
+    the one and with what the other needs.
 
     Args:
         body: the coin.
         rules: floor and ending.
         z: height of C [m].
         v: velocity of C, space frame, (3,) [m/s].
+        up: the upward unit vector in the body frame, (3,).
         w: angular velocity, body frame, (3,) [rad/s].
         no_loss: a loss in the time √(r/g) that an engine cannot tell from none, against the energy.
         time: now [s].
@@ -56,9 +58,10 @@ def dies_away(body, rules, z, v, w, no_loss, time, looks):
     """
     if time < looks[1] or not in_vacuum(body):
         return False
-    E = energy(body, z, v, w)
+    E, needed = energy(body, z, v, w), max(barrier(body, 1.0), barrier(body, -1.0))
     if rules.law == ContactLaw.SMOOTH:
         E -= body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
+        needed = max(needed, spin_barrier(body, up, w))
     gone_by = looks[1] - looks[0]
     looks[1] += gone_by
     looks[2:-1] = looks[3:]
@@ -67,7 +70,7 @@ def dies_away(body, rules, z, v, w, no_loss, time, looks):
         return False
     gone_by /= (body.radius / body.gravity) ** 0.5
     to_come = loss_to_come(looks[2:], no_loss * E * gone_by / 2, _DOUBLINGS - math.log2(gone_by))
-    return E - to_come > max(barrier(body, 1.0), barrier(body, -1.0))
+    return E - to_come > needed
 
 
 @compiled

@@ -23,7 +23,7 @@ from models.records import Ending, Outcome
 from models.releases import Releases
 from models.scenario import Release, Scenario
 
-COUNT, COUNT_MUJOCO, SEED = 10_000, 2_500, 2008
+COUNT, COUNT_MUJOCO, SEED = 10_000, 5_000, 2008
 """Tosses of each coin by the paper's mechanics, and by MuJoCo; and the seed."""
 PAPER_OFFSET = (-1e-3, -1e-3, -2e-4)
 THICKNESS = 2e-3

@@ -8,6 +8,7 @@ from tests.draws import AIR, ZLOTY, scenario
 
 G = 9.81
 NONE = 1e-9
+UP = (0.0, 0.0, 1.0)
 UNKNOWN = np.inf
 RATE = 1e-6
 
@@ -62,7 +63,7 @@ def watched(case, share_at, until):
     first_contact(case.body, looks, 0.0)
     for gone_by in np.arange(1.0, until):
         z, still = 2 * ZLOTY["radius"] * share_at(gone_by), (0.0, 0.0, 0.0)
-        if dies_away(case.body, case.rules, z, still, still, 1e-12, gone_by * unit, looks):
+        if dies_away(case.body, case.rules, z, still, UP, still, 1e-12, gone_by * unit, looks):
             return gone_by
     return None
 
