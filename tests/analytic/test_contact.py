@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from analytic.contact import Verdict, next_motion, put_on_floor, sample_contact, stay
+from analytic.contact import Verdict, margin, next_motion, put_on_floor, sample_contact, stay
 from analytic.edge import held_on_edge, stands
 from analytic.flight import derivative
 from analytic.floor_force import (
@@ -24,6 +24,7 @@ from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, scenario
 
 G, R_COIN, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
 THIN = {**ZLOTY, "thickness": 0.0}
+UNBALANCED = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 
 
 def up_of(y):
@@ -283,6 +284,24 @@ def test_a_coin_leaves_the_floor_when_it_would_have_to_be_held_back():
     assert verdict == Verdict.CHANGES
     assert floor_force(body, 0.0, Motion.SLIDING, y)[2] == pytest.approx(0, abs=1e-9 * M * G)
     assert next_motion(body, 0.0, Motion.SLIDING, y) == Motion.FLIGHT
+
+
+def test_friction_does_not_press_down_a_point_that_free_flight_lifts():
+    """Painlevé: on a floor rough enough a creeping point would have a second answer: to be pressed."""
+    rng, body, mu = np.random.default_rng(3), scenario(coin=UNBALANCED).body, 1e4
+    lifted = pressed = 0
+    for _ in range(500):
+        angles = rng.uniform(0, 6), rng.uniform(0.3, 1.5), rng.uniform(0, 6)
+        y = on_floor(body, Motion.STICKING, angles, rng.uniform(-1, 1, 3) * [20, 20, 300])
+        dy = np.empty(13)
+        derivative(body, y, dy)
+        if contact(body, y, dy, side_of(y))[3][2] > 0:
+            lifted += 1
+            pressed += floor_force(body, mu, Motion.CREEPING, y)[2] > 0
+            assert margin(body, mu, Motion.CREEPING, side_of(y), y) <= 0
+            assert next_motion(body, mu, Motion.CREEPING, y) == Motion.FLIGHT
+    assert lifted > 100
+    assert pressed > 10
 
 
 def test_a_coin_that_tips_over_its_edge_lands_on_the_other_rim():
