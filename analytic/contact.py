@@ -46,7 +46,7 @@ _HOLD = 1e-6
 # In a contact that lasts, a perfectly rough floor is nearly the limit of Coulomb's: it lets go a point that
 # it could only hold by pulling.
 _ROUGH = 1e4
-# The end of a contact is bracketed as tightly as so many bisections of a step would.
+# The end of a contact is bracketed as tightly as by so many bisections of a step; the most tries that takes.
 _HALVINGS, _MOST_TRIES = 50, 150
 
 
@@ -244,6 +244,8 @@ def _bracket_end(body, mu, motion, side, y, longest, stages, y_new):
     """
     low, high = 0.0, longest
     old, old_value = low, margin(body, mu, motion, side, y)
+    if not old_value > 0:
+        return low, longest * 0.5**_HALVINGS
     new, new_value = high, margin(body, mu, motion, side, y_new)
     share, tolerance = 0.5, longest * 0.5**_HALVINGS
     for _ in range(_MOST_TRIES):

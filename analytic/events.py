@@ -12,21 +12,19 @@ from analytic.floor_force import Motion, side_of
 from analytic.flying import fly
 from analytic.impact import impulse, spin_gained
 from analytic.rim import closing_speed, crowded
-from analytic.upright import put_upright, start_creep
+from analytic.upright import put_upright, rim_forces, start_creep
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
 from models.compiled import compiled
 from models.ending import judge
 from models.geometry import contact_velocity, lowest_point
-from models.impact_row import with_room, write_impact
+from models.impact_row import FIRST_ROOM, with_room, write_impact
 from models.perpetual import dies_away, first_contact, no_looks
 from models.records import IMPACT_ROW, Array, Ending, Outcome
 from models.vectors import add, apply, scale, subtract
 
-# A toss starts with room for so many impacts.
-_FIRST_ROWS = 64
 # The most steps and changes of a toss in contact.
-CONTACT_STEPS = 20_000_000
+CONTACT_STEPS = 50_000_000
 # A change that takes less than this part of √(r/g) costs so many of them.
 _NO_TIME, _STALLED = 1e-12, 1000
 # An upright coin is tried for whether it stands once in so many of them.
@@ -55,8 +53,8 @@ class Run(NamedTuple):
 
 def run(body: Body, rules: Rules, start: Array) -> Run:
     """Toss the coin in state `start`, (13,), until the toss is decided."""
-    few = np.zeros(_FIRST_ROWS, IMPACT_ROW)
-    n, rows, pieces, outcome, ending, end_time = fly_and_hit(body, rules, start.copy(), few, True)
+    room = np.zeros(FIRST_ROOM, IMPACT_ROW)
+    n, rows, pieces, outcome, ending, end_time = fly_and_hit(body, rules, start.copy(), room, True)
     start_times, motions = pieces[:, 0].copy(), pieces[:, 1].astype(np.int8)
     return Run(
         rows=rows[:n].copy(),
@@ -124,7 +122,7 @@ def fly_and_hit(body, rules, y, rows, keep_all):
         Number of impacts; the rows; flights and contacts, each with its start, `Motion` and state, and the
         end, (k, 15), or none; outcome; ending; and the time of the end [s].
     """
-    pieces, spare = np.empty((64 if keep_all else 0, 2 + STATE_SIZE)), np.zeros(1, IMPACT_ROW)
+    pieces, spare = np.empty((FIRST_ROOM if keep_all else 0, 2 + STATE_SIZE)), np.zeros(1, IMPACT_ROW)
     time, n, k, steps_left = 0.0, 0, 0, CONTACT_STEPS
     motion, looks = Motion.FLIGHT, no_looks()
     outcome, ending = Outcome.UNDECIDED, Ending.NONE
@@ -158,6 +156,9 @@ def fly_and_hit(body, rules, y, rows, keep_all):
                     ending = hit(body, rules, 0.0, y, spare[0])
                     motion = next_motion(body, mu, motion, y)
                     first_contact(body, looks, time)
+                    steps_left -= 1
+                    if steps_left <= 0:
+                        ending = Ending.CHATTER
             else:
                 if keep_all:
                     rows = with_room(rows, n)
@@ -213,11 +214,13 @@ def keep_contact(body, rules, mu, motion, y, time, steps_left, looks):
             if stands(body, mu, one_rim, y):
                 outcome, ending = Outcome.EDGE, Ending.STANDING
             elif not upright:
-                side = side_of(y)
-                put_upright(body, y)
+                both = y.copy()
+                put_upright(body, both)
                 if motion == Motion.STICKING:
-                    start_creep(body, mu, side, y)
-                return time, steps_left, Motion.UPRIGHT, undecided, Ending.NONE
+                    start_creep(body, mu, side_of(y), both)
+                if min(rim_forces(body, mu, both)) > 0:
+                    y[:] = both
+                    return time, steps_left, Motion.UPRIGHT, undecided, Ending.NONE
         if ending == Ending.NONE and _goes_on(body, rules, y, time, looks):
             outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
         if ending != Ending.NONE:

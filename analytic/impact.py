@@ -30,9 +30,9 @@ def mobility(body, R, arm):
     """
     # The columns; K is symmetric, so they are its rows too.
     return (
-        _velocity_gained(body, R, arm, (1.0, 0.0, 0.0)),
-        _velocity_gained(body, R, arm, (0.0, 1.0, 0.0)),
-        _velocity_gained(body, R, arm, (0.0, 0.0, 1.0)),
+        velocity_gained(body, R, arm, (1.0, 0.0, 0.0), arm),
+        velocity_gained(body, R, arm, (0.0, 1.0, 0.0), arm),
+        velocity_gained(body, R, arm, (0.0, 0.0, 1.0), arm),
     )
 
 
@@ -43,8 +43,9 @@ def spin_gained(body, R, arm, S):
 
 
 @compiled
-def _velocity_gained(body, R, arm, S):
-    return add(scale(1 / body.mass, S), cross(apply(R, spin_gained(body, R, arm, S)), arm))
+def velocity_gained(body, R, arm, S, at):
+    """Give the velocity that an impulse S at A gives to the coin's point `at` from C, space frame, (3,)."""
+    return add(scale(1 / body.mass, S), cross(apply(R, spin_gained(body, R, arm, S)), at))
 
 
 @compiled

@@ -6,7 +6,7 @@ import numpy as np
 
 from analytic.flight import STATE_SIZE, attitude_of, derivative, normalise
 from analytic.floor_force import SLOW, contact, give_impulse, holding_force, holds
-from analytic.impact import spin_gained
+from analytic.impact import spin_gained, velocity_gained
 from analytic.rotation import quaternion_rate
 from models.attitude import rotation_matrix
 from models.compiled import compiled
@@ -104,7 +104,7 @@ def start_creep(body, mu, side, y):
     F, N = _gripping(body, held, other, _with_friction(body, mu, other[4]), held[3], other[3][2])
     if N < 0 or not holds(mu, F):
         return
-    slip = -SLOW * (body.gravity * body.radius) ** 0.5 / (mu * F[2])
+    slip = -_slow_slip(body, mu) / (mu * F[2])
     change = subtract(held[4], (slip * F[0], slip * F[1], 0.0))
     S, S_other = _gripping(body, held, other, (0.0, 0.0, 1.0), change, other[4][2])
     give_impulse(body, held[0], held[1], S, y)
@@ -129,16 +129,10 @@ def _gripping(body, held, other, along, motion, fall):
     R, arm, K, _, _ = held
     _, arm_other, K_other, _, _ = other
     # The force on the one for its own motion, and for each unit of the other's.
-    F, more = holding_force(K, motion), holding_force(K, _gained(body, R, arm_other, along, arm))
-    rise = dot(K_other[2], along) + _gained(body, R, arm, more, arm_other)[2]
-    N = -(fall + _gained(body, R, arm, F, arm_other)[2]) / rise
+    F, more = holding_force(K, motion), holding_force(K, velocity_gained(body, R, arm_other, along, arm))
+    rise = dot(K_other[2], along) + velocity_gained(body, R, arm, more, arm_other)[2]
+    N = -(fall + velocity_gained(body, R, arm, F, arm_other)[2]) / rise
     return add(F, scale(N, more)), N
-
-
-@compiled
-def _gained(body, R, arm, S, at):
-    """Give the velocity that an impulse S at one point gives to another point `at`, space frame, (3,)."""
-    return add(scale(1 / body.mass, S), cross(apply(R, spin_gained(body, R, arm, S)), at))
 
 
 @compiled
@@ -176,11 +170,21 @@ def _holding(body, mu, tails, heads, fall):
 def _with_friction(body, mu, v_A):
     """Give a force with the vertical part 1 and its friction at a point with velocity v_A, (3,).
 
-    A rigid body leaves open how two points share the force that holds both: friction on slip slower than
-    `SLOW` grows in proportion to it.
+    A rigid body leaves open how two points share the force that holds both: friction on slow slip grows in
+    proportion to it.
     """
-    slip = max(math.hypot(v_A[0], v_A[1]), SLOW * (body.gravity * body.radius) ** 0.5)
+    slip = max(math.hypot(v_A[0], v_A[1]), _slow_slip(body, mu))
     return -mu * v_A[0] / slip, -mu * v_A[1] / slip, 1.0
+
+
+@compiled
+def _slow_slip(body, mu):
+    """Give the speed of a slip up to which friction grows in proportion to it [m/s].
+
+    At a friction as large as the weight it is `SLOW`, however rough the floor: larger coefficients would only
+    make the motion stiff.
+    """
+    return SLOW * max(mu, 1.0) * (body.gravity * body.radius) ** 0.5
 
 
 @compiled

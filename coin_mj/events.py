@@ -69,6 +69,7 @@ def toss_coin(coin, rules, rows, keep_all):
             if time > start:
                 contacts.append((start, time))
             lands = left == Left.LANDS
+            steps_left -= 1
     keep(coin, time, False, knots)
     return n, rows, _table(knots), _pairs(contacts), outcome, ending, time
 

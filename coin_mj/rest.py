@@ -93,7 +93,7 @@ def rest(coin, rules, time, steps_left, looks, knots):
             outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
         if ending == Ending.NONE and upright * rate > FIRST_LOOK:
             outcome, ending = Outcome.EDGE, Ending.STANDING
-        if ending == Ending.NONE and steps_left == 0:
+        if ending == Ending.NONE and steps_left <= 0:
             ending = Ending.CHATTER
         if ending != Ending.NONE:
             return Left.DECIDED, time, steps_left, outcome, ending

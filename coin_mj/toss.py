@@ -16,6 +16,7 @@ from coin_mj.machine import Machine, machine_of
 from coin_mj.path import Knots
 from coin_mj.scene import shape_thickness
 from models.body import Rules
+from models.impact_row import FIRST_ROOM
 from models.laws import ContactLaw, RestitutionKind
 from models.records import (
     IMPACT_ROW,
@@ -35,8 +36,6 @@ SOFTER = (10.0, 30.0)
 """How many times softer the contacts are that tell how far a toss can be trusted."""
 IMPULSE_CHANGE = 0.03
 """Within the horizon no softer contact changes an impulse by more than this part."""
-# A toss starts with room for so many impacts.
-_FIRST_ROWS = 64
 
 
 class Run(NamedTuple):
@@ -55,9 +54,9 @@ class Run(NamedTuple):
 
 def run(machine: Machine, rules: Rules) -> Run:
     """Toss the coin from its present state until the toss is decided."""
-    few = np.zeros(_FIRST_ROWS, IMPACT_ROW)
+    room = np.zeros(FIRST_ROOM, IMPACT_ROW)
     with air_of(machine.model):
-        n, rows, knots, contacts, outcome, ending, end_time = toss_coin(machine.coin, rules, few, True)
+        n, rows, knots, contacts, outcome, ending, end_time = toss_coin(machine.coin, rules, room, True)
     return Run(rows[:n].copy(), knots, contacts, Outcome(outcome), Ending(ending), end_time)
 
 
@@ -214,7 +213,7 @@ def _trusted_impacts(scenario: Scenario, settings: ContactSettings, impacts: Imp
     """
     thickness = scenario.coin.thickness or 10 * shape_thickness(scenario)
     trusted = len(impacts)
-    for part in SOFTER:
+    for part in SOFTER if trusted > 0 else ():
         ending = scenario.ending.model_copy(update={"max_impacts": trusted})
         shorter = scenario.model_copy(update={"ending": ending})
         softer = impacts_of(shorter, settings.softened(part), thickness)

@@ -152,7 +152,7 @@ _contact = click.option(
     help="Which engine.",
 )
 @_contact
-@click.option("--max-impacts", type=_Count(1, 100_000_000), help="Stop after so many impacts.")
+@click.option("--max-impacts", type=_Count(1, 30_000_000), help="Stop after so many impacts.")
 @click.option("--json", "as_json", is_flag=True, help="Answer in JSON, in full precision.")
 @click.option("--trajectory", type=click.Path(path_type=Path), help="Write the path to this .csv file too.")
 def toss(

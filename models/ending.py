@@ -155,8 +155,10 @@ def judge(body, rules, z, v, up, w):
             return face, ending
         if E < barrier(body, -up[2]) and _beyond_the_pass(body, up, tilt_sine):
             return Outcome.EDGE, ending
-    if on_face and smooth and in_vacuum(body):
+    if smooth and in_vacuum(body):
         E_turning = E - body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
+        # Off the face's side of the pass a coin may be just upright, within rounding of what it needs.
+        E_turning += 0.0 if on_face else WOBBLE * mgr
         ceiling = _top_ceiling(body, up, w) if is_ideal(body) else _spin_ceiling(body, up, w)
         if not E_turning > ceiling and E_turning < spin_barrier(body, up, w):
             return face, Ending.SETTLED

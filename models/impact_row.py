@@ -6,6 +6,9 @@ from models.compiled import compiled
 from models.ending import energy, face_up
 from models.records import IMPACT_ROW
 
+FIRST_ROOM = 64
+"""A toss of which all is kept starts with room for so many impacts."""
+
 
 @compiled
 def write_impact(body, impulse, point, n_z, touch, release, row):

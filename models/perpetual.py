@@ -11,8 +11,10 @@ from models.laws import ContactLaw
 
 # The energy of a toss in contact is looked at after so many √(r/g), and whenever that time has doubled.
 FIRST_LOOK = 64.0
-# For ever: so many doublings of √(r/g), which takes longer than the universe is old.
+# For ever: so many doublings of √(r/g), which takes a coin on Earth longer than the universe is old.
 _DOUBLINGS = 64
+# However little an engine can tell, a larger part of the energy is a loss.
+_LARGEST_NONE = 2e-2
 # So many looks are remembered, of which the last few are enough to tell a loss that does not grow.
 _LOOKS, _FEW = 6, 4
 
@@ -41,8 +43,8 @@ def dies_away(body, rules, z, v, up, w, no_loss, time, looks):
     """Tell whether the energy that a coin loses in vacuum dies away before it is too low to turn over.
 
     The energy is looked at whenever the time since the first contact has doubled, and `loss_to_come` must
-    leave enough; on a smooth floor, where horizontal motion and spin about the vertical never change, without
-    the one and with what the other needs.
+    leave enough; on a smooth floor, where horizontal velocity and angular momentum about the vertical
+    never change, without the one and with what the other needs.
 
     Args:
         body: the coin.
@@ -63,19 +65,24 @@ def dies_away(body, rules, z, v, up, w, no_loss, time, looks):
         E -= body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
         needed = max(needed, spin_barrier(body, up, w))
     gone_by = looks[1] - looks[0]
-    looks[1] += gone_by
+    while looks[0] + 2 * gone_by <= time:
+        # In a long flight a look was missed.
+        gone_by *= 2
+        looks[2:] = np.inf
+    looks[1] = looks[0] + 2 * gone_by
     looks[2:-1] = looks[3:]
     looks[-1] = E
     if not looks[-_FEW] < np.inf:
         return False
     gone_by /= (body.radius / body.gravity) ** 0.5
-    to_come = loss_to_come(looks[2:], no_loss * E * gone_by / 2, _DOUBLINGS - math.log2(gone_by))
+    none = E * min(no_loss * gone_by / 2, _LARGEST_NONE)
+    to_come = loss_to_come(looks[2:], none, _DOUBLINGS - math.log2(gone_by))
     return E - to_come > needed
 
 
 @compiled
 def loss_to_come(energies, none, doublings):
-    """Estimate from above the energy that will be lost while the time gone by doubles so many times [J].
+    """Estimate the energy that will be lost while the time gone by doubles so many times [J].
 
     The loss of the last doubling grows in each that comes as it grew at most in the last few; it shrinks
     only where it shrank in all that are remembered. So a coin that loses ever less in the same time loses

@@ -61,7 +61,7 @@ FASTEST_SPIN, FASTEST_DRAG = 1e5, 1e4
 # In an angle beyond it the digits that tell one attitude from another are gone [rad].
 LARGEST_ANGLE = 1e6
 # More impacts than a coin needs that loses energy; and enough of one that may never lose any.
-MOST_IMPACTS, MOST_LOSSLESS = 100_000_000, 1_000_000
+MOST_IMPACTS, MOST_LOSSLESS = 30_000_000, 1_000_000
 # Euler parameters whose norm is 1 within rounding stay as they are: made from angles, or brought to norm 1
 # before, they would change in their last digit.
 NORM_ROUNDING = 1e-15
@@ -84,7 +84,8 @@ Spins = Annotated[tuple[Spin, Spin, Spin], _Sequence]
 EulerParameters = Annotated[tuple[Number, Number, Number, Number], _Sequence]
 _Row = Annotated[tuple[Inertia, Inertia, Inertia], _Sequence]
 _ZERO = (0.0, 0.0, 0.0)
-_TAKING = (ContactLaw.SMOOTH, ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH)
+# Up to this kinematic restitution Routh's law and its limit add energy in hardly an impact.
+_ROUTHS, _TAKING = (ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH), 0.7
 
 
 class _Part(BaseModel):
@@ -212,8 +213,10 @@ class Floor(_Part):
 
     @property
     def takes_energy(self) -> bool:
-        """Whether impacts take energy on the whole: where χ < 1, and the law adds none, or seldom."""
-        return self.restitution < 1 and self.contact in _TAKING
+        """Whether impacts take energy, and add none or hardly any (docs/CONTACT.md)."""
+        if self.contact == ContactLaw.SMOOTH or self.restitution_kind == RestitutionKind.ENERGETIC:
+            return self.restitution < 1
+        return self.contact in _ROUTHS and self.restitution <= _TAKING
 
 
 class Release(_Part):
@@ -328,13 +331,16 @@ class Scenario(_Part):
     def rules(self) -> Rules:
         """The floor and the ending, for compiled code."""
         floor, ending = self.floor, self.ending
+        most = ending.max_impacts
+        if most is None:
+            most = MOST_IMPACTS if floor.takes_energy else MOST_LOSSLESS
         return Rules(
             law=floor.contact,
             restitution=floor.restitution,
             restitution_kind=floor.restitution_kind,
             friction=floor.friction,
             test=ending.test,
-            max_impacts=ending.max_impacts or (MOST_IMPACTS if floor.takes_energy else MOST_LOSSLESS),
+            max_impacts=most,
             max_time=ending.max_time,
         )
 

@@ -87,6 +87,20 @@ def test_what_a_smooth_floor_conserves_settles_a_fast_spinning_coin():
     assert judged(scenario(coin=IMPERFECT), 0.05, **fast)[0] == (Outcome.HEADS, Ending.SETTLED)
 
 
+@pytest.mark.parametrize(("spin", "expected"), [(40.0, Ending.SETTLED), (-40.0, Ending.NONE)])
+def test_a_coin_that_leans_near_its_edge_is_settled_if_its_spin_keeps_it_from_coming_upright(spin, expected):
+    """L_z - L_ζ cos s grows on the way up for one sense of the spin, and shrinks for the other."""
+    (outcome, ending), E, pass_ = judged(scenario(), np.pi / 2 - 0.05, w=(0.0, 25.0, spin))
+    assert E > pass_
+    assert ending == expected
+    assert (outcome == Outcome.HEADS) == (expected == Ending.SETTLED)
+
+
+def test_an_upright_coin_is_not_settled_on_the_face_that_rounding_gives_it():
+    for tilt in np.pi / 2 + np.array([-1e-9, -1e-12, 0.0, 1e-12, 1e-9]):
+        assert judged(scenario(), tilt, w=(0.0, 60.0, 0.0))[0] == (Outcome.UNDECIDED, Ending.NONE)
+
+
 def test_faces():
     assert face_up(0.1) == Face.HEADS
     assert face_up(-0.1) == Face.TAILS

@@ -8,7 +8,7 @@ from tests.draws import AIR, ZLOTY, scenario
 
 G = 9.81
 NONE = 1e-9
-UP = (0.0, 0.0, 1.0)
+UP, STILL = (0.0, 0.0, 1.0), (0.0, 0.0, 0.0)
 UNKNOWN = np.inf
 RATE = 1e-6
 
@@ -54,16 +54,16 @@ def test_what_cannot_be_told_from_no_loss_is_none_and_energy_gained_is_no_eviden
     assert began > 1, "a loss out of nothing grows without bound"
 
 
-def watched(case, share_at, until):
+def watched(case, share_at, until, v=STILL, w=STILL):
     """Tell when a coin is said to turn over for ever, in √(r/g) from its first contact on.
 
-    Its energy is that of C at a share of twice the radius.
+    Its energy is that of C at a share of twice the radius, and of its velocity and spin.
     """
     looks, unit = no_looks(), (ZLOTY["radius"] / G) ** 0.5
     first_contact(case.body, looks, 0.0)
     for gone_by in np.arange(1.0, until):
-        z, still = 2 * ZLOTY["radius"] * share_at(gone_by), (0.0, 0.0, 0.0)
-        if dies_away(case.body, case.rules, z, still, UP, still, 1e-12, gone_by * unit, looks):
+        z = 2 * ZLOTY["radius"] * share_at(gone_by)
+        if dies_away(case.body, case.rules, z, v, UP, w, 1e-12, gone_by * unit, looks):
             return gone_by
     return None
 
@@ -83,3 +83,41 @@ def test_a_coin_that_loses_steadily_is_never_said_to_go_on_for_ever():
     assert watched(case, lambda t: 1 - 8e-3 * np.log2(t), 5000) is None
     assert watched(case, lambda t: 1 - 1e-3 * t**0.3, 5000) is None
     assert watched(case, lambda t: 0.6 + t**-0.5, 5000) is not None
+
+
+def test_on_a_smooth_floor_sliding_does_not_turn_a_coin_over():
+    rough = scenario(coin=ZLOTY, floor={"contact": "coulomb", "friction": 0.3})
+    slide = (1.0, 0.0, 0.0)
+    assert watched(scenario(coin=ZLOTY), lambda _: 0.4, 1000, v=slide) is None
+    assert watched(rough, lambda _: 0.4, 1000, v=slide) is not None
+
+
+def test_a_spin_about_the_vertical_does_not_turn_a_coin_over_on_a_smooth_floor():
+    """It needs L_z²/(2 J_ξ) of its own to come upright, twice what it has as L_z²/(2 J_ζ) lying flat."""
+    rough = scenario(coin=ZLOTY, floor={"contact": "coulomb", "friction": 0.3})
+    spin = (0.0, 0.0, 100.0)
+    assert watched(scenario(coin=ZLOTY), lambda _: 0.4, 1000, w=spin) is None
+    assert watched(rough, lambda _: 0.4, 1000, w=spin) is not None
+
+
+def test_looks_missed_in_a_long_flight_count_for_nothing():
+    """Else energies of nearly the same moment would pass for those of as many doublings."""
+    case, looks, unit = scenario(coin=ZLOTY), no_looks(), (ZLOTY["radius"] / G) ** 0.5
+    first_contact(case.body, looks, 0.0)
+    said = [
+        dies_away(case.body, case.rules, 2 * ZLOTY["radius"], STILL, UP, STILL, 1e-12, gone_by * unit, looks)
+        for gone_by in (5000, 5001, 5002, 5003, 5004)
+    ]
+    assert not any(said)
+    assert looks[1] / unit == pytest.approx(8192)
+
+
+def test_a_loss_that_no_engine_may_overlook_is_one():
+    """An engine that can tell little does not make a coin that loses steadily one that goes on for ever."""
+    case, looks, unit = scenario(coin=ZLOTY), no_looks(), (ZLOTY["radius"] / G) ** 0.5
+    first_contact(case.body, looks, 0.0)
+    for k in range(7):
+        z = 4 * ZLOTY["radius"] * (1 - 0.05 * k)
+        assert not dies_away(
+            case.body, case.rules, z, STILL, UP, STILL, 8e-5, 64 * 2**k * unit * 1.001, looks
+        )

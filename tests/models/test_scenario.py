@@ -7,7 +7,7 @@ import pytest
 
 from models.laws import ContactLaw, EndingTest
 from models.reading import ScenarioError, load, named_scenarios, parse
-from models.scenario import Scenario
+from models.scenario import MOST_IMPACTS, MOST_LOSSLESS, Scenario
 from tests.draws import scenario
 
 GOOD = """
@@ -48,6 +48,23 @@ def test_what_is_left_out_has_its_documented_default():
     assert read.release.velocity == (0, 0, 0)
     assert read.coin.center_of_mass == (0, 0, 0)
     assert read.ending.max_time == 1_000_000
+
+
+@pytest.mark.parametrize(
+    ("floor", "lossless"),
+    [
+        ({"contact": "smooth", "restitution": 0.99}, False),
+        ({"contact": "smooth", "restitution": 1.0}, True),
+        ({"contact": "coulomb", "restitution": 0.7}, False),
+        ({"contact": "coulomb", "restitution": 0.71}, True),
+        ({"contact": "coulomb", "restitution": 0.95, "restitution_kind": "energetic"}, False),
+        ({"contact": "perfectly_rough", "restitution": 0.5}, False),
+        ({"contact": "knurled", "restitution": 0.2}, True),
+    ],
+)
+def test_a_toss_has_patience_where_impacts_take_energy(floor, lossless):
+    assert scenario(floor=floor).rules.max_impacts == (MOST_LOSSLESS if lossless else MOST_IMPACTS)
+    assert scenario(floor=floor, ending={"max_impacts": 7}).rules.max_impacts == 7
 
 
 def test_the_unit_of_lambda_follows_the_exponent():
