@@ -229,25 +229,16 @@ def _bracket_end(body, mu, motion, side, y, longest, stages, y_new):
 
     By Chandrupatla's method (Adv. Eng. Softw. 28 (1997) 145).
 
-    Args:
-        body: the coin.
-        mu: coefficient of friction μ.
-        motion: `Motion` in contact.
-        side: of the rim that is in contact.
-        y: state at the start, (13,).
-        longest: length of the step, at whose end the contact is over [s].
-        stages: work space, (12, 13); its first row holds the rate of change of y.
-        y_new: where states are tried, (13,).
+    Args as `contact_step`'s, where at the end y_new of the step, `longest` [s], the contact is over.
 
     Returns:
         A length of the step at whose end the contact goes on, and one at which it does not [s].
     """
-    low, high = 0.0, longest
+    low, high, tolerance = 0.0, longest, longest * 0.5**_HALVINGS
     old, old_value = low, margin(body, mu, motion, side, y)
     if not old_value > 0:
-        return low, longest * 0.5**_HALVINGS
-    new, new_value = high, margin(body, mu, motion, side, y_new)
-    share, tolerance = 0.5, longest * 0.5**_HALVINGS
+        return low, tolerance
+    new, new_value, share = high, margin(body, mu, motion, side, y_new), 0.5
     for _ in range(_MOST_TRIES):
         tried = new + share * (old - new)
         contact_step(body, mu, motion, side, y, tried, stages, y_new)

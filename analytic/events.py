@@ -157,7 +157,7 @@ def fly_and_hit(body, rules, y, rows, keep_all):
                     motion = next_motion(body, mu, motion, y)
                     first_contact(body, looks, time)
                     steps_left -= 1
-                    if steps_left <= 0:
+                    if ending == Ending.NONE and steps_left <= 0:
                         ending = Ending.CHATTER
             else:
                 if keep_all:
