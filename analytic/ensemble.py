@@ -3,7 +3,7 @@
 import numpy as np
 
 from analytic.events import fly_and_hit
-from models.compiled import compiled
+from models.kernel.compiled import compiled
 from models.outcomes import Outcomes
 from models.records import IMPACT_ROW
 from models.releases import Releases, check_releases

@@ -5,23 +5,23 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.contact import Verdict, friction_in_contact, keeps_contact, next_motion, stay
-from analytic.edge import held_on_edge, on_edge, stands
-from analytic.flight import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
-from analytic.floor_force import Motion, side_of
-from analytic.flying import fly
-from analytic.impact import impulse, spin_gained
-from analytic.rim import closing_speed, crowded
-from analytic.upright import put_upright, rim_forces, start_creep
+from analytic.contact.contact import Verdict, friction_in_contact, keeps_contact, next_motion, stay
+from analytic.contact.edge import held_on_edge, on_edge, stands
+from analytic.contact.floor_force import Motion, side_of
+from analytic.contact.upright import put_upright, rim_forces, start_creep
+from analytic.flight.equations_of_motion import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
+from analytic.flight.flying import fly
+from analytic.flight.touch_search import closing_speed, crowded
+from analytic.impact.laws import impulse, spin_gained
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
-from models.compiled import compiled
 from models.ending import judge
 from models.geometry import contact_velocity, lowest_point
 from models.impact_row import FIRST_ROOM, with_room, write_impact
+from models.kernel.compiled import compiled
+from models.kernel.vectors import add, apply, scale, subtract
 from models.perpetual import dies_away, first_contact, no_looks
 from models.records import IMPACT_ROW, Array, Ending, Outcome
-from models.vectors import add, apply, scale, subtract
 
 # The most steps and changes of a toss in contact.
 CONTACT_STEPS = 50_000_000

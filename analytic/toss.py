@@ -5,12 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.contact import friction_in_contact, sample_contact
+from analytic.contact.contact import friction_in_contact, sample_contact
+from analytic.contact.floor_force import Motion
 from analytic.events import Run, run
-from analytic.flight import STATE_SIZE, TOLERANCE
-from analytic.floor_force import Motion
-from analytic.flying import sample
-from analytic.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
+from analytic.flight.equations_of_motion import STATE_SIZE, TOLERANCE
+from analytic.flight.flying import sample
+from analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
 from models.attitude import rotation_matrix
 from models.body import Body, in_vacuum, is_ideal
 from models.ending import barrier, energy

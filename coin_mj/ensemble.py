@@ -5,13 +5,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from coin_mj.air_callback import air_of
-from coin_mj.contact import ContactSettings, Friction, Realisation
 from coin_mj.events import toss_coin
-from coin_mj.machine import machine_of, put_at
-from coin_mj.scene import shape_thickness
+from coin_mj.model.air_callback import air_of
+from coin_mj.model.machine import machine_of, put_at
+from coin_mj.model.scene import shape_thickness
+from coin_mj.model.settings import ContactSettings, Friction, Realisation
 from coin_mj.toss import require_supported, warn_of_approximation
-from models.compiled import compiled
+from models.kernel.compiled import compiled
 from models.outcomes import Outcomes
 from models.records import IMPACT_ROW
 from models.releases import Releases, check_releases

@@ -2,15 +2,15 @@
 
 import numpy as np
 
-from coin_mj.glide import glide
-from coin_mj.impact import TOUCH_STEP, Pressed, press
-from coin_mj.machine import keep, knot_of, look, state_of
-from coin_mj.rest import NO_LOSS, Left, rest, slow_speed
+from coin_mj.model.machine import keep, knot_of, look, state_of
+from coin_mj.steps.free_step import glide
+from coin_mj.steps.impact_step import TOUCH_STEP, Pressed, press
+from coin_mj.steps.sustained_contact import NO_LOSS, Left, rest, slow_speed
 from models.attitude import rotation_matrix
-from models.compiled import compiled
 from models.ending import judge
 from models.geometry import contact_velocity, lowest_point
 from models.impact_row import with_room, write_impact
+from models.kernel.compiled import compiled
 from models.perpetual import dies_away, first_contact, no_looks
 from models.records import Ending, Outcome
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from coin_mj.air_callback import air_of
-from coin_mj.glide import glide
-from coin_mj.machine import Machine, set_motion, state_of
+from coin_mj.model.air_callback import air_of
+from coin_mj.model.machine import Machine, set_motion, state_of
+from coin_mj.steps.free_step import glide
 from models.records import Array, States
 
 TIME, PRESSED, MOTION = 0, 1, slice(2, 15)

@@ -9,12 +9,12 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from coin_mj.air_callback import air_of
-from coin_mj.contact import ROUGH, ContactSettings, Friction, Realisation
 from coin_mj.events import toss_coin
-from coin_mj.machine import Machine, machine_of
+from coin_mj.model.air_callback import air_of
+from coin_mj.model.machine import Machine, machine_of
+from coin_mj.model.scene import shape_thickness
+from coin_mj.model.settings import ROUGH, ContactSettings, Friction, Realisation
 from coin_mj.path import Knots
-from coin_mj.scene import shape_thickness
 from models.body import Rules
 from models.impact_row import FIRST_ROOM
 from models.laws import ContactLaw, RestitutionKind

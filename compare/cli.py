@@ -93,8 +93,8 @@ def main() -> None:
 @contextmanager
 def _plain_errors(source: str) -> Iterator[None]:
     """Turn the errors of bad input into one line and exit status 2, and warnings into one line each."""
-    from compare.files import UnwritableError
-    from compare.graphics import BackEndError
+    from compare.film.back_end import BackEndError
+    from compare.output.files import UnwritableError
     from compare.sweep.fields import SweepError
     from models.reading import ScenarioError
     from models.records import ApproximationWarning, UnsupportedError
@@ -167,11 +167,11 @@ def toss(
     if contact is not None and engine != "mujoco":
         raise click.UsageError(f"--contact {contact}: accepted: only beside --engine mujoco")
     with _plain_errors(scenario):
-        from compare import answer
         from compare.engines import Engine
         from compare.engines import toss as toss_by
-        from compare.files import is_stream, require_file, write_text
-        from compare.graphics import require_mujoco
+        from compare.film.back_end import require_mujoco
+        from compare.output import answer
+        from compare.output.files import is_stream, require_file, write_text
         from models.reading import load
 
         described = load(scenario)
@@ -208,7 +208,7 @@ def compare(scenario: str, out: Path) -> None:
         described = parse(text, scenario)
         require_folder(out, scenario)
 
-        from compare.graphics import drawing_problem
+        from compare.film.back_end import drawing_problem
 
         problem = drawing_problem()
 
@@ -238,22 +238,22 @@ def compare(scenario: str, out: Path) -> None:
 def video(scenario: str, out: Path, engine: str, camera: str) -> None:
     """Film one toss, drawn by MuJoCo, in slow motion around the impacts."""
     with _plain_errors(scenario):
-        from compare.files import require_file, written_whole
+        from compare.output.files import require_file, written_whole
         from models.reading import load
 
         described = load(scenario)
         require_file(out, ".mp4", scenario)
 
-        from compare.graphics import drawing_problem
+        from compare.film.back_end import drawing_problem
 
         problem = drawing_problem()
         if problem is not None:
             _refuse(problem)
 
-        from coin_mj.drawing import Camera
-        from coin_mj.video import FULL, write_video
         from compare.engines import Engine
         from compare.engines import toss as toss_by
+        from compare.film.drawing import Camera
+        from compare.film.video import FULL, write_video
 
         engines = list(Engine) if engine == "both" else [Engine(engine)]
         tosses = [toss_by(each, described) for each in engines]
@@ -375,13 +375,13 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
     NAME may be `all`: all figures of the paper, with REPRODUCTION.md and gallery.html over them. Without
     NAME, list what can be reproduced. Exit status 1: a claim does not come out as it is known to.
     """
-    from compare import gallery, reproduction
-    from compare.files import require_folder
-    from compare.graphics import require_mujoco
+    from compare.film.back_end import require_mujoco
+    from compare.output.files import require_folder
+    from compare.reproduction import gallery, runner
 
     with _plain_errors("reproduce"):
         require_mujoco()
-    known = reproduction.names()
+    known = runner.names()
     pages = names == ("all",)
     if pages:
         names = tuple(gallery.of_paper())
@@ -391,7 +391,7 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
     if not names and out is None:
         width = max(map(len, known)) + 2
         for name in known:
-            figure = reproduction.find(name)
+            figure = runner.find(name)
             place = f"{figure.paper}: " if figure.paper else ""
             click.echo(f"{name:{width}}{place}{figure.title} ({figure.seconds:g} s)")
         return
@@ -402,10 +402,10 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
     with _plain_errors(str(out)):
         require_folder(out, gallery.PAGES if pages else ())
         for name in names:
-            reproduction.folder_of(name, out)
+            runner.folder_of(name, out)
         failed = []
         for name in names:
-            made = reproduction.reproduce(name, out, _progress(name, "parts"), quick=quick)
+            made = runner.reproduce(name, out, _progress(name, "parts"), quick=quick)
             click.echo(made.text)
             failed += [f"{name}: {claim}" for claim in made.failed]
         if pages:

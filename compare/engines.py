@@ -84,7 +84,7 @@ def settings(engine: Engine, contact: str = "spring") -> dict[str, str | float]:
         contact: how MuJoCo realises the restitution, "spring" or "one_step".
     """
     if engine is Engine.ANALYTIC:
-        from analytic.flight import TOLERANCE
+        from analytic.flight.equations_of_motion import TOLERANCE
 
         return {"tolerance": TOLERANCE}
     from coin_mj import MANY, Realisation

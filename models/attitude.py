@@ -2,8 +2,8 @@
 
 import math
 
-from models.compiled import compiled
-from models.vectors import Vector
+from models.kernel.compiled import compiled
+from models.kernel.vectors import Vector
 
 Quaternion = tuple[float, float, float, float]
 

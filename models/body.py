@@ -2,10 +2,10 @@
 
 from typing import NamedTuple
 
-from models.compiled import compiled
 from models.drag import Drag
+from models.kernel.compiled import compiled
+from models.kernel.vectors import Matrix, Vector
 from models.laws import ContactLaw, EndingTest, RestitutionKind
-from models.vectors import Matrix, Vector
 
 
 class AirLaw(NamedTuple):

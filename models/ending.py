@@ -3,11 +3,11 @@
 import math
 
 from models.body import in_vacuum, is_ideal
-from models.compiled import compiled
 from models.geometry import drag_bound
+from models.kernel.compiled import compiled
+from models.kernel.vectors import apply, dot, norm
 from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.records import Ending, Face, Outcome
-from models.vectors import apply, dot, norm
 
 TILTS_TRIED = 128
 # A bound times it stays a bound whatever rounding does.

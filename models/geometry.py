@@ -3,8 +3,8 @@
 import math
 from typing import NamedTuple
 
-from models.compiled import compiled
-from models.vectors import add, cross, dot, norm
+from models.kernel.compiled import compiled
+from models.kernel.vectors import add, cross, dot, norm
 
 # Below this sine of the tilt a face counts as flat: its whole rim is at one height within rounding.
 FLAT_SINE = 1e-14

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from models.compiled import compiled
 from models.ending import energy, face_up
+from models.kernel.compiled import compiled
 from models.records import IMPACT_ROW
 
 FIRST_ROOM = 64

@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from models.body import in_vacuum
-from models.compiled import compiled
 from models.ending import barrier, energy, spin_barrier
+from models.kernel.compiled import compiled
 from models.laws import ContactLaw
 
 # The energy of a toss in contact is looked at after so many √(r/g), and whenever that time has doubled.

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from models.attitude import rotation_matrix
-from models.compiled import compiled
 from models.geometry import damping_rate, gap
+from models.kernel.compiled import compiled
 from models.records import Array
 from models.scenario import FASTEST_DRAG, FASTEST_SPIN, LARGEST, NORM_ROUNDING, Scenario
 

@@ -26,9 +26,9 @@ from models.inertia import (
     is_positive_definite,
     obeys_triangle_inequality,
 )
+from models.kernel.vectors import Matrix, Vector
 from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.units import in_si
-from models.vectors import Matrix, Vector
 
 
 def _named(kind: type[ContactLaw | EndingTest | RestitutionKind]) -> Callable[[Any], Any]:

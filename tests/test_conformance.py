@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from compare.engines import Engine, toss
-from compare.trajectories import attitude_angle, distance
+from compare.metrics.trajectories import attitude_angle, distance
 from models.records import Ending, Outcome
 from models.scenario import Air
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario

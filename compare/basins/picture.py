@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from compare.basins.boundary import boundary_pixels
 from compare.basins.maps import Outcomes, outcome_map
-from compare.files import written_whole
+from compare.output.files import written_whole
 from models.records import Outcome
 
 PANEL_SIZE = (5.0, 4.5)

@@ -3,8 +3,8 @@
 import json
 from pathlib import Path
 
-from compare import files
-from compare.files import UnwritableError
+from compare.output import files
+from compare.output.files import UnwritableError
 
 FILES = ("report.html", "toss.mp4", "numbers.json", "path-analytic.csv", "path-mujoco.csv")
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from compare import answer
-from compare.comparison import Comparison, compare
-from compare.files import written_together
+from compare.metrics.comparison import Comparison, compare
+from compare.output import answer
+from compare.output.files import written_together
 from compare.report import plots
 from compare.report.contents import FILES
 from compare.report.map_section import MapSection
@@ -62,8 +62,8 @@ def write_report(
 
         video = None
         if comparison and no_video is None:
-            from coin_mj.drawing import Camera
-            from coin_mj.video import SMALL, write_video
+            from compare.film.drawing import Camera
+            from compare.film.video import SMALL, write_video
 
             write_video(tosses, Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress)
             video = (aside / "toss.mp4").read_bytes()

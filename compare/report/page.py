@@ -10,10 +10,10 @@ import jinja2
 import numpy as np
 from pydantic import BaseModel
 
-from compare.answer import MOST_SHOWN, shortened
-from compare.comparison import Comparison
+from compare.metrics.comparison import Comparison
+from compare.metrics.sequences import SAFETY, aligned
+from compare.output.answer import MOST_SHOWN, shortened
 from compare.report.map_section import MapSection
-from compare.sequences import SAFETY, aligned
 from models.laws import ContactLaw, EndingTest
 from models.records import Face, Toss
 from models.scenario import Scenario

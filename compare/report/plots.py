@@ -8,9 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
-from compare.comparison import PARTED, Comparison
-from compare.plot_style import STYLE
-from compare.trajectories import tilt
+from compare.metrics.comparison import PARTED, Comparison
+from compare.metrics.trajectories import tilt
+from compare.output.style import STYLE
 from models.ending import barrier
 from models.records import Array, States, Toss
 from models.scenario import Scenario

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from compare.engines import Engine
-from compare.files import UnwritableError, require_file
-from compare.graphics import drawing_problem, require_mujoco
+from compare.film.back_end import drawing_problem, require_mujoco
+from compare.output.files import UnwritableError, require_file
 from compare.report.contents import require_folder
 from compare.sweep import run, show, store
 from compare.sweep.axes import parse_axis

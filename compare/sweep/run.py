@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from compare.files import UnwritableError
+from compare.output.files import UnwritableError
 from compare.sweep.fields import SweepError
 from compare.sweep.grid import Sweep, Tile
 from compare.sweep.pixels import Pixels, toss_pixels

@@ -20,7 +20,7 @@ from zarr.codecs import ZstdCodec
 from zarr.errors import ZarrUserWarning
 
 from compare.engines import settings, versions
-from compare.files import UnwritableError, naming
+from compare.output.files import UnwritableError, naming
 from compare.sweep.axes import Axis
 from compare.sweep.grid import Sweep, Tile, tile_shape, tiles
 from compare.sweep.pixels import Pixels

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from analytic.air import change_about_B, force_and_moment, force_and_moment_change
-from analytic.quadrature import CHANGE_NODES, FORCE_NODES, nodes_of
+from analytic.air.force import change_about_B, force_and_moment, force_and_moment_change
+from analytic.air.quadrature import CHANGE_NODES, FORCE_NODES, nodes_of
 from tests.draws import AIR, ZLOTY, scenario
 from tests.referee import air_by_cubature
 

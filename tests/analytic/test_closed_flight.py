@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from analytic.closed_flight import fly_closed, sample_closed
 from analytic.events import run
-from analytic.flight import sample_flight
-from analytic.flying import fly_with_graze, sample
-from analytic.rim import closing_speed, fly_by_steps
+from analytic.flight.closed_flight import fly_closed, sample_closed
+from analytic.flight.equations_of_motion import sample_flight
+from analytic.flight.flying import fly_with_graze, sample
+from analytic.flight.touch_search import closing_speed, fly_by_steps
+from analytic.flight.turning import turns_in_closed_form
 from analytic.toss import state_of
-from analytic.turning import turns_in_closed_form
 from models.records import Ending
 from models.scenario import Scenario
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from analytic.contact import Verdict, margin, next_motion, put_on_floor, sample_contact, stay
-from analytic.edge import held_on_edge, stands
-from analytic.flight import derivative
-from analytic.floor_force import (
+from analytic.contact.contact import Verdict, margin, next_motion, put_on_floor, sample_contact, stay
+from analytic.contact.edge import held_on_edge, stands
+from analytic.contact.floor_force import (
     Motion,
     contact,
     direction_of,
@@ -17,6 +16,7 @@ from analytic.floor_force import (
     side_of,
     slip_direction,
 )
+from analytic.flight.equations_of_motion import derivative
 from models.attitude import quaternion_from_angles, rotation_matrix
 from models.ending import energy
 from models.geometry import contact_velocity, gap, lowest_point

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from analytic.coulomb import coulomb, friction_without_slip
-from analytic.coulomb_tangent import coulomb_change, friction_change
-from analytic.impact import mobility, perfectly_rough, sliding_friction, smooth
+from analytic.horizon.coulomb_tangent import coulomb_change, friction_change
+from analytic.impact.coulomb import coulomb, friction_without_slip
+from analytic.impact.laws import mobility, perfectly_rough, sliding_friction, smooth
 from models.attitude import rotation_matrix
 from models.geometry import lowest_point
 from models.laws import RestitutionKind

@@ -1,16 +1,16 @@
 """The motion that is integrated obeys every equation of motion that the paper prints, or its correction.
 
-Numbers: a random state of a coin, with the rates that `analytic.flight` gives it. Symbols: the printed scalar
-equations against the vector form (22), for every state at once.
+Numbers: a random state of a coin, with the rates that `equations_of_motion` gives it. Symbols: the
+printed scalar equations against the vector form (22), for every state at once.
 """
 
 import numpy as np
 import pytest
 import sympy
 
-from analytic.air import force_and_moment
-from analytic.flight import derivative
-from analytic.rotation import quaternion_rate
+from analytic.air.force import force_and_moment
+from analytic.flight.equations_of_motion import derivative
+from analytic.numerics.rotation import quaternion_rate
 from models.attitude import rotation_matrix
 from tests import printed_equations as printed
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_quaternion, scenario

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import analytic
-from analytic.euler_angles import axis_rotation
-from analytic.flight import derivative
-from analytic.flight_tangent import flight_tangent
+from analytic.flight.equations_of_motion import derivative
+from analytic.horizon.flight_tangent import flight_tangent
+from analytic.numerics.euler_angles import axis_rotation
 from analytic.toss import state_of
 from models.ending import barrier
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, scenario

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.optimize import root_scalar
 from scipy.spatial.transform import Rotation
 
-from analytic.euler_angles import (
+from analytic.numerics.euler_angles import (
     Sequence,
     Singularity,
     angles_of,

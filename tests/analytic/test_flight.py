@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 import analytic
-from analytic.flight import STATE_SIZE, derivative, step
-from analytic.rim import gap_acceleration
-from analytic.runge_kutta import STAGES, combined_error
+from analytic.flight.equations_of_motion import STATE_SIZE, derivative, step
+from analytic.flight.touch_search import gap_acceleration
+from analytic.numerics.runge_kutta import STAGES, combined_error
 from analytic.toss import state_of
-from compare.trajectories import attitude_angle
+from compare.metrics.trajectories import attitude_angle
 from models.attitude import rotation_matrix
 from models.geometry import gap
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario

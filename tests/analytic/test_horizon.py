@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import analytic
-from analytic import horizon
 from analytic.events import Run, run
-from analytic.horizon import IMPULSE_ERROR, TIME_ERROR, trusted_impacts
+from analytic.horizon import horizon
+from analytic.horizon.horizon import IMPULSE_ERROR, TIME_ERROR, trusted_impacts
 from analytic.toss import state_of
 from models.records import Impacts
 from models.scenario import Scenario

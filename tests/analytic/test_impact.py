@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analytic.events import hit
-from analytic.impact import mobility, sliding_friction
+from analytic.impact.laws import mobility, sliding_friction
 from models.attitude import rotation_matrix
 from models.ending import energy
 from models.geometry import contact_velocity, lowest_point

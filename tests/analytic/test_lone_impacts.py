@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analytic.events import hit
-from analytic.lone_impacts import strike
+from analytic.single_impacts import strike
 from models.laws import ContactLaw
 from models.records import IMPACT_ROW
 from tests.analytic.test_impact import draw_impact

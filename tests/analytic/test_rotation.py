@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from analytic.rotation import (
+from analytic.numerics.rotation import (
     axis_and_angle,
     body_spin,
     body_spin_rate,

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from analytic.events import run
-from analytic.flight import sample_flight
-from analytic.flight_tangent import flight_tangent
-from analytic.sensitivity import event_tangent
+from analytic.flight.equations_of_motion import sample_flight
+from analytic.horizon.flight_tangent import flight_tangent
+from analytic.horizon.sensitivity import event_tangent
 from analytic.toss import state_of
 from models.laws import ContactLaw
 from models.scenario import Scenario

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from analytic.contact import Verdict, next_motion, stay
-from analytic.edge import rolls, stands
+from analytic.contact.contact import Verdict, next_motion, stay
+from analytic.contact.edge import rolls, stands
+from analytic.contact.floor_force import SLOW, Motion, contact
+from analytic.contact.upright import put_upright, rim_forces, start_creep
 from analytic.events import run
-from analytic.flight import derivative
-from analytic.floor_force import SLOW, Motion, contact
+from analytic.flight.equations_of_motion import derivative
 from analytic.toss import state_of
-from analytic.upright import put_upright, rim_forces, start_creep
-from compare.figures.endings import draw_toss
+from compare.reproduction.studies.endings import draw_toss
 from models.attitude import quaternion_from_angles, rotation_matrix
 from models.ending import energy
 from models.geometry import gap

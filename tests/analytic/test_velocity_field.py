@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analytic.velocity_field import velocity_fields
+from analytic.air.velocity_field import velocity_fields
 from models.attitude import rotation_matrix
 from tests.draws import PAPER_OFFSET, draw_quaternion, scenario
 

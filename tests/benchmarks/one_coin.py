@@ -11,8 +11,8 @@ import numba
 import numpy as np
 
 from analytic.events import decided, hit
-from analytic.flight import STATE_SIZE, derivative
-from analytic.rim import closing_speed
+from analytic.flight.equations_of_motion import STATE_SIZE, derivative
+from analytic.flight.touch_search import closing_speed
 from models.records import IMPACT_ROW, Array, Ending
 from models.scenario import Scenario
 
@@ -21,7 +21,7 @@ LIFT = 1e-16
 
 
 class OneCoin(NamedTuple):
-    """The mechanics of a scenario's coin; a state y is that of `analytic.flight`, (13,)."""
+    """The mechanics of a scenario's coin; a state y, (13,), is that of its flight."""
 
     rate: Callable[[float, Array], Array]
     """Of (t, y): the rate of change of y in flight."""

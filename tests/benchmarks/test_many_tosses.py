@@ -15,7 +15,7 @@ from numba import config
 
 import analytic
 from analytic.events import run
-from analytic.flying import fly
+from analytic.flight.flying import fly
 from analytic.toss import state_of
 from models.releases import Releases
 from models.scenario import Scenario

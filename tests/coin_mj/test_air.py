@@ -10,12 +10,12 @@ import mujoco
 import numpy as np
 import pytest
 
-import analytic.air
-from coin_mj.air import air_force
-from coin_mj.air_callback import air_of
-from coin_mj.contact import ContactSettings
-from coin_mj.machine import advance, forward, machine_of
-from coin_mj.scene import shape_thickness
+import analytic.air.force
+from coin_mj.model.air import air_force
+from coin_mj.model.air_callback import air_of
+from coin_mj.model.machine import advance, forward, machine_of
+from coin_mj.model.scene import shape_thickness
+from coin_mj.model.settings import ContactSettings
 from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 R, H = ZLOTY["radius"], ZLOTY["thickness"]
@@ -31,7 +31,7 @@ def by_both(b, h, v, w):
     body = scenario(coin={"thickness": h}, air={**AIR, "exponent": b}).body
     pairs = (
         air_force(R, h, LN, LT, b, vector(v), vector(w)),
-        analytic.air.force_and_moment(body, vector(v), vector(w)),
+        analytic.air.force.force_and_moment(body, vector(v), vector(w)),
     )
     speed = np.linalg.norm(v) + R * np.linalg.norm(w)
     size = (LN + LT) * speed ** (1 + b) * np.pi * R**2 * (1 + h / R)

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from coin_mj.contact import ContactSettings, Realisation, damping_ratio_of, rebound_of, restitution_of
+from coin_mj.model.settings import ContactSettings, Realisation, damping_ratio_of, rebound_of, restitution_of
 
 
 @pytest.mark.parametrize("zeta", [0.0, 0.05, 0.3, 0.99, 1.0, 1.01, 2.0, 5.0])

@@ -10,8 +10,8 @@ from numba import config
 import coin_mj
 from coin_mj import MANY, Friction, Realisation
 from coin_mj.ensemble import TILE
-from coin_mj.machine import machine_of
-from coin_mj.scene import shape_thickness
+from coin_mj.model.machine import machine_of
+from coin_mj.model.scene import shape_thickness
 from coin_mj.toss import run
 from models.outcomes import Outcomes
 from models.records import ApproximationWarning, Ending, UnsupportedError

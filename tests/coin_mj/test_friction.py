@@ -5,8 +5,8 @@ import pytest
 
 import analytic
 from coin_mj import ContactSettings, Friction, Realisation, impacts_of, toss
-from coin_mj.friction import coulomb_force
-from compare.impulses import match
+from coin_mj.steps.friction import coulomb_force
+from compare.metrics.impulses import match
 from models.records import ApproximationWarning, Ending, Flag
 from tests.draws import ZLOTY, draw_coin, draw_release, scenario
 

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import analytic
-from coin_mj.contact import ContactSettings
-from coin_mj.machine import forward, machine_of, set_motion
+from coin_mj.model.machine import forward, machine_of, set_motion
+from coin_mj.model.scene import shape_thickness
+from coin_mj.model.settings import ContactSettings
 from coin_mj.path import MOTION, PRESSED, TIME
-from coin_mj.scene import shape_thickness
 from coin_mj.toss import impacts_of, run, toss
-from compare.impulses import match
+from compare.metrics.impulses import match
 from models.records import UnsupportedError
 from tests.draws import AIR, ZLOTY, draw_coin, draw_release, scenario
 

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 import coin_mj
-from coin_mj.contact import ContactSettings
-from coin_mj.machine import machine_of
+from coin_mj.model.machine import machine_of
+from coin_mj.model.scene import shape_thickness
+from coin_mj.model.settings import ContactSettings
+from coin_mj.model.state import to_mass_center
 from coin_mj.path import MOTION, PRESSED, TIME
-from coin_mj.scene import shape_thickness
-from coin_mj.state import to_mass_center
 from coin_mj.toss import run
-from compare.figures.endings import probability
+from compare.reproduction.studies.endings import probability
 from models.attitude import quaternion_from_angles, rotation_matrix
 from models.ending import energy
 from models.geometry import contact_velocity, gap, lowest_point

@@ -15,12 +15,12 @@ import mujoco
 import numpy as np
 import pytest
 
-from coin_mj.captions import caption_of, written
-from coin_mj.drawing import LONGEST_FAR, LONGEST_NEAR, MARGIN, Box, Camera, Drawer, box_of
-from coin_mj.painted import build_painted
-from coin_mj.play import SHOWN_FOR, WEAKEST, floor_forces, play_of
-from coin_mj.slow_motion import FAST, LONGEST, SLOW, SLOW_FOR, WEAK, film_times
-from coin_mj.video import HELD, Format, frame_count, frames, write_video
+from compare.film.captions import caption_of, written
+from compare.film.drawing import LONGEST_FAR, LONGEST_NEAR, MARGIN, Box, Camera, Drawer, box_of
+from compare.film.play import SHOWN_FOR, WEAKEST, floor_forces, play_of
+from compare.film.slow_motion import FAST, LONGEST, SLOW, SLOW_FOR, WEAK, film_times
+from compare.film.video import HELD, Format, frame_count, frames, write_video
+from compare.film.visual_model import build_painted
 from models.drag import linear_drag
 from models.records import IMPACT_ROW, Array, Ending, Face, Impacts, Outcome, States, Toss
 from tests.draws import AIR, ZLOTY, scenario

@@ -18,7 +18,7 @@ import xarray as xr
 from zarr.storage import LocalStore
 
 from compare.engines import Engine
-from compare.files import UnwritableError
+from compare.output.files import UnwritableError
 from compare.sweep import grid, run
 from compare.sweep.axes import parse_axis
 from compare.sweep.grid import Sweep

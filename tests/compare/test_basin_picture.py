@@ -6,7 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
 from compare.basins.picture import Axis, Palette, draw_comparison, draw_map, write_png
-from compare.files import UnwritableError
+from compare.output.files import UnwritableError
 from models.records import Outcome
 from tests.made_maps import EDGE, HEADS, TAILS, UNDECIDED, halves, stripes
 

@@ -14,9 +14,9 @@ import pytest
 import xarray as xr
 from PIL import Image
 
-from compare.comparison import Comparison, compare
 from compare.engines import Engine
-from compare.graphics import ADVICE
+from compare.film.back_end import ADVICE
+from compare.metrics.comparison import Comparison, compare
 from compare.report.contents import require_folder
 from compare.report.folder import write_report
 from compare.sweep import job, show

@@ -17,11 +17,11 @@ import imageio_ffmpeg
 import pytest
 from click.testing import CliRunner
 
-from coin_mj.drawing import Drawer
-from coin_mj.video import Format
 from compare.cli import _progress, main
-from compare.files import UnwritableError, require_file, write_text
-from compare.graphics import drawing_problem
+from compare.film.back_end import drawing_problem
+from compare.film.drawing import Drawer
+from compare.film.video import Format
+from compare.output.files import UnwritableError, require_file, write_text
 from models.reading import scenario_text
 
 WRONG = {
@@ -334,7 +334,7 @@ def test_a_film_that_is_interrupted_leaves_nothing(tmp_path, sign, status):
 @pytest.fixture
 def small_films(monkeypatch):
     """Films of the size of a stamp, of two frames a second."""
-    monkeypatch.setattr("coin_mj.video.FULL", Format(64, 48, 2))
+    monkeypatch.setattr("compare.film.video.FULL", Format(64, 48, 2))
 
 
 @pytest.fixture
@@ -351,7 +351,7 @@ def short(tmp_path):
 @pytest.mark.usefixtures("small_films")
 def test_a_film_has_one_panel_for_each_toss(tmp_path, short, engine, camera):
     film = tmp_path / "film.mp4"
-    with patch("coin_mj.video.Drawer", side_effect=Drawer) as drawers:
+    with patch("compare.film.video.Drawer", side_effect=Drawer) as drawers:
         answered = cointoss("video", short, "--engine", engine, "--camera", camera, "--out", film)
     assert answered.exit_code == 0
     assert answered.stdout == f"{film}\n"
@@ -368,7 +368,7 @@ def test_a_film_has_one_panel_for_each_toss(tmp_path, short, engine, camera):
 def test_an_interrupted_film_leaves_what_was_there(tmp_path, short):
     film = tmp_path / "film.mp4"
     film.write_text("an earlier film")
-    with patch("coin_mj.video.written", side_effect=KeyboardInterrupt):
+    with patch("compare.film.video.written", side_effect=KeyboardInterrupt):
         answered = cointoss("video", short, "--out", film)
     assert answered.exit_code == 1
     assert answered.stderr.strip() == "Aborted!"
@@ -421,7 +421,9 @@ def test_progress_is_a_bar_on_a_terminal_alone(monkeypatch):
 
 
 def test_a_film_that_cannot_be_written_is_one_line(tmp_path):
-    small = "import coin_mj.video as v; v.FULL = v.Format(320, 240, 6); from compare.cli import main; main()"
+    small = (
+        "import compare.film.video as v; v.FULL = v.Format(320, 240, 6); from compare.cli import main; main()"
+    )
     command = f'"{sys.executable}" -c "{small}" video fig24a --out film.mp4'
     done = in_a_shell(f"ulimit -f 8; {command}; echo $?", tmp_path)
     assert done.stdout == "2\n"

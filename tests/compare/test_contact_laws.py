@@ -5,16 +5,36 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from analytic.impact import mobility
-from compare import contact_study
-from compare.contact_study import COINS, LAWS, RESTITUTIONS, Drawn, body_of, record_of, rules_of
-from compare.contact_thresholds import onset_of_gain, onset_without_solution, touching_state
-from compare.figures import contact_laws
-from compare.figures.contact_laws import COUNT, SEED, check, from_json, kane_onset, sliding_onset, text
-from compare.random_impacts import draw_states
+from analytic.impact.laws import mobility
+from compare.reproduction.setups import contact_study
+from compare.reproduction.setups.contact_study import (
+    COINS,
+    LAWS,
+    RESTITUTIONS,
+    Drawn,
+    body_of,
+    record_of,
+    rules_of,
+)
+from compare.reproduction.setups.contact_thresholds import (
+    onset_of_gain,
+    onset_without_solution,
+    touching_state,
+)
+from compare.reproduction.setups.random_impacts import draw_states
+from compare.reproduction.studies import contact_laws
+from compare.reproduction.studies.contact_laws import (
+    COUNT,
+    SEED,
+    check,
+    from_json,
+    kane_onset,
+    sliding_onset,
+    text,
+)
 from models.attitude import rotation_matrix
 from models.geometry import lowest_point
-from models.vectors import apply
+from models.kernel.vectors import apply
 from tests.compare.pages import DOCS, pictures, printed, saved_numbers
 
 SAVED = from_json(saved_numbers("contact-laws"))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import analytic
-from compare.figures.endings import (
+from compare.reproduction.studies.endings import (
     BY_BOTH,
     COINS,
     COUNT,

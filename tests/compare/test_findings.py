@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure as Picture
 
-from compare import gallery, reproduction
-from compare.findings import FILES, Finding, Result, failed, paper_figure, read_findings, table
+from compare.reproduction import gallery, runner
+from compare.reproduction.findings import FILES, Finding, Result, failed, paper_figure, read_findings, table
 
 
 def unseen(done: int, whole: int) -> None:
@@ -63,12 +63,12 @@ def test_a_claim_that_does_not_come_out_as_known_fails(holds):
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(name, marks=pytest.mark.slow if reproduction.find(name).quick_seconds >= 10 else ())
+        pytest.param(name, marks=pytest.mark.slow if runner.find(name).quick_seconds >= 10 else ())
         for name in gallery.of_paper()
     ],
 )
 def test_the_papers_claims_come_out_as_known(name, tmp_path):
-    quick = reproduction.find(name).quick
+    quick = runner.find(name).quick
     assert quick is not None
     made = quick(tmp_path, unseen)
     assert made.failed == ()

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure as Picture
 
-from compare import gallery, reproduction
-from compare.findings import Finding, Result, paper_figure, read_findings
+from compare.reproduction import gallery, runner
+from compare.reproduction.findings import Finding, Result, paper_figure, read_findings
 from tests.compare.pages import DOCS
 from tests.compare.test_cli import cointoss
 
 
 def test_figures_stand_in_the_papers_order():
-    places = [reproduction.find(name).paper for name in gallery.of_paper()]
+    places = [runner.find(name).paper for name in gallery.of_paper()]
     numbers = [int(re.findall(r"\d+", place)[0]) for place in places if place.startswith("Fig")]
     assert numbers == sorted(numbers)
     kinds = [place.split()[0].rstrip("s.") for place in places]
@@ -33,8 +33,8 @@ def made(tmp_path, monkeypatch):
         )
         for name, place, holds in (("second", "Fig. 10", False), ("first", "Fig. 9", True))
     }
-    monkeypatch.setattr(reproduction, "names", lambda: sorted(figures))
-    monkeypatch.setattr(reproduction, "find", figures.__getitem__)
+    monkeypatch.setattr(runner, "names", lambda: sorted(figures))
+    monkeypatch.setattr(runner, "find", figures.__getitem__)
     answered = cointoss("reproduce", "all", "--quick", "--out", tmp_path)
     assert answered.exit_code == 0
     return tmp_path

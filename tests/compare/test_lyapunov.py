@@ -5,7 +5,7 @@ import pytest
 
 from analytic.events import run
 from analytic.toss import state_of
-from compare.lyapunov import divergence, growth_by_tangent, mean_and_error
+from compare.metrics.lyapunov import divergence, growth_by_tangent, mean_and_error
 from tests.draws import scenario
 
 

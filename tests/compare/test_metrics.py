@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import analytic
-from compare.comparison import Comparison, compare
-from compare.impulses import errors_of_impacts, match
-from compare.sequences import agreement_horizon, aligned, common_prefix
-from compare.trajectories import attitude_angle, distance, parting_time, tilt
+from compare.metrics.comparison import Comparison, compare
+from compare.metrics.impulses import errors_of_impacts, match
+from compare.metrics.sequences import agreement_horizon, aligned, common_prefix
+from compare.metrics.trajectories import attitude_angle, distance, parting_time, tilt
 from models.records import IMPACT_ROW, Impacts, States
 from models.scenario import Scenario
 from tests.draws import AIR, ZLOTY, scenario

@@ -4,8 +4,8 @@ import json
 from dataclasses import asdict, replace
 from typing import Any
 
-from compare.figures.mujoco_many import Loop, Speed, Study, check, compute, text
-from compare.mujoco_study import Spread
+from compare.reproduction.setups.mujoco_study import Spread
+from compare.reproduction.studies.mujoco_many import Loop, Speed, Study, check, compute, text
 from tests.compare.pages import printed, saved_numbers
 
 

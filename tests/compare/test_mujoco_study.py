@@ -8,15 +8,20 @@ import numpy as np
 import pytest
 
 from coin_mj import ContactSettings, Realisation
-from compare.figures import mujoco_laws, mujoco_limit
-from compare.mujoco_fixed_steps import (
+from compare.reproduction.setups.mujoco_fixed_steps import (
     one_step_solref,
     restitutions_of_a_ball,
     restitutions_of_coins,
     spring_solref,
 )
-from compare.mujoco_impacts import by_law, draw_touches, first, on_floor, velocity_at_touch
-from compare.mujoco_study import (
+from compare.reproduction.setups.mujoco_impacts import (
+    by_law,
+    draw_touches,
+    first,
+    on_floor,
+    velocity_at_touch,
+)
+from compare.reproduction.setups.mujoco_study import (
     cone_formula,
     order,
     over_kinds,
@@ -25,6 +30,7 @@ from compare.mujoco_study import (
     own_cone,
     tilted_touch,
 )
+from compare.reproduction.studies import mujoco_laws, mujoco_limit
 from models.laws import ContactLaw
 
 

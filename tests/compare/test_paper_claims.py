@@ -4,10 +4,16 @@ import numpy as np
 import pytest
 
 from analytic.toss import toss
-from compare.figures import accuracy_and_stripes, air_in_a_fall, fair_landing, heads_in_a_ball, uniform_starts
-from compare.figures.fig30 import ACCURACIES, FINE, exponent
-from compare.hands import HEIGHTS, SPINS, releases_of_hands
-from compare.planar_maps import case, faces_after, releases, touched_faces
+from compare.reproduction.claims import (
+    accuracy_and_stripes,
+    air_in_a_fall,
+    fair_landing,
+    heads_in_a_ball,
+    uniform_starts,
+)
+from compare.reproduction.paper.fig30 import ACCURACIES, FINE, exponent
+from compare.reproduction.setups.hands import HEIGHTS, SPINS, releases_of_hands
+from compare.reproduction.setups.planar_maps import case, faces_after, releases, touched_faces
 from models.scenario import Release
 
 

@@ -11,10 +11,10 @@ from unittest.mock import patch
 import imageio_ffmpeg
 import pytest
 
-from coin_mj.video import SMALL, frame_count
-from compare.comparison import Comparison, compare
-from compare.files import UnwritableError
-from compare.graphics import ADVICE, UNKNOWN, drawing_problem
+from compare.film.back_end import ADVICE, UNKNOWN, drawing_problem
+from compare.film.video import SMALL, frame_count
+from compare.metrics.comparison import Comparison, compare
+from compare.output.files import UnwritableError
 from compare.report.contents import FILES, require_folder
 from compare.report.folder import write_report
 from compare.report.page import versions

@@ -5,11 +5,11 @@ import sys
 
 import pytest
 
-from compare import figures, reproduction
+from compare.reproduction import runner, studies
 from tests.compare.test_cli import cointoss
 
 FAKE = """
-from compare.reproduction import Figure, Made
+from compare.reproduction.runner import Figure, Made
 
 def run(folder, progress):
     (folder / "numbers.json").write_text("new")
@@ -31,10 +31,10 @@ def fakes(tmp_path, monkeypatch):
     folder.mkdir()
     for name, ending in ENDINGS.items():
         (folder / f"fake_{name}.py").write_text(FAKE.format(ending=ending))
-    monkeypatch.setattr(figures, "__path__", [*figures.__path__, str(folder)])
+    monkeypatch.setattr(studies, "__path__", [*studies.__path__, str(folder)])
     yield
     for name in ENDINGS:
-        sys.modules.pop(f"compare.figures.fake_{name}", None)
+        sys.modules.pop(f"{studies.__name__}.fake_{name}", None)
 
 
 @pytest.mark.usefixtures("fakes")
@@ -42,19 +42,20 @@ def test_without_a_name_it_lists_what_there_is():
     answered = cointoss("reproduce")
     assert answered.exit_code == 0
     lines = answered.stdout.splitlines()
-    assert [line.split()[0] for line in lines] == reproduction.names()
-    for line, name in zip(lines, reproduction.names(), strict=True):
-        figure = reproduction.find(name)
+    assert [line.split()[0] for line in lines] == runner.names()
+    for line, name in zip(lines, runner.names(), strict=True):
+        figure = runner.find(name)
         assert figure.title in line
         assert f"({figure.seconds:g} s)" in line
-    assert "contact-laws" in reproduction.names()
+    assert "contact-laws" in runner.names()
 
 
 def test_names_are_found_without_importing_what_they_name():
     script = (
-        "import sys\nfrom compare import reproduction\n"
-        "assert 'contact-laws' in reproduction.names()\n"
-        "print(sorted({'numba', 'numpy', 'matplotlib', 'compare.figures.contact_laws'} & set(sys.modules)))"
+        "import sys\nfrom compare.reproduction import runner\n"
+        "assert 'contact-laws' in runner.names()\n"
+        "heavy = {'numba', 'numpy', 'matplotlib', 'compare.reproduction.studies.contact_laws'}\n"
+        "print(sorted(heavy & set(sys.modules)))"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"

@@ -1,7 +1,7 @@
 """The study of what maps cost: its tables follow from its times, and it runs."""
 
-from compare.figures import scale
-from compare.figures.scale import Study, check_claims, text
+from compare.reproduction.studies import scale
+from compare.reproduction.studies.scale import Study, check_claims, text
 
 STUDY = Study(
     cores=2,

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from compare.figures import fig5
-from compare.graphics import UNKNOWN
-from compare.stills import stills
+from compare.film.back_end import UNKNOWN
+from compare.film.stills import stills
+from compare.reproduction.paper import fig5
 from models.records import States
 from tests.draws import scenario
 
@@ -40,7 +40,9 @@ def test_where_nothing_can_be_drawn_the_reason_is_told(monkeypatch):
 
 
 def test_a_child_that_dies_is_told_too(monkeypatch):
-    monkeypatch.setattr("compare.stills._CHILD", "import os, signal; os.kill(os.getpid(), signal.SIGKILL)")
+    monkeypatch.setattr(
+        "compare.film.stills._CHILD", "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"
+    )
     told = stills(scenario(), faces(HEADS))
     assert told == f"{UNKNOWN} (ended by signal 9)"
 

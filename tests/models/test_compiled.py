@@ -1,19 +1,19 @@
-"""The cache of machine code sees an edit in a function that another compiled function calls."""
+"""The cache of machine code notices an edit in a function that another compiled function calls."""
 
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
-import models.compiled
-from models.compiled import COMPILED_PACKAGES, cache_folder
+import pytest
 
-TOP = Path(models.compiled.__file__).parent.parent
-CALLEE = "from models.compiled import compiled\n\n\n@compiled\ndef part(x):\n    return {} * x\n"
-CALLER = (
-    "from analytic.callee import part\nfrom models.compiled import compiled\n\n\n"
-    "@compiled\ndef whole(x):\n    return part(x) + 1\n"
-)
+import models.kernel.compiled
+from models.kernel.compiled import COMPILED_PACKAGES, cache_folder
+
+TOP = Path(models.kernel.compiled.__file__).parents[2]
+IMPORT = "from models.kernel.compiled import compiled\n"
+CALLEE = IMPORT + "\n\n@compiled\ndef part(x):\n    return {} * x\n"
+CALLER = IMPORT + "from {} import part\n\n\n@compiled\ndef whole(x):\n    return part(x) + 1\n"
 
 
 def run_caller(folder):
@@ -31,17 +31,19 @@ def run_caller(folder):
     return float(value), int(hits)
 
 
-def test_an_edited_callee_is_seen(tmp_path):
-    for package in ("models", "analytic"):
-        (tmp_path / package).mkdir()
-        (tmp_path / package / "__init__.py").write_text("")
-    shutil.copy(TOP / "models" / "compiled.py", tmp_path / "models")
-    (tmp_path / "analytic" / "caller.py").write_text(CALLER)
+@pytest.mark.parametrize("callee", ["analytic.callee", "analytic.room.callee", "models.room.deeper.callee"])
+def test_an_edited_callee_is_noticed(tmp_path, callee):
+    kernel, caller = tmp_path / "models" / "kernel", tmp_path / "analytic" / "caller.py"
+    edited = tmp_path.joinpath(*callee.split(".")).with_suffix(".py")
+    for folder in (kernel, caller.parent, edited.parent):
+        folder.mkdir(parents=True, exist_ok=True)
+    shutil.copy(TOP / "models" / "kernel" / "compiled.py", kernel)
+    caller.write_text(CALLER.format(callee))
 
-    (tmp_path / "analytic" / "callee.py").write_text(CALLEE.format(2.0))
+    edited.write_text(CALLEE.format(2.0))
     assert run_caller(tmp_path) == (21.0, 0)
     assert run_caller(tmp_path) == (21.0, 1), "the cache should be used where nothing changed"
-    (tmp_path / "analytic" / "callee.py").write_text(CALLEE.format(3.0))
+    edited.write_text(CALLEE.format(3.0))
     assert run_caller(tmp_path) == (31.0, 0)
 
 
@@ -55,6 +57,11 @@ def test_every_package_with_compiled_functions_is_watched():
     assert users == set(COMPILED_PACKAGES)
 
 
-def test_the_folder_is_named_by_the_sources():
-    assert cache_folder().name.startswith("cointoss-")
-    assert cache_folder().is_dir()
+def test_each_package_has_a_folder_that_its_own_sources_name(tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    folders = {cache_folder.__wrapped__(package) for package in COMPILED_PACKAGES}
+    assert {folder.parent for folder in folders} == {tmp_path}
+    assert {folder.name.rpartition("-")[0] for folder in folders} == {
+        f"cointoss-{package}" for package in COMPILED_PACKAGES
+    }
+    assert len({folder.name.rpartition("-")[2] for folder in folders}) == len(COMPILED_PACKAGES)

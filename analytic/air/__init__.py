@@ -1,0 +1,1 @@
+"""The air's force and moment on the coin; imports numerics."""

@@ -1,0 +1,115 @@
+"""The air's force on a flying coin and its moment."""
+
+from analytic.air.face_friction import face_friction_change
+from analytic.air.pressure import pressure_change
+from analytic.air.quadrature import CHANGE_NODES, FORCE_NODES
+from analytic.air.wall_friction import wall_friction_change
+from models.kernel.compiled import compiled
+from models.kernel.vectors import add, cross, scale, subtract
+
+
+@compiled
+def force_and_moment(body, v, w):
+    """Give the air's force and its moment about the mass centre.
+
+    Strzalko et al. 2008, eqs (49)-(74). For b = 0 in the closed form of `models.drag`: at B,
+    f = -diag(c) v_B and m_B = -diag(d) ω; about C, m_C = m_B - c × f with c from B to C. For 0 < b <= 1 by
+    quadrature: force and moment are homogeneous of degree 1 + b in (v, ω), so they are their own change in
+    the direction of (v, ω), over 1 + b.
+
+    Args:
+        body: the coin.
+        v: velocity of C, body frame, (3,) [m/s].
+        w: angular velocity, body frame, (3,) [rad/s].
+
+    Returns:
+        f: force, body frame, (3,) [N].
+        m_C: moment about C, body frame, (3,) [N m].
+    """
+    return _force_and_moment(body, body.air.exponent, v, w)
+
+
+@compiled
+def _force_and_moment(body, b, v, w):
+    """Give force and moment; numba leaves out what None rules out only where it is an argument."""
+    if b is not None:
+        return _by_quadrature(body, v, w)
+    drag = body.drag
+    v_B = subtract(v, cross(w, body.center))
+    f = (
+        -drag.force_tangential * v_B[0],
+        -drag.force_tangential * v_B[1],
+        -drag.force_normal * v_B[2],
+    )
+    m_B = (
+        -drag.moment_tangential * w[0],
+        -drag.moment_tangential * w[1],
+        -drag.moment_normal * w[2],
+    )
+    return f, subtract(m_B, cross(body.center, f))
+
+
+@compiled
+def force_and_moment_change(body, v, w, dv, dw):
+    """Give how the air's force and moment about C change with the motion, to first order in (dv, dw).
+
+    For b = 0 they are linear. For b > 0 the same quadrature is applied to the change of the force on dA,
+    -λ (|v|^b dv + b |v|^(b-2) (v . dv) v); the border of the pressure adds nothing, its force vanishes there.
+
+    Args:
+        body: the coin.
+        v: velocity of C, body frame, (3,) [m/s].
+        w: angular velocity, body frame, (3,) [rad/s].
+        dv: change of v, (3,) [m/s].
+        dw: change of w, (3,) [rad/s].
+
+    Returns:
+        df: change of the force, body frame, (3,) [N].
+        dm_C: change of the moment about C, body frame, (3,) [N m].
+    """
+    return _force_and_moment_change(body, body.air.exponent, v, w, dv, dw)
+
+
+@compiled
+def _force_and_moment_change(body, b, v, w, dv, dw):
+    if b is None:
+        return force_and_moment(body, dv, dw)
+    v_B, dv_B = subtract(v, cross(w, body.center)), subtract(dv, cross(dw, body.center))
+    df, dm_B = change_about_B(body, v_B, w, dv_B, dw, CHANGE_NODES)
+    return df, subtract(dm_B, cross(body.center, df))
+
+
+@compiled
+def _by_quadrature(body, v, w):
+    """Give force and moment for b > 0."""
+    v_B, share = subtract(v, cross(w, body.center)), 1 / (1 + body.air.exponent)
+    df, dm_B = change_about_B(body, v_B, w, v_B, w, FORCE_NODES)
+    return scale(share, df), scale(share, subtract(dm_B, cross(body.center, df)))
+
+
+@compiled
+def change_about_B(body, v, w, dv, dw, nodes):
+    """Give the change of the air's force and of its moment about B for b > 0, with given nodes.
+
+    Args:
+        body: the coin.
+        v: velocity of B, body frame, (3,) [m/s].
+        w: angular velocity, body frame, (3,) [rad/s].
+        dv: change of v, (3,) [m/s].
+        dw: change of w, (3,) [rad/s].
+        nodes: of the graded rules.
+
+    Returns:
+        df: change of the force, body frame, (3,) [N].
+        dm_B: change of the moment about B, body frame, (3,) [N m].
+    """
+    df, dm = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    if body.air.normal > 0:
+        df, dm = pressure_change(body, v, w, dv, dw, nodes)
+    if body.air.tangential > 0:
+        df_faces, dm_faces = face_friction_change(body, v, w, dv, dw, nodes)
+        df, dm = add(df, df_faces), add(dm, dm_faces)
+        if body.thickness > 0:
+            df_wall, dm_wall = wall_friction_change(body, v, w, dv, dw, nodes)
+            df, dm = add(df, df_wall), add(dm, dm_wall)
+    return df, dm

@@ -1,0 +1,1 @@
+"""Free flight and the search for its first touch; imports air and numerics."""

@@ -1,0 +1,149 @@
+"""Flights of an ideal coin that turns in closed form: on a parabola, or in linear air piece by piece."""
+
+import numpy as np
+
+from analytic.flight.equations_of_motion import attitude_of, spin_of, velocity_of
+from analytic.flight.fall import ORDER, clock, expand, fallen, slowing_of, time_of
+from analytic.flight.first_touch import Found, bounds_of, first_touch, lowest_dip
+from analytic.flight.touch_search import closing_speed, smallest_flight
+from analytic.flight.turning import turn, turning_of
+from models.body import in_vacuum
+from models.kernel.compiled import compiled
+from models.kernel.vectors import norm
+
+
+@compiled
+def fly_closed(body, y, longest):
+    """Fly a coin that `turns_in_closed_form` until it first touches the floor; see `flying.fly`."""
+    time, inside, looks = 0.0, 0.0, 0
+    while True:
+        found, flown, looked = _search(body, y, inside, longest - time)
+        time, looks = time + flown, looks + looked
+        if found == Found.TOUCH and time == 0 and closing_speed(body, y)[1] >= -smallest_flight(body, y)[1]:
+            # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch.
+            found = Found.GRAZE
+        if found != Found.GRAZE:
+            return time, found == Found.TOUCH, looks
+        # It flies on from there, where it hardly sinks for a while.
+        inside = smallest_flight(body, y)[0]
+
+
+@compiled
+def _search(body, y, inside, longest):
+    """Fly to a touch, to a graze or to the end; y becomes the state there.
+
+    Args:
+        body: the coin.
+        y: state at the start, (13,).
+        inside: when the search starts [s].
+        longest: the longest flight wanted [s].
+
+    Returns:
+        What is `Found`, when [s], and how often the gap was looked at.
+    """
+    if in_vacuum(body):
+        turning, heights = turning_of(body, attitude_of(y), spin_of(y)), (y[2], y[5], -body.gravity / 2)
+        bounds = bounds_of(turning, body.gravity, 0.0, 0.0)
+        found, t, looks = first_touch(body, turning, heights, inside, longest, bounds)
+        fall_freely(body, y, t, y)
+        turn(turning, y, t, 1.0, y)
+        return found, t, looks
+    series = np.empty((4, ORDER + 1))
+    time, found, looks = 0.0, Found.NOTHING, 0
+    while time < longest and found == Found.NOTHING:
+        turning = turning_of(body, attitude_of(y), spin_of(y))
+        piece = expand(body, turning, y, clock(slowing_of(body), longest - time), series)
+        heights, bounds = series[3, : piece.order + 1], _bounds(body, turning, piece, velocity_of(y))
+        found, s, looked = first_touch(body, turning, heights, inside, piece.length, bounds)
+        fly_on(turning, piece, series, s, y, y)
+        time, inside, looks = time + time_of(piece.slowing, s), 0.0, looks + looked
+    return found, min(time, longest), looks
+
+
+@compiled
+def closed_graze(body, start, duration):
+    """Give a height such that no minimum of the gap in a flight is below half of it [m].
+
+    Args:
+        body: the coin.
+        start: state at the start of the flight, (13,).
+        duration: of the flight [s].
+    """
+    turning = turning_of(body, attitude_of(start), spin_of(start))
+    if in_vacuum(body):
+        heights, bounds = (start[2], start[5], -body.gravity / 2), bounds_of(turning, body.gravity, 0.0, 0.0)
+        return lowest_dip(body, turning, heights, duration, bounds)
+    series, y, time, lowest = np.empty((4, ORDER + 1)), start.copy(), 0.0, np.inf
+    while time < duration:
+        turning = turning_of(body, attitude_of(y), spin_of(y))
+        piece = expand(body, turning, y, clock(slowing_of(body), duration - time), series)
+        heights, bounds = series[3, : piece.order + 1], _bounds(body, turning, piece, velocity_of(y))
+        lowest = min(lowest, lowest_dip(body, turning, heights, piece.length, bounds))
+        fly_on(turning, piece, series, piece.length, y, y)
+        made = time_of(piece.slowing, piece.length)
+        if time + made == time:
+            break
+        time += made
+    return lowest
+
+
+@compiled
+def fly_on(turning, piece, series, s, y, y_new):
+    """Write the state at the clock s of a piece, that starts with the state y, into y_new; both (13,)."""
+    fallen(piece, series, s, y, y_new)
+    turn(turning, y, s, 1 - piece.slowing * s, y_new)
+
+
+@compiled
+def _bounds(body, turning, piece, v):
+    """Give the `Bounds` of a piece that starts with the velocity v; drag never speeds the coin up."""
+    rate = max(body.drag.force_tangential, body.drag.force_normal) / body.mass
+    # The clock is slower than time: dt = ds/left.
+    left = 1 - piece.slowing * piece.length
+    speed = norm(v) + body.gravity * time_of(piece.slowing, piece.length)
+    drag = (rate + piece.slowing) * speed
+    jerk = (rate + 3 * piece.slowing) * (body.gravity + drag) + 2 * turning.rate * rate * speed
+    down, up = body.gravity + drag, max(drag - body.gravity, 0.0)
+    return bounds_of(turning, down / left**2, up / left**2, jerk / left**3)
+
+
+@compiled
+def fall_freely(body, y, t, y_new):
+    """Write position and velocity of the state at the time t of a flight on a parabola into y_new.
+
+    Args:
+        body: the coin.
+        y: state at the start of the flight, (13,).
+        t: time [s].
+        y_new: state, (13,).
+    """
+    y_new[0], y_new[1], y_new[2] = y[0] + t * y[3], y[1] + t * y[4], y[2] + t * (y[5] - t * body.gravity / 2)
+    y_new[3], y_new[4], y_new[5] = y[3], y[4], y[5] - t * body.gravity
+
+
+@compiled
+def sample_closed(body, start, start_time, times, states):
+    """Write the states of one flight at `times` into `states`; see `flying.sample`.
+
+    Returns:
+        The number of pieces of the flight up to the last time.
+    """
+    y, time, pieces, turning = start.copy(), 0.0, 1, turning_of(body, attitude_of(start), spin_of(start))
+    if in_vacuum(body):
+        for i in range(len(times)):
+            t = times[i] - start_time
+            fall_freely(body, y, t, states[i])
+            turn(turning, y, t, 1.0, states[i])
+        return pieces
+    series = np.empty((4, ORDER + 1))
+    piece = expand(body, turning, y, np.inf, series)
+    for i in range(len(times)):
+        while times[i] - start_time > time + time_of(piece.slowing, piece.length):
+            fly_on(turning, piece, series, piece.length, y, y)
+            time += time_of(piece.slowing, piece.length)
+            turning = turning_of(body, attitude_of(y), spin_of(y))
+            piece = expand(body, turning, y, np.inf, series)
+            pieces += 1
+        s = clock(piece.slowing, times[i] - start_time - time)
+        fly_on(turning, piece, series, s, y, states[i])
+    return pieces

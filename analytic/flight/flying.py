@@ -1,0 +1,68 @@
+"""A flight: its first touch, and its states; in closed form where the coin turns so, else integrated."""
+
+import numpy as np
+
+from analytic.flight.closed_flight import closed_graze, fly_closed, sample_closed
+from analytic.flight.equations_of_motion import STATE_SIZE, sample_flight, spin_of
+from analytic.flight.touch_search import fly_by_steps
+from analytic.flight.turning import turns_in_closed_form
+from models.kernel.compiled import compiled
+
+
+@compiled
+def fly(body, y, longest):
+    """Fly until the coin first touches the floor.
+
+    Args:
+        body: the coin.
+        y: state at the start, (13,); becomes the state at the touch, or at the end of the flight.
+        longest: the longest flight wanted [s].
+
+    Returns:
+        The time of flight [s], whether the coin touches, and how often the gap was looked at.
+    """
+    if turns_in_closed_form(body, spin_of(y)):
+        return fly_closed(body, y, longest)
+    flown, touches, looks, _ = fly_by_steps(body, y, longest)
+    return flown, touches, looks
+
+
+@compiled
+def fly_with_graze(body, y, longest):
+    """Fly as `fly` does, and tell how near to the floor the coin came before.
+
+    Returns:
+        The time of flight [s], and a graze: a height such that no minimum of the gap on the way is below half
+        of it, or infinity [m].
+    """
+    if turns_in_closed_form(body, spin_of(y)):
+        start = y.copy()
+        flown, _, _ = fly_closed(body, y, longest)
+        return flown, closed_graze(body, start, flown)
+    flown, _, _, graze = fly_by_steps(body, y, longest)
+    return flown, graze
+
+
+@compiled
+def sample(body, start, start_time, times, states):
+    """Write the states of one flight at `times` into `states`.
+
+    Args:
+        body: the coin.
+        start: state at the start of the flight, (13,).
+        start_time: its time [s].
+        times: increasing, none before start_time, (n,) [s].
+        states: where they go, (n, 13).
+
+    Returns:
+        The number of steps up to the last time: on a parabola one.
+    """
+    if turns_in_closed_form(body, spin_of(start)):
+        return sample_closed(body, start, start_time, times, states)
+    return sample_flight(body, start, start_time, times, states)
+
+
+@compiled
+def steps_of(body, start, duration):
+    """Give the number of steps of a flight of this duration [s] from the state `start`, (13,)."""
+    return sample(body, start, 0.0, np.array([duration]), np.empty((1, STATE_SIZE)))

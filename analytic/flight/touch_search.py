@@ -1,0 +1,157 @@
+"""What the lowest point of a flying coin does, and the first contact of a flight that is integrated."""
+
+import numpy as np
+
+from analytic.flight.equations_of_motion import (
+    STATE_SIZE,
+    accepted_step,
+    attitude_of,
+    derivative,
+    first_step,
+    spin_of,
+    step,
+    velocity_of,
+)
+from analytic.numerics.runge_kutta import STAGES
+from models.attitude import rotation_matrix
+from models.geometry import FLAT_SINE, clear_time, contact_velocity, gap, grazing_time, lowest_point
+from models.kernel.compiled import compiled
+from models.kernel.vectors import add, cross, dot, norm
+
+# A gap below this part of the radius is zero within rounding.
+TOUCH = 1e-14
+# In a step forced at a grazing point, each of three causes may lower the gap by this part of the radius.
+SINK = 1e-13
+# Impacts crowd together when all that are still to come take less than this angle of the coin's motion.
+CROWDED = 3e-5
+# Time of flight has no finer step than this part of it.
+TIME_STEP = 2.3e-16
+
+
+@compiled
+def closing_speed(body, y):
+    """Give the gap of the state y [m] and the vertical velocity of the lowest point [m/s]."""
+    R = rotation_matrix(attitude_of(y))
+    v, w = velocity_of(y), spin_of(y)
+    point, flat = lowest_point(body, R[2], w)
+    v_A = contact_velocity(body, R, v, w, point)
+    return gap(body, y[2], R[2]), v[2] if flat else v_A[2]
+
+
+@compiled
+def gap_acceleration(body, y):
+    """Give the second derivative of the gap in free flight, at a state y that is not flat [m/s²].
+
+    With u the upward unit vector in the body frame, u' = u × ω, it is z_C - u · c - (h/2) |u_ζ| - r |u⊥|.
+    """
+    dy = np.empty(STATE_SIZE)
+    derivative(body, y, dy)
+    up, w = rotation_matrix(attitude_of(y))[2], spin_of(y)
+    rate = cross(up, w)
+    acceleration = add(cross(rate, w), cross(up, spin_of(dy)))
+    sine = (up[0] * up[0] + up[1] * up[1]) ** 0.5
+    sine_rate = (up[0] * rate[0] + up[1] * rate[1]) / sine
+    across = rate[0] * rate[0] + rate[1] * rate[1] - sine_rate * sine_rate
+    sine_acceleration = (across + up[0] * acceleration[0] + up[1] * acceleration[1]) / sine
+    face = body.thickness / 2 if up[2] > 0 else -body.thickness / 2
+    return dy[5] - dot(acceleration, body.center) - face * acceleration[2] - body.radius * sine_acceleration
+
+
+@compiled
+def crowded(body, chi, y):
+    """Tell whether the impacts of a coin that touches the floor crowd together: it will stay in contact.
+
+    Where the gap accelerates downward by A in free flight, an approach at the speed v leads to impacts that
+    all come within 2 v/(A (1 - χ)). In that time the coin must turn, and fall, by less than `CROWDED`. An
+    approach too slow to be told from contact stays too.
+
+    Args:
+        body: the coin.
+        chi: restitution χ.
+        y: state at the touch, (13,).
+    """
+    up, w = rotation_matrix(attitude_of(y))[2], spin_of(y)
+    speed, (_, slowest, most) = -closing_speed(body, y)[1], smallest_flight(body, y)
+    if speed < slowest:
+        return True
+    least = 2 * speed * (norm(w) + (body.gravity / body.radius) ** 0.5) / (CROWDED * (1 - chi))
+    if least >= most:
+        return False
+    if up[0] * up[0] + up[1] * up[1] <= FLAT_SINE * FLAT_SINE:
+        falling = body.gravity
+    else:
+        falling = -gap_acceleration(body, y)
+    return falling > 0 and least < falling
+
+
+@compiled
+def clear(body, y, window):
+    """Give a time during which the coin in state y surely stays above the floor, at most `window` [s]."""
+    R = rotation_matrix(attitude_of(y))
+    return clear_time(body, y[2], velocity_of(y), R[2], spin_of(y), window)
+
+
+@compiled
+def smallest_flight(body, y):
+    """Give the time and the speed of a flight too low to be told from contact.
+
+    The time is that in which a touching coin hardly sinks. A flight that starts with the speed v lasts at
+    least 2 v/A, A the largest acceleration of the gap: it outlasts that time at √(8 SINK r A).
+
+    Returns:
+        Time [s], speed [m/s], and A [m/s²].
+    """
+    up = rotation_matrix(attitude_of(y))[2]
+    sink = SINK * body.radius
+    time, acceleration = grazing_time(body, velocity_of(y), up, spin_of(y), sink)
+    return time, (8 * sink * acceleration) ** 0.5, acceleration
+
+
+@compiled
+def fly_by_steps(body, y, longest):
+    """Fly until the coin first touches the floor.
+
+    Every accepted step of the integrator is searched by steps of `clear_time`, which never pass a touch;
+    each is one step of order 8 from the same start, so the state found is as exact as the integration.
+
+    Args:
+        body: the coin.
+        y: state at the start, (13,); becomes the state at the touch, or at the end of the flight.
+        longest: the longest flight wanted [s].
+
+    Returns:
+        The time of flight [s], whether the coin touches, how often the gap was looked at, and a graze: a
+        height such that no minimum of the gap on the way is below half of it, infinite where it has none [m].
+    """
+    stages = np.empty((STAGES, STATE_SIZE))
+    y_end, y_near = np.empty(STATE_SIZE), np.empty(STATE_SIZE)
+    elapsed, dt = 0.0, first_step(body, y)
+    # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch at once.
+    touching_speed = -smallest_flight(body, y)[1]
+    # The steps shrink towards a minimum of the gap, so that the last one before it starts hardly higher.
+    graze, height_before, speed_before, looks = np.inf, np.inf, 0.0, 0
+    while elapsed < longest:
+        made, dt = accepted_step(body, y, min(dt, longest - elapsed), stages, y_end)
+        y_near[:] = y
+        inside = 0.0
+        while inside < made:
+            height, speed = closing_speed(body, y_near)
+            looks += 1
+            if speed_before < 0 <= speed:
+                graze = min(graze, height_before, height)
+            height_before, speed_before = height, speed
+            ahead = clear(body, y_near, made - inside)
+            # Also where time itself has no finer step than the coin still has to fall.
+            if height <= TOUCH * body.radius or inside + ahead == inside:
+                if speed < touching_speed:
+                    y[:] = y_near
+                    return elapsed + inside, True, looks, graze
+                ahead = max(ahead, smallest_flight(body, y_near)[0], TIME_STEP * inside)
+            touching_speed = 0.0
+            inside += ahead
+            if inside < made:
+                derivative(body, y, stages[0])
+                step(body, y, inside, stages, y_near)
+        elapsed += made
+        y[:] = y_end
+    return longest, False, looks, graze

@@ -1,0 +1,1 @@
+"""How far a toss can be trusted: its errors, carried from event to event; imports the rooms below."""

@@ -1,0 +1,109 @@
+"""The tangent map of a flight: how a small change of its start grows.
+
+The Runge-Kutta tableau of the flight acts on the linearised equations of motion at the flight's own stages:
+the result is the derivative of the very numbers the flight computes, its steps held.
+"""
+
+import numpy as np
+
+from analytic.air.force import force_and_moment, force_and_moment_change
+from analytic.flight.equations_of_motion import (
+    STATE_SIZE,
+    accepted_step,
+    attitude_of,
+    derivative,
+    first_step,
+    spin_of,
+    step,
+    velocity_of,
+)
+from analytic.numerics.rotation import quaternion_rate, rotation_change
+from analytic.numerics.runge_kutta import STAGES, end_point, stage_point
+from models.attitude import rotation_matrix
+from models.kernel.compiled import compiled
+from models.kernel.vectors import add, apply, apply_transposed, cross, subtract
+
+
+@compiled
+def derivative_change(body, y, dy, rate):
+    """Write the change of `flight.derivative` with the state into `rate`.
+
+    Args:
+        body: the coin.
+        y: state, (13,).
+        dy: its change, (13,).
+        rate: where the change of its rate of change goes, (13,).
+    """
+    v, e, w = velocity_of(y), attitude_of(y), spin_of(y)
+    dv, de, dw = velocity_of(dy), attitude_of(dy), spin_of(dy)
+    R, dR = rotation_matrix(e), rotation_change(e, de)
+    v_body = apply_transposed(R, v)
+    dv_body = add(apply_transposed(dR, v), apply_transposed(R, dv))
+    f, _ = force_and_moment(body, v_body, w)
+    df, dm_C = force_and_moment_change(body, v_body, w, dv_body, dw)
+    df_space = add(apply(dR, f), apply(R, df))
+    d_gyroscopic = add(cross(dw, apply(body.inertia, w)), cross(w, apply(body.inertia, dw)))
+    by_attitude, by_spin = quaternion_rate(de, w), quaternion_rate(e, dw)
+    for i in range(3):
+        rate[i] = dv[i]
+        rate[3 + i] = df_space[i] / body.mass
+    for i in range(4):
+        rate[6 + i] = by_attitude[i] + by_spin[i]
+    rate[10], rate[11], rate[12] = apply(body.inertia_inverse, subtract(dm_C, d_gyroscopic))
+
+
+@compiled
+def step_change(body, y, dt, stages, changes):
+    """Carry small changes of the state through the step that `flight.step` has just made.
+
+    Args:
+        body: the coin.
+        y: state at the start of the step, (13,).
+        dt: its length [s].
+        stages: the rates of change at its stages, (12, 13).
+        changes: one change of the state in each row, (n, 13); become those at the end of the step.
+    """
+    points = np.empty((STAGES, STATE_SIZE))
+    for stage in range(STAGES):
+        stage_point(y, dt, stages, stage, points[stage])
+    end = np.empty(STATE_SIZE)
+    end_point(y, dt, stages, end)
+    e = attitude_of(end)
+    square = e[0] ** 2 + e[1] ** 2 + e[2] ** 2 + e[3] ** 2
+    slopes, inside = np.empty((STAGES, STATE_SIZE)), np.empty(STATE_SIZE)
+    for change in changes:
+        for stage in range(STAGES):
+            stage_point(change, dt, slopes, stage, inside)
+            derivative_change(body, points[stage], inside, slopes[stage])
+        end_point(change, dt, slopes, change)
+        # The quaternion is brought back to norm 1.
+        along = (e[0] * change[6] + e[1] * change[7] + e[2] * change[8] + e[3] * change[9]) / square
+        for i in range(4):
+            change[6 + i] = (change[6 + i] - along * e[i]) / square**0.5
+
+
+@compiled
+def flight_tangent(body, y, duration, changes, moved):
+    """Carry small changes of the state through a flight.
+
+    Args:
+        body: the coin.
+        y: state at the start, (13,); becomes the state at the end.
+        duration: of the flight [s].
+        changes: one change of the state in each row, (n, 13); become those at the end of the flight.
+        moved: set to True for the components of the state that do not stay exactly zero, (13,).
+    """
+    stages, y_new = np.empty((STAGES, STATE_SIZE)), np.empty(STATE_SIZE)
+    elapsed, dt = 0.0, first_step(body, y)
+    while elapsed < duration:
+        made, dt_next = accepted_step(body, y, dt, stages, y_new)
+        if elapsed + made >= duration:
+            made = duration - elapsed
+            derivative(body, y, stages[0])
+            step(body, y, made, stages, y_new)
+        for i in range(STATE_SIZE):
+            moved[i] = moved[i] or y[i] != 0 or y_new[i] != 0
+        step_change(body, y, made, stages, changes)
+        y[:] = y_new
+        elapsed += made
+        dt = dt_next

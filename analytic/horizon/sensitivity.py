@@ -1,0 +1,64 @@
+"""The tangent map of a toss, from event to event: from just after one impact to just after the next.
+
+A small change is one of the state and of the time of the event, (14,); two tosses are compared each at its
+own impact. So the saltation matrix, with f the rate of change of the state before and after the impact, D the
+derivative of the impact and dt = -(∇gap . dy)/(∇gap . f_before) the delay of the touch,
+
+    dy_after = D (dy + f_before dt) - f_after dt,
+
+falls in two: the last term only brings back the tosses to one time, and dt goes into the time of the event.
+At a low hop that term would cost digits.
+"""
+
+import numpy as np
+
+from analytic.events import Run
+from analytic.flight.equations_of_motion import STATE_SIZE
+from analytic.flight.flying import fly
+from analytic.horizon.flight_tangent import flight_tangent
+from analytic.horizon.impact_tangent import Touch, touch_tangent
+from models.body import Body, Rules
+from models.records import Array
+
+
+def flight_map(tangents: Array) -> Array:
+    """Give the map of a flight of fixed duration, (14, 14), from its `tangents`, one in a row, (13, 13)."""
+    return _with_time(tangents.T)
+
+
+def delay_of(touch: Touch) -> Array:
+    """Give the delay of a touch as a row that acts on a change at the touch's undisturbed time, (14,) [s]."""
+    return -np.append(touch.gap, 0) / (touch.gap @ touch.rate)
+
+
+def touch_map(touch: Touch) -> Array:
+    """Give the map from a change at the touch's undisturbed time to that at its own, (14, 14)."""
+    return np.eye(STATE_SIZE + 1) + np.outer(np.append(touch.rate, 1), delay_of(touch))
+
+
+def impact_map(touch: Touch) -> Array:
+    """Give the map of the impact, (14, 14)."""
+    return _with_time(touch.after)
+
+
+def event_tangent(body: Body, rules: Rules, toss: Run, number: int) -> Array:
+    """Give the tangent map from just after the impact before to just after impact `number`, (14, 14).
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        toss: from its release on.
+        number: of the impact, from 0; the first map starts at the release.
+    """
+    y, start = toss.start_states[number].copy(), toss.start_states[number].copy()
+    duration, *_ = fly(body, y, rules.max_time - toss.start_times[number])
+    tangents = np.eye(STATE_SIZE)
+    flight_tangent(body, start, duration, tangents, np.zeros(STATE_SIZE, dtype=np.bool_))
+    touch = touch_tangent(body, rules, y)
+    return impact_map(touch) @ touch_map(touch) @ flight_map(tangents)
+
+
+def _with_time(of_state: Array) -> Array:
+    of_event = np.eye(STATE_SIZE + 1)
+    of_event[:STATE_SIZE, :STATE_SIZE] = of_state
+    return of_event

@@ -1,0 +1,1 @@
+"""The impact of one point on the floor: the contact laws; imports numerics."""

@@ -1,0 +1,140 @@
+"""The impact of one point of the coin on the floor: one function for each contact law.
+
+Strzalko et al. 2008, section 4.3 and Fig. 17. The velocity of the contact point A has the parts v_Aτ along
+the coin's edge, v_Aν across it, both in the floor, and v_Az. Every law keeps Newton's v_Az' = -χ v_Az,
+eq. (85).
+"""
+
+from analytic.impact.coulomb import coulomb
+from models.kernel.compiled import compiled
+from models.kernel.vectors import add, apply, apply_transposed, cross, dot, scale, solve, subtract
+from models.laws import ContactLaw
+from models.records import Ending
+
+NO_IMPULSE = (0.0, 0.0, 0.0)
+
+
+@compiled
+def mobility(body, R, arm):
+    """Give K, with which an impulse S at A changes the velocity of A: v_A' = v_A + K S.
+
+    K = I/m - [a] R J_C⁻¹ Rᵀ [a], [a] the matrix of a × : eqs (87)-(90), solved for v_A'.
+
+    Args:
+        body: the coin.
+        R: rotation matrix, body to space.
+        arm: a, from C to A, space frame, (3,) [m].
+
+    Returns:
+        K: space frame, symmetric and positive definite, a tuple of rows [1/kg].
+    """
+    # The columns; K is symmetric, so they are its rows too.
+    return (
+        velocity_gained(body, R, arm, (1.0, 0.0, 0.0), arm),
+        velocity_gained(body, R, arm, (0.0, 1.0, 0.0), arm),
+        velocity_gained(body, R, arm, (0.0, 0.0, 1.0), arm),
+    )
+
+
+@compiled
+def spin_gained(body, R, arm, S):
+    """Give the change of ω by an impulse S at A: J_C⁻¹ Rᵀ (a × S), body frame, eqs (88)-(90)."""
+    return apply(body.inertia_inverse, apply_transposed(R, cross(arm, S)))
+
+
+@compiled
+def velocity_gained(body, R, arm, S, at):
+    """Give the velocity that an impulse S at A gives to the coin's point `at` from C, space frame, (3,)."""
+    return add(scale(1 / body.mass, S), cross(apply(R, spin_gained(body, R, arm, S)), at))
+
+
+@compiled
+def sharp_edge(K, v_A, tau, chi):
+    """(a) Give the impulse that stops the slip across the edge: v_Aν' = 0, v_Aτ' = v_Aτ."""
+    along = dot(v_A, tau)
+    return solve(K, subtract((along * tau[0], along * tau[1], -chi * v_A[2]), v_A))
+
+
+@compiled
+def knurled(K, v_A, tau, chi):
+    """(b) Give the impulse that stops the slip along the edge: v_Aτ' = 0, v_Aν' = v_Aν."""
+    nu = (-tau[1], tau[0], 0.0)
+    across = dot(v_A, nu)
+    return solve(K, subtract((across * nu[0], across * nu[1], -chi * v_A[2]), v_A))
+
+
+@compiled
+def perfectly_rough(K, v_A, chi):
+    """(c) Give the impulse that stops all slip: v_Aτ' = v_Aν' = 0, eqs (91)-(92)."""
+    return solve(K, subtract((0.0, 0.0, -chi * v_A[2]), v_A))
+
+
+@compiled
+def slip_preserving(K, v_A, chi):
+    """(d) Give the impulse that keeps all slip: v_Aτ' = v_Aτ, v_Aν' = v_Aν."""
+    return solve(K, (0.0, 0.0, -(1 + chi) * v_A[2]))
+
+
+@compiled
+def smooth(K, v_A, chi):
+    """(e) Give the impulse of a floor without friction, S = S_z ẑ; for the ideal coin eqs (93)-(97)."""
+    return 0.0, 0.0, -(1 + chi) * v_A[2] / K[2][2]
+
+
+@compiled
+def sliding_friction(K, v_A, chi, mu):
+    """(f) Give the impulse of developed friction: S_τν = -μ S_z v_Aτν/|v_Aτν|.
+
+    The direction is that of the slip at touch-down, for the whole impact; without slip there is none and
+    the floor acts as a smooth one.
+
+    Returns:
+        S: impulse, space frame, (3,) [N s].
+        possible: False where no S_z > 0 fulfils Newton's law (Painlevé's case).
+    """
+    slip = (v_A[0] * v_A[0] + v_A[1] * v_A[1]) ** 0.5
+    if slip == 0:
+        return smooth(K, v_A, chi), True
+    direction = (-mu * v_A[0] / slip, -mu * v_A[1] / slip, 1.0)
+    gained = dot(K[2], direction)
+    if gained <= 0:
+        return NO_IMPULSE, False
+    return scale(-(1 + chi) * v_A[2] / gained, direction), True
+
+
+@compiled
+def impulse(body, rules, chi, R, arm, tau, v_A, flat):
+    """Give the floor's impulse on the coin by the scenario's contact law.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        chi: restitution of this impact.
+        R: rotation matrix, body to space.
+        arm: from C to A, space frame, (3,) [m].
+        tau: unit vector along the coin's edge at A, space frame, (3,).
+        v_A: velocity of A before the impact, space frame, (3,) [m/s].
+        flat: whether the coin lands flat without turning; the impulse then goes through C, and is vertical.
+
+    Returns:
+        S: impulse, space frame, (3,) [N s].
+        ending: `Ending.NO_SOLUTION` where the law has none, else `Ending.NONE`.
+    """
+    law = rules.law
+    if flat:
+        return (0.0, 0.0, -(1 + chi) * body.mass * v_A[2]), Ending.NONE
+    K = mobility(body, R, arm)
+    if law == ContactLaw.SHARP_EDGE:
+        return sharp_edge(K, v_A, tau, chi), Ending.NONE
+    if law == ContactLaw.KNURLED:
+        return knurled(K, v_A, tau, chi), Ending.NONE
+    if law == ContactLaw.PERFECTLY_ROUGH:
+        return perfectly_rough(K, v_A, chi), Ending.NONE
+    if law == ContactLaw.SLIP_PRESERVING:
+        return slip_preserving(K, v_A, chi), Ending.NONE
+    if law == ContactLaw.SLIDING_FRICTION:
+        S, possible = sliding_friction(K, v_A, chi, rules.friction)
+        return S, Ending.NONE if possible else Ending.NO_SOLUTION
+    if law == ContactLaw.COULOMB:
+        return coulomb(K, v_A, chi, rules.friction, rules.restitution_kind), Ending.NONE
+    return smooth(K, v_A, chi), Ending.NONE

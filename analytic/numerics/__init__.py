@@ -1,0 +1,1 @@
+"""Runge-Kutta steps and rotations; imports nothing of analytic."""

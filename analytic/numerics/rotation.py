@@ -1,0 +1,168 @@
+"""Rotation in Euler parameters: axis and angle, the rotation matrix, and angular velocity."""
+
+import math
+
+from models.attitude import Quaternion
+from models.kernel.compiled import compiled
+from models.kernel.vectors import Matrix, Vector
+
+
+def quaternion_from_axis(axis: Vector, angle: float) -> Quaternion:
+    """Give the Euler parameters of a turn about an axis; Strzalko et al. 2008, eqs (11)-(12).
+
+    Args:
+        axis: v, the axis, of any length but 0; its components are the same in body and space frame, (3,).
+        angle: φ [rad].
+
+    Returns:
+        e: Euler parameters, scalar first, body to space, norm 1.
+
+    Raises:
+        ValueError: if the axis has no direction.
+    """
+    length = math.hypot(*axis)
+    if not 0 < length < math.inf:
+        raise ValueError(f"axis: given {tuple(axis)}; accepted is a finite vector other than zero")
+    part = math.sin(angle / 2) / length
+    return math.cos(angle / 2), part * axis[0], part * axis[1], part * axis[2]
+
+
+def axis_and_angle(e: Quaternion) -> tuple[Vector, float]:
+    """Give the axis and the angle of a turn, the inverse of eqs (11)-(12).
+
+    e and -e are the same attitude, reached by φ about v and by 2π - φ about -v; each gives its own pair, so
+    that `quaternion_from_axis` gives back this e.
+
+    Args:
+        e: Euler parameters, (4,), norm 1.
+
+    Returns:
+        axis: v, of length 1, (3,).
+        angle: φ, between 0 and 2π [rad].
+
+    Raises:
+        ValueError: if e turns nothing, e = (±1, 0, 0, 0), where every axis would do.
+    """
+    length = math.hypot(e[1], e[2], e[3])
+    if length == 0:
+        raise ValueError(f"e: given {tuple(e)}, which turns nothing and so has no axis")
+    return (e[1] / length, e[2] / length, e[3] / length), 2 * math.atan2(length, e[0])
+
+
+def quaternion_from_matrix(R: Matrix) -> Quaternion:
+    """Give the Euler parameters of a rotation matrix, the inverse of eq. (15).
+
+    R determines all products e_i e_j. The largest square is found first and the others divided by its root,
+    so no digit is lost at any attitude, half turns included.
+
+    Args:
+        R: rotation matrix, body to space, rows, (3, 3).
+
+    Returns:
+        e: Euler parameters, norm 1; of e and -e the one whose largest component is positive.
+    """
+    trace = R[0][0] + R[1][1] + R[2][2]
+    squares = (1 + trace, *(1 + 2 * R[i][i] - trace for i in range(3)))
+    a, b, c = R[2][1] - R[1][2], R[0][2] - R[2][0], R[1][0] - R[0][1]
+    p, q, s = R[1][0] + R[0][1], R[0][2] + R[2][0], R[2][1] + R[1][2]
+    # 4 e_i e_j
+    products = (
+        (squares[0], a, b, c),
+        (a, squares[1], p, q),
+        (b, p, squares[2], s),
+        (c, q, s, squares[3]),
+    )
+    row = products[squares.index(max(squares))]
+    length = math.hypot(*row)
+    return row[0] / length, row[1] / length, row[2] / length, row[3] / length
+
+
+@compiled
+def quaternion_rate(e, w):
+    """Give ė = ½ e ∘ ω, the inverse of eq. (17) of Strzalko et al. 2008 on the unit sphere.
+
+    Args:
+        e: Euler parameters, body to space, (4,).
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    return (
+        (-e[1] * w[0] - e[2] * w[1] - e[3] * w[2]) / 2,
+        (e[0] * w[0] + e[2] * w[2] - e[3] * w[1]) / 2,
+        (e[0] * w[1] + e[3] * w[0] - e[1] * w[2]) / 2,
+        (e[0] * w[2] + e[1] * w[1] - e[2] * w[0]) / 2,
+    )
+
+
+@compiled
+def body_spin(e, e_rate):
+    """Give the angular velocity in the body frame, eq. (17): the vector part of 2 ē ∘ ė [rad/s].
+
+    Args:
+        e: Euler parameters, body to space, (4,), norm 1.
+        e_rate: ė, (4,) [1/s].
+    """
+    return (
+        2 * (e[0] * e_rate[1] - e[1] * e_rate[0] - e[2] * e_rate[3] + e[3] * e_rate[2]),
+        2 * (e[0] * e_rate[2] - e[2] * e_rate[0] - e[3] * e_rate[1] + e[1] * e_rate[3]),
+        2 * (e[0] * e_rate[3] - e[3] * e_rate[0] - e[1] * e_rate[2] + e[2] * e_rate[1]),
+    )
+
+
+@compiled
+def space_spin(e, e_rate):
+    """Give the angular velocity in the space frame, eq. (19): the vector part of 2 ė ∘ ē [rad/s].
+
+    Args:
+        e: Euler parameters, body to space, (4,), norm 1.
+        e_rate: ė, (4,) [1/s].
+    """
+    return (
+        2 * (e[0] * e_rate[1] - e[1] * e_rate[0] + e[2] * e_rate[3] - e[3] * e_rate[2]),
+        2 * (e[0] * e_rate[2] - e[2] * e_rate[0] + e[3] * e_rate[1] - e[1] * e_rate[3]),
+        2 * (e[0] * e_rate[3] - e[3] * e_rate[0] + e[1] * e_rate[2] - e[2] * e_rate[1]),
+    )
+
+
+@compiled
+def body_spin_rate(e, e_acceleration):
+    """Give the angular acceleration ω̇ in the body frame, eq. (18): the vector part of 2 ē ∘ ë [rad/s²].
+
+    It is the derivative of eq. (17), in which the products ė ė cancel.
+
+    Args:
+        e: Euler parameters, body to space, (4,), norm 1.
+        e_acceleration: ë, (4,) [1/s²].
+    """
+    return body_spin(e, e_acceleration)
+
+
+@compiled
+def rotation_change(e, de):
+    """Give the change of the rotation matrix R(e), as `models.attitude` writes it, with e.
+
+    Args:
+        e: Euler parameters, body to space, (4,).
+        de: their change, (4,).
+
+    Returns:
+        dR: a tuple of three rows.
+    """
+    e0, e1, e2, e3 = e[0], e[1], e[2], e[3]
+    d0, d1, d2, d3 = de[0], de[1], de[2], de[3]
+    return (
+        (
+            -4 * (e2 * d2 + e3 * d3),
+            2 * (e1 * d2 + d1 * e2 - e0 * d3 - d0 * e3),
+            2 * (e0 * d2 + d0 * e2 + e1 * d3 + d1 * e3),
+        ),
+        (
+            2 * (e1 * d2 + d1 * e2 + e0 * d3 + d0 * e3),
+            -4 * (e1 * d1 + e3 * d3),
+            2 * (e2 * d3 + d2 * e3 - e0 * d1 - d0 * e1),
+        ),
+        (
+            2 * (e1 * d3 + d1 * e3 - e0 * d2 - d0 * e2),
+            2 * (e0 * d1 + d0 * e1 + e2 * d3 + d2 * e3),
+            -4 * (e1 * d1 + e2 * d2),
+        ),
+    )

@@ -1,0 +1,45 @@
+"""Many impacts, each by itself: one coin, one contact law, and the states in which the coin touches."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from analytic.events import hit
+from models.body import Body, Rules
+from models.kernel.compiled import compiled
+from models.records import IMPACT_ROW, Array, Ending, Impacts
+
+
+def strike(
+    body: Body, rules: Rules, states: Array, *, restitution: ArrayLike, friction: ArrayLike
+) -> tuple[Impacts, NDArray[np.bool_]]:
+    """Let the floor act once on the coin in each of many states, as it would in a toss.
+
+    Args:
+        body: the coin.
+        rules: of the floor, but for the next two.
+        states: of the coin as it touches, (n, 13): position and velocity of C, Euler parameters, and ω.
+        restitution: χ, one number or (n,).
+        friction: μ, one number or (n,).
+
+    Returns:
+        The impacts, all at time 0, and whether the contact law has a solution there, (n,). Where it has none
+        nothing is changed.
+    """
+    after, rows = np.array(states, dtype=float), np.zeros(len(states), dtype=IMPACT_ROW)
+    chi, mu = (np.ascontiguousarray(np.broadcast_to(x, len(rows)), float) for x in (restitution, friction))
+    solved = np.empty(len(rows), dtype=np.bool_)
+    _strike_each(body, rules, chi, mu, after, rows, solved)
+    return Impacts.from_rows(rows), solved
+
+
+@compiled
+def _strike_each(body, rules, chi, mu, states, rows, solved):
+    for i in range(len(rows)):
+        floor = rules_at(rules, chi[i], mu[i])
+        solved[i] = hit(body, floor, chi[i], states[i], rows[i]) == Ending.NONE
+
+
+@compiled
+def rules_at(rules, chi, mu):
+    """Give the same rules with another restitution χ and friction μ."""
+    return Rules(rules.law, chi, rules.restitution_kind, mu, rules.test, rules.max_impacts, rules.max_time)

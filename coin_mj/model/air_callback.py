@@ -1,0 +1,121 @@
+"""Air with b > 0 for MuJoCo: a compiled `mjcb_passive` that takes its numbers from the model at hand."""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
+
+import ctypes
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import cache
+from typing import Any
+
+import mujoco
+import numba
+import numpy as np
+from numba import types
+
+from coin_mj.model.air import air_force
+from coin_mj.model.library import place_of, pointer_to
+from models.attitude import rotation_matrix
+from models.kernel.vectors import apply, apply_transposed
+from models.scenario import Scenario
+
+NUMERIC = "air"
+"""Name of the model's custom numbers: r, h, λ_n, λ_τ and b."""
+NUMBERS = 5
+_WORD = ctypes.sizeof(ctypes.c_int64)
+_SIZE = 7919
+"""Of the custom numbers of the model in which the places of fields are found: no other count there is so."""
+
+
+def describe_air(spec: mujoco.MjSpec, scenario: Scenario) -> None:
+    """Write the numbers of air with b > 0 into a model's description; nothing for b = 0 and in vacuum."""
+    coin, air = scenario.coin, scenario.air
+    if air.exponent > 0 and (air.normal > 0 or air.tangential > 0):
+        data = (coin.radius, coin.thickness, air.normal, air.tangential, air.exponent)
+        spec.add_numeric(name=NUMERIC, data=data, size=NUMBERS)
+
+
+class _Users:
+    """How many are inside `air_of`, and what was set before the first of them."""
+
+    def __init__(self) -> None:
+        self.lock = threading.Lock()
+        self.count = 0
+        self.before: Any = None
+
+
+_users = _Users()
+
+
+@contextmanager
+def air_of(model: mujoco.MjModel) -> Iterator[None]:
+    """Let MuJoCo's functions called within feel the air of `model`, where that has any with b > 0.
+
+    MuJoCo has one passive callback per process. It is set here alone: by the first who enters, on whatever
+    thread, and what was set before is put back by the last who leaves. It acts on models with the numbers of
+    `describe_air` alone.
+    """
+    if model.nnumeric == 0:
+        yield
+        return
+    callback = _callback()
+    with _users.lock:
+        if _users.count == 0:
+            _users.before = mujoco.get_mjcb_passive()
+            mujoco.set_mjcb_passive(callback)
+        _users.count += 1
+    try:
+        yield
+    finally:
+        with _users.lock:
+            _users.count -= 1
+            if _users.count == 0:
+                mujoco.set_mjcb_passive(_users.before)
+                _users.before = None
+
+
+@cache
+def _callback() -> Any:
+    """Compile the callback and give it as a pointer that MuJoCo takes.
+
+    The places of the fields of mjModel and mjData are written into the machine code; so it holds for this
+    MuJoCo alone, and is not kept on disk.
+    """
+    model = mujoco.MjModel.from_xml_string(
+        f'<mujoco><custom><numeric name="{NUMERIC}" size="{_SIZE}" data="0"/></custom>'
+        '<worldbody><body><freejoint/><geom size="1"/></body></worldbody></mujoco>'
+    )
+    data = mujoco.MjData(model)
+    count_at = _word(model, _SIZE)
+    numbers_at = _word(model, model.numeric_data.ctypes.data)
+    qpos_at = _word(data, data.qpos.ctypes.data)
+    qvel_at = _word(data, data.qvel.ctypes.data)
+    passive_at = _word(data, data.qfrc_passive.ctypes.data)
+
+    def callback(model, data):
+        model = numba.carray(model, numbers_at + 1, np.int64)
+        data = numba.carray(data, passive_at + 1, np.int64)
+        if model[count_at] != NUMBERS:
+            return
+        numbers = numba.carray(pointer_to(model[numbers_at], np.float64), NUMBERS)
+        qpos = numba.carray(pointer_to(data[qpos_at], np.float64), 7)
+        qvel = numba.carray(pointer_to(data[qvel_at], np.float64), 6)
+        passive = numba.carray(pointer_to(data[passive_at], np.float64), 6)
+        R = rotation_matrix((qpos[3], qpos[4], qpos[5], qpos[6]))
+        v, w = apply_transposed(R, (qvel[0], qvel[1], qvel[2])), (qvel[3], qvel[4], qvel[5])
+        f, m = air_force(numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], v, w)
+        f = apply(R, f)
+        for i in range(3):
+            passive[i] += f[i]
+            passive[3 + i] += m[i]
+
+    signature: Any = types.void(types.voidptr, types.voidptr)
+    compiled: Any = numba.cfunc(signature)(callback)
+    return compiled.ctypes
+
+
+def _word(struct: Any, value: int) -> int:
+    """Give which word of a model or its data is `value`."""
+    return place_of(struct, ctypes.c_int64(value)) // _WORD

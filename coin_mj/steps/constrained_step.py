@@ -1,0 +1,154 @@
+"""A step in which the floor holds the coin's lowest point, as a contact that lasts does.
+
+MuJoCo's contact prescribes the acceleration of the pressed point, J q̈ = -k x - d ẋ, and leaves out J̇ q̇, by
+which that point, on its way round the rim, leaves the floor: x would become J̇ q̇/k, and the coin gain and
+lose energy by it. So the reference acceleration gets that term, in every stage of RK4: x'' = -k x - d ẋ. Once
+x has died away the point is held, however soft the spring, and a soft one allows large steps.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba.np.numpy_support import carray
+
+from coin_mj.model.library import (
+    mj_acceleration,
+    mj_actuation,
+    mj_collision,
+    mj_constraint,
+    mj_make_constraint,
+    mj_project_constraint,
+    mj_velocity,
+    pointer_to,
+)
+from coin_mj.model.machine import motion_of, set_motion
+from coin_mj.steps.free_step import place_body
+from coin_mj.steps.runge_kutta import add_rate, end_motion, stage_motion
+from models.attitude import rotation_matrix
+from models.kernel.compiled import compiled
+from models.kernel.vectors import cross
+
+# MuJoCo caps its impedance at 0.9999; with R smaller and D larger by this, it is 1 - 1e-8.
+_HARDER = 1e4
+# A reference acceleration that makes a row push nothing [m/s²].
+_FREE = -1e9
+# The cosine of the angle round the rim within which a point is the lowest.
+_LOWEST = 0.999999
+# Below this sine of the tilt the rim turns too fast for its point to be followed.
+_FACE = 1e-7
+
+
+class Grip(NamedTuple):
+    """How the floor holds the coin."""
+
+    root: float
+    """√k of the critically damped spring [1/s]; 0 where it is an impact's that acts."""
+    level: float
+    """Height above the lowest point up to which others, that land slowly, are held too [m]."""
+
+
+@compiled
+def feel(coin, grip):
+    """Compute the accelerations of the present state with a held point; give the floor's force along z [N].
+
+    Args:
+        coin: MuJoCo's, with a margin.
+        grip: how the floor holds it.
+    """
+    place_body(coin)
+    mj_collision(coin.model, coin.data)
+    mj_make_constraint(coin.model, coin.data)
+    mj_project_constraint(coin.model, coin.data)
+    mj_velocity(coin.model, coin.data)
+    _set_rows(coin, grip)
+    mj_actuation(coin.model, coin.data)
+    mj_acceleration(coin.model, coin.data)
+    mj_constraint(coin.model, coin.data)
+    return coin.of_floor[2]
+
+
+@compiled
+def hold(coin, grip, dt):
+    """Advance by dt [s] with RK4, after `feel`; see there for the arguments."""
+    start = motion_of(coin)
+    rate, total, motion = np.empty(13), np.zeros(13), np.empty(13)
+    motion[:] = start
+    for stage in range(4):
+        if stage > 0:
+            stage_motion(start, rate, stage, dt, motion)
+            set_motion(coin, motion)
+            feel(coin, grip)
+        add_rate(motion, coin.qacc, stage, rate, total)
+    set_motion(coin, end_motion(start, total, dt, motion))
+
+
+@compiled
+def _set_rows(coin, grip):
+    """Let MuJoCo's rows of normal forces hold the lowest points, and all below the floor, and no others."""
+    n, root = coin.rows[0], grip.root
+    if n == 0:
+        return
+    J, position, D, R, reference = _row_arrays(coin, n)
+    turned = rotation_matrix(coin.qpos[3:])
+    lowest = np.inf
+    for i in range(n):
+        if J[i, 2] > 1 - 1e-9:
+            lowest = min(lowest, position[i])
+    for i in range(n):
+        D[i], R[i] = D[i] * _HARDER, R[i] / _HARDER
+        if J[i, 2] <= 1 - 1e-9:
+            continue
+        if position[i] > max(lowest, 0.0) + grip.level:
+            reference[i] = _FREE
+            continue
+        speed = 0.0
+        for j in range(6):
+            speed += J[i, j] * coin.qvel[j]
+        reference[i] = -root * (root * position[i] + 2 * speed) - _rising(coin, turned, J[i])
+
+
+@compiled
+def _row_arrays(coin, n):
+    """Give J, (n, 6), position, D, R and reference acceleration of MuJoCo's rows, (n,)."""
+    J, position, D, R, reference = coin.row_arrays
+    return (
+        carray(pointer_to(J[0], np.float64), (n, 6)),
+        carray(pointer_to(position[0], np.float64), (n,)),
+        carray(pointer_to(D[0], np.float64), (n,)),
+        carray(pointer_to(R[0], np.float64), (n,)),
+        carray(pointer_to(reference[0], np.float64), (n,)),
+    )
+
+
+@compiled
+def _rising(coin, R, J):
+    """Give J̇ q̇ of a row of the rim's lowest point, its rise but for q̈ [m/s²]; 0 of any other row.
+
+    The lowest point of the rim at ζ = ±h/2 is z_B ± (h/2) u_ζ - r |u⊥| high, u the upward unit vector in the
+    body frame, u' = u × ω. J tells the point: p × u, p from B.
+
+    Args:
+        coin: MuJoCo's.
+        R: rotation matrix, body to space.
+        J: the row, (6,).
+    """
+    up, w = R[2], (coin.qvel[3], coin.qvel[4], coin.qvel[5])
+    sine = math.hypot(up[0], up[1])
+    if sine < _FACE:
+        return 0.0
+    # p = u × (p × u) + (p · u) u, where p · u is the point's height below B.
+    below = coin.floor - coin.qpos[2]
+    moment = (J[3], J[4], J[5])
+    across = cross(up, moment)
+    p = (across[0] + below * up[0], across[1] + below * up[1], across[2] + below * up[2])
+    if -(p[0] * up[0] + p[1] * up[1]) < _LOWEST * sine * math.hypot(p[0], p[1]):
+        return 0.0
+    half = math.copysign(coin.shape.thickness / 2, p[2])
+    rate = cross(up, w)
+    turning = cross(rate, w)
+    sine_rate = (up[0] * rate[0] + up[1] * rate[1]) / sine
+    round_rim = rate[0] * rate[0] + rate[1] * rate[1] - sine_rate * sine_rate
+    return (
+        half * turning[2] - coin.shape.radius * (up[0] * turning[0] + up[1] * turning[1] + round_rim) / sine
+    )

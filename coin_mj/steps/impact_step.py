@@ -1,0 +1,144 @@
+"""One impact of MuJoCo's coin on the floor, from first touch to release."""
+
+import math
+from enum import IntEnum
+
+from coin_mj.model.machine import (
+    forward,
+    keep,
+    look,
+    momentum_of,
+    motion_of,
+    other_force,
+    push,
+    set_margin,
+    set_motion,
+    set_spring,
+)
+from coin_mj.steps.constrained_step import Grip
+from coin_mj.steps.friction import push_and_rub
+from models.attitude import rotation_matrix
+from models.kernel.compiled import compiled
+from models.kernel.vectors import add, apply, apply_transposed, scale, subtract
+
+TOUCH_STEP = 1e-3
+"""A touch is located to within this part of a contact step."""
+LASTING = 20
+"""A contact that goes on for so many times its proper duration is no impact."""
+FLAT = 1e-8
+"""A sine of the tilt that no contact can tell from flat: over the whole coin it is 1e-8 of its width."""
+
+
+class Pressed(IntEnum):
+    """What became of a touch."""
+
+    NOTHING = 0
+    """The coin left the floor without being pressed."""
+    IMPACT = 1
+    LASTS = 2
+    """The contact went on for `LASTING` times its proper duration, and was left there."""
+
+
+@compiled
+def press(coin, time, knots):
+    """Follow a contact from the touch to the release of all rim points.
+
+    On a coin that lands flat there is no Coulomb force: its impulse goes through C, as in the paper's
+    mechanics. MuJoCo's plane-cylinder routine finds the lowest rim point from the tilt, and where that is
+    nothing but rounding it takes the radius for the height. So a coin flat within `FLAT` is turned about the
+    vertical, until its axes are MuJoCo's and the tilt exactly nothing, and back after its contact. The floor
+    and the cylinder are round: neither this turn nor the spin about ζ changes the contact.
+
+    Args:
+        coin: MuJoCo's.
+        time: of the touch [s].
+        knots: of the path, kept up; see `machine.keep`.
+
+    Returns:
+        `Pressed`; the time of release [s]; and the integral of the floor's force, space frame, (3,) [N s].
+    """
+    set_margin(coin, 0.0)
+    set_spring(coin, coin.rebound.stiffness, coin.rebound.damping, coin.rebound.slip_damping)
+    up = rotation_matrix(coin.qpos[3:])[2]
+    if math.hypot(up[0], up[1]) > FLAT:
+        return _press(coin, coin.rubs, time, knots)
+    first = len(knots)
+    turn, spin = _turn_level(coin, up[2])
+    pressed, end, impulse = _press(coin, False, time, knots)
+    for number in range(first, len(knots)):
+        knot = knots[number]
+        knots[number] = knot[:2] + _turned_back(turn, spin, knot[0] - time, knot[2:])
+    set_motion(coin, _turned_back(turn, spin, end - time, motion_of(coin)))
+    return pressed, end, apply(rotation_matrix(turn), impulse)
+
+
+@compiled
+def _turn_level(coin, n_z):
+    """Turn a coin that is flat about the vertical until its axes are MuJoCo's, and stop its spin.
+
+    Returns:
+        turn: Euler parameters of the turn back, (4,).
+        spin: ω_ζ, taken out [rad/s].
+    """
+    q, v = coin.qpos, coin.qvel
+    e = (q[3], q[4], q[5], q[6])
+    # Times the conjugate of the flat attitude: (1, 0, 0, 0), or (0, 1, 0, 0) with tails up.
+    turn = e if n_z > 0 else _product(e, (0.0, -1.0, 0.0, 0.0))
+    velocity = apply_transposed(rotation_matrix(turn), (v[0], v[1], v[2]))
+    spin = v[5]
+    for i in range(3):
+        v[i] = velocity[i]
+        q[4 + i] = 0.0
+    q[3], v[5] = 0.0, 0.0
+    q[3 if n_z > 0 else 4] = 1.0
+    return turn, spin
+
+
+@compiled
+def _turned_back(turn, spin, elapsed, motion):
+    """Turn a state back, and give it its spin and the angle that it would have spun, (13,)."""
+    angle = spin * elapsed / 2
+    e = _product(_product(turn, motion[3:7]), (math.cos(angle), 0.0, 0.0, math.sin(angle)))
+    velocity = apply(rotation_matrix(turn), motion[7:10])
+    return motion[:3] + e + velocity + (motion[10], motion[11], motion[12] + spin)
+
+
+@compiled
+def _product(a, b):
+    """Give the quaternion product a b."""
+    return (
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    )
+
+
+@compiled
+def _press(coin, rubs, time, knots):
+    start, momentum, other = time, momentum_of(coin), (0.0, 0.0, 0.0)
+    pressed, result = False, Pressed.LASTS
+    while time - start <= LASTING * coin.rebound.duration:
+        force = forward(coin)
+        if force == 0:
+            if pressed:
+                result = Pressed.IMPACT
+                break
+            if look(coin).speed >= 0:
+                result = Pressed.NOTHING
+                break
+        # Tiny steps up to the onset, so that it falls between two steps, not into one.
+        dt = coin.rebound.step * (1.0 if force > 0 else TOUCH_STEP)
+        pressed = pressed or force > 0
+        other = add(other, scale(dt, other_force(coin)))
+        keep(coin, time, True, knots)
+        if force > 0 and rubs:
+            push_and_rub(coin, Grip(0.0, 0.0), dt)
+        else:
+            push(coin, dt)
+        time += dt
+        if pressed and coin.has_one_step:
+            coin.qpos[2] -= min(look(coin).height, 0.0)
+            result = Pressed.IMPACT
+            break
+    return result, time, subtract(subtract(momentum_of(coin), momentum), other)

@@ -1,0 +1,159 @@
+"""A contact of MuJoCo's coin that lasts: it rolls, slides and spins on the floor."""
+
+import math
+from enum import IntEnum
+
+from coin_mj.model.machine import keep, look, set_margin, set_spring, state_of
+from coin_mj.model.stepping import turning_rate
+from coin_mj.steps.constrained_step import Grip, feel, hold
+from coin_mj.steps.free_step import glide
+from coin_mj.steps.friction import push_and_rub
+from models.attitude import rotation_matrix
+from models.ending import judge
+from models.kernel.compiled import compiled
+from models.kernel.vectors import cross
+from models.perpetual import FIRST_LOOK, dies_away
+from models.records import Ending, Outcome
+
+HEAVY = 10
+"""A touch is no impact when gravity alone gives its speed in so many times the duration of a contact."""
+ANGLE = 0.12
+"""Largest turn of the coin, and of its lowest point round the rim, in a step [rad]."""
+SOFTNESS = 0.5
+"""√k times the step: RK4 follows a critically damped spring up to twice as much."""
+LEVEL = 0.3
+"""Part of the way of the slowest landing that is told from rest in which a point is held already."""
+REACH = 0.1
+"""Height up to which MuJoCo keeps the row of a held point, in radii; the stages of a step leave the floor."""
+NEAR = 1e-5
+"""A rim point lands when the sine of the coin's angle to its edge, or to its face, is down to this."""
+FACE = 1e-7
+"""Below this sine of the tilt the rim turns under the coin too fast to follow."""
+APPROACH = 0.99
+"""Part of the time to a landing that a step goes."""
+UPRIGHT = 1e-4
+"""A sine of the angle off the edge, its rate against √(g/r), in which a thick coin is on both rims."""
+NO_LOSS = 8e-5
+"""A loss in the time √(r/g) that is none, against the energy: the steps alone change it by up to 4e-5."""
+
+
+class Left(IntEnum):
+    """How a contact that lasts ended."""
+
+    DECIDED = 0
+    """With the toss."""
+    LIFTED = 1
+    LANDS = 2
+    """Another rim point touches: of the other face's rim, or opposite on this one."""
+
+
+@compiled
+def slow_speed(coin, chi, w):
+    """Give the speed of a touch below which the coin stays in contact [m/s].
+
+    All its bounces to come would fall within one step of that contact, or weight would drive its impact.
+
+    Args:
+        coin: MuJoCo's.
+        chi: restitution χ.
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    g = coin.body.gravity
+    bounces = ANGLE / turning_rate(coin.body, w) * g * (1 - chi) / 2
+    return max(HEAVY * g * coin.rebound.duration, bounces)
+
+
+@compiled
+def rest(coin, rules, time, steps_left, looks, knots):
+    """Follow a contact that lasts until the coin lifts off, another rim point lands, or the toss is decided.
+
+    Args:
+        coin: MuJoCo's.
+        rules: floor and ending.
+        time: now [s].
+        steps_left: the most steps wanted.
+        looks: see `models.perpetual.dies_away`.
+        knots: of the path, kept up; see `machine.keep`.
+
+    Returns:
+        `Left`, the time [s], the steps left, the outcome and the ending.
+    """
+    body = coin.body
+    rate = (body.gravity / body.radius) ** 0.5
+    unloaded, upright = 0.0, 0.0
+    set_margin(coin, REACH * body.radius)
+    while time < rules.max_time:
+        x, v, e, w = state_of(coin)
+        up = rotation_matrix(e)[2]
+        up_rate = cross(up, w)
+        # Where the coin would be if it did not sink: the energy tests are finer than that.
+        z = x[2] - min(look(coin).height, 0.0)
+        outcome, ending = judge(body, rules, z, v, up, w)
+        if ending == Ending.NONE and dies_away(body, rules, z, v, up, w, NO_LOSS, time, looks):
+            outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
+        if ending == Ending.NONE and upright * rate > FIRST_LOOK:
+            outcome, ending = Outcome.EDGE, Ending.STANDING
+        if ending == Ending.NONE and steps_left <= 0:
+            ending = Ending.CHATTER
+        if ending != Ending.NONE:
+            return Left.DECIDED, time, steps_left, outcome, ending
+        dt, lands = next_step(coin, rules.restitution, up, up_rate, w)
+        if lands:
+            _pass_over(coin, dt)
+            return Left.LANDS, time + dt, steps_left, Outcome.UNDECIDED, Ending.NONE
+        dt = min(dt, rules.max_time - time)
+        grip = Grip(SOFTNESS / dt, LEVEL * slow_speed(coin, rules.restitution, w) * dt)
+        set_spring(coin, 0.0, 0.0, rate)
+        force = feel(coin, grip)
+        keep(coin, time, True, knots)
+        if force > 0 and coin.rubs:
+            push_and_rub(coin, grip, dt)
+        else:
+            hold(coin, grip, dt)
+        time += dt
+        steps_left -= 1
+        on_edge = body.thickness > 0 and abs(up[2]) < UPRIGHT and abs(up_rate[2]) < UPRIGHT * rate
+        upright = upright + dt if on_edge and force > 0 else 0.0
+        unloaded = unloaded + dt if force == 0 else 0.0
+        # Half a period of the spring.
+        if unloaded * grip.root > math.pi:
+            return Left.LIFTED, time, steps_left, Outcome.UNDECIDED, Ending.NONE
+    return Left.DECIDED, time, steps_left, Outcome.UNDECIDED, Ending.MAX_TIME
+
+
+@compiled
+def next_step(coin, chi, up, up_rate, w):
+    """Give the length of the next step of a contact that lasts.
+
+    In it the coin, and the lowest point on its way round the rim, turn by less than `ANGLE`. It ends
+    before another rim point lands faster than `slow_speed`.
+
+    Args:
+        coin: MuJoCo's.
+        chi: restitution χ.
+        up: the upward unit vector in the body frame, (3,).
+        up_rate: its rate of change [1/s].
+        w: angular velocity, body frame, (3,) [rad/s].
+
+    Returns:
+        The length [s], and whether a rim point lands in it.
+    """
+    body, slow = coin.body, slow_speed(coin, chi, w)
+    sine = math.hypot(up[0], up[1])
+    rate = turning_rate(body, w)
+    if sine > FACE:
+        rate = max(rate, math.hypot(up_rate[0], up_rate[1]) / sine)
+    dt, lands = ANGLE / rate, False
+    sine_rate = (up[0] * up_rate[0] + up[1] * up_rate[1]) / sine if sine > 0 else 0.0
+    if -sine_rate * 2 * body.radius > slow:
+        dt, lands = min(dt, APPROACH * sine / -sine_rate), sine < NEAR
+    if body.thickness * abs(up_rate[2]) > slow and up[2] * up_rate[2] < 0:
+        dt, lands = min(dt, APPROACH * abs(up[2] / up_rate[2])), lands or abs(up[2]) < NEAR
+    return dt, lands
+
+
+@compiled
+def _pass_over(coin, dt):
+    """Let the coin pass over its edge, or face, in a time dt [s], and put it on the rim point that lands."""
+    glide(coin, dt / APPROACH * (2 - APPROACH))
+    coin.qpos[2] -= look(coin).height

@@ -1,1 +1,0 @@
-"""What `cointoss reproduce` makes: each module here is one figure or study, and gives it as `FIGURE`."""

@@ -1,0 +1,1 @@
+"""The film of a toss, by either engine or both, and stills; imports output."""

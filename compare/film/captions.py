@@ -1,0 +1,115 @@
+"""What a film says in words: the face that is up, the time, what the floor does."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from compare.film.drawing import FORCE_COLOR, IMPULSE_COLOR
+from compare.film.play import Play
+from models.ending import face_up
+from models.records import Face, Outcome
+
+Color = tuple[int, int, int]
+
+Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
+
+EDGE = 2
+"""Of the letters [pixels]."""
+INK, WHITE, GREY = (27, 36, 48), (255, 255, 255), (91, 102, 117)
+TITLES: dict[str, tuple[str, Color]] = {
+    "analytic": ("paper's mechanics", (0, 90, 142)),
+    "mujoco": ("MuJoCo", (170, 68, 0)),
+}
+"""Name and colour of each engine."""
+LABELS: dict[Outcome, tuple[Color, Color]] = {
+    Outcome.HEADS: ((245, 171, 31), INK),
+    Outcome.TAILS: ((13, 92, 168), WHITE),
+}
+"""Ground and ink of a face's label; an outcome that is none is grey."""
+
+
+class Line(NamedTuple):
+    """A line of a caption."""
+
+    text: str
+    color: Color = INK
+
+
+class Caption(NamedTuple):
+    """What is said of one toss at one time."""
+
+    title: Line
+    """The engine."""
+    label: str
+    """The face that is up, or the outcome of a toss that has ended."""
+    ground: Color
+    """Of the label."""
+    ink: Color
+    """Of the label."""
+    lines: Sequence[Line]
+
+
+def caption_of(play: Play, i: int) -> Caption:
+    """Describe a toss at one of the times of a film."""
+    toss, states = play.toss, play.states
+    count = int(np.searchsorted(toss.impacts.time, play.times[i], side="right"))
+    height = 100 * states.position[i, 2]
+    lines = [Line(f"{count} impact{'' if count == 1 else 's'}, height {height:.1f} cm")]
+    outcome = {Face.HEADS: Outcome.HEADS, Face.TAILS: Outcome.TAILS}[face_up(states.normal[i, 2])]
+    label = f"{outcome.label} up"
+    if play.times[i] == toss.end_time:
+        outcome, label = toss.outcome, toss.outcome.label
+        lines.append(Line(f"ended: {toss.ending.label.replace('_', ' ')}"))
+    shown = play.impulses(i)
+    if shown:
+        size = np.linalg.norm(shown[-1].impulse)
+        lines.append(Line(f"impulse {1000 * size:#.3g} mN s", _bytes(IMPULSE_COLOR)))
+    if play.forces[i].any():
+        weight = toss.scenario.coin.mass * toss.scenario.gravity
+        weights = np.linalg.norm(play.forces[i]) / weight
+        lines.append(Line(f"floor's force {weights:.2f} m g", _bytes(FORCE_COLOR)))
+    return Caption(Line(*TITLES[toss.engine]), label.upper(), *LABELS.get(outcome, (GREY, WHITE)), lines)
+
+
+def written(frame: np.ndarray, captions: Sequence[Caption], below: str) -> np.ndarray:
+    """Write captions into a frame.
+
+    Args:
+        frame: panels of one width side by side, (height, width, 3) of uint8.
+        captions: one for each panel, at its top left.
+        below: one line for all, at the bottom.
+
+    Returns:
+        A new frame, of the same shape.
+    """
+    image = Image.fromarray(frame)
+    draw = ImageDraw.Draw(image)
+    size = max(image.height / 30, 6)
+    font, large = ImageFont.load_default(size), ImageFont.load_default(1.4 * size)
+    for number, caption in enumerate(captions):
+        left = number * image.width / len(captions) + size
+        _write(draw, (left, 1.4 * size), caption.title, large, "lm")
+        right = left + draw.textlength(caption.label, font=large) + size
+        draw.rounded_rectangle((left, 2.5 * size, right, 4.7 * size), size / 3, fill=caption.ground)
+        draw.text((left + size / 2, 3.6 * size), caption.label, font=large, fill=caption.ink, anchor="lm")
+        for i, line in enumerate(caption.lines):
+            _write(draw, (left, (5.6 + 1.4 * i) * size), line, font, "lm")
+        if number > 0:
+            x = number * image.width // len(captions)
+            draw.line((x, 0, x, image.height), fill=WHITE, width=max(2, image.width // 400))
+    _write(draw, (image.width / 2, image.height - size), Line(below), font, "mm")
+    return np.asarray(image)
+
+
+def _write(
+    draw: ImageDraw.ImageDraw, place: tuple[float, float], line: Line, font: Font, anchor: str
+) -> None:
+    """Write a line with a white edge, to be read on any ground."""
+    draw.text(place, line.text, line.color, font, anchor, stroke_width=EDGE, stroke_fill=WHITE)
+
+
+def _bytes(color: tuple[float, float, float]) -> Color:
+    r, g, b = (round(255 * part) for part in color)
+    return r, g, b

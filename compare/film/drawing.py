@@ -1,0 +1,187 @@
+"""Pictures of a toss by MuJoCo's renderer: the coin, and arrows for what the floor does to it."""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
+import itertools
+import math
+from collections.abc import Sequence
+from enum import StrEnum
+from typing import NamedTuple, Self
+
+import mujoco
+import numpy as np
+
+from compare.film.play import Play
+from compare.film.visual_model import build_painted
+from models.records import Array
+
+IMPULSE_COLOR, FORCE_COLOR = (0.80, 0.15, 0.50), (0.00, 0.55, 0.40)
+"""Of the arrows: red, green and blue, from 0 to 1."""
+LONGEST_NEAR, LONGEST_FAR = 0.3, 0.15
+"""Length of the arrow of the toss's largest impulse, and of twice the coin's weight, in heights of the
+picture: where the camera follows the coin, and where it is at rest."""
+THICKEST, THICKNESS = 0.04, 0.15
+"""Of an arrow: in longest arrows, and in its own length."""
+IN_FRONT = 0.6
+"""An arrow is drawn in this part of its distance from the camera, before the coin."""
+TRAIL_CORNERS, TRAIL_WIDTH, TRAIL_COLOR = 200, 2.0, (0.3, 0.35, 0.4)
+"""Of the path in the pictures of a camera at rest; the width in pixels."""
+MARGIN = 1.1
+"""A camera at rest sees so many times what it must."""
+FIELD_OF_VIEW = 40.0
+"""Of coin.xml's cameras, up and down [deg]."""
+
+NO_SHADOW = mujoco.mjtCatBit.mjCAT_DECOR
+"""What is decoration casts no shadow; the floor's own would be specks of rounding."""
+
+Color = tuple[float, float, float]
+
+
+class Camera(StrEnum):
+    """From where a toss is looked at."""
+
+    OVERVIEW = "overview"
+    """At rest, from the side; it sees the whole path."""
+    CLOSE_UP = "close-up"
+    """From the side; it follows the coin."""
+    TOP = "top"
+    """At rest, from straight above and from afar; it sees the whole path."""
+
+
+class Box(NamedTuple):
+    """What a camera at rest must see: the coin all along its path, and the floor below."""
+
+    low: Array
+    """(3,) [m]."""
+    high: Array
+    """(3,) [m]."""
+
+
+def box_of(plays: Sequence[Play]) -> Box:
+    """Give the box of some tosses of one coin together."""
+    paths = np.concatenate([play.states.position for play in plays])
+    r = plays[0].toss.scenario.coin.radius
+    low, high = paths.min(axis=0) - 2 * r, paths.max(axis=0) + 2 * r
+    return Box(np.array([low[0], low[1], -2 * r]), high)
+
+
+class Drawer:
+    """Draws one toss; it holds an OpenGL context until its `with` statement ends."""
+
+    def __init__(self, play: Play, camera: Camera, box: Box, *, height: int, width: int) -> None:
+        """Prepare to draw.
+
+        Args:
+            play: the toss at the times of the frames.
+            camera: from where.
+            box: what a camera at rest sees.
+            height: of the pictures [pixels].
+            width: of the pictures [pixels].
+        """
+        scenario, r = play.toss.scenario, play.toss.scenario.coin.radius
+        self._play = play
+        self._follows = camera == Camera.CLOSE_UP
+        self._camera, view = _aimed(camera, box, r, width / height)
+        self._longest = (LONGEST_NEAR if self._follows else LONGEST_FAR) * view
+        far = float(np.linalg.norm(box.high - box.low)) + view
+        self._model = build_painted(scenario, extent=far, tile=max(2 * r, view / 12))
+        if self._camera.orthographic:
+            self._model.vis.global_.fovy = view
+        self._model.vis.global_.offwidth, self._model.vis.global_.offheight = width, height
+        self._data = mujoco.MjData(self._model)
+        self._light_distance = 10 * r
+        self._trail_times = np.linspace(0, play.toss.end_time, TRAIL_CORNERS)
+        self._trail = play.toss.sample(self._trail_times).position
+        self._renderer = mujoco.Renderer(self._model, height, width)
+
+    def __enter__(self) -> Self:
+        """Give the drawer itself."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Free the OpenGL context."""
+        self._renderer.close()
+
+    def draw(self, i: int) -> np.ndarray:
+        """Draw the picture at one of the times, (height, width, 3) of uint8."""
+        position = self._play.states.position[i]
+        self._data.qpos[:] = self._play.qpos(i)
+        # The light moves with the coin: the map of its shadow is small, and so fine.
+        light = self._model.light("sun")
+        light.pos[:] = position - self._light_distance * light.dir
+        mujoco.mj_forward(self._model, self._data)
+        if self._follows:
+            self._camera.lookat[:] = position
+        self._renderer.update_scene(self._data, self._camera)
+        self._renderer.scene.geoms[self._model.geom("floor").id].category = NO_SHADOW
+        if not self._follows:
+            self._add_trail(i)
+        self._add_arrows(i)
+        return self._renderer.render()
+
+    def _add_trail(self, i: int) -> None:
+        """Add the path up to one of the times."""
+        count = np.searchsorted(self._trail_times, self._play.times[i])
+        for start, end in itertools.pairwise([*self._trail[:count], self._play.states.position[i]]):
+            self._add(mujoco.mjtGeom.mjGEOM_LINE, TRAIL_WIDTH, start, end, TRAIL_COLOR, 0.6)
+
+    def _add_arrows(self, i: int) -> None:
+        play = self._play
+        for shown in play.impulses(i):
+            self._add_arrow(shown.point, shown.impulse / play.largest_impulse, IMPULSE_COLOR, shown.freshness)
+        if play.forces[i].any():
+            weight = play.toss.scenario.coin.mass * play.toss.scenario.gravity
+            self._add_arrow(play.lowest_point(i), play.forces[i] / (2 * weight), FORCE_COLOR, 1.0)
+
+    def _add_arrow(self, start: Array, part: Array, color: Color, alpha: float) -> None:
+        """Add an arrow that is `part` of the longest, (3,)."""
+        start, end = self._in_front(start), self._in_front(start + self._longest * part)
+        thickness = min(THICKNESS * float(np.linalg.norm(end - start)), THICKEST * self._longest)
+        # MuJoCo draws an arrow half as long as it is told.
+        self._add(mujoco.mjtGeom.mjGEOM_ARROW, thickness, start, 2 * end - start, color, alpha)
+
+    def _in_front(self, place: Array) -> Array:
+        """Bring a place nearer to the camera in its line of sight, where the coin does not hide it."""
+        left, right = self._renderer.scene.camera
+        if self._camera.orthographic:
+            return place - self._longest * np.array(left.forward)
+        eye = (np.array(left.pos) + np.array(right.pos)) / 2
+        return eye + IN_FRONT * (place - eye)
+
+    def _add(
+        self, kind: mujoco.mjtGeom, thickness: float, start: Array, end: Array, color: Color, alpha: float
+    ) -> None:
+        scene = self._renderer.scene
+        if scene.ngeom < scene.maxgeom:
+            geom = scene.geoms[scene.ngeom]
+            rgba = np.array([*color, alpha], np.float32)
+            mujoco.mjv_initGeom(geom, kind, np.zeros(3), np.zeros(3), np.eye(3).ravel(), rgba)
+            mujoco.mjv_connector(geom, kind, thickness, start, end)
+            geom.category = NO_SHADOW
+            scene.ngeom += 1
+
+
+def _aimed(camera: Camera, box: Box, r: float, aspect: float) -> tuple[mujoco.MjvCamera, float]:
+    """Aim a camera; give it, and the height that it sees where it looks [m]."""
+    aimed = mujoco.MjvCamera()
+    wide, deep, high = (box.high - box.low).tolist()
+    aimed.azimuth = 90.0
+    aimed.lookat[:] = (box.low + box.high) / 2
+    if camera == Camera.TOP:
+        # From afar, or the coin would look the larger the higher it is.
+        view = MARGIN * max(deep, wide / aspect)
+        aimed.elevation, aimed.distance, aimed.orthographic = -90.0, high, 1
+        return aimed, view
+    if camera == Camera.OVERVIEW:
+        view = MARGIN * max(high, wide / aspect)
+        aimed.elevation, aimed.distance = -10.0, _distance(view) + deep / 2
+    else:
+        view = 5 * r * max(1.0, 1 / aspect)
+        aimed.elevation, aimed.distance = -22.0, _distance(view)
+    return aimed, view
+
+
+def _distance(view: float) -> float:
+    """Give from how far a camera sees a height [m]."""
+    return view / 2 / math.tan(math.radians(FIELD_OF_VIEW / 2))

@@ -1,0 +1,54 @@
+"""The MuJoCo model to look at: a coin whose faces are told apart by colour, brightness and letter."""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
+import mujoco
+
+from coin_mj.model.scene import described, shape_thickness
+from models.scenario import Scenario
+
+# Boxes in the plane of a face, x, y and half their sizes, in radii. Both letters are their own mirror images.
+_BAR, _HEIGHT = 0.1, 0.5
+_LETTERS = {
+    "H": ((-0.34, 0.0, _BAR, _HEIGHT), (0.34, 0.0, _BAR, _HEIGHT), (0.0, 0.0, 0.34, _BAR)),
+    "T": ((0.0, _HEIGHT - _BAR, 0.44, _BAR), (0.0, 0.0, _BAR, _HEIGHT)),
+}
+
+
+def build_painted(scenario: Scenario, *, extent: float, tile: float) -> mujoco.MjModel:
+    """Build a model to look at: heads golden with a dark H, tails blue with a white T. It has no contacts.
+
+    Args:
+        scenario: what is tossed.
+        extent: how far the camera sees [m].
+        tile: side of the floor's tiles [m].
+    """
+    spec = described(scenario, shape_thickness(scenario))
+    r, half = scenario.coin.radius, shape_thickness(scenario) / 2
+    spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
+    spec.stat.extent = extent
+    # In extents: what is nearer to the camera is not drawn, nor shadows farther from the coin.
+    spec.visual.map.znear = min(0.01, r / extent)
+    spec.visual.map.shadowclip = 4 * r / extent
+    spec.material("floor").texrepeat = (0.5 / tile, 0.5 / tile)
+    body = spec.body("coin")
+    skin = max(0.04 * half, 0.004 * r)
+    for side, face, letter in ((1, "heads", "H"), (-1, "tails", "T")):
+        z = side * max(half, skin)
+        shapes = [
+            body.add_geom(type=mujoco.mjtGeom.mjGEOM_CYLINDER, size=(0.94 * r, skin, 0), material=face),
+            *(
+                body.add_geom(
+                    type=mujoco.mjtGeom.mjGEOM_BOX,
+                    size=(width * r, height * r, 2 * skin),
+                    pos=(x * r, y * r, 0),
+                    material=f"{face}_letter",
+                )
+                for x, y, width, height in _LETTERS[letter]
+            ),
+        ]
+        for geom in shapes:
+            geom.pos[2] = z
+            geom.contype, geom.conaffinity, geom.mass = 0, 0, 0
+    return spec.compile()

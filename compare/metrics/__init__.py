@@ -1,0 +1,1 @@
+"""How two tosses differ: impulses, sequences, paths, Lyapunov exponents; imports engines and output."""

@@ -1,0 +1,1 @@
+"""What `cointoss reproduce` makes: the paper's figures, its claims, studies; imports the rooms below."""

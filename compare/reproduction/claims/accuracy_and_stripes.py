@@ -1,0 +1,149 @@
+"""Section 5.3: the accuracy ε of a release against the width W of the stripes of the basins."""
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure as Picture
+from numpy.typing import NDArray
+
+import analytic
+from compare.reproduction.findings import Finding, Result, paper_figure
+from compare.reproduction.runner import Progress
+from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, faces_after, releases
+from models.records import Array
+
+SEED = 53
+LANDINGS = {"soft floor": "#0072B2", "bouncing": "#D55E00"}
+LADDER = np.geomspace(1e-10, 0.1, 91)
+"""Steps of the height by which a boundary is sought, 10 in a decade [m]."""
+RATIOS = 10.0 ** np.arange(-2, 5)
+"""ε over W."""
+WIDEST = 0.1
+"""Largest ε [m]: the release must stay above the floor."""
+HAND = 1e-3
+"""An accuracy that a hand may reach [m]."""
+FEWEST = 5
+"""Tosses from which a ratio is given."""
+
+
+def make(progress: Progress, centers: int = 200, count: int = 60) -> Result:
+    """Measure the stripe of each random release, and toss within ε of it."""
+    rng = np.random.default_rng(SEED)
+    heights, spins = rng.uniform(*HEIGHTS, centers), rng.uniform(*SPINS, centers)
+    data: dict[str, NDArray[Any]] = {"ratio": RATIOS}
+    at_hand = {}
+    for landing in LANDINGS:
+        width = np.array([stripe_width(landing, z, w) for z, w in zip(heights, spins, strict=True)])
+        progress(2 * len(at_hand) + 1, 2 * len(LANDINGS))
+        rows = []
+        for ratio in RATIOS:
+            within = width * ratio <= WIDEST
+            shares = _alike(landing, heights, spins, np.where(within, width * ratio, 0), count, rng)
+            rows.append(np.mean(shares[within]) if within.sum() >= FEWEST else np.nan)
+        data |= {f"{landing}, width": width, f"{landing}, alike": np.array(rows)}
+        at_hand[landing] = float(np.mean(_alike(landing, heights, spins, np.full(centers, HAND), count, rng)))
+        progress(2 * len(at_hand), 2 * len(LANDINGS))
+    soft, bouncing = (data[f"{landing}, width"] for landing in LANDINGS)
+    alike = data["bouncing, alike"]
+    findings = (
+        Finding(
+            claim="if ε ≪ W the outcome is predictable",
+            ours=f"with ε = W/100 {alike[0]:.1%} of the tosses that bounce end as the one aimed at",
+            holds=bool(alike[0] > 0.97),
+        ),
+        Finding(
+            claim="if ε ≫ W heads and tails are as likely",
+            ours=f"with ε = {_listed(alike)} end as the one aimed at",
+            holds=bool(np.nanmax(np.abs(alike[RATIOS >= 10] - 1 / 2)) < 0.1),
+        ),
+        Finding(
+            claim="W depends on the coin and its landing: bouncing makes stripes narrow",
+            ours=(
+                f"in the median a release lies in a stripe {1e3 * np.median(bouncing):.2g} mm wide, on a "
+                f"soft floor {1e3 * np.median(soft):.0f} mm; a tenth of them in stripes below "
+                f"{1e6 * np.quantile(bouncing, 0.1):.2g} µm"
+            ),
+            holds=bool(np.median(bouncing) < np.median(soft) / 100),
+        ),
+        Finding(
+            claim="so a hand leaves a bouncing coin to chance",
+            ours=(
+                f"aimed within 1 mm {at_hand['bouncing']:.0%} end as meant, on a soft floor "
+                f"{at_hand['soft floor']:.0%}"
+            ),
+            holds=bool(at_hand["bouncing"] < 0.75 < at_hand["soft floor"]),
+        ),
+    )
+    return Result(findings=findings, draw=partial(_draw, data), data=data)
+
+
+def _listed(alike: Array) -> str:
+    """Tell what part ends as meant for each ratio from 1 on that could be tossed."""
+    told = [(ratio, share) for ratio, share in zip(RATIOS, alike, strict=True) if ratio >= 1 and share >= 0]
+    return ", ".join(f"{ratio:,.0f} W {share:.0%}" for ratio, share in told)
+
+
+def _faces(landing: str, heights: Array, spins: Array) -> NDArray[np.int8]:
+    if landing == "soft floor":
+        return faces_after(case(air=True), releases(heights, spins), 0)
+    return analytic.toss_many(case(air=True), releases(heights, spins)).outcome
+
+
+def stripe_width(landing: str, height: float, spin: float) -> float:
+    """Give how far apart the next boundaries above and below a release are, as `LADDER` finds them [m].
+
+    Args:
+        landing: one of `LANDINGS`.
+        height: of the release [m].
+        spin: about ξ [rad/s].
+    """
+    steps = np.concatenate([[0.0], LADDER, -LADDER])
+    faces = _faces(landing, height + steps, np.full(len(steps), spin))
+    other = faces[1:].reshape(2, -1) != faces[0]
+    found = [float(LADDER[np.argmax(side)]) if side.any() else float(LADDER[-1]) for side in other]
+    return sum(found)
+
+
+def _alike(
+    landing: str, heights: Array, spins: Array, accuracy: Array, count: int, rng: np.random.Generator
+) -> Array:
+    """Give for each release which part of `count` tosses within its accuracy ends as itself, (n,)."""
+    aimed = _faces(landing, heights, spins)
+    tossed = heights[:, None] + accuracy[:, None] * rng.uniform(-1, 1, (len(heights), count))
+    faces = _faces(landing, tossed.ravel(), np.repeat(spins, count)).reshape(tossed.shape)
+    return np.mean(faces == aimed[:, None], axis=1)
+
+
+def _draw(data: dict[str, NDArray[Any]]) -> Picture:
+    picture = Picture(figsize=(9, 3.4))
+    alike, widths = picture.subplots(1, 2)
+    for landing, color in LANDINGS.items():
+        alike.semilogx(data["ratio"], data[f"{landing}, alike"], "o-", color=color, label=landing)
+        width = np.sort(data[f"{landing}, width"])
+        widths.semilogx(width, np.arange(1, len(width) + 1) / len(width), color=color, label=landing)
+    alike.axhline(0.5, color="#5b6675", linewidth=0.8)
+    alike.set(xlabel="accuracy over width, ε/W", ylabel="part that ends as meant", ylim=(0, 1.03))
+    widths.axvline(HAND, color="#5b6675", linewidth=0.8)
+    widths.set(
+        xlabel="width W of a release's stripe [m]", ylabel="part of the releases below", ylim=(0, 1.03)
+    )
+    alike.legend(loc="lower left")
+    widths.legend(loc="upper left")
+    return picture
+
+
+FIGURE = paper_figure(
+    paper="Section 5.3",
+    title="the accuracy of a release against the width of the stripes",
+    assumed=(
+        "Accuracy and width are those of the height, at random releases in the map of Fig. 29 in air, "
+        "χ = 0.6; soft floor: the face at the first touch. W reaches from the next boundary below to the "
+        "next above, sought up to 0.1 m off in steps of a quarter; stripes narrower than a step can be "
+        "passed over. The line on the right is 1 mm."
+    ),
+    seconds=15,
+    make=make,
+    quick_seconds=8,
+    quick=partial(make, centers=15, count=20),
+)

@@ -1,0 +1,157 @@
+"""Section 1, after Zeng-Yuan and Bin: a coin that bounces in air in a plane, and what spin in space adds."""
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure as Picture
+from numpy.typing import NDArray
+
+import analytic
+from analytic.events import run
+from coin_mj import ContactSettings
+from coin_mj.toss import impacts_of
+from compare.reproduction.findings import Finding, Result, paper_figure
+from compare.reproduction.runner import Progress
+from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, faces_after, releases
+from compare.reproduction.setups.release_arrays import chosen, moved, states_of
+from compare.reproduction.setups.stiff_tosses import stiff_tosses
+from models.records import Outcome
+from models.releases import Releases
+from models.scenario import Release
+
+SEED = 71
+ASIDE = np.array([0.0, 0.01, 0.1, 1.0, 3.0, 10.0, 20.0])
+"""Spins about ζ that are added to that about ξ [rad/s]."""
+TOLD = 5
+"""The spin of `ASIDE` whose effect is told."""
+HEIGHTS_OF_DROP = np.array([0.015, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0])
+"""From which coins spin with `DROP_SPINS` [m]."""
+DROP_SPINS = (2.0, 20.0)
+"""[rad/s]"""
+FOLLOWED, IMPACTS = 6, 3
+"""Tosses whose places are compared with MuJoCo's, and through so many impacts."""
+ACCURACY = 1e-6
+"""By which the height of twins differs [m]."""
+
+
+def make(progress: Progress, count: int = 2000, tosses_mujoco: int = 200) -> Result:
+    """Toss in a plane; add spin about the normal; drop from ever greater heights."""
+    scenario = case(air=True)
+    rng = np.random.default_rng(SEED)
+    flat = releases(rng.uniform(*HEIGHTS, count), rng.uniform(*SPINS, count))
+    outcome = analytic.toss_many(scenario, flat).outcome
+    first = faces_after(scenario, flat, 0)
+    apart, mujoco = _in_plane(flat)
+    turned = moved(chosen(flat, slice(tosses_mujoco)), angular_velocity=np.array([0, 0, ASIDE[TOLD]]))
+    heads_mujoco = np.mean(stiff_tosses(scenario, turned).outcome == Outcome.HEADS)
+    whole = 1 + len(ASIDE) + len(HEIGHTS_OF_DROP)
+    progress(1, whole)
+    changed, changed_first, heads = [], [], []
+    for done, spin in enumerate(ASIDE, start=2):
+        turned = moved(flat, angular_velocity=np.array([0, 0, spin]))
+        ended = analytic.toss_many(scenario, turned).outcome
+        changed.append(np.mean(ended != outcome))
+        changed_first.append(np.mean(faces_after(scenario, turned, 0) != first))
+        heads.append(np.mean(ended == Outcome.HEADS))
+        progress(done, whole)
+    uncertain = []
+    spins = rng.uniform(*DROP_SPINS, count)
+    for done, height in enumerate(HEIGHTS_OF_DROP, start=2 + len(ASIDE)):
+        one, other = (
+            analytic.toss_many(scenario, releases(np.full(count, height + step), spins)).outcome
+            for step in (0.0, ACCURACY)
+        )
+        uncertain.append(np.mean(one != other))
+        progress(done, whole)
+    error = 1 / (2 * np.sqrt(count))
+    findings = (
+        Finding(
+            claim="two degrees of freedom, height and tilt, are enough for a coin that turns about ξ",
+            ours=(
+                f"it never leaves its plane ({apart[0]:.0e} m); in it the air pushes it aside by up to "
+                f"{1e6 * apart[1]:.0f} µm"
+            ),
+            mujoco=mujoco,
+            holds=bool(apart[0] < 1e-12 and apart[1] < 1e-3),
+        ),
+        Finding(
+            claim="the results hold for two degrees of freedom only",
+            ours=(
+                f"{ASIDE[TOLD]:g} rad/s about the normal change {changed_first[TOLD]:.0%} of the first "
+                f"touches and {changed[TOLD]:.0%} of the outcomes, heads from {heads[0]:.0%} to "
+                f"{heads[TOLD]:.0%} (± {error:.0%}); {ASIDE[1]:g} rad/s change {changed[1]:.0%}"
+            ),
+            mujoco=f"heads {heads_mujoco:.0%} of {tosses_mujoco} tosses with {ASIDE[TOLD]:g} rad/s",
+            holds=bool(changed[TOLD] > 0.2),
+        ),
+        Finding(
+            claim="from apparently deterministic the toss becomes random (the title of that study)",
+            ours=(
+                f"1 µm of height changes {uncertain[0]:.1%} of the outcomes from "
+                f"{HEIGHTS_OF_DROP[0]:g} m, {uncertain[3]:.1%} from {HEIGHTS_OF_DROP[3]:g} m, "
+                f"{uncertain[-1]:.0%} from {HEIGHTS_OF_DROP[-1]:g} m"
+            ),
+            holds=bool(uncertain[0] < 0.01 < 0.05 < uncertain[-1]),
+        ),
+    )
+    data: dict[str, NDArray[Any]] = {
+        "aside": ASIDE,
+        "changed": np.array(changed),
+        "changed first": np.array(changed_first),
+        "heads": np.array(heads),
+        "height": HEIGHTS_OF_DROP,
+        "uncertain": np.array(uncertain),
+    }
+    return Result(findings=findings, draw=partial(_draw, data), data=data)
+
+
+def _in_plane(flat: Releases) -> tuple[tuple[float, float], str]:
+    """Give how far coins come off their plane and, in it, aside [m], and what MuJoCo says."""
+    scenario = case(air=True)
+    off, aside, theirs, between = [], [], [], []
+    for state in states_of(flat)[:FOLLOWED]:
+        places = run(scenario.body, scenario.rules, state).rows["position"]
+        off.append(np.abs(places[:, 0]).max())
+        aside.append(np.abs(places[:, 1]).max())
+        release = Release(position=(0.0, 0.0, float(state[2])), angular_velocity=(float(state[10]), 0.0, 0.0))
+        ending = scenario.ending.model_copy(update={"max_impacts": IMPACTS})
+        found = impacts_of(
+            scenario.model_copy(update={"release": release, "ending": ending}), ContactSettings()
+        ).position
+        theirs.append(np.abs(found[:, 0]).max())
+        between.append(np.abs(found[: len(places)] - places[: len(found)]).max())
+    told = (
+        f"leaves it by {max(theirs):.0e} m, within {1e3 * np.max(between):.1g} mm of ours over the first "
+        f"{IMPACTS} impacts"
+    )
+    return (float(max(off)), float(max(aside))), told
+
+
+def _draw(data: dict[str, NDArray[Any]]) -> Picture:
+    picture = Picture(figsize=(9, 3.3))
+    spin, drop = picture.subplots(1, 2)
+    spin.plot(data["aside"], data["changed"], "o-", color="#D55E00", label="outcomes changed")
+    spin.plot(data["aside"], data["changed first"], "o-", color="#0072B2", label="first touches changed")
+    spin.plot(data["aside"], data["heads"], "o:", color="#5b6675", label="heads")
+    spin.set(xlabel="spin about the normal [rad/s]", ylabel="part of the tosses", ylim=(0, 1.02))
+    spin.set_xscale("symlog", linthresh=0.01)
+    spin.set_xlim(0, 1.2 * ASIDE[-1])
+    spin.legend()
+    drop.plot(data["height"], data["uncertain"], "o-", color="#0072B2")
+    drop.set(xlabel="height of release [m]", ylabel="outcomes that 1 µm changes", ylim=(0, None))
+    return picture
+
+
+FIGURE = paper_figure(
+    paper="Section 1, Zeng-Yuan and Bin",
+    title="bounces in air with two degrees of freedom, and with spin about the normal",
+    assumed=(
+        "The paper tells no numbers of that study. The coin is the thin ideal one of Fig. 29 in air, "
+        "χ = 0.6, released flat with 20 to 60 rad/s about ξ; in the last row with 2 to 20 rad/s."
+    ),
+    seconds=25,
+    make=make,
+    quick_seconds=6,
+    quick=partial(make, count=200, tosses_mujoco=20),
+)

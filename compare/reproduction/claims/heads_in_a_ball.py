@@ -1,0 +1,160 @@
+"""Section 5.2: the probability of heads in a ball about a release, as the ball shrinks."""
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure as Picture
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+import analytic
+from compare.reproduction.findings import Finding, Result, paper_figure
+from compare.reproduction.runner import Progress
+from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
+from compare.reproduction.setups.stiff_tosses import stiff_tosses
+from models.records import Array, Outcome
+from models.releases import Releases
+from models.scenario import Scenario
+
+SEED = 52
+RADII = 10.0 ** -np.arange(1, 13)
+"""ε, of the balls; lengths are measured by r, speeds by √(g r), angles in rad, spins by √(g/r)."""
+MUJOCO_RADIUS = 1e-12
+REACH, LOOKS = 0.1, 200
+"""How far up a boundary is sought [m], and at how many heights."""
+KINDS = {"inside a basin": "#0072B2", "on a boundary": "#D55E00"}
+
+
+def make(progress: Progress, centers: int = 10, count: int = 150, tosses_mujoco: int = 100) -> Result:
+    """Toss from balls about random releases, and about releases on boundaries."""
+    scenario = case(air=True)
+    rng = np.random.default_rng(SEED)
+    inside = np.column_stack([rng.uniform(*HEIGHTS, centers), rng.uniform(*SPINS, centers)])
+    border = np.array([[boundary_above(scenario, z, w), w] for z, w in inside])
+    heads: dict[str, Array] = {}
+    for kind, points in zip(KINDS, (inside, border), strict=True):
+        rows = []
+        for z, w in points:
+            balls = [ball_about(scenario, z, w, radius, count, rng) for radius in RADII]
+            rows.append([_heads(analytic.toss_many(scenario, ball).outcome) for ball in balls])
+            progress(len(heads) * centers + len(rows), 2 * centers + 1)
+        heads[kind] = np.array(rows)
+    z, w = inside[0]
+    ball = ball_about(scenario, z, w, MUJOCO_RADIUS, tosses_mujoco, rng)
+    mujoco = _heads(stiff_tosses(scenario, ball).outcome)
+    progress(2 * centers + 1, 2 * centers + 1)
+    sure, even = heads.values()
+    pure = (sure == 0) | (sure == 1)
+    # Of the radii from the smallest on, those up to which one side alone comes up.
+    first = RADII[[len(RADII) - int(np.argmin([*row[::-1], False])) for row in pure]]
+    error = 1 / (2 * np.sqrt(count))
+    findings = (
+        Finding(
+            claim="for any release a ball exists in which one side alone comes up",
+            ours=(
+                f"so in all balls of {RADII[-1]:.0e} about {centers} random releases, from "
+                f"{first.min():.0e} to {first.max():.0e} on"
+            ),
+            mujoco=f"prob(heads) {mujoco:.2f} in one of them, {sure[0, -1]:.2f} by ours",
+            holds=bool(pure[:, -1].all()),
+        ),
+        Finding(
+            claim="on a boundary no ball is small enough",
+            ours=(
+                f"prob(heads) in those of {RADII[-1]:.0e} is {even[:, -1].min():.2f} to "
+                f"{even[:, -1].max():.2f}: 1/2, as on a smooth boundary"
+            ),
+            holds=bool(np.abs(even[:, -1] - 1 / 2).max() < 5 * error),
+        ),
+        Finding(
+            claim="with the accuracy of a hand the outcome is left to chance",
+            ours=(
+                f"prob(heads) in balls of {RADII[0]:g}, {1e3 * RADII[0] * scenario.coin.radius:.1f} mm of "
+                f"height, is {sure[:, 0].min():.2f} to {sure[:, 0].max():.2f} (± {error:.2f})"
+            ),
+            holds=bool(np.abs(sure[:, 0] - 1 / 2).max() < 5 * error),
+        ),
+    )
+    data: dict[str, NDArray[Any]] = {"radius": RADII, "release": inside, "boundary": border, **heads}
+    return Result(findings=findings, draw=partial(_draw, data), data=data)
+
+
+def boundary_above(scenario: Scenario, height: float, spin: float) -> float:
+    """Find a boundary above a release of the map, to rounding.
+
+    Args:
+        scenario: of the map.
+        height: of the release [m].
+        spin: of both, about ξ [rad/s].
+
+    Returns:
+        The height of the last double before the outcome changes [m].
+    """
+
+    def outcome(z: float) -> int:
+        return int(analytic.toss_many(scenario, releases(np.array([z]), np.array([spin]))).outcome[0])
+
+    line = np.linspace(height, height + REACH, LOOKS)
+    faces = analytic.toss_many(scenario, releases(line, np.full_like(line, spin))).outcome
+    change = int(np.flatnonzero(faces[1:] != faces[:-1])[0])
+    low, high = line[change], line[change + 1]
+    while low < (middle := (low + high) / 2) < high:
+        low, high = (middle, high) if outcome(middle) == faces[change] else (low, middle)
+    return float(low)
+
+
+def ball_about(
+    scenario: Scenario, height: float, spin: float, radius: float, count: int, rng: np.random.Generator
+) -> Releases:
+    """Draw releases uniformly from a ball about one of the map; all twelve numbers vary.
+
+    Args:
+        scenario: of the map.
+        height: of the centre [m].
+        spin: of the centre, about ξ [rad/s].
+        radius: in the units of `RADII`.
+        count: how many.
+        rng: the source of chance.
+    """
+    r, g = scenario.coin.radius, scenario.gravity
+    drawn = rng.normal(size=(count, 12))
+    drawn *= radius * rng.uniform(0, 1, (count, 1)) ** (1 / 12) / np.linalg.norm(drawn, axis=1, keepdims=True)
+    place, speed, turn, spins = np.split(drawn, 4, axis=1)
+    return Releases(
+        position=np.array([0, 0, height]) + r * place,
+        velocity=np.sqrt(g * r) * speed,
+        quaternion=Rotation.from_rotvec(turn).as_quat(scalar_first=True),
+        angular_velocity=np.array([spin, 0, 0]) + np.sqrt(g / r) * spins,
+    )
+
+
+def _heads(outcomes: NDArray[np.int8]) -> float:
+    return float(np.mean(outcomes == Outcome.HEADS))
+
+
+def _draw(data: dict[str, NDArray[Any]]) -> Picture:
+    picture = Picture(figsize=(9, 3.4))
+    for axes, (kind, color) in zip(picture.subplots(1, 2, sharey=True), KINDS.items(), strict=True):
+        axes.semilogx(data["radius"], data[kind].T, ".-", color=color, linewidth=0.7)
+        axes.axhline(0.5, color="#5b6675", linewidth=0.8)
+        axes.set(title=f"about a release {kind}", xlabel="radius ε of the ball", ylim=(-0.03, 1.03))
+        axes.invert_xaxis()
+    picture.axes[0].set_ylabel("prob(heads)")
+    return picture
+
+
+FIGURE = paper_figure(
+    paper="Section 5.2",
+    title="the probability of heads in a ball about a release, as the ball shrinks",
+    assumed=(
+        "The paper leaves open how lengths, angles and their rates are weighed in the ball; here by r, 1, "
+        "√(g r) and √(g/r). The coin is that of Fig. 29(c), χ = 0.6 with air, the centres lie at random in "
+        "its map, and all twelve numbers of the release vary. Boundaries are found by halving, to the last "
+        "digit."
+    ),
+    seconds=60,
+    make=make,
+    quick_seconds=10,
+    quick=partial(make, centers=3, count=60, tosses_mujoco=10),
+)

@@ -1,0 +1,219 @@
+"""Fig. 17: the six laws of contact, drawn from the impacts that they make of one touch."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Picture
+
+import analytic
+import coin_mj
+from coin_mj import ContactSettings, Friction
+from coin_mj.model.settings import ROUGH
+from compare.reproduction.findings import Finding, Result, paper_figure
+from compare.reproduction.runner import Progress
+from compare.reproduction.setups.mujoco_impacts import on_floor
+from models.attitude import rotation_matrix
+from models.laws import ContactLaw
+from models.reading import load
+from models.records import Array, Impacts
+from models.scenario import Scenario
+
+MU = load("contact_sliding_friction").floor.friction
+SAME = 1e-12
+"""Speeds nearer to each other than this are the same, but for rounding [m/s]."""
+NEAR = 1e-3
+"""MuJoCo stands for a law where its impulse is within this part of the law's; (f) it has as Coulomb's."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Law:
+    """A contact law of Fig. 17."""
+
+    letter: str
+    claim: str
+    misfit: Callable[[Array, Array, Array], Array]
+    """What its conditions leave over, of v_A before and after (τ, ν, z) and of the impulse over the mass."""
+    contact: tuple[float, ContactSettings] | None
+    """Friction and settings of the MuJoCo contact that stands for it."""
+
+
+def _kept(before: Array, after: Array, number: int) -> float:
+    return after[number] - before[number]
+
+
+LAWS = {
+    ContactLaw.SHARP_EDGE: Law(
+        letter="a",
+        claim="sharp edge: v_Aν' = 0, v_Aτ' = v_Aτ",
+        misfit=lambda v, after, _: np.array([after[1], _kept(v, after, 0)]),
+        contact=None,
+    ),
+    ContactLaw.KNURLED: Law(
+        letter="b",
+        claim="knurled: v_Aν' = v_Aν, v_Aτ' = 0",
+        misfit=lambda v, after, _: np.array([after[0], _kept(v, after, 1)]),
+        contact=None,
+    ),
+    ContactLaw.PERFECTLY_ROUGH: Law(
+        letter="c",
+        claim="perfectly rough: v_Aν' = v_Aτ' = 0",
+        misfit=lambda _, after, __: after[:2],
+        contact=(ROUGH, ContactSettings()),
+    ),
+    ContactLaw.SLIP_PRESERVING: Law(
+        letter="d",
+        claim="smooth (1): v_Aν' = v_Aν, v_Aτ' = v_Aτ",
+        misfit=lambda v, after, _: after[:2] - v[:2],
+        contact=(ROUGH, ContactSettings(friction=Friction.NATIVE, slip_damping=0.0)),
+    ),
+    ContactLaw.SMOOTH: Law(
+        letter="e",
+        claim="smooth (2): S_τν = 0",
+        misfit=lambda _, __, S: S[:2],
+        contact=(0.0, ContactSettings()),
+    ),
+    ContactLaw.SLIDING_FRICTION: Law(
+        letter="f",
+        claim="developed friction: S_τν = -μ S_z v_Aτν/v_Aτν",
+        misfit=lambda v, _, S: S[:2] + MU * S[2] * v[:2] / np.hypot(v[0], v[1]),
+        contact=(MU, ContactSettings()),
+    ),
+}
+
+
+def make(progress: Progress) -> Result:
+    """Let each law act on the first touch of the scenarios `contact_` and compare MuJoCo's contacts."""
+    data: dict[str, Array] = {}
+    findings, gained = [], {}
+    for done, (name, law) in enumerate(LAWS.items(), start=1):
+        case = _one_impact(load(f"contact_{name.label}"))
+        ours = analytic.toss(case).impacts
+        before, after, S = _in_the_floor(ours)
+        misfit = max(
+            np.abs(law.misfit(before, after, S / case.coin.mass)).max(),
+            abs(after[2] + case.floor.restitution * before[2]),
+            np.abs(ours.velocity_after - ours.velocity_before - ours.impulse / case.coin.mass).max(),
+        )
+        gained[law.letter] = _gained(ours)
+        data |= {f"({law.letter}) before": before, f"({law.letter}) after": after}
+        data |= {f"({law.letter}) impulse": S}
+        told, apart = "not realisable", 0.0
+        if law.contact is not None:
+            mu, settings = law.contact
+            theirs = coin_mj.impacts_of(on_floor(case, ContactLaw.COULOMB, mu), settings)
+            _, after_theirs, S_theirs = _in_the_floor(theirs)
+            data |= {f"({law.letter}) after, MuJoCo": after_theirs}
+            data |= {f"({law.letter}) impulse, MuJoCo": S_theirs}
+            apart = float(np.linalg.norm(S_theirs - S) / np.linalg.norm(S))
+            told = f"{_row(after_theirs, S_theirs)}; impulse within {apart:.0e}"
+            if name == ContactLaw.SLIDING_FRICTION:
+                told = f"Coulomb's friction: {told}"
+        findings.append(
+            Finding(
+                claim=f"({law.letter}) {law.claim}",
+                ours=f"{_row(after, S)}; fulfilled within {misfit:.0e} m/s",
+                mujoco=told,
+                holds=bool(misfit < SAME and (name == ContactLaw.SLIDING_FRICTION or apart < NEAR)),
+            )
+        )
+        progress(done, len(LAWS))
+    S, before, after = (data[f"({part}"] for part in ("d) impulse", "f) before", "f) after"))
+    findings += [
+        Finding(
+            claim="(d) is frictionless",
+            ours=f"to keep all slip takes a horizontal impulse of {np.hypot(S[0], S[1]) / S[2]:.2f} S_z",
+            holds=bool(np.hypot(S[0], S[1]) < SAME),
+            expected=False,
+        ),
+        Finding(
+            claim="(f) brakes the slip",
+            ours=(
+                f"drives it on past its stop, from {np.hypot(*before[:2]):.2f} m/s to "
+                f"{np.hypot(*after[:2]):.2f} m/s the other way; takes {-gained['f']:.0%} of the energy, "
+                f"Coulomb's friction {-_gained_by_coulomb():.0%}"
+            ),
+            mujoco=f"Coulomb's friction stops it: {np.hypot(*data['(f) after, MuJoCo'][:2]):.0e} m/s",
+            holds=bool(np.hypot(*after[:2]) < np.hypot(*before[:2])),
+            expected=False,
+        ),
+    ]
+    return Result(findings=findings, draw=partial(_draw, data), data=data)
+
+
+def _gained(impacts: Impacts) -> float:
+    """Give the change of energy in the first impact, relative to the energy before it."""
+    change = impacts.energy_change[0]
+    return float(change / (impacts.energy[0] - change))
+
+
+def _gained_by_coulomb() -> float:
+    case = _one_impact(load("contact_sliding_friction"))
+    return _gained(analytic.toss(on_floor(case, ContactLaw.COULOMB, MU)).impacts)
+
+
+def _one_impact(case: Scenario) -> Scenario:
+    return case.model_copy(update={"ending": case.ending.model_copy(update={"max_impacts": 1})})
+
+
+def _in_the_floor(impacts: Impacts) -> tuple[Array, Array, Array]:
+    """Give v_A before and after the first impact, and its impulse: along the edge, across it, and up."""
+    xi, eta, _ = impacts.point[0]
+    R = np.array(rotation_matrix(tuple(impacts.quaternion[0])))
+    tau = R @ [-eta, xi, 0] / np.hypot(xi, eta)
+    axes = np.array([tau, [-tau[1], tau[0], 0], [0, 0, 1]])
+    return (
+        axes @ impacts.contact_velocity_before[0],
+        axes @ impacts.contact_velocity_after[0],
+        axes @ impacts.impulse[0],
+    )
+
+
+def _row(after: Array, S: Array) -> str:
+    """Give velocity and impulse as they stand in the table."""
+    return f"v_A' = {_triple(after)} m/s, S = {_triple(1e3 * S)} mN s"
+
+
+def _triple(x: Array) -> str:
+    return "(" + ", ".join(f"{number + 0:.3f}" for number in np.round(x, 3)) + ")"
+
+
+def _draw(data: dict[str, Array]) -> Picture:
+    picture = Picture(figsize=(9, 5.6))
+    panels = picture.subplots(2, 3, sharex=True, sharey=True).flat
+    for axes, (name, law) in zip(panels, LAWS.items(), strict=True):
+        before, after, S = (data[f"({law.letter}) {part}"] for part in ("before", "after", "impulse"))
+        _arrow(axes, before, "#9aa4b0", 5, "v_A")
+        _arrow(axes, after, "#0072B2", 2, "v_A'")
+        _arrow(axes, 1e3 * S, "#D55E00", 2, "S [mN s]")
+        if law.contact is not None:
+            for part, color, unit in (("after", "#0072B2", 1), ("impulse", "#D55E00", 1e3)):
+                tip = unit * data[f"({law.letter}) {part}, MuJoCo"]
+                axes.plot(tip[0], tip[1], "o", color=color, markersize=9, fillstyle="none")
+        title = f"({law.letter}) {name.label.replace('_', ' ')}: S_z = {1e3 * S[2]:.2f} mN s"
+        axes.set_title(title, fontsize=9)
+    for axes in picture.axes[3:]:
+        axes.set_xlabel("τ, along the edge [m/s]")
+    for axes in picture.axes[::3]:
+        axes.set_ylabel("ν, across it [m/s]")
+    picture.axes[0].legend(fontsize=8, title="in the floor; circles: MuJoCo", title_fontsize=8)
+    return picture
+
+
+def _arrow(axes: Axes, tip: Array, color: str, width: float, label: str) -> None:
+    axes.plot([0, tip[0]], [0, tip[1]], color=color, linewidth=width, label=label)
+    axes.plot(tip[0], tip[1], "o", color=color, markersize=4)
+
+
+FIGURE = paper_figure(
+    paper="Fig. 17",
+    title="the six laws of contact, by the impacts that they make of one touch",
+    assumed=(
+        "The paper draws no numbers; here the first touch of the scenarios contact_*: the ideal coin in air, "
+        f"restitution 0.6, friction {MU:g}. Vectors are (τ, ν, z)."
+    ),
+    seconds=5,
+    make=make,
+)

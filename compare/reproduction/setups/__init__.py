@@ -1,0 +1,1 @@
+"""What several figures share: their coins, grids of releases and random impacts."""

@@ -1,0 +1,348 @@
+"""How MuJoCo's contacts tend to the hard limit: errors of single impacts over every setting."""
+
+import json
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.figure import Figure as Picture
+
+from compare.reproduction.runner import Figure, Made, Progress
+from compare.reproduction.setups.mujoco_fixed_steps import (
+    DEFAULT,
+    HARDEST,
+    one_step_solref,
+    restitutions_of_a_ball,
+    spring_solref,
+)
+from compare.reproduction.setups.mujoco_impacts import draw_touches
+from compare.reproduction.setups.mujoco_study import (
+    FINE,
+    RUBBED,
+    ConeFormula,
+    OwnCone,
+    Spread,
+    Steps,
+    Stiffness,
+    cone_formula,
+    over_friction,
+    over_kinds,
+    over_restitution,
+    over_spin,
+    over_steps,
+    over_stiffness,
+    over_tilt,
+    own_cone,
+    smooth_and_rubbed,
+)
+
+SEED = 4
+STIFFNESSES = tuple(10.0**power for power in range(6, 17))
+STEPS, MOST_STEPS = (10, 20, 40, 80, 160, 320, 640), 2000
+RESTITUTIONS = (0.01, 0.03, 0.1, 0.3, 0.5, 0.8, 1.0)
+FRICTIONS = (0.0, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0)
+SPINS = (3.0, 10.0, 30.0, 100.0, 300.0)
+TILTS = (5.0, 20.0, 45.0, 70.0, 85.0)
+CONE_TILTS, CONE_RESTITUTION = (20.0, 45.0, 70.0), 0.5
+INTEGRATORS = ("Euler", "implicitfast", "RK4")
+USERS_STEP = 1e-3
+"""Of the table for `mj_step` [s]; the restitution does not depend on it."""
+USERS_RESTITUTIONS, USERS_STEPS = (0.1, 0.3, 0.5, 0.8, 1.0), (10, 20, 40, 80, 160)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sizes:
+    """How many impacts each part of the study has."""
+
+    impacts: int = 24
+    kinds: int = 150
+    cells: int = 13
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """All parts of the study; see `compare.reproduction.setups.mujoco_study` for each."""
+
+    kinds: dict[str, dict[str, Spread]]
+    stiffness: dict[str, Stiffness]
+    steps: dict[str, Steps]
+    restitution: dict[float, Spread]
+    friction: dict[float, Spread]
+    spin: dict[float, Spread]
+    tilt: dict[float, Spread]
+    cone: OwnCone
+    formula: ConeFormula
+    users: dict[str, list[float]]
+    """Largest |e' - e| of a ball stepped by `mj_step`, for each of `USERS_RESTITUTIONS`, by contact."""
+
+
+def study(sizes: Sizes, seed: int, progress: Callable[[int, int], None] = lambda *_: None) -> Study:
+    """Compute the study."""
+    rng = np.random.default_rng(seed)
+    floors = smooth_and_rubbed(draw_touches(rng, sizes.impacts, (0.3, 1.0)))
+    half = max(4, sizes.impacts // 2)
+    axis = np.linspace(0, 1, sizes.cells).tolist()
+    jobs: dict[str, Callable[[], Any]] = {
+        "kinds": lambda: over_kinds(sizes.kinds, rng),
+        "stiffness": lambda: {name: over_stiffness(cases, STIFFNESSES) for name, cases in floors.items()},
+        "steps": lambda: {
+            name: over_steps(cases[:half], STEPS, MOST_STEPS) for name, cases in floors.items()
+        },
+        "restitution": lambda: over_restitution(half, RESTITUTIONS, rng),
+        "friction": lambda: over_friction(sizes.impacts, FRICTIONS, rng),
+        "spin": lambda: over_spin(half, SPINS, rng),
+        "tilt": lambda: over_tilt(half, TILTS, rng),
+        "cone": lambda: own_cone(CONE_RESTITUTION, CONE_TILTS, axis, [2 * part for part in axis]),
+        "formula": lambda: cone_formula(sizes.kinds, rng),
+        "users": _users,
+    }
+    parts = {}
+    for number, (name, job) in enumerate(jobs.items(), start=1):
+        parts[name] = job()
+        progress(number, len(jobs))
+    return Study(**parts)
+
+
+def _users() -> dict[str, list[float]]:
+    def worst(e: float, solref: tuple[float, float], integrator: str, solimp: str = HARDEST) -> float:
+        return float(np.abs(restitutions_of_a_ball(solref, USERS_STEP, integrator, solimp) - e).max())
+
+    answers = {
+        f"one step, {integrator}": [
+            worst(e, one_step_solref(e, USERS_STEP), integrator) for e in USERS_RESTITUTIONS
+        ]
+        for integrator in INTEGRATORS
+    }
+    answers["one step, Euler, MuJoCo's default solimp"] = [
+        worst(e, one_step_solref(e, USERS_STEP), "Euler", DEFAULT) for e in USERS_RESTITUTIONS
+    ]
+    for integrator in (INTEGRATORS[0], INTEGRATORS[-1]):
+        for n in USERS_STEPS:
+            answers[f"spring of {n} steps, {integrator}"] = [
+                worst(e, spring_solref(e, USERS_STEP, n), integrator) for e in USERS_RESTITUTIONS
+            ]
+    return answers
+
+
+def check(found: Study) -> tuple[str, ...]:
+    """Give the claims that the numbers don't bear out."""
+    explicit = [fit for name in ("spring", "one step") for fit in found.kinds[name].values()]
+    own = [fit for name, kinds in found.kinds.items() if "cone" in name for fit in kinds.values()]
+    smooth = found.stiffness["smooth"]
+    claims = {
+        "impulses at the default settings: median below 2e-4, worst below 1e-3": all(
+            fit.median < 2e-4 and fit.worst < 1e-3 for fit in explicit
+        ),
+        "MuJoCo's own cone errs by more than 1e-3": all(fit.median > 1e-3 for fit in own),
+        "the error falls with the root of the stiffness": all(
+            0.45 < part.order < 0.55 for part in found.stiffness.values()
+        ),
+        "Richardson's limit is nearer than the hardest of its two springs, up to 1e12": all(
+            limit < error
+            for k, error, limit in zip(smooth.stiffness, smooth.impulse, smooth.limit, strict=True)
+            if k <= 1e12
+        ),
+        "the steps converge with second order": all(1.5 < part.order < 2.5 for part in found.steps.values()),
+        "the formulas of the own cone hold": found.formula.normal_speed.worst < 2e-3
+        and found.formula.energy.worst < 2e-3,
+        "Moreau's law gains no energy": found.formula.gains["one step, own cone"][0] == 0,
+        "one step of Euler is exact": max(found.users["one step, Euler"]) < 1e-9,
+    }
+    return tuple(claim for claim, holds in claims.items() if not holds)
+
+
+def _table(head: list[str], rows: list[list[str]]) -> list[str]:
+    return [f"| {' | '.join(row)} |" for row in (head, ["---"] * len(head), *rows)]
+
+
+def _spreads(name: str, spreads: dict[float, Spread]) -> list[str]:
+    rows = [[f"{value:g}", f"{fit.median:.1e}", f"{fit.worst:.1e}"] for value, fit in spreads.items()]
+    return _table([name, "median", "worst"], rows)
+
+
+def text(found: Study) -> str:
+    """Give the tables."""
+    lines = ["Errors of impulses by kind of impact, median (worst; number):", ""]
+    kinds = list(next(iter(found.kinds.values())))
+    lines += _table(
+        ["contact", *kinds],
+        [
+            [
+                name,
+                *(
+                    f"{fits[kind].median:.1e} ({fits[kind].worst:.1e}; {fits[kind].number})"
+                    if kind in fits
+                    else "as frictionless"
+                    for kind in kinds
+                ),
+            ]
+            for name, fits in found.kinds.items()
+        ],
+    )
+    for name, part in found.stiffness.items():
+        lines += ["", f"Median errors over the stiffness, {name}; order {part.order:.2f}:", ""]
+        columns = (part.impulse, part.velocity, part.spin, part.guessed_mass, part.limit, part.fine_limit)
+        lines += _table(
+            [
+                "k [1/s²]",
+                "impulse",
+                "velocity",
+                "spin",
+                "impulse without diagexact",
+                "2 S(k) - S(k/4)",
+                f"with {FINE} steps",
+            ],
+            [[f"{k:.0e}", *(f"{column[i]:.1e}" for column in columns)] for i, k in enumerate(part.stiffness)],
+        )
+    for name, part in found.steps.items():
+        lines += [
+            "",
+            f"Change of the impulse against {MOST_STEPS} steps, {name}; order {part.order:.2f}:",
+            "",
+        ]
+        lines += _table(
+            ["steps", "median"],
+            [[str(n), f"{error:.1e}"] for n, error in zip(part.steps, part.impulse, strict=True)],
+        )
+    lines += ["", "Restitution asked for, and |obtained - asked|, smooth:", ""]
+    lines += _spreads("χ", found.restitution)
+    for name, spreads in (
+        ("μ", found.friction),
+        (f"spin up to [rad/s], μ = {RUBBED:g}", found.spin),
+        (f"tilt [deg], μ = {RUBBED:g}", found.tilt),
+    ):
+        lines += ["", "Error of the impulse at the default settings:", "", *_spreads(name, spreads)]
+    lines += ["", *_cone_lines(found)]
+    lines += ["", "Largest |e' - e| of a ball, mj_step with a fixed step:", ""]
+    lines += _table(
+        ["contact", *(f"e = {e:g}" for e in USERS_RESTITUTIONS)],
+        [[name, *(f"{error:.0e}" for error in errors)] for name, errors in found.users.items()],
+    )
+    return "\n".join(lines)
+
+
+def _cone_lines(found: Study) -> list[str]:
+    cone, formula = found.cone, found.formula
+    lines = [f"Largest restitution of the spring with MuJoCo's own cone, {cone.restitution:g} asked for:", ""]
+    lines += _table(
+        ["tilt [deg]", "restitution", "at μ", "at slip/normal speed"],
+        [
+            [
+                f"{tilt:g}",
+                f"{plane.max():.3f}",
+                f"{cone.frictions[int(plane.argmax()) % plane.shape[1]]:.2f}",
+                f"{cone.slips[int(plane.argmax()) // plane.shape[1]]:.2f}",
+            ]
+            for tilt, plane in zip(cone.tilts, cone.obtained, strict=True)
+        ],
+    )
+    lines += [
+        "",
+        "In one step with the own cone:",
+        "",
+        f"- v_n' = χ |v_n| + μ |v_t' + χ v_t| holds to {formula.normal_speed.worst:.0e} |v_n|",
+        f"- ΔE = (1 - χ) S · v_A/2 holds to {formula.energy.worst:.0e} E",
+        f"- v_n' reaches {formula.pushed:.2f} χ |v_n|",
+        "",
+    ]
+    return lines + _table(
+        ["contact", "impacts that gain energy", "largest change over the energy before"],
+        [[name, f"{part:.0%}", f"{largest:+.1e}"] for name, (part, largest) in formula.gains.items()],
+    )
+
+
+def run(folder: Path, progress: Progress) -> Made:
+    """Make the study; write its files; give its tables and the claims that fail."""
+    found = study(Sizes(), SEED, progress)
+    numbers = asdict(found)
+    numbers["cone"]["obtained"] = found.cone.obtained.tolist()
+    (folder / "numbers.json").write_text(json.dumps(numbers, indent=1, allow_nan=False), encoding="utf-8")
+    style: Any = {
+        "font.size": 9,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "legend.frameon": False,
+    }
+    with mpl.rc_context(style):
+        draw_convergence(found).savefig(folder / "convergence.png", dpi=80)
+        draw_cone(found.cone).savefig(folder / "own-cone.png", dpi=80)
+    return Made(text=text(found), failed=check(found))
+
+
+def draw_convergence(found: Study) -> Picture:
+    """Draw errors over the stiffness, over the steps, and over restitution, friction, spin and tilt."""
+    picture = Picture(figsize=(12, 6.6), layout="constrained")
+    axes = picture.subplots(2, 3)
+    for place, (name, part) in zip(axes[0], found.stiffness.items(), strict=False):
+        for label, column, style in (
+            ("impulse", part.impulse, "o-"),
+            ("velocity", part.velocity, "s--"),
+            ("spin", part.spin, "^:"),
+            ("impulse, mass guessed (no diagexact)", part.guessed_mass, "x-"),
+            ("impulse 2 S(k) − S(k/4)", part.limit, "d-."),
+            (f"the same with {FINE} steps", part.fine_limit, "v-."),
+        ):
+            place.loglog(part.stiffness, column, style, label=label, markersize=4)
+        place.set_title(f"{name}: order {part.order:.2f}")
+        place.set_xlabel("stiffness k [1/s²]")
+        place.set_ylabel("median error")
+    axes[0][0].legend(fontsize=7, loc="upper right")
+    for name, part in found.steps.items():
+        axes[0][2].loglog(part.steps, part.impulse, "o-", label=f"{name}: order {part.order:.2f}")
+    axes[0][2].set_title(f"against {MOST_STEPS} steps")
+    axes[0][2].set_xlabel("steps in a contact")
+    axes[0][2].set_ylabel("median change of the impulse")
+    axes[0][2].legend()
+    for place, (label, spreads, scale) in zip(
+        axes[1],
+        (
+            ("friction μ", found.friction, "linear"),
+            (f"spin up to [rad/s], μ = {RUBBED:g}", found.spin, "log"),
+            (f"tilt [deg], μ = {RUBBED:g}", found.tilt, "linear"),
+        ),
+        strict=True,
+    ):
+        place.plot(list(spreads), [fit.median for fit in spreads.values()], "o-", label="median")
+        place.plot(list(spreads), [fit.worst for fit in spreads.values()], "s--", label="worst")
+        place.set_xscale(scale)
+        place.set_yscale("log")
+        place.set_ylim(1e-6, 2e-3)
+        place.set_xlabel(label)
+        place.set_ylabel("error of the impulse")
+        place.set_title("default settings")
+    axes[1][0].legend()
+    return picture
+
+
+def draw_cone(cone: OwnCone) -> Picture:
+    """Draw the restitution that MuJoCo's own friction gives."""
+    picture = Picture(figsize=(12, 3.6), layout="constrained")
+    axes = picture.subplots(1, len(cone.tilts), sharey=True)
+    meshes = []
+    for place, tilt, plane in zip(axes, cone.tilts, cone.obtained, strict=True):
+        mesh = place.pcolormesh(
+            cone.frictions,
+            cone.slips,
+            plane,
+            vmin=cone.restitution,
+            vmax=cone.obtained.max(),
+            cmap="viridis",
+            shading="nearest",
+        )
+        meshes.append(mesh)
+        place.set_title(f"tilt {tilt:g}°")
+        place.set_xlabel("friction μ")
+    axes[0].set_ylabel("slip over normal speed")
+    picture.colorbar(meshes[0], ax=axes, label=f"restitution; {cone.restitution:g} asked for")
+    return picture
+
+
+FIGURE = Figure(
+    title="how MuJoCo's contacts tend to the paper's laws of impact",
+    seconds=200,
+    files=("numbers.json", "convergence.png", "own-cone.png"),
+    run=run,
+)

@@ -1,0 +1,219 @@
+"""What a map costs on this machine, and so how long maps of 1e6 to 1e12 tosses would take.
+
+Times are the processor's, of all cores together: whatever else the machine does counts little.
+"""
+
+import json
+import tempfile
+from collections.abc import Iterable, Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from time import process_time
+
+import numpy as np
+from numba import config
+
+from compare.engines import Engine
+from compare.reproduction.runner import Figure, Made, Progress
+from compare.sweep import run as sweep_run
+from compare.sweep.axes import parse_axis
+from compare.sweep.grid import Sweep, Tile, tiles
+from compare.sweep.pixels import Pixels, check, toss_pixels
+from compare.sweep.store import opened
+from models.reading import parse
+
+COIN = """
+[coin]
+mass = "2 g"
+radius = "1.25 cm"
+thickness = {thickness}
+[air]
+normal = {normal}
+tangential = {tangential}
+[floor]
+restitution = 0.6
+contact = "smooth"
+[release]
+position = [0, 0, 0.4]
+angular_velocity = [0, 40, 0]
+"""
+RELEASE = ("release.angular_velocity.eta=20:60:{}", "release.position.z=0.2:0.6:{}")
+FLOOR = ("floor.restitution=0.5:0.7:{}", "gravity=9:10:{}")
+"""Axes of which every pixel is another floor, so that no two tosses are made together."""
+SIDE = 1000
+"""Pixels along a side of the map: 1e6 tosses; every third along each is tossed to time the other kinds."""
+MUJOCO_SIDE = 60
+TILED_SIDE, TILE_SIDES = 100, (10, 32, 100)
+"""Pixels along a side of a map that is cut into tiles, and of these: of 1e2, 1e3, 1e4 tosses."""
+TOSSES = (1e6, 1e9, 1e12)
+CORES = (2, 16, 128, 1024)
+TOSS = "toss"
+LEAST_SHARE = 0.9
+"""Of the time of a map that its tosses take, at least."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """Processor times."""
+
+    cores: int
+    """Of this machine that were used."""
+    toss: dict[str, float]
+    """By the kind of toss [s]."""
+    tile: dict[int, float]
+    """Of a toss in vacuum, by the tosses in its tile [s]."""
+    parts: dict[str, float]
+    """Of the whole map in vacuum, by what is done; of the tosses, each core's share [s]."""
+    tosses: int
+    """In that map."""
+
+
+def run(folder: Path, progress: Progress) -> Made:
+    """Make the study: numbers.json."""
+    study = compute(SIDE, MUJOCO_SIDE, progress)
+    (folder / "numbers.json").write_text(
+        json.dumps(asdict(study), indent=1, allow_nan=False), encoding="utf-8"
+    )
+    return Made(text=text(study), failed=check_claims(study))
+
+
+def compute(side: int, mujoco_side: int, progress: Progress) -> Study:
+    """Measure on maps of a thin coin on a smooth floor.
+
+    Args:
+        side: pixels along a side of the map that is made whole, and of the largest tile.
+        mujoco_side: of MuJoCo's map.
+        progress: called after each of the measurements.
+    """
+    cores = int(config.__dict__["NUMBA_NUM_THREADS"])
+    kinds = {
+        "thin coin": sweep_of(side),
+        "thin coin in air": sweep_of(side, normal=0.8, tangential=0.2),
+        "coin 2 mm thick": sweep_of(side, thickness=2e-3),
+        "thin coin, each on its own floor": sweep_of(side // 3, axes=FLOOR),
+        "thin coin by MuJoCo": sweep_of(mujoco_side, engine=Engine.MUJOCO),
+    }
+    whole = len(kinds) + len(TILE_SIDES) + 1
+    toss: dict[str, float] = {}
+    for name, sweep in kinds.items():
+        part = Tile(slice(0, sweep.y.count, 3), slice(0, sweep.x.count, 3))
+        toss_pixels(sweep, Tile(slice(0, 1), slice(0, 1)))  # compiles
+        toss[name] = _cost(sweep, [part])
+        progress(len(toss), whole)
+    tile = {}
+    for tile_side in TILE_SIDES:
+        parts = tiles((TILED_SIDE, TILED_SIDE), (tile_side, tile_side))
+        tile[tile_side**2] = _cost(sweep_of(TILED_SIDE), parts)
+        progress(len(toss) + len(tile), whole)
+    steps = _steps(kinds["thin coin"], cores)
+    progress(whole, whole)
+    return Study(cores=cores, toss=toss, tile=tile, parts=steps, tosses=side * side)
+
+
+def sweep_of(
+    side: int,
+    *,
+    thickness: float = 0.0,
+    normal: float = 0.0,
+    tangential: float = 0.0,
+    engine: Engine = Engine.ANALYTIC,
+    axes: tuple[str, str] = RELEASE,
+) -> Sweep:
+    """Give the sweep of a coin, by default over spin and height."""
+    text = COIN.format(thickness=thickness, normal=normal, tangential=tangential)
+    scenario = parse(text, "coin")
+    x, y = (parse_axis(axis.format(side), scenario) for axis in axes)
+    return Sweep(scenario=scenario, engine=engine, x=x, y=y)
+
+
+def _cost(sweep: Sweep, parts: Iterable[Tile]) -> float:
+    """Give the time of a toss, made in such parts [s]."""
+    start = process_time()
+    count = sum(toss_pixels(sweep, part).outcome.size for part in parts)
+    return (process_time() - start) / count
+
+
+def _steps(sweep: Sweep, cores: int) -> dict[str, float]:
+    """Make a map as `cointoss basin` does, and give how long each step takes [s]."""
+    text = COIN.format(thickness=0, normal=0, tangential=0)
+    tossing = 0.0
+
+    def tosser(sweep: Sweep, tiles: Iterable[Tile]) -> Iterator[tuple[Tile, Pixels]]:
+        nonlocal tossing
+        for tile in tiles:
+            start = process_time()
+            pixels = toss_pixels(sweep, tile)
+            tossing += process_time() - start
+            yield tile, pixels
+
+    marks = [process_time()]
+    check(sweep)
+    marks.append(process_time())
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        opened(Path(folder) / "map.zarr", sweep, text, overwrite=False) as map_,
+    ):
+        left = sweep_run.missing(map_)
+        marks.append(process_time())
+        sweep_run.fill(map_, sweep, left, tosser, lambda _: None)
+        marks.append(process_time())
+        sweep_run.fractions_of(map_)
+        marks.append(process_time())
+    checking, opening, filling, counting = np.diff(marks).tolist()
+    return {
+        "check the grid": checking,
+        "make the store": opening,
+        TOSS: tossing / cores,
+        "write the tiles": filling - tossing,
+        "count the outcomes": counting,
+    }
+
+
+def check_claims(study: Study) -> tuple[str, ...]:
+    """Give the claims that the times don't bear out."""
+    share = study.parts[TOSS] / sum(study.parts.values())
+    claim = f"a map of {study.tosses} tosses takes {100 * LEAST_SHARE:g} % of its time for the tosses or more"
+    return () if share >= LEAST_SHARE else (claim,)
+
+
+def text(study: Study) -> str:
+    """Give the tables, in Markdown."""
+    lines = ["| toss | on one core [ms] | tosses/s on one core |", "|---|---|---|"]
+    lines += [
+        f"| {name} | {1e3 * cost:.3g} | {float(f'{1 / cost:.3g}'):,g} |" for name, cost in study.toss.items()
+    ]
+    lines += ["", "| tosses in a tile | of a toss, thin coin, on one core [ms] |", "|---|---|"]
+    lines += [f"| {tosses} | {1e3 * cost:.3g} |" for tosses, cost in study.tile.items()]
+    whole = sum(study.parts.values())
+    lines += ["", f"| a map of {study.tosses} tosses on {study.cores} cores | [s] | [%] |", "|---|---|---|"]
+    lines += [
+        f"| {name} | {seconds:.3g} | {100 * seconds / whole:.2g} |" for name, seconds in study.parts.items()
+    ]
+    tosses = [f"{number:.0e}".replace("e+0", "e").replace("e+", "e") for number in TOSSES]
+    lines += ["", f"| toss, cores | {' | '.join(f'{number} tosses' for number in tosses)} |"]
+    lines.append("|---" * (len(TOSSES) + 1) + "|")
+    for name, cost in study.toss.items():
+        for cores in CORES:
+            times = [_duration(number * cost / cores) for number in TOSSES]
+            lines.append(f"| {name}, {cores} | {' | '.join(times)} |")
+    return "\n".join(lines)
+
+
+def _duration(seconds: float) -> str:
+    """Give a time in the largest unit of which it has one or more."""
+    for unit, length in (("years", 365.25 * 86400), ("days", 86400), ("h", 3600), ("min", 60)):
+        if seconds >= length:
+            return (
+                f"{seconds / length:.2g} {unit}"
+                if seconds < 100 * length
+                else f"{seconds / length:.0f} {unit}"
+            )
+    return f"{seconds:.2g} s"
+
+
+FIGURE = Figure(
+    title="what maps cost, and how long those of up to 1e12 tosses take",
+    seconds=120,
+    files=("numbers.json",),
+    run=run,
+)

@@ -1,0 +1,75 @@
+"""Three-vectors and 3 by 3 matrices as tuples, so that compiled code holds them in registers.
+
+A vector is (x, y, z); a matrix is a tuple of three rows.
+"""
+
+from models.kernel.compiled import compiled
+
+Vector = tuple[float, float, float]
+Matrix = tuple[Vector, Vector, Vector]
+
+
+@compiled
+def add(a, b):
+    """Give a + b."""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+@compiled
+def subtract(a, b):
+    """Give a - b."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+@compiled
+def scale(k, a):
+    """Give k a for a number k."""
+    return k * a[0], k * a[1], k * a[2]
+
+
+@compiled
+def dot(a, b):
+    """Give the scalar product a . b."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@compiled
+def cross(a, b):
+    """Give the vector product a x b."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+@compiled
+def norm(a):
+    """Give the length |a|."""
+    return (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) ** 0.5
+
+
+@compiled
+def apply(M, a):
+    """Give M a."""
+    return dot(M[0], a), dot(M[1], a), dot(M[2], a)
+
+
+@compiled
+def apply_transposed(M, a):
+    """Give M^T a."""
+    return (
+        M[0][0] * a[0] + M[1][0] * a[1] + M[2][0] * a[2],
+        M[0][1] * a[0] + M[1][1] * a[1] + M[2][1] * a[2],
+        M[0][2] * a[0] + M[1][2] * a[1] + M[2][2] * a[2],
+    )
+
+
+@compiled
+def solve(M, b):
+    """Solve M x = b for a 3 by 3 matrix M, by Cramer's rule."""
+    column_0 = (M[0][0], M[1][0], M[2][0])
+    column_1 = (M[0][1], M[1][1], M[2][1])
+    column_2 = (M[0][2], M[1][2], M[2][2])
+    determinant = dot(column_0, cross(column_1, column_2))
+    return (
+        dot(b, cross(column_1, column_2)) / determinant,
+        dot(column_0, cross(b, column_2)) / determinant,
+        dot(column_0, cross(column_1, b)) / determinant,
+    )
