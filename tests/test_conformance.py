@@ -7,7 +7,7 @@ from compare.engines import Engine, toss
 from compare.metrics.trajectories import attitude_angle, distance
 from models.records import Ending, Outcome
 from models.scenario import Air
-from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
 
 pytestmark = pytest.mark.parametrize("engine", list(Engine))
 

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from analytic.air.force import change_about_B, force_and_moment, force_and_moment_change
 from analytic.air.quadrature import CHANGE_NODES, FORCE_NODES, nodes_of
-from tests.draws import AIR, ZLOTY, scenario
-from tests.referee import air_by_cubature
+from tests.helpers.draws import AIR, ZLOTY, scenario
+from tests.helpers.referee import air_by_cubature
 
 R, H = ZLOTY["radius"], ZLOTY["thickness"]
 LN, LT = AIR["normal"], AIR["tangential"]

@@ -12,7 +12,7 @@ from analytic.flight.turning import turns_in_closed_form
 from analytic.toss import state_of
 from models.records import Ending
 from models.scenario import Scenario
-from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 STRONG_AIR = {"normal": 40.0, "tangential": 10.0}
 

@@ -20,7 +20,7 @@ from analytic.flight.equations_of_motion import derivative
 from models.attitude import quaternion_from_angles, rotation_matrix
 from models.ending import energy
 from models.geometry import contact_velocity, gap, lowest_point
-from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, scenario
 
 G, R_COIN, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
 THIN = {**ZLOTY, "thickness": 0.0}

@@ -10,7 +10,7 @@ from analytic.impact.laws import mobility, perfectly_rough, sliding_friction, sm
 from models.attitude import rotation_matrix
 from models.geometry import lowest_point
 from models.laws import RestitutionKind
-from tests.draws import draw_coin, draw_quaternion, scenario
+from tests.helpers.draws import draw_coin, draw_quaternion, scenario
 
 KINEMATIC, ENERGETIC = RestitutionKind
 COUNT = 200

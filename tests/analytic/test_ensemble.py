@@ -13,7 +13,7 @@ from models.outcomes import Outcomes
 from models.records import Ending, Face, Outcome
 from models.releases import Releases
 from models.scenario import Release, Scenario
-from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 IDEAL, OFF_CENTER = [0.0, 0.0, 0.0], np.array(PAPER_OFFSET)
 

@@ -12,8 +12,8 @@ from analytic.air.force import force_and_moment
 from analytic.flight.equations_of_motion import derivative
 from analytic.numerics.rotation import quaternion_rate
 from models.attitude import rotation_matrix
-from tests import printed_equations as printed
-from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_quaternion, scenario
+from tests.helpers import printed_equations as printed
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_quaternion, scenario
 
 SEEDS = pytest.mark.parametrize("seed", range(10))
 EXACT = 1e-10

@@ -9,7 +9,7 @@ from analytic.horizon.flight_tangent import flight_tangent
 from analytic.numerics.euler_angles import axis_rotation
 from analytic.toss import state_of
 from models.ending import barrier
-from tests.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
 G = 9.81
 

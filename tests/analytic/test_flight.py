@@ -11,8 +11,8 @@ from analytic.toss import state_of
 from compare.metrics.trajectories import attitude_angle
 from models.attitude import rotation_matrix
 from models.geometry import gap
-from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
-from tests.referee import Referee
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
+from tests.helpers.referee import Referee
 
 HIGH = {"max_time": 0.5}
 

@@ -12,7 +12,7 @@ from analytic.horizon.horizon import IMPULSE_ERROR, TIME_ERROR, trusted_impacts
 from analytic.toss import state_of
 from models.records import Impacts
 from models.scenario import Scenario
-from tests.draws import AIR, PAPER_LAWS, draw_coin, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_LAWS, draw_coin, draw_release, scenario
 
 
 def draw_toss(rng: np.random.Generator, number: int) -> Scenario:
@@ -33,7 +33,7 @@ def draw_toss(rng: np.random.Generator, number: int) -> Scenario:
 def true_horizon(case: Scenario, impacts: Impacts) -> int:
     """Count the leading impacts that agree with 113-bit arithmetic in face, time and impulse."""
     pytest.importorskip("heyoka", reason="heyoka has wheels for Linux on x86-64 only")
-    from tests.extended import Extended
+    from tests.helpers.extended import Extended
 
     n = 0
     for i, touch in zip(range(len(impacts)), Extended(case).toss(), strict=False):

@@ -3,43 +3,15 @@
 import numpy as np
 import pytest
 
-from analytic.events import hit
 from analytic.impact.laws import mobility, sliding_friction
 from models.attitude import rotation_matrix
 from models.ending import energy
-from models.geometry import contact_velocity, lowest_point
 from models.laws import ContactLaw
-from models.records import IMPACT_ROW, Ending
-from tests.draws import PAPER_LAWS, draw_coin, draw_quaternion, scenario
+from models.records import Ending
+from tests.helpers.draws import PAPER_LAWS, scenario
+from tests.helpers.impacts import draw_impact, struck
 
 COUNT = 200
-
-
-def draw_impact(rng, law, restitution=None):
-    """A scenario and a state in which the coin's lowest point moves down onto the floor."""
-    case = scenario(
-        coin=draw_coin(rng),
-        floor={
-            "restitution": rng.uniform(0, 1) if restitution is None else restitution,
-            "contact": law.label,
-            "friction": float(rng.uniform(0, 0.6)),
-        },
-    )
-    body = case.body
-    while True:
-        e = draw_quaternion(rng)
-        R = rotation_matrix(tuple(e))
-        v, w = rng.uniform(-1, 1, 3) - [0, 0, 2], rng.uniform(-100, 100, 3)
-        point, _ = lowest_point(body, R[2], tuple(w))
-        if contact_velocity(body, R, tuple(v), tuple(w), point)[2] < -0.1:
-            return case, np.array([0, 0, 0.01, *v, *e, *w])
-
-
-def struck(case, y):
-    row = np.zeros(1, IMPACT_ROW)
-    after = y.copy()
-    ending = hit(case.body, case.rules, case.floor.restitution, after, row[0])
-    return row[0], after, ending
 
 
 @pytest.mark.parametrize("law", PAPER_LAWS)

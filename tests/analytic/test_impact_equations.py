@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from models.laws import ContactLaw
-from tests import printed_equations as printed
-from tests.analytic.test_impact import draw_impact, struck
-from tests.draws import PAPER_LAWS, PAPER_OFFSET
+from tests.helpers import printed_equations as printed
+from tests.helpers.draws import PAPER_LAWS, PAPER_OFFSET
+from tests.helpers.impacts import draw_impact, struck
 
 COUNT = 50
 EXACT = 1e-10

@@ -7,8 +7,8 @@ from analytic.events import hit
 from analytic.single_impacts import strike
 from models.laws import ContactLaw
 from models.records import IMPACT_ROW
-from tests.analytic.test_impact import draw_impact
-from tests.draws import scenario
+from tests.helpers.draws import scenario
+from tests.helpers.impacts import draw_impact
 
 
 @pytest.mark.parametrize("law", [ContactLaw.SMOOTH, ContactLaw.SLIDING_FRICTION, ContactLaw.COULOMB])

@@ -16,7 +16,7 @@ from analytic.numerics.rotation import (
     space_spin,
 )
 from models.attitude import rotation_matrix
-from tests.draws import draw_quaternion
+from tests.helpers.draws import draw_quaternion
 
 part = st.floats(-1, 1)
 axes = st.tuples(part, part, part).filter(lambda v: np.linalg.norm(v) > 0.1)

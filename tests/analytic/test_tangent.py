@@ -10,7 +10,7 @@ from analytic.horizon.sensitivity import event_tangent
 from analytic.toss import state_of
 from models.laws import ContactLaw
 from models.scenario import Scenario
-from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 SIZES = np.array([1e-2, 1e-2, 1e-2, *[1.0] * 7, *[50.0] * 3])
 """Of the components of a state: length, speed, attitude, spin."""

@@ -7,8 +7,8 @@ import analytic
 from models.attitude import rotation_matrix
 from models.geometry import gap
 from models.records import Ending, Outcome
-from tests.draws import AIR, PAPER_LAWS, ZLOTY, draw_coin, draw_release, scenario
-from tests.referee import Referee
+from tests.helpers.draws import AIR, PAPER_LAWS, ZLOTY, draw_coin, draw_release, scenario
+from tests.helpers.referee import Referee
 
 
 @pytest.mark.parametrize("law", PAPER_LAWS)

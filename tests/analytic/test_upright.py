@@ -15,7 +15,7 @@ from models.attitude import quaternion_from_angles, rotation_matrix
 from models.ending import energy
 from models.geometry import gap
 from models.records import Ending, Outcome
-from tests.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
 G, R_COIN, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
 UNBALANCED = {**ZLOTY, "center_of_mass": PAPER_OFFSET}

@@ -5,7 +5,7 @@ import pytest
 
 from analytic.air.velocity_field import velocity_fields
 from models.attitude import rotation_matrix
-from tests.draws import PAPER_OFFSET, draw_quaternion, scenario
+from tests.helpers.draws import PAPER_OFFSET, draw_quaternion, scenario
 
 V, W = (0.3, -0.2, 0.2), (20.0, -30.0, 10.0)
 THICK = scenario(coin={"center_of_mass": PAPER_OFFSET}).body

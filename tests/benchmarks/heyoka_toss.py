@@ -4,7 +4,7 @@ import numpy as np
 
 from analytic.flight.equations_of_motion import STATE_SIZE
 from tests.benchmarks.one_coin import OneCoin
-from tests.extended import Extended, integrator
+from tests.helpers.extended import Extended, integrator
 
 
 def toss(numbers: Extended, coin: OneCoin, latest: float) -> tuple[list[float], list[int]]:

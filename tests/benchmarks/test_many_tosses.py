@@ -21,7 +21,7 @@ from models.releases import Releases
 from models.scenario import Scenario
 from tests.benchmarks import scipy_toss
 from tests.benchmarks.one_coin import OneCoin, mechanics
-from tests.draws import AIR, ZLOTY, scenario
+from tests.helpers.draws import AIR, ZLOTY, scenario
 
 MANY, FEW = 8192, 8
 RATES: dict[str, np.ndarray] = {}
@@ -63,7 +63,7 @@ def coin() -> OneCoin:
 @cache
 def numbers_for_heyoka() -> list[Any]:
     pytest.importorskip("heyoka", reason="heyoka has wheels for Linux on x86-64 only")
-    from tests.extended import Extended
+    from tests.helpers.extended import Extended
 
     return [Extended(case) for case in IN_AIR]
 

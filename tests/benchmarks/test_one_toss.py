@@ -43,7 +43,7 @@ def by_scipy() -> Answer:
 @cache
 def numbers_for_heyoka() -> Any:
     pytest.importorskip("heyoka", reason="heyoka has wheels for Linux on x86-64 only")
-    from tests.extended import Extended
+    from tests.helpers.extended import Extended
 
     return Extended(FIG24A)
 

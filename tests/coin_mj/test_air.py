@@ -16,7 +16,7 @@ from coin_mj.model.air_callback import air_of
 from coin_mj.model.machine import advance, forward, machine_of
 from coin_mj.model.scene import shape_thickness
 from coin_mj.model.settings import ContactSettings
-from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 R, H = ZLOTY["radius"], ZLOTY["thickness"]
 LN, LT = AIR["normal"], AIR["tangential"]

@@ -17,7 +17,7 @@ from models.outcomes import Outcomes
 from models.records import ApproximationWarning, Ending, UnsupportedError
 from models.releases import Releases
 from models.scenario import Release, Scenario
-from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 NAMES = ("position", "velocity", "quaternion", "angular_velocity")
 

@@ -8,7 +8,7 @@ from coin_mj import ContactSettings, Friction, Realisation, impacts_of, toss
 from coin_mj.steps.friction import coulomb_force
 from compare.metrics.impulses import match
 from models.records import ApproximationWarning, Ending, Flag
-from tests.draws import ZLOTY, draw_coin, draw_release, scenario
+from tests.helpers.draws import ZLOTY, draw_coin, draw_release, scenario
 
 DOUBLE = 1e-4
 """Where a second rim point lands so soon after the first [s], both are pressed at once."""

@@ -11,7 +11,7 @@ from coin_mj.path import MOTION, PRESSED, TIME
 from coin_mj.toss import impacts_of, run, toss
 from compare.metrics.impulses import match
 from models.records import UnsupportedError
-from tests.draws import AIR, ZLOTY, draw_coin, draw_release, scenario
+from tests.helpers.draws import AIR, ZLOTY, draw_coin, draw_release, scenario
 
 DOUBLE = 1e-4
 """Where a second rim point lands so soon after the first [s], both are pressed at once."""

@@ -16,7 +16,7 @@ from models.ending import energy
 from models.geometry import contact_velocity, gap, lowest_point
 from models.records import Ending, Outcome
 from models.releases import Releases
-from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 M, R, G = ZLOTY["mass"], ZLOTY["radius"], 9.81
 THIN = {**ZLOTY, "thickness": 0.0}

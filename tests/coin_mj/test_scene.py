@@ -10,7 +10,7 @@ import pytest
 from coin_mj.model.scene import build, shape_thickness
 from coin_mj.model.settings import ContactSettings, rebound_of
 from coin_mj.model.state import of_release, to_mass_center
-from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 

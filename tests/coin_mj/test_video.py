@@ -23,7 +23,7 @@ from compare.film.video import HELD, Format, frame_count, frames, write_video
 from compare.film.visual_model import build_painted
 from models.drag import linear_drag
 from models.records import IMPACT_ROW, Array, Ending, Face, Impacts, Outcome, States, Toss
-from tests.draws import AIR, ZLOTY, scenario
+from tests.helpers.draws import AIR, ZLOTY, scenario
 
 TINY = Format(64, 48, 4)
 R = ZLOTY["radius"]

@@ -25,7 +25,7 @@ from compare.sweep.grid import Sweep
 from compare.sweep.store import NOT_TOSSED, opened, require_place
 from models.reading import parse
 from models.records import Outcome
-from tests.basin_runs import (
+from tests.helpers.basin_runs import (
     AXES,
     SCENARIO,
     SMALL,

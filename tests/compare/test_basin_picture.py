@@ -8,7 +8,7 @@ from PIL import Image
 from compare.basins.picture import Axis, Palette, draw_comparison, draw_map, write_png
 from compare.output.files import UnwritableError
 from models.records import Outcome
-from tests.made_maps import EDGE, HEADS, TAILS, UNDECIDED, halves, stripes
+from tests.helpers.made_maps import EDGE, HEADS, TAILS, UNDECIDED, halves, stripes
 
 X = Axis(name="release.angular_velocity.eta", unit="rad/s", start=20.0, stop=60.0)
 Y = Axis(name="floor.restitution", unit="", start=0.5, stop=0.9)

@@ -8,8 +8,8 @@ from PIL import Image
 from compare.basins.agreement import Agreement, Share
 from compare.basins.picture import Axis, Palette, draw_comparison
 from compare.sweep import show
-from tests.basin_runs import SCENARIO, basin
-from tests.made_maps import halves
+from tests.helpers.basin_runs import SCENARIO, basin
+from tests.helpers.made_maps import halves
 
 AXES = ("--x", "release.angular_velocity.eta=20:60:6", "--y", "release.position.z=0.2:0.6:5", "--after", 0)
 

@@ -25,8 +25,9 @@ from compare.sweep.grid import Sweep
 from compare.sweep.store import opened
 from models.reading import parse
 from models.records import Outcome
-from tests.basin_runs import HERE, SCENARIO, basin
-from tests.made_maps import halves
+from tests.helpers.basin_runs import SCENARIO, basin
+from tests.helpers.command_line import HERE
+from tests.helpers.made_maps import halves
 
 COIN = f"{SCENARIO}[ending]\nmax_impacts = 2\n"
 X, Y = "release.angular_velocity.eta=20:60:5", "release.position.z=0.2:0.6:4"

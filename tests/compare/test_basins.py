@@ -10,7 +10,7 @@ from compare.basins.entropy import Log2Test, basin_entropy
 from compare.basins.fractions import fractions
 from compare.basins.stripes import crossings, stripe_widths
 from models.records import Outcome
-from tests.made_maps import EDGE, HEADS, TAILS, UNDECIDED, faces, halves, hyperbolas, stripes
+from tests.helpers.made_maps import EDGE, HEADS, TAILS, UNDECIDED, faces, halves, hyperbolas, stripes
 
 
 def line(text):

@@ -15,24 +15,20 @@ from unittest.mock import patch
 
 import imageio_ffmpeg
 import pytest
-from click.testing import CliRunner
 
-from compare.cli import _progress, main
+from compare.cli import _progress
 from compare.film.back_end import drawing_problem
 from compare.film.drawing import Drawer
 from compare.film.video import Format
 from compare.output.files import UnwritableError, require_file, write_text
 from models.reading import scenario_text
+from tests.helpers.command_line import HERE, cointoss
 
 WRONG = {
     "syntax": "gravity = = 3",
     "empty": "",
     "restitution": scenario_text("fig24a").replace("restitution = 0.8", "restitution = 1.5"),
 }
-
-
-def cointoss(*arguments):
-    return CliRunner().invoke(main, [str(part) for part in arguments], catch_exceptions=False)
 
 
 def test_json_has_the_agreed_form():
@@ -249,13 +245,6 @@ def test_a_replaced_file_keeps_its_mode_and_a_link_its_place(tmp_path):
     assert (tmp_path / "link.csv").is_symlink()
     assert (tmp_path / "path.csv").read_text() == "new"
     assert (tmp_path / "path.csv").stat().st_mode & 0o777 == 0o640
-
-
-HERE = {
-    **os.environ,
-    "PYTHONPATH": str(Path(__file__).parents[2]),
-    "PYTHONDONTWRITEBYTECODE": "1",
-}
 
 
 def in_a_shell(command, folder):

@@ -13,7 +13,8 @@ import time
 import distributed
 import pytest
 
-from tests.basin_runs import AXES, HERE, SCENARIO, assert_same, basin, begun, pixels, wait_for, whole_tiles
+from tests.helpers.basin_runs import AXES, SCENARIO, assert_same, basin, begun, pixels, wait_for, whole_tiles
+from tests.helpers.command_line import HERE
 
 
 @pytest.fixture

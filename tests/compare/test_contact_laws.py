@@ -35,7 +35,7 @@ from compare.reproduction.studies.contact_laws import (
 from models.attitude import rotation_matrix
 from models.geometry import lowest_point
 from models.kernel.vectors import apply
-from tests.compare.pages import DOCS, pictures, printed, saved_numbers
+from tests.helpers.pages import DOCS, pictures, printed, saved_numbers
 
 SAVED = from_json(saved_numbers("contact-laws"))
 

@@ -25,7 +25,7 @@ from compare.reproduction.studies.endings import (
     toss_by_mujoco,
 )
 from models.records import Outcome
-from tests.compare.pages import DOCS, pictures, printed, saved_numbers
+from tests.helpers.pages import DOCS, pictures, printed, saved_numbers
 
 SAVED = from_json(saved_numbers("endings"))
 

@@ -8,8 +8,8 @@ from matplotlib.figure import Figure as Picture
 
 from compare.reproduction import gallery, runner
 from compare.reproduction.findings import Finding, Result, paper_figure, read_findings
-from tests.compare.pages import DOCS
-from tests.compare.test_cli import cointoss
+from tests.helpers.command_line import cointoss
+from tests.helpers.pages import DOCS
 
 
 def test_figures_stand_in_the_papers_order():

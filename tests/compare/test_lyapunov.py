@@ -6,7 +6,7 @@ import pytest
 from analytic.events import run
 from analytic.toss import state_of
 from compare.metrics.lyapunov import divergence, growth_by_tangent, mean_and_error
-from tests.draws import scenario
+from tests.helpers.draws import scenario
 
 
 def test_neighbours_of_a_doubled_angle_part_by_two():

@@ -10,7 +10,7 @@ from compare.metrics.sequences import agreement_horizon, aligned, common_prefix
 from compare.metrics.trajectories import attitude_angle, distance, parting_time, tilt
 from models.records import IMPACT_ROW, Impacts, States
 from models.scenario import Scenario
-from tests.draws import AIR, ZLOTY, scenario
+from tests.helpers.draws import AIR, ZLOTY, scenario
 
 TUMBLING = {"angles": [0.0, 0.122, 0.0], "angular_velocity": [0.0, 40.15, 0.0]}
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from compare.reproduction.setups.mujoco_study import Spread
 from compare.reproduction.studies.mujoco_many import Loop, Speed, Study, check, compute, text
-from tests.compare.pages import printed, saved_numbers
+from tests.helpers.pages import printed, saved_numbers
 
 
 def read(saved: str) -> Study:

@@ -19,7 +19,7 @@ from compare.report.contents import FILES, require_folder
 from compare.report.folder import write_report
 from compare.report.page import versions
 from models.reading import load, parse, scenario_text
-from tests.draws import AIR, scenario
+from tests.helpers.draws import AIR, scenario
 
 SHORT = scenario_text("zloty").replace("0.40001", "0.05") + "\n[ending]\nmax_impacts = 2\n"
 

@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from compare.reproduction import runner, studies
-from tests.compare.test_cli import cointoss
+from tests.helpers.command_line import cointoss
 
 FAKE = """
 from compare.reproduction.runner import Figure, Made

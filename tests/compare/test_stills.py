@@ -6,7 +6,7 @@ from compare.film.back_end import UNKNOWN
 from compare.film.stills import stills
 from compare.reproduction.paper import fig5
 from models.records import States
-from tests.draws import scenario
+from tests.helpers.draws import scenario
 
 
 def faces(*quaternions):

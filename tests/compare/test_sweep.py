@@ -17,7 +17,7 @@ from compare.sweep.grid import Sweep, Tile, tile_shape, tiles
 from compare.sweep.pixels import check, pixel_scenario, toss_pixels
 from models.records import UnsupportedError
 from models.scenario import Scenario
-from tests.draws import AIR, scenario
+from tests.helpers.draws import AIR, scenario
 
 HERE = scenario(
     coin={"center_of_mass": [1e-4, 0, 0]},

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from compare.basins.uncertainty import uncertainty_exponent
-from tests.made_maps import (
+from tests.helpers.made_maps import (
     UNDECIDED,
     cantor,
     gaussian_faces,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from models.drag import linear_drag
-from tests.referee import air_on_cylinder
+from tests.helpers.referee import air_on_cylinder
 
 
 @pytest.mark.parametrize("thickness", [0.0, 0.3, 2.5])

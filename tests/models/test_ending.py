@@ -8,7 +8,7 @@ from models.attitude import quaternion_from_angles, rotation_matrix
 from models.ending import barrier, energy, face_up, judge
 from models.geometry import gap
 from models.records import Ending, Face, Outcome
-from tests.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
 IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 

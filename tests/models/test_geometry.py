@@ -18,7 +18,7 @@ from models.geometry import (
     grazing_time,
     lowest_point,
 )
-from tests.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
 
 IMPERFECT = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}).body
 ANGLES = np.linspace(0, 2 * np.pi, 20_001)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from models.perpetual import FIRST_LOOK, dies_away, first_contact, loss_to_come, no_looks
-from tests.draws import AIR, ZLOTY, scenario
+from tests.helpers.draws import AIR, ZLOTY, scenario
 
 G = 9.81
 NONE = 1e-9

@@ -5,7 +5,7 @@ import pytest
 
 import analytic
 from models.records import IMPACT_ROW, Flag, Impacts, States
-from tests.draws import draw_release, scenario
+from tests.helpers.draws import draw_release, scenario
 
 
 def test_impacts_check_their_shapes_and_order():

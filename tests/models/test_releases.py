@@ -6,7 +6,7 @@ import pytest
 from models.outcomes import Outcomes
 from models.releases import Releases, check_releases
 from models.scenario import Release
-from tests.draws import scenario
+from tests.helpers.draws import scenario
 
 GOOD = {
     "position": np.full((2, 3), 0.4),

@@ -8,7 +8,7 @@ import pytest
 from models.laws import ContactLaw, EndingTest
 from models.reading import ScenarioError, load, named_scenarios, parse
 from models.scenario import MOST_IMPACTS, MOST_LOSSLESS, Scenario
-from tests.draws import scenario
+from tests.helpers.draws import scenario
 
 GOOD = """
 gravity = 9.81

@@ -1,16 +1,13 @@
 """Maps of a coin made in small tiles, here or in another process."""
 
-import os
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from click.testing import CliRunner
 
-from compare.cli import main
+from tests.helpers.command_line import HERE, cointoss
 
 SCENARIO = """
 [coin]
@@ -26,11 +23,10 @@ position = [0, 0, 0.4]
 AXES = ("--x", "release.angular_velocity.eta=20:60:48", "--y", "release.position.z=0.2:0.6:40")
 SMALL, TILES = 64, 30
 """Tosses in a tile of these tests, and tiles in a map."""
-HERE = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[1]), "PYTHONDONTWRITEBYTECODE": "1"}
 
 
 def basin(*arguments):
-    return CliRunner().invoke(main, ["basin", *map(str, arguments)], catch_exceptions=False)
+    return cointoss("basin", *arguments)
 
 
 def pixels(path):

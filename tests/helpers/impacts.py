@@ -1,0 +1,36 @@
+"""Random impacts, resolved by the analytic engine."""
+
+import numpy as np
+
+from analytic.events import hit
+from models.attitude import rotation_matrix
+from models.geometry import contact_velocity, lowest_point
+from models.records import IMPACT_ROW
+from tests.helpers.draws import draw_coin, draw_quaternion, scenario
+
+
+def draw_impact(rng, law, restitution=None):
+    """A scenario and a state in which the coin's lowest point moves down onto the floor."""
+    case = scenario(
+        coin=draw_coin(rng),
+        floor={
+            "restitution": rng.uniform(0, 1) if restitution is None else restitution,
+            "contact": law.label,
+            "friction": float(rng.uniform(0, 0.6)),
+        },
+    )
+    body = case.body
+    while True:
+        e = draw_quaternion(rng)
+        R = rotation_matrix(tuple(e))
+        v, w = rng.uniform(-1, 1, 3) - [0, 0, 2], rng.uniform(-100, 100, 3)
+        point, _ = lowest_point(body, R[2], tuple(w))
+        if contact_velocity(body, R, tuple(v), tuple(w), point)[2] < -0.1:
+            return case, np.array([0, 0, 0.01, *v, *e, *w])
+
+
+def struck(case, y):
+    row = np.zeros(1, IMPACT_ROW)
+    after = y.copy()
+    ending = hit(case.body, case.rules, case.floor.restitution, after, row[0])
+    return row[0], after, ending
