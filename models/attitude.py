@@ -31,6 +31,17 @@ def quaternion_from_angles(angles: Vector) -> Quaternion:
 
 
 @compiled
+def quaternion_product(a, b):
+    """Return the quaternion product a b: of Euler parameters the turn b and then a, R(a b) = R(a) R(b)."""
+    return (
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    )
+
+
+@compiled
 def rotation_matrix(e):
     """Give R(e), body to space: x_space = R x_body. Strzalko et al. 2008, eq. (15).
 

@@ -17,7 +17,7 @@ from coin_mj.model.machine import (
 )
 from coin_mj.steps.constrained_step import Grip
 from coin_mj.steps.friction import push_and_rub
-from models.attitude import rotation_matrix
+from models.attitude import quaternion_product, rotation_matrix
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, apply, apply_transposed, scale, subtract
 
@@ -83,7 +83,7 @@ def _turn_level(coin, n_z):
     q, v = coin.qpos, coin.qvel
     e = (q[3], q[4], q[5], q[6])
     # Times the conjugate of the flat attitude: (1, 0, 0, 0), or (0, 1, 0, 0) with tails up.
-    turn = e if n_z > 0 else _product(e, (0.0, -1.0, 0.0, 0.0))
+    turn = e if n_z > 0 else quaternion_product(e, (0.0, -1.0, 0.0, 0.0))
     velocity = apply_transposed(rotation_matrix(turn), (v[0], v[1], v[2]))
     spin = v[5]
     for i in range(3):
@@ -98,20 +98,10 @@ def _turn_level(coin, n_z):
 def _turned_back(turn, spin, elapsed, motion):
     """Turn a state back, and give it its spin and the angle that it would have spun, (13,)."""
     angle = spin * elapsed / 2
-    e = _product(_product(turn, motion[3:7]), (math.cos(angle), 0.0, 0.0, math.sin(angle)))
+    spun = (math.cos(angle), 0.0, 0.0, math.sin(angle))
+    e = quaternion_product(quaternion_product(turn, motion[3:7]), spun)
     velocity = apply(rotation_matrix(turn), motion[7:10])
     return motion[:3] + e + velocity + (motion[10], motion[11], motion[12] + spin)
-
-
-@compiled
-def _product(a, b):
-    """Give the quaternion product a b."""
-    return (
-        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
-        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
-    )
 
 
 @compiled

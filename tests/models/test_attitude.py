@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from models.attitude import quaternion_from_angles, rotation_matrix
+from models.attitude import quaternion_from_angles, quaternion_product, rotation_matrix
 
 angle = st.floats(-10, 10)
 
@@ -28,3 +28,12 @@ def test_rotation_matrix_is_eq_15(seed):
     assert np.abs(R - eq_13).max() < 1e-15
     assert np.abs(R - Rotation.from_quat(e, scalar_first=True).as_matrix()).max() < 1e-15
     assert np.array_equal(R, np.array(rotation_matrix(tuple(-e))))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_product_of_quaternions_is_one_turn_after_the_other(seed):
+    a, b = (e / np.linalg.norm(e) for e in np.random.default_rng(seed).normal(size=(2, 4)))
+    product = np.array(quaternion_product(a, b))
+    scipys = Rotation.from_quat(a, scalar_first=True) * Rotation.from_quat(b, scalar_first=True)
+    expected = scipys.as_quat(scalar_first=True)
+    assert np.abs(product - np.copysign(1, product @ expected) * expected).max() < 1e-15
