@@ -1,4 +1,9 @@
-"""The MuJoCo coin: an MJCF cylinder with an inertia offset, drag, and a tuned stiff contact."""
+"""The MuJoCo engine: an MJCF cylinder, its drag and its stiff contact; imports models alone."""
+
+from pathlib import Path
+from runpy import run_path
+
+run_path(str(Path(__file__).parents[1] / "models" / "siblings.py"))
 
 from coin_mj.ensemble import MANY, toss_many
 from coin_mj.model.settings import ContactSettings, Friction, Realisation

@@ -1,1 +1,1 @@
-"""A contact that lasts: its modes and the floor's force; imports impact, flight and below."""
+"""Sustained contact: its modes and the floor's force; imports impact, flight and below."""

@@ -1,1 +1,1 @@
-"""How far a toss can be trusted: its errors, carried from event to event; imports the rooms below."""
+"""The horizon of trust: errors of a toss, propagated from event to event; imports the rooms below."""

@@ -1,1 +1,1 @@
-"""How MuJoCo's coin moves: in flight, in an impact, in sustained contact; imports model."""
+"""Steps of MuJoCo's coin: in flight, in an impact, in sustained contact; imports model."""

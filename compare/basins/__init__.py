@@ -1,5 +1,5 @@
-"""What is asked of an outcome map.
+"""Measures of an outcome map and its pictures; imports output.
 
-An outcome map is a plain array (y, x) of the codes of `models.records.Outcome`. Undecided is no outcome: a
-pixel that is undecided is left out of every measure but its own fraction, and each measure says how.
+An outcome map is a plain array (y, x) of the codes of `models.records.Outcome`. Undecided is not an outcome: an
+undecided pixel is left out of every measure except its own fraction, and each measure says how.
 """

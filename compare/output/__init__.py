@@ -1,1 +1,1 @@
-"""How answers are written: files, text, plot style; imports nothing of compare."""
+"""Answers written: files, text, plot style; imports nothing of compare."""

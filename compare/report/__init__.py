@@ -1,1 +1,1 @@
-"""The side-by-side report of one scenario."""
+"""The side-by-side report of one scenario; imports film, metrics and output."""

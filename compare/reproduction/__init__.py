@@ -1,1 +1,1 @@
-"""What `cointoss reproduce` makes: the paper's figures, its claims, studies; imports the rooms below."""
+"""What `cointoss reproduce` makes: the paper's figures and claims, and studies; imports the rooms below."""

@@ -1,1 +1,1 @@
-"""Make an outcome map: a grid over two fields of a scenario, tossed tile by tile into a Zarr store."""
+"""Outcome maps: a grid over two fields of a scenario, tossed into a Zarr store; imports report, basins and below."""
