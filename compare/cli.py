@@ -18,13 +18,13 @@ _BAR = 30
 """Width of a progress bar, in characters."""
 
 _SCENARIO_HELP = (
-    "SCENARIO is a TOML file, or the name of a scenario that comes with the package, such as fig24a; "
-    "a name that does not exist is answered with all that do."
+    "SCENARIO is a TOML file, or the name of a scenario that comes with the package, such as fig24a. "
+    "An unknown name prints the names that exist."
 )
 
 
 class _Commands(click.Group):
-    """Commands whose every failure is one line."""
+    """The commands, each of whose failures is one line."""
 
     def main(self, *args: Any, **extra: Any) -> NoReturn:
         # As an exception, the request to end removes what was written aside.
@@ -50,7 +50,7 @@ class _Commands(click.Group):
 
 
 class _Count(click.IntRange):
-    """A whole number within bounds; the message says so where it is no number too."""
+    """A whole number within bounds, with one message for what is out of them and what is no number."""
 
     name = "count"
 
@@ -87,7 +87,7 @@ class _Size(click.ParamType):
 )
 @click.version_option(package_name="cointoss", prog_name="cointoss")
 def main() -> None:
-    """Toss a coin by the mechanics of Strzalko et al. (2008) and by MuJoCo, and compare."""
+    """Toss a coin by two engines, the analytic one of Strzalko et al. (2008) and MuJoCo, and compare."""
 
 
 @contextmanager
@@ -131,14 +131,14 @@ def _say(message: str) -> None:
 
 
 def _lose_stdout() -> None:
-    """Send what standard output could not take nowhere, or Python would complain of it again at its end."""
+    """Discard what standard output could not take, or Python would report it again at its end."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
 _contact = click.option(
     "--contact",
     type=click.Choice(["spring", "one_step"]),
-    help="How MuJoCo realises the restitution; a spring by default.",
+    help="How MuJoCo realises the restitution; by default by a spring.",
 )
 
 
@@ -149,12 +149,12 @@ _contact = click.option(
     type=click.Choice(["analytic", "mujoco"]),
     default="analytic",
     show_default=True,
-    help="Which engine.",
+    help="The engine.",
 )
 @_contact
-@click.option("--max-impacts", type=_Count(1, 30_000_000), help="Stop after so many impacts.")
-@click.option("--json", "as_json", is_flag=True, help="Answer in JSON, in full precision.")
-@click.option("--trajectory", type=click.Path(path_type=Path), help="Write the path to this .csv file too.")
+@click.option("--max-impacts", type=_Count(1, 30_000_000), help="Stop after this number of impacts.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
+@click.option("--trajectory", type=click.Path(path_type=Path), help="Also write the path to this .csv file.")
 def toss(
     scenario: str,
     engine: str,
@@ -196,10 +196,13 @@ def toss(
 @main.command(epilog=_SCENARIO_HELP)
 @click.argument("scenario")
 @click.option(
-    "--out", type=click.Path(path_type=Path), required=True, help="Folder for the report; made if missing."
+    "--out", type=click.Path(path_type=Path), required=True, help="Folder of the report; made if missing."
 )
 def compare(scenario: str, out: Path) -> None:
-    """Toss one coin by both engines and write a side-by-side report with video."""
+    """Toss one coin by both engines and write a report.
+
+    The report shows both tosses side by side, with a video.
+    """
     with _plain_errors(scenario):
         from compare.report.contents import require_folder
         from models.reading import parse, scenario_text
@@ -220,23 +223,26 @@ def compare(scenario: str, out: Path) -> None:
 
 @main.command(epilog=_SCENARIO_HELP)
 @click.argument("scenario")
-@click.option("--out", type=click.Path(path_type=Path), required=True, help="The mp4 file to write.")
+@click.option("--out", type=click.Path(path_type=Path), required=True, help="The .mp4 file to write.")
 @click.option(
     "--engine",
     type=click.Choice(["analytic", "mujoco", "both"]),
     default="mujoco",
     show_default=True,
-    help="Whose toss; both stand side by side.",
+    help="The engine that tosses; both: side by side.",
 )
 @click.option(
     "--camera",
     type=click.Choice(["overview", "close-up", "top"]),
     default="close-up",
     show_default=True,
-    help="From where; the close-up follows the coin.",
+    help="Where the camera is; close-up follows the coin.",
 )
 def video(scenario: str, out: Path, engine: str, camera: str) -> None:
-    """Film one toss, drawn by MuJoCo, in slow motion around the impacts."""
+    """Film one toss, drawn by MuJoCo.
+
+    The film slows down around the impacts.
+    """
     with _plain_errors(scenario):
         from compare.output.files import require_file, written_whole
         from models.reading import load
@@ -264,38 +270,45 @@ def video(scenario: str, out: Path, engine: str, camera: str) -> None:
 
 @main.command(epilog=_SCENARIO_HELP)
 @click.argument("scenario")
-@click.option("--x", required=True, metavar="FIELD=START:STOP:N", help="What varies along x, by N values.")
-@click.option("--y", required=True, metavar="FIELD=START:STOP:N", help="What varies along y.")
 @click.option(
-    "--out", type=click.Path(path_type=Path), required=True, help="The map, a Zarr store, MAP.zarr."
+    "--x",
+    required=True,
+    metavar="FIELD=START:STOP:N",
+    help="The field that varies along x, and its N values.",
 )
+@click.option("--y", required=True, metavar="FIELD=START:STOP:N", help="The field that varies along y.")
 @click.option(
-    "--engine", type=click.Choice(["analytic", "mujoco"]), help="Which engine; analytic by default."
+    "--out", type=click.Path(path_type=Path), required=True, help="The Zarr store to write, MAP.zarr."
 )
+@click.option("--engine", type=click.Choice(["analytic", "mujoco"]), help="The engine; by default analytic.")
 @click.option(
     "--compare",
     "both",
     is_flag=True,
-    help="Make the map by both engines, MuJoCo's as MAP-mujoco.zarr, and compare them.",
+    help="Make the map by both engines, MuJoCo's as MAP-mujoco.zarr, and compare the two.",
 )
 @_contact
 @click.option(
-    "--after", type=_Count(0, 999_999), help="Map the face at the touch after N impacts; 0: the first."
+    "--after",
+    type=_Count(0, 999_999),
+    help="Map the face at the touch after this number of impacts; 0: at the first touch.",
 )
-@click.option("--resume", is_flag=True, help="Go on with the map that is there, if any.")
-@click.option("--overwrite", is_flag=True, help="Replace the map that is there, if any.")
-@click.option("--scheduler", metavar="ADDRESS", help="Toss on the Dask cluster of this scheduler.")
-@click.option("--png", type=click.Path(path_type=Path), help="Draw the map to this .png file.")
+@click.option("--resume", is_flag=True, help="Continue an existing map.")
+@click.option("--overwrite", is_flag=True, help="Replace an existing map.")
+@click.option("--scheduler", metavar="ADDRESS", help="Address of a Dask scheduler on whose workers to toss.")
+@click.option("--png", type=click.Path(path_type=Path), help="Also draw the map to this .png file.")
 @click.option(
-    "--palette", type=click.Choice(["paper", "safe"]), help="Black and white, or safe for the colour-blind."
+    "--palette",
+    type=click.Choice(["paper", "safe"]),
+    help="paper: black and white; safe: colours for the colour-blind.",
 )
-@click.option("--boundaries", is_flag=True, help="Colour the pixels at a boundary in the picture.")
-@click.option("--size", type=_Size(), metavar="WIDTHxHEIGHT", help="Of the picture, in inches.")
+@click.option("--boundaries", is_flag=True, help="Colour the pixels at a boundary.")
+@click.option("--size", type=_Size(), metavar="WIDTHxHEIGHT", help="Size of the picture in inches.")
 @click.option("--dpi", type=_Count(10, 2400), help="Pixels per inch of the picture.")
 @click.option(
     "--report",
     type=click.Path(path_type=Path),
-    help="Folder for the report of `cointoss compare`, with both maps; beside --compare.",
+    help="Folder of a report as by `cointoss compare`, with both maps; requires --compare.",
 )
 def basin(
     scenario: str,
@@ -316,10 +329,11 @@ def basin(
     dpi: int | None,
     report: Path | None,
 ) -> None:
-    """Map the outcome of a toss over two fields of the scenario, each pixel one toss.
+    """Map the outcome over two fields of a scenario.
 
-    FIELD is a dotted path into the scenario, components by name: release.position.z,
-    release.angular_velocity.xi, floor.restitution. START and STOP are both included, in SI or with a unit.
+    Each pixel is one toss. FIELD is a dotted path into the scenario, with components by name:
+    release.position.z, release.angular_velocity.xi, floor.restitution. START and STOP are in SI or carry
+    a unit; both are included.
     """
     if resume and overwrite:
         raise click.UsageError("--resume and --overwrite: accepted: one of them")
@@ -365,15 +379,16 @@ def basin(
 @click.option(
     "--out",
     type=click.Path(path_type=Path),
-    help="Folder for the results; made if missing. NAME lies in NAME/.",
+    help="Folder of the results, each in its NAME/; made if missing.",
 )
-@click.option("--quick", is_flag=True, help="Make the smaller size of what has one.")
+@click.option("--quick", is_flag=True, help="Compute the smaller version of each that has one.")
 @click.pass_context
 def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quick: bool) -> None:
-    """Compute figures and studies anew, write their data and pictures, and check what they claim.
+    """Compute the paper's figures and the studies anew.
 
-    NAME may be `all`: all figures of the paper, with REPRODUCTION.md and gallery.html over them. Without
-    NAME, list what can be reproduced. Exit status 1: a claim does not come out as it is known to.
+    Each NAME writes its data and pictures and checks its claims; `all` computes all figures of the paper and
+    writes REPRODUCTION.md and gallery.html. Without NAME, list the names. Exit status 1: a claim comes out
+    otherwise than known.
     """
     from compare.film.back_end import require_mujoco
     from compare.output.files import require_folder
@@ -387,7 +402,7 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
         names = tuple(gallery.of_paper())
     for name in names:
         if name not in known:
-            ctx.fail(f"{name}: no such figure; accepted: {', '.join(known)}")
+            ctx.fail(f"{name}: no such name; accepted: {', '.join(known)}")
     if not names and out is None:
         width = max(map(len, known)) + 2
         for name in known:
@@ -411,13 +426,13 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
         if pages:
             gallery.write(out, names, quick=quick)
     for claim in failed:
-        click.echo(f"cointoss: {claim}: not so", err=True)
+        click.echo(f"cointoss: {claim}: not confirmed", err=True)
     sys.exit(1 if failed else 0)
 
 
 @contextmanager
 def _watched(name: str, done: int, count: int) -> Iterator[Callable[[int], None]]:
-    """Give a function to be told of tosses made; show on the terminal their number, rate, and time left."""
+    """Yield a function to report tosses to; show their number, rate and time left on the terminal."""
     from tqdm import tqdm
 
     kept = done
@@ -433,12 +448,12 @@ def _watched(name: str, done: int, count: int) -> Iterator[Callable[[int], None]
             yield more
         except KeyboardInterrupt:
             bar.close()
-            _say(f"{name}: {kept} of {count} tosses are kept; --resume goes on with them")
+            _say(f"{name}: {kept} of {count} tosses are saved; --resume continues")
             raise
 
 
 def _progress(what: str, parts: str) -> Callable[[int, int], None]:
-    """Give a function that shows on the terminal how far a job is, in its `parts`, by a bar."""
+    """Return a function that shows the progress of a job, in `parts`, as a bar on the terminal."""
 
     def show(done: int, count: int) -> None:
         if sys.stderr.isatty():

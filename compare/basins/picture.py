@@ -121,7 +121,7 @@ def draw_comparison(
     """Draw the maps of both engines and where they differ, side by side.
 
     Args:
-        analytic: the map by the paper's mechanics, (y, x).
+        analytic: the map by the analytic engine, (y, x).
         mujoco: the map by MuJoCo on the same grid, (y, x).
         x: of the columns.
         y: of the rows.
@@ -144,7 +144,7 @@ def draw_comparison(
     difference[~decided] = _rgb(_COLORS[palette][Outcome.UNDECIDED])
     for axes, title, colors in zip(
         panels,
-        ("paper's mechanics", "MuJoCo", f"{_difference_title(different, decided)}\n{note}".rstrip()),
+        ("analytic", "MuJoCo", f"{_difference_title(different, decided)}\n{note}".rstrip()),
         (_colored(a, palette, boundaries), _colored(b, palette, boundaries), difference),
         strict=True,
     ):

@@ -19,7 +19,7 @@ EDGE = 2
 """Of the letters [pixels]."""
 INK, WHITE, GREY = (27, 36, 48), (255, 255, 255), (91, 102, 117)
 TITLES: dict[str, tuple[str, Color]] = {
-    "analytic": ("paper's mechanics", (0, 90, 142)),
+    "analytic": ("analytic", (0, 90, 142)),
     "mujoco": ("MuJoCo", (170, 68, 0)),
 }
 """Name and colour of each engine."""

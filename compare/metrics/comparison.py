@@ -51,7 +51,7 @@ class Comparison:
     """Relative error of each of MuJoCo's impulses: see `errors_of_impacts`, (n,)."""
     horizon: int
     """Leading symbols that must agree: within MuJoCo's own horizon, and within that of its errors in the
-    paper's mechanics."""
+    analytic engine."""
 
     def __post_init__(self) -> None:
         """Make the array read-only."""

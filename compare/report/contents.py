@@ -22,13 +22,13 @@ def require_folder(folder: Path, source: str) -> None:
     in_the_way = files.require_folder(folder, FILES, source)
     if in_the_way and not _is_of_a_report(folder / "numbers.json"):
         raise UnwritableError(
-            f"{folder}: {in_the_way[0].name} is in the way, and is no report's; "
+            f"{folder}: {in_the_way[0].name} is in the way and belongs to no report; "
             "accepted: a new or empty folder, or that of an earlier report"
         )
 
 
 def _is_of_a_report(numbers: Path) -> bool:
-    """Tell numbers.json of a report, which names the versions it was computed by, from any other."""
+    """Return whether numbers.json is a report's: one names the versions that computed it."""
     try:
         return "cointoss" in json.loads(numbers.read_bytes())["versions"]
     except (OSError, ValueError, RecursionError, LookupError, TypeError):

@@ -113,5 +113,5 @@ def _numbers(
 
 
 def _finite(numbers: Array) -> list[float | None]:
-    """Give numbers for JSON, which has none that are infinite: null stands for those."""
+    """Return numbers for JSON, with null for those that are not finite."""
     return [float(number) if np.isfinite(number) else None for number in numbers]

@@ -9,7 +9,7 @@ class MapSection:
     """Maps over two fields of the scenario, one by each engine, and how far they agree."""
 
     picture: bytes
-    """PNG: the map by the paper's mechanics, that by MuJoCo, and where they differ."""
+    """PNG: the map by the analytic engine, that by MuJoCo, and where they differ."""
     numbers: dict[str, Any]
     """As in numbers.json under `map`: `axes`, `after`, `fractions` and `settings` by engine, `agreement`, and
     the `command` that makes the maps anew."""

@@ -42,7 +42,7 @@ class Page:
 
 
 def render(page: Page) -> str:
-    """Give the HTML text of a page."""
+    """Return the HTML text of a page."""
     template = (resources.files("compare.report") / "report.html.j2").read_text(encoding="utf-8")
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
     comparison = page.comparison
@@ -50,7 +50,7 @@ def render(page: Page) -> str:
     return environment.from_string(template).render(
         page=page,
         tosses=tosses,
-        labels={"analytic": "the paper's mechanics", "mujoco": "MuJoCo"},
+        labels={"analytic": "analytic", "mujoco": "MuJoCo"},
         parameters=_parameters(page.scenario),
         pairs=aligned(page.analytic.sequence, comparison.mujoco.sequence) if comparison else [],
         most_shown=MOST_SHOWN,
@@ -64,12 +64,12 @@ def render(page: Page) -> str:
 
 
 def versions() -> dict[str, str]:
-    """Give the versions of Python and the packages that matter to the numbers."""
+    """Return the versions of Python and the packages that matter to the numbers."""
     return {"Python": platform.python_version(), **{name: metadata.version(name) for name in PACKAGES}}
 
 
 def _parameters(scenario: Scenario) -> list[tuple[str, str, str]]:
-    """Give every field of the scenario: its dotted path, its value, its meaning with the unit."""
+    """Return every field of the scenario: its dotted path, its value, its meaning with the unit."""
     rows: list[tuple[str, str, str]] = []
 
     def walk(part: BaseModel, path: str) -> None:
@@ -94,7 +94,7 @@ def _shown(value: Any) -> str:
 
 
 def _impact_rows(analytic: Toss, comparison: Comparison | None) -> list[dict[str, Any]]:
-    """Give the rows of the table of impacts, as many as the longer toss has, or `MOST_SHOWN`."""
+    """Return the rows of the table of impacts: as many as the longer toss has, at most `MOST_SHOWN`."""
     b = comparison.mujoco if comparison else None
     count = max(len(analytic.impacts), len(b.impacts) if b else 0)
     matched = len(comparison.differences.time) if comparison else 0
@@ -128,5 +128,5 @@ def _impact(toss: Toss, i: int) -> dict[str, Any] | None:
 
 
 def _rounded(number: float) -> str:
-    """Give four decimals, and a plain 0 for what rounds to it."""
+    """Return a number with four decimals, and a plain 0 for what rounds to it."""
     return f"{number:.4f}" if abs(number) >= 5e-5 else "0"

@@ -1,4 +1,4 @@
-"""The report's figures, as SVG to stand in the page."""
+"""The report's figures, as SVG."""
 
 import io
 
@@ -16,7 +16,7 @@ from models.records import Array, States, Toss
 from models.scenario import Scenario
 
 COLORS = {"analytic": "#0072B2", "mujoco": "#D55E00"}
-LABELS = {"analytic": "paper's mechanics", "mujoco": "MuJoCo"}
+LABELS = {"analytic": "analytic", "mujoco": "MuJoCo"}
 STYLES = {"analytic": "-", "mujoco": "--"}
 POINTS = 3000
 
@@ -28,14 +28,14 @@ def _svg(figure: Figure) -> str:
 
 
 def sample_evenly(toss: Toss) -> States:
-    """Give a toss's states at even times and on both sides of every impact."""
+    """Return a toss's states at even times and on both sides of every impact."""
     before = np.nextafter(toss.impacts.time, 0)
     times = np.unique(np.concatenate([np.linspace(0, toss.end_time, POINTS), toss.impacts.time, before]))
     return toss.sample(times)
 
 
 def energies(scenario: Scenario, states: States) -> Array:
-    """Give the mechanical energy at each state, (n,) [J]."""
+    """Return the mechanical energy at each state, (n,) [J]."""
     coin = scenario.coin
     w, v = states.angular_velocity, states.velocity
     turning = np.einsum("ni,ij,nj->n", w, coin.inertia_about_C, w) / 2
@@ -152,7 +152,7 @@ def _energy(sampled: list[tuple[Toss, States]]) -> Figure:
     axes.text(
         0.01,
         min(barriers),
-        "the least to turn over",
+        "least energy to turn over",
         transform=axes.get_yaxis_transform(),
         va="top",
         color="#5b6675",
@@ -191,6 +191,6 @@ def _apart(comparison: Comparison) -> Figure:
     axes.text(0.01, PARTED, f"{PARTED:g} r", transform=across, va="bottom", color="#5b6675")
     axes.set_ylim(foot, 1e3)
     axes.set_xlabel("t [s]")
-    axes.set_ylabel("between the two engines")
+    axes.set_ylabel("difference of the engines")
     axes.legend(loc="lower right")
     return figure

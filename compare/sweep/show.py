@@ -64,7 +64,7 @@ def describe_agreement(measured: Agreement) -> str:
     return "\n".join(
         [
             f"agreement  {_share(measured.away)} more than {AWAY:g} pixels from the boundaries of the first",
-            f"           {_share(measured.near)} nearer to them",
+            f"           {_share(measured.near)} nearer to the boundaries",
             f"           {measured.undecided} pixels are undecided in one or both",
         ]
     )
@@ -75,7 +75,7 @@ def write(png: Path, maps: list[NDArray[np.int8]], sweep: Sweep, look: Look) -> 
 
     Args:
         png: the file.
-        maps: (y, x) each, the first by the paper's mechanics if there are two.
+        maps: (y, x) each, the first by the analytic engine if there are two.
         sweep: what the first was made of.
         look: how to draw.
 
@@ -89,7 +89,7 @@ def section(maps: list[NDArray[np.int8]], sweep: Sweep, look: Look, command: str
     """Give what a report shows of the maps of both engines.
 
     Args:
-        maps: (y, x) each, the first by the paper's mechanics.
+        maps: (y, x) each, the first by the analytic engine.
         sweep: what the first was made of.
         look: how to draw.
         command: that makes the maps.
@@ -122,13 +122,13 @@ def _figure(maps: list[NDArray[np.int8]], sweep: Sweep, look: Look) -> Figure:
             *maps,
             **common,
             size=look.size or picture.COMPARISON_SIZE,
-            note=f"alike: {_share(measured.away)} away from boundaries,\n{_share(measured.near)} near them",
+            note=f"agree: {_share(measured.away)} away from boundaries,\n{_share(measured.near)} near them",
         )
     return picture.draw_map(maps[0], **common, size=look.size or picture.PANEL_SIZE)
 
 
 def measure(analytic: NDArray[np.int8], mujoco: NDArray[np.int8]) -> Agreement:
-    """Compare the maps of both engines; the boundaries are those of the paper's mechanics."""
+    """Compare the maps of both engines; the boundaries are those of the analytic map."""
     return agreement(analytic, mujoco, distance=AWAY)
 
 

@@ -101,7 +101,7 @@ def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
             raise UnwritableError(f"{path}: accepted: a new name, or a map of cointoss (this is none)")
         elif not (resume or overwrite):
             raise UnwritableError(
-                f"{path}: accepted: a new name (this map exists: --resume goes on with it, --overwrite "
+                f"{path}: accepted: a new name (this map exists: --resume continues it, --overwrite "
                 "replaces it)"
             )
 

@@ -134,7 +134,7 @@ def test_an_interrupted_map_is_resumed_to_the_same_pixels(
     said = process.communicate(timeout=60)[1]
     assert process.returncode == status
     if sign == signal.SIGINT:
-        kept = int(said.split("map.zarr: ")[1].split(" of 1920 tosses are kept; --resume goes on")[0])
+        kept = int(said.split("map.zarr: ")[1].split(" of 1920 tosses are saved; --resume continues")[0])
         assert SMALL * whole_tiles(out) - SMALL <= kept <= SMALL * whole_tiles(out)
     assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) <= TILES - 4
     assert_same(out, undisturbed)
@@ -215,7 +215,7 @@ def test_a_map_is_replaced_only_where_asked(coin, tmp_path):
     first = pixels(out)
     answered = basin(coin, *AXES, "--after", 0, "--out", out)
     assert answered.exit_code == 2
-    assert "this map exists: --resume goes on with it, --overwrite replaces it" in answered.stderr
+    assert "this map exists: --resume continues it, --overwrite replaces it" in answered.stderr
     assert_same(out, first)
     assert basin(coin, *AXES, "--after", 0, "--out", out, "--overwrite").exit_code == 0
     assert np.all(pixels(out)["impacts"] == 1)

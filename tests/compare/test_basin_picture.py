@@ -92,7 +92,7 @@ def test_a_comparison_shows_both_maps_and_where_they_differ():
     b = np.array([[HEADS, TAILS, TAILS, EDGE, HEADS]] * 2, dtype=np.int8)
     figure = draw_comparison(a, b, x=X, y=Y)
     titles = [axes.get_title() for axes in figure.axes]
-    assert titles == ["paper's mechanics", "MuJoCo", "different: 50 % of the pixels both decide"]
+    assert titles == ["analytic", "MuJoCo", "different: 50 % of the pixels both decide"]
     left, middle, right = (drawn(figure, panel) for panel in range(3))
     assert [left(x, 0.6) for x in (20, 30, 40, 50)] == [BLACK, BLACK, WHITE, WHITE]
     assert [middle(x, 0.6) for x in (20, 30, 40, 60)] == [BLACK, WHITE, WHITE, BLACK]

@@ -127,8 +127,8 @@ def test_the_section_tells_what_is_on_made_maps(tmp_path):
         "shows the face at touch 3, or the outcome of a toss that ended before",
         "heads 50.000 % 49.500 % tails 50.000 % 50.250 %",
         "undecided 0.000 % 0.250 %",
-        "more than 2 pixels from the boundaries of the paper's map 192 99.479 %",
-        "nearer to them 207 100.000 %",
+        "more than 2 pixels from the boundaries of the analytic map 192 99.479 %",
+        "nearer to the boundaries 207 100.000 %",
         "undecided by one or both, not compared 1 –",
         "x release.angular_velocity.eta 20 rad/s 60 rad/s 5",
         "y release.position.z 0.2 m 0.6 m 4",
@@ -143,7 +143,7 @@ def test_the_section_tells_what_is_on_made_maps(tmp_path):
 def test_a_share_of_no_pixels_is_a_dash(tmp_path):
     text = shown_of(section_of([halves(2, 2), halves(2, 2)]), tmp_path)
     assert "shows the final outcome." in text
-    assert "boundaries of the paper's map 0 – nearer to them 4 100.000 %" in text
+    assert "boundaries of the analytic map 0 – nearer to the boundaries 4 100.000 %" in text
 
 
 def test_a_folder_that_is_no_reports_is_refused_before_any_map(coin, tmp_path):

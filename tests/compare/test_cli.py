@@ -366,7 +366,7 @@ def test_an_interrupted_film_leaves_what_was_there(tmp_path, short):
 
 
 @pytest.mark.usefixtures("small_films")
-def test_a_law_that_mujoco_lacks_is_filmed_by_the_papers_mechanics_alone(tmp_path):
+def test_a_law_that_mujoco_lacks_is_filmed_by_the_analytic_engine_only(tmp_path):
     film = tmp_path / "film.mp4"
     for engine in ("mujoco", "both"):
         answered = cointoss("video", "contact_knurled", "--engine", engine, "--out", film)

@@ -64,9 +64,9 @@ def test_names_are_found_without_importing_what_they_name():
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (["no-such"], "no-such: no such figure; accepted: "),
-        (["contact-laws", "no-such"], "no-such: no such figure; accepted: "),
-        (["contact_laws"], "contact_laws: no such figure; accepted: "),
+        (["no-such"], "no-such: no such name; accepted: "),
+        (["contact-laws", "no-such"], "no-such: no such name; accepted: "),
+        (["contact_laws"], "contact_laws: no such name; accepted: "),
         (["contact-laws"], "--out DIR"),
         ([], "NAME one of: "),
     ],
@@ -101,7 +101,7 @@ def test_a_claim_that_fails_is_exit_status_1_and_keeps_the_evidence(tmp_path):
     answered = cointoss("reproduce", "fake-doubtful", "fake-good", "--out", tmp_path / "out")
     assert answered.exit_code == 1
     assert answered.stdout == "as drawn\nas drawn\n"
-    assert answered.stderr == "cointoss: fake-doubtful: two and two are five: not so\n"
+    assert answered.stderr == "cointoss: fake-doubtful: two and two are five: not confirmed\n"
     assert (tmp_path / "out" / "fake-doubtful" / "numbers.json").read_text() == "new"
 
 
