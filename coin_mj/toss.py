@@ -214,8 +214,7 @@ def _trusted_impacts(scenario: Scenario, settings: ContactSettings, impacts: Imp
     thickness = scenario.coin.thickness or 10 * shape_thickness(scenario)
     trusted = len(impacts)
     for part in SOFTER if trusted > 0 else ():
-        ending = scenario.ending.model_copy(update={"max_impacts": trusted})
-        shorter = scenario.model_copy(update={"ending": ending})
+        shorter = scenario.replace("ending.max_impacts", trusted)
         softer = impacts_of(shorter, settings.softened(part), thickness)
         n = min(trusted, len(softer))
         change = np.linalg.norm(softer.impulse[:n] - impacts.impulse[:n], axis=1)

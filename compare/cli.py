@@ -95,8 +95,8 @@ def _plain_errors(source: str) -> Iterator[None]:
     """Turn the errors of bad input into one line and exit status 2, and warnings into one line each."""
     from compare.film.back_end import BackEndError
     from compare.output.files import UnwritableError
-    from compare.sweep.fields import SweepError
-    from models.reading import ScenarioError
+    from compare.sweep.errors import SweepError
+    from models.errors import ScenarioError
     from models.records import ApproximationWarning, UnsupportedError
 
     told = set()
@@ -180,8 +180,7 @@ def toss(
         if trajectory is not None and not is_stream(trajectory):
             require_file(trajectory, ".csv", scenario)
         if max_impacts is not None:
-            ending = described.ending.model_copy(update={"max_impacts": max_impacts})
-            described = described.model_copy(update={"ending": ending})
+            described = described.replace("ending.max_impacts", max_impacts)
         result = toss_by(Engine(engine), described, contact or "spring")
         if trajectory is not None:
             times = answer.path_times(result)

@@ -1,7 +1,7 @@
 """What is tossed: coin, air, floor, release and ending; frozen, and validated when made."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Self
 
 import numpy as np
@@ -11,6 +11,7 @@ from pydantic import (
     BeforeValidator,
     ConfigDict,
     Field,
+    ValidationError,
     ValidationInfo,
     field_validator,
     model_validator,
@@ -19,6 +20,8 @@ from pydantic import (
 from models.attitude import Quaternion, quaternion_from_angles, rotation_matrix
 from models.body import AirLaw, Body, Rules
 from models.drag import linear_drag
+from models.errors import FieldError, ScenarioError, describe
+from models.fields import lambda_unit, put
 from models.geometry import damping_rate, gap
 from models.inertia import (
     cylinder_inertia,
@@ -92,6 +95,18 @@ class _Part(BaseModel):
     model_config = ConfigDict(
         frozen=True, extra="forbid", strict=True, allow_inf_nan=False, use_attribute_docstrings=True
     )
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """Return a copy.
+
+        Raises:
+            TypeError: for an update, which would not be checked.
+        """
+        if update:
+            raise TypeError(
+                "model_copy: accepted: no update; Scenario.replace changes fields and checks them"
+            )
+        return super().model_copy(deep=deep)
 
 
 class Coin(_Part):
@@ -184,7 +199,7 @@ class Air(_Part):
         if not isinstance(value, str):
             return value
         b = info.data.get("exponent", 0.0)
-        return in_si(value, f"kg*m**{-2 - b}*s**{b - 1}")
+        return in_si(value, lambda_unit(b))
 
 
 class Floor(_Part):
@@ -307,6 +322,35 @@ class Scenario(_Part):
             raise FieldError("air", self.air, accepted)
         return self
 
+    def replace(self, field: str, value: Any, /, *more: Any) -> "Scenario":
+        """Return a scenario with other values of some fields, checked as a scenario file is.
+
+            scenario.replace("floor.restitution", 0.5, "release.position.z", "40 cm", "air", Air())
+
+        Values take their places in turn. `release.angles` and `release.quaternion` replace each other.
+
+        Args:
+            field: a dotted path, components by name; without a dot, gravity or a whole part.
+            value: as a scenario file gives it, or a part such as a `Coin`.
+            more: further fields, each with its value.
+
+        Raises:
+            ScenarioError: naming field, value and what is accepted.
+            TypeError: for a field without a value.
+        """
+        pairs = (field, value, *more)
+        if len(pairs) % 2:
+            raise TypeError(
+                f"Scenario.replace: {pairs[-1]} without a value; accepted: fields and values in turn"
+            )
+        data = self.model_dump()
+        for name, new in zip(pairs[::2], pairs[1::2], strict=True):
+            put(data, name, new)
+        try:
+            return Scenario.model_validate(data)
+        except ValidationError as error:
+            raise ScenarioError(describe(error, Scenario)) from None
+
     @property
     def body(self) -> Body:
         """The coin in its air and gravity, for compiled code."""
@@ -360,12 +404,3 @@ def euler_parameters(row: NDArray[np.floating]) -> Quaternion:
     """Give four numbers of an array as a tuple, as a scenario keeps them."""
     e0, e1, e2, e3 = row.tolist()
     return e0, e1, e2, e3
-
-
-class FieldError(ValueError):
-    """A value that only its neighbours show to be wrong: it names its field itself."""
-
-    def __init__(self, field: str, value: Any, accepted: str) -> None:
-        """Keep the field's dotted path below the part that refuses it, its value, and what is accepted."""
-        super().__init__(accepted)
-        self.field, self.value, self.accepted = field, value, accepted

@@ -49,7 +49,6 @@ def errors_of_impacts(toss: Toss) -> Array:
         |S_law - S|/|S_law|, (n,).
     """
     impacts, scenario = toss.impacts, toss.scenario
-    one = scenario.ending.model_copy(update={"max_impacts": 1})
     law = np.empty((len(impacts), 3))
     for i in range(len(impacts)):
         release = Release(
@@ -58,7 +57,7 @@ def errors_of_impacts(toss: Toss) -> Array:
             quaternion=euler_parameters(impacts.quaternion[i]),
             angular_velocity=vector(impacts.angular_velocity_before[i]),
         )
-        again = analytic.toss(scenario.model_copy(update={"release": release, "ending": one}))
+        again = analytic.toss(scenario.replace("release", release, "ending.max_impacts", 1))
         law[i] = again.impacts.impulse[0]
     return _relative(law, impacts.impulse)
 

@@ -39,8 +39,8 @@ def agreement_horizon(toss: Toss, errors: Array) -> int:
                     _beyond(impacts.angular_velocity_before[i], impacts.angular_velocity_after[i], part)
                 ),
             )
-            ending = scenario.ending.model_copy(update={"max_impacts": max(shared - i - 1, 1)})
-            again = analytic.toss(scenario.model_copy(update={"release": release, "ending": ending}))
+            most = max(shared - i - 1, 1)
+            again = analytic.toss(scenario.replace("release", release, "ending.max_impacts", most))
             shared = min(shared, i + 1 + common_prefix(toss.sequence[i + 1 :], again.sequence))
     return shared
 

@@ -1,11 +1,13 @@
 """An axis of a map: a field of the scenario and its values."""
 
+import difflib
 import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from compare.sweep.fields import SweepError, unit_of
+from compare.sweep.errors import SweepError
+from models.fields import UNITS, lambda_unit
 from models.records import Array
 from models.scenario import Scenario
 from models.units import in_si
@@ -27,6 +29,11 @@ class Axis:
     count: int
 
     @property
+    def is_of_release(self) -> bool:
+        """Whether its field is of the release, which may differ between the tosses of one coin."""
+        return self.field.startswith("release.")
+
+    @property
     def values(self) -> Array:
         """The field's values, (count,) [unit]."""
         return np.linspace(self.start, self.stop, self.count)
@@ -43,7 +50,7 @@ def parse_axis(text: str, scenario: Scenario) -> Axis:
     parts = span.split(":")
     if not equals or len(parts) != 3:
         raise SweepError(f"{text}: accepted: {_FORM}")
-    unit = unit_of(field, scenario)
+    unit = _unit_of(field, scenario)
     start, stop = (_number(field, part, unit) for part in parts[:2])
     if start == stop:
         raise SweepError(f"{text}: START = STOP; accepted: two numbers that differ")
@@ -57,6 +64,14 @@ def parse_axis(text: str, scenario: Scenario) -> Axis:
     if field == "ending.max_impacts" and not np.all(np.mod(axis.values, 1) == 0):
         raise SweepError(f"{text}: accepted: START, STOP and N that give whole numbers only")
     return axis
+
+
+def _unit_of(field: str, scenario: Scenario) -> str:
+    if field not in UNITS:
+        near = difflib.get_close_matches(field, UNITS, n=1)
+        hint = f" (did you mean {near[0]}?)" if near else ""
+        raise SweepError(f"{field}: no numeric field of a scenario; accepted: {', '.join(UNITS)}{hint}")
+    return lambda_unit(scenario.air.exponent) if field in ("air.normal", "air.tangential") else UNITS[field]
 
 
 def _number(field: str, text: str, unit: str) -> float:

@@ -7,7 +7,7 @@ from itertools import islice
 from typing import Any
 
 from compare.engines import versions
-from compare.sweep.fields import SweepError
+from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile
 from compare.sweep.pixels import Pixels, toss_pixels
 from compare.sweep.run import Tosser

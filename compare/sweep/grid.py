@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from compare.engines import Engine
 from compare.sweep.axes import Axis
-from compare.sweep.fields import SweepError, is_of_release
+from compare.sweep.errors import SweepError
 from models.scenario import Scenario
 
 TILE_TOSSES = {Engine.ANALYTIC: 1 << 14, Engine.MUJOCO: 1 << 10}
@@ -64,7 +64,7 @@ def tile_shape(sweep: Sweep) -> tuple[int, int]:
     most = TILE_TOSSES[sweep.engine]
     if sweep.scenario.air.exponent > 0 or "air.exponent" in (sweep.x.field, sweep.y.field):
         most = min(most, SLOW_TILE_TOSSES)
-    x_of_release, y_of_release = is_of_release(sweep.x.field), is_of_release(sweep.y.field)
+    x_of_release, y_of_release = sweep.x.is_of_release, sweep.y.is_of_release
     if x_of_release and not y_of_release:
         columns = min(nx, most)
     elif y_of_release and not x_of_release:

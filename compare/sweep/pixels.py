@@ -9,9 +9,11 @@ from numpy.typing import NDArray
 
 from compare.engines import require_supported, toss_many
 from compare.sweep.axes import Axis
-from compare.sweep.fields import SweepError, is_of_release, split, with_values
+from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile
 from models.attitude import quaternion_from_angles
+from models.errors import ScenarioError
+from models.fields import split
 from models.records import Array
 from models.releases import Releases, check_releases
 from models.scenario import Scenario
@@ -75,13 +77,18 @@ def pixel_scenario(sweep: Sweep, y: float, x: float) -> Scenario:
         SweepError: for values that make no valid scenario, naming them.
     """
     try:
-        scenario = with_values(sweep.scenario, {sweep.y.field: y, sweep.x.field: x})
-    except SweepError as error:
+        scenario = sweep.scenario.replace(*_given(sweep.y.field, y), *_given(sweep.x.field, x))
+    except ScenarioError as error:
         raise SweepError(f"{error} (at {sweep.x.field} = {x:g}, {sweep.y.field} = {y:g})") from None
     if sweep.after is None:
         return scenario
     most = min(sweep.after + 1, scenario.rules.max_impacts)
-    return scenario.model_copy(update={"ending": scenario.ending.model_copy(update={"max_impacts": most})})
+    return scenario.replace("ending.max_impacts", most)
+
+
+def _given(field: str, value: float) -> tuple[str, float]:
+    """Return a field and its value; a number of impacts, whole on every axis, as an integer."""
+    return field, int(value) if field == "ending.max_impacts" else value
 
 
 def groups(sweep: Sweep, y: Array, x: Array) -> Iterator[Group]:
@@ -137,7 +144,7 @@ def _blocks(sweep: Sweep, ny: int, nx: int) -> Iterator[tuple[slice, slice]]:
 
 
 def _parts(axis: Axis, count: int) -> list[slice]:
-    return [slice(0, count)] if is_of_release(axis.field) else [slice(i, i + 1) for i in range(count)]
+    return [slice(0, count)] if axis.is_of_release else [slice(i, i + 1) for i in range(count)]
 
 
 def _releases(sweep: Sweep, first: Scenario, y: Array, x: Array) -> Releases:
@@ -150,12 +157,12 @@ def _releases(sweep: Sweep, first: Scenario, y: Array, x: Array) -> Releases:
         "quaternion": release.attitude,
         "angular_velocity": release.angular_velocity,
     }
-    varied = {split(axis.field)[1] for axis in (sweep.y, sweep.x) if is_of_release(axis.field)}
+    varied = {split(axis.field)[1] for axis in (sweep.y, sweep.x) if axis.is_of_release}
     if "quaternion" in varied:  # the first pixel's is brought to norm 1 as a whole
         numbers["quaternion"] = sweep.scenario.release.attitude
     columns = {name: np.tile(row, (count, 1)) for name, row in numbers.items()}
     for axis, values in ((sweep.y, np.repeat(y, len(x))), (sweep.x, np.tile(x, len(y)))):
-        if is_of_release(axis.field):
+        if axis.is_of_release:
             _, key, index = split(axis.field)
             columns[key][:, index] = values
     angles = columns.pop("angles")

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from compare.output.files import UnwritableError
-from compare.sweep.fields import SweepError
+from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile
 from compare.sweep.pixels import Pixels, toss_pixels
 from compare.sweep.store import BYTES_PER_PIXEL, Map

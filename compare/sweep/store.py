@@ -24,7 +24,8 @@ from compare.output.files import UnwritableError, naming
 from compare.sweep.axes import Axis
 from compare.sweep.grid import Sweep, Tile, tile_shape, tiles
 from compare.sweep.pixels import Pixels
-from models.reading import ScenarioError, parse
+from models.errors import ScenarioError
+from models.reading import parse
 from models.records import Outcome
 
 FORMAT = 1

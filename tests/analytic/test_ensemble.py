@@ -85,7 +85,7 @@ def test_a_touch_without_solution_is_no_impact_and_shows_no_face():
     outcomes = analytic.toss_many(case, releases)
     turned = 0
     for i in np.flatnonzero((outcomes.ending == Ending.NO_SOLUTION) & (outcomes.impacts > 0)):
-        tossed = analytic.toss(Scenario.model_validate({**case.model_dump(), "release": drawn[i]}))
+        tossed = analytic.toss(case.replace("release", drawn[i]))
         assert outcomes.last_face[i] == tossed.impacts.face[-1]
         face_at_end = Face.HEADS if tossed.sample(tossed.end_time).normal[0, 2] > 0 else Face.TAILS
         turned += outcomes.last_face[i] != face_at_end
@@ -110,7 +110,7 @@ def test_the_face_after_impacts_is_the_face_of_that_touch_or_the_final_face():
         case = scenario(floor={"restitution": 0.4}, air=AIR, ending={"max_impacts": after + 1})
         faces = analytic.toss_many(case, releases).after(after)
         for face, release in zip(faces, drawn, strict=True):
-            tossed = analytic.toss(Scenario.model_validate({**whole.model_dump(), "release": release}))
+            tossed = analytic.toss(whole.replace("release", release))
             there = len(tossed.impacts) > after
             stopped += not there
             assert face == (tossed.impacts.face[after] if there else tossed.outcome)

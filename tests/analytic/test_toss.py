@@ -245,7 +245,7 @@ def test_a_coin_that_loses_nothing_may_wobble_for_ever():
         for x, e in zip(states.position, states.quaternion, strict=True)
     ]
     assert np.abs(gaps).max() < 1e-12 * ZLOTY["radius"]
-    again = analytic.toss(WOBBLING.model_copy(update={"air": WOBBLING.air.model_copy(update=AIR)}))
+    again = analytic.toss(WOBBLING.replace("air", AIR))
     assert again.outcome in (Outcome.HEADS, Outcome.TAILS), "air takes what it keeps in vacuum"
 
 

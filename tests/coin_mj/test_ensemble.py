@@ -16,7 +16,7 @@ from coin_mj.toss import run
 from models.outcomes import Outcomes
 from models.records import ApproximationWarning, Ending, UnsupportedError
 from models.releases import Releases
-from models.scenario import Release, Scenario
+from models.scenario import Scenario
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 NAMES = ("position", "velocity", "quaternion", "angular_velocity")
@@ -41,7 +41,7 @@ def assert_each_is_a_toss(
     case: Scenario, drawn: list[dict[str, Any]], outcomes: Outcomes, **settings
 ) -> None:
     for i, release in enumerate(drawn):
-        one = case.model_copy(update={"release": Release.model_validate(release)})
+        one = case.replace("release", release)
         # What `toss` makes its record of; it also tosses softer coins, for its horizon of trust.
         tossed = run(machine_of(one, MANY._replace(**settings), shape_thickness(one)), one.rules)
         assert outcomes.outcome[i] == tossed.outcome
@@ -80,7 +80,7 @@ def test_a_toss_is_that_of_toss_with_the_same_settings():
     for settings, same in (({}, coarse), (finer, finer)):
         outcomes = coin_mj.toss_many(case, releases, **settings)
         for i, release in enumerate(drawn):
-            one = case.model_copy(update={"release": Release.model_validate(release)})
+            one = case.replace("release", release)
             tossed = coin_mj.toss(one, **same)
             assert (outcomes.outcome[i], outcomes.ending[i]) == (tossed.outcome, tossed.ending)
             assert outcomes.impacts[i] == len(tossed.impacts)

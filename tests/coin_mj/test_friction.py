@@ -156,5 +156,5 @@ def test_a_toss_of_one_step_contacts_ends():
     assert tossed.ending == Ending.SETTLED
     names = {setting.name for setting in tossed.certificate}
     assert "length of the step" in names
-    dead = case.model_copy(update={"floor": case.floor.model_copy(update={"restitution": 0.0})})
+    dead = case.replace("floor.restitution", 0.0)
     assert toss(dead, realisation=Realisation.ONE_STEP).ending == Ending.SETTLED

@@ -97,7 +97,7 @@ def test_the_error_falls_with_the_root_of_the_stiffness():
     errors = np.zeros((12, 4))
     for row in errors:
         case, newton = draw_single_impact(rng)
-        case = case.model_copy(update={"coin": case.coin.model_copy(update={"thickness": 2e-3})})
+        case = case.replace("coin.thickness", 2e-3)
         newton = analytic.toss(case).impacts
         row[:] = [match(newton, first_impact(case, stiffness=k)).impulse[0] for k in stiffnesses]
     order = np.polyfit(np.log(stiffnesses), np.log(np.median(errors, axis=0)), 1)[0]

@@ -12,9 +12,10 @@ from coin_mj import ContactSettings
 from compare.engines import Engine, settings
 from compare.sweep import grid
 from compare.sweep.axes import Axis, parse_axis
-from compare.sweep.fields import UNITS, SweepError, split, unit_of, with_values
+from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile, tile_shape, tiles
 from compare.sweep.pixels import check, pixel_scenario, toss_pixels
+from models.fields import UNITS, split
 from models.records import UnsupportedError
 from models.scenario import Scenario
 from tests.helpers.draws import AIR, scenario
@@ -69,13 +70,13 @@ def test_a_value_lands_in_its_field_alone_with_its_unit(field):
 
     # Near the value that is there, so that the scenario stays valid; a count stays whole.
     new = value(case) + (1 if field == "ending.max_impacts" else 1e-4)
-    changed = with_values(case, {field: new})
+    changed = case.replace(field, new)
     assert value(changed) == (pytest.approx(new, rel=1e-3) if "quaternion" in field else new)
-    back = with_values(changed, {field: value(case)})
+    back = changed.replace(field, value(case))
     if "quaternion" not in field:  # whose other components are brought to norm 1
         assert back == case
-    if field != "ending.max_impacts" and unit_of(field, case):
-        as_text = f"{new!r} {unit_of(field, case)}"
+    if UNITS[field]:
+        as_text = f"{new!r} {UNITS[field]}"
         assert parse_axis(f"{field}={as_text}:9:2", case).start == pytest.approx(new, rel=1e-15)
 
 
@@ -156,8 +157,11 @@ def test_each_pixel_is_its_own_toss_to_the_bit(x, y, after):
     pixels = toss_pixels(sweep, WHOLE)
     for i, at_y in enumerate(sweep.y.values):
         for j, at_x in enumerate(sweep.x.values):
-            one = with_values(sweep.scenario, {sweep.x.field: float(at_x), sweep.y.field: float(at_y)})
-            toss = analytic.toss(one)
+            given = [
+                (axis.field, int(at) if axis.field == "ending.max_impacts" else at)
+                for axis, at in ((sweep.x, at_x), (sweep.y, at_y))
+            ]
+            toss = analytic.toss(sweep.scenario.replace(*given[0], *given[1]))
             if after is None or len(toss.impacts) <= after:
                 assert pixels.outcome[i, j] == toss.outcome
                 assert pixels.impacts[i, j] == len(toss.impacts)

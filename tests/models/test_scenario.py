@@ -5,8 +5,9 @@ import math
 import numpy as np
 import pytest
 
+from models.errors import ScenarioError
 from models.laws import ContactLaw, EndingTest
-from models.reading import ScenarioError, load, named_scenarios, parse
+from models.reading import load, named_scenarios, parse
 from models.scenario import MOST_IMPACTS, MOST_LOSSLESS, Scenario
 from tests.helpers.draws import scenario
 

@@ -19,7 +19,7 @@ from compare.reproduction.runner import Progress
 from compare.reproduction.setups.planar_maps import SPINS, case, releases
 from models.reading import load
 from models.records import Array
-from models.scenario import Air, Ending, Release, Scenario
+from models.scenario import Ending, Release, Scenario
 
 FALLS = np.array([0.2, 0.4, 1.0, 1.86, 5.0, 10.0, 20.0, 50.0])
 """Heights of release [m]; the hand's 0.4 m, and the 1.86 m of the drops of section 2."""
@@ -171,7 +171,7 @@ def landing_shifts(height: float, spins: Array) -> tuple[float, ...]:
 
 
 def _one_touch(scenario: Scenario) -> Scenario:
-    return scenario.model_copy(update={"ending": Ending(max_impacts=1)})
+    return scenario.replace("ending", Ending(max_impacts=1))
 
 
 def _bounced(spins: Array) -> float:
@@ -186,7 +186,7 @@ def _mujoco_apart(spins: Array) -> float:
     apart = []
     for w in spins[:MUJOCO_TOSSES].tolist():
         release = Release(position=(0.0, 0.0, float(FALLS[HAND])), angular_velocity=(w, 0.0, 0.0))
-        scenario = _one_touch(case(air=True)).model_copy(update={"release": release})
+        scenario = _one_touch(case(air=True)).replace("release", release)
         ours = run(scenario.body, scenario.rules, state_of(release)).rows[0]
         theirs = impacts_of(scenario, ContactSettings())
         apart += [abs(theirs.time[0] - ours["time"]), np.abs(theirs.position[0] - ours["position"]).max()]
@@ -203,7 +203,7 @@ def _tilts(engine: ModuleType, name: str, falls: Array) -> tuple[list[Array], li
     times, tilts, aside = [], [], []
     for height in falls.tolist():
         release = Release(position=(0.0, 0.0, height), angles=(0.0, TILT, 0.0))
-        toss = engine.toss(scenario.model_copy(update={"release": release}))
+        toss = engine.toss(scenario.replace("release", release))
         # At the touch itself the state is that after the impact.
         t = np.linspace(0, toss.impacts.time[0], LOOKS)[:-1]
         times.append(t)
@@ -222,14 +222,8 @@ def turning_points(tilt: Array) -> int:
 def _terminal(engine: ModuleType, exponent: float) -> float:
     """Give the speed of a long fall broadside on [m/s]."""
     scenario = load("fig3_flat")
-    air = Air(normal=scenario.air.normal, tangential=scenario.air.tangential, exponent=exponent)
-    falling = scenario.model_copy(
-        update={
-            "air": air,
-            "release": Release(position=(0.0, 0.0, 5000.0)),
-            "ending": Ending(max_time=TERMINAL_TIMES[exponent]),
-        }
-    )
+    release, ending = Release(position=(0.0, 0.0, 5000.0)), Ending(max_time=TERMINAL_TIMES[exponent])
+    falling = scenario.replace("air.exponent", exponent, "release", release, "ending", ending)
     return float(-engine.toss(falling).sample(TERMINAL_TIMES[exponent]).velocity[0, 2])
 
 

@@ -93,7 +93,7 @@ def _scenario(body: str) -> Scenario:
     # In plane motion J_ξ alone counts; the paper sets J_η to the same.
     J = m * (2 * r) ** 2 / 12
     inertia = ((J, 0.0, 0.0), (0.0, J, 0.0), (0.0, 0.0, m * r**2 / 2))
-    return scenario.model_copy(update={"coin": scenario.coin.model_copy(update={"inertia": inertia})})
+    return scenario.replace("coin.inertia", inertia)
 
 
 def _releases(scenario: Scenario, over: Array, up: Array) -> Releases:

@@ -110,7 +110,7 @@ def make(progress: Progress, hands: int = 300, each: int = 15, tosses_mujoco: in
 
 
 def _on(scenario: Scenario, floor: Floor) -> Scenario:
-    return scenario.model_copy(update={"floor": floor})
+    return scenario.replace("floor", floor)
 
 
 def _landed(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
@@ -119,7 +119,7 @@ def _landed(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
 
 
 def _once(scenario: Scenario) -> Scenario:
-    return scenario.model_copy(update={"ending": Ending(max_impacts=1)})
+    return scenario.replace("ending", Ending(max_impacts=1))
 
 
 def _caught(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:

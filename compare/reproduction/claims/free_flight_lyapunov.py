@@ -16,7 +16,7 @@ from compare.reproduction.runner import Progress
 from models.body import Body
 from models.reading import load
 from models.records import Array, Toss
-from models.scenario import Scenario, vector
+from models.scenario import Scenario
 
 LONGEST = {"vacuum": 100.0, "air": 2000.0}
 """How long the coins fall [s]; in air the last turning is slow to end."""
@@ -37,7 +37,7 @@ def make(progress: Progress) -> Result:
     for medium, air in MEDIA.items():
         times = np.geomspace(0.1, LONGEST[medium], LOOKS)
         for name, (file, _) in MODELS.items():
-            case = load(file).model_copy(update={"air": air})
+            case = load(file).replace("air", air)
             spectra[f"{medium}, {name}"] = _exponents(case, times)
             progress(len(spectra), len(MEDIA) * len(MODELS) + 1)
     last = {medium: np.array([spectra[f"{medium}, {name}"][-1] for name in MODELS]) for medium in MEDIA}
@@ -45,7 +45,7 @@ def make(progress: Progress) -> Result:
         medium: [_power(spectra[f"{medium}, {name}"].max(axis=1), LONGEST[medium]) for name in MODELS]
         for medium in MEDIA
     }
-    case = load(MODELS["3D imperfect"][0]).model_copy(update={"air": MEDIA["air"]})
+    case = load(MODELS["3D imperfect"][0]).replace("air", MEDIA["air"])
     twins = [_growth_of_twins(engine, case, np.ones(3)) for engine in (analytic.toss, coin_mj.toss)]
     middle, direction, rate = _about_the_middle_axis()
     middle_twins = [_growth_of_twins(engine, middle, direction) for engine in (analytic.toss, coin_mj.toss)]
@@ -146,8 +146,7 @@ def _growth_of_twins(engine: Callable[[Scenario], Toss], case: Scenario, directi
     change = CHANGE * np.linalg.norm(w) * direction / np.linalg.norm(direction)
     spins = []
     for sign in (1, -1):
-        release = case.release.model_copy(update={"angular_velocity": vector(w + sign * change)})
-        toss = engine(case.model_copy(update={"release": release}))
+        toss = engine(case.replace("release.angular_velocity", w + sign * change))
         spins.append(toss.sample(SHORT).angular_velocity[0])
     return float(np.log(np.linalg.norm(spins[0] - spins[1]) / np.linalg.norm(2 * change)) / SHORT)
 
@@ -170,11 +169,10 @@ def _about_the_middle_axis() -> tuple[Scenario, Array, float]:
     case = load(MODELS["3D imperfect"][0])
     J, axes = np.linalg.eigh(case.coin.inertia_about_C)
     rate = SPIN * np.sqrt((J[1] - J[0]) * (J[2] - J[1]) / (J[0] * J[2]))
-    release = case.release.model_copy(update={"angular_velocity": vector(SPIN * axes[:, 1])})
     # J_1 ω̇_1 = (J_2 - J_3) Ω ω_3 in axes of the right hand.
     hand = np.linalg.det(axes)
     direction = axes[:, 0] + rate * J[0] / ((J[1] - J[2]) * SPIN) * hand * axes[:, 2]
-    return case.model_copy(update={"release": release}), direction, float(rate)
+    return case.replace("release.angular_velocity", SPIN * axes[:, 1]), direction, float(rate)
 
 
 def _draw(data: dict[str, Array]) -> Picture:

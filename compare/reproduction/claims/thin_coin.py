@@ -151,16 +151,16 @@ def _case(coin: str, floor: str) -> Scenario:
     """Give the scenario of a coin, one of `COINS`, on a floor, one of `FLOORS`."""
     zloty = load("zloty")
     if coin == THIN:
-        changed = Coin(mass=zloty.coin.mass, radius=zloty.coin.radius, thickness=0.0)
+        changed = ("coin", Coin(mass=zloty.coin.mass, radius=zloty.coin.radius, thickness=0.0))
     else:
         part = 0.1 if coin == NEAR else 1.0
         x, y, z = zloty.coin.center_of_mass
-        changed = zloty.coin.model_copy(update={"center_of_mass": (part * x, part * y, part * z)})
-    return zloty.model_copy(update={"coin": changed, "floor": FLOOR[floor]})
+        changed = ("coin.center_of_mass", (part * x, part * y, part * z))
+    return zloty.replace(*changed, "floor", FLOOR[floor])
 
 
 def _first_touch(scenario: Scenario) -> Scenario:
-    return scenario.model_copy(update={"ending": Ending(max_impacts=1)})
+    return scenario.replace("ending", Ending(max_impacts=1))
 
 
 def _first_faces(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:

@@ -33,9 +33,7 @@ def make(progress: Progress) -> Result:
     out_of_plane, from_eq_48 = np.zeros((2, 2)), np.zeros((2, 2, 2))
     for row, (name, file) in enumerate(COINS.items()):
         scenario = load(file)
-        case = scenario.model_copy(
-            update={"ending": scenario.ending.model_copy(update={"max_impacts": IMPACTS})}
-        )
+        case = scenario.replace("ending.max_impacts", IMPACTS)
         tosses = analytic.toss(case), coin_mj.toss(case)
         t = np.linspace(0, min(toss.impacts.time[-1] for toss in tosses), 600)[:-1]
         falling = t[t < min(toss.impacts.time[0] for toss in tosses)]
@@ -120,13 +118,7 @@ def _product_of_inertia() -> tuple[list[float], float | None]:
     """Let a coin with J_ξη ≠ 0 fall without air; give how far ξ tilts by both engines [degrees], and when it
     passes 1° by ours [s]."""
     scenario = load(COINS["imperfect"])
-    case = scenario.model_copy(
-        update={
-            "coin": scenario.coin.model_copy(update={"center_of_mass": OFF_THE_AXIS}),
-            "air": Air(),
-            "ending": scenario.ending.model_copy(update={"max_impacts": 1}),
-        }
-    )
+    case = scenario.replace("coin.center_of_mass", OFF_THE_AXIS, "air", Air(), "ending.max_impacts", 1)
     tosses = analytic.toss(case), coin_mj.toss(case)
     t = np.linspace(0, min(toss.impacts.time[0] for toss in tosses), 400)[:-1]
     tilts = [np.degrees(np.abs(_height_of_xi(toss.sample(t)))) for toss in tosses]

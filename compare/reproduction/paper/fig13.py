@@ -49,8 +49,7 @@ class Wrench(NamedTuple):
 def make(progress: Progress) -> Result:
     """Sum the air over the fields of a thick coin, and compare with the integrals of both engines."""
     thick = load("fig13")
-    coin = thick.coin.model_copy(update={"thickness": 0.0, "center_of_mass": (-1e-3, -1e-3, 0.0)})
-    thin = thick.model_copy(update={"coin": coin})
+    thin = thick.replace("coin.thickness", 0.0, "coin.center_of_mass", (-1e-3, -1e-3, 0.0))
     fields, of_thin = _fields(thick, FINE), _fields(thin, FINE)
     progress(1, 2)
     upper, lower, wall = fields
@@ -148,8 +147,7 @@ def _areas(case: Scenario) -> tuple[np.ndarray, ...]:
 
 def _integral(case: Scenario, b: float) -> Wrench:
     """Give the integral of the paper's mechanics."""
-    air = case.air.model_copy(update={"exponent": b})
-    body = case.model_copy(update={"air": air}).body
+    body = case.replace("air.exponent", b).body
     f, m_C = force_and_moment(body, case.release.velocity, case.release.angular_velocity)
     return Wrench(np.array(f), np.array(m_C) + np.cross(body.center, f))
 

@@ -155,7 +155,7 @@ def _gained_by_coulomb() -> float:
 
 
 def _one_impact(case: Scenario) -> Scenario:
-    return case.model_copy(update={"ending": case.ending.model_copy(update={"max_impacts": 1})})
+    return case.replace("ending.max_impacts", 1)
 
 
 def _in_the_floor(impacts: Impacts) -> tuple[Array, Array, Array]:

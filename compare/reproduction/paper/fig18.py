@@ -32,7 +32,7 @@ def make(progress: Progress) -> Result:
     data: dict[str, Array] = {}
     between, by_mujoco = {}, {}
     for medium, air in MEDIA.items():
-        cases = {name: load(file).model_copy(update={"air": air}) for name, (file, _) in MODELS.items()}
+        cases = {name: load(file).replace("air", air) for name, (file, _) in MODELS.items()}
         pairs = {name: (analytic.toss(case), coin_mj.toss(case)) for name, case in cases.items()}
         t = np.linspace(0, min(toss.impacts.time[0] for pair in pairs.values() for toss in pair), 400)
         paths = {name: ours.sample(t) for name, (ours, _) in pairs.items()}

@@ -76,10 +76,9 @@ def make(progress: Progress, size: int = 96) -> Result:
 
 def _toss(scenario: Scenario, spin: float, speed: float) -> Scenario:
     """Give Keller's toss with ω_0/π [1/s] and v_0/g [s]."""
-    update = {"velocity": (0.0, 0.0, speed * scenario.gravity), "angular_velocity": (spin * np.pi, 0.0, 0.0)}
-    ending = scenario.ending.model_copy(update={"max_time": 2.01 * speed})
-    release = scenario.release.model_copy(update=update)
-    return scenario.model_copy(update={"release": release, "ending": ending})
+    velocity, w = (0.0, 0.0, speed * scenario.gravity), (spin * np.pi, 0.0, 0.0)
+    thrown = scenario.replace("release.velocity", velocity, "release.angular_velocity", w)
+    return thrown.replace("ending.max_time", 2.01 * speed)
 
 
 def _caught(case: Scenario) -> float:

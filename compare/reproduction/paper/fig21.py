@@ -24,7 +24,7 @@ COLUMNS = ("speed [m/s]", "acceleration [m/s²]", "cos θ", "f_rz [N]")
 def make(progress: Progress) -> Result:
     """Let the coin fall without and with air; MuJoCo follows it with air."""
     with_air = load("fig21")
-    without = with_air.model_copy(update={"air": Air()})
+    without = with_air.replace("air", Air())
     fallen, still, mujoco = analytic.toss(with_air), analytic.toss(without), coin_mj.toss(with_air)
     t_end = min(float(toss.impacts.time[0]) for toss in (fallen, mujoco))
     # At the touch itself the state is that after the impact.

@@ -80,8 +80,7 @@ def make(progress: Progress) -> Result:
 
 
 def _up_to(scenario: Scenario, impacts: int) -> Scenario:
-    ending = scenario.ending.model_copy(update={"max_impacts": impacts})
-    return scenario.model_copy(update={"air": AIR, "ending": ending})
+    return scenario.replace("air", AIR, "ending.max_impacts", impacts)
 
 
 def _horizon(pair: tuple[Toss, Toss]) -> float:

@@ -14,7 +14,7 @@ from compare.reproduction.findings import Finding, Result, paper_figure
 from compare.reproduction.runner import Progress
 from models.reading import load
 from models.records import Array
-from models.scenario import Air, Scenario, vector
+from models.scenario import Air, Scenario
 
 PRINTED = {"air": (0.024, 316), "vacuum": (0.08, 700)}
 """The paper's exponents and numbers of collisions."""
@@ -28,7 +28,7 @@ FOLLOWED = 12
 def make(progress: Progress) -> Result:
     """Follow the coin in air and in vacuum; MuJoCo's coin too."""
     with_air = load("fig27")
-    cases = {"air": with_air, "vacuum": with_air.model_copy(update={"air": Air()})}
+    cases = {"air": with_air, "vacuum": with_air.replace("air", Air())}
     data: dict[str, Array] = {}
     told, mujoco = {}, {}
     for done, (medium, scenario) in enumerate(cases.items(), start=1):
@@ -86,15 +86,14 @@ def _other_spins(scenario: Scenario) -> Array:
     """Count the impacts of `OTHERS` tosses with random spins."""
     counts = []
     for spin in np.random.default_rng(SEED).uniform(-40, 40, (OTHERS, 3)):
-        release = scenario.release.model_copy(update={"angular_velocity": vector(spin)})
-        counts.append(len(run(scenario.body, scenario.rules, state_of(release)).rows))
+        other = scenario.replace("release.angular_velocity", spin)
+        counts.append(len(run(other.body, other.rules, state_of(other.release)).rows))
     return np.array(counts)
 
 
 def _shorter(scenario: Scenario) -> Scenario:
     """Give the scenario with half the impacts: MuJoCo's take longer, and show the same."""
-    ending = scenario.ending.model_copy(update={"max_impacts": scenario.rules.max_impacts // 2})
-    return scenario.model_copy(update={"ending": ending})
+    return scenario.replace("ending.max_impacts", scenario.rules.max_impacts // 2)
 
 
 def _angles(points: Array) -> Array:

@@ -73,13 +73,8 @@ def make(progress: Progress, count: int = 4000, count_mujoco: int = 60) -> Resul
 def _scenario(rng: np.random.Generator) -> Scenario:
     scenario = load("fig24a")
     height, *spins = rng.uniform(-SPREAD, SPREAD, 4)
-    release = scenario.release.model_copy(
-        update={
-            "position": (0.0, 0.0, 0.4 * (1 + height)),
-            "angular_velocity": (40 * spins[0], 40.15 * (1 + spins[1]), 40 * spins[2]),
-        }
-    )
-    return scenario.model_copy(update={"release": release})
+    w = (40 * spins[0], 40.15 * (1 + spins[1]), 40 * spins[2])
+    return scenario.replace("release.position", (0.0, 0.0, 0.4 * (1 + height)), "release.angular_velocity", w)
 
 
 def changes(faces: NDArray[np.int8]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -79,15 +79,11 @@ def make(progress: Progress, points: int = 400, points_mujoco: int = 16) -> Resu
 
 def _first_touches(scenario: Scenario, grid: Grid) -> Outcomes:
     """Give MuJoCo's map of the face up at the first touch, (y, x)."""
-    faces = []
-    ending = scenario.ending.model_copy(update={"max_impacts": 1})
+    faces, once = [], scenario.replace("ending.max_impacts", 1)
     for w in grid.spins.tolist():
         for z in grid.heights.tolist():
-            release = scenario.release.model_copy(
-                update={"position": (0.0, 0.0, z), "angular_velocity": (w, 0.0, 0.0)}
-            )
-            one = scenario.model_copy(update={"release": release, "ending": ending})
-            tossed = impacts_of(one, ContactSettings())
+            released = once.replace("release.position.z", z, "release.angular_velocity.xi", w)
+            tossed = impacts_of(released, ContactSettings())
             faces.append(tossed.face[0])
     return np.array(faces, dtype=np.int8).reshape(grid.shape)
 

@@ -127,7 +127,7 @@ def _same_by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
     ours, start = touched_faces(scenario, heights, spins, TOUCHES), releases(heights, spins)
     same = []
     for n in SHOWN:
-        once_more = scenario.model_copy(update={"ending": Ending(max_impacts=n + 1)})
+        once_more = scenario.replace("ending", Ending(max_impacts=n + 1))
         same.append(np.sum(stiff_tosses(once_more, start).after(n) == ours[:, n]))
     return ", ".join(map(str, same))
 

@@ -123,7 +123,7 @@ def _about_gamma(claim: str, swing: list[float], *, constant: bool) -> Finding:
 
 def _follow(scenario: Scenario, air: Air) -> tuple[Array, Array, Array]:
     """Give times [s], and γ by both engines [degrees], until the coin lands."""
-    case = scenario.model_copy(update={"air": air, "ending": Ending(max_impacts=1)})
+    case = scenario.replace("air", air, "ending", Ending(max_impacts=1))
     tosses = analytic.toss(case), coin_mj.toss(case)
     # At the touch itself the state is that after the impact.
     t = np.linspace(0, min(toss.impacts.time[0] for toss in tosses), 301)[:-1]
@@ -185,7 +185,7 @@ def _mujoco_apart(tosses: dict[str, Array]) -> float:
     apart = []
     for i in range(MUJOCO_TOSSES):
         release = Release(position=(0.0, 0.0, 2.0), angular_velocity=vector(tosses["w"][i]))
-        case = scenario.model_copy(update={"release": release, "ending": Ending(max_time=DURATION)})
+        case = scenario.replace("release", release, "ending", Ending(max_time=DURATION))
         heights = coin_mj.toss(case).sample(times).normal[:, 2]
         exact = _closed_form(np.array([0, 0, 1.0]), tosses["L"][i], tosses["turn"][i], times)
         apart.append(np.abs(heights - exact).max())
@@ -211,7 +211,7 @@ def _first_side() -> tuple[Array, Array, float]:
         counted.append(np.mean(1 - 2 * (states[:, 7] ** 2 + states[:, 8] ** 2) > 0))
     release = Release(position=(0.0, 0.0, 1.0), velocity=(0.0, 0.0, 2.0), angular_velocity=vector(w))
     ending = Ending(max_time=2 * np.pi / turn)
-    mujoco = coin_mj.toss(scenario.model_copy(update={"release": release, "ending": ending}))
+    mujoco = coin_mj.toss(scenario.replace("release", release, "ending", ending))
     return psi, np.array(counted), float(np.mean(mujoco.sample(times).normal[:, 2] > 0))
 
 

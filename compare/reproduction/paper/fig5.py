@@ -88,8 +88,7 @@ def make(progress: Progress, count: int = 2000) -> Result:
 
 
 def _up_to(scenario: Scenario, impacts: int) -> Scenario:
-    ending = scenario.ending.model_copy(update={"max_impacts": impacts})
-    return scenario.model_copy(update={"ending": ending})
+    return scenario.replace("ending.max_impacts", impacts)
 
 
 def _largest_spins(toss: Toss) -> Array:

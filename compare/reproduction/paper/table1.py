@@ -159,7 +159,7 @@ def _case(least: float) -> tuple[Scenario, Array, float]:
         position=(0.0, 0.0, 1.0), velocity=(0.1, 0.05, 2.0), angles=vector(angles), angular_velocity=vector(w)
     )
     ending = Ending(max_time=1.01 * 2 * np.pi / turn)
-    return scenario.model_copy(update={"release": release, "ending": ending}), L, turn
+    return scenario.replace("release", release, "ending", ending), L, turn
 
 
 def _rate_in_parameters(case: Scenario, y: Array) -> Array:

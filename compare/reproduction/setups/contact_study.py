@@ -150,8 +150,7 @@ def body_of(coin: str) -> Body:
     """Give one of `COINS`, without air."""
     thickness, center = COINS[coin]
     scenario = load("fig18_3d_ideal")
-    changed = scenario.coin.model_copy(update={"thickness": thickness, "center_of_mass": center})
-    return scenario.model_copy(update={"coin": changed}).body
+    return scenario.replace("coin.thickness", thickness, "coin.center_of_mass", center).body
 
 
 def rules_of(name: str) -> Rules:

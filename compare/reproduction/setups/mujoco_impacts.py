@@ -10,7 +10,7 @@ import coin_mj
 from coin_mj import ContactSettings
 from models.attitude import rotation_matrix
 from models.geometry import contact_velocity, gap, lowest_point
-from models.laws import ContactLaw, RestitutionKind
+from models.laws import ContactLaw
 from models.records import Array, Impacts
 from models.scenario import Ending, Floor, Release, Scenario, euler_parameters, vector
 
@@ -57,7 +57,7 @@ def touch(
     }
     case = Scenario.model_validate(described)
     z = 1.0 - gap(case.body, 1.0, rotation_matrix(high.attitude)[2]) + CLEARANCE
-    return case.model_copy(update={"release": high.model_copy(update={"position": (0.0, 0.0, z)})})
+    return case.replace("release.position.z", z)
 
 
 def draw_touches(
@@ -103,15 +103,14 @@ def velocity_at_touch(case: Scenario) -> Array:
 
 
 def _is_alone(case: Scenario) -> bool:
-    ending = case.ending.model_copy(update={"max_impacts": 2})
-    times = analytic.toss(case.model_copy(update={"ending": ending})).impacts.time
+    times = analytic.toss(case.replace("ending.max_impacts", 2)).impacts.time
     return bool(np.all(np.diff(times) > ALONE))
 
 
 def on_floor(case: Scenario, law: ContactLaw, friction: float) -> Scenario:
     """Give the same touch of a floor with another law."""
-    update = {"contact": law, "friction": friction, "restitution_kind": RestitutionKind.KINEMATIC}
-    return case.model_copy(update={"floor": case.floor.model_copy(update=update)})
+    floor = Floor(restitution=case.floor.restitution, contact=law, friction=friction)
+    return case.replace("floor", floor)
 
 
 def by_law(cases: Iterable[Scenario]) -> list[Impacts]:

@@ -64,13 +64,8 @@ def case(*, air: bool, restitution: float = 0.6, max_impacts: int | None = None)
         max_impacts: as many as that end a toss, by default those of the scenario.
     """
     scenario = load("fig29")
-    changes = {
-        "air": scenario.air if air else Air(),
-        "floor": scenario.floor.model_copy(update={"restitution": restitution}),
-    }
-    if max_impacts is not None:
-        changes["ending"] = scenario.ending.model_copy(update={"max_impacts": max_impacts})
-    return scenario.model_copy(update=changes)
+    medium, most = scenario.air if air else Air(), max_impacts or scenario.ending.max_impacts
+    return scenario.replace("air", medium, "floor.restitution", restitution, "ending.max_impacts", most)
 
 
 def final_faces(scenario: Scenario, grid: Grid) -> Outcomes:
@@ -80,8 +75,7 @@ def final_faces(scenario: Scenario, grid: Grid) -> Outcomes:
 
 def faces_after(scenario: Scenario, points: Releases, impacts: int) -> NDArray[np.int8]:
     """Give the face up at the touch after so many impacts, the outcome where the toss ended before, (n,)."""
-    ending = scenario.ending.model_copy(update={"max_impacts": impacts + 1})
-    ended: Ended = analytic.toss_many(scenario.model_copy(update={"ending": ending}), points)
+    ended: Ended = analytic.toss_many(scenario.replace("ending.max_impacts", impacts + 1), points)
     return ended.after(impacts)
 
 
@@ -94,8 +88,7 @@ def touched_faces(scenario: Scenario, heights: Array, spins: Array, touches: int
         spins: (n,) [rad/s].
         touches: how many.
     """
-    ending = scenario.ending.model_copy(update={"max_impacts": touches})
-    body, rules = scenario.body, scenario.model_copy(update={"ending": ending}).rules
+    body, rules = scenario.body, scenario.replace("ending.max_impacts", touches).rules
     faces = np.empty((len(heights), touches), dtype=np.int8)
     for row, z, w in zip(faces, heights, spins, strict=True):
         tossed = run(body, rules, np.array([0, 0, z, 0, 0, 0, 1.0, 0, 0, 0, w, 0, 0]))

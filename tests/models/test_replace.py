@@ -1,0 +1,135 @@
+"""`Scenario.replace`: it makes what a file with the same values would, or refuses it likewise."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from models.errors import ScenarioError
+from models.fields import UNITS
+from models.laws import ContactLaw
+from models.scenario import Air, Coin, Release, Scenario
+from tests.helpers.draws import AIR, ZLOTY, draw_quaternion, scenario
+
+HERE = scenario(
+    coin={"center_of_mass": [1e-4, 2e-4, 3e-4]},
+    air=AIR,
+    floor={"restitution": 0.4, "friction": 0.1},
+    release={"velocity": [1.0, 2.0, 3.0], "angles": [0.1, 0.2, 0.3], "angular_velocity": [1.0, 30.0, 2.0]},
+    ending={"max_impacts": 12},
+)
+
+
+def test_several_fields_are_replaced_and_no_other():
+    changed = HERE.replace("floor.restitution", 0.5, "release.position.z", "20 cm", "ending.max_impacts", 3)
+    assert (changed.floor.restitution, changed.release.position, changed.ending.max_impacts) == (
+        0.5,
+        (0, 0, 0.2),
+        3,
+    )
+    assert changed.replace("floor", HERE.floor, "release", HERE.release, "ending", HERE.ending) == HERE
+
+
+@pytest.mark.parametrize("law", ContactLaw)
+def test_a_law_by_its_name_is_the_law(law):
+    changed = HERE.replace("floor.contact", law.label)
+    assert changed.floor.contact is law
+    assert changed == HERE.replace("floor.contact", law)
+    assert changed.rules.law is law
+
+
+def test_a_part_is_given_as_a_table_or_as_itself():
+    coin = {**ZLOTY, "thickness": "1 mm"}
+    assert HERE.replace("coin", coin) == HERE.replace("coin", Coin(mass=2e-3, radius=1.25e-2, thickness=1e-3))
+    assert HERE.replace("air", {}) == HERE.replace("air", Air())
+    assert HERE.replace("air", {"normal": 1}).air == Air(normal=1)
+
+
+def test_a_component_is_replaced_in_what_was_given_before_it():
+    release = Release(position=(0.0, 0.0, 1.0))
+    assert HERE.replace("release", release, "release.position.x", 2).release.position == (2, 0, 1)
+    changed = HERE.replace("release.velocity", np.array([4.0, 5.0, 6.0]), "release.velocity.y", "7 m/s")
+    assert changed.release.velocity == (4, 7, 6)
+    bare = HERE.replace("release", {"position": [0, 0, 1]}, "release.angular_velocity.eta", 3)
+    assert bare.release.angular_velocity == (0, 3, 0)
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_a_quaternion_takes_the_place_of_the_angles_and_keeps_its_digits(seed):
+    e = draw_quaternion(np.random.default_rng(seed))
+    turned = HERE.replace("release.quaternion", e)
+    assert turned.release.angles is None
+    assert turned.release == Release.model_validate(
+        {**HERE.release.model_dump(), "angles": None, "quaternion": e}
+    )
+    # It is of norm 1 within rounding by now, and stays as it is.
+    assert turned.replace("floor.restitution", 0.5).release.quaternion == turned.release.quaternion
+    back = turned.replace("release.angles", HERE.release.angles)
+    assert back == HERE
+
+
+@given(st.sampled_from(sorted(UNITS)), st.floats(-2, 2))
+def test_what_is_made_is_what_the_same_values_in_a_file_would_be(field, value):
+    data: dict[str, Any] = {}
+    *tables, key = field.split(".")
+    for name, part in HERE.model_dump(exclude_none=True).items():
+        data[name] = dict(part) if isinstance(part, dict) else part
+    if len(tables) == 2:
+        table, whole = tables
+        names = ["xi", "eta", "zeta", "x", "y", "z", "psi", "theta", "phi", "e0", "e1", "e2", "e3"]
+        entries = list(data[table].get(whole, (1.0, 0.0, 0.0, 0.0)))
+        entries[names.index(key) % 3 if whole != "quaternion" else int(key[1])] = value
+        data[table][whole] = entries
+    else:
+        (data[tables[0]] if tables else data)[key] = value
+    try:
+        expected = Scenario.model_validate(data)
+    except ValueError:
+        with pytest.raises(ScenarioError, match="accepted: "):
+            HERE.replace(field, value)
+    else:
+        assert HERE.replace(field, value) == expected
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (("floor.restitution", 1.5), "floor.restitution = 1.5: accepted: a number >= 0 and <= 1"),
+        (("floor.restitutoin", 0.5), "floor.restitutoin = 0.5: unknown key; .*did you mean restitution"),
+        (("flor.restitution", 0.5), "flor = .*: unknown key; .*did you mean floor"),
+        (("floor.contact", "coulmb"), 'floor.contact = "coulmb": accepted: .*"coulomb"'),
+        (("floor.restitution_kind", "energetic"), 'restitution_kind = "energetic": accepted: "kinematic"'),
+        (("gravity.z", 1), "gravity = .*: accepted: a number"),
+        (("release.position.w", 2), "position.w = 2: unknown component; accepted: release.position.x, "),
+        (("release.position", 3, "release.position.z", 1), "release.position = 3: accepted: a list"),
+        (("release.position", [0, 0], "release.position.z", 1), r"release.position\[2\]: missing"),
+        (("release", {"velocity": [0, 0, 1]}, "release.position.z", 1), "release.position: missing"),
+        (("release.position.z", "1 kg"), r'release.position\[2\] = "1 kg": accepted: a number in m'),
+        (("release.position.z", 1e-6), "release.position.z = 1e-06: accepted: a coin above the floor"),
+        (("release.quaternion.e0", 1.0), "release.quaternion = .*: accepted: either angles or quaternion"),
+        (("release.angular_velocity.xi", 1e9), "release.angular_velocity = .*: accepted: a spin of at most"),
+        (("coin", Air()), "coin.exponent = 0.0: unknown key"),
+        (("coin", None), "coin = None: accepted: a table"),
+        (("coin.thickness", 1e-4), "coin.center_of_mass = .*: accepted: a point inside the coin"),
+        (("ending.max_impacts", 2.0), "ending.max_impacts = 2.0: accepted: a whole number"),
+    ],
+)
+def test_a_wrong_change_is_refused_by_field_value_and_what_is_accepted(change, said):
+    with pytest.raises(ScenarioError, match=said) as caught:
+        HERE.replace(*change)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_field_without_its_value_is_refused():
+    with pytest.raises(TypeError, match=r"floor\.friction without a value"):
+        HERE.replace("floor.restitution", 0.5, "floor.friction")
+
+
+def test_nothing_copies_a_part_with_values_that_no_one_checks():
+    with pytest.raises(TypeError, match=r"accepted: .*Scenario\.replace"):
+        HERE.floor.model_copy(update={"contact": "coulomb"})
+    with pytest.raises(TypeError, match=r"accepted: .*Scenario\.replace"):
+        HERE.model_copy(update={"gravity": -1.0})
+    assert HERE.model_copy() == HERE == HERE.model_copy(deep=True)
