@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 import analytic
+from models.attitude import rotation_matrix
+from models.geometry import gap
 from models.records import Array, Impacts, Toss
 from models.scenario import Release, euler_parameters, vector
 
@@ -48,11 +50,14 @@ def errors_of_impacts(toss: Toss) -> Array:
     Returns:
         |S_law - S|/|S_law|, (n,).
     """
-    impacts, scenario = toss.impacts, toss.scenario
+    impacts, scenario, body = toss.impacts, toss.scenario, toss.scenario.body
     law = np.empty((len(impacts), 3))
     for i in range(len(impacts)):
+        x, y, z = vector(impacts.position[i])
+        # MuJoCo's shape of a thin coin has a thickness: where it touches the floor, the coin itself is below.
+        below = min(gap(body, z, rotation_matrix(impacts.quaternion[i])[2]), 0.0)
         release = Release(
-            position=vector(impacts.position[i]),
+            position=(x, y, z - below),
             velocity=vector(impacts.velocity_before[i]),
             quaternion=euler_parameters(impacts.quaternion[i]),
             angular_velocity=vector(impacts.angular_velocity_before[i]),
