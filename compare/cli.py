@@ -99,19 +99,19 @@ def _plain_errors(source: str) -> Iterator[None]:
     from models.errors import ScenarioError
     from models.records import ApproximationWarning, UnsupportedError
 
-    told = set()
+    reported = set()
 
-    def tell(message: Warning | str, category: type[Warning], *where: Any, **extra: Any) -> None:
+    def report(message: Warning | str, category: type[Warning], *where: Any, **extra: Any) -> None:
         if issubclass(category, ApproximationWarning):
-            if str(message) not in told:
+            if str(message) not in reported:
                 _say(f"{source}: {message}")
-            told.add(str(message))
+            reported.add(str(message))
         else:
             show(message, category, *where, **extra)
 
     with warnings.catch_warnings():
         warnings.simplefilter("always", ApproximationWarning)
-        show, warnings.showwarning = warnings.showwarning, tell
+        show, warnings.showwarning = warnings.showwarning, report
         try:
             yield
         except (ScenarioError, UnwritableError, BackEndError) as error:
@@ -350,7 +350,7 @@ def basin(
         from compare.basins.picture import DPI, Palette
         from compare.engines import Engine
         from compare.sweep.job import Job, make
-        from compare.sweep.show import Look
+        from compare.sweep.show import PictureStyle
         from models.reading import scenario_text
 
         job = Job(
@@ -366,7 +366,9 @@ def basin(
             overwrite=overwrite,
             scheduler=scheduler,
             png=png,
-            look=Look(palette=Palette(palette or "paper"), boundaries=boundaries, size=size, dpi=dpi or DPI),
+            style=PictureStyle(
+                palette=Palette(palette or "paper"), boundaries=boundaries, size=size, dpi=dpi or DPI
+            ),
             report=report,
         )
         for result in make(job, _watched, _progress("video", "frames")):

@@ -9,7 +9,7 @@ from models.records import Array, Outcome
 
 
 def boundary_pixels(outcomes: ArrayLike) -> NDArray[np.bool_]:
-    """Tell which pixels have another outcome beside, above or below them, (y, x).
+    """Return which pixels have another outcome beside, above or below them, (y, x).
 
     An undecided pixel is no boundary, nor does it make one of its neighbours.
     """
@@ -24,7 +24,7 @@ def boundary_pixels(outcomes: ArrayLike) -> NDArray[np.bool_]:
 
 
 def distance_to_doubt(outcomes: ArrayLike) -> Array:
-    """Give each pixel's distance to the nearest that is not known to share its outcome, (y, x) [pixels].
+    """Return each pixel's distance to the nearest that is not known to share its outcome, (y, x) [pixels].
 
     That is one with another outcome, an undecided one, or one outside the map. It is measured between the
     pixels' centres, so it is at least 1; for an undecided pixel it is 0.

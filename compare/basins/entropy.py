@@ -39,7 +39,7 @@ class BasinEntropy:
 
         A smooth boundary parts two basins in nearly every box that it crosses, and two outcomes have at most
         the entropy log 2. So more than that shows a fractal boundary, if the boxes are small against the
-        stripes. A map of heads and tails alone never exceeds it: there the test is silent whatever the
+        stripes. A map of only heads and tails never exceeds it: there the test is silent whatever the
         boundary.
         """
         exceeded = self.boundary is not None and self.boundary > np.log(2)
@@ -47,7 +47,7 @@ class BasinEntropy:
 
 
 def basin_entropy(outcomes: ArrayLike, *, box: int) -> BasinEntropy:
-    """Give the basin entropy and the boundary basin entropy of a map.
+    """Return the basin entropy and the boundary basin entropy of a map.
 
     A. Daza, A. Wagemakers, B. Georgeot, D. Guéry-Odelin, M. A. F. Sanjuán, "Basin entropy: a new tool to
     analyze uncertainty in dynamical systems", Sci. Rep. 6, 31416 (2016). Pixels beyond the last whole box are

@@ -8,7 +8,7 @@ from models.records import Outcome
 
 
 def fractions(outcomes: ArrayLike) -> dict[Outcome, float]:
-    """Give the share of the pixels that each outcome fills; with that of the undecided they sum to 1.
+    """Return the share of the pixels that each outcome fills; with that of the undecided they sum to 1.
 
     Were all pixels decided, the share of an outcome would lie between its share here and that plus the share
     of the undecided.

@@ -10,7 +10,7 @@ Outcomes = NDArray[np.int8]
 
 
 def outcome_map(outcomes: ArrayLike) -> Outcomes:
-    """Give an array as an outcome map, (y, x).
+    """Return an array, checked to be an outcome map, (y, x).
 
     Raises:
         ValueError: as `outcome_codes`, and unless it has two dimensions.
@@ -22,7 +22,7 @@ def outcome_map(outcomes: ArrayLike) -> Outcomes:
 
 
 def outcome_codes(outcomes: ArrayLike) -> Outcomes:
-    """Give an array as outcomes, in any shape.
+    """Return an array as outcomes, in any shape.
 
     Raises:
         ValueError: for an empty array, and for anything but whole numbers that are codes of `Outcome`.

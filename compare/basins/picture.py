@@ -32,7 +32,7 @@ class Palette(StrEnum):
     PAPER = "paper"
     """Heads black and tails white, as in Figs 29 to 31."""
     SAFE = "safe"
-    """Blue and orange, with others told apart by the colour-blind."""
+    """Blue and orange, with others that the colour-blind can distinguish."""
 
 
 # Okabe and Ito's colours; undecided is a hue in print, since fine stripes of black and white make every grey.
@@ -178,7 +178,7 @@ def _difference_title(different: NDArray[np.bool_], decided: NDArray[np.bool_]) 
 
 
 def _colored(codes: Outcomes, palette: Palette, boundaries: bool) -> NDArray[np.uint8]:
-    """Give each pixel's colour, (y, x, 3)."""
+    """Return each pixel's colour, (y, x, 3)."""
     colors = np.array([_rgb(_COLORS[palette][outcome]) for outcome in Outcome])[codes]
     if boundaries:
         colors[boundary_pixels(codes)] = _rgb(_BOUNDARY[palette])
@@ -201,7 +201,7 @@ def _show(axes: Axes, colors: NDArray[np.uint8], x: Axis, y: Axis) -> None:
 
 
 def _ends(axis: Axis, n: int) -> tuple[float, float]:
-    """Give the outer edges of the first and the last of n pixels."""
+    """Return the outer edges of the first and the last of n pixels."""
     half = (axis.stop - axis.start) / (n - 1) / 2 if n > 1 else 0.5
     return axis.start - half, axis.stop + half
 

@@ -29,7 +29,7 @@ def crossings(outcomes: ArrayLike) -> NDArray[np.int64]:
 
 
 def stripe_widths(outcomes: ArrayLike, *, spacing: float) -> Array:
-    """Give the widths W of the stripes along all lines (section 5.3), (n,) [unit of `spacing`].
+    """Return the widths W of the stripes along all lines (section 5.3), (n,) [unit of `spacing`].
 
     A width is good to one spacing. A stripe that the line's end or an undecided pixel cuts off has an unknown
     width and is left out; where stripes are nearly as wide as the line is long, that leaves out the wide

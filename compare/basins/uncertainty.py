@@ -51,12 +51,12 @@ def uncertainty_exponent(
 
     ε must be small against the stripes: beyond, f levels off, and a smooth boundary too has a slope below 1.
     `local` then rises towards 1 with falling ε; for a fractal boundary it stays. Stripes narrower than a
-    pixel give a slope near 0 whatever the boundary is: only a finer map tells these apart.
+    pixel give a slope near 0 whatever the boundary is: only a finer map distinguishes these.
 
     The interval is a jackknife's: the map is cut into `BANDS` parallel bands, the slope is taken without each
     in turn, and Student's t gives the half width. What spans the map in some direction makes only the bands
     along it independent; therefore `DIRECTIONS` directions of bands are tried, and the widest interval is
-    given. It tells how far the slope would change in a like map with other boundaries, not the bias of too
+    given. It says how far the slope would change in a like map with other boundaries, not the bias of too
     large an ε. It holds the slope at least as often as asked where no structure is longer than a band, and
     less often where curved stripes span the map: tests/compare/test_uncertainty.py measures how often.
 
@@ -131,11 +131,11 @@ def _in_cells(flags: NDArray[np.bool_]) -> Counts:
 
 
 def _bands(shape: tuple[int, ...]) -> Iterator[NDArray[np.int64]]:
-    """Give the number of the band in which each cell lies, for one direction after the other."""
+    """Return the number of the band in which each cell lies, for one direction after the other."""
     row, column = np.indices(shape)
     for angle in np.arange(DIRECTIONS) * np.pi / DIRECTIONS:
         across = np.cos(angle) * column / shape[1] + np.sin(angle) * row / shape[0]
-        # Rounded, that cells on one line across are told apart by their order alone.
+        # Rounded, that cells on one line across are distinguished only by their order.
         order = np.argsort(np.round(across, 9), axis=None, kind="stable")
         band = np.empty(row.size, dtype=np.int64)
         band[order] = np.arange(row.size) * BANDS // row.size
@@ -145,7 +145,7 @@ def _bands(shape: tuple[int, ...]) -> Iterator[NDArray[np.int64]]:
 def _jackknife_error(
     distances: NDArray[np.int64], uncertain: Counts, known: Counts, band: NDArray[np.int64]
 ) -> float:
-    """Give the standard error of the slope from the slopes without each band in turn."""
+    """Return the standard error of the slope from the slopes without each band in turn."""
     inside = [band == number for number in range(BANDS)]
     u, k = (
         counts.sum(axis=(1, 2)) - np.array([counts[:, part].sum(axis=1) for part in inside])
@@ -158,7 +158,7 @@ def _jackknife_error(
 
 
 def _slope(distances: NDArray[np.int64], f: Array) -> Array:
-    """Give the least-squares slope of ln f, (..., n), against the log of the distances, (n,)."""
+    """Return the least-squares slope of ln f, (..., n), against the log of the distances, (n,)."""
     x = np.log(distances)
     x -= x.mean()
     return np.log(f) @ x / (x @ x)

@@ -39,7 +39,7 @@ def match(a: Impacts, b: Impacts) -> Differences:
 
 
 def errors_of_impacts(toss: Toss) -> Array:
-    """Give the error of each impulse against the paper's law, from the very state in which the coin touched.
+    """Return the error of each impulse against the impact law, from the very state in which the coin touched.
 
     Unlike the difference of matched impacts this carries nothing on from the impacts before: it is the error
     that the engine makes anew each time.

@@ -15,7 +15,7 @@ BLOCK = 25
 
 
 def growth_by_tangent(scenario: Scenario) -> Array:
-    """Give the logarithm of the growth of a small change from impact to impact, (n,).
+    """Return the logarithm of the growth of a small change from impact to impact, (n,).
 
     The change is carried by the tangent map of the toss from just after one impact to just after the next
     (Benettin's method), and starts in all components alike. The first impacts, in which it turns into the
@@ -39,13 +39,13 @@ def growth_by_tangent(scenario: Scenario) -> Array:
 
 
 def mean_and_error(growth: Array) -> tuple[float, float]:
-    """Give the mean growth per impact and its standard error, from blocks of `BLOCK` impacts."""
+    """Return the mean growth per impact and its standard error, from blocks of `BLOCK` impacts."""
     blocks = [part.mean() for part in np.array_split(growth, max(len(growth) // BLOCK, 2))]
     return float(growth.mean()), float(np.std(blocks, ddof=1) / len(blocks) ** 0.5)
 
 
 def divergence(angles: Array, dimension: int, longest: int) -> Array:
-    """Give the mean logarithm of the distance of neighbours after 0, 1, ... impacts, (longest + 1,).
+    """Return the mean logarithm of the distance of neighbours after 0, 1, ... impacts, (longest + 1,).
 
     Rosenstein, Collins and De Luca (Physica D 65, 1993): states are `dimension` successive angles, each with
     its nearest neighbour that is not near it in time. Its slope is the largest exponent.
@@ -69,7 +69,7 @@ def divergence(angles: Array, dimension: int, longest: int) -> Array:
 
 
 def _neighbours(states: Array, apart: int) -> NDArray[np.intp]:
-    """Give the nearest state to each that is more than `apart` steps away from it in time, (n,)."""
+    """Return the nearest state to each that is more than `apart` steps away from it in time, (n,)."""
     found = np.empty(len(states), dtype=np.intp)
     _, near = KDTree(states).query(states, k=2 * apart + 2)
     for i, candidates in enumerate(np.asarray(near).tolist()):

@@ -18,7 +18,7 @@ def agreement_horizon(toss: Toss, errors: Array) -> int:
     """Count the leading impacts whose faces must be shared by an engine that makes `errors` in its impulses.
 
     The toss is repeated from each of its impacts in turn, with that impulse too large, and too small, by
-    `SAFETY` times the largest error up to there: what parts these from the toss is chaos alone.
+    `SAFETY` times the largest error up to there: only chaos separates these from the toss.
 
     Args:
         toss: by the analytic engine.

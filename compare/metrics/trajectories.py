@@ -6,12 +6,12 @@ from models.records import Array, States
 
 
 def distance(a: States, b: States) -> Array:
-    """Give the distance between the mass centres, (n,) [m]."""
+    """Return the distance between the mass centres, (n,) [m]."""
     return np.linalg.norm(a.position - b.position, axis=1)
 
 
 def attitude_angle(a: States, b: States) -> Array:
-    """Give the angle of the rotation from one attitude to the other, (n,) [rad].
+    """Return the angle of the rotation from one attitude to the other, (n,) [rad].
 
     With the Euler parameters of both as unit vectors p and q, the angle is 4 atan2(|p - q|, |p + q|) for the
     nearer of q and -q; this keeps its digits for small angles, where arccos loses half of them.
@@ -22,7 +22,7 @@ def attitude_angle(a: States, b: States) -> Array:
 
 
 def parting_time(times: Array, apart: Array, limit: float) -> float | None:
-    """Give the first time at which a distance exceeds `limit`, or None where it never does.
+    """Return the first time at which a distance exceeds `limit`, or None where it never does.
 
     Args:
         times: increasing, (n,) [s].
@@ -34,6 +34,6 @@ def parting_time(times: Array, apart: Array, limit: float) -> float | None:
 
 
 def tilt(states: States) -> Array:
-    """Give the angle between the coin's normal and the vertical, (n,) [rad]."""
+    """Return the angle between the coin's normal and the vertical, (n,) [rad]."""
     n = states.normal
     return np.arctan2(np.hypot(n[:, 0], n[:, 1]), n[:, 2])

@@ -37,7 +37,7 @@ MOST_ROWS = 1_000_000
 
 
 def as_json(toss: Toss) -> dict[str, Any]:
-    """Give a toss in the form of `cointoss toss --json`, in full precision."""
+    """Return a toss in the form of `cointoss toss --json`, in full precision."""
     return {
         "engine": toss.engine,
         "sequence": toss.sequence,
@@ -57,7 +57,7 @@ def _impact(impacts: Impacts, i: int) -> dict[str, Any]:
 
 
 def path_times(toss: Toss) -> np.ndarray:
-    """Give times evenly spread over a toss, and those of its impacts and its end [s].
+    """Return times evenly spread over a toss, and those of its impacts and its end [s].
 
     Raises:
         UnsupportedError: if they are more than `MOST_ROWS`.
@@ -72,7 +72,7 @@ def path_times(toss: Toss) -> np.ndarray:
 
 
 def path_csv(states: States) -> str:
-    """Give a path as CSV, one row for each time, columns named with their units."""
+    """Return a path as CSV, one row for each time, columns named with their units."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow([name for names in PATH_COLUMNS.values() for name in names])
@@ -82,18 +82,18 @@ def path_csv(states: States) -> str:
 
 
 def counted(number: int, thing: str) -> str:
-    """Give a number with its noun: 1 impact, 2 impacts."""
+    """Return a number with its noun: 1 impact, 2 impacts."""
     return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
 
 
 def shortened(sequence: str) -> str:
-    """Give a sequence for a person: its first `MOST_SHOWN` symbols and how many are left out."""
+    """Return a sequence for a person: its first `MOST_SHOWN` symbols and how many are left out."""
     left_out = len(sequence) - MOST_SHOWN
     return sequence if left_out <= 0 else f"{sequence[:MOST_SHOWN]} ... and {left_out} more"
 
 
 def as_lines(toss: Toss) -> str:
-    """Give a toss as text for a person."""
+    """Return a toss as text for a person."""
     sequence, trusted = toss.sequence, toss.trusted_impacts
     shown = shortened(sequence if trusted >= len(sequence) else f"{sequence[:trusted]}|{sequence[trusted:]}")
     lines = [

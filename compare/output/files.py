@@ -53,7 +53,7 @@ def require_folder(folder: Path, names: tuple[str, ...], source: str | None = No
     """
     with naming(folder):
         if os.path.lexists(folder) and not folder.is_dir():
-            raise UnwritableError(f"{folder}: accepted: a folder (this is none)")
+            raise UnwritableError(f"{folder}: accepted: a folder (this is not one)")
         there = next(part for part in (folder, *folder.parents) if os.path.lexists(part))
         with tempfile.TemporaryFile(dir=there):
             pass
@@ -86,7 +86,7 @@ def require_replaceable(path: Path, source: str | None = None) -> None:
 
 
 def is_stream(path: Path) -> bool:
-    """Tell whether `path` is a device, a pipe, or where standard output goes: no file to replace."""
+    """Return whether `path` is a device, a pipe, or where standard output goes: no file to replace."""
     with naming(path):
         return path.exists() and (_is_stdout(path) or not (path.is_file() or path.is_dir()))
 
@@ -110,7 +110,7 @@ def write_text(path: Path, text: str) -> None:
 
 @contextmanager
 def written_whole(path: Path) -> Iterator[Path]:
-    """Give a path beside `path` to write to; rename it to `path` when all went well, else remove it.
+    """Yield a path beside `path` to write to; rename it to `path` when all went well, else remove it.
 
     Raises:
         UnwritableError: naming the file and why, for every error of the system on the way.
@@ -129,7 +129,7 @@ def written_whole(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
-    """Give a folder inside `folder` to write to; when all went well, move its files up to `folder`.
+    """Yield a folder inside `folder` to write to; when all went well, move its files up to `folder`.
 
     Of `names`, those that were not written are removed from `folder`: they belong to what is replaced.
     `folder` is made if missing. When something goes wrong, everything is as before.

@@ -1,4 +1,4 @@
-"""How all plots look."""
+"""The style of all plots."""
 
 from typing import Any
 

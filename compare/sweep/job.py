@@ -51,7 +51,7 @@ class Job:
     """Address of a cluster's scheduler, if the tosses are made there."""
     png: Path | None
     """Where to draw."""
-    look: show.Look
+    style: show.PictureStyle
     """How to draw."""
     report: Path | None
     """Folder of a report on both engines' maps and tosses; accepted for both engines only."""
@@ -115,7 +115,7 @@ def make(job: Job, watch: Watch, frames: Frames) -> Iterator[str]:
     if len(maps) > 1:
         yield show.describe_agreement(show.measure(*maps))
     if job.png is not None:
-        show.write(job.png, maps, first, job.look)
+        show.write(job.png, maps, first, job.style)
         yield f"picture    {job.png}"
     if job.report is not None:
         from compare.report.folder import write_report
@@ -128,7 +128,7 @@ def make(job: Job, watch: Watch, frames: Frames) -> Iterator[str]:
             no_video,
             frames,
             contact=job.contact,
-            maps=show.section(maps, first, job.look, _command(job)),
+            maps=show.section(maps, first, job.style, _command(job)),
         )
         yield f"report     {page}"
 

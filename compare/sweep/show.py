@@ -24,7 +24,7 @@ AWAY = 2.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Look:
+class PictureStyle:
     """How a picture is drawn."""
 
     palette: picture.Palette = picture.Palette.PAPER
@@ -43,7 +43,7 @@ def outcomes_of(path: Path) -> NDArray[np.int8]:
 
 
 def describe_map(path: Path, sweep: Sweep, fractions: dict[Outcome, float]) -> str:
-    """Give a map as text: where it is, what it is of, and the share of each outcome."""
+    """Return a map as text: where it is, what it is of, and the share of each outcome."""
     ny, nx = sweep.shape
     shown = "" if sweep.after is None else f"face at touch {sweep.after + 1}, or "
     lines = [
@@ -60,7 +60,7 @@ def describe_map(path: Path, sweep: Sweep, fractions: dict[Outcome, float]) -> s
 
 
 def describe_agreement(measured: Agreement) -> str:
-    """Give how far two maps agree as text."""
+    """Return how far two maps agree as text."""
     return "\n".join(
         [
             f"agreement  {_share(measured.away)} more than {AWAY:g} pixels from the boundaries of the first",
@@ -70,32 +70,32 @@ def describe_agreement(measured: Agreement) -> str:
     )
 
 
-def write(png: Path, maps: list[NDArray[np.int8]], sweep: Sweep, look: Look) -> None:
+def write(png: Path, maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle) -> None:
     """Draw one map, or those of both engines and where they differ, with the numbers of their agreement.
 
     Args:
         png: the file.
         maps: (y, x) each, the first by the analytic engine if there are two.
         sweep: what the first was made of.
-        look: how to draw.
+        style: how to draw.
 
     Raises:
         UnwritableError: naming the file and why.
     """
-    picture.write_png(_figure(maps, sweep, look), png, dpi=look.dpi)
+    picture.write_png(_figure(maps, sweep, style), png, dpi=style.dpi)
 
 
-def section(maps: list[NDArray[np.int8]], sweep: Sweep, look: Look, command: str) -> MapSection:
-    """Give what a report shows of the maps of both engines.
+def section(maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle, command: str) -> MapSection:
+    """Return what a report shows of the maps of both engines.
 
     Args:
         maps: (y, x) each, the first by the analytic engine.
         sweep: what the first was made of.
-        look: how to draw.
+        style: how to draw.
         command: that makes the maps.
     """
     drawn = io.BytesIO()
-    _figure(maps, sweep, look).savefig(drawn, format="png", dpi=look.dpi)
+    _figure(maps, sweep, style).savefig(drawn, format="png", dpi=style.dpi)
     shares = {
         engine.value: {outcome.label: share for outcome, share in fractions(outcomes).items()}
         for engine, outcomes in zip(Engine, maps, strict=True)
@@ -113,18 +113,18 @@ def section(maps: list[NDArray[np.int8]], sweep: Sweep, look: Look, command: str
     )
 
 
-def _figure(maps: list[NDArray[np.int8]], sweep: Sweep, look: Look) -> Figure:
+def _figure(maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle) -> Figure:
     x, y = _drawn(sweep.x), _drawn(sweep.y)
-    common: Any = {"x": x, "y": y, "palette": look.palette, "boundaries": look.boundaries}
+    common: Any = {"x": x, "y": y, "palette": style.palette, "boundaries": style.boundaries}
     if len(maps) > 1:
         measured = measure(*maps)
         return picture.draw_comparison(
             *maps,
             **common,
-            size=look.size or picture.COMPARISON_SIZE,
+            size=style.size or picture.COMPARISON_SIZE,
             note=f"agree: {_share(measured.away)} away from boundaries,\n{_share(measured.near)} near them",
         )
-    return picture.draw_map(maps[0], **common, size=look.size or picture.PANEL_SIZE)
+    return picture.draw_map(maps[0], **common, size=style.size or picture.PANEL_SIZE)
 
 
 def measure(analytic: NDArray[np.int8], mujoco: NDArray[np.int8]) -> Agreement:

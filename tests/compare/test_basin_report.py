@@ -46,7 +46,7 @@ def section_of(maps, after=None):
     sweep = Sweep(
         scenario=case, engine=Engine.ANALYTIC, x=parse_axis(X, case), y=parse_axis(Y, case), after=after
     )
-    return show.section(maps, sweep, show.Look(dpi=20), "cointoss basin")
+    return show.section(maps, sweep, show.PictureStyle(dpi=20), "cointoss basin")
 
 
 def shown_of(section, folder):
