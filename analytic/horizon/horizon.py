@@ -13,8 +13,8 @@ from analytic.flight.flying import fly_with_graze, steps_of
 from analytic.flight.touch_search import TIME_STEP, TOUCH
 from analytic.flight.turning import turns_in_closed_form
 from analytic.horizon.flight_tangent import flight_tangent
-from analytic.horizon.impact_tangent import Touch, touch_tangent
 from analytic.horizon.sensitivity import delay_of, flight_map, impact_map, touch_map
+from analytic.horizon.touch_derivatives import Touch, touch_derivatives
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
 from models.geometry import FLAT_SINE
@@ -60,12 +60,11 @@ def trusted_impacts(body: Body, rules: Rules, toss: Run) -> int:
             body, rules, y, toss.start_times[i], CLOSED_FORM if closed else 1.0
         )
         errors = np.hstack([flight @ np.hstack([errors, at_start]), at_end])
-        touch = touch_tangent(body, rules, y)
-        closing = touch.gap @ touch.rate
-        if not closing < 0:
+        touch = touch_derivatives(body, rules, y)
+        if not touch.closing < 0:
             return i
         found_to = CLOSED_TOUCH if closed else TOUCH
-        early = found_to * body.radius / closing - closed * TIME_STEP * duration
+        early = found_to * body.radius / touch.closing - closed * TIME_STEP * duration
         delay = np.append(delay_of(touch) @ errors, early)
         sinking = _sinking(body, errors)
         errors = np.column_stack([touch_map(touch) @ errors, early * np.append(touch.rate, 1)])

@@ -16,7 +16,7 @@ from analytic.events import Run
 from analytic.flight.equations_of_motion import STATE_SIZE
 from analytic.flight.flying import fly
 from analytic.horizon.flight_tangent import flight_tangent
-from analytic.horizon.impact_tangent import Touch, touch_tangent
+from analytic.horizon.touch_derivatives import Touch, touch_derivatives
 from models.body import Body, Rules
 from models.records import Array
 
@@ -28,7 +28,7 @@ def flight_map(tangents: Array) -> Array:
 
 def delay_of(touch: Touch) -> Array:
     """Give the delay of a touch as a row that acts on a change at the touch's undisturbed time, (14,) [s]."""
-    return -np.append(touch.gap, 0) / (touch.gap @ touch.rate)
+    return -np.append(touch.gap, 0) / touch.closing
 
 
 def touch_map(touch: Touch) -> Array:
@@ -54,7 +54,7 @@ def event_tangent(body: Body, rules: Rules, toss: Run, number: int) -> Array:
     duration, *_ = fly(body, y, rules.max_time - toss.start_times[number])
     tangents = np.eye(STATE_SIZE)
     flight_tangent(body, start, duration, tangents, np.zeros(STATE_SIZE, dtype=np.bool_))
-    touch = touch_tangent(body, rules, y)
+    touch = touch_derivatives(body, rules, y)
     return impact_map(touch) @ touch_map(touch) @ flight_map(tangents)
 
 

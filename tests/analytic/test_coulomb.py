@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from analytic.horizon.coulomb_tangent import coulomb_change, friction_change
 from analytic.impact.coulomb import coulomb, friction_without_slip
 from analytic.impact.laws import mobility, perfectly_rough, sliding_friction, smooth
 from models.attitude import rotation_matrix
@@ -219,44 +218,6 @@ def test_a_turn_about_the_vertical_turns_the_impulse():
     )
 
 
-@pytest.mark.parametrize("kind", list(RestitutionKind))
-@pytest.mark.parametrize("friction", [0.05, 0.3, 3.0])
-def test_its_derivative_is_that_of_differences(kind, friction):
-    """Slip throughout, slip that stops or starts anew, and slip that sticks soon."""
-    rng = np.random.default_rng([9, int(kind)])
-    for _ in range(20):
-        K, v = draw_contact(rng)
-        A = 0.05 * rng.normal(size=(3, 3)) * K[2][2]
-        dK, dv, small = A + A.T, 0.1 * rng.normal(size=3), 1e-5
-
-        def impulse(part, K=K, v=v, dK=dK, dv=dv):
-            moved = tuple(map(tuple, np.array(K) + part * dK))
-            return np.array(coulomb(moved, tuple(np.array(v) + part * dv), 0.6, friction, kind))
-
-        change = np.array(coulomb_change(K, tuple(map(tuple, dK)), v, tuple(dv), 0.6, friction, kind))
-        difference = (impulse(small) - impulse(-small)) / (2 * small)
-        assert change == pytest.approx(difference, abs=1e-5 * float(np.linalg.norm(impulse(0.0))))
-
-
-def test_the_derivative_of_friction_without_slip_is_that_of_differences():
-    rng = np.random.default_rng(10)
-    started = {True: 0, False: 0}
-    for _ in range(100):
-        K, _ = draw_contact(rng)
-        mu, small = rng.uniform(0.01, 1.0), 1e-6
-        A = 0.05 * rng.normal(size=(3, 3)) * K[2][2]
-        dK = A + A.T
-
-        def friction(part, K=K, dK=dK, mu=mu):
-            return np.array(friction_without_slip(tuple(map(tuple, np.array(K) + part * dK)), mu))
-
-        f, df = friction_change(K, tuple(map(tuple, dK)), mu)
-        assert np.array_equal(f, friction(0.0))
-        assert df == pytest.approx((friction(small) - friction(-small)) / (2 * small), abs=1e-6)
-        started[bool(np.hypot(*f) > mu * (1 - 1e-9))] += 1
-    assert min(started.values()) > 10
-
-
 def draw_critical(rng):
     """A contact with a friction near that at which it just sticks: slip then keeps its speed as it goes."""
     K, v = draw_contact(rng)
@@ -298,24 +259,6 @@ def test_slip_that_hardly_grows_or_dies_goes_straight(kind, seed):
         end = pressed(end, 6, (1 - chi**2) * end[6])
     S = coulomb(K, v, chi, mu, kind)
     assert S == pytest.approx(end[3:6], abs=1e-6 * float(np.linalg.norm(S)))
-
-
-@pytest.mark.parametrize("kind", list(RestitutionKind))
-@pytest.mark.parametrize("seed", range(10))
-def test_the_derivative_of_straight_slip_is_that_of_differences(kind, seed):
-    rng = np.random.default_rng([seed, 7])
-    K, v, mu = draw_critical(rng)
-    matrix, turn = np.array(K), rng.normal(size=(3, 3)) * 0.1
-    dK, dv = turn @ matrix + matrix @ turn.T, rng.normal(size=3)
-
-    def impulse(part):
-        moved = tuple(map(tuple, matrix + part * dK))
-        return np.array(coulomb(moved, tuple(np.array(v) + part * dv), 0.6, mu, kind))
-
-    h = 1e-7
-    differences = (impulse(h) - impulse(-h)) / (2 * h)
-    exact = coulomb_change(K, tuple(map(tuple, dK)), v, tuple(dv), 0.6, mu, kind)
-    assert exact == pytest.approx(differences, abs=2e-5 * float(np.linalg.norm(differences)))
 
 
 def test_an_impact_whose_slip_dies_a_million_times_slower_than_it_turns_takes_few_steps():

@@ -115,7 +115,7 @@ def test_without_losses_the_tangent_map_keeps_every_change_of_energy(thickness, 
         scale = float(np.abs(before * sizes).max())
         for change in directions(toss.start_states[i]):
             kept = after @ tangent @ np.append(change, 0)
-            assert kept == pytest.approx(before[:13] @ change, abs=1e-9 * scale)
+            assert kept == pytest.approx(before[:13] @ change, abs=1e-7 * scale)
 
 
 @pytest.mark.parametrize("law", list(ContactLaw))

@@ -1,0 +1,155 @@
+"""How a small change of the state at a touch changes the impact: central differences of the impact itself."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from analytic.events import hit
+from analytic.flight.equations_of_motion import STATE_SIZE, attitude_of, derivative, normalise
+from models.attitude import rotation_matrix
+from models.body import Body, Rules
+from models.geometry import FLAT_SINE, gap
+from models.kernel.compiled import compiled
+from models.kernel.vectors import norm
+from models.laws import ContactLaw
+from models.records import IMPACT_ROW, Array
+
+STEP = 1e-5
+"""The largest change of a component, relative to the coin's scales: r of positions, 1 of Euler parameters,
+V = √(g r) + |v| + r |ω| of velocities, V/r of angular velocities. Truncation and rounding then err by 1e-10
+of the derivative; where Coulomb friction is integrated, by 1e-8."""
+TO_KINK = 1e-2
+"""A change stays below this part of the distance to a state at which the impact is not smooth."""
+LEAST_STEP = 1e-11
+"""Smaller changes drown in rounding."""
+
+# A touch as numbers: the gap, the upward unit vector, the velocity of A, the impulse, and the state after.
+_UP, _VELOCITY, _IMPULSE, _AFTER = 1, 4, 7, 10
+
+
+class Touch(NamedTuple):
+    """Derivatives with respect to the state before an impact, with the coin held at the touch."""
+
+    closing: float
+    """Rate of the gap before the impact, v_Az [m/s]."""
+    rate: Array
+    """Of the state with time, before the impact, (13,)."""
+    gap: Array
+    """Of the gap, (13,)."""
+    up: Array
+    """Of the upward unit vector in the body frame, (3, 13)."""
+    contact_velocity: Array
+    """Of the velocity of the contact point, space frame, (3, 13)."""
+    impulse: Array
+    """Of the impulse, space frame, (3, 13)."""
+    after: Array
+    """Of the state after the impact, (13, 13)."""
+
+
+def touch_derivatives(body: Body, rules: Rules, y: Array) -> Touch:
+    """Return the derivatives of a touch and of its impact, the Euler parameters kept at norm 1.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        y: state at the touch, before the impact, (13,).
+    """
+    rate, values = np.empty(STATE_SIZE), np.empty(_AFTER + STATE_SIZE)
+    derivative(body, y, rate)
+    touch_values(body, rules, y, values)
+    v_A = values[_VELOCITY:_IMPULSE]
+    slopes = touch_differences(body, rules, y, step_size(body, rules, y, v_A))
+    return Touch(
+        v_A[2],
+        rate,
+        slopes[0],
+        slopes[_UP:_VELOCITY],
+        slopes[_VELOCITY:_IMPULSE],
+        slopes[_IMPULSE:_AFTER],
+        slopes[_AFTER:],
+    )
+
+
+@compiled
+def touch_values(body, rules, y, values):
+    """Write gap, upward unit vector, velocity of A, impulse and the state after into `values`.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        y: state at the touch, (13,).
+        values: where they go, (23,).
+    """
+    up, rows = rotation_matrix(attitude_of(y))[2], np.zeros(1, IMPACT_ROW)
+    values[0] = gap(body, y[2], up)
+    values[_AFTER:] = y
+    hit(body, rules, rules.restitution, values[_AFTER:], rows[0])
+    for i in range(3):
+        values[_UP + i] = up[i]
+        values[_VELOCITY + i] = rows[0].contact_velocity_before[i]
+        values[_IMPULSE + i] = rows[0].impulse[i]
+
+
+@compiled
+def step_size(body, rules, y, v_A):
+    """Return the change of the state with which differences are taken, relative to the coin's scales.
+
+    The lowest point jumps where a face or the edge is level; with friction the impulse has a kink where the
+    point does not slip or does not close.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        y: state at the touch, (13,).
+        v_A: velocity of the contact point, (3,) [m/s].
+    """
+    up, speed = rotation_matrix(attitude_of(y))[2], speed_scale(body, y)
+    tilt_sine, slip = (up[0] ** 2 + up[1] ** 2) ** 0.5, (v_A[0] ** 2 + v_A[1] ** 2) ** 0.5
+    distance = abs(up[2])
+    if tilt_sine > FLAT_SINE:
+        distance *= tilt_sine
+    if rules.law == ContactLaw.SLIDING_FRICTION or rules.law == ContactLaw.COULOMB:
+        distance *= abs(v_A[2]) / speed
+        if slip > 0:
+            distance *= slip / speed
+    return max(min(STEP, TO_KINK * distance), LEAST_STEP)
+
+
+@compiled
+def speed_scale(body, y):
+    """Return √(g r) + |v| + r |ω| of the state y, (13,) [m/s]."""
+    spin = norm((y[10], y[11], y[12]))
+    return (body.gravity * body.radius) ** 0.5 + norm((y[3], y[4], y[5])) + body.radius * spin
+
+
+@compiled
+def touch_differences(body, rules, y, part):
+    """Return central differences of `touch_values`, over changes of the state's components, (23, 13).
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        y: state at the touch, (13,).
+        part: size of the changes, relative to the coin's scales; the Euler parameters keep norm 1.
+    """
+    speed = speed_scale(body, y)
+    slopes = np.empty((_AFTER + STATE_SIZE, STATE_SIZE))
+    ends, moved = np.empty((2, _AFTER + STATE_SIZE)), np.empty(STATE_SIZE)
+    for column in range(STATE_SIZE):
+        size = (
+            body.radius
+            if column < 3
+            else speed
+            if column < 6
+            else 1.0
+            if column < 10
+            else speed / body.radius
+        )
+        change = part * size
+        for i in range(2):
+            moved[:] = y
+            moved[column] += change if i == 0 else -change
+            normalise(moved)
+            touch_values(body, rules, moved, ends[i])
+        slopes[:, column] = (ends[0] - ends[1]) / (2 * change)
+    return slopes

@@ -1,0 +1,141 @@
+"""Derivatives of a touch and its impact: closed forms, identities that every law keeps, and their order."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from analytic.flight.equations_of_motion import attitude_of, normalise
+from analytic.horizon.touch_derivatives import step_size, touch_derivatives, touch_differences
+from models.attitude import rotation_matrix
+from models.laws import ContactLaw, RestitutionKind
+from models.scenario import Scenario
+from tests.helpers.draws import PAPER_OFFSET, ZLOTY, draw_quaternion, scenario
+from tests.helpers.impacts import struck
+
+LAWS = [
+    *({"contact": law.label, "friction": 0.2} for law in ContactLaw),
+    *(
+        {"contact": "coulomb", "friction": friction, "restitution_kind": kind.label}
+        for friction in (0.05, 0.3, 3.0)
+        for kind in RestitutionKind
+    ),
+]
+
+
+def on_floor(floor: dict[str, Any], **coin: Any) -> Scenario:
+    return scenario(coin={**ZLOTY, **coin}, floor={"restitution": 0.7, **floor})
+
+
+def draw_touch(rng: np.random.Generator) -> np.ndarray:
+    """Draw a state in which the lowest point moves down: faster than the spin can lift it."""
+    velocity = [*rng.uniform(-1, 1, 2), -rng.uniform(1, 2)]
+    return np.array([0, 0, 0.01, *velocity, *draw_quaternion(rng), *rng.uniform(-30, 30, 3)])
+
+
+def tilted(angle: float, spin: float, velocity: list[float]) -> np.ndarray:
+    """Give a coin tilted about x by an angle, spinning about x."""
+    return np.array([0, 0, 0.01, *velocity, np.cos(angle / 2), np.sin(angle / 2), 0, 0, spin, 0, 0])
+
+
+def test_a_flat_landing_turns_no_error_of_the_attitude_into_impulse():
+    """S = -(1 + χ) m v_z, and what a coin kept flat by symmetry keeps zero stays exactly zero."""
+    case = on_floor({})
+    y = np.array([0, 0, 1e-3, 0.2, 0.1, -1.5, np.cos(0.3), 0, 0, np.sin(0.3), 0, 0, 4.0])
+    touch = touch_derivatives(case.body, case.rules, y)
+    kept = [0, 1, 2, 3, 4, 5, 6, 9, 12]
+    assert touch.closing == -1.5
+    assert touch.gap[kept] == pytest.approx([0, 0, 1, *[0] * 6], abs=1e-9)
+    assert touch.impulse[2, kept] == pytest.approx(-1.7 * case.body.mass * np.eye(13)[5, kept], abs=1e-9)
+    assert np.all(touch.up[:2, kept] == 0)
+    assert np.all(touch.contact_velocity[:2, [6, 9, 12]] == 0)
+
+
+@pytest.mark.parametrize("tilt", [1e-6, 1e-3, 0.3, 1.2, np.pi / 2 - 1e-5])
+def test_a_planar_smooth_impact_has_the_derivatives_of_its_closed_form(tilt):
+    """S_z = -(1 + χ) v_Az/(1/m + x²/J), v_Az = v_z + w x, with x = h/2 sin θ - r cos θ from C to A."""
+    case = on_floor({})
+    body, w, v_z = case.body, 7.0, -1.5
+    touch = touch_derivatives(body, case.rules, tilted(tilt, w, [0.3, 0.2, v_z]))
+    x = body.thickness / 2 * np.sin(tilt) - body.radius * np.cos(tilt)
+    x_change = body.thickness / 2 * np.cos(tilt) + body.radius * np.sin(tilt)
+    J = body.inertia[0][0]
+    K, v_A = 1 / body.mass + x * x / J, v_z + w * x
+    by_angle = -1.7 * (w * x_change / K - v_A * 2 * x * x_change / J / K**2)
+    turn = np.array([*[0] * 6, -np.sin(tilt / 2) / 2, np.cos(tilt / 2) / 2, 0, 0, 0, 0, 0])
+    size = 1.7 * body.mass
+    assert touch.impulse[2, 5] == pytest.approx(-1.7 / K, abs=1e-7 * size)
+    assert touch.impulse[2, 10] == pytest.approx(-1.7 * x / K, abs=1e-7 * size)
+    assert touch.impulse[2] @ turn == pytest.approx(by_angle, abs=1e-7 * size)
+    assert touch.gap @ turn == pytest.approx(x, abs=1e-7 * body.radius)
+    spin_by_angle = (by_angle * x - 1.7 * v_A / K * x_change) / J
+    assert touch.after[10] @ turn == pytest.approx(spin_by_angle, abs=1e-6 * size / J * body.radius)
+
+
+@pytest.mark.parametrize("floor", LAWS)
+@pytest.mark.parametrize("offset", [[0.0, 0.0, 0.0], PAPER_OFFSET])
+def test_every_law_scales_with_the_velocities_and_turns_with_the_coin(floor, offset):
+    """S is homogeneous of degree one in (v, w); a turn about z turns it; a longer e changes nothing."""
+    rng = np.random.default_rng(3)
+    case = on_floor(floor, center_of_mass=offset)
+    for _ in range(20):
+        y = draw_touch(rng)
+        touch = touch_derivatives(case.body, case.rules, y)
+        motion = np.array([*[0] * 3, *y[3:6], *[0] * 4, *y[10:13]])
+        a, b, c, d = y[6:10]
+        turn = np.array([*[0] * 3, -y[4], y[3], 0, -d / 2, -c / 2, b / 2, a / 2, *[0] * 3])
+        stretch = np.array([*[0] * 6, *y[6:10], *[0] * 3])
+        impulse = touch.impulse @ motion
+        size = float(np.linalg.norm(impulse))
+        assert impulse[2] > 0
+        S = struck(case, y)[0]["impulse"]
+        assert impulse == pytest.approx(S, abs=1e-6 * size)
+        assert touch.impulse @ turn == pytest.approx([-S[1], S[0], 0], abs=1e-6 * size)
+        assert touch.impulse @ stretch == pytest.approx(np.zeros(3), abs=1e-6 * size)
+        after = touch.after @ motion
+        assert after[3:6] == pytest.approx(y[3:6] + S / case.body.mass, abs=1e-6)
+        assert touch.after[6:10] @ stretch == pytest.approx(np.zeros(4), abs=1e-9)
+
+
+@pytest.mark.parametrize("slip", [1e-7, 1e-4, 0.1])
+def test_developed_friction_turns_with_slow_slip(slip):
+    """S_xy = -μ S_z u: a velocity across the slip turns its direction u by 1/|slip|."""
+    case = on_floor({"contact": "sliding_friction", "friction": 0.3})
+    y = tilted(0.4, 0.0, [slip, 0.0, -1.0])
+    touch, S = touch_derivatives(case.body, case.rules, y), struck(case, y)[0]["impulse"]
+    assert touch.impulse[1, 4] == pytest.approx(-0.3 * S[2] / slip, rel=1e-3)
+
+
+@pytest.mark.parametrize("floor", LAWS)
+def test_differences_are_of_the_second_order_and_the_step_chosen_is_short_enough(floor):
+    case = on_floor(floor, center_of_mass=PAPER_OFFSET)
+    y = draw_touch(np.random.default_rng(5))
+    body, rules = case.body, case.rules
+    rows = rotation_matrix(attitude_of(y))
+    assert min(abs(rows[2][2]), np.hypot(*rows[2][:2])) > 0.1
+
+    def differences(part: float) -> np.ndarray:
+        return touch_differences(body, rules, y, part)
+
+    touch = touch_derivatives(body, rules, y)
+    chosen = np.vstack([touch.gap, touch.up, touch.contact_velocity, touch.impulse, touch.after])
+    errors = [np.linalg.norm(differences(part) - chosen) for part in (4e-3, 2e-3, 1e-3)]
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert orders == pytest.approx([2, 2], abs=0.1)
+
+
+def test_near_a_kink_the_step_is_shorter_but_never_as_short_as_rounding():
+    frictionless, rough = on_floor({}), on_floor({"contact": "coulomb", "friction": 0.2})
+
+    def step(case: Scenario, y: np.ndarray, v_A: tuple[float, float, float]) -> float:
+        normalise(y)
+        return step_size(case.body, case.rules, y, v_A)
+
+    usual = (0.5, 0.5, -1.0)
+    assert step(rough, tilted(0.7, 5.0, [0, 0, -1]), usual) == 1e-5
+    assert step(frictionless, tilted(1e-6, 5.0, [0, 0, -1]), usual) == pytest.approx(1e-8)
+    assert step(frictionless, tilted(np.pi / 2 - 1e-6, 5.0, [0, 0, -1]), usual) == pytest.approx(1e-8)
+    assert step(frictionless, tilted(0.7, 5.0, [0, 0, -1]), (1e-9, 0.0, -1e-9)) == 1e-5
+    for slow in ((1e-6, 0.0, -1.0), (0.5, 0.5, -1e-6)):
+        assert 1e-11 < step(rough, tilted(0.7, 5.0, [0, 0, -1]), slow) < 1e-8
+    assert step(rough, tilted(0.7, 5.0, [0, 0, -1]), (1e-13, 0.0, -1e-9)) == 1e-11
