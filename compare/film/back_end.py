@@ -1,4 +1,4 @@
-"""Whether MuJoCo can draw here, found out in a child process.
+"""The back end with which MuJoCo draws: chosen once, and tried in a child process.
 
 Where an OpenGL library is missing, MuJoCo's binding fails late, some of its back ends by ending the process;
 and it chooses its back end once, when it is first imported.
@@ -8,6 +8,7 @@ import os
 import re
 import subprocess
 import sys
+from functools import cache
 from importlib import import_module
 
 _DRAW_ONE_FRAME = """
@@ -47,15 +48,15 @@ def require_mujoco() -> None:
         ) from None
 
 
+@cache
 def drawing_problem() -> str | None:
-    """Choose MuJoCo's back end where the user has not, and draw one frame in a child process.
+    """Return None if MuJoCo can draw, else what to install, or what went wrong.
 
-    Call it before MuJoCo is first imported.
-
-    Returns:
-        None if drawing works, else what to install, or what went wrong.
+    The first call chooses MuJoCo's back end where the user has not, and draws one frame in a child process;
+    the others return what it found. It must come before MuJoCo is first imported, which settles the choice.
     """
-    if sys.platform == "linux" and "DISPLAY" not in os.environ and not os.environ.get("MUJOCO_GL"):
+    chosen = os.environ.get("MUJOCO_GL") or "mujoco" in sys.modules
+    if sys.platform == "linux" and "DISPLAY" not in os.environ and not chosen:
         os.environ["MUJOCO_GL"] = "egl"
     said = _drawing_complaint()
     if said is None:
@@ -69,7 +70,7 @@ def drawing_problem() -> str | None:
 
 
 def _drawing_complaint() -> str | None:
-    """Draw one frame in a child process; give the last thing it says where it fails."""
+    """Return the last thing that a child process says which fails to draw a frame; None where it draws it."""
     # -P: a module of the current folder must not stand in for one of Python's.
     command = [sys.executable, "-P", "-c", _DRAW_ONE_FRAME]
     try:

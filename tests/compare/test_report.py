@@ -208,6 +208,7 @@ def test_a_toss_without_impacts_has_a_report_too(tmp_path):
     assert "max_time" in page.read_text(encoding="utf-8")
 
 
+@pytest.mark.usefixtures("fresh_back_end")
 def test_a_missing_back_end_is_found_in_a_child_process(monkeypatch):
     monkeypatch.setenv("MUJOCO_GL", "egl")
     monkeypatch.setenv("PYOPENGL_PLATFORM", "osmesa")
@@ -217,6 +218,7 @@ def test_a_missing_back_end_is_found_in_a_child_process(monkeypatch):
     assert "PYOPENGL_PLATFORM" in problem
 
 
+@pytest.mark.usefixtures("fresh_back_end")
 def test_what_is_not_opengls_fault_is_not_blamed_on_it(monkeypatch):
     monkeypatch.setenv("MUJOCO_GL", "nonsense")
     problem = drawing_problem()

@@ -1,8 +1,11 @@
 """Stills of a toss, and what is said where none can be drawn."""
 
-import numpy as np
+from unittest.mock import patch
 
-from compare.film.back_end import UNKNOWN
+import numpy as np
+import pytest
+
+from compare.film.back_end import ADVICE, UNKNOWN, drawing_problem
 from compare.film.stills import stills
 from compare.reproduction.paper import fig5
 from models.records import States
@@ -31,6 +34,7 @@ def test_each_face_has_its_colour():
     assert bluish[1] > 100
 
 
+@pytest.mark.usefixtures("fresh_back_end")
 def test_where_nothing_can_be_drawn_the_reason_is_told(monkeypatch):
     monkeypatch.setenv("MUJOCO_GL", "nonsense")
     told = stills(scenario(), faces(HEADS))
@@ -39,12 +43,22 @@ def test_where_nothing_can_be_drawn_the_reason_is_told(monkeypatch):
     assert "nonsense" in told
 
 
-def test_a_child_that_dies_is_told_too(monkeypatch):
-    monkeypatch.setattr(
-        "compare.film.stills._CHILD", "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"
-    )
+@pytest.mark.usefixtures("fresh_back_end")
+def test_a_back_end_that_ends_the_process_is_told_too(monkeypatch):
+    monkeypatch.setenv("MUJOCO_GL", "egl")
+    dying = "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"
+    monkeypatch.setattr("compare.film.back_end._DRAW_ONE_FRAME", dying)
     told = stills(scenario(), faces(HEADS))
-    assert told == f"{UNKNOWN} (ended by signal 9)"
+    assert told == f"{ADVICE} (ended by signal 9)"
+
+
+@pytest.mark.usefixtures("fresh_back_end")
+def test_the_back_end_is_tried_once(monkeypatch):
+    with patch("compare.film.back_end._drawing_complaint", return_value=None) as tried:
+        assert drawing_problem() is None
+        monkeypatch.setenv("MUJOCO_GL", "nonsense")
+        assert drawing_problem() is None
+    assert tried.call_count == 1
 
 
 def test_the_figure_comes_without_stills_too(monkeypatch, tmp_path):
