@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from analytic.contact.contact import friction_in_contact, sample_contact
 from analytic.contact.floor_force import Motion
+from analytic.contact.force_in_contact import force_in_contact
 from analytic.events import Run, run
 from analytic.flight.equations_of_motion import STATE_SIZE, TOLERANCE
 from analytic.flight.flying import sample
@@ -49,6 +50,19 @@ class Pieces:
             quaternion=rows[:, 6:10].copy(),
             angular_velocity=rows[:, 10:13].copy(),
         )
+
+    def floor_force(self, times: Array) -> Array:
+        """Return the floor's force at `times` in sustained contacts, space frame, (n, 3) [N]."""
+        piece = np.searchsorted(self.start_times, times, side="right") - 1
+        # At its very end a contact still holds the coin.
+        piece = np.where(self.motions[piece] == Motion.FLIGHT, piece - 1, piece)
+        states = self.sample(times)
+        rows = np.hstack([states.position, states.velocity, states.quaternion, states.angular_velocity])
+        forces = [
+            force_in_contact(self.body, self.friction, Motion(self.motions[number]), row)
+            for number, row in zip(piece, rows, strict=True)
+        ]
+        return np.array(forces)
 
     def _piece(self, number: int, times: Array) -> Array:
         states = np.empty((len(times), STATE_SIZE))

@@ -7,9 +7,10 @@ from numpy.typing import NDArray
 
 from coin_mj.events import toss_coin
 from coin_mj.model.air_callback import air_of
-from coin_mj.model.machine import machine_of, put_at
+from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
 from coin_mj.model.settings import ContactSettings, Friction, Realisation
+from coin_mj.model.state import put_at
 from coin_mj.toss import require_supported, warn_of_approximation
 from models.kernel.compiled import compiled
 from models.outcomes import Outcomes

@@ -1,11 +1,13 @@
-"""The event loop of a toss in MuJoCo: fly, press, rest, stop."""
+"""The event loop of a toss in MuJoCo: flight, impact, sustained contact, ending."""
 
 import numpy as np
 
-from coin_mj.model.machine import keep, knot_of, look, state_of
-from coin_mj.steps.free_step import glide
-from coin_mj.steps.impact_step import TOUCH_STEP, Pressed, press
-from coin_mj.steps.sustained_contact import NO_LOSS, Left, rest, slow_speed
+from coin_mj.model.state import state_of
+from coin_mj.steps.free_step import free_step
+from coin_mj.steps.gap_evaluation import evaluate_gap
+from coin_mj.steps.impact import TOUCH_STEP, TouchResult, resolve_impact
+from coin_mj.steps.knots import Step, add_knot, knot_of
+from coin_mj.steps.sustained_contact import NO_LOSS, ContactExit, follow_contact, slow_speed
 from models.attitude import rotation_matrix
 from models.ending import judge
 from models.geometry import contact_velocity, lowest_point
@@ -14,7 +16,7 @@ from models.kernel.compiled import compiled
 from models.perpetual import dies_away, first_contact, no_looks
 from models.records import Ending, Outcome
 
-# The most steps of a toss in contacts that last.
+# The most steps of a toss in sustained contacts.
 CONTACT_STEPS = 1_000_000
 
 
@@ -31,10 +33,10 @@ def toss_coin(coin, rules, rows, keep_all):
 
     Returns:
         Number of impacts; the rows; knots of the path, see `path.Knots`, (k, 15), or none; start and end of
-        every contact that lasts, (c, 2) [s]; outcome; ending; and the time of the end [s].
+        every sustained contact, (c, 2) [s]; outcome; ending; and the time of the end [s].
     """
     time, n, steps_left, looks = 0.0, 0, CONTACT_STEPS, no_looks()
-    knots, contacts = [knot_of(coin, time, False)], [(time, time)]
+    knots, contacts = [knot_of(coin, time, Step.FLIGHT)], [(time, time)]
     contacts.clear()
     if not keep_all:
         knots.clear()
@@ -50,11 +52,11 @@ def toss_coin(coin, rules, rows, keep_all):
                 ending = Ending.MAX_TIME
                 break
         start, touch = time, state_of(coin)
-        rests = not lands and -look(coin).speed < slow_speed(coin, rules.restitution, touch[3])
-        if not rests:
-            pressed, time, impulse = press(coin, time, knots)
-            rests = pressed == Pressed.LASTS
-            if pressed == Pressed.IMPACT:
+        sustained = not lands and -evaluate_gap(coin).speed < slow_speed(coin, rules.restitution, touch[3])
+        if not sustained:
+            result, time, impulse = resolve_impact(coin, time, knots)
+            sustained = result == TouchResult.SUSTAINED
+            if result == TouchResult.IMPACT:
                 if keep_all:
                     rows = with_room(rows, n)
                 record(coin.body, start, touch, impulse, state_of(coin), rows[n % len(rows)])
@@ -63,14 +65,16 @@ def toss_coin(coin, rules, rows, keep_all):
                 if ending == Ending.NONE and goes_on(coin, rules, time, looks):
                     outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
         lands = False
-        if rests:
+        if sustained:
             first_contact(coin.body, looks, time)
-            left, time, steps_left, outcome, ending = rest(coin, rules, time, steps_left, looks, knots)
+            way, time, steps_left, outcome, ending = follow_contact(
+                coin, rules, time, steps_left, looks, knots
+            )
             if time > start:
                 contacts.append((start, time))
-            lands = left == Left.LANDS
+            lands = way == ContactExit.RIM_LANDS
             steps_left -= 1
-    keep(coin, time, False, knots)
+    add_knot(coin, time, Step.FLIGHT, knots)
     return n, rows, _table(knots), _pairs(contacts), outcome, ending, time
 
 
@@ -82,35 +86,35 @@ def fly(coin, time, max_time, knots):
         coin: MuJoCo's.
         time: now [s].
         max_time: when to stop [s].
-        knots: of the path, kept up; see `machine.keep`.
+        knots: of the path, kept up; see `knots.add_knot`.
 
     Returns:
         The time [s], and whether the coin touches before max_time.
     """
     smallest = TOUCH_STEP * coin.rebound.step
-    # The steps end before the touch, and `glide` knows no contacts: of a coin that is flat within rounding
-    # MuJoCo's plane-cylinder routine may take the radius for the height.
+    # The steps end before the touch, and `free_step` detects no contacts: of a coin that is flat within
+    # rounding MuJoCo's plane-cylinder routine may take the radius for the height.
     while time < max_time:
-        seen = look(coin)
-        if seen.clear < smallest and seen.speed < 0:
+        below = evaluate_gap(coin)
+        if below.step_bound < smallest and below.speed < 0:
             return time, True
-        keep(coin, time, False, knots)
-        dt = min(max(seen.clear, smallest), max_time - time)
-        glide(coin, dt)
+        add_knot(coin, time, Step.FLIGHT, knots)
+        dt = min(max(below.step_bound, smallest), max_time - time)
+        free_step(coin, dt)
         time += dt
     return time, False
 
 
 @compiled
 def decided(coin, rules):
-    """Give the outcome and the ending that `judge` gives of the present state."""
+    """Return the outcome and the ending of the present state by `judge`."""
     x, v, e, w = state_of(coin)
     return judge(coin.body, rules, x[2], v, rotation_matrix(e)[2], w)
 
 
 @compiled
 def goes_on(coin, rules, time, looks):
-    """Tell whether the coin, bouncing between contacts that last, turns over for ever."""
+    """Return whether the coin, bouncing between sustained contacts, turns over for ever."""
     x, v, e, w = state_of(coin)
     return dies_away(coin.body, rules, x[2], v, rotation_matrix(e)[2], w, NO_LOSS, time, looks)
 

@@ -1,4 +1,4 @@
-"""One toss in MuJoCo, and what the engine says of it."""
+"""One toss in MuJoCo, with its certificate and its horizon of trust."""
 
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
@@ -38,26 +38,26 @@ IMPULSE_CHANGE = 0.03
 """Within the horizon no softer contact changes an impulse by more than this part."""
 
 
-class Run(NamedTuple):
-    """What the event loop gives for one toss."""
+class MujocoRun(NamedTuple):
+    """What the event loop returns for one toss."""
 
     rows: np.ndarray
     """Impacts, (n,) of `IMPACT_ROW`."""
     knots: Array
     """Of the path, see `Knots`."""
     contacts: Array
-    """Start and end of every contact that lasts, (n, 2) [s]."""
+    """Start and end of every sustained contact, (n, 2) [s]."""
     outcome: Outcome
     ending: Ending
     end_time: float
 
 
-def run(machine: Machine, rules: Rules) -> Run:
+def run(machine: Machine, rules: Rules) -> MujocoRun:
     """Toss the coin from its present state until the toss is decided."""
     room = np.zeros(FIRST_ROOM, IMPACT_ROW)
     with air_of(machine.model):
         n, rows, knots, contacts, outcome, ending, end_time = toss_coin(machine.coin, rules, room, True)
-    return Run(rows[:n].copy(), knots, contacts, Outcome(outcome), Ending(ending), end_time)
+    return MujocoRun(rows[:n].copy(), knots, contacts, Outcome(outcome), Ending(ending), end_time)
 
 
 def require_supported(scenario: Scenario, realisation: Realisation) -> None:
@@ -143,10 +143,10 @@ def toss(
             Setting(name="MuJoCo", value=mujoco.__version__),
             *_contact_certificate(machine),
             Setting(name="largest turn in a step of flight", value=flight_angle, unit="rad"),
-            Setting(name="thickness of the shape", value=machine.coin.shape.thickness, unit="m"),
+            Setting(name="thickness of the shape", value=machine.coin.shape_thickness, unit="m"),
             Setting(name="steps", value=len(answer.knots) - 1),
         ),
-        path=Knots(machine=machine, knots=answer.knots),
+        path=Knots(machine=machine, knots=answer.knots, restitution=scenario.floor.restitution),
     )
 
 
@@ -160,8 +160,8 @@ def warn_of_approximation(scenario: Scenario) -> None:
         )
 
 
-def _before_contact(answer: Run) -> Impacts:
-    """Give the impacts before the first contact that lasts."""
+def _before_contact(answer: MujocoRun) -> Impacts:
+    """Return the impacts before the first sustained contact."""
     first = answer.contacts[0, 0] if len(answer.contacts) else np.inf
     return Impacts.from_rows(answer.rows[answer.rows["time"] < first])
 
@@ -198,7 +198,7 @@ def _contact_certificate(machine: Machine) -> tuple[Setting, ...]:
         )
     if friction == 0:
         return made
-    maker = "MuJoCo's cone" if settings.friction == Friction.NATIVE else "Coulomb's force"
+    maker = "MuJoCo's native friction cone" if settings.friction == Friction.NATIVE else "Coulomb's force"
     return (
         *made,
         Setting(name="friction by", value=maker),

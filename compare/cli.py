@@ -97,7 +97,7 @@ def _plain_errors(source: str) -> Iterator[None]:
     from compare.output.files import UnwritableError
     from compare.sweep.errors import SweepError
     from models.errors import ScenarioError
-    from models.records import ApproximationWarning, UnsupportedError
+    from models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
 
     reported = set()
 
@@ -114,7 +114,7 @@ def _plain_errors(source: str) -> Iterator[None]:
         show, warnings.showwarning = warnings.showwarning, report
         try:
             yield
-        except (ScenarioError, UnwritableError, BackEndError) as error:
+        except (ScenarioError, UnwritableError, BackEndError, UnusableEngineError) as error:
             _refuse(str(error))
         except (SweepError, UnsupportedError, FloatingPointError) as error:
             _refuse(f"{source}: {error}")
@@ -391,11 +391,14 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
     writes REPRODUCTION.md and gallery.html. Without NAME, list the names. Exit status 1: a claim comes out
     otherwise than known.
     """
-    from compare.film.back_end import require_mujoco
+    from compare.film.back_end import drawing_problem, require_mujoco
     from compare.output.files import require_folder
     from compare.reproduction import gallery, runner
 
     with _plain_errors("reproduce"):
+        # Figures may hold stills: the back end is chosen before MuJoCo is imported.
+        if names and not os.environ.get("MUJOCO_GL"):
+            drawing_problem()
         require_mujoco()
     known = runner.names()
     pages = names == ("all",)

@@ -222,6 +222,10 @@ class Path(Protocol):
         """Give the states at `times` [s], in the order of `times`."""
         ...
 
+    def floor_force(self, times: Array) -> Array:
+        """Return the floor's force at `times` in sustained contacts, space frame, (n, 3) [N]."""
+        ...
+
 
 @dataclass(frozen=True, kw_only=True)
 class Setting:
@@ -280,17 +284,45 @@ class Toss:
         Raises:
             ValueError: for a time outside the toss, or times in more than one dimension.
         """
+        return self.path.sample(self._required(times))
+
+    def floor_force(self, times: ArrayLike) -> Array:
+        """Return the floor's force on the coin in its sustained contacts, space frame, (n, 3) [N].
+
+        Elsewhere it is 0; what the floor does in an impact is the impact's impulse.
+
+        Args:
+            times: one time, or (n,), each from 0 to `end_time` [s].
+
+        Raises:
+            ValueError: as `sample`.
+        """
+        t = self._required(times)
+        force = np.zeros((len(t), 3))
+        contact = np.searchsorted(self.contacts[:, 0], t, side="right") - 1
+        ends = np.append(self.contacts[:, 1], -np.inf)  # the last is that of contact -1, before the first
+        held = t <= ends[contact]
+        if held.any():
+            force[held] = self.path.floor_force(t[held])
+        return force
+
+    def _required(self, times: ArrayLike) -> Array:
+        """Return times as an array, (n,); refuse those outside the toss."""
         t = np.atleast_1d(np.array(times, dtype=float))
         if t.ndim != 1:
             raise ValueError(f"times: shape {t.shape}, accepted: (n,)")
         outside = t[~((t >= 0) & (t <= self.end_time))]
         if outside.size:
             raise ValueError(f"times: {outside[0]} s is outside the toss, from 0 to {self.end_time} s")
-        return self.path.sample(t)
+        return t
 
 
 class UnsupportedError(ValueError):
     """A scenario that an engine can't toss; the message names the field, its value and what is accepted."""
+
+
+class UnusableEngineError(RuntimeError):
+    """An engine that can't be used as it is installed; the message says what to do."""
 
 
 class ApproximationWarning(UserWarning):

@@ -32,7 +32,7 @@ _FOUR_X, _FOUR_W = np.polynomial.legendre.leggauss(4)
 _SIX_X, _SIX_W = np.polynomial.legendre.leggauss(6)
 
 
-class Motion(NamedTuple):
+class ScaledMotion(NamedTuple):
     """A coin in motion, in radii and in units of speed."""
 
     exponent: float
@@ -46,7 +46,7 @@ class Motion(NamedTuple):
 
 @compiled
 def air_force(radius, thickness, normal, tangential, exponent, v, w):
-    """Give the air's force on a coin and its moment about B. Strzalko et al. 2008, eqs (49)-(74).
+    """Return the air's force on a coin and its moment about B. Strzalko et al. 2008, eqs (49)-(74).
 
     Args:
         radius: r [m].
@@ -67,7 +67,7 @@ def air_force(radius, thickness, normal, tangential, exponent, v, w):
     if speed == 0:
         return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     k = 1 / speed
-    motion = Motion(
+    motion = ScaledMotion(
         exponent,
         thickness / (2 * r),
         (k * v[0], k * v[1], k * v[2]),
@@ -141,7 +141,7 @@ def _friction_on_wall(motion):
 
 @compiled
 def _velocities_of_wall(motion, sine, cosine):
-    """Give B, along ζ, C, around at z = 0, and D, by which that grows with z, at an angle."""
+    """Return B, along ζ, C, around at z = 0, and D, by which that grows with z, at an angle."""
     v, w = motion.v, motion.w
     return (
         v[2] + w[0] * sine - w[1] * cosine,
@@ -205,7 +205,7 @@ def _by_rule(part, motion, start, width, x, weights):
 
 @compiled
 def _integrand(part, motion, at):
-    """Give what a part of the surface adds to force and moment, without -λ."""
+    """Return what a part of the surface adds to force and moment, without -λ."""
     if part == PRESSURE_ON_FACES:
         return _pressure_on_chord(motion, at)
     if part == FRICTION_ON_UPPER:
@@ -219,7 +219,7 @@ def _integrand(part, motion, at):
 
 @compiled
 def _power(square, b):
-    """Give |s|^b from s²."""
+    """Return |s|^b from s²."""
     return square**0.5 if b == 1 else square ** (b / 2)
 
 
@@ -280,7 +280,7 @@ def _friction_along_wall(motion, theta):
 
 @compiled
 def _along_line(b, half, B, C, D):
-    """Give ∫ |V|^b B dz, ∫ |V|^b T dz and ∫ |V|^b T z dz over |z| <= half, T = C + D z, |V|² = B² + T².
+    """Return ∫ |V|^b B dz, ∫ |V|^b T dz and ∫ |V|^b T z dz over |z| <= half, T = C + D z, |V|² = B² + T².
 
     |V| vanishes at z_0 ± i δ alone, z_0 = -C/D and δ = |B/D|. Where that is far off, one of Gauss's rules
     serves; else with z = z_0 + δ sinh x, in which |V| = |B| cosh x, in pieces.

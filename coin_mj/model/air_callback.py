@@ -16,7 +16,8 @@ import numpy as np
 from numba import types
 
 from coin_mj.model.air import air_force
-from coin_mj.model.library import place_of, pointer_to
+from coin_mj.model.library import pointer_to
+from coin_mj.model.memory import offset_of
 from models.attitude import rotation_matrix
 from models.kernel.vectors import apply, apply_transposed
 from models.scenario import Scenario
@@ -25,8 +26,6 @@ NUMERIC = "air"
 """Name of the model's custom numbers: r, h, λ_n, λ_τ and b."""
 NUMBERS = 5
 _WORD = ctypes.sizeof(ctypes.c_int64)
-_SIZE = 7919
-"""Of the custom numbers of the model in which the places of fields are found: no other count there is so."""
 
 
 def describe_air(spec: mujoco.MjSpec, scenario: Scenario) -> None:
@@ -51,7 +50,7 @@ _users = _Users()
 
 @contextmanager
 def air_of(model: mujoco.MjModel) -> Iterator[None]:
-    """Let MuJoCo's functions called within feel the air of `model`, where that has any with b > 0.
+    """Add the air of `model`, where it has any with b > 0, to the forces in MuJoCo's functions called within.
 
     MuJoCo has one passive callback per process. It is set here alone: by the first who enters, on whatever
     thread, and what was set before is put back by the last who leaves. It acts on models with the numbers of
@@ -78,25 +77,18 @@ def air_of(model: mujoco.MjModel) -> Iterator[None]:
 
 @cache
 def _callback() -> Any:
-    """Compile the callback and give it as a pointer that MuJoCo takes.
+    """Return the compiled callback as a pointer that MuJoCo takes.
 
     The places of the fields of mjModel and mjData are written into the machine code; so it holds for this
     MuJoCo alone, and is not kept on disk.
     """
-    model = mujoco.MjModel.from_xml_string(
-        f'<mujoco><custom><numeric name="{NUMERIC}" size="{_SIZE}" data="0"/></custom>'
-        '<worldbody><body><freejoint/><geom size="1"/></body></worldbody></mujoco>'
-    )
-    data = mujoco.MjData(model)
-    count_at = _word(model, _SIZE)
-    numbers_at = _word(model, model.numeric_data.ctypes.data)
-    qpos_at = _word(data, data.qpos.ctypes.data)
-    qvel_at = _word(data, data.qvel.ctypes.data)
-    passive_at = _word(data, data.qfrc_passive.ctypes.data)
+    count_at, numbers_at = _word("mjModel", "nnumericdata"), _word("mjModel", "numeric_data")
+    qpos_at, qvel_at = _word("mjData", "qpos"), _word("mjData", "qvel")
+    passive_at = _word("mjData", "qfrc_passive")
 
     def callback(model, data):
-        model = numba.carray(model, numbers_at + 1, np.int64)
-        data = numba.carray(data, passive_at + 1, np.int64)
+        model = numba.carray(model, max(count_at, numbers_at) + 1, np.int64)
+        data = numba.carray(data, max(qpos_at, qvel_at, passive_at) + 1, np.int64)
         if model[count_at] != NUMBERS:
             return
         numbers = numba.carray(pointer_to(model[numbers_at], np.float64), NUMBERS)
@@ -116,6 +108,6 @@ def _callback() -> Any:
     return compiled.ctypes
 
 
-def _word(struct: Any, value: int) -> int:
-    """Give which word of a model or its data is `value`."""
-    return place_of(struct, ctypes.c_int64(value)) // _WORD
+def _word(struct: str, field: str) -> int:
+    """Return which word of a struct is a field."""
+    return offset_of(struct, field) // _WORD

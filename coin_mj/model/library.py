@@ -1,9 +1,8 @@
-"""MuJoCo's own functions, and where the fields of its structs lie, for compiled code."""
+"""MuJoCo's own functions for compiled code."""
 
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
 
-import ctypes
 from pathlib import Path
 from typing import Any
 
@@ -42,21 +41,6 @@ mj_solve_mass: Any = types.ExternalFunction(
     "mj_solveM", types.void(*_model_and_data, _numbers, _numbers, types.intc)
 )
 """Solves M x = y for several y; takes the addresses of an mjModel and an mjData, x, y, and their number."""
-
-
-def place_of(struct: Any, value: Any) -> int:
-    """Give where a value lies in a model or its data, as an offset in bytes.
-
-    Python does not tell where the fields of mjModel and mjData lie; a value that no other field has shows it.
-
-    Args:
-        struct: MjModel or MjData.
-        value: of a ctypes type, as the struct holds it; it must be there.
-    """
-    sought, place = bytes(value), 0
-    while ctypes.string_at(struct._address + place, len(sought)) != sought:
-        place += ctypes.alignment(value)
-    return place
 
 
 @intrinsic

@@ -21,12 +21,12 @@ INERTIA_WIDENED = 1e-12
 
 
 def shape_thickness(scenario: Scenario) -> float:
-    """Give the thickness of the coin's shape [m]."""
+    """Return the thickness of the coin's shape [m]."""
     return scenario.coin.thickness or THIN_SHAPE * scenario.coin.radius
 
 
 def floor_height(scenario: Scenario, thickness: float) -> float:
-    """Give the height of MuJoCo's floor [m], for a shape of `thickness` [m].
+    """Return the height of MuJoCo's floor [m], for a shape of `thickness` [m].
 
     It lies lower by what the shape of a thin coin adds below it: a coin that is above the scenario's floor
     is above MuJoCo's, and a thin coin that lies flat on the one lies flat on the other.

@@ -28,7 +28,7 @@ class Friction(StrEnum):
     EXPLICIT = "explicit"
     """A frictionless contact, and Coulomb's force against the slip, μ times the normal force measured."""
     NATIVE = "native"
-    """MuJoCo's own elliptic cone."""
+    """MuJoCo's native friction cone, the elliptic one."""
 
 
 class ContactSettings(NamedTuple):
@@ -48,7 +48,7 @@ class ContactSettings(NamedTuple):
     """Largest turn of the coin in a step of free flight [rad]."""
 
     def softened(self, part: float) -> "ContactSettings":
-        """Give a contact whose spring is softer by `part`, or whose one step is longer by `part`."""
+        """Return a contact whose spring is softer by `part`, or whose one step is longer by `part`."""
         return self._replace(stiffness=self.stiffness / part, step=self.step * part)
 
 
@@ -68,7 +68,7 @@ class Rebound(NamedTuple):
 
 
 def rebound_of(restitution: float, settings: ContactSettings) -> Rebound:
-    """Give the rebound with `restitution` χ at every point of the rim.
+    """Return the rebound with `restitution` χ at every point of the rim.
 
     Raises:
         ValueError: for a χ out of the realisation's reach.
@@ -85,12 +85,12 @@ def rebound_of(restitution: float, settings: ContactSettings) -> Rebound:
 
 
 def friction_of(floor: Floor) -> float:
-    """Give the coefficient of friction μ with which MuJoCo stands for a floor."""
+    """Return the coefficient of friction μ with which MuJoCo stands for a floor."""
     return {ContactLaw.COULOMB: floor.friction, ContactLaw.PERFECTLY_ROUGH: ROUGH}.get(floor.contact, 0.0)
 
 
 def restitution_of(zeta: float) -> float:
-    """Give the restitution of a damped spring that lets go when its force reaches zero.
+    """Return the restitution of a damped spring that lets go when its force reaches zero.
 
     The force k x + d ẋ vanishes before the spring is back at its length. With ζ = d/(2 √k):
     χ = exp(-(2 ζ/s) atan2(s, ζ)), s = √(1 - ζ²), for ζ < 1; exp(-2) for ζ = 1; and
@@ -109,7 +109,7 @@ def restitution_of(zeta: float) -> float:
 
 
 def damping_ratio_of(restitution: float) -> float:
-    """Give the damping ratio ζ of a contact that rebounds with `restitution`.
+    """Return the damping ratio ζ of a contact that rebounds with `restitution`.
 
     Args:
         restitution: χ, 0 < χ <= 1.

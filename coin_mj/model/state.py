@@ -5,16 +5,17 @@ Both have velocities in space, the angular velocity in the body, and Euler param
 
 import numpy as np
 
+from coin_mj.model.library import mj_reset
 from models.attitude import rotation_matrix
 from models.kernel.compiled import compiled
-from models.kernel.vectors import add, apply, cross, subtract
+from models.kernel.vectors import add, apply, cross, scale, subtract
 from models.records import Array
 from models.scenario import Release
 
 
 @compiled
 def to_mass_center(body, qpos, qvel):
-    """Give position and velocity of C (space), Euler parameters and angular velocity (body).
+    """Return position and velocity of C (space), Euler parameters and angular velocity (body).
 
     Args:
         body: the coin.
@@ -31,7 +32,7 @@ def to_mass_center(body, qpos, qvel):
 
 @compiled
 def of_mass_center(body, x, v, e, w):
-    """Give position and velocity of B, space frame, of a state in which C is at x with the velocity v.
+    """Return position and velocity of B, space frame, of a state in which C is at x with the velocity v.
 
     Args:
         body: the coin.
@@ -45,7 +46,7 @@ def of_mass_center(body, x, v, e, w):
 
 
 def of_release(body, release: Release) -> tuple[Array, Array]:
-    """Give qpos, (7,), and qvel, (6,), of a release.
+    """Return qpos, (7,), and qvel, (6,), of a release.
 
     Args:
         body: the coin.
@@ -54,3 +55,46 @@ def of_release(body, release: Release) -> tuple[Array, Array]:
     e, w = release.attitude, release.angular_velocity
     x_B, v_B = of_mass_center(body, release.position, release.velocity, e, w)
     return np.array([*x_B, *e]), np.array([*v_B, *w])
+
+
+@compiled
+def put_at(coin, y):
+    """Put MuJoCo's coin into a state, as new: nothing is left of what MuJoCo kept of an earlier toss.
+
+    Args:
+        coin: MuJoCo's.
+        y: position and velocity of C (space), Euler parameters and angular velocity (body), (13,).
+    """
+    mj_reset(coin.address.model, coin.address.data)
+    x, v = (y[0], y[1], y[2]), (y[3], y[4], y[5])
+    e, w = (y[6], y[7], y[8], y[9]), (y[10], y[11], y[12])
+    x_B, v_B = of_mass_center(coin.body, x, v, e, w)
+    set_motion(coin, x_B + e + v_B + w)
+
+
+@compiled
+def set_motion(coin, motion):
+    """Put MuJoCo's coin into a state: qpos and qvel, (13,)."""
+    for i in range(7):
+        coin.joint.qpos[i] = motion[i]
+    for i in range(6):
+        coin.joint.qvel[i] = motion[7 + i]
+
+
+@compiled
+def motion_of(coin):
+    """Return qpos and qvel, a tuple of 13."""
+    q, v = coin.joint.qpos, coin.joint.qvel
+    return q[0], q[1], q[2], q[3], q[4], q[5], q[6], v[0], v[1], v[2], v[3], v[4], v[5]
+
+
+@compiled
+def state_of(coin):
+    """Return position and velocity of C (space), Euler parameters and angular velocity (body)."""
+    return to_mass_center(coin.body, coin.joint.qpos, coin.joint.qvel)
+
+
+@compiled
+def momentum_of(coin):
+    """Return the momentum, space frame, (3,) [N s]."""
+    return scale(coin.body.mass, state_of(coin)[1])

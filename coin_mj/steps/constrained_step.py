@@ -1,6 +1,6 @@
-"""A step in which the floor holds the coin's lowest point, as a contact that lasts does.
+"""A step in which the floor holds the coin's lowest point, as in a sustained contact.
 
-MuJoCo's contact prescribes the acceleration of the pressed point, J q̈ = -k x - d ẋ, and leaves out J̇ q̇, by
+MuJoCo's contact prescribes the acceleration of the contact point, J q̈ = -k x - d ẋ, and leaves out J̇ q̇, by
 which that point, on its way round the rim, leaves the floor: x would become J̇ q̇/k, and the coin gain and
 lose energy by it. So the reference acceleration gets that term, in every stage of RK4: x'' = -k x - d ẋ. Once
 x has died away the point is held, however soft the spring, and a soft one allows large steps.
@@ -10,7 +10,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba.np.numpy_support import carray
 
 from coin_mj.model.library import (
     mj_acceleration,
@@ -20,9 +19,9 @@ from coin_mj.model.library import (
     mj_make_constraint,
     mj_project_constraint,
     mj_velocity,
-    pointer_to,
 )
-from coin_mj.model.machine import motion_of, set_motion
+from coin_mj.model.memory import address_at, integer_at, numbers_at
+from coin_mj.model.state import motion_of, set_motion
 from coin_mj.steps.free_step import place_body
 from coin_mj.steps.runge_kutta import add_rate, end_motion, stage_motion
 from models.attitude import rotation_matrix
@@ -39,38 +38,38 @@ _LOWEST = 0.999999
 _FACE = 1e-7
 
 
-class Grip(NamedTuple):
-    """How the floor holds the coin."""
+class Constraint(NamedTuple):
+    """How the floor holds the coin in a sustained contact."""
 
-    root: float
-    """√k of the critically damped spring [1/s]; 0 where it is an impact's that acts."""
+    frequency: float
+    """√k of the critically damped spring [1/s]; 0 in an impact, which has a spring of its own."""
     level: float
     """Height above the lowest point up to which others, that land slowly, are held too [m]."""
 
 
 @compiled
-def feel(coin, grip):
-    """Compute the accelerations of the present state with a held point; give the floor's force along z [N].
+def constrained_forward(coin, constraint):
+    """Return the floor's force along z [N], with all accelerations of the constrained state computed.
 
     Args:
         coin: MuJoCo's, with a margin.
-        grip: how the floor holds it.
+        constraint: how the floor holds it.
     """
     place_body(coin)
-    mj_collision(coin.model, coin.data)
-    mj_make_constraint(coin.model, coin.data)
-    mj_project_constraint(coin.model, coin.data)
-    mj_velocity(coin.model, coin.data)
-    _set_rows(coin, grip)
-    mj_actuation(coin.model, coin.data)
-    mj_acceleration(coin.model, coin.data)
-    mj_constraint(coin.model, coin.data)
-    return coin.of_floor[2]
+    mj_collision(coin.address.model, coin.address.data)
+    mj_make_constraint(coin.address.model, coin.address.data)
+    mj_project_constraint(coin.address.model, coin.address.data)
+    mj_velocity(coin.address.model, coin.address.data)
+    _set_rows(coin, constraint)
+    mj_actuation(coin.address.model, coin.address.data)
+    mj_acceleration(coin.address.model, coin.address.data)
+    mj_constraint(coin.address.model, coin.address.data)
+    return coin.joint.qfrc_constraint[2]
 
 
 @compiled
-def hold(coin, grip, dt):
-    """Advance by dt [s] with RK4, after `feel`; see there for the arguments."""
+def constrained_step(coin, constraint, dt):
+    """Advance by dt [s] with RK4, after `constrained_forward`; see there for the arguments."""
     start = motion_of(coin)
     rate, total, motion = np.empty(13), np.zeros(13), np.empty(13)
     motion[:] = start
@@ -78,19 +77,19 @@ def hold(coin, grip, dt):
         if stage > 0:
             stage_motion(start, rate, stage, dt, motion)
             set_motion(coin, motion)
-            feel(coin, grip)
-        add_rate(motion, coin.qacc, stage, rate, total)
+            constrained_forward(coin, constraint)
+        add_rate(motion, coin.joint.qacc, stage, rate, total)
     set_motion(coin, end_motion(start, total, dt, motion))
 
 
 @compiled
-def _set_rows(coin, grip):
+def _set_rows(coin, constraint):
     """Let MuJoCo's rows of normal forces hold the lowest points, and all below the floor, and no others."""
-    n, root = coin.rows[0], grip.root
+    n, frequency = integer_at(coin.address.nefc), constraint.frequency
     if n == 0:
         return
     J, position, D, R, reference = _row_arrays(coin, n)
-    turned = rotation_matrix(coin.qpos[3:])
+    turned = rotation_matrix(coin.joint.qpos[3:])
     lowest = np.inf
     for i in range(n):
         if J[i, 2] > 1 - 1e-9:
@@ -99,31 +98,32 @@ def _set_rows(coin, grip):
         D[i], R[i] = D[i] * _HARDER, R[i] / _HARDER
         if J[i, 2] <= 1 - 1e-9:
             continue
-        if position[i] > max(lowest, 0.0) + grip.level:
+        if position[i] > max(lowest, 0.0) + constraint.level:
             reference[i] = _FREE
             continue
         speed = 0.0
         for j in range(6):
-            speed += J[i, j] * coin.qvel[j]
-        reference[i] = -root * (root * position[i] + 2 * speed) - _rising(coin, turned, J[i])
+            speed += J[i, j] * coin.joint.qvel[j]
+        spring = frequency * (frequency * position[i] + 2 * speed)
+        reference[i] = -spring - _rising(coin, turned, J[i])
 
 
 @compiled
 def _row_arrays(coin, n):
-    """Give J, (n, 6), position, D, R and reference acceleration of MuJoCo's rows, (n,)."""
-    J, position, D, R, reference = coin.row_arrays
+    """Return J, (n, 6), position, D, R and reference acceleration of MuJoCo's rows, (n,)."""
+    at = coin.address
     return (
-        carray(pointer_to(J[0], np.float64), (n, 6)),
-        carray(pointer_to(position[0], np.float64), (n,)),
-        carray(pointer_to(D[0], np.float64), (n,)),
-        carray(pointer_to(R[0], np.float64), (n,)),
-        carray(pointer_to(reference[0], np.float64), (n,)),
+        numbers_at(address_at(at.efc_J), (n, 6)),
+        numbers_at(address_at(at.efc_pos), (n,)),
+        numbers_at(address_at(at.efc_D), (n,)),
+        numbers_at(address_at(at.efc_R), (n,)),
+        numbers_at(address_at(at.efc_aref), (n,)),
     )
 
 
 @compiled
 def _rising(coin, R, J):
-    """Give J̇ q̇ of a row of the rim's lowest point, its rise but for q̈ [m/s²]; 0 of any other row.
+    """Return J̇ q̇ of a row of the rim's lowest point, its rise but for q̈ [m/s²]; 0 of any other row.
 
     The lowest point of the rim at ζ = ±h/2 is z_B ± (h/2) u_ζ - r |u⊥| high, u the upward unit vector in the
     body frame, u' = u × ω. J tells the point: p × u, p from B.
@@ -133,22 +133,21 @@ def _rising(coin, R, J):
         R: rotation matrix, body to space.
         J: the row, (6,).
     """
-    up, w = R[2], (coin.qvel[3], coin.qvel[4], coin.qvel[5])
+    v = coin.joint.qvel
+    up, w = R[2], (v[3], v[4], v[5])
     sine = math.hypot(up[0], up[1])
     if sine < _FACE:
         return 0.0
     # p = u × (p × u) + (p · u) u, where p · u is the point's height below B.
-    below = coin.floor - coin.qpos[2]
+    below = coin.floor_height - coin.joint.qpos[2]
     moment = (J[3], J[4], J[5])
     across = cross(up, moment)
     p = (across[0] + below * up[0], across[1] + below * up[1], across[2] + below * up[2])
     if -(p[0] * up[0] + p[1] * up[1]) < _LOWEST * sine * math.hypot(p[0], p[1]):
         return 0.0
-    half = math.copysign(coin.shape.thickness / 2, p[2])
+    half = math.copysign(coin.shape_thickness / 2, p[2])
     rate = cross(up, w)
     turning = cross(rate, w)
     sine_rate = (up[0] * rate[0] + up[1] * rate[1]) / sine
     round_rim = rate[0] * rate[0] + rate[1] * rate[1] - sine_rate * sine_rate
-    return (
-        half * turning[2] - coin.shape.radius * (up[0] * turning[0] + up[1] * turning[1] + round_rim) / sine
-    )
+    return half * turning[2] - coin.body.radius * (up[0] * turning[0] + up[1] * turning[1] + round_rim) / sine

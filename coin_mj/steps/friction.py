@@ -5,8 +5,9 @@ import math
 import numpy as np
 
 from coin_mj.model.library import mj_solve_mass
-from coin_mj.model.machine import forward, momentum_of, motion_of, other_force, push, set_motion
-from coin_mj.steps.constrained_step import feel, hold
+from coin_mj.model.state import momentum_of, motion_of, set_motion
+from coin_mj.steps.constrained_step import constrained_forward, constrained_step
+from coin_mj.steps.mujoco_step import forward, impact_step, other_force
 from models.attitude import rotation_matrix
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, apply, apply_transposed, cross
@@ -22,26 +23,34 @@ SAME = 1e-13
 
 
 @compiled
-def push_and_rub(coin, grip, dt):
-    """Advance by dt [s] with Coulomb's force in a frictionless contact.
+def friction_step(coin, constraint, dt):
+    """Advance by dt [s] with Coulomb's force in a frictionless contact; see `apply_friction`."""
+    apply_friction(coin, constraint, dt)
+    _make_step(coin, constraint, dt)
+    coin.joint.qfrc_applied[:] = 0
 
-    The step is made without friction, to measure the normal force, and made again with it. The force acts
-    as in the middle between the points where the floor presses at the start and at the end of the step.
+
+@compiled
+def apply_friction(coin, constraint, dt):
+    """Apply Coulomb's force to a coin in a frictionless contact, for a step of dt [s].
+
+    The step is made without friction, to measure the normal force, and taken back. The friction acts midway
+    between the contact points at the start and at the end of the step.
 
     Args:
-        coin: MuJoCo's, pressed, after `forward`, or after `feel` where the contact lasts.
-        grip: how the floor holds it.
+        coin: MuJoCo's, on the floor, after `forward`, or `constrained_forward` in a sustained contact.
+        constraint: how the floor holds it then.
         dt: length of the step [s].
     """
     start, momentum, other = motion_of(coin), momentum_of(coin)[2], other_force(coin)[2]
-    R, point = rotation_matrix(start[3:7]), pressed_point(coin)
+    R, point = rotation_matrix(start[3:7]), contact_point(coin)
     K = mobility(coin, R, point)
-    _make_step(coin, grip, dt)
+    _make_step(coin, constraint, dt)
     normal = max((momentum_of(coin)[2] - momentum) / dt - other, 0.0)
     end = motion_of(coin)
     R_end, point_end = rotation_matrix(end[3:7]), point
-    if _forces(coin, grip) > 0:
-        point_end = pressed_point(coin)
+    if _normal_force(coin, constraint) > 0:
+        point_end = contact_point(coin)
     slip, slip_free = _velocity(start, R, point), _velocity(end, R_end, point_end)
     x, y = coulomb_force(K, coin.friction, normal, slip[:2], slip_free[:2], dt)
     # What the friction takes from the normal force goes with it: MuJoCo, which lets the share 1 - solimp of
@@ -49,46 +58,45 @@ def push_and_rub(coin, grip, dt):
     F = (x, y, -(K[0, 2] * x + K[1, 2] * y) / K[2, 2])
     at_start, at_end = apply_transposed(R, cross(point, F)), apply_transposed(R_end, cross(point_end, F))
     for i in range(3):
-        coin.applied[i], coin.applied[3 + i] = F[i], (at_start[i] + at_end[i]) / 2
+        coin.joint.qfrc_applied[i] = F[i]
+        coin.joint.qfrc_applied[3 + i] = (at_start[i] + at_end[i]) / 2
     set_motion(coin, start)
-    _forces(coin, grip)
-    _make_step(coin, grip, dt)
-    coin.applied[:] = 0
+    _normal_force(coin, constraint)
 
 
 @compiled
-def _forces(coin, grip):
-    return feel(coin, grip) if grip.root > 0 else forward(coin)
+def _normal_force(coin, constraint):
+    return constrained_forward(coin, constraint) if constraint.frequency > 0 else forward(coin)
 
 
 @compiled
-def _make_step(coin, grip, dt):
-    if grip.root > 0:
-        hold(coin, grip, dt)
+def _make_step(coin, constraint, dt):
+    if constraint.frequency > 0:
+        constrained_step(coin, constraint, dt)
     else:
-        push(coin, dt)
+        impact_step(coin, dt)
 
 
 @compiled
-def pressed_point(coin):
-    """Give the centre of the floor's pressure on a pressed coin from B, space frame, (3,) [m].
+def contact_point(coin):
+    """Return the centre of the floor's pressure from B, space frame, (3,) [m].
 
-    The moment of the normal forces about B, which `forward` or `feel` found, tells it.
+    It follows from the moment of the normal forces about B, after `forward` or `constrained_forward`.
     """
-    f = coin.of_floor
-    moment = apply(rotation_matrix(coin.qpos[3:]), (f[3], f[4], f[5]))
-    return -moment[1] / f[2], moment[0] / f[2], coin.floor - coin.qpos[2]
+    f, qpos = coin.joint.qfrc_constraint, coin.joint.qpos
+    moment = apply(rotation_matrix(qpos[3:]), (f[3], f[4], f[5]))
+    return -moment[1] / f[2], moment[0] / f[2], coin.floor_height - qpos[2]
 
 
 @compiled
 def _velocity(motion, R, point):
-    """Give the velocity of the coin's point that is at `point` from B, space frame, (3,) [m/s]."""
+    """Return the velocity of the coin's point that is at `point` from B, space frame, (3,) [m/s]."""
     return add(motion[7:10], cross(apply(R, motion[10:13]), point))
 
 
 @compiled
 def mobility(coin, R, point):
-    """Give K, the change of the velocity of the coin's point at `point` from B by an impulse there.
+    """Return K, the change of the velocity of the coin's point at `point` from B by an impulse there.
 
     Args:
         coin: MuJoCo's, after `forward`.
@@ -105,7 +113,7 @@ def mobility(coin, R, point):
         jacobian[i, i] = 1.0
         for j in range(3):
             jacobian[i, 3 + j] = turning[j]
-    mj_solve_mass(coin.model, coin.data, gained.ctypes, jacobian.ctypes, 3)
+    mj_solve_mass(coin.address.model, coin.address.data, gained.ctypes, jacobian.ctypes, 3)
     K = np.zeros((3, 3))
     for i in range(3):
         for j in range(3):
@@ -116,7 +124,7 @@ def mobility(coin, R, point):
 
 @compiled
 def coulomb_force(K, mu, normal, slip, slip_free, dt):
-    """Give the mean friction of a step that Coulomb's law asks for.
+    """Return the mean friction of a step that Coulomb's law asks for.
 
     MuJoCo prescribes the vertical acceleration of the contact, whatever else acts on it: a friction f lowers
     the normal force by K_zt · f/K_zz, and changes the slip at the rate (K_tt - K_tz K_zt/K_zz) f. Where the
@@ -151,7 +159,7 @@ def coulomb_force(K, mu, normal, slip, slip_free, dt):
 
 @compiled
 def _force(g, resistance, mu, normal, slip, slip_free):
-    """Give the friction that stops the slip, where that lies within the cone; else the friction that slides.
+    """Return the friction that stops the slip, where that lies within the cone; else that of sliding.
 
     It is -μ N s, s the direction of the mean slip, N the normal force as the friction has left it. Where no
     such N is positive (Painlevé's case) the slip stops at once.

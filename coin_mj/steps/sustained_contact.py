@@ -1,13 +1,15 @@
-"""A contact of MuJoCo's coin that lasts: it rolls, slides and spins on the floor."""
+"""A sustained contact of MuJoCo's coin, which rolls, slides and spins on the floor."""
 
 import math
 from enum import IntEnum
 
-from coin_mj.model.machine import keep, look, set_margin, set_spring, state_of
-from coin_mj.model.stepping import turning_rate
-from coin_mj.steps.constrained_step import Grip, feel, hold
-from coin_mj.steps.free_step import glide
-from coin_mj.steps.friction import push_and_rub
+from coin_mj.model.state import state_of
+from coin_mj.steps.constrained_step import Constraint, constrained_forward, constrained_step
+from coin_mj.steps.free_step import free_step
+from coin_mj.steps.friction import apply_friction, friction_step
+from coin_mj.steps.gap_evaluation import evaluate_gap, turning_rate
+from coin_mj.steps.knots import Step, add_knot
+from coin_mj.steps.mujoco_step import set_margin, set_spring
 from models.attitude import rotation_matrix
 from models.ending import judge
 from models.kernel.compiled import compiled
@@ -16,13 +18,13 @@ from models.perpetual import FIRST_LOOK, dies_away
 from models.records import Ending, Outcome
 
 HEAVY = 10
-"""A touch is no impact when gravity alone gives its speed in so many times the duration of a contact."""
+"""A touch is no impact when gravity alone gives its speed in HEAVY times the duration of a contact."""
 ANGLE = 0.12
 """Largest turn of the coin, and of its lowest point round the rim, in a step [rad]."""
 SOFTNESS = 0.5
 """√k times the step: RK4 follows a critically damped spring up to twice as much."""
 LEVEL = 0.3
-"""Part of the way of the slowest landing that is told from rest in which a point is held already."""
+"""A point is held from this part of the way on that the slowest landing makes in a step."""
 REACH = 0.1
 """Height up to which MuJoCo keeps the row of a held point, in radii; the stages of a step leave the floor."""
 NEAR = 1e-5
@@ -37,19 +39,19 @@ NO_LOSS = 8e-5
 """A loss in the time √(r/g) that is none, against the energy: the steps alone change it by up to 4e-5."""
 
 
-class Left(IntEnum):
-    """How a contact that lasts ended."""
+class ContactExit(IntEnum):
+    """How a sustained contact ended."""
 
     DECIDED = 0
     """With the toss."""
-    LIFTED = 1
-    LANDS = 2
+    LIFT_OFF = 1
+    RIM_LANDS = 2
     """Another rim point touches: of the other face's rim, or opposite on this one."""
 
 
 @compiled
 def slow_speed(coin, chi, w):
-    """Give the speed of a touch below which the coin stays in contact [m/s].
+    """Return the speed of a touch below which the coin stays in contact [m/s].
 
     All its bounces to come would fall within one step of that contact, or weight would drive its impact.
 
@@ -64,8 +66,8 @@ def slow_speed(coin, chi, w):
 
 
 @compiled
-def rest(coin, rules, time, steps_left, looks, knots):
-    """Follow a contact that lasts until the coin lifts off, another rim point lands, or the toss is decided.
+def follow_contact(coin, rules, time, steps_left, looks, knots):
+    """Follow a sustained contact until the coin lifts off, another rim point lands, or the toss is decided.
 
     Args:
         coin: MuJoCo's.
@@ -73,21 +75,20 @@ def rest(coin, rules, time, steps_left, looks, knots):
         time: now [s].
         steps_left: the most steps wanted.
         looks: see `models.perpetual.dies_away`.
-        knots: of the path, kept up; see `machine.keep`.
+        knots: of the path, kept up; see `knots.add_knot`.
 
     Returns:
-        `Left`, the time [s], the steps left, the outcome and the ending.
+        `ContactExit`, the time [s], the steps left, the outcome and the ending.
     """
     body = coin.body
     rate = (body.gravity / body.radius) ** 0.5
     unloaded, upright = 0.0, 0.0
-    set_margin(coin, REACH * body.radius)
     while time < rules.max_time:
         x, v, e, w = state_of(coin)
         up = rotation_matrix(e)[2]
         up_rate = cross(up, w)
         # Where the coin would be if it did not sink: the energy tests are finer than that.
-        z = x[2] - min(look(coin).height, 0.0)
+        z = x[2] - min(evaluate_gap(coin).gap, 0.0)
         outcome, ending = judge(body, rules, z, v, up, w)
         if ending == Ending.NONE and dies_away(body, rules, z, v, up, w, NO_LOSS, time, looks):
             outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
@@ -96,34 +97,69 @@ def rest(coin, rules, time, steps_left, looks, knots):
         if ending == Ending.NONE and steps_left <= 0:
             ending = Ending.CHATTER
         if ending != Ending.NONE:
-            return Left.DECIDED, time, steps_left, outcome, ending
+            return ContactExit.DECIDED, time, steps_left, outcome, ending
         dt, lands = next_step(coin, rules.restitution, up, up_rate, w)
         if lands:
             _pass_over(coin, dt)
-            return Left.LANDS, time + dt, steps_left, Outcome.UNDECIDED, Ending.NONE
+            return ContactExit.RIM_LANDS, time + dt, steps_left, Outcome.UNDECIDED, Ending.NONE
         dt = min(dt, rules.max_time - time)
-        grip = Grip(SOFTNESS / dt, LEVEL * slow_speed(coin, rules.restitution, w) * dt)
-        set_spring(coin, 0.0, 0.0, rate)
-        force = feel(coin, grip)
-        keep(coin, time, True, knots)
-        if force > 0 and coin.rubs:
-            push_and_rub(coin, grip, dt)
+        constraint = constrain(coin, rules.restitution, w, dt)
+        force = constrained_forward(coin, constraint)
+        add_knot(coin, time, Step.CONTACT, knots)
+        if force > 0 and coin.has_explicit_friction:
+            friction_step(coin, constraint, dt)
         else:
-            hold(coin, grip, dt)
+            constrained_step(coin, constraint, dt)
         time += dt
         steps_left -= 1
         on_edge = body.thickness > 0 and abs(up[2]) < UPRIGHT and abs(up_rate[2]) < UPRIGHT * rate
         upright = upright + dt if on_edge and force > 0 else 0.0
         unloaded = unloaded + dt if force == 0 else 0.0
         # Half a period of the spring.
-        if unloaded * grip.root > math.pi:
-            return Left.LIFTED, time, steps_left, Outcome.UNDECIDED, Ending.NONE
-    return Left.DECIDED, time, steps_left, Outcome.UNDECIDED, Ending.MAX_TIME
+        if unloaded * constraint.frequency > math.pi:
+            return ContactExit.LIFT_OFF, time, steps_left, Outcome.UNDECIDED, Ending.NONE
+    return ContactExit.DECIDED, time, steps_left, Outcome.UNDECIDED, Ending.MAX_TIME
+
+
+@compiled
+def constrain(coin, chi, w, dt):
+    """Return the `Constraint` of a step, with MuJoCo's contact set for it.
+
+    Args:
+        coin: MuJoCo's.
+        chi: restitution χ.
+        w: angular velocity, body frame, (3,) [rad/s].
+        dt: length of the step [s].
+    """
+    body = coin.body
+    set_margin(coin, REACH * body.radius)
+    set_spring(coin, 0.0, 0.0, (body.gravity / body.radius) ** 0.5)
+    return Constraint(SOFTNESS / dt, LEVEL * slow_speed(coin, chi, w) * dt)
+
+
+@compiled
+def floor_force(coin, chi, dt):
+    """Return the floor's force at the start of a step of a sustained contact, space frame, (3,) [N].
+
+    It is MuJoCo's own constraint force, and Coulomb's friction where that is explicit.
+
+    Args:
+        coin: MuJoCo's.
+        chi: restitution χ.
+        dt: length of the step [s].
+    """
+    constraint = constrain(coin, chi, state_of(coin)[3], dt)
+    if constrained_forward(coin, constraint) > 0 and coin.has_explicit_friction:
+        apply_friction(coin, constraint, dt)
+    f, g = coin.joint.qfrc_constraint, coin.joint.qfrc_applied
+    force = f[0] + g[0], f[1] + g[1], f[2] + g[2]
+    coin.joint.qfrc_applied[:] = 0
+    return force
 
 
 @compiled
 def next_step(coin, chi, up, up_rate, w):
-    """Give the length of the next step of a contact that lasts.
+    """Return the length of the next step of a sustained contact.
 
     In it the coin, and the lowest point on its way round the rim, turn by less than `ANGLE`. It ends
     before another rim point lands faster than `slow_speed`.
@@ -155,5 +191,5 @@ def next_step(coin, chi, up, up_rate, w):
 @compiled
 def _pass_over(coin, dt):
     """Let the coin pass over its edge, or face, in a time dt [s], and put it on the rim point that lands."""
-    glide(coin, dt / APPROACH * (2 - APPROACH))
-    coin.qpos[2] -= look(coin).height
+    free_step(coin, dt / APPROACH * (2 - APPROACH))
+    coin.joint.qpos[2] -= evaluate_gap(coin).gap

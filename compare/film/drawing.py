@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 
 from compare.film.play import Play
-from compare.film.visual_model import build_painted
+from compare.film.visual_model import build_visual_model
 from models.records import Array
 
 IMPULSE_COLOR, FORCE_COLOR = (0.80, 0.15, 0.50), (0.00, 0.55, 0.40)
@@ -59,7 +59,7 @@ class Box(NamedTuple):
 
 
 def box_of(plays: Sequence[Play]) -> Box:
-    """Give the box of some tosses of one coin together."""
+    """Return the box of some tosses of one coin together."""
     paths = np.concatenate([play.states.position for play in plays])
     r = plays[0].toss.scenario.coin.radius
     low, high = paths.min(axis=0) - 2 * r, paths.max(axis=0) + 2 * r
@@ -85,7 +85,7 @@ class Drawer:
         self._camera, view = _aimed(camera, box, r, width / height)
         self._longest = (LONGEST_NEAR if self._follows else LONGEST_FAR) * view
         far = float(np.linalg.norm(box.high - box.low)) + view
-        self._model = build_painted(scenario, extent=far, tile=max(2 * r, view / 12))
+        self._model = build_visual_model(scenario, extent=far, tile=max(2 * r, view / 12))
         if self._camera.orthographic:
             self._model.vis.global_.fovy = view
         self._model.vis.global_.offwidth, self._model.vis.global_.offheight = width, height
@@ -96,7 +96,7 @@ class Drawer:
         self._renderer = mujoco.Renderer(self._model, height, width)
 
     def __enter__(self) -> Self:
-        """Give the drawer itself."""
+        """Return the drawer itself."""
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -183,5 +183,5 @@ def _aimed(camera: Camera, box: Box, r: float, aspect: float) -> tuple[mujoco.Mj
 
 
 def _distance(view: float) -> float:
-    """Give from how far a camera sees a height [m]."""
+    """Return from how far a camera sees a height [m]."""
     return view / 2 / math.tan(math.radians(FIELD_OF_VIEW / 2))

@@ -1,16 +1,10 @@
 """A toss as a film shows it: the coin at the times of the frames, and what the floor does to it then."""
 
-# The MuJoCo wheel describes no types.
-# pyright: reportAttributeAccessIssue=false
-
 from dataclasses import dataclass
 from typing import NamedTuple
 
-import mujoco
 import numpy as np
 
-from coin_mj.model.air_callback import air_of
-from coin_mj.model.scene import compile_coin, described, shape_thickness
 from coin_mj.model.state import of_release
 from models.attitude import rotation_matrix
 from models.geometry import lowest_point
@@ -22,8 +16,6 @@ SHOWN_FOR = 0.015
 """How long after an impact its impulse is shown [s]."""
 WEAKEST = 0.02
 """An impulse below this part of its toss's largest is not shown."""
-BETWEEN = 2e-5
-"""Time between the two states whose difference gives the acceleration in a lasting contact [s]."""
 
 
 class Shown(NamedTuple):
@@ -47,12 +39,12 @@ class Play:
     states: States
     """At these times, (n,)."""
     forces: Array
-    """Of the floor in lasting contacts, 0 elsewhere, space frame, (n, 3) [N]."""
+    """Of the floor in sustained contacts, 0 elsewhere, space frame, (n, 3) [N]."""
     largest_impulse: float
     """Of the toss [N s]."""
 
     def impulses(self, i: int) -> list[Shown]:
-        """Give the impulses of the impacts of the last `SHOWN_FOR` before one of the times."""
+        """Return the impulses of the impacts of the last `SHOWN_FOR` before one of the times."""
         impacts, time = self.toss.impacts, self.times[i]
         first, last = np.searchsorted(impacts.time, (time - SHOWN_FOR, time), side="right")
         size = np.linalg.norm(impacts.impulse[first:last], axis=1)
@@ -66,18 +58,21 @@ class Play:
         ]
 
     def lowest_point(self, i: int) -> Array:
-        """Give the coin's lowest point at one of the times, space frame, (3,) [m]."""
+        """Return the coin's lowest point at one of the times, space frame, (3,) [m]."""
         states = self.states
         up = rotation_matrix(euler_parameters(states.quaternion[i]))[2]
         point, _ = lowest_point(self.toss.scenario.body, up, vector(states.angular_velocity[i]))
         return self._in_space(states.position[i], states.quaternion[i], np.array(point))
 
     def qpos(self, i: int) -> Array:
-        """Give MuJoCo's coordinates of the coin at one of the times, (7,)."""
-        return _mujoco_state(self.toss, self.states, i)[0]
+        """Return MuJoCo's coordinates of the coin at one of the times, (7,)."""
+        release = Release(
+            position=vector(self.states.position[i]), quaternion=euler_parameters(self.states.quaternion[i])
+        )
+        return of_release(self.toss.scenario.body, release)[0]
 
     def _in_space(self, position: Array, quaternion: Array, point: Array) -> Array:
-        """Give where a point of the coin, from B in the body frame, is in space."""
+        """Return where a point of the coin, from B in the body frame, is in space."""
         R = rotation_matrix(euler_parameters(quaternion))
         from_C = subtract(vector(point), self.toss.scenario.body.center)
         return np.array(add(vector(position), apply(R, from_C)))
@@ -95,51 +90,6 @@ def play_of(toss: Toss, times: Array) -> Play:
         toss=toss,
         times=times,
         states=toss.sample(times),
-        forces=floor_forces(toss, times),
+        forces=toss.floor_force(times),
         largest_impulse=float(np.linalg.norm(toss.impacts.impulse, axis=1).max(initial=0.0)),
     )
-
-
-def floor_forces(toss: Toss, times: Array) -> Array:
-    """Give the floor's force on the coin in its lasting contacts; 0 elsewhere, impacts included.
-
-    It is MuJoCo's mass matrix times what the coin's acceleration has beyond that of MuJoCo's flight: so it
-    is found for the path of either engine.
-
-    Args:
-        toss: by either engine.
-        times: within the toss, (n,) [s].
-
-    Returns:
-        Forces, space frame, (n, 3) [N].
-    """
-    forces = np.zeros((len(times), 3))
-    contact = np.searchsorted(toss.contacts[:, 0], times, side="right") - 1
-    start, end = np.vstack([toss.contacts, [(0.0, 0.0)]])[contact].T  # the row added is that of contact -1
-    held = np.flatnonzero((times <= end) & (end - start > BETWEEN))
-    if len(held) == 0:
-        return forces
-    first = np.clip(times[held] - BETWEEN / 2, start[held], end[held] - BETWEEN)
-    before, after = toss.sample(first), toss.sample(first + BETWEEN)
-    spec = described(toss.scenario, shape_thickness(toss.scenario))
-    spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
-    model = compile_coin(spec, toss.scenario)
-    data, force = mujoco.MjData(model), np.zeros(6)
-    with air_of(model):
-        for i, frame in enumerate(held):
-            data.qpos[:], data.qvel[:] = _mujoco_state(toss, before, i)
-            mujoco.mj_forward(model, data)
-            _, later = _mujoco_state(toss, after, i)
-            mujoco.mj_mulM(model, data, force, (later - data.qvel) / BETWEEN - data.qacc)
-            forces[frame] = force[:3]
-    return forces
-
-
-def _mujoco_state(toss: Toss, states: States, i: int) -> tuple[Array, Array]:
-    release = Release(
-        position=vector(states.position[i]),
-        velocity=vector(states.velocity[i]),
-        quaternion=euler_parameters(states.quaternion[i]),
-        angular_velocity=vector(states.angular_velocity[i]),
-    )
-    return of_release(toss.scenario.body, release)

@@ -47,7 +47,7 @@ def _strong_impacts(toss: Toss) -> Array:
 
 
 def _distance_to(places: Array, x: Array) -> Array:
-    """Give the distance from each x to the nearest of the sorted places."""
+    """Return the distance from each x to the nearest of the sorted places."""
     fenced = np.concatenate([[-np.inf], places, [np.inf]])
     after = np.searchsorted(fenced, x)
     return np.minimum(x - fenced[after - 1], fenced[after] - x)

@@ -36,7 +36,7 @@ FULL, SMALL = Format(1280, 720, 60), Format(960, 540, 30)
 
 
 def frame_count(tosses: Sequence[Toss], form: Format) -> int:
-    """Give the number of frames of a film."""
+    """Return the number of frames of a film."""
     return len(film_times(tosses, form.frames_per_second)[0]) + _held(form)
 
 
@@ -95,7 +95,7 @@ def write_video(
 
 
 def _held(form: Format) -> int:
-    """Give how many frames longer the last picture stays."""
+    """Return how many frames longer the last picture stays."""
     return round(HELD * form.frames_per_second)
 
 

@@ -16,7 +16,7 @@ _LETTERS = {
 }
 
 
-def build_painted(scenario: Scenario, *, extent: float, tile: float) -> mujoco.MjModel:
+def build_visual_model(scenario: Scenario, *, extent: float, tile: float) -> mujoco.MjModel:
     """Build a model to look at: heads golden with a dark H, tails blue with a white T. It has no contacts.
 
     Args:

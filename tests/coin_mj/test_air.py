@@ -13,9 +13,10 @@ import pytest
 import analytic.air.force
 from coin_mj.model.air import air_force
 from coin_mj.model.air_callback import air_of
-from coin_mj.model.machine import advance, forward, machine_of
+from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
 from coin_mj.model.settings import ContactSettings
+from coin_mj.steps.mujoco_step import forward, rk4_step
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 R, H = ZLOTY["radius"], ZLOTY["thickness"]
@@ -128,7 +129,7 @@ def flown(machine, steps=20):
 def fly_a_step(machine):
     with air_of(machine.model):
         forward(machine.coin)
-        advance(machine.coin, 1e-3)
+        rk4_step(machine.coin, 1e-3)
     return np.concatenate([machine.data.qpos, machine.data.qvel])
 
 

@@ -4,10 +4,12 @@ import numpy as np
 import pytest
 
 import analytic
-from coin_mj.model.machine import forward, machine_of, set_motion
+from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
 from coin_mj.model.settings import ContactSettings
-from coin_mj.path import MOTION, PRESSED, TIME
+from coin_mj.model.state import set_motion
+from coin_mj.path import MOTION, STEP, TIME
+from coin_mj.steps.mujoco_step import forward
 from coin_mj.toss import impacts_of, run, toss
 from compare.metrics.impulses import match
 from models.records import UnsupportedError
@@ -114,7 +116,7 @@ def test_the_impulse_is_the_integral_of_the_contact_force():
     machine = machine_of(case, ContactSettings(), shape_thickness(case))
     answer = run(machine, case.rules)
     assert len(answer.rows) == 1
-    pressed = answer.knots[answer.knots[:, PRESSED] > 0]
+    pressed = answer.knots[answer.knots[:, STEP] > 0]
     forces = [force_at(machine.coin, knot) for knot in pressed]
     assert len(forces) > 100
     integral = np.trapezoid([*forces, 0.0], [*pressed[:, TIME], answer.end_time])

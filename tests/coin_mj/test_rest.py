@@ -8,7 +8,7 @@ from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
 from coin_mj.model.settings import ContactSettings
 from coin_mj.model.state import to_mass_center
-from coin_mj.path import MOTION, PRESSED, TIME
+from coin_mj.path import MOTION, STEP, TIME
 from coin_mj.toss import run
 from compare.reproduction.studies.endings import probability
 from models.attitude import quaternion_from_angles, rotation_matrix
@@ -28,7 +28,7 @@ def contact_of(case):
     machine = machine_of(case, ContactSettings(), shape_thickness(case))
     answer = run(machine, case.rules)
     assert len(answer.contacts) == 1
-    chosen = answer.knots[answer.knots[:, PRESSED] > 0]
+    chosen = answer.knots[answer.knots[:, STEP] > 0]
     return (
         chosen[:, TIME],
         [to_mass_center(case.body, k[MOTION][:7], k[MOTION][7:]) for k in chosen],

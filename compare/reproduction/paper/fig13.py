@@ -10,8 +10,9 @@ from matplotlib.figure import Figure as Picture
 from analytic.air.force import force_and_moment
 from analytic.air.velocity_field import SurfaceFields, velocity_fields
 from coin_mj import ContactSettings
-from coin_mj.model.machine import forward, machine_of
+from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
+from coin_mj.steps.mujoco_step import forward
 from compare.reproduction.findings import Finding, Result, paper_figure
 from compare.reproduction.runner import Progress
 from models.reading import load

@@ -17,13 +17,12 @@ import pytest
 
 from compare.film.captions import caption_of, written
 from compare.film.drawing import LONGEST_FAR, LONGEST_NEAR, MARGIN, Box, Camera, Drawer, box_of
-from compare.film.play import SHOWN_FOR, WEAKEST, floor_forces, play_of
+from compare.film.play import SHOWN_FOR, WEAKEST, play_of
 from compare.film.slow_motion import FAST, LONGEST, SLOW, SLOW_FOR, WEAK, film_times
 from compare.film.video import HELD, Format, frame_count, frames, write_video
-from compare.film.visual_model import build_painted
-from models.drag import linear_drag
+from compare.film.visual_model import build_visual_model
 from models.records import IMPACT_ROW, Array, Ending, Face, Impacts, Outcome, States, Toss
-from tests.helpers.draws import AIR, ZLOTY, scenario
+from tests.helpers.draws import ZLOTY, scenario
 
 TINY = Format(64, 48, 4)
 R = ZLOTY["radius"]
@@ -40,6 +39,10 @@ class Made:
     acceleration: tuple[float, float, float] = (0.0, 0.0, 0.0)
     quaternion: tuple[float, float, float, float] = FLAT
     start: float = 0.0
+    force: tuple[float, float, float] = (0.0, 0.0, ZLOTY["mass"] * 9.81)
+
+    def floor_force(self, times: Array) -> Array:
+        return np.tile(self.force, (len(times), 1))
 
     def sample(self, times: Array) -> States:
         x, v, a = (np.array(part) for part in (self.position, self.velocity, self.acceleration))
@@ -54,7 +57,7 @@ class Made:
 
 
 def made(path, *, impacts=(), contacts=(), end=1.0, engine="mujoco", outcome=Outcome.HEADS, **parts):
-    """Make a toss: a path, impacts as (time, S_z) below the coin, and lasting contacts."""
+    """Make a toss: a path, impacts as (time, S_z) below the coin, and sustained contacts."""
     rows = np.zeros(len(impacts), IMPACT_ROW)
     for row, (time, S_z) in zip(rows, impacts, strict=True):
         row["time"], row["impulse"], row["face"] = time, (0, 0, S_z), Face.HEADS
@@ -158,7 +161,7 @@ def test_the_face_that_is_up_shows_its_colour(thickness, quaternion, color):
 
 
 def test_the_faces_and_their_letters_differ_in_brightness_too():
-    model = build_painted(scenario(), extent=1.0, tile=0.1)
+    model = build_visual_model(scenario(), extent=1.0, tile=0.1)
 
     def luminance(name):
         color = model.material(name).rgba[:3]
@@ -170,9 +173,9 @@ def test_the_faces_and_their_letters_differ_in_brightness_too():
     assert luminance("tails_letter") / luminance("tails") > 3
 
 
-def test_the_painted_coin_has_no_contacts_and_the_same_mass():
+def test_the_visual_coin_has_no_contacts_and_the_same_mass():
     case = scenario(coin={"center_of_mass": [-1e-3, -1e-3, -2e-4]})
-    model = build_painted(case, extent=1.0, tile=0.1)
+    model = build_visual_model(case, extent=1.0, tile=0.1)
     data = mujoco.MjData(model)
     data.qpos[2] = 0
     mujoco.mj_forward(model, data)
@@ -263,21 +266,6 @@ def test_the_coin_does_not_hide_an_arrow():
     with_arrow = pink(drawn(toss, [0.5], Camera.CLOSE_UP)[0]).sum()
     away = made(Made(position=(0, 0, 20 * R), quaternion=UPRIGHT), impacts=[(0.5, 1e-3)])
     assert pink(drawn(away, [0.5], Camera.CLOSE_UP)[0]).sum() == pytest.approx(with_arrow, rel=0.3)
-
-
-def test_the_floors_force_carries_the_coin_drags_it_and_balances_the_air():
-    """m (a + g) and, without air, nothing else; at constant speed the floor pulls against the drag."""
-    weight = 2e-3 * 9.81
-    times = np.array([0.1, 0.2, 0.35, 0.5, 0.9])
-    sliding = Made(position=(0, 0, 0.001), velocity=(0.3, 0, 0), acceleration=(-0.7, 0, 0))
-    toss = made(sliding, contacts=[(0.2, 0.5)])
-    expected = np.zeros((5, 3))
-    expected[1:4] = (-0.7 * 2e-3, 0, weight)
-    assert floor_forces(toss, times) == pytest.approx(expected, abs=1e-9 * weight)
-    steady = made(Made(position=(0, 0, 0.001), velocity=(0.3, 0, 0)), contacts=[(0, 1)], air=AIR)
-    drag = linear_drag(ZLOTY["radius"], ZLOTY["thickness"], AIR["normal"], AIR["tangential"])
-    force = floor_forces(steady, times)[2]
-    assert force == pytest.approx([0.3 * drag.force_tangential, 0, weight], abs=1e-9 * weight)
 
 
 def test_a_force_is_an_arrow_as_long_as_the_contact_lasts():

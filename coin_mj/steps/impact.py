@@ -3,44 +3,36 @@
 import math
 from enum import IntEnum
 
-from coin_mj.model.machine import (
-    forward,
-    keep,
-    look,
-    momentum_of,
-    motion_of,
-    other_force,
-    push,
-    set_margin,
-    set_motion,
-    set_spring,
-)
-from coin_mj.steps.constrained_step import Grip
-from coin_mj.steps.friction import push_and_rub
+from coin_mj.model.state import momentum_of, motion_of, set_motion
+from coin_mj.steps.constrained_step import Constraint
+from coin_mj.steps.friction import friction_step
+from coin_mj.steps.gap_evaluation import evaluate_gap
+from coin_mj.steps.knots import Step, add_knot
+from coin_mj.steps.mujoco_step import forward, impact_step, other_force, set_margin, set_spring
 from models.attitude import quaternion_product, rotation_matrix
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, apply, apply_transposed, scale, subtract
 
 TOUCH_STEP = 1e-3
 """A touch is located to within this part of a contact step."""
-LASTING = 20
-"""A contact that goes on for so many times its proper duration is no impact."""
+SUSTAINED = 20
+"""A contact of more than SUSTAINED times the duration of an impact is none."""
 FLAT = 1e-8
 """A sine of the tilt that no contact can tell from flat: over the whole coin it is 1e-8 of its width."""
 
 
-class Pressed(IntEnum):
-    """What became of a touch."""
+class TouchResult(IntEnum):
+    """What a touch turned out to be."""
 
-    NOTHING = 0
-    """The coin left the floor without being pressed."""
+    MISSED = 0
+    """The coin left the floor before any force acted."""
     IMPACT = 1
-    LASTS = 2
-    """The contact went on for `LASTING` times its proper duration, and was left there."""
+    SUSTAINED = 2
+    """The contact outlasted `SUSTAINED` impacts, and the coin is still in it."""
 
 
 @compiled
-def press(coin, time, knots):
+def resolve_impact(coin, time, knots):
     """Follow a contact from the touch to the release of all rim points.
 
     On a coin that lands flat there is no Coulomb force: its impulse goes through C, as in the paper's
@@ -52,24 +44,24 @@ def press(coin, time, knots):
     Args:
         coin: MuJoCo's.
         time: of the touch [s].
-        knots: of the path, kept up; see `machine.keep`.
+        knots: of the path, kept up; see `knots.add_knot`.
 
     Returns:
-        `Pressed`; the time of release [s]; and the integral of the floor's force, space frame, (3,) [N s].
+        `TouchResult`; time of the release [s]; integral of the floor's force, space frame, (3,) [N s].
     """
     set_margin(coin, 0.0)
     set_spring(coin, coin.rebound.stiffness, coin.rebound.damping, coin.rebound.slip_damping)
-    up = rotation_matrix(coin.qpos[3:])[2]
+    up = rotation_matrix(coin.joint.qpos[3:])[2]
     if math.hypot(up[0], up[1]) > FLAT:
-        return _press(coin, coin.rubs, time, knots)
+        return _resolve(coin, coin.has_explicit_friction, time, knots)
     first = len(knots)
     turn, spin = _turn_level(coin, up[2])
-    pressed, end, impulse = _press(coin, False, time, knots)
+    result, end, impulse = _resolve(coin, False, time, knots)
     for number in range(first, len(knots)):
         knot = knots[number]
         knots[number] = knot[:2] + _turned_back(turn, spin, knot[0] - time, knot[2:])
     set_motion(coin, _turned_back(turn, spin, end - time, motion_of(coin)))
-    return pressed, end, apply(rotation_matrix(turn), impulse)
+    return result, end, apply(rotation_matrix(turn), impulse)
 
 
 @compiled
@@ -80,7 +72,7 @@ def _turn_level(coin, n_z):
         turn: Euler parameters of the turn back, (4,).
         spin: ω_ζ, taken out [rad/s].
     """
-    q, v = coin.qpos, coin.qvel
+    q, v = coin.joint.qpos, coin.joint.qvel
     e = (q[3], q[4], q[5], q[6])
     # Times the conjugate of the flat attitude: (1, 0, 0, 0), or (0, 1, 0, 0) with tails up.
     turn = e if n_z > 0 else quaternion_product(e, (0.0, -1.0, 0.0, 0.0))
@@ -96,7 +88,7 @@ def _turn_level(coin, n_z):
 
 @compiled
 def _turned_back(turn, spin, elapsed, motion):
-    """Turn a state back, and give it its spin and the angle that it would have spun, (13,)."""
+    """Return a state turned back, with its spin and the angle that it would have spun, (13,)."""
     angle = spin * elapsed / 2
     spun = (math.cos(angle), 0.0, 0.0, math.sin(angle))
     e = quaternion_product(quaternion_product(turn, motion[3:7]), spun)
@@ -105,30 +97,30 @@ def _turned_back(turn, spin, elapsed, motion):
 
 
 @compiled
-def _press(coin, rubs, time, knots):
+def _resolve(coin, has_friction, time, knots):
     start, momentum, other = time, momentum_of(coin), (0.0, 0.0, 0.0)
-    pressed, result = False, Pressed.LASTS
-    while time - start <= LASTING * coin.rebound.duration:
+    acted, result = False, TouchResult.SUSTAINED
+    while time - start <= SUSTAINED * coin.rebound.duration:
         force = forward(coin)
         if force == 0:
-            if pressed:
-                result = Pressed.IMPACT
+            if acted:
+                result = TouchResult.IMPACT
                 break
-            if look(coin).speed >= 0:
-                result = Pressed.NOTHING
+            if evaluate_gap(coin).speed >= 0:
+                result = TouchResult.MISSED
                 break
         # Tiny steps up to the onset, so that it falls between two steps, not into one.
         dt = coin.rebound.step * (1.0 if force > 0 else TOUCH_STEP)
-        pressed = pressed or force > 0
+        acted = acted or force > 0
         other = add(other, scale(dt, other_force(coin)))
-        keep(coin, time, True, knots)
-        if force > 0 and rubs:
-            push_and_rub(coin, Grip(0.0, 0.0), dt)
+        add_knot(coin, time, Step.IMPACT, knots)
+        if force > 0 and has_friction:
+            friction_step(coin, Constraint(0.0, 0.0), dt)
         else:
-            push(coin, dt)
+            impact_step(coin, dt)
         time += dt
-        if pressed and coin.has_one_step:
-            coin.qpos[2] -= min(look(coin).height, 0.0)
-            result = Pressed.IMPACT
+        if acted and coin.has_one_step:
+            coin.joint.qpos[2] -= min(evaluate_gap(coin).gap, 0.0)
+            result = TouchResult.IMPACT
             break
     return result, time, subtract(subtract(momentum_of(coin), momentum), other)

@@ -1,0 +1,156 @@
+"""Where MuJoCo keeps the numbers of a model and its data: addresses and views for compiled code."""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
+import ctypes
+from functools import cache
+from typing import Any
+
+import mujoco
+import numpy as np
+from mujoco.introspect import ast_nodes
+from mujoco.introspect.structs import STRUCTS
+from numba.np.numpy_support import carray
+
+from coin_mj.model.library import pointer_to
+from models.kernel.compiled import compiled
+from models.records import UnusableEngineError
+
+_SCALARS: dict[str, Any] = {
+    "int": ctypes.c_int32,
+    "float": ctypes.c_float,
+    "mjtNum": ctypes.c_double,
+    "mjtSize": ctypes.c_int64,
+    "mjtBool": ctypes.c_bool,
+    "mjtByte": ctypes.c_uint8,
+    "uint64_t": ctypes.c_uint64,
+    "size_t": ctypes.c_size_t,
+    "uintptr_t": ctypes.c_size_t,
+}
+_OF_JOINT = (
+    "qpos",
+    "qvel",
+    "qacc",
+    "qacc_smooth",
+    "qfrc_constraint",
+    "qfrc_actuator",
+    "qfrc_passive",
+    "qfrc_applied",
+)
+
+
+class LayoutError(UnusableEngineError):
+    """MuJoCo's memory is not laid out as MuJoCo describes it."""
+
+
+def _misplaced(struct: str, field: str) -> LayoutError:
+    return LayoutError(
+        f"MuJoCo {mujoco.__version__}: {struct}.{field} does not lie where mujoco.introspect says; "
+        'accepted: a MuJoCo in which it does, such as pip install "mujoco>=4.0,<4.1" installs'
+    )
+
+
+def offset_of(struct: str, field: str) -> int:
+    """Return where a field lies in one of MuJoCo's structs, as MuJoCo describes it [bytes].
+
+    Args:
+        struct: mjModel or mjData.
+        field: its name; with dots, as in opt.timestep, that of a struct in it.
+
+    Raises:
+        LayoutError: if there is no such field, or a field of a type that is not known.
+    """
+    offset, kind = 0, _layout(struct)
+    for name in field.split("."):
+        kinds = dict(kind._fields_)
+        if name not in kinds:
+            raise _misplaced(struct, field)
+        offset, kind = offset + getattr(kind, name).offset, kinds[name]
+    return offset
+
+
+def require_layout(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Compare what lies where MuJoCo describes its fields with what its Python binding shows.
+
+    The last field of either struct is its signature, so the size of all before it counts.
+
+    Raises:
+        LayoutError: naming a field that lies elsewhere.
+    """
+    for struct, name, field, shown in (
+        (model, "mjModel", "opt.timestep", ctypes.c_double(model.opt.timestep)),
+        (model, "mjModel", "signature", ctypes.c_uint64(model.signature)),
+        (data, "mjData", "qpos", ctypes.c_size_t(data.qpos.ctypes.data)),
+        (data, "mjData", "signature", ctypes.c_uint64(data.signature)),
+    ):
+        there = ctypes.string_at(struct._address + offset_of(name, field), ctypes.sizeof(shown))
+        if there != bytes(shown):
+            raise _misplaced(name, field)
+
+
+@cache
+def _layout(struct: str) -> Any:
+    return _structure(struct, STRUCTS[struct].fields)
+
+
+def _structure(struct: str, fields: Any) -> Any:
+    """Return a ctypes structure with these fields."""
+    kinds = [(field.name, _kind(struct, field.name, field.type)) for field in fields]
+    return type(struct, (ctypes.Structure,), {"_fields_": kinds})
+
+
+def _kind(struct: str, field: str, described: Any) -> Any:
+    """Return the ctypes type of a field from MuJoCo's description of it."""
+    if isinstance(described, ast_nodes.PointerType):
+        return ctypes.c_void_p
+    if isinstance(described, ast_nodes.ArrayType):
+        kind = _kind(struct, field, described.inner_type)
+        for length in reversed(described.extents):
+            kind = kind * length
+        return kind
+    if isinstance(described, ast_nodes.AnonymousStructDecl):
+        return _structure(struct, described.fields)
+    if described.name in STRUCTS:
+        return _layout(described.name)
+    if described.name not in _SCALARS:
+        raise _misplaced(struct, field)
+    return _SCALARS[described.name]
+
+
+def joint_arrays(data: mujoco.MjData) -> Any:
+    """Return MuJoCo's arrays of the free joint as one record of views, which `data` must outlive.
+
+    They are qpos, (7,), and qvel, qacc, qacc_smooth, qfrc_constraint, qfrc_actuator, qfrc_passive and
+    qfrc_applied, (6,) each. Compiled code passes a record as one number, but an array as seven.
+    """
+    arrays = sorted((getattr(data, name).ctypes.data, name, getattr(data, name).size) for name in _OF_JOINT)
+    start = arrays[0][0]
+    kind = _joint_kind(tuple((name, size, address - start) for address, name, size in arrays))
+    memory: Any = (ctypes.c_char * kind.itemsize).from_address(start)
+    return np.frombuffer(memory, kind)[0]
+
+
+@cache
+def _joint_kind(arrays: tuple[tuple[str, int, int], ...]) -> np.dtype[Any]:
+    names, sizes, offsets = zip(*arrays, strict=True)
+    formats = [(np.float64, size) for size in sizes]
+    return np.dtype({"names": names, "formats": formats, "offsets": offsets})
+
+
+@compiled
+def numbers_at(address, shape):
+    """Return the numbers of MuJoCo at an address as an array of this shape, of float64."""
+    return carray(pointer_to(address, np.float64), shape)
+
+
+@compiled
+def address_at(address):
+    """Return the address that a field of MuJoCo's at an address holds."""
+    return carray(pointer_to(address, np.int64), (1,))[0]
+
+
+@compiled
+def integer_at(address):
+    """Return the integer of MuJoCo at an address."""
+    return carray(pointer_to(address, np.int32), (1,))[0]

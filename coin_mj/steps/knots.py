@@ -1,0 +1,36 @@
+"""Knots of the path of MuJoCo's coin: the states before its steps."""
+
+from enum import IntEnum
+
+from coin_mj.model.state import motion_of
+from models.kernel.compiled import compiled
+
+
+class Step(IntEnum):
+    """What kind of step starts at a knot."""
+
+    FLIGHT = 0
+    IMPACT = 1
+    CONTACT = 2
+    """Of a sustained contact."""
+
+
+@compiled
+def add_knot(coin, time, step, knots):
+    """Add the present state to the path.
+
+    Args:
+        coin: MuJoCo's.
+        time: now [s].
+        step: the `Step` that starts there.
+        knots: the path so far, (time, step, qpos, qvel) each; empty where the path is not kept.
+    """
+    if len(knots) > 0:
+        knots.append(knot_of(coin, time, step))
+
+
+@compiled
+def knot_of(coin, time, step):
+    """Return the present state as a knot, (15,); see `add_knot`."""
+    when = (time, float(step.value))
+    return when + motion_of(coin)
