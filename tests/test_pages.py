@@ -1,0 +1,181 @@
+"""README and the pages of docs/: their Python runs, their commands are those of the command line."""
+
+import re
+import shlex
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import click
+import pytest
+
+from compare.cli import main
+from models.reading import parse
+from tests.helpers.command_line import cointoss
+
+TOP = Path(__file__).parents[1]
+PAGES = [TOP / "README.md", *sorted((TOP / "docs").glob("*.md"))]
+MOST_TOSSES = 150_000
+"""Of a map that is made here; a second or two."""
+PLACEHOLDER = re.compile(r"\[|\.\.\.|\b(?!T\b|H+\b)[A-Z]{2,}\b(?![-.\w]*[a-z])")
+"""What a line of a synopsis has and a command that can be run has not."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """A block of code on a page: its language where a fence names one, and its text."""
+
+    language: str
+    text: str
+
+
+def blocks(page: str) -> list[Block]:
+    """Return the blocks of code of a page in their order, fenced ones and indented ones."""
+    found, lines = [], page.splitlines()
+    while lines:
+        line = lines.pop(0)
+        if line.startswith("```"):
+            end = lines.index("```")
+            found.append(Block(line[3:].strip(), "\n".join(lines[:end])))
+            del lines[: end + 1]
+        elif line.startswith("    "):
+            part = [line]
+            while lines and (lines[0].startswith("    ") or not lines[0]):
+                part.append(lines.pop(0))
+            found.append(Block("", "\n".join(text[4:] for text in part)))
+    return found
+
+
+def commands(text: str) -> list[str]:
+    """Return the lines of a block that call `cointoss`, continued lines joined and comments left out."""
+    joined = re.sub(r"\\\n\s*", "", text)
+    called = re.findall(r"^(?:\$ )?(cointoss .*)$", joined, flags=re.MULTILINE)
+    return [re.sub(r"\s+#.*$", "", line) for line in called]
+
+
+def is_synopsis(command: str) -> bool:
+    return PLACEHOLDER.search(command) is not None
+
+
+def subcommand(word: str) -> click.Command:
+    return main.get_command(click.Context(main), word)
+
+
+def options(command: click.Command) -> set[str]:
+    return {"--help"} | {
+        name for parameter in command.params for name in parameter.opts if name.startswith("--")
+    }
+
+
+def runs_here(words: list[str]) -> bool:
+    """Tell whether a command takes but a few seconds and needs nothing but a folder."""
+    tosses = [int(count) for count in re.findall(r"=[^ ]*:(\d+)\b", " ".join(words))]
+    few = len(tosses) == 2 and tosses[0] * tosses[1] <= MOST_TOSSES
+    slow = {"--engine", "--compare", "--scheduler", "--resume"}
+    return words[0] == "toss" or (words[0] == "basin" and few and not slow & set(words))
+
+
+def written(page: Path) -> list[Block]:
+    return blocks(page.read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_the_code_of_a_page_runs_from_top_to_bottom(page, tmp_path, monkeypatch):
+    """Python in one namespace for each page, and the fast commands, in one folder."""
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, Any] = {"__name__": "page"}
+    for block in written(page):
+        for command in commands(block.text):
+            words = shlex.split(command)[1:]
+            if is_synopsis(command):
+                known = options(subcommand(words[0]))
+                assert set(re.findall(r"--[a-z-]+", command)) <= known, command
+            elif runs_here(words):
+                answered = cointoss(*words)
+                assert answered.exit_code == 0, answered.stderr
+                assert_shown(block.text, command, answered.stdout)
+            else:
+                main.make_context("cointoss", words[:1])
+                assert subcommand(words[0]).make_context(words[0], words[1:]).params
+        if block.language == "python":
+            exec(compile(block.text, page.name, "exec"), names)
+        if "[coin]" in block.text and "[release]" in block.text and block.language in ("", "toml"):
+            assert parse(block.text, page.name).coin.mass > 0
+
+
+def assert_shown(block: str, command: str, stdout: str) -> None:
+    """What a block shows below its only command is in the answer, numbers to a part in a thousand."""
+    joined = re.sub(r"\\\n\s*", "", block)
+    if len(commands(joined)) > 1:
+        return
+    _, _, below = joined.partition(command)
+    answer = [line.split() for line in stdout.splitlines()]
+    for line in below.splitlines()[1:]:
+        if line.strip() and not line.strip().startswith(("...", "…", "#")):
+            assert any(is_same(line.split(), told) for told in answer), f"{line!r} is not in\n{stdout}"
+
+
+def is_same(shown: list[str], told: list[str]) -> bool:
+    return len(shown) == len(told) and all(
+        a == b or (is_number(a) and is_number(b) and float(a) == pytest.approx(float(b), rel=1e-3))
+        for a, b in zip(shown, told, strict=True)
+    )
+
+
+def is_number(text: str) -> bool:
+    return re.fullmatch(r"[-+]?\d+(\.\d*)?(e[-+]?\d+)?", text) is not None
+
+
+def test_there_is_code_to_run():
+    code = {page.name: written(page) for page in PAGES}
+    assert sum(block.language == "python" for block in code["README.md"]) >= 2
+    called = [command for block in code["README.md"] for command in commands(block.text)]
+    assert any(runs_here(shlex.split(command)[1:]) for command in called)
+    assert sum(len(commands(block.text)) for parts in code.values() for block in parts) >= 20
+
+
+PAGE = """
+Text `cointoss toss` in a line.
+
+    cointoss toss fig24a --max-impacts 2
+    sequence  HH
+
+    cointoss basin fig24a --x a=1:2:400 \\
+        --y b=1:2:300 --out map.zarr   # makes a map
+
+```python
+x = 1
+```
+
+    cointoss toss SCENARIO [--json]
+"""
+
+
+def test_blocks_and_commands_are_found_as_they_are_written():
+    found = blocks(PAGE)
+    assert [block.language for block in found] == ["", "python", ""]
+    assert found[1].text == "x = 1"
+    first, second = commands(found[0].text)
+    assert second == "cointoss basin fig24a --x a=1:2:400 --y b=1:2:300 --out map.zarr"
+    assert runs_here(shlex.split(second)[1:])
+    assert not runs_here(shlex.split(second.replace("400", "4000"))[1:])
+    assert not is_synopsis(first)
+    assert not is_synopsis(second)
+    assert is_synopsis(commands(found[2].text)[0])
+
+
+def test_an_answer_that_is_not_the_one_shown_is_seen():
+    block = "cointoss toss fig24a --max-impacts 2\n\n{}\n"
+    answered = cointoss("toss", "fig24a", "--max-impacts", 2)
+    line = next(line for line in answered.stdout.splitlines() if line.startswith("sequence"))
+    assert_shown(block.format(line), "cointoss toss fig24a --max-impacts 2", answered.stdout)
+    with pytest.raises(AssertionError, match="is not in"):
+        assert_shown(block.format(f"{line}T"), "cointoss toss fig24a --max-impacts 2", answered.stdout)
+
+
+@pytest.mark.parametrize("name", sorted(main.commands))
+def test_every_command_has_a_help_that_names_all_its_options(name):
+    answered = cointoss(name, "--help")
+    assert answered.exit_code == 0
+    assert len(options(subcommand(name))) > 1
+    assert all(option in answered.stdout for option in options(subcommand(name)))
