@@ -14,7 +14,7 @@ from compare.metrics.comparison import Comparison
 from compare.metrics.sequences import SAFETY, aligned
 from compare.output.answer import MOST_SHOWN, shortened
 from compare.report.map_section import MapSection
-from models.laws import ContactLaw, EndingTest
+from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.records import Face, Toss
 from models.scenario import Scenario
 
@@ -86,7 +86,7 @@ def _parameters(scenario: Scenario) -> list[tuple[str, str, str]]:
 
 
 def _shown(value: Any) -> str:
-    if isinstance(value, ContactLaw | EndingTest):
+    if isinstance(value, ContactLaw | EndingTest | RestitutionKind):
         return value.label
     if isinstance(value, tuple):
         return "(" + ", ".join(_shown(item) for item in value) + ")"

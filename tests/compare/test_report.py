@@ -90,7 +90,7 @@ def test_the_page_stands_alone_and_has_its_parts(folder):
     assert text.count("<svg") == 6
     assert "center_of_mass" in text
     assert "°" in text
-    assert "share no equation" not in text
+    assert "<code>floor.restitution_kind</code></td><td>kinematic</td>" in text
     for name, version in versions().items():
         assert name in text
         assert version in text
