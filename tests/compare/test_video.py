@@ -31,7 +31,7 @@ UPRIGHT = (0.5**0.5, 0.5**0.5, 0.0, 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Made:
+class MadePath:
     """A path at constant attitude: position + velocity t + acceleration t²/2, from `start` on."""
 
     position: tuple[float, float, float]
@@ -111,7 +111,7 @@ def center(mask):
 
 
 def test_the_film_runs_from_release_to_the_last_end_and_slows_down_at_impacts():
-    path = Made(position=(0, 0, 0.1))
+    path = MadePath(position=(0, 0, 0.1))
     tosses = [made(path, impacts=[(0.3, 1e-3)]), made(path, impacts=[(0.7, 1e-3)], end=1.5)]
     times, speeds = film_times(tosses, 60)
     assert (times[0], times[-1]) == (0, 1.5)
@@ -126,7 +126,7 @@ def test_the_film_runs_from_release_to_the_last_end_and_slows_down_at_impacts():
 
 
 def test_the_film_is_not_slowed_down_for_weak_impacts_which_show_no_arrow():
-    path = Made(position=(0, 0, 0.1))
+    path = MadePath(position=(0, 0, 0.1))
     toss = made(path, impacts=[(0.3, 1e-3), (0.6, 0.99 * WEAK * 1e-3), (0.8, 0.99 * WEAKEST * 1e-3)])
     times, speeds = film_times([toss], 60)
     assert min(speeds[times > 0.5]) == pytest.approx(FAST, rel=1e-12)
@@ -135,7 +135,7 @@ def test_the_film_is_not_slowed_down_for_weak_impacts_which_show_no_arrow():
 
 @pytest.mark.parametrize("impacts", [0, 2000])
 def test_the_longest_toss_has_no_more_frames_than_fit(impacts):
-    path = Made(position=(0, 0, 0.1))
+    path = MadePath(position=(0, 0, 0.1))
     end = 5000.0
     toss = made(path, impacts=[(t, 1e-3) for t in np.linspace(1, end, impacts)], end=end)
     times, speeds = film_times([toss], 60)
@@ -151,7 +151,7 @@ def test_the_longest_toss_has_no_more_frames_than_fit(impacts):
 @pytest.mark.parametrize(("quaternion", "color"), [(FLAT, golden), (TURNED, blue)])
 def test_the_face_that_is_up_shows_its_colour(thickness, quaternion, color):
     """The faces of a thin coin are in one plane, too."""
-    toss = made(Made(position=(0, 0, 0.05), quaternion=quaternion), coin={"thickness": thickness})
+    toss = made(MadePath(position=(0, 0, 0.05), quaternion=quaternion), coin={"thickness": thickness})
     (picture,) = drawn(toss, [0], Camera.TOP)
     other = blue if color is golden else golden
     assert not other(picture).any()
@@ -186,7 +186,7 @@ def test_the_visual_coin_has_no_contacts_and_the_same_mass():
 
 def test_the_coin_is_where_its_path_is_seen_from_above():
     """From afar, so a length is the same number of pixels at every height."""
-    toss = made(Made(position=(0, 0, 0.3), velocity=(0.06, 0.04, -0.25)))
+    toss = made(MadePath(position=(0, 0, 0.3), velocity=(0.06, 0.04, -0.25)))
     first, last = drawn(toss, [0, 1], Camera.TOP)
     deep = 0.04 + 4 * R
     scale = 48 / (MARGIN * max(deep, (0.06 + 4 * R) * 48 / 64))
@@ -197,7 +197,7 @@ def test_the_coin_is_where_its_path_is_seen_from_above():
 
 
 def test_the_overview_sees_the_coin_from_release_to_the_floor():
-    toss = made(Made(position=(0, 0, 0.2), velocity=(0, 0, -0.19), quaternion=UPRIGHT))
+    toss = made(MadePath(position=(0, 0, 0.2), velocity=(0, 0, -0.19), quaternion=UPRIGHT))
     pictures = drawn(toss, [0, 0.5, 1], Camera.OVERVIEW)
     rows = [center(blue(picture) | golden(picture))[0] for picture in pictures]
     assert rows[0] < 12
@@ -207,7 +207,7 @@ def test_the_overview_sees_the_coin_from_release_to_the_floor():
 
 @pytest.mark.parametrize("camera", [Camera.OVERVIEW, Camera.TOP])
 def test_a_camera_at_rest_shows_the_path_up_to_now(camera):
-    toss = made(Made(position=(0, 0, 0.2), velocity=(0.3, 0.002, -0.002)))
+    toss = made(MadePath(position=(0, 0, 0.2), velocity=(0.3, 0.002, -0.002)))
     pictures = drawn(toss, [0, 0.5, 1], camera, height=192, width=256)
     first, middle, last = (picture.sum(axis=2) for picture in pictures)
     # Between where the coin is at these times.
@@ -221,14 +221,14 @@ def test_a_camera_at_rest_shows_the_path_up_to_now(camera):
 
 
 def test_the_close_up_follows_the_coin():
-    toss = made(Made(position=(0, 0, 0.3), velocity=(0.3, 0.2, -0.25)))
+    toss = made(MadePath(position=(0, 0, 0.3), velocity=(0.3, 0.2, -0.25)))
     for picture in drawn(toss, [0, 0.5, 1], Camera.CLOSE_UP):
         assert center(golden(picture)) == pytest.approx([24, 32], abs=2)
 
 
 def test_a_coin_high_up_is_seen_close_by():
     """The nearest that a camera draws is a part of the scene's extent."""
-    toss = made(Made(position=(0, 0, 1000.0), velocity=(0, 0, -1000.0)))
+    toss = made(MadePath(position=(0, 0, 1000.0), velocity=(0, 0, -1000.0)))
     box = box_of([play_of(toss, np.array([0, 0.99]))])
     (picture,) = drawn(toss, [0], Camera.CLOSE_UP, box=box)
     assert golden(picture).any()
@@ -238,7 +238,7 @@ def test_a_coin_high_up_is_seen_close_by():
 
 
 def test_an_impulse_is_an_arrow_from_the_impact_on_and_not_for_long():
-    toss = made(Made(position=(0, 0, 0.001), quaternion=FLAT), impacts=[(0.5, 1e-3)])
+    toss = made(MadePath(position=(0, 0, 0.001), quaternion=FLAT), impacts=[(0.5, 1e-3)])
     times = [0.499, 0.5, 0.5 + SHOWN_FOR / 2, 0.5 + 1.01 * SHOWN_FOR]
     seen = [pink(picture).sum() for picture in drawn(toss, times, Camera.CLOSE_UP)]
     assert seen[0] == seen[3] == 0
@@ -251,7 +251,7 @@ def test_an_impulse_is_an_arrow_from_the_impact_on_and_not_for_long():
     ("camera", "part"), [(Camera.CLOSE_UP, LONGEST_NEAR), (Camera.OVERVIEW, LONGEST_FAR)]
 )
 def test_an_arrow_is_as_long_as_the_impulse_is_large(camera, part):
-    toss = made(Made(position=(0, 0, 0.001)), impacts=[(0.4, 2e-3), (0.6, 1e-3)])
+    toss = made(MadePath(position=(0, 0, 0.001)), impacts=[(0.4, 2e-3), (0.6, 1e-3)])
     high, box = [], Box(np.array([-0.1, -0.02, -0.02]), np.array([0.1, 0.02, 0.5]))
     for picture in drawn(toss, [0.4, 0.6], camera, height=192, width=192, box=box):
         rows = np.argwhere(pink(picture))[:, 0]
@@ -262,14 +262,14 @@ def test_an_arrow_is_as_long_as_the_impulse_is_large(camera, part):
 
 
 def test_the_coin_does_not_hide_an_arrow():
-    toss = made(Made(position=(0, 0, R), quaternion=UPRIGHT), impacts=[(0.5, 1e-3)])
+    toss = made(MadePath(position=(0, 0, R), quaternion=UPRIGHT), impacts=[(0.5, 1e-3)])
     with_arrow = pink(drawn(toss, [0.5], Camera.CLOSE_UP)[0]).sum()
-    away = made(Made(position=(0, 0, 20 * R), quaternion=UPRIGHT), impacts=[(0.5, 1e-3)])
+    away = made(MadePath(position=(0, 0, 20 * R), quaternion=UPRIGHT), impacts=[(0.5, 1e-3)])
     assert pink(drawn(away, [0.5], Camera.CLOSE_UP)[0]).sum() == pytest.approx(with_arrow, rel=0.3)
 
 
 def test_a_force_is_an_arrow_as_long_as_the_contact_lasts():
-    toss = made(Made(position=(0, 0, R), quaternion=UPRIGHT), contacts=[(0.4, 0.6)])
+    toss = made(MadePath(position=(0, 0, R), quaternion=UPRIGHT), contacts=[(0.4, 0.6)])
     pictures = drawn(toss, [0.3, 0.5, 0.7], Camera.CLOSE_UP)
     seen = [green(picture).sum() for picture in pictures]
     assert seen[0] == seen[2] == 0
@@ -287,7 +287,7 @@ def test_the_label_has_the_colour_of_the_face_and_then_of_the_outcome():
         (TURNED, Outcome.UNDECIDED, ["TAILS UP", "UNDECIDED"]),
     ):
         play = play_of(
-            made(Made(position=(0, 0, 0.1), quaternion=quaternion), outcome=outcome), np.array([0, 1])
+            made(MadePath(position=(0, 0, 0.1), quaternion=quaternion), outcome=outcome), np.array([0, 1])
         )
         captions = [caption_of(play, i) for i in range(2)]
         assert [caption.label for caption in captions] == labels
@@ -298,7 +298,7 @@ def test_the_label_has_the_colour_of_the_face_and_then_of_the_outcome():
 
 
 def test_the_caption_tells_impacts_height_and_the_floors_action():
-    path = Made(position=(0, 0, 0.123))
+    path = MadePath(position=(0, 0, 0.123))
     play = play_of(
         made(path, impacts=[(0.2, 1e-3), (0.5, 2.5e-3)], contacts=[(0.6, 0.8)]),
         np.array([0.1, 0.3, 0.5, 0.7, 1]),
@@ -316,7 +316,7 @@ def test_the_caption_tells_impacts_height_and_the_floors_action():
 def test_the_time_is_written_into_the_frame():
     """A still coin's frames differ in the line below alone."""
     form = Format(320, 240, 8)
-    toss = made(Made(position=(0, 0, 0.1)))
+    toss = made(MadePath(position=(0, 0, 0.1)))
     film = frames([toss], Camera.CLOSE_UP, form)
     first, second = next(film), next(film)
     rows = np.flatnonzero((first != second).any(axis=(1, 2)))
@@ -328,8 +328,8 @@ def test_the_time_is_written_into_the_frame():
 
 
 def test_two_tosses_stand_side_by_side_and_differ_where_their_paths_do():
-    path = Made(position=(0, 0, 0.1))
-    parting = Made(position=(0, 0, 0.1), velocity=(0.1, 0, 0), start=0.5)
+    path = MadePath(position=(0, 0, 0.1))
+    parting = MadePath(position=(0, 0, 0.1), velocity=(0.1, 0, 0), start=0.5)
     tosses = [made(path), made(parting)]
     film = list(frames(tosses, Camera.TOP, Format(256, 128, 2)))
     times, _ = film_times(tosses, 2)
@@ -341,7 +341,7 @@ def test_two_tosses_stand_side_by_side_and_differ_where_their_paths_do():
 
 
 def test_frames_are_drawn_one_at_a_time_and_the_last_one_stays():
-    toss = made(Made(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), end=0.5)
+    toss = made(MadePath(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), end=0.5)
     draws = []
     draw = Drawer.draw
 
@@ -361,7 +361,7 @@ def test_frames_are_drawn_one_at_a_time_and_the_last_one_stays():
 
 
 def test_the_file_plays_at_its_size_and_rate(tmp_path):
-    toss = made(Made(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), impacts=[(0.1, 1e-3)], end=0.2)
+    toss = made(MadePath(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), impacts=[(0.1, 1e-3)], end=0.2)
     form, shown = Format(64, 48, 12), []
     path = tmp_path / "film.mp4"
     write_video([toss, toss], Camera.TOP, form, path, lambda done, count: shown.append((done, count)))
