@@ -3,6 +3,7 @@
 import numpy as np
 
 from analytic.events import fly_and_hit
+from analytic.settings import MANY, Settings
 from models.kernel.compiled import compiled
 from models.outcomes import Outcomes
 from models.records import IMPACT_ROW
@@ -14,12 +15,13 @@ TILE, SLOW_TILE = 512, 8
 """Tosses that a thread makes at a time, in air with b > 0 the second."""
 
 
-def toss_many(scenario: Scenario, releases: Releases) -> Outcomes:
+def toss_many(scenario: Scenario, releases: Releases, *, settings: Settings = MANY) -> Outcomes:
     """Toss the coin once from each release, by the event loop of `toss`: each toss is the same to the bit.
 
     Args:
         scenario: what to toss; its own release is not used.
         releases: the states at time 0.
+        settings: how finely.
 
     Returns:
         How each toss ended, in the order of `releases`. The paths are not kept.
@@ -27,6 +29,7 @@ def toss_many(scenario: Scenario, releases: Releases) -> Outcomes:
     Raises:
         ValueError: for a release that a scenario with this coin and air would refuse.
     """
+    del settings  # compiled in
     check_releases(scenario, releases)
     body, rules = scenario.body, scenario.rules
     tile = TILE if body.air.exponent is None else SLOW_TILE

@@ -9,9 +9,10 @@ from analytic.contact.contact import friction_in_contact, sample_contact
 from analytic.contact.floor_force import Motion
 from analytic.contact.force_in_contact import force_in_contact
 from analytic.events import Run, run
-from analytic.flight.equations_of_motion import STATE_SIZE, TOLERANCE
+from analytic.flight.equations_of_motion import STATE_SIZE
 from analytic.flight.flying import sample
 from analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
+from analytic.settings import FINE, Settings
 from models.attitude import rotation_matrix
 from models.body import Body, in_vacuum, is_ideal
 from models.ending import barrier, energy
@@ -83,7 +84,11 @@ def state_of(release: Release) -> Array:
     return np.array([*release.position, *release.velocity, *release.attitude, *release.angular_velocity])
 
 
-def toss(scenario: Scenario) -> Toss:
+def require_supported(scenario: Scenario, *, settings: Settings) -> None:
+    """Refuse nothing: this engine tosses every scenario."""
+
+
+def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
     """Toss a coin by the paper's mechanics.
 
     Free flight by eqs (21)-(22) of Strzalko et al. 2008 in Euler parameters, air drag by eqs (49)-(74),
@@ -95,6 +100,7 @@ def toss(scenario: Scenario) -> Toss:
 
     Args:
         scenario: what to toss.
+        settings: how finely.
     """
     body, rules, start = scenario.body, scenario.rules, state_of(scenario.release)
     answer = run(body, rules, start)
@@ -110,7 +116,7 @@ def toss(scenario: Scenario) -> Toss:
         trusted_impacts=trusted_impacts(body, rules, _before_contact(answer)),
         certificate=(
             Setting(name="flight", value=_flight(body)),
-            Setting(name="error allowed in a step, relative", value=TOLERANCE),
+            Setting(name="error allowed in a step, relative", value=settings.tolerance),
             Setting(name="error of a step carried to the horizon: of the motion, relative", value=STEP_ERROR),
             Setting(name="error of a step carried to the horizon: of the attitude", value=TURN_ERROR),
             Setting(name="part of these errors in a step in closed form", value=CLOSED_FORM),

@@ -5,8 +5,18 @@ from runpy import run_path
 
 run_path(str(Path(__file__).parents[1] / "models" / "siblings.py"))
 
-from coin_mj.ensemble import MANY, toss_many
-from coin_mj.model.settings import ContactSettings, Friction, Realisation
-from coin_mj.toss import impacts_of, toss
+from coin_mj.ensemble import toss_many
+from coin_mj.model.settings import FINE, MANY, Friction, Realisation, Settings
+from coin_mj.toss import impacts_of, require_supported, toss
 
-__all__ = ["MANY", "ContactSettings", "Friction", "Realisation", "impacts_of", "toss", "toss_many"]
+__all__ = [
+    "FINE",
+    "MANY",
+    "Friction",
+    "Realisation",
+    "Settings",
+    "impacts_of",
+    "require_supported",
+    "toss",
+    "toss_many",
+]

@@ -9,7 +9,7 @@ from coin_mj.events import toss_coin
 from coin_mj.model.air_callback import air_of
 from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
-from coin_mj.model.settings import ContactSettings, Friction, Realisation
+from coin_mj.model.settings import MANY, Settings
 from coin_mj.model.state import put_at
 from coin_mj.toss import require_supported, warn_of_approximation
 from models.kernel.compiled import compiled
@@ -21,20 +21,9 @@ from models.tiles import toss_in_tiles
 
 TILE = 32
 """Tosses that a thread makes at a time, with one model."""
-MANY = ContactSettings(stiffness=1e10, steps=12, flight_angle=0.25)
-"""Of many tosses: a softer spring, fewer and larger steps than those of one."""
 
 
-def toss_many(
-    scenario: Scenario,
-    releases: Releases,
-    *,
-    realisation: Realisation = Realisation.SPRING,
-    friction: Friction = Friction.EXPLICIT,
-    stiffness: float = MANY.stiffness,
-    steps: int = MANY.steps,
-    flight_angle: float = MANY.flight_angle,
-) -> Outcomes:
+def toss_many(scenario: Scenario, releases: Releases, *, settings: Settings = MANY) -> Outcomes:
     """Toss the coin once from each release, by the event loop of `toss`.
 
     Each toss is that of `toss` with the same settings, to the bit. By default they are coarser than those of
@@ -43,11 +32,7 @@ def toss_many(
     Args:
         scenario: what to toss; its own release is not used.
         releases: the states at time 0.
-        realisation: how a contact gives the restitution.
-        friction: who makes the friction of a floor that has one.
-        stiffness: of the spring, per unit of effective mass [1/s²].
-        steps: in half a period of the spring.
-        flight_angle: largest turn of the coin in a step of free flight [rad].
+        settings: how MuJoCo realises the floor, and how finely it steps.
 
     Returns:
         How each toss ended, in the order of `releases`. The paths are not kept.
@@ -59,16 +44,9 @@ def toss_many(
     Warns:
         ApproximationWarning: as `toss`.
     """
-    require_supported(scenario, realisation)
+    require_supported(scenario, settings=settings)
     warn_of_approximation(scenario)
     check_releases(scenario, releases)
-    settings = ContactSettings(
-        realisation=realisation,
-        friction=friction,
-        stiffness=stiffness,
-        steps=steps,
-        flight_angle=flight_angle,
-    )
     thickness, rules = shape_thickness(scenario), scenario.rules
 
     def toss_tile(*columns: NDArray[Any]) -> None:

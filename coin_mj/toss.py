@@ -13,7 +13,7 @@ from coin_mj.events import toss_coin
 from coin_mj.model.air_callback import air_of
 from coin_mj.model.machine import Machine, machine_of
 from coin_mj.model.scene import shape_thickness
-from coin_mj.model.settings import ROUGH, ContactSettings, Friction, Realisation
+from coin_mj.model.settings import FINE, ROUGH, Friction, Realisation, Settings
 from coin_mj.path import Knots
 from models.body import Rules
 from models.impact_row import FIRST_ROOM
@@ -60,7 +60,7 @@ def run(machine: Machine, rules: Rules) -> MujocoRun:
     return MujocoRun(rows[:n].copy(), knots, contacts, Outcome(outcome), Ending(ending), end_time)
 
 
-def require_supported(scenario: Scenario, realisation: Realisation) -> None:
+def require_supported(scenario: Scenario, *, settings: Settings) -> None:
     """Refuse what this engine doesn't realise.
 
     Raises:
@@ -77,22 +77,14 @@ def require_supported(scenario: Scenario, realisation: Realisation) -> None:
             f'floor.restitution_kind = "{floor.restitution_kind.label}": accepted by the MuJoCo engine: '
             '"kinematic" (its contacts prescribe how the normal speed changes, whatever the work)'
         )
-    if floor.restitution == 0 and realisation == Realisation.SPRING:
+    if floor.restitution == 0 and settings.contact == Realisation.SPRING:
         raise UnsupportedError(
             "floor.restitution = 0: accepted by the MuJoCo engine: a number > 0 (a damped spring rebounds), "
             "or one-step contacts"
         )
 
 
-def toss(
-    scenario: Scenario,
-    *,
-    realisation: Realisation = Realisation.SPRING,
-    friction: Friction = Friction.EXPLICIT,
-    stiffness: float = ContactSettings().stiffness,
-    steps: int = ContactSettings().steps,
-    flight_angle: float = ContactSettings().flight_angle,
-) -> Toss:
+def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
     """Toss a coin in MuJoCo.
 
     A spring's contact lasts about π/√stiffness, in which the coin turns a little: the impulse differs from
@@ -105,11 +97,7 @@ def toss(
 
     Args:
         scenario: what to toss.
-        realisation: how a contact gives the restitution.
-        friction: who makes the friction of a floor that has one.
-        stiffness: of the spring, per unit of effective mass [1/s²].
-        steps: in half a period of the spring.
-        flight_angle: largest turn of the coin in a step of free flight [rad].
+        settings: how MuJoCo realises the floor, and how finely it steps.
 
     Raises:
         UnsupportedError: for contact laws other than "smooth", "coulomb" and "perfectly_rough"; energetic
@@ -118,15 +106,8 @@ def toss(
     Warns:
         ApproximationWarning: for a perfectly rough floor, which is one of friction `ROUGH`.
     """
-    require_supported(scenario, realisation)
+    require_supported(scenario, settings=settings)
     warn_of_approximation(scenario)
-    settings = ContactSettings(
-        realisation=realisation,
-        friction=friction,
-        stiffness=stiffness,
-        steps=steps,
-        flight_angle=flight_angle,
-    )
     machine = machine_of(scenario, settings, shape_thickness(scenario))
     answer = run(machine, scenario.rules)
     impacts = Impacts.from_rows(answer.rows)
@@ -142,7 +123,7 @@ def toss(
         certificate=(
             Setting(name="MuJoCo", value=mujoco.__version__),
             *_contact_certificate(machine),
-            Setting(name="largest turn in a step of flight", value=flight_angle, unit="rad"),
+            Setting(name="largest turn in a step of flight", value=settings.flight_angle, unit="rad"),
             Setting(name="thickness of the shape", value=machine.coin.shape_thickness, unit="m"),
             Setting(name="steps", value=len(answer.knots) - 1),
         ),
@@ -166,7 +147,7 @@ def _before_contact(answer: MujocoRun) -> Impacts:
     return Impacts.from_rows(answer.rows[answer.rows["time"] < first])
 
 
-def impacts_of(scenario: Scenario, settings: ContactSettings, thickness: float | None = None) -> Impacts:
+def impacts_of(scenario: Scenario, *, settings: Settings = FINE, thickness: float | None = None) -> Impacts:
     """Toss a coin for its impacts alone: no path, no certificate, no horizon of trust.
 
     Args:
@@ -180,7 +161,7 @@ def impacts_of(scenario: Scenario, settings: ContactSettings, thickness: float |
 
 def _contact_certificate(machine: Machine) -> tuple[Setting, ...]:
     settings, rebound, friction = machine.settings, machine.coin.rebound, machine.coin.friction
-    if settings.realisation == Realisation.ONE_STEP:
+    if settings.contact == Realisation.ONE_STEP:
         made = (
             Setting(name="integrator", value="RK4, in a contact semi-implicit Euler"),
             Setting(name="contact", value="one step"),
@@ -206,7 +187,7 @@ def _contact_certificate(machine: Machine) -> tuple[Setting, ...]:
     )
 
 
-def _trusted_impacts(scenario: Scenario, settings: ContactSettings, impacts: Impacts) -> int:
+def _trusted_impacts(scenario: Scenario, settings: Settings, impacts: Impacts) -> int:
     """Count the leading impacts that all coins share that are further from the hard limit.
 
     Their contacts are softened by `SOFTER`; where a thin coin's shape is made up it is ten times as thick.
@@ -215,7 +196,7 @@ def _trusted_impacts(scenario: Scenario, settings: ContactSettings, impacts: Imp
     trusted = len(impacts)
     for part in SOFTER if trusted > 0 else ():
         shorter = scenario.replace("ending.max_impacts", trusted)
-        softer = impacts_of(shorter, settings.softened(part), thickness)
+        softer = impacts_of(shorter, settings=settings.softened(part), thickness=thickness)
         n = min(trusted, len(softer))
         change = np.linalg.norm(softer.impulse[:n] - impacts.impulse[:n], axis=1)
         agrees = (impacts.face[:n] == softer.face[:n]) & (

@@ -7,6 +7,7 @@ import sys
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -168,7 +169,6 @@ def toss(
         raise click.UsageError(f"--contact {contact}: accepted: only beside --engine mujoco")
     with _plain_errors(scenario):
         from compare.engines import Engine
-        from compare.engines import toss as toss_by
         from compare.film.back_end import require_mujoco
         from compare.output import answer
         from compare.output.files import is_stream, require_file, write_text
@@ -181,7 +181,9 @@ def toss(
             require_file(trajectory, ".csv", scenario)
         if max_impacts is not None:
             described = described.replace("ending.max_impacts", max_impacts)
-        result = toss_by(Engine(engine), described, contact or "spring")
+        package = Engine(engine).package
+        chosen = {"contact": contact} if contact else {}
+        result = package.toss(described, settings=replace(package.FINE, **chosen))
         if trajectory is not None:
             times = answer.path_times(result)
             write_text(trajectory, answer.path_csv(result.sample(times)))
@@ -256,12 +258,11 @@ def video(scenario: str, out: Path, engine: str, camera: str) -> None:
             _refuse(problem)
 
         from compare.engines import Engine
-        from compare.engines import toss as toss_by
         from compare.film.drawing import Camera
         from compare.film.video import FULL, write_video
 
         engines = list(Engine) if engine == "both" else [Engine(engine)]
-        tosses = [toss_by(each, described) for each in engines]
+        tosses = [each.package.toss(described) for each in engines]
         with written_whole(out) as aside:
             write_video(tosses, Camera(camera), FULL, aside, _progress("video", "frames"))
         click.echo(out)

@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
-from compare.engines import Engine, toss
+from compare.engines import Engine
 from compare.metrics.trajectories import attitude_angle, distance
 from models.records import Ending, Outcome
 from models.scenario import Air
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
+from tests.helpers.engines import toss
 
 pytestmark = pytest.mark.parametrize("engine", list(Engine))
 

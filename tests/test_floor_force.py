@@ -5,10 +5,11 @@ import pytest
 
 from analytic.contact.floor_force import Motion
 from analytic.toss import Pieces
-from compare.engines import Engine, toss
+from compare.engines import Engine
 from models.attitude import rotation_matrix
 from models.drag import linear_drag
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.engines import toss
 
 pytestmark = pytest.mark.parametrize("engine", list(Engine))
 

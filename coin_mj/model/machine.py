@@ -10,7 +10,7 @@ import numpy as np
 
 from coin_mj.model.memory import joint_arrays, offset_of, require_layout
 from coin_mj.model.scene import build, floor_height
-from coin_mj.model.settings import ContactSettings, Friction, Realisation, Rebound, friction_of, rebound_of
+from coin_mj.model.settings import Friction, Realisation, Rebound, Settings, friction_of, rebound_of
 from coin_mj.model.state import of_release
 from models.body import Body
 from models.scenario import Scenario
@@ -75,11 +75,11 @@ class Machine(NamedTuple):
 
     model: mujoco.MjModel
     data: mujoco.MjData
-    settings: ContactSettings
+    settings: Settings
     coin: MujocoCoin
 
 
-def machine_of(scenario: Scenario, settings: ContactSettings, thickness: float) -> Machine:
+def machine_of(scenario: Scenario, settings: Settings, thickness: float) -> Machine:
     """Return the MuJoCo coin of a scenario, with the thickness of its shape [m], at its release.
 
     Raises:
@@ -105,7 +105,7 @@ def machine_of(scenario: Scenario, settings: ContactSettings, thickness: float) 
         rebound=rebound,
         friction=mu,
         has_explicit_friction=settings.friction == Friction.EXPLICIT and mu > 0,
-        has_one_step=settings.realisation == Realisation.ONE_STEP,
+        has_one_step=settings.contact == Realisation.ONE_STEP,
         flight_angle=settings.flight_angle,
     )
     return Machine(model, data, settings, coin)

@@ -1,7 +1,9 @@
 """A floor as contact settings of MuJoCo: its restitution as a solref, and who makes its friction."""
 
 import math
+from dataclasses import dataclass, replace
 from enum import StrEnum
+from numbers import Integral
 from typing import NamedTuple, cast
 
 from scipy.optimize import brentq
@@ -31,11 +33,19 @@ class Friction(StrEnum):
     """MuJoCo's native friction cone, the elliptic one."""
 
 
-class ContactSettings(NamedTuple):
+def _require(name: str, value: object, holds: bool, accepted: str) -> None:
+    if not holds:
+        raise ValueError(f"coin_mj.Settings.{name} = {value}: accepted: {accepted}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
     """How MuJoCo realises a floor, and how finely it steps."""
 
-    realisation: Realisation = Realisation.SPRING
+    contact: Realisation = Realisation.SPRING
+    """How a contact gives the restitution."""
     friction: Friction = Friction.EXPLICIT
+    """Who makes the friction of a floor that has one."""
     stiffness: float = 1e14
     """k of the spring, per unit of effective mass [1/s²]."""
     steps: int = 160
@@ -47,9 +57,46 @@ class ContactSettings(NamedTuple):
     flight_angle: float = 0.02
     """Largest turn of the coin in a step of free flight [rad]."""
 
-    def softened(self, part: float) -> "ContactSettings":
-        """Return a contact whose spring is softer by `part`, or whose one step is longer by `part`."""
-        return self._replace(stiffness=self.stiffness / part, step=self.step * part)
+    def __post_init__(self) -> None:
+        """Check each setting; `contact` and `friction` may be given by their values.
+
+        Raises:
+            ValueError: naming the setting, its value and what is accepted.
+        """
+        for name, kind in (("contact", Realisation), ("friction", Friction)):
+            value, accepted = getattr(self, name), [item.value for item in kind]
+            _require(name, value, value in accepted, " or ".join(f'"{item}"' for item in accepted))
+            object.__setattr__(self, name, kind(value))
+        for name in ("stiffness", "step", "flight_angle"):
+            value = getattr(self, name)
+            _require(name, value, 0 < value < math.inf, "a finite number > 0")
+        whole = isinstance(self.steps, Integral) and self.steps >= 1
+        _require("steps", self.steps, whole, "a whole number >= 1")
+        damping = self.slip_damping
+        _require("slip_damping", damping, damping is None or 0 <= damping < math.inf, "a finite number >= 0")
+
+    def softened(self, part: float) -> "Settings":
+        """Return settings with a spring softer by `part`, or with one step longer by `part`."""
+        return replace(self, stiffness=self.stiffness / part, step=self.step * part)
+
+    def as_dict(self) -> dict[str, str | float]:
+        """Return the settings on which a toss depends, by name; without those of another contact."""
+        one_step = self.contact == Realisation.ONE_STEP
+        rebound = {"step": self.step} if one_step else {"stiffness": self.stiffness, "steps": self.steps}
+        slip = {} if self.slip_damping is None else {"slip_damping": self.slip_damping}
+        return {
+            "contact": self.contact.value,
+            "friction": self.friction.value,
+            **rebound,
+            **slip,
+            "flight_angle": self.flight_angle,
+        }
+
+
+FINE = Settings()
+"""Of one toss."""
+MANY = Settings(stiffness=1e10, steps=12, flight_angle=0.25)
+"""Of many tosses: a softer spring, fewer and larger steps."""
 
 
 class Rebound(NamedTuple):
@@ -67,13 +114,13 @@ class Rebound(NamedTuple):
     """Of a contact: half a period of the undamped spring, π/√k, or the one step [s]."""
 
 
-def rebound_of(restitution: float, settings: ContactSettings) -> Rebound:
+def rebound_of(restitution: float, settings: Settings) -> Rebound:
     """Return the rebound with `restitution` χ at every point of the rim.
 
     Raises:
         ValueError: for a χ out of the realisation's reach.
     """
-    if settings.realisation == Realisation.ONE_STEP:
+    if settings.contact == Realisation.ONE_STEP:
         stiffness, damping = 0.0, (1 + restitution) / settings.step
         step, duration = settings.step, settings.step
     else:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from compare.engines import Engine, toss
+from compare.engines import Engine, Settings
 from compare.metrics.impulses import Differences, errors_of_impacts, match
 from compare.metrics.sequences import agreement_horizon, common_prefix
 from compare.metrics.trajectories import attitude_angle, distance, parting_time
@@ -58,12 +58,12 @@ class Comparison:
         self.errors.setflags(write=False)
 
 
-def compare(scenario: Scenario, contact: str = "spring") -> Comparison | tuple[Toss, str]:
+def compare(scenario: Scenario, mujoco: Settings | None = None) -> Comparison | tuple[Toss, str]:
     """Toss a scenario by both engines and compare the answers.
 
     Args:
         scenario: what to toss.
-        contact: how MuJoCo realises the restitution, "spring" or "one_step".
+        mujoco: MuJoCo's settings, by default those of one toss.
 
     Returns:
         The comparison; or, where MuJoCo can't realise the scenario, the analytic toss and why.
@@ -71,9 +71,10 @@ def compare(scenario: Scenario, contact: str = "spring") -> Comparison | tuple[T
     Raises:
         UnsupportedError: for what the analytic engine doesn't model.
     """
-    a = toss(Engine.ANALYTIC, scenario)
+    a = Engine.ANALYTIC.package.toss(scenario)
+    engine = Engine.MUJOCO.package
     try:
-        b = toss(Engine.MUJOCO, scenario, contact)
+        b = engine.toss(scenario, settings=mujoco or engine.FINE)
     except UnsupportedError as error:
         return a, str(error)
     errors = errors_of_impacts(b)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from compare.engines import Settings
 from compare.metrics.comparison import Comparison, compare
 from compare.output import answer
 from compare.output.files import written_together
@@ -27,7 +28,7 @@ def write_report(
     no_video: str | None,
     progress: Callable[[int, int], None],
     *,
-    contact: str = "spring",
+    mujoco: Settings | None = None,
     maps: MapSection | None = None,
 ) -> Path:
     """Toss a scenario by both engines and write everything about it.
@@ -39,7 +40,7 @@ def write_report(
         folder: where to write, made if missing; an earlier report there is replaced as a whole, at the end.
         no_video: why no video can be drawn, or None.
         progress: called after each frame of the video with their number so far and in all.
-        contact: how MuJoCo realises the restitution, "spring" or "one_step".
+        mujoco: MuJoCo's settings, by default those of one toss.
         maps: what the report also shows.
 
     Returns:
@@ -50,7 +51,7 @@ def write_report(
         UnwritableError: naming the folder and why.
     """
     with written_together(folder, FILES) as aside:
-        answered = compare(scenario, contact)
+        answered = compare(scenario, mujoco)
         comparison = answered if isinstance(answered, Comparison) else None
         analytic, not_realisable = (comparison.analytic, None) if comparison else answered  # pyright: ignore
         tosses = [analytic, *([comparison.mujoco] if comparison else [])]

@@ -6,7 +6,6 @@ from contextlib import contextmanager
 from itertools import islice
 from typing import Any
 
-from compare.engines import versions
 from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile
 from compare.sweep.pixels import Pixels, toss_pixels
@@ -53,7 +52,7 @@ def cluster(address: str) -> Iterator[Tosser]:
             raise SweepError(f"--scheduler {address}: accepted: a cluster with a worker") from None
 
         def toss(sweep: Sweep, tiles: Iterable[Tile]) -> Iterator[tuple[Tile, Pixels]]:
-            here, waiting = versions(sweep.engine), iter(tiles)
+            here, waiting = sweep.engine.versions, iter(tiles)
             running = distributed.as_completed(loop=client.loop)
 
             def give_out(count: int) -> None:
@@ -96,7 +95,7 @@ def _room(client: Any) -> int:
 
 
 def _toss_there(sweep: Sweep, tile: Tile, expected: dict[str, str]) -> tuple[Tile, Pixels]:
-    there = versions(sweep.engine)
+    there = sweep.engine.versions
     if there != expected:
         raise SweepError(f"--scheduler: a worker has {there}; accepted: {expected}, as here")
     return tile, toss_pixels(sweep, tile)

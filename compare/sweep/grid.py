@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from compare.engines import Engine
+from compare.engines import Engine, Settings
 from compare.sweep.axes import Axis
 from compare.sweep.errors import SweepError
 from models.scenario import Scenario
@@ -31,10 +31,10 @@ class Sweep:
     engine: Engine
     x: Axis
     y: Axis
+    settings: Settings
+    """Of its engine."""
     after: int | None = None
     """The map shows the face at the touch after so many impacts; None for the final outcome."""
-    contact: str = "spring"
-    """How MuJoCo realises the restitution, "spring" or "one_step"."""
 
     def __post_init__(self) -> None:
         """Check that the axes and `after` go together.

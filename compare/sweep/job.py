@@ -4,7 +4,7 @@ import os
 import shlex
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from compare.engines import Engine
@@ -12,10 +12,11 @@ from compare.film.back_end import drawing_problem, require_mujoco
 from compare.output.files import UnwritableError, require_file
 from compare.report.contents import require_folder
 from compare.sweep import run, show, store
-from compare.sweep.axes import parse_axis
+from compare.sweep.axes import Axis, parse_axis
 from compare.sweep.grid import Sweep
 from compare.sweep.pixels import check
 from models.reading import parse
+from models.scenario import Scenario
 
 Watch = Callable[[str, int, int], AbstractContextManager[run.Progress]]
 """Called with a map's name, the pixels that it has, and how many it will have; gives what to tell of more."""
@@ -40,7 +41,7 @@ class Job:
     engine: Engine | None
     """None for both, the second's map beside the first."""
     contact: str
-    """As of a `Sweep`."""
+    """Of MuJoCo, "spring" or "one_step"."""
     after: int | None
     """As of a `Sweep`."""
     resume: bool
@@ -57,21 +58,29 @@ class Job:
     """Folder of a report on both engines' maps and tosses; accepted for both engines only."""
 
 
-def sweeps_of(job: Job) -> dict[Path, Sweep]:
-    """Give the sweep of each map that is asked for.
+def sweeps_of(job: Job, scenario: Scenario, x: Axis, y: Axis) -> dict[Path, Sweep]:
+    """Return the sweep of each map that is asked for; its engine is imported.
 
     Raises:
-        ScenarioError: for a bad scenario.
-        SweepError: for bad axes.
+        SweepError: for axes that exclude each other.
     """
-    scenario = parse(job.text, job.source)
-    x, y = parse_axis(job.x, scenario), parse_axis(job.y, scenario)
-    second = job.out.with_name(f"{job.out.stem}-mujoco.zarr")
-    engines = {job.out: job.engine or Engine.ANALYTIC} | ({} if job.engine else {second: Engine.MUJOCO})
+    chosen = {Engine.MUJOCO: {"contact": job.contact}}
     return {
-        path: Sweep(scenario=scenario, engine=engine, x=x, y=y, after=job.after, contact=job.contact)
-        for path, engine in engines.items()
+        path: Sweep(
+            scenario=scenario,
+            engine=engine,
+            x=x,
+            y=y,
+            settings=replace(engine.package.MANY, **chosen.get(engine, {})),
+            after=job.after,
+        )
+        for path, engine in _engines_of(job).items()
     }
+
+
+def _engines_of(job: Job) -> dict[Path, Engine]:
+    second = job.out.with_name(f"{job.out.stem}-mujoco.zarr")
+    return {job.out: job.engine or Engine.ANALYTIC} | ({} if job.engine else {second: Engine.MUJOCO})
 
 
 def make(job: Job, watch: Watch, frames: Frames) -> Iterator[str]:
@@ -84,18 +93,20 @@ def make(job: Job, watch: Watch, frames: Frames) -> Iterator[str]:
         UnwritableError: for what can't be written.
         BackEndError: where MuJoCo can't be used.
     """
-    sweeps = sweeps_of(job)
-    for path in sweeps:
+    scenario, engines = parse(job.text, job.source), _engines_of(job)
+    x, y = parse_axis(job.x, scenario), parse_axis(job.y, scenario)
+    for path in engines:
         store.require_place(path, resume=job.resume, overwrite=job.overwrite)
     if job.png is not None:
         require_file(job.png, ".png", job.source)
     no_video = None
     if job.report is not None:
-        _require_report(job.report, sweeps, job.source)
+        _require_report(job.report, engines, job.source)
         no_video = drawing_problem()
     # From here on MuJoCo is imported: its back end is chosen.
-    if any(sweep.engine is Engine.MUJOCO for sweep in sweeps.values()):
+    if Engine.MUJOCO in engines.values():
         require_mujoco()
+    sweeps = sweeps_of(job, scenario, x, y)
     if job.resume:
         for path, sweep in sweeps.items():
             store.require_same(path, sweep)
@@ -127,8 +138,8 @@ def make(job: Job, watch: Watch, frames: Frames) -> Iterator[str]:
             job.report,
             no_video,
             frames,
-            contact=job.contact,
-            maps=show.section(maps, first, job.style, _command(job)),
+            mujoco=replace(Engine.MUJOCO.package.FINE, contact=job.contact),
+            maps=show.section(maps, list(sweeps.values()), job.style, _command(job)),
         )
         yield f"report     {page}"
 

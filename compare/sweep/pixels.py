@@ -7,7 +7,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.engines import require_supported, toss_many
 from compare.sweep.axes import Axis
 from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile
@@ -62,7 +61,7 @@ def toss_pixels(sweep: Sweep, tile: Tile) -> Pixels:
     y, x = sweep.y.values[tile.rows], sweep.x.values[tile.columns]
     outcome, impacts = np.empty((len(y), len(x)), dtype=np.int8), np.empty((len(y), len(x)), dtype=np.int32)
     for group in groups(sweep, y, x):
-        tossed = toss_many(sweep.engine, group.scenario, group.releases, sweep.contact)
+        tossed = sweep.engine.package.toss_many(group.scenario, group.releases, settings=sweep.settings)
         shown = tossed.outcome if sweep.after is None else tossed.after(sweep.after)
         for whole, part in ((outcome, shown), (impacts, tossed.impacts)):
             block = whole[group.rows, group.columns]
@@ -124,7 +123,7 @@ def check(sweep: Sweep) -> None:
 def _check_together(sweep: Sweep, y: Array, x: Array) -> None:
     """Refuse points whose tosses can be made together."""
     first = pixel_scenario(sweep, float(y[0]), float(x[0]))
-    require_supported(sweep.engine, first, sweep.contact)
+    sweep.engine.package.require_supported(first, settings=sweep.settings)
     try:
         check_releases(first, _releases(sweep, first, y, x))
     except ValueError:

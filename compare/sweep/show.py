@@ -1,6 +1,7 @@
 """Maps for a person: their pictures, and what is measured on them in a few lines."""
 
 import io
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,6 @@ from numpy.typing import NDArray
 from compare.basins import picture
 from compare.basins.agreement import Agreement, Share, agreement
 from compare.basins.fractions import fractions
-from compare.engines import Engine, settings
 from compare.report.map_section import MapSection
 from compare.sweep.axes import Axis
 from compare.sweep.grid import Sweep
@@ -85,20 +85,22 @@ def write(png: Path, maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureS
     picture.write_png(_figure(maps, sweep, style), png, dpi=style.dpi)
 
 
-def section(maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle, command: str) -> MapSection:
+def section(
+    maps: list[NDArray[np.int8]], sweeps: Sequence[Sweep], style: PictureStyle, command: str
+) -> MapSection:
     """Return what a report shows of the maps of both engines.
 
     Args:
         maps: (y, x) each, the first by the analytic engine.
-        sweep: what the first was made of.
+        sweeps: what each was made of.
         style: how to draw.
         command: that makes the maps.
     """
-    drawn = io.BytesIO()
+    drawn, sweep = io.BytesIO(), sweeps[0]
     _figure(maps, sweep, style).savefig(drawn, format="png", dpi=style.dpi)
     shares = {
-        engine.value: {outcome.label: share for outcome, share in fractions(outcomes).items()}
-        for engine, outcomes in zip(Engine, maps, strict=True)
+        sweep.engine.value: {outcome.label: share for outcome, share in fractions(outcomes).items()}
+        for sweep, outcomes in zip(sweeps, maps, strict=True)
     }
     return MapSection(
         picture=drawn.getvalue(),
@@ -107,7 +109,7 @@ def section(maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle, com
             "after": sweep.after,
             "fractions": shares,
             "agreement": {"distance": AWAY, **asdict(measure(*maps))},
-            "settings": {engine.value: settings(engine, sweep.contact) for engine in Engine},
+            "settings": {sweep.engine.value: sweep.settings.as_dict() for sweep in sweeps},
             "command": command,
         },
     )

@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 from zarr.codecs import ZstdCodec
 from zarr.errors import ZarrUserWarning
 
-from compare.engines import settings, versions
 from compare.output.files import UnwritableError, naming
 from compare.sweep.axes import Axis
 from compare.sweep.grid import Sweep, Tile, tile_shape, tiles
@@ -195,16 +194,16 @@ def _attributes(sweep: Sweep, scenario_text: str) -> dict[str, Any]:
         "cointoss_map": FORMAT,
         "scenario": scenario_text,
         "engine": sweep.engine.value,
-        "engine_settings": settings(sweep.engine, sweep.contact),
+        "engine_settings": sweep.settings.as_dict(),
         "after": sweep.after,
-        "versions": {**versions(sweep.engine), "zarr": version("zarr")},
+        "versions": {**sweep.engine.versions, "zarr": version("zarr")},
     }
 
 
 def _require_same(path: Path, group: zarr.Group, sweep: Sweep) -> None:
     """Refuse to go on with a map of another sweep, or of other versions: its pixels would be of two kinds."""
     found: dict[str, Any] = dict(group.attrs)
-    made_by = {name: found["versions"].get(name) for name in versions(sweep.engine)}
+    made_by = {name: found["versions"].get(name) for name in sweep.engine.versions}
     try:
         same_scenario = parse(found["scenario"], str(path)) == sweep.scenario
     except ScenarioError:
@@ -214,12 +213,12 @@ def _require_same(path: Path, group: zarr.Group, sweep: Sweep) -> None:
         ("engine", found["engine"] == sweep.engine),
         (
             f"engine's settings, {json.dumps(found['engine_settings'])}",
-            found["engine_settings"] == settings(sweep.engine, sweep.contact),
+            found["engine_settings"] == sweep.settings.as_dict(),
         ),
         ("number of impacts (--after)", found["after"] == sweep.after),
         ("grid in x", _is_axis(group, "x", sweep.x)),
         ("grid in y", _is_axis(group, "y", sweep.y)),
-        (f"versions, {json.dumps(made_by)}", made_by == versions(sweep.engine)),
+        (f"versions, {json.dumps(made_by)}", made_by == sweep.engine.versions),
     ):
         if not same:
             raise UnwritableError(

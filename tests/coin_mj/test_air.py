@@ -15,7 +15,7 @@ from coin_mj.model.air import air_force
 from coin_mj.model.air_callback import air_of
 from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
-from coin_mj.model.settings import ContactSettings
+from coin_mj.model.settings import Settings
 from coin_mj.steps.mujoco_step import forward, rk4_step
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
@@ -95,7 +95,7 @@ def coin_in_air(b, normal=LN, tangential=LT):
         air={"normal": normal, "tangential": tangential, "exponent": b},
         release=draw_release(np.random.default_rng(1)),
     )
-    return machine_of(case, ContactSettings(), shape_thickness(case))
+    return machine_of(case, Settings(), shape_thickness(case))
 
 
 @pytest.mark.parametrize("b", [0.5, 1.0])

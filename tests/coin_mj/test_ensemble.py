@@ -1,6 +1,7 @@
 """Many tosses in MuJoCo: each is that of `toss`, to the bit."""
 
 import warnings
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 from numba import config
 
 import coin_mj
-from coin_mj import MANY, Friction, Realisation
+from coin_mj import MANY, Friction, Realisation, Settings
 from coin_mj.ensemble import TILE
 from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
@@ -38,12 +39,12 @@ def assert_same(a: Outcomes, b: Outcomes) -> None:
 
 
 def assert_each_is_a_toss(
-    case: Scenario, drawn: list[dict[str, Any]], outcomes: Outcomes, **settings
+    case: Scenario, drawn: list[dict[str, Any]], outcomes: Outcomes, settings: Settings = MANY
 ) -> None:
     for i, release in enumerate(drawn):
         one = case.replace("release", release)
         # What `toss` makes its record of; it also tosses softer coins, for its horizon of trust.
-        tossed = run(machine_of(one, MANY._replace(**settings), shape_thickness(one)), one.rules)
+        tossed = run(machine_of(one, settings, shape_thickness(one)), one.rules)
         assert outcomes.outcome[i] == tossed.outcome
         assert outcomes.ending[i] == tossed.ending
         assert outcomes.impacts[i] == len(tossed.rows)
@@ -58,6 +59,7 @@ def assert_each_is_a_toss(
 @pytest.mark.parametrize("friction", list(Friction))
 def test_each_toss_is_that_of_toss_to_the_bit(law, air, thickness, realisation, friction):
     """All laws that are realised, with and without air, thin and thick; whole tosses, contacts and all."""
+    settings = replace(MANY, contact=realisation, friction=friction)
     center = np.array(PAPER_OFFSET) * [1, 1, thickness > 0]
     case = scenario(
         coin={**ZLOTY, "thickness": thickness, "center_of_mass": center.tolist()},
@@ -68,20 +70,19 @@ def test_each_toss_is_that_of_toss_to_the_bit(law, air, thickness, realisation, 
     drawn, releases = draw_releases(np.random.default_rng([len(law), len(air), int(1e4 * thickness)]), 4)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ApproximationWarning)
-        outcomes = coin_mj.toss_many(case, releases, realisation=realisation, friction=friction)
-    assert_each_is_a_toss(case, drawn, outcomes, realisation=realisation, friction=friction)
+        outcomes = coin_mj.toss_many(case, releases, settings=settings)
+    assert_each_is_a_toss(case, drawn, outcomes, settings)
 
 
 def test_a_toss_is_that_of_toss_with_the_same_settings():
     case = scenario(air=AIR, floor={"restitution": 0.5})
     drawn, releases = draw_releases(np.random.default_rng(1), 3)
-    coarse = {name: getattr(MANY, name) for name in ("stiffness", "steps", "flight_angle")}
-    finer = {"stiffness": 1e12, "steps": 40, "flight_angle": 0.05}
-    for settings, same in (({}, coarse), (finer, finer)):
-        outcomes = coin_mj.toss_many(case, releases, **settings)
+    finer = Settings(stiffness=1e12, steps=40, flight_angle=0.05)
+    for settings in (MANY, finer):
+        outcomes = coin_mj.toss_many(case, releases, settings=settings)
         for i, release in enumerate(drawn):
             one = case.replace("release", release)
-            tossed = coin_mj.toss(one, **same)
+            tossed = coin_mj.toss(one, settings=settings)
             assert (outcomes.outcome[i], outcomes.ending[i]) == (tossed.outcome, tossed.ending)
             assert outcomes.impacts[i] == len(tossed.impacts)
             assert outcomes.end_time[i] == tossed.end_time

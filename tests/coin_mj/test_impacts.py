@@ -6,7 +6,7 @@ import pytest
 import analytic
 from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
-from coin_mj.model.settings import ContactSettings
+from coin_mj.model.settings import Settings
 from coin_mj.model.state import set_motion
 from coin_mj.path import MOTION, STEP, TIME
 from coin_mj.steps.mujoco_step import forward
@@ -40,7 +40,7 @@ def draw_single_impact(rng):
 
 
 def first_impact(case, **settings):
-    return impacts_of(case, ContactSettings(**settings))
+    return impacts_of(case, settings=Settings(**settings))
 
 
 def test_first_impacts_meet_newtons_impulse():
@@ -113,7 +113,7 @@ def force_at(coin, knot):
 
 def test_the_impulse_is_the_integral_of_the_contact_force():
     case, _ = draw_single_impact(np.random.default_rng(43))
-    machine = machine_of(case, ContactSettings(), shape_thickness(case))
+    machine = machine_of(case, Settings(), shape_thickness(case))
     answer = run(machine, case.rules)
     assert len(answer.rows) == 1
     pressed = answer.knots[answer.knots[:, STEP] > 0]

@@ -1,12 +1,14 @@
 """MuJoCo's coin in contacts that last: closed forms, invariants, and how the toss ends."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import coin_mj
 from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
-from coin_mj.model.settings import ContactSettings
+from coin_mj.model.settings import Settings
 from coin_mj.model.state import to_mass_center
 from coin_mj.path import MOTION, STEP, TIME
 from coin_mj.toss import run
@@ -25,7 +27,7 @@ DECIDED = {Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.PERPETUAL}
 
 def contact_of(case):
     """States of a toss in contact that lasts: time, and position, velocity, Euler parameters, spin, body."""
-    machine = machine_of(case, ContactSettings(), shape_thickness(case))
+    machine = machine_of(case, Settings(), shape_thickness(case))
     answer = run(machine, case.rules)
     assert len(answer.contacts) == 1
     chosen = answer.knots[answer.knots[:, STEP] > 0]
@@ -87,7 +89,7 @@ def test_a_smooth_floor_takes_no_energy_and_no_spin_about_the_vertical(offset):
         },
         ending={"test": "paper", "max_time": 1.0},
     )
-    answer = run(machine_of(case, ContactSettings(), shape_thickness(case)), case.rules)
+    answer = run(machine_of(case, Settings(), shape_thickness(case)), case.rules)
     start, end = answer.contacts[np.argmax(np.diff(answer.contacts, axis=1))]
     assert end - start > 0.2
     rows = answer.knots[(answer.knots[:, TIME] > start + 0.02) & (answer.knots[:, TIME] < end - 0.02)]
@@ -163,6 +165,7 @@ def draw_releases(rng, n):
 @pytest.mark.parametrize("air", [{}, AIR])
 @pytest.mark.parametrize("thickness", [0.0, 2e-3])
 def test_random_tosses_are_decided(realisation, law, air, thickness):
+    settings = replace(coin_mj.MANY, contact=realisation)
     rng = np.random.default_rng([len(law), len(air), int(1e4 * thickness)])
     for chi, offset in ((0.15, 0), (0.6, 1), (0.9, 0)):
         center = np.array(PAPER_OFFSET) * offset * [1, 1, thickness > 0]
@@ -171,7 +174,7 @@ def test_random_tosses_are_decided(realisation, law, air, thickness):
             floor={"contact": law, "friction": 0.3, "restitution": chi},
             air=air,
         )
-        outcomes = coin_mj.toss_many(case, draw_releases(rng, 6 if air else 2), realisation=realisation)
+        outcomes = coin_mj.toss_many(case, draw_releases(rng, 6 if air else 2), settings=settings)
         assert set(outcomes.outcome.tolist()) <= DECIDED
         if air:
             assert Outcome.PERPETUAL not in outcomes.outcome

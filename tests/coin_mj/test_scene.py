@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from coin_mj.model.scene import build, shape_thickness
-from coin_mj.model.settings import ContactSettings, rebound_of
+from coin_mj.model.settings import Settings, rebound_of
 from coin_mj.model.state import of_release, to_mass_center
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
@@ -16,7 +16,7 @@ IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 
 
 def built(case):
-    return build(case, rebound_of(case.floor.restitution, ContactSettings()), 0.0, shape_thickness(case))
+    return build(case, rebound_of(case.floor.restitution, Settings()), 0.0, shape_thickness(case))
 
 
 def test_mass_and_inertia_are_the_scenarios():

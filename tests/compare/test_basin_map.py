@@ -11,12 +11,15 @@ import shutil
 import signal
 import struct
 import termios
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray as xr
 from zarr.storage import LocalStore
 
+import coin_mj
+from coin_mj import Realisation
 from compare.engines import Engine
 from compare.output.files import UnwritableError
 from compare.sweep import grid, run
@@ -49,7 +52,16 @@ def coin(tmp_path, monkeypatch):
 
 def sweep_of(x=AXES[1], y=AXES[3], text=SCENARIO, engine=Engine.ANALYTIC, **extra):
     case = parse(text, "coin")
-    return Sweep(scenario=case, engine=engine, x=parse_axis(x, case), y=parse_axis(y, case), **extra)
+    return Sweep(
+        **{
+            "scenario": case,
+            "engine": engine,
+            "x": parse_axis(x, case),
+            "y": parse_axis(y, case),
+            "settings": engine.package.MANY,
+            **extra,
+        }
+    )
 
 
 @pytest.fixture(scope="module")
@@ -263,7 +275,8 @@ def test_a_map_made_otherwise_is_not_gone_on_with(tmp_path, key, value, named):
 @pytest.mark.parametrize(("made", "asked"), [("one_step", "spring"), ("spring", "one_step")])
 def test_a_map_with_another_contact_is_refused_before_the_first_toss(coin, tmp_path, made, asked):
     second = tmp_path / "map-mujoco.zarr"
-    with opened(second, sweep_of(engine=Engine.MUJOCO, contact=made), SCENARIO, overwrite=False):
+    settings = replace(coin_mj.MANY, contact=Realisation(made))
+    with opened(second, sweep_of(engine=Engine.MUJOCO, settings=settings), SCENARIO, overwrite=False):
         pass
     assert xr.open_zarr(second, chunks=None).attrs["engine_settings"]["contact"] == made
     both = ("--compare", "--contact", asked, "--out", tmp_path / "map.zarr")

@@ -14,6 +14,7 @@ import pytest
 import xarray as xr
 from PIL import Image
 
+from coin_mj import Realisation, Settings
 from compare.engines import Engine
 from compare.film.back_end import ADVICE
 from compare.metrics.comparison import Comparison, compare
@@ -41,12 +42,15 @@ def coin(tmp_path, monkeypatch):
     return tmp_path / "coin.toml"
 
 
+def sweep_of(case, engine, after=None):
+    x, y, settings = parse_axis(X, case), parse_axis(Y, case), engine.package.MANY
+    return Sweep(scenario=case, engine=engine, x=x, y=y, settings=settings, after=after)
+
+
 def section_of(maps, after=None):
     case = parse(COIN, "coin")
-    sweep = Sweep(
-        scenario=case, engine=Engine.ANALYTIC, x=parse_axis(X, case), y=parse_axis(Y, case), after=after
-    )
-    return show.section(maps, sweep, show.PictureStyle(dpi=20), "cointoss basin")
+    sweeps = [sweep_of(case, engine, after) for engine in Engine]
+    return show.section(maps, sweeps, show.PictureStyle(dpi=20), "cointoss basin")
 
 
 def shown_of(section, folder):
@@ -105,7 +109,7 @@ def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path,
         assert np.array_equal(np.asarray(ours), np.asarray(theirs))
 
     # The report's own toss is by the contact of the maps.
-    compared = compare(parse(COIN, "coin"), contact)
+    compared = compare(parse(COIN, "coin"), Settings(contact=Realisation(contact)))
     assert isinstance(compared, Comparison)
     assert found["tosses"][1]["impacts"][1]["impulse"] == compared.mujoco.impacts.impulse[1].tolist()
 
@@ -161,8 +165,7 @@ def test_a_folder_that_is_no_reports_is_refused_before_any_map(coin, tmp_path):
 def test_a_back_end_for_drawing_is_chosen_before_mujoco_is_imported(coin, tmp_path):
     case = parse(COIN, "coin")
     for engine, name in zip(Engine, ("map.zarr", "map-mujoco.zarr"), strict=True):
-        sweep = Sweep(scenario=case, engine=engine, x=parse_axis(X, case), y=parse_axis(Y, case))
-        with opened(tmp_path / name, sweep, COIN, overwrite=False):
+        with opened(tmp_path / name, sweep_of(case, engine), COIN, overwrite=False):
             pass
     script = (
         "import sys; from compare.cli import main; from compare.sweep import job\n"

@@ -1,5 +1,6 @@
 """Sweeps: axes are read, tiles cover the map, and each pixel is the toss of its own scenario, to the bit."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -8,8 +9,8 @@ from pydantic import BaseModel
 
 import analytic
 import coin_mj
-from coin_mj import ContactSettings
-from compare.engines import Engine, settings
+from coin_mj import Realisation, Settings
+from compare.engines import Engine
 from compare.sweep import grid
 from compare.sweep.axes import Axis, parse_axis
 from compare.sweep.errors import SweepError
@@ -30,11 +31,12 @@ HERE = scenario(
 WHOLE = Tile(slice(0, 3), slice(0, 4))
 
 
-def sweep_of(x: str, y: str, case: Scenario = HERE, **extra: Any) -> Sweep:
+def sweep_of(x: str, y: str, case: Scenario = HERE, engine: Engine = Engine.ANALYTIC, **extra: Any) -> Sweep:
     return Sweep(
         **{
             "scenario": case,
-            "engine": Engine.ANALYTIC,
+            "engine": engine,
+            "settings": engine.package.MANY,
             "x": parse_axis(x, case),
             "y": parse_axis(y, case),
             **extra,
@@ -240,24 +242,21 @@ def test_what_mujoco_cannot_toss_is_refused_at_either_end_of_an_axis():
     check(sweep_of(*axes))
     with pytest.raises(UnsupportedError, match=r"floor\.restitution = 0"):
         check(sweep_of(*axes, engine=Engine.MUJOCO))
-    check(sweep_of(*axes, engine=Engine.MUJOCO, contact="one_step"))
+    one_step = replace(coin_mj.MANY, contact=Realisation.ONE_STEP)
+    check(sweep_of(*axes, engine=Engine.MUJOCO, settings=one_step))
 
 
 @pytest.mark.parametrize("contact", ["spring", "one_step"])
 def test_a_pixel_by_mujoco_is_the_toss_with_the_settings_that_its_map_records(contact):
     axes = ("release.angular_velocity.eta=20:40:2", "release.position.z=0.2:0.3:2")
-    sweep = sweep_of(*axes, engine=Engine.MUJOCO, contact=contact)
+    chosen = replace(coin_mj.MANY, contact=Realisation(contact))
+    sweep = sweep_of(*axes, engine=Engine.MUJOCO, settings=chosen)
     made = toss_pixels(sweep, Tile(slice(0, 2), slice(0, 2)))
-    names = {"contact": "realisation"}
-    recorded: dict[str, Any] = {
-        names.get(name, name): value for name, value in settings(Engine.MUJOCO, contact).items()
-    }
-    assert recorded["realisation"] == contact
-    # `toss` takes one step of this length and no other.
-    assert recorded.pop("step", None) == {"spring": None, "one_step": ContactSettings().step}[contact]
+    recorded: dict[str, Any] = sweep.settings.as_dict()
+    assert recorded["contact"] == contact
     for row, y in enumerate(sweep.y.values):
         for column, x in enumerate(sweep.x.values):
-            one = coin_mj.toss(pixel_scenario(sweep, y, x), **recorded)
+            one = coin_mj.toss(pixel_scenario(sweep, y, x), settings=Settings(**recorded))
             assert made.outcome[row, column] == one.outcome
             assert made.impacts[row, column] == len(one.impacts) > 0
 

@@ -1,4 +1,4 @@
-"""Both engines by their public functions; what an engine's settings are called is known here alone."""
+"""Both engines by their verbs, without the warnings of what MuJoCo tosses approximately."""
 
 import warnings
 from collections.abc import Sequence
@@ -6,8 +6,6 @@ from typing import Any
 
 import numpy as np
 
-import analytic
-import coin_mj
 from compare.engines import Engine
 from models.outcomes import Outcomes
 from models.records import ApproximationWarning, Toss
@@ -19,25 +17,21 @@ def toss(engine: Engine, case: Scenario) -> Toss:
     """Return one toss, with the engine's settings for one."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ApproximationWarning)
-        return analytic.toss(case) if engine is Engine.ANALYTIC else coin_mj.toss(case)
+        return engine.package.toss(case)
 
 
 def toss_as_many(engine: Engine, case: Scenario) -> Toss:
     """Return one toss, with the engine's settings for many."""
-    if engine is Engine.ANALYTIC:
-        return analytic.toss(case)
-    coarse = {name: getattr(coin_mj.MANY, name) for name in ("stiffness", "steps", "flight_angle")}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ApproximationWarning)
-        return coin_mj.toss(case, **coarse)
+        return engine.package.toss(case, settings=engine.package.MANY)
 
 
 def toss_many(engine: Engine, case: Scenario, releases: Releases) -> Outcomes:
     """Return many tosses, with the engine's settings for many."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ApproximationWarning)
-        many = analytic.toss_many if engine is Engine.ANALYTIC else coin_mj.toss_many
-        return many(case, releases)
+        return engine.package.toss_many(case, releases)
 
 
 def as_releases(drawn: Sequence[dict[str, Any]]) -> Releases:

@@ -12,7 +12,6 @@ import analytic
 import coin_mj
 from analytic.events import run
 from analytic.toss import state_of
-from coin_mj import ContactSettings
 from coin_mj.toss import impacts_of
 from compare.reproduction.findings import Finding, Result, paper_figure
 from compare.reproduction.runner import Progress
@@ -188,7 +187,7 @@ def _mujoco_apart(spins: Array) -> float:
         release = Release(position=(0.0, 0.0, float(FALLS[HAND])), angular_velocity=(w, 0.0, 0.0))
         scenario = _one_touch(case(air=True)).replace("release", release)
         ours = run(scenario.body, scenario.rules, state_of(release)).rows[0]
-        theirs = impacts_of(scenario, ContactSettings())
+        theirs = impacts_of(scenario)
         apart += [abs(theirs.time[0] - ours["time"]), np.abs(theirs.position[0] - ours["position"]).max()]
     return float(max(apart))
 

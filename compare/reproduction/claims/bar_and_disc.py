@@ -8,13 +8,13 @@ from matplotlib.figure import Figure as Picture
 from numpy.typing import NDArray
 
 import analytic
+import coin_mj
 from compare.basins.picture import Axis, draw_panel
 from compare.basins.stripes import crossings
 from compare.reproduction.findings import Finding, Result, paper_figure
 from compare.reproduction.paper.fig2 import FASTEST, HIGHEST
 from compare.reproduction.runner import Progress
 from compare.reproduction.setups.planar_maps import case
-from compare.reproduction.setups.stiff_tosses import stiff_tosses
 from models.records import Array, Face
 from models.releases import Releases
 from models.scenario import Scenario
@@ -47,7 +47,10 @@ def make(progress: Progress, points: int = 90, line: int = 2500, tosses_mujoco: 
         progress(2 * len(widths), 2 * len(BODIES) + 1)
     few = np.random.default_rng(SEED).choice(len(over), tosses_mujoco, replace=False)
     mujoco = {
-        body: stiff_tosses(_scenario(body), _releases(_scenario(body), over[few], up[few])) for body in BODIES
+        body: coin_mj.toss_many(
+            _scenario(body), _releases(_scenario(body), over[few], up[few]), settings=coin_mj.FINE
+        )
+        for body in BODIES
     }
     same = [int(np.sum(mujoco[body].outcome == data[body].ravel()[few])) for body in BODIES]
     progress(2 * len(BODIES) + 1, 2 * len(BODIES) + 1)

@@ -8,14 +8,13 @@ from matplotlib.figure import Figure as Picture
 from numpy.typing import NDArray
 
 import analytic
+import coin_mj
 from analytic.events import run
-from coin_mj import ContactSettings
 from coin_mj.toss import impacts_of
 from compare.reproduction.findings import Finding, Result, paper_figure
 from compare.reproduction.runner import Progress
 from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, faces_after, releases
 from compare.reproduction.setups.release_arrays import chosen, moved, states_of
-from compare.reproduction.setups.stiff_tosses import stiff_tosses
 from models.records import Outcome
 from models.releases import Releases
 from models.scenario import Release
@@ -44,7 +43,9 @@ def make(progress: Progress, count: int = 2000, tosses_mujoco: int = 200) -> Res
     first = faces_after(scenario, flat, 0)
     apart, mujoco = _in_plane(flat)
     turned = moved(chosen(flat, slice(tosses_mujoco)), angular_velocity=np.array([0, 0, ASIDE[TOLD]]))
-    heads_mujoco = np.mean(stiff_tosses(scenario, turned).outcome == Outcome.HEADS)
+    heads_mujoco = np.mean(
+        coin_mj.toss_many(scenario, turned, settings=coin_mj.FINE).outcome == Outcome.HEADS
+    )
     whole = 1 + len(ASIDE) + len(HEIGHTS_OF_DROP)
     progress(1, whole)
     changed, changed_first, heads = [], [], []
@@ -116,7 +117,7 @@ def _in_plane(flat: Releases) -> tuple[tuple[float, float], str]:
         aside.append(np.abs(places[:, 1]).max())
         release = Release(position=(0.0, 0.0, float(state[2])), angular_velocity=(float(state[10]), 0.0, 0.0))
         shorter = scenario.replace("release", release, "ending.max_impacts", IMPACTS)
-        found = impacts_of(shorter, ContactSettings()).position
+        found = impacts_of(shorter).position
         theirs.append(np.abs(found[:, 0]).max())
         between.append(np.abs(found[: len(places)] - places[: len(found)]).max())
     told = (

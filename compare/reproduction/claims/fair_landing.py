@@ -8,12 +8,12 @@ from matplotlib.figure import Figure as Picture
 from numpy.typing import NDArray
 
 import analytic
+import coin_mj
 from analytic.flight.equations_of_motion import sample_flight
 from compare.reproduction.findings import Finding, Result, paper_figure
 from compare.reproduction.runner import Progress
 from compare.reproduction.setups.hands import releases_of_hands
 from compare.reproduction.setups.release_arrays import chosen, states_of
-from compare.reproduction.setups.stiff_tosses import stiff_tosses
 from models.laws import ContactLaw
 from models.reading import load
 from models.records import Array, Face
@@ -50,8 +50,10 @@ def make(progress: Progress, hands: int = 300, each: int = 15, tosses_mujoco: in
     assert tossed is not None
     every = slice(None, None, len(tossed) // tosses_mujoco)
     few = chosen(tossed, every)
-    same = int(np.sum(stiff_tosses(_once(scenario), few).last_face == first_faces[every]))
-    ended = stiff_tosses(_on(scenario, next(iter(FLOORS.values()))), few).outcome
+    same = int(
+        np.sum(coin_mj.toss_many(_once(scenario), few, settings=coin_mj.FINE).last_face == first_faces[every])
+    )
+    ended = coin_mj.toss_many(_on(scenario, next(iter(FLOORS.values()))), few, settings=coin_mj.FINE).outcome
     ours = analytic.toss_many(_on(scenario, next(iter(FLOORS.values()))), few).outcome
     heads_few = [float(np.mean(outcomes == Face.HEADS)) for outcomes in (ended, ours)]
     progress(whole, whole)

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 import analytic
+import coin_mj
 from compare.reproduction.findings import Finding, Result, paper_figure
 from compare.reproduction.runner import Progress
 from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
-from compare.reproduction.setups.stiff_tosses import stiff_tosses
 from models.records import Array, Outcome
 from models.releases import Releases
 from models.scenario import Scenario
@@ -42,7 +42,7 @@ def make(progress: Progress, centers: int = 10, count: int = 150, tosses_mujoco:
         heads[kind] = np.array(rows)
     z, w = inside[0]
     ball = ball_about(scenario, z, w, MUJOCO_RADIUS, tosses_mujoco, rng)
-    mujoco = _heads(stiff_tosses(scenario, ball).outcome)
+    mujoco = _heads(coin_mj.toss_many(scenario, ball, settings=coin_mj.FINE).outcome)
     progress(2 * centers + 1, 2 * centers + 1)
     sure, even = heads.values()
     pure = (sure == 0) | (sure == 1)

@@ -9,13 +9,13 @@ from matplotlib.figure import Figure as Picture
 from numpy.typing import NDArray
 
 import analytic
+import coin_mj
 from analytic.events import run
 from compare.reproduction.findings import Finding, Result, paper_figure
 from compare.reproduction.paper.fig28 import changes
 from compare.reproduction.runner import Progress
 from compare.reproduction.setups.hands import releases_of_hands
 from compare.reproduction.setups.release_arrays import chosen, moved, states_of
-from compare.reproduction.setups.stiff_tosses import stiff_tosses
 from models.laws import ContactLaw
 from models.reading import load
 from models.records import Outcome
@@ -168,7 +168,9 @@ def _first_faces(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
 
 
 def _first_faces_by_mujoco(scenario: Scenario, tossed: Releases, count: int) -> NDArray[np.int8]:
-    return stiff_tosses(_first_touch(scenario), chosen(tossed, slice(count))).last_face
+    return coin_mj.toss_many(
+        _first_touch(scenario), chosen(tossed, slice(count)), settings=coin_mj.FINE
+    ).last_face
 
 
 def _uncertain(scenario: Scenario, tossed: Releases, outcome: NDArray[np.int8], count: int) -> float:

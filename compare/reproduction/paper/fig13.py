@@ -9,7 +9,7 @@ from matplotlib.figure import Figure as Picture
 
 from analytic.air.force import force_and_moment
 from analytic.air.velocity_field import SurfaceFields, velocity_fields
-from coin_mj import ContactSettings
+from coin_mj import Settings
 from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
 from coin_mj.steps.mujoco_step import forward
@@ -155,7 +155,7 @@ def _integral(case: Scenario, b: float) -> Wrench:
 
 def _by_mujoco(case: Scenario) -> Wrench:
     """Give the forces of MuJoCo's actuators and its damping on the released coin."""
-    machine = machine_of(case, ContactSettings(), shape_thickness(case))
+    machine = machine_of(case, Settings(), shape_thickness(case))
     forward(machine.coin)
     force = machine.data.qfrc_actuator + machine.data.qfrc_passive
     return Wrench(force[:3].copy(), force[3:].copy())

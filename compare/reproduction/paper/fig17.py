@@ -10,7 +10,7 @@ from matplotlib.figure import Figure as Picture
 
 import analytic
 import coin_mj
-from coin_mj import ContactSettings, Friction
+from coin_mj import Friction, Settings
 from coin_mj.model.settings import ROUGH
 from compare.reproduction.findings import Finding, Result, paper_figure
 from compare.reproduction.runner import Progress
@@ -36,7 +36,7 @@ class Law:
     claim: str
     misfit: Callable[[Array, Array, Array], Array]
     """What its conditions leave over, of v_A before and after (τ, ν, z) and of the impulse over the mass."""
-    contact: tuple[float, ContactSettings] | None
+    contact: tuple[float, Settings] | None
     """Friction and settings of the MuJoCo contact that stands for it."""
 
 
@@ -61,25 +61,25 @@ LAWS = {
         letter="c",
         claim="perfectly rough: v_Aν' = v_Aτ' = 0",
         misfit=lambda _, after, __: after[:2],
-        contact=(ROUGH, ContactSettings()),
+        contact=(ROUGH, Settings()),
     ),
     ContactLaw.SLIP_PRESERVING: Law(
         letter="d",
         claim="smooth (1): v_Aν' = v_Aν, v_Aτ' = v_Aτ",
         misfit=lambda v, after, _: after[:2] - v[:2],
-        contact=(ROUGH, ContactSettings(friction=Friction.NATIVE, slip_damping=0.0)),
+        contact=(ROUGH, Settings(friction=Friction.NATIVE, slip_damping=0.0)),
     ),
     ContactLaw.SMOOTH: Law(
         letter="e",
         claim="smooth (2): S_τν = 0",
         misfit=lambda _, __, S: S[:2],
-        contact=(0.0, ContactSettings()),
+        contact=(0.0, Settings()),
     ),
     ContactLaw.SLIDING_FRICTION: Law(
         letter="f",
         claim="developed friction: S_τν = -μ S_z v_Aτν/v_Aτν",
         misfit=lambda v, _, S: S[:2] + MU * S[2] * v[:2] / np.hypot(v[0], v[1]),
-        contact=(MU, ContactSettings()),
+        contact=(MU, Settings()),
     ),
 }
 
@@ -103,7 +103,7 @@ def make(progress: Progress) -> Result:
         told, apart = "not realisable", 0.0
         if law.contact is not None:
             mu, settings = law.contact
-            theirs = coin_mj.impacts_of(on_floor(case, ContactLaw.COULOMB, mu), settings)
+            theirs = coin_mj.impacts_of(on_floor(case, ContactLaw.COULOMB, mu), settings=settings)
             _, after_theirs, S_theirs = _in_the_floor(theirs)
             data |= {f"({law.letter}) after, MuJoCo": after_theirs}
             data |= {f"({law.letter}) impulse, MuJoCo": S_theirs}

@@ -7,7 +7,6 @@ from matplotlib.figure import Figure as Picture
 
 from analytic.events import run
 from analytic.toss import state_of
-from coin_mj import ContactSettings
 from coin_mj.toss import impacts_of
 from compare.metrics.lyapunov import divergence, growth_by_tangent, mean_and_error
 from compare.reproduction.findings import Finding, Result, paper_figure
@@ -34,7 +33,7 @@ def make(progress: Progress) -> Result:
     for done, (medium, scenario) in enumerate(cases.items(), start=1):
         angles = _angles(run(scenario.body, scenario.rules, state_of(scenario.release)).rows["point"])
         growth = growth_by_tangent(scenario)
-        by_mujoco = _angles(impacts_of(_shorter(scenario), ContactSettings()).point)
+        by_mujoco = _angles(impacts_of(_shorter(scenario)).point)
         curve = divergence(angles, 1, FOLLOWED)
         data |= {f"{medium}, angle": angles, f"{medium}, growth": growth, f"{medium}, series": curve}
         told[medium] = mean_and_error(growth)

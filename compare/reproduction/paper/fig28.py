@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 
 from analytic.events import run
 from analytic.toss import state_of
-from coin_mj import ContactSettings
 from coin_mj.toss import impacts_of
 from compare.reproduction.findings import Finding, Result, paper_figure
 from compare.reproduction.runner import Progress
@@ -39,7 +38,7 @@ def make(progress: Progress, count: int = 4000, count_mujoco: int = 60) -> Resul
         progress(done, count + count_mujoco)
     by_mujoco = [0, 0]
     for done, scenario in enumerate(scenarios[:count_mujoco], start=1):
-        kinds = changes(impacts_of(scenario, ContactSettings()).face)
+        kinds = changes(impacts_of(scenario).face)
         by_mujoco = [n + len(kind) for n, kind in zip(by_mujoco, kinds, strict=True)]
         progress(count + done, count + count_mujoco)
     data = {"after a row": np.concatenate(after_row), "after one": np.concatenate(after_one)}

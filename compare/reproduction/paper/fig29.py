@@ -5,7 +5,6 @@ from functools import partial
 import numpy as np
 from matplotlib.figure import Figure as Picture
 
-from coin_mj import ContactSettings
 from coin_mj.toss import impacts_of
 from compare.basins.boundary import distance_to_doubt
 from compare.basins.fractions import fractions
@@ -83,7 +82,7 @@ def _first_touches(scenario: Scenario, grid: Grid) -> Outcomes:
     for w in grid.spins.tolist():
         for z in grid.heights.tolist():
             released = once.replace("release.position.z", z, "release.angular_velocity.xi", w)
-            tossed = impacts_of(released, ContactSettings())
+            tossed = impacts_of(released)
             faces.append(tossed.face[0])
     return np.array(faces, dtype=np.int8).reshape(grid.shape)
 

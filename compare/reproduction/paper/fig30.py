@@ -8,12 +8,12 @@ from matplotlib.figure import Figure as Picture
 from numpy.typing import NDArray
 
 import analytic
+import coin_mj
 from compare.basins.picture import Axis, draw_panel
 from compare.basins.stripes import crossings
 from compare.reproduction.findings import Finding, Result, paper_figure
 from compare.reproduction.runner import Progress
 from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, Grid, case, final_faces, releases
-from compare.reproduction.setups.stiff_tosses import stiff_tosses
 from models.records import Array
 from models.scenario import Scenario
 
@@ -183,7 +183,8 @@ def _by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
     start = releases(heights, spins)
     ours = analytic.toss_many(scenario, start).outcome
     theirs, twins = (
-        stiff_tosses(scenario, releases(heights + step, spins)).outcome for step in (0.0, ACCURACY_MUJOCO)
+        coin_mj.toss_many(scenario, releases(heights + step, spins), settings=coin_mj.FINE).outcome
+        for step in (0.0, ACCURACY_MUJOCO)
     )
     our_twins = analytic.toss_many(scenario, releases(heights + ACCURACY_MUJOCO, spins)).outcome
     return (

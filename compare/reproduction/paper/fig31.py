@@ -7,11 +7,11 @@ import numpy as np
 from matplotlib.figure import Figure as Picture
 from numpy.typing import NDArray
 
+import coin_mj
 from compare.basins.picture import Axis, draw_panel
 from compare.reproduction.findings import Finding, Result, paper_figure
 from compare.reproduction.runner import Progress
 from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases, touched_faces, whole_grid
-from compare.reproduction.setups.stiff_tosses import stiff_tosses
 from models.records import Array
 from models.scenario import Ending, Scenario
 
@@ -128,7 +128,7 @@ def _same_by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
     same = []
     for n in SHOWN:
         once_more = scenario.replace("ending", Ending(max_impacts=n + 1))
-        same.append(np.sum(stiff_tosses(once_more, start).after(n) == ours[:, n]))
+        same.append(np.sum(coin_mj.toss_many(once_more, start, settings=coin_mj.FINE).after(n) == ours[:, n]))
     return ", ".join(map(str, same))
 
 

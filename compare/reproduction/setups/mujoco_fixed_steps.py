@@ -5,12 +5,13 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import mujoco
 import numpy as np
 
 from coin_mj.model.scene import build, shape_thickness
-from coin_mj.model.settings import ContactSettings, Realisation, damping_ratio_of, rebound_of
+from coin_mj.model.settings import Realisation, Settings, damping_ratio_of, rebound_of
 from coin_mj.model.state import of_release, to_mass_center
 from models.attitude import rotation_matrix
 from models.geometry import contact_velocity, gap, lowest_point
@@ -90,7 +91,7 @@ def restitutions_of_a_ball(
     return found
 
 
-def restitutions_of_coins(cases: Sequence[Scenario], settings: ContactSettings, dt: float) -> Array:
+def restitutions_of_coins(cases: Sequence[Scenario], settings: Settings, dt: float) -> Array:
     """Let coins come down on a smooth floor and step them with `mj_step`; give χ' of their first impacts.
 
     The integrator is the realisation's: Euler for one-step contacts, RK4 for springs. The touch falls
@@ -112,10 +113,10 @@ def restitutions_of_coins(cases: Sequence[Scenario], settings: ContactSettings, 
     )
 
 
-def loop_model(case: Scenario, settings: ContactSettings, dt: float) -> mujoco.MjModel:
+def loop_model(case: Scenario, settings: Settings, dt: float) -> mujoco.MjModel:
     """Build the coin of a scenario for a loop of `mj_step` with steps of dt [s]."""
-    one_step = settings.realisation == Realisation.ONE_STEP
-    rebound = rebound_of(case.floor.restitution, settings._replace(step=dt))
+    one_step = settings.contact == Realisation.ONE_STEP
+    rebound = rebound_of(case.floor.restitution, replace(settings, step=dt))
     model = build(case, rebound, 0.0, shape_thickness(case))
     model.opt.timestep = dt
     kinds = mujoco.mjtIntegrator
@@ -123,7 +124,7 @@ def loop_model(case: Scenario, settings: ContactSettings, dt: float) -> mujoco.M
     return model
 
 
-def _restitution_of_a_coin(case: Scenario, settings: ContactSettings, dt: float, phase: float) -> float:
+def _restitution_of_a_coin(case: Scenario, settings: Settings, dt: float, phase: float) -> float:
     body, model = case.body, loop_model(case, settings, dt)
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = of_release(body, case.release)

@@ -7,7 +7,7 @@ import numpy as np
 
 import analytic
 import coin_mj
-from coin_mj import ContactSettings
+from coin_mj import Settings
 from models.attitude import rotation_matrix
 from models.geometry import contact_velocity, gap, lowest_point
 from models.laws import ContactLaw
@@ -118,9 +118,9 @@ def by_law(cases: Iterable[Scenario]) -> list[Impacts]:
     return [analytic.toss(case).impacts for case in cases]
 
 
-def by_mujoco(cases: Iterable[Scenario], settings: ContactSettings) -> list[Impacts]:
+def by_mujoco(cases: Iterable[Scenario], settings: Settings) -> list[Impacts]:
     """Give the impacts by MuJoCo, whose floor is smooth, or Coulomb's."""
-    return [coin_mj.impacts_of(case, settings) for case in cases]
+    return [coin_mj.impacts_of(case, settings=settings) for case in cases]
 
 
 def first(impacts: list[Impacts], column: str) -> Array:

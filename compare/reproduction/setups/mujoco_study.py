@@ -11,7 +11,7 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from coin_mj import ContactSettings, Friction, Realisation
+from coin_mj import Friction, Realisation, Settings
 from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
 from coin_mj.toss import run
@@ -41,10 +41,10 @@ FINE = 640
 """Steps in a contact that is resolved finely."""
 KINDS = ("frictionless", "sticking", "sliding", "turning")
 CONTACTS = {
-    "spring": ContactSettings(),
-    "one step": ContactSettings(realisation=Realisation.ONE_STEP),
-    "spring, own cone": ContactSettings(friction=Friction.NATIVE),
-    "one step, own cone": ContactSettings(realisation=Realisation.ONE_STEP, friction=Friction.NATIVE),
+    "spring": Settings(),
+    "one step": Settings(contact=Realisation.ONE_STEP),
+    "spring, own cone": Settings(friction=Friction.NATIVE),
+    "one step, own cone": Settings(contact=Realisation.ONE_STEP, friction=Friction.NATIVE),
 }
 
 
@@ -104,13 +104,13 @@ def over_stiffness(cases: Sequence[Scenario], stiffnesses: Sequence[float]) -> S
         name: [] for name in ("impulse", "velocity", "spin", "guess", "limit", "fine_limit")
     }
     for k in stiffnesses:
-        hard = by_mujoco(cases, ContactSettings(stiffness=k))
-        guess = [_with_guessed_mass(case, ContactSettings(stiffness=k)) for case in cases]
+        hard = by_mujoco(cases, Settings(stiffness=k))
+        guess = [_with_guessed_mass(case, Settings(stiffness=k)) for case in cases]
         columns["impulse"].append(_median(relative_errors(S, first(hard, "impulse"))))
         columns["velocity"].append(_median(_change_error(law, hard, "velocity")))
         columns["spin"].append(_median(_change_error(law, hard, "angular_velocity")))
         columns["guess"].append(_median(relative_errors(S, first(guess, "impulse"))))
-        for name, steps in (("limit", ContactSettings().steps), ("fine_limit", FINE)):
+        for name, steps in (("limit", Settings().steps), ("fine_limit", FINE)):
             columns[name].append(_median(relative_errors(S, _limit(cases, k, steps))))
     fitted = [i for i, k in enumerate(stiffnesses) if 0.9e8 < k < 1.1e14]
     return Stiffness(
@@ -127,7 +127,7 @@ def over_stiffness(cases: Sequence[Scenario], stiffnesses: Sequence[float]) -> S
 
 def _limit(cases: Sequence[Scenario], stiffness: float, steps: int) -> Array:
     hard, soft = (
-        first(by_mujoco(cases, ContactSettings(stiffness=k, steps=steps)), "impulse")
+        first(by_mujoco(cases, Settings(stiffness=k, steps=steps)), "impulse")
         for k in (stiffness, stiffness / 4)
     )
     return 2 * hard - soft
@@ -143,7 +143,7 @@ def _change_error(law: list[Impacts], found: list[Impacts], name: str) -> Array:
     return np.linalg.norm(first(found, f"{name}_after") - after, axis=1) / change
 
 
-def _with_guessed_mass(case: Scenario, settings: ContactSettings) -> Impacts:
+def _with_guessed_mass(case: Scenario, settings: Settings) -> Impacts:
     machine = machine_of(case, settings, shape_thickness(case))
     machine.model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_DIAGEXACT)
     return Impacts.from_rows(run(machine, case.rules).rows)
@@ -161,10 +161,9 @@ class Steps:
 
 def over_steps(cases: Sequence[Scenario], steps: Sequence[int], most: int) -> Steps:
     """Compute how impulses converge as a contact is resolved by more steps."""
-    S = first(by_mujoco(cases, ContactSettings(steps=most)), "impulse")
+    S = first(by_mujoco(cases, Settings(steps=most)), "impulse")
     errors = [
-        _median(relative_errors(S, first(by_mujoco(cases, ContactSettings(steps=n)), "impulse")))
-        for n in steps
+        _median(relative_errors(S, first(by_mujoco(cases, Settings(steps=n)), "impulse"))) for n in steps
     ]
     return Steps(steps=list(steps), impulse=errors, order=order(steps, errors))
 
@@ -203,7 +202,7 @@ def over_restitution(
     """Give |χ' - χ|, χ' the restitution that the default spring gives on a smooth floor, for each χ."""
     answers = {}
     for chi in restitutions:
-        found = by_mujoco(draw_touches(rng, count, (chi, chi)), ContactSettings())
+        found = by_mujoco(draw_touches(rng, count, (chi, chi)), Settings())
         after, before = first(found, "contact_velocity_after"), first(found, "contact_velocity_before")
         answers[chi] = spread(np.abs(-after[:, 2] / before[:, 2] - chi))
     return answers
@@ -249,7 +248,7 @@ def over_tilt(count: int, tilts: Sequence[float], rng: np.random.Generator) -> d
 
 def default_errors(cases: Sequence[Scenario]) -> Spread:
     """Give the errors of impulses by the default contact."""
-    S, found = first(by_law(cases), "impulse"), first(by_mujoco(cases, ContactSettings()), "impulse")
+    S, found = first(by_law(cases), "impulse"), first(by_mujoco(cases, Settings()), "impulse")
     return spread(relative_errors(S, found))
 
 
@@ -290,7 +289,7 @@ def own_cone(
     restitution: float, tilts: Sequence[float], frictions: Sequence[float], slips: Sequence[float]
 ) -> OwnCone:
     """Map the restitution that a spring with MuJoCo's own friction gives."""
-    settings = ContactSettings(friction=Friction.NATIVE)
+    settings = Settings(friction=Friction.NATIVE)
     cases = [
         on_floor(tilted_touch(tilt, np.array([slip, 0.0]), restitution), ContactLaw.COULOMB, mu)
         for tilt in tilts
@@ -334,7 +333,7 @@ def cone_formula(count: int, rng: np.random.Generator) -> ConeFormula:
         on_floor(case, ContactLaw.COULOMB, float(rng.uniform(0.05, 1.0)))
         for case in draw_touches(rng, count, RESTITUTIONS)
     ]
-    undamped = ContactSettings(friction=Friction.NATIVE, slip_damping=0.0)
+    undamped = Settings(friction=Friction.NATIVE, slip_damping=0.0)
     found = by_mujoco(cases, CONTACTS["one step, own cone"])
     mu = np.array([case.floor.friction for case in cases])
     chi = np.array([case.floor.restitution for case in cases])

@@ -11,7 +11,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure as Picture
 
-from coin_mj import ContactSettings, Friction
+from coin_mj import Friction, Settings
 from coin_mj.model.settings import ROUGH
 from compare.reproduction.runner import Figure, Made, Progress
 from compare.reproduction.setups.mujoco_impacts import (
@@ -32,19 +32,19 @@ FRICTIONS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 100.0, 1000.0)
 STANDS = 1e-2
 """A law is realised where the median error of its impulses is below this."""
 
-_T = math.pi / math.sqrt(ContactSettings().stiffness)
-CONTACTS: dict[str, tuple[float, ContactSettings]] = {
-    "frictionless": (0.0, ContactSettings()),
-    "Coulomb's force": (FRICTION, ContactSettings()),
-    f"Coulomb's force, μ = {ROUGH:g}": (ROUGH, ContactSettings()),
-    "own cone": (FRICTION, ContactSettings(friction=Friction.NATIVE)),
+_T = math.pi / math.sqrt(Settings().stiffness)
+CONTACTS: dict[str, tuple[float, Settings]] = {
+    "frictionless": (0.0, Settings()),
+    "Coulomb's force": (FRICTION, Settings()),
+    f"Coulomb's force, μ = {ROUGH:g}": (ROUGH, Settings()),
+    "own cone": (FRICTION, Settings(friction=Friction.NATIVE)),
     f"own cone, μ = {ROUGH:g}, slip undamped": (
         ROUGH,
-        ContactSettings(friction=Friction.NATIVE, slip_damping=0.0),
+        Settings(friction=Friction.NATIVE, slip_damping=0.0),
     ),
     f"own cone, μ = {ROUGH:g}, slip damped": (
         ROUGH,
-        ContactSettings(friction=Friction.NATIVE, slip_damping=10 / _T),
+        Settings(friction=Friction.NATIVE, slip_damping=10 / _T),
     ),
 }
 """Coefficient of friction and settings of MuJoCo's contacts, by name."""
@@ -89,7 +89,7 @@ def study(count: int, seed: int, progress: Callable[[int, int], None] = lambda *
     }
     progress(1, parts)
 
-    def of(mu: float, settings: ContactSettings) -> Array:
+    def of(mu: float, settings: Settings) -> Array:
         return first(
             by_mujoco((on_floor(case, ContactLaw.COULOMB, mu) for case in cases), settings), "impulse"
         )
@@ -100,7 +100,7 @@ def study(count: int, seed: int, progress: Callable[[int, int], None] = lambda *
         progress(number, parts)
     growing = {}
     for number, mu in enumerate(FRICTIONS, start=len(CONTACTS) + 2):
-        growing[mu] = _fit(laws[NAMES[ContactLaw.PERFECTLY_ROUGH]], of(mu, ContactSettings()))
+        growing[mu] = _fit(laws[NAMES[ContactLaw.PERFECTLY_ROUGH]], of(mu, Settings()))
         progress(number, parts)
     fits = {law: {contact: _fit(S_law, S) for contact, S in contacts.items()} for law, S_law in laws.items()}
     return Study(laws=laws, contacts=contacts, fits=fits, growing=growing)

@@ -5,7 +5,7 @@
 
 import json
 import time
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,7 +14,7 @@ import numpy as np
 from numba import config
 
 import coin_mj
-from coin_mj import MANY, ContactSettings, Realisation
+from coin_mj import MANY, Realisation, Settings
 from coin_mj.model.state import of_release
 from compare.reproduction.runner import Figure, Made, Progress
 from compare.reproduction.setups.mujoco_fixed_steps import loop_model, restitutions_of_coins
@@ -36,7 +36,7 @@ from models.scenario import Scenario
 SEED, TOSSES, TOUCHES = 5, 400, 100
 SCENARIO = "fig24a"
 """Tossed from random releases."""
-SETTINGS = {realisation: MANY._replace(realisation=realisation) for realisation in Realisation}
+SETTINGS = {realisation: replace(MANY, contact=realisation) for realisation in Realisation}
 ENOUGH = 1e-2
 """An error of restitution that may do."""
 LOOP_STEPS = 20_000
@@ -119,12 +119,12 @@ def draw_releases(rng: np.random.Generator, count: int) -> Releases:
 
 
 def _speed(
-    scenario: Scenario, releases: Releases, settings: ContactSettings, smooth: list[Scenario], threads: int
+    scenario: Scenario, releases: Releases, settings: Settings, smooth: list[Scenario], threads: int
 ) -> Speed:
     # The first toss compiles.
-    coin_mj.toss_many(scenario, draw_releases(np.random.default_rng(0), 1), realisation=settings.realisation)
+    coin_mj.toss_many(scenario, draw_releases(np.random.default_rng(0), 1), settings=settings)
     start = time.process_time()
-    outcomes = coin_mj.toss_many(scenario, releases, realisation=settings.realisation)
+    outcomes = coin_mj.toss_many(scenario, releases, settings=settings)
     seconds = time.process_time() - start
     found = by_mujoco(smooth, settings)
     before, after = first(found, "contact_velocity_before"), first(found, "contact_velocity_after")
@@ -147,13 +147,13 @@ def _speed(
     )
 
 
-def _errors(cases: list[Scenario], settings: ContactSettings) -> Array:
+def _errors(cases: list[Scenario], settings: Settings) -> Array:
     return relative_errors(first(by_law(cases), "impulse"), first(by_mujoco(cases, settings), "impulse"))
 
 
 def _loop(
     scenario: Scenario,
-    settings: ContactSettings,
+    settings: Settings,
     smooth: list[Scenario],
     error: float,
     seconds_per_second: float,
@@ -167,7 +167,7 @@ def _loop(
         error: of the worst of them.
         seconds_per_second: seconds of tosses on all threads in one toss's.
     """
-    chi, step = np.array([case.floor.restitution for case in smooth]), LONGEST_STEP[settings.realisation]
+    chi, step = np.array([case.floor.restitution for case in smooth]), LONGEST_STEP[settings.contact]
     while step > FINEST_STEP:
         if np.abs(restitutions_of_coins(smooth, settings, step) - chi).max() <= error:
             return Loop(step, seconds_per_second / _loop_seconds(scenario, settings, step))
@@ -175,7 +175,7 @@ def _loop(
     return None
 
 
-def _loop_seconds(scenario: Scenario, settings: ContactSettings, step: float) -> float:
+def _loop_seconds(scenario: Scenario, settings: Settings, step: float) -> float:
     """Give the time that the loop takes for a second of a toss [s]."""
     model = loop_model(scenario, settings, step)
     data = mujoco.MjData(model)

@@ -123,7 +123,7 @@ def sweep_of(
     text = COIN.format(thickness=thickness, normal=normal, tangential=tangential)
     scenario = parse(text, "coin")
     x, y = (parse_axis(axis.format(side), scenario) for axis in axes)
-    return Sweep(scenario=scenario, engine=engine, x=x, y=y)
+    return Sweep(scenario=scenario, engine=engine, x=x, y=y, settings=engine.package.MANY)
 
 
 def _cost(sweep: Sweep, parts: Iterable[Tile]) -> float:
