@@ -1,8 +1,8 @@
-"""Many tosses by the paper's mechanics, on all cores."""
+"""Many tosses by the analytic engine, on all cores."""
 
 import numpy as np
 
-from analytic.events import fly_and_hit
+from analytic.events import toss_coin
 from analytic.settings import MANY, Settings
 from models.kernel.compiled import compiled
 from models.outcomes import Outcomes
@@ -21,7 +21,7 @@ def toss_many(scenario: Scenario, releases: Releases, *, settings: Settings = MA
     Args:
         scenario: what to toss; its own release is not used.
         releases: the states at time 0.
-        settings: how finely.
+        settings: of the engine.
 
     Returns:
         How each toss ended, in the order of `releases`. The paths are not kept.
@@ -29,18 +29,17 @@ def toss_many(scenario: Scenario, releases: Releases, *, settings: Settings = MA
     Raises:
         ValueError: for a release that a scenario with this coin and air would refuse.
     """
-    del settings  # compiled in
     check_releases(scenario, releases)
-    body, rules = scenario.body, scenario.rules
+    body, rules, steps = scenario.body, scenario.rules, settings.contact_steps
     tile = TILE if body.air.exponent is None else SLOW_TILE
-    return toss_in_tiles(releases, tile, lambda *columns: _toss_each(body, rules, *columns))
+    return toss_in_tiles(releases, tile, lambda *columns: _toss_each(body, rules, steps, *columns))
 
 
 @compiled
-def _toss_each(body, rules, states, outcomes, endings, faces, impacts, end_times):
+def _toss_each(body, rules, contact_steps, states, outcomes, endings, faces, impacts, end_times):
     # Two rows, so that a touch without solution leaves the last impact's.
     rows = np.zeros(2, IMPACT_ROW)
     for i in range(len(states)):
-        n, _, _, outcome, ending, end_time = fly_and_hit(body, rules, states[i], rows, False)
+        n, _, _, outcome, ending, end_time = toss_coin(body, rules, contact_steps, states[i], rows, False)
         outcomes[i], endings[i], impacts[i], end_times[i] = outcome.value, ending.value, n, end_time
         faces[i] = rows[(n - 1) % 2]["face"] if n > 0 else 0

@@ -1,16 +1,27 @@
-"""How finely the analytic engine computes."""
+"""How finely the analytic engine computes, and how far it follows a toss."""
 
 from dataclasses import asdict, dataclass, field
 
-from analytic.flight.equations_of_motion import TOLERANCE
+from analytic.numerics.tolerances import STEP_ERROR
 
 
 @dataclass(frozen=True, kw_only=True)
 class Settings:
-    """What the tosses of this engine depend on beside their scenario; so far there is nothing to choose."""
+    """What the tosses of this engine depend on beside their scenario."""
 
-    tolerance: float = field(default=TOLERANCE, init=False)
+    tolerance: float = field(default=STEP_ERROR, init=False)
     """Error allowed in a step, relative; compiled in."""
+    contact_steps: int = 50_000_000
+    """The most steps of the integrator in the sustained contacts of a toss."""
+
+    def __post_init__(self) -> None:
+        """Check the numbers.
+
+        Raises:
+            ValueError: for fewer than one step.
+        """
+        if not self.contact_steps >= 1:
+            raise ValueError(f"contact_steps: given {self.contact_steps}, accepted: a whole number >= 1")
 
     def as_dict(self) -> dict[str, str | float]:
         """Return the settings on which a toss depends, by name."""

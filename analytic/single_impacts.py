@@ -41,5 +41,5 @@ def _strike_each(body, rules, chi, mu, states, rows, solved):
 
 @compiled
 def rules_at(rules, chi, mu):
-    """Give the same rules with another restitution χ and friction μ."""
+    """Return the same rules with another restitution χ and friction μ."""
     return Rules(rules.law, chi, rules.restitution_kind, mu, rules.test, rules.max_impacts, rules.max_time)

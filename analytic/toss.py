@@ -1,21 +1,21 @@
-"""One toss by the paper's mechanics, and its path."""
+"""One toss by the analytic engine, and its path."""
 
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.contact.contact import friction_in_contact, sample_contact
-from analytic.contact.floor_force import Motion
-from analytic.contact.force_in_contact import force_in_contact
-from analytic.events import Run, run
-from analytic.flight.equations_of_motion import STATE_SIZE
+from analytic.automaton import Mode
+from analytic.contact.following import friction_in_contact, sample_contact
+from analytic.contact.modes import floor_force
+from analytic.events import EventLog, run
 from analytic.flight.flying import sample
+from analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
 from analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
 from analytic.settings import FINE, Settings
 from models.attitude import rotation_matrix
+from models.barriers import barrier, energy
 from models.body import Body, in_vacuum, is_ideal
-from models.ending import barrier, energy
 from models.records import Array, Impacts, Setting, States, Toss
 from models.scenario import Release, Scenario
 
@@ -33,11 +33,11 @@ class Pieces:
     """(n,) [s]."""
     start_states: Array
     """(n, 13)."""
-    motions: NDArray[np.int8]
-    """`Motion`, (n,)."""
+    modes: NDArray[np.int8]
+    """`Mode`, (n,)."""
 
     def sample(self, times: Array) -> States:
-        """Give the states at `times` [s], in the order of `times`."""
+        """Return the states at `times` [s], in the order of `times`."""
         order = np.argsort(times, kind="stable")
         rows = np.empty((len(times), STATE_SIZE))
         piece = np.searchsorted(self.start_times, times[order], side="right") - 1
@@ -56,31 +56,28 @@ class Pieces:
         """Return the floor's force at `times` in sustained contacts, space frame, (n, 3) [N]."""
         piece = np.searchsorted(self.start_times, times, side="right") - 1
         # At its very end a contact still holds the coin.
-        piece = np.where(self.motions[piece] == Motion.FLIGHT, piece - 1, piece)
+        piece = np.where(np.isin(self.modes[piece], (Mode.FLIGHT, Mode.ENDED)), piece - 1, piece)
         states = self.sample(times)
         rows = np.hstack([states.position, states.velocity, states.quaternion, states.angular_velocity])
         forces = [
-            force_in_contact(self.body, self.friction, Motion(self.motions[number]), row)
+            floor_force(self.body, self.friction, int(self.modes[number]), row)
             for number, row in zip(piece, rows, strict=True)
         ]
         return np.array(forces)
 
     def _piece(self, number: int, times: Array) -> Array:
         states = np.empty((len(times), STATE_SIZE))
-        start, start_time, motion = (
-            self.start_states[number],
-            self.start_times[number],
-            self.motions[number],
-        )
-        if motion == Motion.FLIGHT:
+        start, start_time, mode = self.start_states[number], self.start_times[number], self.modes[number]
+        # Nothing starts at the end; as a flight, it is sampled as it is.
+        if mode in (Mode.FLIGHT, Mode.ENDED):
             sample(self.body, start, start_time, times, states)
         else:
-            sample_contact(self.body, self.friction, motion, start, start_time, times, states)
+            sample_contact(self.body, self.friction, mode, start, start_time, times, states)
         return states
 
 
 def state_of(release: Release) -> Array:
-    """Give the state at release, (13,)."""
+    """Return the state at release, (13,)."""
     return np.array([*release.position, *release.velocity, *release.attitude, *release.angular_velocity])
 
 
@@ -89,10 +86,11 @@ def require_supported(scenario: Scenario, *, settings: Settings) -> None:
 
 
 def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
-    """Toss a coin by the paper's mechanics.
+    """Toss a coin by the analytic engine.
 
     Free flight by eqs (21)-(22) of Strzalko et al. 2008 in Euler parameters, air drag by eqs (49)-(74),
-    impacts by eqs (85)-(92) and the contact laws of Fig. 17, or Routh's law.
+    impacts by eqs (85)-(92) and the contact laws of Fig. 17, or Coulomb friction integrated
+    through the impact.
 
     `trusted_impacts` counts the leading impacts that the engine's own errors, carried forward by the tangent
     map of the toss, cannot change. Up to there time is good to `horizon.TIME_ERROR` and impulse to
@@ -100,10 +98,10 @@ def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
 
     Args:
         scenario: what to toss.
-        settings: how finely.
+        settings: of the engine.
     """
     body, rules, start = scenario.body, scenario.rules, state_of(scenario.release)
-    answer = run(body, rules, start)
+    answer = run(body, rules, start, settings)
     impacts, end = Impacts.from_rows(answer.rows), answer.start_states[-1]
     return Toss(
         engine="analytic",
@@ -129,7 +127,7 @@ def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
             friction=friction_in_contact(rules),
             start_times=answer.start_times,
             start_states=answer.start_states,
-            motions=answer.motions,
+            modes=answer.modes,
         ),
     )
 
@@ -142,16 +140,16 @@ def _flight(body: Body) -> str:
     return f"power series without spin about the normal, else {_INTEGRATED}"
 
 
-def _before_contact(answer: Run) -> Run:
-    """Give the toss up to the first contact that lasts."""
+def _before_contact(answer: EventLog) -> EventLog:
+    """Return the toss up to the first sustained contact."""
     if len(answer.contacts) == 0:
         return answer
     return answer._replace(rows=answer.rows[answer.rows["time"] < answer.contacts[0, 0]])
 
 
 def _energy(body: Body, y: Array) -> float:
-    return energy(body, y[2], tuple(y[3:6]), tuple(y[10:13]))
+    return energy(body, position_of(y)[2], velocity_of(y), spin_of(y))
 
 
 def _barrier(body: Body, y: Array) -> float:
-    return barrier(body, rotation_matrix(tuple(y[6:10]))[2][2])
+    return barrier(body, rotation_matrix(attitude_of(y))[2][2])

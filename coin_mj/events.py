@@ -9,24 +9,23 @@ from coin_mj.steps.impact import TOUCH_STEP, TouchResult, resolve_impact
 from coin_mj.steps.knots import Step, add_knot, knot_of
 from coin_mj.steps.sustained_contact import NO_LOSS, ContactExit, follow_contact, slow_speed
 from models.attitude import rotation_matrix
-from models.ending import judge
+from models.ending import classify_ending
 from models.geometry import contact_velocity, lowest_point
 from models.impact_row import with_room, write_impact
 from models.kernel.compiled import compiled
-from models.perpetual import dies_away, first_contact, no_looks
+from models.perpetual import energy_history, start_history
 from models.records import Ending, Outcome
-
-# The most steps of a toss in sustained contacts.
-CONTACT_STEPS = 1_000_000
+from models.state import state
 
 
 @compiled
-def toss_coin(coin, rules, rows, keep_all):
+def toss_coin(coin, rules, contact_steps, rows, keep_all):
     """Toss the coin from its present state until the toss is decided.
 
     Args:
         coin: MuJoCo's, at its release.
         rules: floor and ending.
+        contact_steps: the most steps in sustained contact.
         rows: where the impacts are recorded, (m,) of `IMPACT_ROW`.
         keep_all: whether all impacts are recorded, in as many rows as they need, and the path; else impact
             number n is recorded in row n modulo m.
@@ -35,7 +34,7 @@ def toss_coin(coin, rules, rows, keep_all):
         Number of impacts; the rows; knots of the path, see `path.Knots`, (k, 15), or none; start and end of
         every sustained contact, (c, 2) [s]; outcome; ending; and the time of the end [s].
     """
-    time, n, steps_left, looks = 0.0, 0, CONTACT_STEPS, no_looks()
+    time, n, steps_left, history = 0.0, 0, contact_steps, energy_history()
     knots, contacts = [knot_of(coin, time, Step.FLIGHT)], [(time, time)]
     contacts.clear()
     if not keep_all:
@@ -61,14 +60,13 @@ def toss_coin(coin, rules, rows, keep_all):
                     rows = with_room(rows, n)
                 record(coin.body, start, touch, impulse, state_of(coin), rows[n % len(rows)])
                 n += 1
-                outcome, ending = decided(coin, rules)
-                if ending == Ending.NONE and goes_on(coin, rules, time, looks):
-                    outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
+                now = state(*state_of(coin))
+                outcome, ending = classify_ending(coin.body, rules, now, time, history, NO_LOSS)
         lands = False
         if sustained:
-            first_contact(coin.body, looks, time)
+            start_history(coin.body, history, time)
             way, time, steps_left, outcome, ending = follow_contact(
-                coin, rules, time, steps_left, looks, knots
+                coin, rules, time, steps_left, history, knots
             )
             if time > start:
                 contacts.append((start, time))
@@ -103,20 +101,6 @@ def fly(coin, time, max_time, knots):
         free_step(coin, dt)
         time += dt
     return time, False
-
-
-@compiled
-def decided(coin, rules):
-    """Return the outcome and the ending of the present state by `judge`."""
-    x, v, e, w = state_of(coin)
-    return judge(coin.body, rules, x[2], v, rotation_matrix(e)[2], w)
-
-
-@compiled
-def goes_on(coin, rules, time, looks):
-    """Return whether the coin, bouncing between sustained contacts, turns over for ever."""
-    x, v, e, w = state_of(coin)
-    return dies_away(coin.body, rules, x[2], v, rotation_matrix(e)[2], w, NO_LOSS, time, looks)
 
 
 @compiled

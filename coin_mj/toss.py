@@ -56,7 +56,9 @@ def run(machine: Machine, rules: Rules) -> MujocoRun:
     """Toss the coin from its present state until the toss is decided."""
     room = np.zeros(FIRST_ROOM, IMPACT_ROW)
     with air_of(machine.model):
-        n, rows, knots, contacts, outcome, ending, end_time = toss_coin(machine.coin, rules, room, True)
+        n, rows, knots, contacts, outcome, ending, end_time = toss_coin(
+            machine.coin, rules, machine.settings.contact_steps, room, True
+        )
     return MujocoRun(rows[:n].copy(), knots, contacts, Outcome(outcome), Ending(ending), end_time)
 
 

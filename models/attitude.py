@@ -9,7 +9,7 @@ Quaternion = tuple[float, float, float, float]
 
 
 def quaternion_from_angles(angles: Vector) -> Quaternion:
-    """Give the Euler parameters of the classical Euler angles (z-x-z).
+    """Return the Euler parameters of the classical Euler angles (z-x-z).
 
     R = R_ζ(ψ) R_ξ(θ) R_ζ(φ), Strzalko et al. 2008, eqs (9)-(10), with Euler parameters as in eq. (11).
 
@@ -36,14 +36,14 @@ def quaternion_product(a, b):
     return (
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
         a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+        a[0] * b[2] + a[2] * b[0] + a[3] * b[1] - a[1] * b[3],
+        a[0] * b[3] + a[3] * b[0] + a[1] * b[2] - a[2] * b[1],
     )
 
 
 @compiled
 def rotation_matrix(e):
-    """Give R(e), body to space: x_space = R x_body. Strzalko et al. 2008, eq. (15).
+    """Return R(e), body to space: x_space = R x_body. Strzalko et al. 2008, eq. (15).
 
     The diagonal is written with the sum of squares in place of 2 e0^2 - 1, so that a small tilt keeps
     its digits; on the unit sphere both are the same.

@@ -53,7 +53,7 @@ class Rules(NamedTuple):
 
 @compiled
 def is_ideal(body):
-    """Tell whether the coin is balanced, with the inertia of a symmetric top about its normal."""
+    """Return whether the coin is balanced, with the inertia of a symmetric top about its normal."""
     c, J = body.center, body.inertia
     balanced = c[0] == 0 and c[1] == 0 and c[2] == 0
     return balanced and J[0][0] == J[1][1] and J[0][1] == 0 and J[0][2] == 0 and J[1][2] == 0
@@ -61,5 +61,5 @@ def is_ideal(body):
 
 @compiled
 def in_vacuum(body):
-    """Tell whether there is no air."""
+    """Return whether there is no air."""
     return body.air.normal == 0 and body.air.tangential == 0

@@ -1,18 +1,37 @@
-"""Where a coin is above the floor: its gap, its lowest point, and how long it surely stays clear."""
-
-import math
-from typing import NamedTuple
+"""Where a coin is above the floor: its tilt, its gap, its lower rim and its lowest point."""
 
 from models.kernel.compiled import compiled
-from models.kernel.vectors import add, cross, dot, norm
+from models.kernel.vectors import add, cross, dot
 
 # Below this sine of the tilt a face counts as flat: its whole rim is at one height within rounding.
 FLAT_SINE = 1e-14
+FACE_SINE = 1e-7
+"""Below this sine of the tilt the lowest point runs round the rim too fast to follow: a face lands."""
+
+
+@compiled
+def tilt_sine_of(up):
+    """Return the sine of the angle between the coin's normal and the vertical.
+
+    Args:
+        up: the upward unit vector in the body frame, Rᵀ z, (3,).
+    """
+    return (up[0] * up[0] + up[1] * up[1]) ** 0.5
+
+
+@compiled
+def lower_rim(n_z):
+    """Return which rim is the lower one, as the sign of its ζ: -1, tails', with heads up, else 1, heads'.
+
+    Args:
+        n_z: upward component of the coin's normal; of a coin on its edge its rate, for the rim that lands.
+    """
+    return -1.0 if n_z > 0 else 1.0
 
 
 @compiled
 def height_of_center(body, z, up):
-    """Give the height of the geometric centre B [m].
+    """Return the height of the geometric centre B [m].
 
     Args:
         body: the coin.
@@ -24,20 +43,20 @@ def height_of_center(body, z, up):
 
 @compiled
 def gap(body, z, up):
-    """Give the height of the coin's lowest point above the floor [m], negative below it.
+    """Return the height of the coin's lowest point above the floor [m], negative below it.
 
     Args:
         body: the coin.
         z: height of the mass centre C [m].
         up: the upward unit vector in the body frame, Rᵀ z, (3,).
     """
-    tilt_sine = (up[0] * up[0] + up[1] * up[1]) ** 0.5
+    tilt_sine = tilt_sine_of(up)
     return height_of_center(body, z, up) - body.thickness / 2 * abs(up[2]) - body.radius * tilt_sine
 
 
 @compiled
 def lowest_point(body, up, w):
-    """Give the point of the coin that is lowest, or about to be.
+    """Return the point of the coin that is lowest, or about to be.
 
     On the rim, unless a face lies flat or the coin stands on its edge. The whole rim of a flat face is
     lowest: if the coin turns, the point that moves down fastest is given; if it does not, the point of the
@@ -53,224 +72,23 @@ def lowest_point(body, up, w):
         flat: whether the point is that under C, for a coin that lands flat without turning.
     """
     r, half = body.radius, body.thickness / 2
-    side = -1.0 if up[2] > 0 else 1.0
-    tilt_sine = (up[0] * up[0] + up[1] * up[1]) ** 0.5
+    rim = lower_rim(up[2])
+    tilt_sine = tilt_sine_of(up)
     if tilt_sine > FLAT_SINE:
-        along = side * half
+        along = rim * half
         if abs(up[2]) < FLAT_SINE:
             normal_rate = up[0] * w[1] - up[1] * w[0]
             along = body.center[2] if normal_rate == 0 else half if normal_rate < 0 else -half
         return (-r * up[0] / tilt_sine, -r * up[1] / tilt_sine, along), False
     turning = (w[0] * w[0] + w[1] * w[1]) ** 0.5
     if turning > 0:
-        return (-side * r * w[1] / turning, side * r * w[0] / turning, side * half), False
-    return (body.center[0], body.center[1], side * half), True
-
-
-@compiled
-def _spin_bound(body, w):
-    """Give ω̃ = √(2 T_rot/J_min) ≥ |ω| [rad/s]; without air it never changes."""
-    J = body.inertia
-    energy_twice = dot(w, (dot(J[0], w), dot(J[1], w), dot(J[2], w)))
-    return (energy_twice / body.inertia_smallest) ** 0.5
-
-
-@compiled
-def drag_bound(body, b, v, w, window):
-    """Bound the air's force and moment about C by k p and ℓ k p + d ω̃, with p = |v_C| + ω̃ ℓ, over a window.
-
-    For b = 0 p bounds the speed of B: k and d are the largest coefficients, ℓ is B's distance from C.
-    For b > 0 p bounds the speed of the whole surface, ℓ its distance from C: the force on dA is at most
-    λ p^b p. Pressure acts on one of the faces and half of the wall at a time. Air takes energy, so gravity
-    alone can raise √(2 T/m), by g dt: that bounds p^b for the whole window.
-
-    Args:
-        body: the coin.
-        b: the exponent of its air; None for 0.
-        v: velocity of C, (3,) [m/s].
-        w: angular velocity, body frame, (3,) [rad/s].
-        window: length of the time window [s].
-
-    Returns:
-        k [kg/s], ℓ [m], and d [kg m²/s].
-    """
-    air, drag, r, h = body.air, body.drag, body.radius, body.thickness
-    if b is None:
-        return (
-            max(drag.force_tangential, drag.force_normal),
-            norm(body.center),
-            max(drag.moment_tangential, drag.moment_normal),
-        )
-    arm = norm(body.center) + math.hypot(r, h / 2)
-    spin, ratio = _spin_bound(body, w), body.inertia_smallest / body.mass
-    start = (dot(v, v) + ratio * spin * spin) ** 0.5
-    fastest = (start + body.gravity * window) * (1 + arm * arm / ratio) ** 0.5
-    k = math.pi * r * (r + h) * (air.normal + 2 * air.tangential) * fastest**b
-    return k, arm, 0.0
-
-
-@compiled
-def damping_rate(body, v, w, window):
-    """Give κ = k (1/m + ℓ²/J_min), a bound on the rate at which drag changes velocities over a window [1/s].
-
-    Args:
-        body: the coin.
-        v: velocity of C, (3,) [m/s].
-        w: angular velocity, body frame, (3,) [rad/s].
-        window: length of the time window [s].
-    """
-    k, arm, _ = drag_bound(body, body.air.exponent, v, w, window)
-    return k * (1 / body.mass + arm * arm / body.inertia_smallest)
-
-
-class Accelerations(NamedTuple):
-    """Bounds on the accelerations of a flying coin."""
-
-    of_height: float
-    """Downward, of any point on the axis Bζ within the coin [m/s²]."""
-    of_height_of_normal: float
-    """|d²n_z/dt²|, n the coin's normal in space [1/s²]."""
-    of_normal: float
-    """|d²n/dt²| [1/s²]."""
-
-
-@compiled
-def acceleration_bounds(body, v, up, w, window):
-    """Bound the accelerations of a flying coin over a time window.
-
-    The spin: ω̃ = √(2 T_rot/J_min) ≥ |ω| changes only by the air: dω̃/dt ≤ ℓ k p/J_min, with k, ℓ and
-    p = |v_C| + ω̃ ℓ of `drag_bound`. dp/dt ≤ g + κ p, κ = k (1/m + ℓ²/J_min), which Grönwall's lemma
-    closes.
-
-    The turning ω⊥ across the normal, alone, tilts the coin: |ṅ| = |ω⊥|. With j = (J_ξζ, J_ηζ) and D the
-    spread of the moments of inertia, |ω̇⊥| ≤ a + β |ω⊥|, β = (ω̃ D + d)/J_min, where a holds the rest: of j and
-    of the air. So a coin that spins flat is known to stay nearly flat, however fast it spins.
-
-    n̈ = ω̇ × n + ω × (ω × n) is at most ω̃ |ω⊥| + |ω̇⊥|. Its vertical part is -n_z |ω⊥|² plus, times the sine of
-    the tilt, at most ω̃ |ω⊥| + |ω̇⊥|. C, |c| off the axis, adds at most |c| (|ω̇| + ω̃ |ω_h|), ω_h the horizontal
-    part of ω.
-
-    Args:
-        body: the coin.
-        v: velocity of C, space frame, (3,) [m/s].
-        up: the upward unit vector in the body frame, Rᵀ z, (3,).
-        w: angular velocity, body frame, (3,) [rad/s].
-        window: length of the time window [s].
-    """
-    J, J_min = body.inertia, body.inertia_smallest
-    drag, arm, turn_drag = drag_bound(body, body.air.exponent, v, w, window)
-    spin = _spin_bound(body, w)
-    speed = norm(v) + spin * arm
-    if drag > 0:
-        speed = (speed + body.gravity * window) * math.exp(damping_rate(body, v, w, window) * window)
-        spin += drag * arm / J_min * window * speed
-    j, spread = math.hypot(J[0][2], J[1][2]), body.inertia_largest - J_min
-    apart = (2 * spin * spin * j + arm * drag * speed) / J_min + j / J_min * turn_drag * spin / J_min
-    growth = (spin * spread + turn_drag) / J_min
-    across = math.hypot(w[0], w[1])
-    across = min((across + apart * window) * math.exp(growth * window), spin)
-    spin_rate = (spread / 2 * spin * spin + turn_drag * spin + arm * drag * speed) / J_min
-    across_rate = min(apart + growth * across, spin_rate)
-    tilt_sine = min(math.hypot(up[0], up[1]) + across * window, 1.0)
-    of_height_of_normal = across * min(across + tilt_sine * spin, spin) + tilt_sine * across_rate
-    of_center = norm(body.center) * (spin_rate + spin * (across + tilt_sine * spin))
-    return Accelerations(
-        body.gravity + drag * speed / body.mass + of_center + body.thickness / 2 * of_height_of_normal,
-        of_height_of_normal,
-        spin * across + across_rate,
-    )
-
-
-@compiled
-def clear_time(body, z, v, up, w, window):
-    """Give a time during which a flying coin surely does not reach the floor [s].
-
-    The rim of the face at ζ = ±h/2, whose centre is at height q, is clear while F = q² - r² (1 - n_z²) > 0.
-    F has no kinks, and F'' >= -K with K = 2 q_max (bound on -q'') + 2 r² (bound on |n_z''|); so F stays
-    positive up to the positive root of F + F' t - K t²/2. Stepping by this time is a Newton iteration
-    that approaches the first touch from before, quadratically, and never passes it.
-
-    Args:
-        body: the coin.
-        z: height of C [m].
-        v: velocity of C, space frame, (3,) [m/s].
-        up: the upward unit vector in the body frame, Rᵀ z, (3,).
-        w: angular velocity, body frame, (3,) [rad/s].
-        window: the longest time of interest [s].
-
-    Returns:
-        A time in [0, window].
-    """
-    r = body.radius
-    # Bounds over a window much longer than the drag's own time would be too wide to be of use.
-    rate = damping_rate(body, v, w, window)
-    if rate * window > 0.5:
-        window = 0.5 / rate
-    bounds = acceleration_bounds(body, v, up, w, window)
-    up_rate = cross(up, w)
-    tilt_sine = (up[0] * up[0] + up[1] * up[1]) ** 0.5
-    center_rate = v[2] - dot(up_rate, body.center)
-    clear = window
-    for side in (-0.5, 0.5):
-        q = height_of_center(body, z, up) + side * body.thickness * up[2]
-        q_rate = center_rate + side * body.thickness * up_rate[2]
-        q_most = abs(q) + abs(q_rate) * window + bounds.of_height * window * window / 2
-        F = max((q - r * tilt_sine) * (q + r * tilt_sine), 0.0)
-        F_rate = 2 * (q * q_rate + r * r * up[2] * up_rate[2])
-        K = 2 * (q_most * bounds.of_height + r * r * bounds.of_height_of_normal)
-        root = (F_rate * F_rate + 2 * K * F) ** 0.5
-        # Of the two forms of the root, each sign of F_rate takes the one without cancellation.
-        if F_rate > 0:
-            clear = min(clear, (F_rate + root) / K)
-        elif F > 0:
-            clear = min(clear, 2 * F / (root - F_rate))
-        else:
-            clear = 0.0
-    return clear
-
-
-@compiled
-def grazing_time(body, v, up, w, sink):
-    """Give a time within which a coin that touches, but whose lowest point does not move down, hardly sinks.
-
-    With q the height of the lower face's centre and p the horizontal part of the normal, |p| the sine of the
-    tilt, the gap is q - r |p|. Beside the accelerations, two kinks lower it: as p passes 0 the opposite side
-    of the rim becomes the lowest, as n_z passes 0 the other face does.
-
-    Args:
-        body: the coin.
-        v: velocity of C, space frame, (3,) [m/s].
-        up: the upward unit vector in the body frame, Rᵀ z, (3,).
-        w: angular velocity, body frame, (3,) [rad/s].
-        sink: by how much each of the three may lower the gap [m].
-
-    Returns:
-        time: the time [s].
-        acceleration: the largest downward acceleration of the gap in it, but for the passing of 0 [m/s²].
-    """
-    bounds = acceleration_bounds(body, v, up, w, 0.0)
-    acceleration = bounds.of_height + body.radius * bounds.of_normal
-    time = (2 * sink / acceleration) ** 0.5
-    tilt_sine = (up[0] * up[0] + up[1] * up[1]) ** 0.5
-    up_rate = cross(up, w)
-    if tilt_sine > FLAT_SINE:
-        # |p + ṗ t| exceeds |p| + |p|' t by at most sink/r up to the root of a quadratic.
-        rate = (up[0] * up_rate[0] + up[1] * up_rate[1]) / tilt_sine
-        turning = (up[0] * w[0] + up[1] * w[1]) / tilt_sine
-        acceleration += body.radius * turning * turning / tilt_sine
-        part = sink / body.radius
-        room = (2 * tilt_sine + part) * part
-        divisor = ((part * rate) ** 2 + turning * turning * room) ** 0.5 - part * rate
-        if divisor > 0:
-            time = min(time, room / divisor)
-    if up[2] * up_rate[2] < 0 and body.thickness > 0:
-        time = min(time, (abs(up[2]) + sink / body.thickness) / abs(up_rate[2]))
-    return time, acceleration
+        return (-rim * r * w[1] / turning, rim * r * w[0] / turning, rim * half), False
+    return (body.center[0], body.center[1], rim * half), True
 
 
 @compiled
 def contact_velocity(body, R, v, w, point):
-    """Give the velocity of the coin's point `point` in space: v_C + R (ω × (A - C)).
+    """Return the velocity of the coin's point `point` in space: v_C + R (ω × (A - C)).
 
     Args:
         body: the coin.

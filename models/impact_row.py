@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from models.ending import energy, face_up
+from models.barriers import energy
+from models.ending import face_up
 from models.kernel.compiled import compiled
 from models.records import IMPACT_ROW
 
@@ -46,7 +47,7 @@ def write_impact(body, impulse, point, n_z, touch, release, row):
 
 @compiled
 def with_room(rows, n):
-    """Give rows with room for impact number n: these, or twice as many."""
+    """Return rows with room for impact number n: these, or twice as many."""
     if n < len(rows):
         return rows
     more = np.zeros(2 * len(rows), IMPACT_ROW)

@@ -8,7 +8,7 @@ TRIANGLE_TOLERANCE = 1e-12
 
 
 def cylinder_inertia(mass: float, radius: float, thickness: float) -> NDArray[np.float64]:
-    """Give J_B, the inertia of a uniform cylinder about its centre.
+    """Return J_B, the inertia of a uniform cylinder about its centre.
 
     J_ξ = J_η = m r²/4 + m h²/12 and J_ζ = m r²/2; Strzalko et al. 2008, before eq. (34).
 
@@ -43,7 +43,7 @@ def inertia_about_mass_center(J_B: ArrayLike, mass: float, center: ArrayLike) ->
 
 
 def is_positive_definite(J: ArrayLike) -> bool:
-    """Tell whether every principal moment of J is positive beyond rounding."""
+    """Return whether every principal moment of J is positive beyond rounding."""
     if not np.all(np.isfinite(J)):
         return False
     moments = np.linalg.eigvalsh(np.asarray(J, dtype=float))
@@ -51,6 +51,6 @@ def is_positive_definite(J: ArrayLike) -> bool:
 
 
 def obeys_triangle_inequality(J: ArrayLike) -> bool:
-    """Tell whether no principal moment exceeds the sum of the other two, as for every real body."""
+    """Return whether no principal moment exceeds the sum of the other two, as for every real body."""
     low, middle, high = np.linalg.eigvalsh(np.asarray(J, dtype=float))
     return bool(high <= low + middle + TRIANGLE_TOLERANCE * (low + middle + high))

@@ -4,7 +4,7 @@ from enum import IntEnum
 
 
 class ContactLaw(IntEnum):
-    """How the contact point A leaves the floor; Strzalko et al. 2008, Fig. 17, and Routh's law."""
+    """How the contact point A leaves the floor; Strzalko et al. 2008, Fig. 17, and Coulomb friction."""
 
     SHARP_EDGE = 1
     KNURLED = 2
@@ -37,7 +37,7 @@ class EndingTest(IntEnum):
 
 
 class RestitutionKind(IntEnum):
-    """What the restitution χ compares, before and after an impact of Routh's law."""
+    """What the restitution χ compares, before and after an impact of the law `coulomb`."""
 
     KINEMATIC = 1
     """The normal speeds of A: Newton's v_Az' = -χ v_Az."""

@@ -33,11 +33,11 @@ class Outcomes:
             array.setflags(write=False)
 
     def __len__(self) -> int:
-        """Give the number of tosses."""
+        """Return the number of tosses."""
         return len(self.outcome)
 
     def after(self, impacts: int) -> NDArray[np.int8]:
-        """Give the face at the touch after so many impacts, the outcome where the toss ended before, (n,).
+        """Return the face at the touch after so many impacts, the outcome where the toss ended before, (n,).
 
         Args:
             impacts: 0 for the first touch. The tosses must have been made with one more as `max_impacts`,

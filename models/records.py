@@ -54,6 +54,7 @@ class Ending(IntEnum):
     LYING = 8
     STANDING = 9
     PERPETUAL = 10
+    CONTACT_STEPS = 11
 
     @property
     def label(self) -> str:
@@ -71,13 +72,14 @@ _SENTENCES = {
     Ending.SETTLED: "The energy is below the pass to the other face, and no impact of this law adds energy.",
     Ending.PAPER: "The energy is too low to turn over, unless a later impact adds some.",
     Ending.PAPER_SMOOTH: "The energy that can turn the coin over is below m g r, eq. (20).",
-    Ending.MAX_IMPACTS: "The largest number of impacts was reached.",
-    Ending.MAX_TIME: "The largest time was reached.",
-    Ending.CHATTER: "Impacts crowd together: the coin stays in contact, which is not followed here.",
+    Ending.MAX_IMPACTS: "The toss made as many impacts as [ending] max_impacts allows; raise it to go on.",
+    Ending.MAX_TIME: "The toss lasted as long as [ending] max_time allows; raise it to go on.",
+    Ending.CHATTER: "The impacts chatter: the coin stays in contact, where this contact law is not followed.",
     Ending.NO_SOLUTION: "The contact law has no solution in this state.",
     Ending.LYING: "The coin lies on a face; it only slides and spins, which can't tip it.",
-    Ending.STANDING: "The coin stands on its edge: on either rim the floor turns it back to the other.",
-    Ending.PERPETUAL: "What the coin loses dies away: it keeps enough energy to turn over for ever.",
+    Ending.STANDING: "The coin stands on its edge: tipped onto either rim, it is turned back by the floor.",
+    Ending.PERPETUAL: "The energy loss converges: the coin keeps enough energy to turn over for ever.",
+    Ending.CONTACT_STEPS: "The engine made as many steps in contact as its setting contact_steps allows.",
 }
 
 
@@ -131,7 +133,7 @@ class Impacts:
             raise ValueError("Impacts.time: must not decrease")
 
     def __len__(self) -> int:
-        """Give the number of impacts."""
+        """Return the number of impacts."""
         return len(self.time)
 
     @classmethod
@@ -200,7 +202,7 @@ _BEYOND_ROUNDING = 1e-9
 
 
 def raised_flags(impacts: Impacts, friction: float | Array) -> dict[Flag, NDArray[np.bool_]]:
-    """Tell for each flag which impacts raise it, (n,).
+    """Return for each flag which impacts raise it, (n,).
 
     Args:
         impacts: of any coins.
@@ -219,7 +221,7 @@ class Path(Protocol):
     """A coin's motion that can be asked for its state at any time of the toss."""
 
     def sample(self, times: Array) -> States:
-        """Give the states at `times` [s], in the order of `times`."""
+        """Return the states at `times` [s], in the order of `times`."""
         ...
 
     def floor_force(self, times: Array) -> Array:
@@ -244,7 +246,7 @@ class Toss:
     scenario: Scenario
     impacts: Impacts
     contacts: Array
-    """Start and end of every contact that lasts, (n, 2) [s]."""
+    """Start and end of every sustained contact, (n, 2) [s]."""
     outcome: Outcome
     ending: Ending
     end_time: float
@@ -273,7 +275,7 @@ class Toss:
         return tuple(frozenset(flag for flag in Flag if raised[flag][i]) for i in range(len(self.impacts)))
 
     def sample(self, times: ArrayLike) -> States:
-        """Give the coin's states at `times`.
+        """Return the coin's states at `times`.
 
         At the time of an impact the analytic engine gives the state after it; MuJoCo, in which a contact
         takes time, gives the state at first touch.

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from models.attitude import rotation_matrix
-from models.geometry import damping_rate, gap
+from models.clearance import damping_rate
+from models.geometry import gap
 from models.kernel.compiled import compiled
 from models.records import Array
 from models.scenario import FASTEST_DRAG, FASTEST_SPIN, LARGEST, NORM_ROUNDING, Scenario
@@ -47,7 +48,7 @@ class Releases:
             object.__setattr__(self, item.name, array)
 
     def __len__(self) -> int:
-        """Give the number of releases."""
+        """Return the number of releases."""
         return len(self.position)
 
 

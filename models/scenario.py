@@ -19,10 +19,11 @@ from pydantic import (
 
 from models.attitude import Quaternion, quaternion_from_angles, rotation_matrix
 from models.body import AirLaw, Body, Rules
+from models.clearance import damping_rate
 from models.drag import linear_drag
 from models.errors import FieldError, ScenarioError, describe
 from models.fields import lambda_unit, put
-from models.geometry import damping_rate, gap
+from models.geometry import gap
 from models.inertia import (
     cylinder_inertia,
     inertia_about_mass_center,
@@ -87,7 +88,7 @@ Spins = Annotated[tuple[Spin, Spin, Spin], _Sequence]
 EulerParameters = Annotated[tuple[Number, Number, Number, Number], _Sequence]
 _Row = Annotated[tuple[Inertia, Inertia, Inertia], _Sequence]
 _ZERO = (0.0, 0.0, 0.0)
-# Up to this kinematic restitution Routh's law and its limit add energy in hardly an impact.
+# Up to this kinematic restitution `coulomb` and its limit add energy in hardly an impact.
 _ROUTHS, _TAKING = (ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH), 0.7
 
 

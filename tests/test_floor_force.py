@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analytic.contact.floor_force import Motion
+from analytic.automaton import Mode
 from analytic.toss import Pieces
 from compare.engines import Engine
 from models.attitude import rotation_matrix
@@ -27,11 +27,11 @@ UPRIGHT = {
 }
 CASES = {
     "smooth": (
-        Motion.SLIDING,
+        Mode.SLIDING,
         scenario(air=AIR, floor={"restitution": 0.3, "contact": "smooth"}, release=ROLLING),
     ),
     "sliding": (
-        Motion.SLIDING,
+        Mode.SLIDING,
         scenario(
             air=AIR,
             floor={"restitution": 0.3, "contact": "coulomb", "friction": 0.1},
@@ -39,11 +39,11 @@ CASES = {
         ),
     ),
     "sticking": (
-        Motion.STICKING,
+        Mode.STICKING,
         scenario(air=AIR, floor={"restitution": 0.3, "contact": "coulomb", "friction": 0.9}, release=ROLLING),
     ),
     "upright": (
-        Motion.UPRIGHT,
+        Mode.UPRIGHT,
         scenario(
             coin={**ZLOTY, "center_of_mass": PAPER_OFFSET},
             air=AIR,
@@ -78,7 +78,7 @@ def from_momentum(tossed, times):
 def times_of(tossed, motion):
     """Return times in the longest sustained contact, of the analytic engine in one motion."""
     if isinstance(tossed.path, Pieces):
-        edges, kinds = tossed.path.start_times, tossed.path.motions[:-1]
+        edges, kinds = tossed.path.start_times, tossed.path.modes[:-1]
         spans = [(a, b) for a, b, kind in zip(edges[:-1], edges[1:], kinds, strict=True) if kind == motion]
     else:
         spans = list(tossed.contacts)
@@ -97,7 +97,7 @@ def test_the_floors_force_is_what_momentum_gains_beyond_weight_and_drag(engine, 
     assert np.median(np.linalg.norm(force, axis=1)) > 0.1 * M * G
     if case.floor.friction > 0 and engine is Engine.ANALYTIC:
         along = np.hypot(force[:, 0], force[:, 1]) / force[:, 2]
-        assert (np.abs(along - case.floor.friction).max() < 1e-6) == (motion == Motion.SLIDING)
+        assert (np.abs(along - case.floor.friction).max() < 1e-6) == (motion == Mode.SLIDING)
 
 
 def test_in_flight_the_floor_has_no_force(engine):

@@ -11,7 +11,7 @@ FAR = 1.5
 
 @compiled
 def face_friction_change(body, v, w, dv, dw, nodes):
-    """Give how the friction on both faces, at B, changes with the motion, from eqs (51) and (73).
+    """Return how the friction on both faces, at B, changes with the motion, from eqs (51) and (73).
 
     Args:
         body: the coin.
@@ -49,7 +49,7 @@ def face_friction_change(body, v, w, dv, dw, nodes):
 
 @compiled
 def disc_dissipation(b, r, U, w, nodes):
-    """Give the second derivatives of D(U, ω) = ∫ |V|^(b+2)/(b+2) dA over a disc that slides and spins.
+    """Return the second derivatives of D(U, ω) = ∫ |V|^(b+2)/(b+2) dA over a disc that slides and spins.
 
     V = U + ω ζ × p. The gradient of D is force and moment for λ_τ = 1, so its second derivatives are their
     changes. They are homogeneous of degree b.

@@ -10,7 +10,7 @@ from models.kernel.vectors import add, cross, scale, subtract
 
 @compiled
 def force_and_moment(body, v, w):
-    """Give the air's force and its moment about the mass centre.
+    """Return the air's force and its moment about the mass centre.
 
     Strzalko et al. 2008, eqs (49)-(74). For b = 0 in the closed form of `models.drag`: at B,
     f = -diag(c) v_B and m_B = -diag(d) ω; about C, m_C = m_B - c × f with c from B to C. For 0 < b <= 1 by
@@ -31,7 +31,7 @@ def force_and_moment(body, v, w):
 
 @compiled
 def _force_and_moment(body, b, v, w):
-    """Give force and moment; numba leaves out what None rules out only where it is an argument."""
+    """Return force and moment; numba leaves out what None rules out only where it is an argument."""
     if b is not None:
         return _by_quadrature(body, v, w)
     drag = body.drag
@@ -51,7 +51,7 @@ def _force_and_moment(body, b, v, w):
 
 @compiled
 def force_and_moment_change(body, v, w, dv, dw):
-    """Give how the air's force and moment about C change with the motion, to first order in (dv, dw).
+    """Return how the air's force and moment about C change with the motion, to first order in (dv, dw).
 
     For b = 0 they are linear. For b > 0 the same quadrature is applied to the change of the force on dA,
     -λ (|v|^b dv + b |v|^(b-2) (v . dv) v); the border of the pressure adds nothing, its force vanishes there.
@@ -81,7 +81,7 @@ def _force_and_moment_change(body, b, v, w, dv, dw):
 
 @compiled
 def _by_quadrature(body, v, w):
-    """Give force and moment for b > 0."""
+    """Return force and moment for b > 0."""
     v_B, share = subtract(v, cross(w, body.center)), 1 / (1 + body.air.exponent)
     df, dm_B = change_about_B(body, v_B, w, v_B, w, FORCE_NODES)
     return scale(share, df), scale(share, subtract(dm_B, cross(body.center, df)))
@@ -89,7 +89,7 @@ def _by_quadrature(body, v, w):
 
 @compiled
 def change_about_B(body, v, w, dv, dw, nodes):
-    """Give the change of the air's force and of its moment about B for b > 0, with given nodes.
+    """Return the change of the air's force and of its moment about B for b > 0, with given nodes.
 
     Args:
         body: the coin.

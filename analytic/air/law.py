@@ -5,13 +5,13 @@ from models.kernel.compiled import compiled
 
 @compiled
 def power(square, b):
-    """Give |v|^b from |v|², for 0 < b <= 1."""
+    """Return |v|^b from |v|², for 0 < b <= 1."""
     return square**0.5 if b == 1 else square ** (b / 2)
 
 
 @compiled
 def changed_law(a_0, a_1, da_0, da_1, b):
-    """Give the change of |a|^b a with the plane vector a: |a|^b da + b |a|^(b-2) (a . da) a.
+    """Return the change of |a|^b a with the plane vector a: |a|^b da + b |a|^(b-2) (a . da) a.
 
     Bounded, but without a limit at a = 0, where 0 is given.
     """

@@ -9,7 +9,7 @@ from models.kernel.vectors import add
 
 @compiled
 def pressure_change(body, v, w, dv, dw, nodes):
-    """Give how pressure's force and moment at B change with the motion, from eqs (52), (54), (73), (74).
+    """Return how pressure's force and moment at B change with the motion, from eqs (52), (54), (73), (74).
 
     Args:
         body: the coin.

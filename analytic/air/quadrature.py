@@ -10,13 +10,13 @@ Rule = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 def gauss_rule(n: int) -> Rule:
-    """Give the n nodes and weights of Gauss and Legendre for [0, 1]."""
+    """Return the n nodes and weights of Gauss and Legendre for [0, 1]."""
     x, weights = np.polynomial.legendre.leggauss(n)
     return (x + 1) / 2, weights / 2
 
 
 def graded_rule(n: int, grading: int) -> Rule:
-    """Give n nodes and weights for functions on [0, 1] that are not smooth at 0, or near it.
+    """Return n nodes and weights for functions on [0, 1] that are not smooth at 0, or near it.
 
     Gauss's rule in t with x = t^p, p the grading. A power x^s, s > -1, becomes t^(p s + p - 1), for which
     the rule converges as n^(-2p(s + 1)). A branch point at a distance ε from x = 0, off the interval, has
@@ -41,7 +41,7 @@ class Nodes(NamedTuple):
 
 
 def nodes_of(n: int, n_along: int, digits: float) -> Nodes:
-    """Give graded rules of n and n_along nodes, and plain ones good to exp(-digits)."""
+    """Return graded rules of n and n_along nodes, and plain ones good to exp(-digits)."""
     return Nodes(*graded_rule(n, 5), *graded_rule(n_along, 2), digits)
 
 

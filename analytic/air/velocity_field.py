@@ -52,7 +52,7 @@ class SurfaceFields(NamedTuple):
 def velocity_fields(
     body: Body, v: Vector, w: Vector, *, rings: int = 6, spokes: int = 24, levels: int = 5
 ) -> SurfaceFields:
-    """Give the velocities of points spread over a moving coin; Strzalko et al. 2008, eqs (59)-(65), (75).
+    """Return the velocities of points spread over a moving coin; Strzalko et al. 2008, eqs (59)-(65), (75).
 
     Args:
         body: the coin.

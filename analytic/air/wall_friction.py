@@ -27,7 +27,7 @@ _NO_SUMS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 @compiled
 def wall_friction_change(body, v, w, dv, dw, nodes):
-    """Give how the friction on the wall, at B, changes with the motion, from eqs (53) and (74).
+    """Return how the friction on the wall, at B, changes with the motion, from eqs (53) and (74).
 
     Args:
         body: the coin.
@@ -201,7 +201,7 @@ def _around(body, v, w, dv, dw, z, nodes):
 
 @compiled
 def _at(body, v, w, dv, dw, z, cosine, sine):
-    """Give the change of |T|^b T at one point of the wall as force and moment, per area."""
+    """Return the change of |T|^b T at one point of the wall as force and moment, per area."""
     b, r = body.air.exponent, body.radius
     T_around = r * w[2] - (v[0] + w[1] * z) * sine + (v[1] - w[0] * z) * cosine
     T_along = v[2] + r * (w[0] * sine - w[1] * cosine)

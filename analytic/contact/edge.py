@@ -1,38 +1,91 @@
-"""A thick coin on its edge, on the rims of both faces: whether it stands."""
+"""A thick coin on its edge, on the rims of both faces: whether it comes upright, and whether it stands."""
 
 import math
 
 import numpy as np
 
-from analytic.contact.contact import contact_rate
-from analytic.contact.floor_force import SLOW, Motion, contact, holding_force, holds, side_of
-from analytic.flight.equations_of_motion import STATE_SIZE, attitude_of, derivative, spin_of, velocity_of
+from analytic.automaton import Event, Mode
+from analytic.contact import one_rim, upright
+from analytic.contact.floor_force import friction_holds, holding_force
+from analytic.contact.one_rim import lower_rim_of
+from analytic.contact.rim_contact import both_rims
+from analytic.flight.state_vector import (
+    STATE_SIZE,
+    attitude_of,
+    set_attitude,
+    set_height,
+    set_spin,
+    spin_of,
+    state_of,
+)
 from analytic.numerics.rotation import quaternion_rate
-from models.attitude import rotation_matrix
+from analytic.numerics.tolerances import ON_EDGE, SLOW
+from models.attitude import quaternion_product, rotation_matrix
 from models.body import in_vacuum
+from models.geometry import tilt_sine_of
 from models.kernel.compiled import compiled
 from models.kernel.vectors import apply, cross, dot, scale
 
-# A sine of the angle off the edge, and its rate against √(g/r), below which a coin is on its edge.
-_ON_EDGE = 1e-6
 # The angle by which a coin on its edge is tried on either rim.
 _TIP = 1e-9
 # In so many phases of its roll a coin on its edge is tried.
 _PHASES = 48
+# An upright coin is tried for whether it stands once in so many steps.
+_BETWEEN_TRIALS = 64
+
+
+@compiled
+def event_at_one_rim(body, mu, mode, y):
+    """Return whether a coin in contact at one rim comes upright, or stands for good: `Event.ENDS`.
+
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ, 0 on a smooth floor.
+        mode: number of the `Mode`.
+        y: state, (13,); put upright where the coin comes so.
+    """
+    if not (on_edge(body, y) and held_on_edge(body, mu, mode, y)):
+        return Event.NONE
+    if stands(body, mu, mode, y):
+        return Event.ENDS
+    both = y.copy()
+    upright.put_on_floor(body, both)
+    if mode == Mode.STICKING:
+        upright.start_creep(body, mu, lower_rim_of(y), both)
+    if not upright.margin(body, mu, both) > 0:
+        return Event.NONE
+    y[:] = both
+    return Event.COMES_UPRIGHT
+
+
+@compiled
+def event_of_upright_coin(body, mu, steps, y):
+    """Return whether an upright coin stands for good: `Event.ENDS`.
+
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ, 0 on a smooth floor.
+        steps: made upright so far; the trial is costly, and made only in some of them.
+        y: state, (13,).
+    """
+    at_one_rim = Mode.SLIDING.value
+    if steps % _BETWEEN_TRIALS != 0 or not held_on_edge(body, mu, at_one_rim, y):
+        return Event.NONE
+    return Event.ENDS if stands(body, mu, at_one_rim, y) else Event.NONE
 
 
 @compiled
 def on_edge(body, y):
-    """Tell whether a coin in contact is on its edge, and does not turn off it."""
+    """Return whether a coin in contact is on its edge, and does not turn off it."""
     up = rotation_matrix(attitude_of(y))[2]
     n_z_rate = cross(up, spin_of(y))[2]
     rate = (body.gravity / body.radius) ** 0.5
-    return body.thickness > 0 and abs(up[2]) < _ON_EDGE and abs(n_z_rate) < _ON_EDGE * rate
+    return body.thickness > 0 and abs(up[2]) < ON_EDGE and abs(n_z_rate) < ON_EDGE * rate
 
 
 @compiled
 def rolls(body, mu, y):
-    """Tell whether a coin on its edge rolls straight on: neither rim slips on a rough floor.
+    """Return whether a coin on its edge rolls straight on: neither rim slips on a rough floor.
 
     Args:
         body: the coin.
@@ -41,16 +94,16 @@ def rolls(body, mu, y):
     """
     if mu == 0:
         return False
-    dy = np.empty(STATE_SIZE)
-    derivative(body, y, dy)
-    tails, heads = contact(body, y, dy, 1.0)[4], contact(body, y, dy, -1.0)[4]
-    slip = max(math.hypot(tails[0], tails[1]), math.hypot(heads[0], heads[1]))
+    tails, heads = both_rims(body, y)
+    slip = max(
+        math.hypot(tails.velocity[0], tails.velocity[1]), math.hypot(heads.velocity[0], heads.velocity[1])
+    )
     return slip < SLOW * (body.gravity * body.radius) ** 0.5
 
 
 @compiled
-def stands(body, mu, motion, y):
-    """Tell whether a coin on its edge is held there however it rolls on.
+def stands(body, mu, mode, y):
+    """Return whether a coin on its edge is held there however it rolls on.
 
     Rolling brings C up and down, and so changes the roll rate: the floor must hold the coin in every phase
     that it can reach. It rolls at most as fast as its energy leaves it there: just so fast in vacuum on a
@@ -60,52 +113,47 @@ def stands(body, mu, motion, y):
     Args:
         body: the coin.
         mu: coefficient of friction μ, 0 on a smooth floor.
-        motion: `Motion` in contact, at one rim point.
+        mode: number of the `Mode`, at one rim.
         y: state of a coin on its edge, (13,).
     """
     straight = rolls(body, mu, y)
     if straight:
-        motion = Motion.STICKING
-    if not held_on_edge(body, mu, motion, y):
+        mode = Mode.STICKING.value
+    if not held_on_edge(body, mu, mode, y):
         return False
     lossless = (mu == 0 or straight) and in_vacuum(body)
     phases, roll_rates = np.empty((_PHASES, STATE_SIZE)), np.empty(_PHASES)
     for i in range(_PHASES):
-        roll_rates[i] = rolled_on(body, mu, motion, straight, y, math.pi * i / _PHASES, phases[i])
+        roll_rates[i] = rolled_on(body, mu, mode, straight, y, math.pi * i / _PHASES, phases[i])
     one_way = lossless and roll_rates.min() > 0
     L_z = dot(rotation_matrix(attitude_of(y))[2], apply(body.inertia, spin_of(y)))
     for i in range(_PHASES):
         for share in (1.0, -1.0, 0.0):
-            if roll_rates[i] < 0 or (one_way and share * y[12] < 0) or (lossless and share == 0):
+            if roll_rates[i] < 0 or (one_way and share * spin_of(y)[2] < 0) or (lossless and share == 0):
                 continue
             set_rolling(body, L_z, straight, share * roll_rates[i], phases[i])
-            if not held_on_edge(body, mu, motion, phases[i]) or (
-                straight and not _sticks(body, mu, phases[i])
-            ):
+            if not held_on_edge(body, mu, mode, phases[i]) or (straight and not _sticks(body, mu, phases[i])):
                 return False
     return True
 
 
 @compiled
 def _sticks(body, mu, y):
-    """Tell whether friction can hold a coin on its edge by either rim; y: state, (13,)."""
-    dy = np.empty(STATE_SIZE)
-    derivative(body, y, dy)
-    for side in (-1.0, 1.0):
-        _, _, K, b, _ = contact(body, y, dy, side)
-        if not holds(mu, holding_force(K, b)):
-            return False
-    return True
+    """Return whether friction can hold a coin on its edge by either rim; y: state, (13,)."""
+    tails, heads = both_rims(body, y)
+    return friction_holds(mu, holding_force(tails.mobility, tails.free_acceleration)) and friction_holds(
+        mu, holding_force(heads.mobility, heads.free_acceleration)
+    )
 
 
 @compiled
-def rolled_on(body, mu, motion, straight, y, half_angle, phase):
+def rolled_on(body, mu, mode, straight, y, half_angle, phase):
     """Roll a coin on its edge on by an angle.
 
     Args:
         body: the coin.
         mu: coefficient of friction μ, 0 on a smooth floor.
-        motion: `Motion` in contact, at one rim point.
+        mode: number of the `Mode`, at one rim.
         straight: whether it does not turn about the vertical.
         y: state of a coin on its edge, (13,).
         half_angle: half the angle.
@@ -116,23 +164,23 @@ def rolled_on(body, mu, motion, straight, y, half_angle, phase):
         a smooth floor the horizontal velocity takes no part; a coin that sticks rolls about the floor's line.
     """
     J, m, weight = body.inertia, body.mass, body.mass * body.gravity
-    up, w, v = rotation_matrix(attitude_of(y))[2], spin_of(y), velocity_of(y)
+    state = state_of(y)
+    up, w, v = state.R[2], state.spin, state.velocity
     L_z = dot(up, apply(J, w))
-    energy = (dot(w, apply(J, w)) + m * v[2] * v[2]) / 2 + weight * y[2]
+    energy = (dot(w, apply(J, w)) + m * v[2] * v[2]) / 2 + weight * state.position[2]
     if mu > 0:
         energy += m * (v[0] * v[0] + v[1] * v[1]) / 2
-    e0, e1, e2, e3 = attitude_of(y)
     c, s = math.cos(half_angle), math.sin(half_angle)
     phase[:] = y
-    phase[6], phase[7] = c * e0 - s * e3, c * e1 + s * e2
-    phase[8], phase[9] = c * e2 - s * e1, c * e3 + s * e0
+    set_attitude(phase, quaternion_product(state.attitude, (c, 0.0, 0.0, s)))
     up = rotation_matrix(attitude_of(phase))[2]
-    phase[2] = body.radius * math.hypot(up[0], up[1]) + dot(up, body.center)
+    z = body.radius * tilt_sine_of(up) + dot(up, body.center)
+    set_height(phase, z)
     rise = cross(up, (0.0, 0.0, 1.0))
     roll_inertia = J[2][2] + m * dot(rise, body.center) ** 2
-    if motion == Motion.STICKING:
-        roll_inertia += m * phase[2] * phase[2]
-    left = energy - weight * phase[2]
+    if mode == Mode.STICKING:
+        roll_inertia += m * z * z
+    left = energy - weight * z
     if not straight:
         moment, product = dot(up, apply(J, up)), dot(up, J[2])
         roll_inertia -= product * product / moment
@@ -156,33 +204,29 @@ def set_rolling(body, L_z, straight, roll_rate, y):
     if not straight:
         about_vertical = apply(body.inertia, up)
         turn_rate = (L_z - roll_rate * about_vertical[2]) / dot(up, about_vertical)
-    for k in range(3):
-        y[10 + k] = turn_rate * up[k]
-    y[12] += roll_rate
+    set_spin(y, (turn_rate * up[0], turn_rate * up[1], turn_rate * up[2] + roll_rate))
 
 
 @compiled
-def held_on_edge(body, mu, motion, y):
-    """Tell whether the floor's force on either rim turns a coin on its edge back to the other now.
+def held_on_edge(body, mu, mode, y):
+    """Return whether the floor's force on either rim turns a coin on its edge back to the other now.
 
     Args:
         body: the coin.
         mu: coefficient of friction μ, 0 on a smooth floor.
-        motion: `Motion` in contact.
+        mode: number of the `Mode`, at one rim.
         y: state of a coin on its edge, (13,).
     """
-    dy, tipped = np.empty(STATE_SIZE), y.copy()
-    R = rotation_matrix(attitude_of(y))
+    dy, tipped, state = np.empty(STATE_SIZE), y.copy(), state_of(y)
+    e, w = state.attitude, state.spin
+    # Turn the coin a little to either side, about the horizontal axis in its plane.
+    axis = cross(state.R[2], (0.0, 0.0, 1.0))
     for side in (-1.0, 1.0):
-        # Turn the coin a little to the side, about the horizontal axis in its plane.
-        axis = cross(R[2], (0.0, 0.0, 1.0))
-        turn = quaternion_rate(attitude_of(y), scale(side * 2 * _TIP, axis))
-        for i in range(4):
-            tipped[6 + i] = y[6 + i] + turn[i]
-        contact_rate(body, mu, motion, side_of(tipped), tipped, dy)
-        up, w = rotation_matrix(attitude_of(tipped))[2], spin_of(tipped)
-        up_rate = cross(up, w)
-        n_z_acceleration = cross(up_rate, w)[2] + cross(up, (dy[10], dy[11], dy[12]))[2]
+        turn = quaternion_rate(e, scale(side * 2 * _TIP, axis))
+        set_attitude(tipped, (e[0] + turn[0], e[1] + turn[1], e[2] + turn[2], e[3] + turn[3]))
+        one_rim.rate(body, mu, mode, lower_rim_of(tipped), tipped, dy)
+        up = rotation_matrix(attitude_of(tipped))[2]
+        n_z_acceleration = cross(cross(up, w), w)[2] + cross(up, spin_of(dy))[2]
         if n_z_acceleration * up[2] >= 0:
             return False
     return True

@@ -1,13 +1,27 @@
-"""A thick coin that stays upright on the floor, on the rims of both faces."""
+"""Upright: a thick coin on its edge, in contact at both rims.
+
+Rigid-body mechanics does not determine how two sticking points share the friction that holds both: here
+friction on slow slip grows in proportion to it.
+"""
 
 import math
 
-import numpy as np
-
-from analytic.contact.floor_force import SLOW, contact, give_impulse, holding_force, holds
-from analytic.flight.equations_of_motion import STATE_SIZE, attitude_of, derivative, normalise
+from analytic.contact.floor_force import friction_holds, holding_force
+from analytic.contact.rim_contact import accelerate, add_quotient, both_rims, rim_contact_in_flight
+from analytic.flight.equations_of_motion import derivative
+from analytic.flight.state_vector import (
+    attitude_of,
+    normalise,
+    set_attitude,
+    set_height,
+    set_spin,
+    set_velocity,
+    spin_of,
+    velocity_of,
+)
 from analytic.impact.laws import spin_gained, velocity_gained
 from analytic.numerics.rotation import quaternion_rate
+from analytic.numerics.tolerances import SLOW
 from models.attitude import rotation_matrix
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, apply, cross, dot, scale, subtract
@@ -18,7 +32,7 @@ _TIP = 1e-12
 
 @compiled
 def rim_forces(body, mu, y):
-    """Give the floor's vertical forces on the lowest points of tails' and of heads' rim, (2,) [N].
+    """Return the floor's vertical forces on the lowest points of tails' and of heads' rim, (2,) [N].
 
     They hold both points on the floor; a negative one would have to pull.
 
@@ -27,15 +41,13 @@ def rim_forces(body, mu, y):
         mu: coefficient of friction μ, 0 on a smooth floor.
         y: state of an upright coin, (13,).
     """
-    dy = np.empty(STATE_SIZE)
-    derivative(body, y, dy)
-    tails, heads = contact(body, y, dy, 1.0), contact(body, y, dy, -1.0)
-    N, _, _ = _holding(body, mu, tails, heads, (tails[3][2], heads[3][2]))
+    tails, heads = both_rims(body, y)
+    N, _, _ = _holding(body, mu, tails, heads, (tails.free_acceleration[2], heads.free_acceleration[2]))
     return N
 
 
 @compiled
-def upright_rate(body, mu, y, dy):
+def rate(body, mu, y, dy):
     """Write the rate of change of the state y of an upright coin into dy; both (13,).
 
     Args:
@@ -45,15 +57,16 @@ def upright_rate(body, mu, y, dy):
         dy: where its rate of change goes, (13,).
     """
     derivative(body, y, dy)
-    tails, heads = contact(body, y, dy, 1.0), contact(body, y, dy, -1.0)
-    _, F, turned = _holding(body, mu, tails, heads, (tails[3][2], heads[3][2]))
-    for i in range(3):
-        dy[3 + i] += F[i] / body.mass
-        dy[10 + i] += turned[i]
+    tails = rim_contact_in_flight(body, y, dy, -1.0)
+    heads = rim_contact_in_flight(body, y, dy, 1.0)
+    fall = (tails.free_acceleration[2], heads.free_acceleration[2])
+    _, F, turned = _holding(body, mu, tails, heads, fall)
+    set_velocity(dy, add_quotient(velocity_of(dy), F, body.mass))
+    set_spin(dy, add(spin_of(dy), turned))
 
 
 @compiled
-def put_upright(body, y):
+def put_on_floor(body, y):
     """Turn a coin near its edge onto it, bring both rims to the floor, and stop them there.
 
     Args:
@@ -61,14 +74,18 @@ def put_upright(body, y):
         y: state, (13,).
     """
     _tilt(y, rotation_matrix(attitude_of(y))[2][2])
-    dy = np.empty(STATE_SIZE)
-    derivative(body, y, dy)
-    tails, heads = contact(body, y, dy, 1.0), contact(body, y, dy, -1.0)
-    _, S, turned = _holding(body, 0.0, tails, heads, (tails[4][2], heads[4][2]))
-    y[2] = -tails[1][2]
-    y[5] += S[2] / body.mass
-    for i in range(3):
-        y[10 + i] += turned[i]
+    tails, heads = both_rims(body, y)
+    _, S, turned = _holding(body, 0.0, tails, heads, (tails.velocity[2], heads.velocity[2]))
+    v = velocity_of(y)
+    set_height(y, -tails.arm[2])
+    set_velocity(y, (v[0], v[1], v[2] + S[2] / body.mass))
+    set_spin(y, add(spin_of(y), turned))
+
+
+@compiled
+def margin(body, mu, y):
+    """Return how far an upright contact is from its end, > 0 in it: there the floor would have to pull."""
+    return min(rim_forces(body, mu, y)) / (body.mass * body.gravity)
 
 
 @compiled
@@ -86,8 +103,8 @@ def tip_over(body, mu, y):
 
 
 @compiled
-def start_creep(body, mu, side, y):
-    """Give the rim that stuck before the other landed the slow slip at which friction is what holds it there.
+def start_creep(body, mu, rim, y):
+    """Set the rim that stuck before the other landed into the slow slip whose friction holds it there.
 
     Without it that rim would have no friction at first, and the other might lift at once. Where no friction
     can hold it, or the floor would have to pull, nothing is changed.
@@ -95,30 +112,36 @@ def start_creep(body, mu, side, y):
     Args:
         body: the coin.
         mu: coefficient of friction μ.
-        side: of the rim that stuck.
+        rim: that stuck.
         y: state of an upright coin, (13,).
     """
-    dy = np.empty(STATE_SIZE)
-    derivative(body, y, dy)
-    held, other = contact(body, y, dy, side), contact(body, y, dy, -side)
-    F, N = _gripping(body, held, other, _with_friction(body, mu, other[4]), held[3], other[3][2])
-    if N < 0 or not holds(mu, F):
+    tails, heads = both_rims(body, y)
+    held, other = (tails, heads) if rim < 0 else (heads, tails)
+    F, N = _gripping(
+        body,
+        held,
+        other,
+        _with_friction(body, mu, other.velocity),
+        held.free_acceleration,
+        other.free_acceleration[2],
+    )
+    if N < 0 or not friction_holds(mu, F):
         return
     slip = -_slow_slip(body, mu) / (mu * F[2])
-    change = subtract(held[4], (slip * F[0], slip * F[1], 0.0))
-    S, S_other = _gripping(body, held, other, (0.0, 0.0, 1.0), change, other[4][2])
-    give_impulse(body, held[0], held[1], S, y)
-    give_impulse(body, other[0], other[1], (0.0, 0.0, S_other), y)
+    change = subtract(held.velocity, (slip * F[0], slip * F[1], 0.0))
+    S, S_other = _gripping(body, held, other, (0.0, 0.0, 1.0), change, other.velocity[2])
+    accelerate(body, held, S, y)
+    accelerate(body, other, (0.0, 0.0, S_other), y)
 
 
 @compiled
 def _gripping(body, held, other, along, motion, fall):
-    """Give what takes all motion from one rim's lowest point, and the vertical one from the other's.
+    """Return what takes all motion from one rim's lowest point, and the vertical one from the other's.
 
     Args:
         body: the coin.
-        held: `contact` of the one rim.
-        other: `contact` of the other.
+        held: `RimContact` of the one rim.
+        other: that of the other.
         along: a force at the other with the vertical part 1, (3,).
         motion: acceleration, or velocity, of the one, (3,).
         fall: vertical acceleration, or velocity, of the other.
@@ -126,39 +149,40 @@ def _gripping(body, held, other, along, motion, fall):
     Returns:
         The force, or impulse, on the one, space frame, (3,), and the vertical one on the other.
     """
-    R, arm, K, _, _ = held
-    _, arm_other, K_other, _, _ = other
+    K, R = held.mobility, held.R
     # The force on the one for its own motion, and for each unit of the other's.
-    F, more = holding_force(K, motion), holding_force(K, velocity_gained(body, R, arm_other, along, arm))
-    rise = dot(K_other[2], along) + velocity_gained(body, R, arm, more, arm_other)[2]
-    N = -(fall + velocity_gained(body, R, arm, F, arm_other)[2]) / rise
+    F, more = holding_force(K, motion), holding_force(K, velocity_gained(body, R, other.arm, along, held.arm))
+    rise = dot(other.mobility[2], along) + velocity_gained(body, R, held.arm, more, other.arm)[2]
+    N = -(fall + velocity_gained(body, R, held.arm, F, other.arm)[2]) / rise
     return add(F, scale(N, more)), N
 
 
 @compiled
 def _holding(body, mu, tails, heads, fall):
-    """Give what takes the vertical motion `fall` of both points from them.
+    """Return what takes the vertical motion `fall` of both points from them.
 
     Args:
         body: the coin.
         mu: coefficient of friction μ.
-        tails: `contact` of tails' rim.
-        heads: `contact` of heads' rim.
+        tails: `RimContact` of tails' rim.
+        heads: that of heads'.
         fall: accelerations, or velocities, (2,).
 
     Returns:
         The vertical forces, or impulses, (2,), both with their friction, space frame, (3,), and the change of
         the angular velocity, body frame, (3,).
     """
-    R, arm_tails, K_tails, _, v_tails = tails
-    _, arm_heads, K_heads, _, v_heads = heads
-    along_tails, along_heads = _with_friction(body, mu, v_tails), _with_friction(body, mu, v_heads)
-    by_tails = spin_gained(body, R, arm_tails, along_tails)
-    by_heads = spin_gained(body, R, arm_heads, along_heads)
+    R = tails.R
+    along_tails, along_heads = (
+        _with_friction(body, mu, tails.velocity),
+        _with_friction(body, mu, heads.velocity),
+    )
+    by_tails = spin_gained(body, R, tails.arm, along_tails)
+    by_heads = spin_gained(body, R, heads.arm, along_heads)
     # The vertical motion of the first point by a unit force at the second.
-    tails_tails, heads_heads = dot(K_tails[2], along_tails), dot(K_heads[2], along_heads)
-    tails_heads = 1 / body.mass + cross(apply(R, by_heads), arm_tails)[2]
-    heads_tails = 1 / body.mass + cross(apply(R, by_tails), arm_heads)[2]
+    tails_tails, heads_heads = dot(tails.mobility[2], along_tails), dot(heads.mobility[2], along_heads)
+    tails_heads = 1 / body.mass + cross(apply(R, by_heads), tails.arm)[2]
+    heads_tails = 1 / body.mass + cross(apply(R, by_tails), heads.arm)[2]
     determinant = tails_tails * heads_heads - tails_heads * heads_tails
     N_tails = (tails_heads * fall[1] - heads_heads * fall[0]) / determinant
     N_heads = (heads_tails * fall[0] - tails_tails * fall[1]) / determinant
@@ -168,18 +192,14 @@ def _holding(body, mu, tails, heads, fall):
 
 @compiled
 def _with_friction(body, mu, v_A):
-    """Give a force with the vertical part 1 and its friction at a point with velocity v_A, (3,).
-
-    A rigid body leaves open how two points share the force that holds both: friction on slow slip grows in
-    proportion to it.
-    """
+    """Return a force with the vertical part 1 and its friction at a point with velocity v_A, (3,)."""
     slip = max(math.hypot(v_A[0], v_A[1]), _slow_slip(body, mu))
     return -mu * v_A[0] / slip, -mu * v_A[1] / slip, 1.0
 
 
 @compiled
 def _slow_slip(body, mu):
-    """Give the speed of a slip up to which friction grows in proportion to it [m/s].
+    """Return the speed of a slip up to which friction grows in proportion to it [m/s].
 
     At a friction as large as the weight it is `SLOW`, however rough the floor: larger coefficients would only
     make the motion stiff.
@@ -190,8 +210,8 @@ def _slow_slip(body, mu):
 @compiled
 def _tilt(y, angle):
     """Turn the coin about the horizontal axis in its plane so that n_z falls by a small `angle`."""
-    up = rotation_matrix(attitude_of(y))[2]
-    turn = quaternion_rate(attitude_of(y), scale(angle, cross(up, (0.0, 0.0, 1.0))))
-    for i in range(4):
-        y[6 + i] += turn[i]
+    e = attitude_of(y)
+    up = rotation_matrix(e)[2]
+    turn = quaternion_rate(e, scale(angle, cross(up, (0.0, 0.0, 1.0))))
+    set_attitude(y, (e[0] + turn[0], e[1] + turn[1], e[2] + turn[2], e[3] + turn[3]))
     normalise(y)

@@ -2,9 +2,16 @@
 
 import numpy as np
 
-from analytic.flight.equations_of_motion import attitude_of, spin_of, velocity_of
 from analytic.flight.fall import ORDER, clock, expand, fallen, slowing_of, time_of
 from analytic.flight.first_touch import Found, bounds_of, first_touch, lowest_dip
+from analytic.flight.state_vector import (
+    attitude_of,
+    position_of,
+    set_position,
+    set_velocity,
+    spin_of,
+    velocity_of,
+)
 from analytic.flight.touch_search import closing_speed, smallest_flight
 from analytic.flight.turning import turn, turning_of
 from models.body import in_vacuum
@@ -15,15 +22,15 @@ from models.kernel.vectors import norm
 @compiled
 def fly_closed(body, y, longest):
     """Fly a coin that `turns_in_closed_form` until it first touches the floor; see `flying.fly`."""
-    time, inside, looks = 0.0, 0.0, 0
+    time, inside, evaluations = 0.0, 0.0, 0
     while True:
-        found, flown, looked = _search(body, y, inside, longest - time)
-        time, looks = time + flown, looks + looked
+        found, flown, made = _search(body, y, inside, longest - time)
+        time, evaluations = time + flown, evaluations + made
         if found == Found.TOUCH and time == 0 and closing_speed(body, y)[1] >= -smallest_flight(body, y)[1]:
             # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch.
             found = Found.GRAZE
         if found != Found.GRAZE:
-            return time, found == Found.TOUCH, looks
+            return time, found == Found.TOUCH, evaluations
         # It flies on from there, where it hardly sinks for a while.
         inside = smallest_flight(body, y)[0]
 
@@ -39,30 +46,30 @@ def _search(body, y, inside, longest):
         longest: the longest flight wanted [s].
 
     Returns:
-        What is `Found`, when [s], and how often the gap was looked at.
+        What is `Found`, when [s], and the number of gap evaluations.
     """
     if in_vacuum(body):
-        turning, heights = turning_of(body, attitude_of(y), spin_of(y)), (y[2], y[5], -body.gravity / 2)
+        turning, heights = turning_of(body, attitude_of(y), spin_of(y)), _parabola(body, y)
         bounds = bounds_of(turning, body.gravity, 0.0, 0.0)
-        found, t, looks = first_touch(body, turning, heights, inside, longest, bounds)
+        found, t, evaluations = first_touch(body, turning, heights, inside, longest, bounds)
         fall_freely(body, y, t, y)
         turn(turning, y, t, 1.0, y)
-        return found, t, looks
+        return found, t, evaluations
     series = np.empty((4, ORDER + 1))
-    time, found, looks = 0.0, Found.NOTHING, 0
+    time, found, evaluations = 0.0, Found.NOTHING, 0
     while time < longest and found == Found.NOTHING:
         turning = turning_of(body, attitude_of(y), spin_of(y))
         piece = expand(body, turning, y, clock(slowing_of(body), longest - time), series)
         heights, bounds = series[3, : piece.order + 1], _bounds(body, turning, piece, velocity_of(y))
-        found, s, looked = first_touch(body, turning, heights, inside, piece.length, bounds)
+        found, s, made = first_touch(body, turning, heights, inside, piece.length, bounds)
         fly_on(turning, piece, series, s, y, y)
-        time, inside, looks = time + time_of(piece.slowing, s), 0.0, looks + looked
-    return found, min(time, longest), looks
+        time, inside, evaluations = time + time_of(piece.slowing, s), 0.0, evaluations + made
+    return found, min(time, longest), evaluations
 
 
 @compiled
 def closed_graze(body, start, duration):
-    """Give a height such that no minimum of the gap in a flight is below half of it [m].
+    """Return a height such that no minimum of the gap in a flight is below half of it [m].
 
     Args:
         body: the coin.
@@ -71,7 +78,7 @@ def closed_graze(body, start, duration):
     """
     turning = turning_of(body, attitude_of(start), spin_of(start))
     if in_vacuum(body):
-        heights, bounds = (start[2], start[5], -body.gravity / 2), bounds_of(turning, body.gravity, 0.0, 0.0)
+        heights, bounds = _parabola(body, start), bounds_of(turning, body.gravity, 0.0, 0.0)
         return lowest_dip(body, turning, heights, duration, bounds)
     series, y, time, lowest = np.empty((4, ORDER + 1)), start.copy(), 0.0, np.inf
     while time < duration:
@@ -96,7 +103,7 @@ def fly_on(turning, piece, series, s, y, y_new):
 
 @compiled
 def _bounds(body, turning, piece, v):
-    """Give the `Bounds` of a piece that starts with the velocity v; drag never speeds the coin up."""
+    """Return the `Bounds` of a piece that starts with the velocity v; drag never speeds the coin up."""
     rate = max(body.drag.force_tangential, body.drag.force_normal) / body.mass
     # The clock is slower than time: dt = ds/left.
     left = 1 - piece.slowing * piece.length
@@ -117,8 +124,15 @@ def fall_freely(body, y, t, y_new):
         t: time [s].
         y_new: state, (13,).
     """
-    y_new[0], y_new[1], y_new[2] = y[0] + t * y[3], y[1] + t * y[4], y[2] + t * (y[5] - t * body.gravity / 2)
-    y_new[3], y_new[4], y_new[5] = y[3], y[4], y[5] - t * body.gravity
+    x, v = position_of(y), velocity_of(y)
+    set_position(y_new, (x[0] + t * v[0], x[1] + t * v[1], x[2] + t * (v[2] - t * body.gravity / 2)))
+    set_velocity(y_new, (v[0], v[1], v[2] - t * body.gravity))
+
+
+@compiled
+def _parabola(body, y):
+    """Return the coefficients of the height of C as a polynomial of time, on a parabola from the state y."""
+    return position_of(y)[2], velocity_of(y)[2], -body.gravity / 2
 
 
 @compiled

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from analytic.flight.state_vector import position_of, set_position, set_velocity, velocity_of
 from models.kernel.compiled import compiled
 from models.kernel.vectors import Vector, add, cross, dot, norm, scale, subtract
 
@@ -50,31 +51,32 @@ class Piece(NamedTuple):
 
 @compiled
 def slowing_of(body):
-    """Give δ = d_t/J_ξ, at which linear air slows the turning [1/s]."""
+    """Return δ = d_t/J_ξ, at which linear air slows the turning [1/s]."""
     return body.drag.moment_tangential / body.inertia[0][0]
 
 
 @compiled
 def clock(slowing, t):
-    """Give the clock s [s] at the time t [s]."""
+    """Return the clock s [s] at the time t [s]."""
     return -math.expm1(-slowing * t) / slowing if slowing > 0 else t
 
 
 @compiled
 def time_of(slowing, s):
-    """Give the time t [s] at the clock s [s]."""
+    """Return the time t [s] at the clock s [s]."""
     return -math.log1p(-slowing * s) / slowing if slowing > 0 else s
 
 
 @compiled
 def longest_piece(body, rate, y):
-    """Give by the clock how long a piece from the state y, (13,), is: the series holds to rounding [s].
+    """Return by the clock how long a piece from the state y, (13,), is: the series holds to rounding [s].
 
     Where the coin will touch before, fewer terms do for a shorter piece.
     """
     taken = 2 * max(body.drag.force_normal, body.drag.force_tangential) / body.mass + slowing_of(body)
     longest = min(TURNED / (2 * rate + taken), TAKEN / taken)
-    fall = (y[5] + (y[5] * y[5] + 2 * body.gravity * max(y[2], 0.0)) ** 0.5) / body.gravity
+    z, rise = position_of(y)[2], velocity_of(y)[2]
+    fall = (rise + (rise * rise + 2 * body.gravity * max(z, 0.0)) ** 0.5) / body.gravity
     return min(longest, max(fall, _SHORTEST * longest))
 
 
@@ -93,7 +95,7 @@ def expand(body, turning, y, longest, series):
     Returns:
         The `Piece`.
     """
-    axis, v, slowing = turning.axis, (y[3], y[4], y[5]), slowing_of(body)
+    axis, v, slowing = turning.axis, velocity_of(y), slowing_of(body)
     first = add(turning.mean, turning.cosine)
     second = cross(axis, first)
     length = min(longest_piece(body, turning.rate, y), longest)
@@ -103,7 +105,7 @@ def expand(body, turning, y, longest, series):
     up, V, x = (first[2], second[2], axis[2]), (dot(first, v), dot(second, v), dot(axis, v)), _NONE
     W, W_before, weight = (V[0], -V[1], -V[2]), _NONE, scale(body.gravity, up)
     weight_mirrored = (weight[0], -weight[1], -weight[2])
-    series[0, 0], series[1, 0], series[2, 0], series[3, 0] = 0.0, 0.0, 0.0, y[2]
+    series[0, 0], series[1, 0], series[2, 0], series[3, 0] = 0.0, 0.0, 0.0, position_of(y)[2]
     order, size = 0, 1.0
     for k in range(ORDER):
         part, slowed = _INVERSE[k], slowing * k
@@ -126,7 +128,7 @@ def expand(body, turning, y, longest, series):
 
 @compiled
 def _across(a):
-    """Give axis × a."""
+    """Return axis × a."""
     return -a[1], a[0], 0.0
 
 
@@ -146,6 +148,7 @@ def fallen(piece, series, s, y, y_new):
         v = add(scale(s, v), x)
         x = add(scale(s, x), (series[0, k], series[1, k], series[2, k]))
     v = scale(1 - piece.slowing * s, v)
-    for i in range(3):
-        y_new[i] = y[i] + piece.first[i] * x[0] + piece.second[i] * x[1] + piece.axis[i] * x[2]
-        y_new[3 + i] = piece.first[i] * v[0] + piece.second[i] * v[1] + piece.axis[i] * v[2]
+    along_first, along_second = add(position_of(y), scale(x[0], piece.first)), scale(x[1], piece.second)
+    set_position(y_new, add(add(along_first, along_second), scale(x[2], piece.axis)))
+    along_first, along_second = scale(v[0], piece.first), scale(v[1], piece.second)
+    set_velocity(y_new, add(add(along_first, along_second), scale(v[2], piece.axis)))

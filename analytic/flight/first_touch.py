@@ -3,25 +3,23 @@
 Time is that of the clock of `turning`, in which the normal turns at a constant rate.
 
 The rim of the face at ζ = ±h/2, whose centre is at height q, is clear while F = q² - r² (1 - n_z²) > 0. With
-a bound on its bend F'', each look at F and F' gives a time that is surely clear, or the assurance that F
-falls through zero once in a time to come. From there on steps of third order find the touch.
+a bound on its bend F'', each evaluation of F and F' gives a time that is surely clear, or the assurance that
+F falls through zero once in a time to come. From there on steps of third order find the touch.
 """
 
 import math
 from enum import IntEnum
 from typing import NamedTuple
 
-from analytic.flight.touch_search import SINK
-from models.geometry import FLAT_SINE
+from analytic.numerics.tolerances import CLOSED_TOUCH, SINK
+from models.geometry import FLAT_SINE, lower_rim
 from models.kernel.compiled import compiled
 from models.kernel.vectors import Vector, add, scale
 
-# A gap below this part of the radius is zero within rounding.
-TOUCH = 2e-15
 # A coin higher than `_HIGH` times the reach of its rim is followed by its height alone, down to `_NEAR`.
 _HIGH, _NEAR = 2.0, 1.1
 # On the way to a sure touch; two are common.
-_MOST_LOOKS = 10
+_MOST_EVALUATIONS = 10
 
 
 class Found(IntEnum):
@@ -50,7 +48,7 @@ class Bounds(NamedTuple):
     """Third derivatives are at most so many times the second ones [1/s]."""
 
 
-class Look(NamedTuple):
+class HeightAndTilt(NamedTuple):
     """Height and tilt at one time."""
 
     z: float
@@ -68,7 +66,7 @@ class Look(NamedTuple):
 
 @compiled
 def bounds_of(turning, down, up, jerk):
-    """Give the `Bounds` of a turning coin, those of C given."""
+    """Return the `Bounds` of a turning coin, those of C given."""
     rate, mean = turning.rate, abs(turning.mean[2])
     swing = math.hypot(turning.cosine[2], turning.sine[2])
     # n_z'' is -rate² times the swing, (n_z²)''/2 is -rate² (swing² cos 2φ + mean swing cos φ).
@@ -77,8 +75,8 @@ def bounds_of(turning, down, up, jerk):
 
 
 @compiled
-def look(turning, heights, t):
-    """Look at a turning coin at the time t [s]; for the other arguments see `first_touch`."""
+def height_and_tilt(turning, heights, t):
+    """Return the `HeightAndTilt` of a turning coin at the time t [s]; for the arguments see `first_touch`."""
     z, z_rate, z_half = 0.0, 0.0, 0.0
     for k in range(len(heights) - 1, -1, -1):
         z_half = z_half * t + z_rate
@@ -89,52 +87,52 @@ def look(turning, heights, t):
     swing = add(scale(c, turning.cosine), scale(s, turning.sine))
     n, n_rate = add(turning.mean, swing), scale(rate, add(scale(-s, turning.cosine), scale(c, turning.sine)))
     sine = (n[0] * n[0] + n[1] * n[1]) ** 0.5
-    return Look(z, z_rate, 2 * z_half, n, n_rate, -rate * rate * swing[2], sine)
+    return HeightAndTilt(z, z_rate, 2 * z_half, n, n_rate, -rate * rate * swing[2], sine)
 
 
 @compiled
-def rim(body, seen, side):
-    """Give F, F'/2 and F''/2 of one rim.
+def rim_clearance(body, now, rim):
+    """Return F, F'/2 and F''/2 of one rim.
 
     Args:
         body: the coin.
-        seen: a `Look`.
-        side: ±1, of the face.
+        now: the `HeightAndTilt`.
+        rim: ±1, of the face.
     """
-    r, arm, n_z, n_rate = body.radius, side * body.thickness / 2, seen.normal[2], seen.normal_rate[2]
-    q, q_rate = seen.z + arm * n_z, seen.z_rate + arm * n_rate
-    q_acceleration = seen.z_acceleration + arm * seen.normal_acceleration
-    bend = q_rate * q_rate + q * q_acceleration + r * r * (n_rate * n_rate + n_z * seen.normal_acceleration)
-    return (q - r * seen.sine) * (q + r * seen.sine), q * q_rate + r * r * n_z * n_rate, bend
+    r, arm, n_z, n_rate = body.radius, rim * body.thickness / 2, now.normal[2], now.normal_rate[2]
+    q, q_rate = now.z + arm * n_z, now.z_rate + arm * n_rate
+    q_acceleration = now.z_acceleration + arm * now.normal_acceleration
+    bend = q_rate * q_rate + q * q_acceleration + r * r * (n_rate * n_rate + n_z * now.normal_acceleration)
+    return (q - r * now.sine) * (q + r * now.sine), q * q_rate + r * r * n_z * n_rate, bend
 
 
 @compiled
-def lower_side(seen):
-    """Give the side, ±1, of the face whose rim is lower, or will be of a coin on its edge."""
-    n_z = seen.normal[2] if abs(seen.normal[2]) > FLAT_SINE else seen.normal_rate[2]
-    return -1.0 if n_z > 0 else 1.0
+def lower_rim_of(now):
+    """Return the `lower_rim` at one time."""
+    n_z = now.normal[2] if abs(now.normal[2]) > FLAT_SINE else now.normal_rate[2]
+    return lower_rim(n_z)
 
 
 @compiled
-def closing(body, seen):
-    """Give the gap [m] and its rate [m/s]; of a flat coin that turns, that of the point going down."""
-    side = lower_side(seen)
-    arm, r, n, n_rate = side * body.thickness / 2, body.radius, seen.normal, seen.normal_rate
-    if seen.sine > FLAT_SINE:
-        sine_rate = -n[2] * n_rate[2] / seen.sine
+def closing(body, now):
+    """Return the gap [m] and its rate [m/s]; of a flat coin that turns, that of the point going down."""
+    rim = lower_rim_of(now)
+    arm, r, n, n_rate = rim * body.thickness / 2, body.radius, now.normal, now.normal_rate
+    if now.sine > FLAT_SINE:
+        sine_rate = -n[2] * n_rate[2] / now.sine
     else:
         sine_rate = (n_rate[0] * n_rate[0] + n_rate[1] * n_rate[1]) ** 0.5
-    return seen.z + arm * n[2] - r * seen.sine, seen.z_rate + arm * n_rate[2] - r * sine_rate
+    return now.z + arm * n[2] - r * now.sine, now.z_rate + arm * n_rate[2] - r * sine_rate
 
 
 @compiled
 def _reach(body):
-    """Give how far the rim is from C [m]."""
+    """Return how far the rim is from C [m]."""
     return (body.radius * body.radius + body.thickness * body.thickness / 4) ** 0.5
 
 
-class Outlook(NamedTuple):
-    """What one look tells of the time to come."""
+class TouchBound(NamedTuple):
+    """What one evaluation bounds of the time to come."""
 
     lower: float
     """±1, of the face whose rim is the lower one."""
@@ -154,46 +152,46 @@ class Outlook(NamedTuple):
 
 @compiled
 def high(body, z):
-    """Tell whether a coin whose C is at the height z is far above the reach of its rim."""
+    """Return whether a coin whose C is at the height z is far above the reach of its rim."""
     return z > _HIGH * _reach(body)
 
 
 @compiled
-def time_to_fall(body, seen, down):
-    """Give a time in which a high coin surely does not come down to the reach of its rim [s]."""
-    fall = seen.z - _NEAR * _reach(body)
-    return (seen.z_rate + (seen.z_rate * seen.z_rate + 2 * down * fall) ** 0.5) / down
+def time_to_fall(body, now, down):
+    """Return a time in which a high coin surely does not come down to the reach of its rim [s]."""
+    fall = now.z - _NEAR * _reach(body)
+    return (now.z_rate + (now.z_rate * now.z_rate + 2 * down * fall) ** 0.5) / down
 
 
 @compiled
-def outlook(body, seen, bounds, window):
-    """Give the `Outlook` of a coin that is not high, over a window of time [s]."""
+def touch_bound(body, now, bounds, window):
+    """Return the `TouchBound` of a coin that is not high, over a window of time [s]."""
     r, half = body.radius, body.thickness / 2
-    if seen.z_rate > 0:
-        window = min(window, (_HIGH + 1) * _reach(body) / seen.z_rate)
-    highest = seen.z + max(seen.z_rate, 0.0) * window + bounds.up * window * window / 2 + half
+    if now.z_rate > 0:
+        window = min(window, (_HIGH + 1) * _reach(body) / now.z_rate)
+    highest = now.z + max(now.z_rate, 0.0) * window + bounds.up * window * window / 2 + half
     bend = highest * (bounds.down + half * bounds.normal) + r * r * bounds.square
-    lower = lower_side(seen)
-    F, F_rate, _ = rim(body, seen, lower)
+    lower = lower_rim_of(now)
+    F, F_rate, _ = rim_clearance(body, now, lower)
     ahead = min(window, _clear(F, F_rate, bend))
     latest = F / -F_rate if F > 0 and F_rate < 0 else 0.0
     if half > 0:
-        F_upper, F_upper_rate, _ = rim(body, seen, -lower)
+        F_upper, F_upper_rate, _ = rim_clearance(body, now, -lower)
         clear_above = _clear(F_upper, F_upper_rate, bend)
         ahead = min(ahead, clear_above)
         latest = latest if latest <= clear_above else 0.0
     latest = latest if latest <= window else 0.0
     sideways = max(bounds.down, bounds.up) + half * bounds.normal
-    fastest = abs(seen.z_rate) + half * abs(seen.normal_rate[2]) + max(latest, ahead) * sideways
+    fastest = abs(now.z_rate) + half * abs(now.normal_rate[2]) + max(latest, ahead) * sideways
     rise = fastest * fastest + highest * (bounds.up + half * bounds.normal) + r * r * bounds.square
     q_jerk = bounds.jerk + half * bounds.normal * bounds.rate
     third = fastest * sideways + (highest * q_jerk + r * r * bounds.square * bounds.rate) / 3
-    return Outlook(lower, F, F_rate, ahead, latest, rise, third)
+    return TouchBound(lower, F, F_rate, ahead, latest, rise, third)
 
 
 @compiled
 def falls_through(ahead):
-    """Tell whether F surely falls through zero once, and when at the latest; of an `Outlook`."""
+    """Return whether F surely falls through zero once, and when at the latest; of a `TouchBound`."""
     return ahead.latest > 0 and ahead.F_rate * ahead.F_rate > ahead.rise * ahead.F
 
 
@@ -210,37 +208,37 @@ def first_touch(body, turning, heights, inside, length, bounds):
         bounds: on it.
 
     Returns:
-        What is `Found`, when [s], and how often the gap was looked at.
+        What is `Found`, when [s], and the number of gap evaluations.
     """
-    hop, looks = (2 * SINK * body.radius / body.gravity) ** 0.5, 0
+    hop, evaluations = (2 * SINK * body.radius / body.gravity) ** 0.5, 0
     while inside < length:
-        looks += 1
-        seen = look(turning, heights, inside)
-        if high(body, seen.z):
-            inside += time_to_fall(body, seen, bounds.down)
+        evaluations += 1
+        now = height_and_tilt(turning, heights, inside)
+        if high(body, now.z):
+            inside += time_to_fall(body, now, bounds.down)
             continue
-        height, speed = closing(body, seen)
-        to_come = outlook(body, seen, bounds, length - inside)
+        height, speed = closing(body, now)
+        to_come = touch_bound(body, now, bounds, length - inside)
         ahead = to_come.ahead
         # Also where time itself has no finer step than the coin still has to fall.
-        touches = height <= TOUCH * body.radius and (speed <= 0 or ahead < hop)
+        touches = height <= CLOSED_TOUCH * body.radius and (speed <= 0 or ahead < hop)
         if touches or inside + ahead == inside:
-            return Found.TOUCH if speed < 0 else Found.GRAZE, inside, looks
+            return Found.TOUCH if speed < 0 else Found.GRAZE, inside, evaluations
         if falls_through(to_come):
-            touch, more = _sure_touch(body, turning, heights, inside, seen, to_come)
-            looks += more
+            touch, more = _sure_touch(body, turning, heights, inside, now, to_come)
+            evaluations += more
             if touch > inside:
-                return Found.TOUCH, touch, looks
+                return Found.TOUCH, touch, evaluations
         inside += ahead
-    return Found.NOTHING, length, looks
+    return Found.NOTHING, length, evaluations
 
 
 @compiled
 def lowest_dip(body, turning, heights, length, bounds):
     """Bound the minima of the gap in a piece of a flight; for the arguments see `first_touch`.
 
-    In a quarter of the time that is surely clear F keeps three quarters. So a minimum between a look that
-    sees the gap fall and one that sees it rise is hardly below the first, or the second.
+    In a quarter of the time that is surely clear F keeps three quarters. So a minimum between an evaluation
+    at which the gap falls and one at which it rises is hardly below the first, or the second.
 
     Returns:
         A height such that no minimum of the gap is below half of it [m].
@@ -248,16 +246,16 @@ def lowest_dip(body, turning, heights, length, bounds):
     hop, t, lowest = (2 * SINK * body.radius / body.gravity) ** 0.5, 0.0, math.inf
     height_before, fell = math.inf, False
     while t < length:
-        seen = look(turning, heights, t)
-        if high(body, seen.z):
+        now = height_and_tilt(turning, heights, t)
+        if high(body, now.z):
             lowest, fell = min(lowest, (_NEAR - 1) * body.radius), False
-            t += time_to_fall(body, seen, bounds.down)
+            t += time_to_fall(body, now, bounds.down)
             continue
-        height, speed = closing(body, seen)
+        height, speed = closing(body, now)
         if fell and speed >= 0:
             lowest = min(lowest, height_before, height)
         height_before, fell = height, speed < 0
-        to_come = outlook(body, seen, bounds, length - t)
+        to_come = touch_bound(body, now, bounds, length - t)
         if falls_through(to_come):
             return lowest
         t += max(to_come.ahead / 4, hop)
@@ -266,7 +264,7 @@ def lowest_dip(body, turning, heights, length, bounds):
 
 @compiled
 def _clear(F, F_rate, bend):
-    """Give the positive root of F + 2 F_rate t - bend t²: a rim is clear up to it."""
+    """Return the positive root of F + 2 F_rate t - bend t²: a rim is clear up to it."""
     F = max(F, 0.0)
     root = (F_rate * F_rate + bend * F) ** 0.5
     # Of the two forms of the root, each sign of F_rate takes the one without cancellation.
@@ -276,30 +274,30 @@ def _clear(F, F_rate, bend):
 
 
 @compiled
-def _sure_touch(body, turning, heights, low, seen, to_come):
-    """Find the one zero of F in a time to come, to `TOUCH`.
+def _sure_touch(body, turning, heights, low, now, to_come):
+    """Find the one zero of F in a time to come, to `CLOSED_TOUCH`.
 
     Args:
         body: the coin.
         turning: its turning.
         heights: coefficients of the height of C.
         low: start of the search [s].
-        seen: the `Look` at it.
-        to_come: its `Outlook`.
+        now: the `HeightAndTilt` there.
+        to_come: its `TouchBound`.
 
     Returns:
-        The time [s], or `low` where rounding hides it, and the number of looks.
+        The time [s], or `low` where rounding hides it, and the number of gap evaluations.
     """
-    t, looks = low, 0
-    while looks < _MOST_LOOKS:
-        F, F_rate, bend = rim(body, seen, to_come.lower)
+    t, evaluations = low, 0
+    while evaluations < _MOST_EVALUATIONS:
+        F, F_rate, bend = rim_clearance(body, now, to_come.lower)
         step = F / (max(F_rate * F_rate - bend * F, 0.0) ** 0.5 - F_rate)
         t += step
         if not low < t <= low + to_come.latest:
-            return low, looks
-        # What F may be after the step, against what it is at the gap `TOUCH` r.
-        if to_come.third * abs(step) ** 3 <= TOUCH * body.radius * body.radius * seen.sine:
-            return t, looks
-        seen = look(turning, heights, t)
-        looks += 1
-    return low, looks
+            return low, evaluations
+        # What F may be after the step, against what it is at the gap `CLOSED_TOUCH` r.
+        if to_come.third * abs(step) ** 3 <= CLOSED_TOUCH * body.radius * body.radius * now.sine:
+            return t, evaluations
+        now = height_and_tilt(turning, heights, t)
+        evaluations += 1
+    return low, evaluations

@@ -3,7 +3,8 @@
 import numpy as np
 
 from analytic.flight.closed_flight import closed_graze, fly_closed, sample_closed
-from analytic.flight.equations_of_motion import STATE_SIZE, sample_flight, spin_of
+from analytic.flight.integrated_flight import sample_flight
+from analytic.flight.state_vector import STATE_SIZE, spin_of
 from analytic.flight.touch_search import fly_by_steps
 from analytic.flight.turning import turns_in_closed_form
 from models.kernel.compiled import compiled
@@ -19,17 +20,17 @@ def fly(body, y, longest):
         longest: the longest flight wanted [s].
 
     Returns:
-        The time of flight [s], whether the coin touches, and how often the gap was looked at.
+        The time of flight [s], whether the coin touches, and the number of gap evaluations.
     """
     if turns_in_closed_form(body, spin_of(y)):
         return fly_closed(body, y, longest)
-    flown, touches, looks, _ = fly_by_steps(body, y, longest)
-    return flown, touches, looks
+    flown, touches, evaluations, _ = fly_by_steps(body, y, longest)
+    return flown, touches, evaluations
 
 
 @compiled
 def fly_with_graze(body, y, longest):
-    """Fly as `fly` does, and tell how near to the floor the coin came before.
+    """Fly as `fly` does, and return how near to the floor the coin came before.
 
     Returns:
         The time of flight [s], and a graze: a height such that no minimum of the gap on the way is below half
@@ -64,5 +65,5 @@ def sample(body, start, start_time, times, states):
 
 @compiled
 def steps_of(body, start, duration):
-    """Give the number of steps of a flight of this duration [s] from the state `start`, (13,)."""
+    """Return the number of steps of a flight of this duration [s] from the state `start`, (13,)."""
     return sample(body, start, 0.0, np.array([duration]), np.empty((1, STATE_SIZE)))

@@ -1,46 +1,32 @@
-"""What the lowest point of a flying coin does, and the first contact of a flight that is integrated."""
+"""The search for the first touch of a flight that is integrated, and what the lowest point does there."""
 
 import numpy as np
 
-from analytic.flight.equations_of_motion import (
-    STATE_SIZE,
-    accepted_step,
-    attitude_of,
-    derivative,
-    first_step,
-    spin_of,
-    step,
-    velocity_of,
-)
+from analytic.flight.equations_of_motion import derivative
+from analytic.flight.integrated_flight import accepted_step, first_step, step
+from analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
 from analytic.numerics.runge_kutta import STAGES
+from analytic.numerics.tolerances import CHATTERING, SINK, TIME_STEP, TOUCH
 from models.attitude import rotation_matrix
-from models.geometry import FLAT_SINE, clear_time, contact_velocity, gap, grazing_time, lowest_point
+from models.clearance import clear_time, grazing_time
+from models.geometry import FLAT_SINE, contact_velocity, gap, lowest_point, tilt_sine_of
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, cross, dot, norm
-
-# A gap below this part of the radius is zero within rounding.
-TOUCH = 1e-14
-# In a step forced at a grazing point, each of three causes may lower the gap by this part of the radius.
-SINK = 1e-13
-# Impacts crowd together when all that are still to come take less than this angle of the coin's motion.
-CROWDED = 3e-5
-# Time of flight has no finer step than this part of it.
-TIME_STEP = 2.3e-16
 
 
 @compiled
 def closing_speed(body, y):
-    """Give the gap of the state y [m] and the vertical velocity of the lowest point [m/s]."""
+    """Return the gap of the state y [m] and the vertical velocity of the lowest point [m/s]."""
     R = rotation_matrix(attitude_of(y))
     v, w = velocity_of(y), spin_of(y)
     point, flat = lowest_point(body, R[2], w)
     v_A = contact_velocity(body, R, v, w, point)
-    return gap(body, y[2], R[2]), v[2] if flat else v_A[2]
+    return gap(body, position_of(y)[2], R[2]), v[2] if flat else v_A[2]
 
 
 @compiled
 def gap_acceleration(body, y):
-    """Give the second derivative of the gap in free flight, at a state y that is not flat [m/s²].
+    """Return the second derivative of the gap in free flight, at a state y that is not flat [m/s²].
 
     With u the upward unit vector in the body frame, u' = u × ω, it is z_C - u · c - (h/2) |u_ζ| - r |u⊥|.
     """
@@ -49,20 +35,25 @@ def gap_acceleration(body, y):
     up, w = rotation_matrix(attitude_of(y))[2], spin_of(y)
     rate = cross(up, w)
     acceleration = add(cross(rate, w), cross(up, spin_of(dy)))
-    sine = (up[0] * up[0] + up[1] * up[1]) ** 0.5
+    sine = tilt_sine_of(up)
     sine_rate = (up[0] * rate[0] + up[1] * rate[1]) / sine
     across = rate[0] * rate[0] + rate[1] * rate[1] - sine_rate * sine_rate
     sine_acceleration = (across + up[0] * acceleration[0] + up[1] * acceleration[1]) / sine
     face = body.thickness / 2 if up[2] > 0 else -body.thickness / 2
-    return dy[5] - dot(acceleration, body.center) - face * acceleration[2] - body.radius * sine_acceleration
+    return (
+        velocity_of(dy)[2]
+        - dot(acceleration, body.center)
+        - face * acceleration[2]
+        - body.radius * sine_acceleration
+    )
 
 
 @compiled
-def crowded(body, chi, y):
-    """Tell whether the impacts of a coin that touches the floor crowd together: it will stay in contact.
+def is_chattering(body, chi, y):
+    """Return whether the impacts of a coin that touches the floor chatter (Zeno): it will stay in contact.
 
     Where the gap accelerates downward by A in free flight, an approach at the speed v leads to impacts that
-    all come within 2 v/(A (1 - χ)). In that time the coin must turn, and fall, by less than `CROWDED`. An
+    all come within 2 v/(A (1 - χ)). In that time the coin must turn, and fall, by less than `CHATTERING`. An
     approach too slow to be told from contact stays too.
 
     Args:
@@ -74,26 +65,23 @@ def crowded(body, chi, y):
     speed, (_, slowest, most) = -closing_speed(body, y)[1], smallest_flight(body, y)
     if speed < slowest:
         return True
-    least = 2 * speed * (norm(w) + (body.gravity / body.radius) ** 0.5) / (CROWDED * (1 - chi))
+    least = 2 * speed * (norm(w) + (body.gravity / body.radius) ** 0.5) / (CHATTERING * (1 - chi))
     if least >= most:
         return False
-    if up[0] * up[0] + up[1] * up[1] <= FLAT_SINE * FLAT_SINE:
-        falling = body.gravity
-    else:
-        falling = -gap_acceleration(body, y)
+    falling = body.gravity if tilt_sine_of(up) <= FLAT_SINE else -gap_acceleration(body, y)
     return falling > 0 and least < falling
 
 
 @compiled
 def clear(body, y, window):
-    """Give a time during which the coin in state y surely stays above the floor, at most `window` [s]."""
+    """Return a time during which the coin in state y surely stays above the floor, at most `window` [s]."""
     R = rotation_matrix(attitude_of(y))
-    return clear_time(body, y[2], velocity_of(y), R[2], spin_of(y), window)
+    return clear_time(body, position_of(y)[2], velocity_of(y), R[2], spin_of(y), window)
 
 
 @compiled
 def smallest_flight(body, y):
-    """Give the time and the speed of a flight too low to be told from contact.
+    """Return the time and the speed of a flight too low to be told from contact.
 
     The time is that in which a touching coin hardly sinks. A flight that starts with the speed v lasts at
     least 2 v/A, A the largest acceleration of the gap: it outlasts that time at √(8 SINK r A).
@@ -120,7 +108,7 @@ def fly_by_steps(body, y, longest):
         longest: the longest flight wanted [s].
 
     Returns:
-        The time of flight [s], whether the coin touches, how often the gap was looked at, and a graze: a
+        The time of flight [s], whether the coin touches, the number of gap evaluations, and a graze: a
         height such that no minimum of the gap on the way is below half of it, infinite where it has none [m].
     """
     stages = np.empty((STAGES, STATE_SIZE))
@@ -129,14 +117,14 @@ def fly_by_steps(body, y, longest):
     # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch at once.
     touching_speed = -smallest_flight(body, y)[1]
     # The steps shrink towards a minimum of the gap, so that the last one before it starts hardly higher.
-    graze, height_before, speed_before, looks = np.inf, np.inf, 0.0, 0
+    graze, height_before, speed_before, evaluations = np.inf, np.inf, 0.0, 0
     while elapsed < longest:
         made, dt = accepted_step(body, y, min(dt, longest - elapsed), stages, y_end)
         y_near[:] = y
         inside = 0.0
         while inside < made:
             height, speed = closing_speed(body, y_near)
-            looks += 1
+            evaluations += 1
             if speed_before < 0 <= speed:
                 graze = min(graze, height_before, height)
             height_before, speed_before = height, speed
@@ -145,7 +133,7 @@ def fly_by_steps(body, y, longest):
             if height <= TOUCH * body.radius or inside + ahead == inside:
                 if speed < touching_speed:
                     y[:] = y_near
-                    return elapsed + inside, True, looks, graze
+                    return elapsed + inside, True, evaluations, graze
                 ahead = max(ahead, smallest_flight(body, y_near)[0], TIME_STEP * inside)
             touching_speed = 0.0
             inside += ahead
@@ -154,4 +142,4 @@ def fly_by_steps(body, y, longest):
                 step(body, y, inside, stages, y_near)
         elapsed += made
         y[:] = y_end
-    return longest, False, looks, graze
+    return longest, False, evaluations, graze

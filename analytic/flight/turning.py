@@ -9,7 +9,8 @@ it turns at a constant rate against the clock s = (1 - u)/δ, which is t itself 
 import math
 from typing import NamedTuple
 
-from models.attitude import rotation_matrix
+from analytic.flight.state_vector import attitude_of, normalise, set_attitude, set_spin, spin_of
+from models.attitude import quaternion_product, rotation_matrix
 from models.body import in_vacuum, is_ideal
 from models.kernel.compiled import compiled
 from models.kernel.vectors import Vector, apply, cross, dot, norm, scale, subtract
@@ -35,7 +36,7 @@ class Turning(NamedTuple):
 
 @compiled
 def turns_in_closed_form(body, w):
-    """Tell whether a coin with the angular velocity w turns in closed form.
+    """Return whether a coin with the angular velocity w turns in closed form.
 
     Args:
         body: the coin.
@@ -46,7 +47,7 @@ def turns_in_closed_form(body, w):
 
 @compiled
 def turning_of(body, e, w):
-    """Give the `Turning` of a coin that turns in closed form.
+    """Return the `Turning` of a coin that turns in closed form.
 
     Args:
         body: the coin.
@@ -82,22 +83,16 @@ def turn(turning, y, s, left, y_new):
         y_new: state, (13,).
     """
     half = turning.rate * s / 2
-    c = math.cos(half)
-    a, b, d = scale(math.sin(half), turning.axis)
-    e0, e1, e2, e3 = y[6], y[7], y[8], y[9]
-    e0, e1, e2, e3 = (
-        c * e0 - a * e1 - b * e2 - d * e3,
-        c * e1 + a * e0 + b * e3 - d * e2,
-        c * e2 + b * e0 + d * e1 - a * e3,
-        c * e3 + d * e0 + a * e2 - b * e1,
-    )
-    w_xi, w_eta = left * y[10], left * y[11]
+    turned = (math.cos(half), *scale(math.sin(half), turning.axis))
+    e = quaternion_product(turned, attitude_of(y))
+    w_xi, w_eta, w_zeta = spin_of(y)
+    w_xi, w_eta = left * w_xi, left * w_eta
     if turning.spin != 0:
         half = turning.spin * s / 2
         c, d = math.cos(half), math.sin(half)
-        e0, e1, e2, e3 = c * e0 - d * e3, c * e1 + d * e2, c * e2 - d * e1, c * e3 + d * e0
+        e = quaternion_product(e, (c, 0.0, 0.0, d))
         c, d = c * c - d * d, 2 * c * d
         w_xi, w_eta = c * w_xi + d * w_eta, c * w_eta - d * w_xi
-    size = (e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3) ** 0.5
-    y_new[6], y_new[7], y_new[8], y_new[9] = e0 / size, e1 / size, e2 / size, e3 / size
-    y_new[10], y_new[11], y_new[12] = w_xi, w_eta, y[12]
+    set_attitude(y_new, e)
+    set_spin(y_new, (w_xi, w_eta, w_zeta))
+    normalise(y_new)

@@ -7,16 +7,9 @@ the result is the derivative of the very numbers the flight computes, its steps 
 import numpy as np
 
 from analytic.air.force import force_and_moment, force_and_moment_change
-from analytic.flight.equations_of_motion import (
-    STATE_SIZE,
-    accepted_step,
-    attitude_of,
-    derivative,
-    first_step,
-    spin_of,
-    step,
-    velocity_of,
-)
+from analytic.flight.equations_of_motion import derivative
+from analytic.flight.integrated_flight import accepted_step, first_step, step
+from analytic.flight.state_vector import STATE_SIZE, attitude_of, spin_of, velocity_of
 from analytic.numerics.rotation import quaternion_rate, rotation_change
 from analytic.numerics.runge_kutta import STAGES, end_point, stage_point
 from models.attitude import rotation_matrix

@@ -7,14 +7,14 @@ add up to the covariance, which in a chatter could not hold its own digits.
 
 import numpy as np
 
-from analytic.events import Run
-from analytic.flight.equations_of_motion import STATE_SIZE
+from analytic.events import EventLog
 from analytic.flight.flying import fly_with_graze, steps_of
-from analytic.flight.touch_search import TIME_STEP, TOUCH
+from analytic.flight.state_vector import STATE_SIZE
 from analytic.flight.turning import turns_in_closed_form
 from analytic.horizon.flight_tangent import flight_tangent
 from analytic.horizon.sensitivity import delay_of, flight_map, impact_map, touch_map
 from analytic.horizon.touch_derivatives import Touch, touch_derivatives
+from analytic.numerics.tolerances import TIME_STEP, TOUCH
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
 from models.geometry import FLAT_SINE
@@ -43,7 +43,7 @@ LINEAR_RANGE = 1e-3
 the tilt's direction is the place on the rim."""
 
 
-def trusted_impacts(body: Body, rules: Rules, toss: Run) -> int:
+def trusted_impacts(body: Body, rules: Rules, toss: EventLog) -> int:
     """Count the leading impacts whose time, impulse, face, place and order the engine's errors cannot change.
 
     Args:

@@ -12,9 +12,9 @@ At a low hop that term would cost digits.
 
 import numpy as np
 
-from analytic.events import Run
-from analytic.flight.equations_of_motion import STATE_SIZE
+from analytic.events import EventLog
 from analytic.flight.flying import fly
+from analytic.flight.state_vector import STATE_SIZE
 from analytic.horizon.flight_tangent import flight_tangent
 from analytic.horizon.touch_derivatives import Touch, touch_derivatives
 from models.body import Body, Rules
@@ -41,7 +41,7 @@ def impact_map(touch: Touch) -> Array:
     return _with_time(touch.after)
 
 
-def event_tangent(body: Body, rules: Rules, toss: Run, number: int) -> Array:
+def event_tangent(body: Body, rules: Rules, toss: EventLog, number: int) -> Array:
     """Give the tangent map from just after the impact before to just after impact `number`, (14, 14).
 
     Args:

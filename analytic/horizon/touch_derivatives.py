@@ -5,7 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic.events import hit
-from analytic.flight.equations_of_motion import STATE_SIZE, attitude_of, derivative, normalise
+from analytic.flight.equations_of_motion import derivative
+from analytic.flight.state_vector import STATE_SIZE, attitude_of, normalise
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
 from models.geometry import FLAT_SINE, gap

@@ -1,9 +1,9 @@
-"""Routh's law of impact: Coulomb friction acts while the normal impulse grows, and the slip evolves.
+"""Coulomb friction integrated through the impact (Routh 1860; Keller 1986), the contact law `coulomb`.
 
 The impact takes no time but has an order: the normal impulse p = S_z grows from 0, and with it the velocity
 of the contact point A, dv_A/dp = K (-μ s, 1), s the direction of the slip and K the mobility. The slip may
-turn, slow down, stop, stick, or start anew. E. J. Routh, Dynamics of a System of Rigid Bodies; J. B. Keller,
-J. Appl. Mech. 53 (1986) 1; W. J. Stronge, Impact Mechanics.
+turn, slow down, stop, stick, or start anew. E. J. Routh, Dynamics of a System of Rigid Bodies, 1860; J. B.
+Keller, J. Appl. Mech. 53 (1986) 1; W. J. Stronge, Impact Mechanics.
 """
 
 import math
@@ -38,7 +38,7 @@ SETTLED = 40.0
 
 @compiled
 def coulomb(K, v_A, chi, mu, kind):
-    """Give the impulse of Routh's law.
+    """Return the impulse of Coulomb friction integrated through the impact.
 
     Kinematic restitution ends it when v_Az' = -χ v_Az. Energetic restitution (Stronge) ends it when the
     normal impulse has given back the part χ² of the work that it took in compression; it never adds energy.
@@ -57,15 +57,15 @@ def coulomb(K, v_A, chi, mu, kind):
     y[0], y[1], y[V_Z] = v_A
     no_slip = NO_SLIP * norm(v_A)
     if kind == RestitutionKind.KINEMATIC:
-        press(K, y, mu, no_slip, V_Z, -chi * v_A[2])
+        grow_impulse(K, y, mu, no_slip, V_Z, -chi * v_A[2])
     else:
-        press(K, y, mu, no_slip, V_Z, 0.0)
-        press(K, y, mu, no_slip, WORK, (1 - chi * chi) * y[WORK])
+        grow_impulse(K, y, mu, no_slip, V_Z, 0.0)
+        grow_impulse(K, y, mu, no_slip, WORK, (1 - chi * chi) * y[WORK])
     return y[3], y[4], y[5]
 
 
 @compiled
-def press(K, y, mu, no_slip, component, target):
+def grow_impulse(K, y, mu, no_slip, component, target):
     """Let the normal impulse grow until a component of the state has risen to its target.
 
     Args:
@@ -85,7 +85,7 @@ def press(K, y, mu, no_slip, component, target):
 
 @compiled
 def impulse_to(y, rise, component, target):
-    """Give the normal impulse in which a component reaches its target, where dv_z/dp = `rise` stays [N s]."""
+    """Return the normal impulse in which a component reaches its target, dv_z/dp = `rise` being constant."""
     missing = target - y[component]
     if component == V_Z:
         return missing / rise
@@ -151,7 +151,7 @@ def slide(K, y, mu, no_slip, component, target):
 
 @compiled
 def straight_slip(K, y, mu, component, target):
-    """Look whether slip keeps its direction long enough for all others to have turned into it.
+    """Return whether slip keeps its direction long enough for all others to turn into it, and where it leads.
 
     Friction turns slip towards the direction s in which it accelerates, s × dv_A/dp = 0, at the rate
     (λ + κ)/|v_t|; λ = s · dv_A/dp is the growth of slip and κ = μ t · K_tt t, t across s. Where λ is small
@@ -190,7 +190,7 @@ def straight_slip(K, y, mu, component, target):
 
 @compiled
 def first_slip_step(K, mu):
-    """Give a step in τ with which to start, well below the time in which slip turns or stops."""
+    """Return a step in τ with which to start, well below the time in which slip turns or stops."""
     return 0.1 / ((1 + mu) * (K[0][0] + K[1][1] + K[2][2]))
 
 
@@ -284,7 +284,7 @@ def slip_step_to(K, y, mu, dt, stages, y_new, component, target):
 
 @compiled
 def friction_without_slip(K, mu):
-    """Give the tangential impulse per normal impulse at a contact point that does not slip, (2,).
+    """Return the tangential impulse per normal impulse at a contact point that does not slip, (2,).
 
     It sticks, K_tt f + K_tz = 0, where that lies within the cone. Elsewhere slip starts in the direction s
     that keeps itself, f = -μ s and K_tz - μ K_tt s = λ s: s = (μ K_tt + λ)⁻¹ K_tz has length 1 for just one
@@ -315,7 +315,7 @@ def friction_without_slip(K, mu):
 
 @compiled
 def resisted(K, mu, growth, push):
-    """Give (mu K_tt + growth)⁻¹ push, (2,)."""
+    """Return (mu K_tt + growth)⁻¹ push, (2,)."""
     xx, yy, xy = mu * K[0][0] + growth, mu * K[1][1] + growth, mu * K[0][1]
     determinant = xx * yy - xy * xy
     return (yy * push[0] - xy * push[1]) / determinant, (xx * push[1] - xy * push[0]) / determinant

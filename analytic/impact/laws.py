@@ -16,7 +16,7 @@ NO_IMPULSE = (0.0, 0.0, 0.0)
 
 @compiled
 def mobility(body, R, arm):
-    """Give K, with which an impulse S at A changes the velocity of A: v_A' = v_A + K S.
+    """Return K, with which an impulse S at A changes the velocity of A: v_A' = v_A + K S.
 
     K = I/m - [a] R J_C⁻¹ Rᵀ [a], [a] the matrix of a × : eqs (87)-(90), solved for v_A'.
 
@@ -38,13 +38,13 @@ def mobility(body, R, arm):
 
 @compiled
 def spin_gained(body, R, arm, S):
-    """Give the change of ω by an impulse S at A: J_C⁻¹ Rᵀ (a × S), body frame, eqs (88)-(90)."""
+    """Return the change of ω by an impulse S at A: J_C⁻¹ Rᵀ (a × S), body frame, eqs (88)-(90)."""
     return apply(body.inertia_inverse, apply_transposed(R, cross(arm, S)))
 
 
 @compiled
 def velocity_gained(body, R, arm, S, at):
-    """Give the velocity that an impulse S at A gives to the coin's point `at` from C, space frame, (3,)."""
+    """Return the velocity that an impulse S at A gives to the coin's point `at` from C, space frame, (3,)."""
     return add(scale(1 / body.mass, S), cross(apply(R, spin_gained(body, R, arm, S)), at))
 
 
@@ -104,7 +104,7 @@ def sliding_friction(K, v_A, chi, mu):
 
 @compiled
 def impulse(body, rules, chi, R, arm, tau, v_A, flat):
-    """Give the floor's impulse on the coin by the scenario's contact law.
+    """Return the floor's impulse on the coin by the scenario's contact law.
 
     Args:
         body: the coin.

@@ -52,7 +52,7 @@ class Singularity:
 
 
 def axis_rotation(axis: int, angle: float) -> Array:
-    """Give the matrix of a turn about one body axis; Strzalko et al. 2008, eqs (6)-(8).
+    """Return the matrix of a turn about one body axis; Strzalko et al. 2008, eqs (6)-(8).
 
     Args:
         axis: 0 for ξ, 1 for η, 2 for ζ.
@@ -88,7 +88,7 @@ def axis_rotation(axis: int, angle: float) -> Array:
 
 
 def rotation_of(sequence: Sequence, angles: ArrayLike) -> Array:
-    """Give R = R_1(φ_1) R_2(φ_2) R_3(φ_3), eq. (5); for 313 it is eq. (10).
+    """Return R = R_1(φ_1) R_2(φ_2) R_3(φ_3), eq. (5); for 313 it is eq. (10).
 
     Args:
         sequence: the three axes.
@@ -102,7 +102,7 @@ def rotation_of(sequence: Sequence, angles: ArrayLike) -> Array:
 
 
 def rate_matrix(sequence: Sequence, angles: ArrayLike) -> Array:
-    """Give B, with which the rates of the angles make the angular velocity: ω = B φ̇; section 3.2.
+    """Return B, with which the rates of the angles make the angular velocity: ω = B φ̇; section 3.2.
 
     A column is the axis of one turn, seen from the body: the turns that follow carry it along.
 
@@ -119,7 +119,7 @@ def rate_matrix(sequence: Sequence, angles: ArrayLike) -> Array:
 
 
 def singularity(sequence: Sequence) -> Singularity:
-    """Give where B loses its rank, found from B itself; Table 1.
+    """Return where B loses its rank, found from B itself; Table 1.
 
     det B is the triple product of the three axes. Turning all by R_3 leaves R_2ᵀ a_1, a_2, a_3, so that
     φ_1 and φ_3 drop out and det B = p cos φ_2 + q sin φ_2; its values at 0 and π/2 are p and q.
@@ -131,7 +131,7 @@ def singularity(sequence: Sequence) -> Singularity:
 
 
 def angles_of(sequence: Sequence, R: ArrayLike) -> Array:
-    """Give the angles of a rotation matrix, the inverse of `rotation_of`.
+    """Return the angles of a rotation matrix, the inverse of `rotation_of`.
 
     Args:
         sequence: the three axes.

@@ -8,7 +8,7 @@ from models.kernel.vectors import Matrix, Vector
 
 
 def quaternion_from_axis(axis: Vector, angle: float) -> Quaternion:
-    """Give the Euler parameters of a turn about an axis; Strzalko et al. 2008, eqs (11)-(12).
+    """Return the Euler parameters of a turn about an axis; Strzalko et al. 2008, eqs (11)-(12).
 
     Args:
         axis: v, the axis, of any length but 0; its components are the same in body and space frame, (3,).
@@ -28,7 +28,7 @@ def quaternion_from_axis(axis: Vector, angle: float) -> Quaternion:
 
 
 def axis_and_angle(e: Quaternion) -> tuple[Vector, float]:
-    """Give the axis and the angle of a turn, the inverse of eqs (11)-(12).
+    """Return the axis and the angle of a turn, the inverse of eqs (11)-(12).
 
     e and -e are the same attitude, reached by φ about v and by 2π - φ about -v; each gives its own pair, so
     that `quaternion_from_axis` gives back this e.
@@ -50,7 +50,7 @@ def axis_and_angle(e: Quaternion) -> tuple[Vector, float]:
 
 
 def quaternion_from_matrix(R: Matrix) -> Quaternion:
-    """Give the Euler parameters of a rotation matrix, the inverse of eq. (15).
+    """Return the Euler parameters of a rotation matrix, the inverse of eq. (15).
 
     R determines all products e_i e_j. The largest square is found first and the others divided by its root,
     so no digit is lost at any attitude, half turns included.
@@ -79,7 +79,7 @@ def quaternion_from_matrix(R: Matrix) -> Quaternion:
 
 @compiled
 def quaternion_rate(e, w):
-    """Give ė = ½ e ∘ ω, the inverse of eq. (17) of Strzalko et al. 2008 on the unit sphere.
+    """Return ė = ½ e ∘ ω, the inverse of eq. (17) of Strzalko et al. 2008 on the unit sphere.
 
     Args:
         e: Euler parameters, body to space, (4,).
@@ -95,7 +95,7 @@ def quaternion_rate(e, w):
 
 @compiled
 def body_spin(e, e_rate):
-    """Give the angular velocity in the body frame, eq. (17): the vector part of 2 ē ∘ ė [rad/s].
+    """Return the angular velocity in the body frame, eq. (17): the vector part of 2 ē ∘ ė [rad/s].
 
     Args:
         e: Euler parameters, body to space, (4,), norm 1.
@@ -110,7 +110,7 @@ def body_spin(e, e_rate):
 
 @compiled
 def space_spin(e, e_rate):
-    """Give the angular velocity in the space frame, eq. (19): the vector part of 2 ė ∘ ē [rad/s].
+    """Return the angular velocity in the space frame, eq. (19): the vector part of 2 ė ∘ ē [rad/s].
 
     Args:
         e: Euler parameters, body to space, (4,), norm 1.
@@ -125,7 +125,7 @@ def space_spin(e, e_rate):
 
 @compiled
 def body_spin_rate(e, e_acceleration):
-    """Give the angular acceleration ω̇ in the body frame, eq. (18): the vector part of 2 ē ∘ ë [rad/s²].
+    """Return the angular acceleration ω̇ in the body frame, eq. (18): the vector part of 2 ē ∘ ë [rad/s²].
 
     It is the derivative of eq. (17), in which the products ė ė cancel.
 
@@ -138,7 +138,7 @@ def body_spin_rate(e, e_acceleration):
 
 @compiled
 def rotation_change(e, de):
-    """Give the change of the rotation matrix R(e), as `models.attitude` writes it, with e.
+    """Return the change of the rotation matrix R(e), as `models.attitude` writes it, with e.
 
     Args:
         e: Euler parameters, body to space, (4,).

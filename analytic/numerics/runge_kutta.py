@@ -36,7 +36,7 @@ def end_point(y, dt, stages, point):
 
 @compiled
 def error_parts(stages, i):
-    """Give the estimates of orders 5 and 3 of the error in component i, per unit of step."""
+    """Return the estimates of orders 5 and 3 of the error in component i, per unit of step."""
     e5, e3 = 0.0, 0.0
     for j in range(STAGES):
         e5 += _E5[j] * stages[j, i]
@@ -46,7 +46,7 @@ def error_parts(stages, i):
 
 @compiled
 def combined_error(dt, sum_5, sum_3, size):
-    """Give the error of a step of a system of `size` components, as Hairer's code combines the estimates.
+    """Return the error of a step of a system of `size` components, as Hairer's code combines the estimates.
 
     Args:
         dt: length of the step.
@@ -65,7 +65,7 @@ def combined_error(dt, sum_5, sum_3, size):
 
 @compiled
 def step_factor(error):
-    """Give the factor from a step to the next, or to its next try.
+    """Return the factor from a step to the next, or to its next try.
 
     Args:
         error: of the step, relative to the error allowed.

@@ -56,6 +56,8 @@ class Settings:
     """With which MuJoCo's own friction damps the slip, by default that of the normal motion [1/s]."""
     flight_angle: float = 0.02
     """Largest turn of the coin in a step of free flight [rad]."""
+    contact_steps: int = 1_000_000
+    """The most steps in the sustained contacts of a toss."""
 
     def __post_init__(self) -> None:
         """Check each setting; `contact` and `friction` may be given by their values.
@@ -70,8 +72,8 @@ class Settings:
         for name in ("stiffness", "step", "flight_angle"):
             value = getattr(self, name)
             _require(name, value, 0 < value < math.inf, "a finite number > 0")
-        whole = isinstance(self.steps, Integral) and self.steps >= 1
-        _require("steps", self.steps, whole, "a whole number >= 1")
+        for name, count in (("steps", self.steps), ("contact_steps", self.contact_steps)):
+            _require(name, count, isinstance(count, Integral) and count >= 1, "a whole number >= 1")
         damping = self.slip_damping
         _require("slip_damping", damping, damping is None or 0 <= damping < math.inf, "a finite number >= 0")
 
@@ -90,6 +92,7 @@ class Settings:
             **rebound,
             **slip,
             "flight_angle": self.flight_angle,
+            "contact_steps": self.contact_steps,
         }
 
 

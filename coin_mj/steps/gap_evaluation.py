@@ -5,7 +5,8 @@ from typing import NamedTuple
 from coin_mj.model.state import state_of
 from models.attitude import rotation_matrix
 from models.body import Body
-from models.geometry import clear_time, contact_velocity, gap, lowest_point
+from models.clearance import clear_time
+from models.geometry import contact_velocity, gap, lowest_point
 from models.kernel.compiled import compiled
 from models.kernel.vectors import norm
 

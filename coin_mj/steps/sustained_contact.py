@@ -11,11 +11,12 @@ from coin_mj.steps.gap_evaluation import evaluate_gap, turning_rate
 from coin_mj.steps.knots import Step, add_knot
 from coin_mj.steps.mujoco_step import set_margin, set_spring
 from models.attitude import rotation_matrix
-from models.ending import judge
+from models.ending import classify_ending
 from models.kernel.compiled import compiled
 from models.kernel.vectors import cross
-from models.perpetual import FIRST_LOOK, dies_away
+from models.perpetual import FIRST_CHECK
 from models.records import Ending, Outcome
+from models.state import state
 
 HEAVY = 10
 """A touch is no impact when gravity alone gives its speed in HEAVY times the duration of a contact."""
@@ -66,7 +67,7 @@ def slow_speed(coin, chi, w):
 
 
 @compiled
-def follow_contact(coin, rules, time, steps_left, looks, knots):
+def follow_contact(coin, rules, time, steps_left, history, knots):
     """Follow a sustained contact until the coin lifts off, another rim point lands, or the toss is decided.
 
     Args:
@@ -74,7 +75,7 @@ def follow_contact(coin, rules, time, steps_left, looks, knots):
         rules: floor and ending.
         time: now [s].
         steps_left: the most steps wanted.
-        looks: see `models.perpetual.dies_away`.
+        history: `EnergyHistory` of the toss; kept up.
         knots: of the path, kept up; see `knots.add_knot`.
 
     Returns:
@@ -89,13 +90,12 @@ def follow_contact(coin, rules, time, steps_left, looks, knots):
         up_rate = cross(up, w)
         # Where the coin would be if it did not sink: the energy tests are finer than that.
         z = x[2] - min(evaluate_gap(coin).gap, 0.0)
-        outcome, ending = judge(body, rules, z, v, up, w)
-        if ending == Ending.NONE and dies_away(body, rules, z, v, up, w, NO_LOSS, time, looks):
-            outcome, ending = Outcome.PERPETUAL, Ending.PERPETUAL
-        if ending == Ending.NONE and upright * rate > FIRST_LOOK:
+        now = state((x[0], x[1], z), v, e, w)
+        outcome, ending = classify_ending(body, rules, now, time, history, NO_LOSS)
+        if ending == Ending.NONE and upright * rate > FIRST_CHECK:
             outcome, ending = Outcome.EDGE, Ending.STANDING
         if ending == Ending.NONE and steps_left <= 0:
-            ending = Ending.CHATTER
+            ending = Ending.CONTACT_STEPS
         if ending != Ending.NONE:
             return ContactExit.DECIDED, time, steps_left, outcome, ending
         dt, lands = next_step(coin, rules.restitution, up, up_rate, w)

@@ -11,7 +11,7 @@ from matplotlib.ticker import FuncFormatter
 from compare.metrics.comparison import PARTED, Comparison
 from compare.metrics.trajectories import tilt
 from compare.output.style import STYLE
-from models.ending import barrier
+from models.barriers import barrier
 from models.records import Array, States, Toss
 from models.scenario import Scenario
 

@@ -11,49 +11,49 @@ Matrix = tuple[Vector, Vector, Vector]
 
 @compiled
 def add(a, b):
-    """Give a + b."""
+    """Return a + b."""
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
 @compiled
 def subtract(a, b):
-    """Give a - b."""
+    """Return a - b."""
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
 @compiled
 def scale(k, a):
-    """Give k a for a number k."""
+    """Return k a for a number k."""
     return k * a[0], k * a[1], k * a[2]
 
 
 @compiled
 def dot(a, b):
-    """Give the scalar product a . b."""
+    """Return the scalar product a . b."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 @compiled
 def cross(a, b):
-    """Give the vector product a x b."""
+    """Return the vector product a x b."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
 @compiled
 def norm(a):
-    """Give the length |a|."""
+    """Return the length |a|."""
     return (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) ** 0.5
 
 
 @compiled
 def apply(M, a):
-    """Give M a."""
+    """Return M a."""
     return dot(M[0], a), dot(M[1], a), dot(M[2], a)
 
 
 @compiled
 def apply_transposed(M, a):
-    """Give M^T a."""
+    """Return M^T a."""
     return (
         M[0][0] * a[0] + M[1][0] * a[1] + M[2][0] * a[2],
         M[0][1] * a[0] + M[1][1] * a[1] + M[2][1] * a[2],

@@ -5,8 +5,8 @@ import pytest
 
 from analytic.events import run
 from analytic.flight.closed_flight import fly_closed, sample_closed
-from analytic.flight.equations_of_motion import sample_flight
 from analytic.flight.flying import fly_with_graze, sample
+from analytic.flight.integrated_flight import sample_flight
 from analytic.flight.touch_search import closing_speed, fly_by_steps
 from analytic.flight.turning import turns_in_closed_form
 from analytic.toss import state_of

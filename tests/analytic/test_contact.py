@@ -4,21 +4,15 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from analytic.contact.contact import Verdict, margin, next_motion, put_on_floor, sample_contact, stay
+from analytic.automaton import Event, Mode
+from analytic.contact import following
 from analytic.contact.edge import held_on_edge, stands
-from analytic.contact.floor_force import (
-    Motion,
-    contact,
-    direction_of,
-    force,
-    holding_force,
-    holds,
-    side_of,
-    slip_direction,
-)
-from analytic.flight.equations_of_motion import derivative
+from analytic.contact.floor_force import friction_holds, holding_force, slip_direction, starting_slip
+from analytic.contact.following import sample_contact
+from analytic.contact.one_rim import force, lower_rim_of, margin, next_event, put_on_floor
+from analytic.contact.rim_contact import rim_contact
 from models.attitude import quaternion_from_angles, rotation_matrix
-from models.ending import energy
+from models.barriers import energy
 from models.geometry import contact_velocity, gap, lowest_point
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, scenario
 
@@ -42,60 +36,57 @@ def velocity_of_lowest(body, y):
     return np.array(contact_velocity(body, R, tuple(y[3:6]), tuple(y[10:13]), point))
 
 
-def on_floor(body, motion, angles, w, v=(0.0, 0.0)):
-    """Give a coin in contact, of this attitude and spin; `motion` says what its lowest point may do."""
+def on_floor(body, mode, angles, w, v=(0.0, 0.0)):
+    """Give a coin in contact, of this attitude and spin; `mode` says what its lowest point may do."""
     y = np.array([0, 0, 0, *v, 0, *quaternion_from_angles(angles), *w], dtype=float)
-    put_on_floor(body, 0.0, motion, side_of(y), y)
+    put_on_floor(body, 0.0, mode, lower_rim_of(y), y)
     return y
 
 
-def floor_force(body, mu, motion, y):
-    dy = np.empty(13)
-    derivative(body, y, dy)
-    _, _, K, b, v_A = contact(body, y, dy, side_of(y))
-    return np.array(force(K, b, v_A, mu, motion))
+def floor_force(body, mu, mode, y):
+    return np.array(force(rim_contact(body, y, lower_rim_of(y)), mu, mode))
 
 
-def follow(body, mu, motion, y, time):
+def follow(body, mu, mode, y, time):
     """Give the states and times after every step of a contact that goes on for `time`."""
     y, states, times, dt = y.copy(), [y.copy()], [0.0], np.inf
     while times[-1] < time:
-        made, dt, verdict = stay(body, mu, motion, y, min(dt, time - times[-1]))
-        assert verdict == Verdict.GOES_ON
+        made, dt, over, _ = following.follow(body, mu, mode, y, min(dt, time - times[-1]))
+        assert not over
         states.append(y.copy())
         times.append(times[-1] + made)
     return np.array(states), np.array(times)
 
 
-def follow_to_its_end(body, mu, motion, y):
-    """Advance y to the end of a contact that ends within a second; give the `Verdict` and the time."""
-    time, dt, verdict = 0.0, np.inf, Verdict.GOES_ON
-    while verdict == Verdict.GOES_ON:
-        made, dt, verdict = stay(body, mu, motion, y, dt)
+def follow_to_its_end(body, mu, mode, y):
+    """Advance y to the end of a contact that ends within a second; return what lands and the time."""
+    time, dt, over, landing = 0.0, np.inf, False, Event.NONE
+    while not over:
+        made, dt, over, landing = following.follow(body, mu, mode, y, dt)
         time += made
         assert time < 1
-    return verdict, time
+    return landing, time
 
 
-def draw_wobble(rng, body, motion):
+def draw_wobble(rng, body, mode):
     """Draw a contact that goes on for a while: a tilted coin that turns moderately."""
     angles = rng.uniform(0, 6), rng.uniform(0.5, 1.2), rng.uniform(0, 6)
-    return on_floor(body, motion, angles, rng.uniform(-12, 12, 3), rng.uniform(-0.1, 0.1, 2))
+    return on_floor(body, mode, angles, rng.uniform(-12, 12, 3), rng.uniform(-0.1, 0.1, 2))
 
 
 @pytest.mark.parametrize("seed", range(8))
 def test_a_coin_on_a_smooth_floor_keeps_energy_and_momentum_and_does_not_leave_it(seed):
     rng = np.random.default_rng([seed, 1])
     body = scenario(coin=draw_coin(rng)).body
-    start = draw_wobble(rng, body, Motion.SLIDING)
+    start = draw_wobble(rng, body, Mode.SLIDING)
     y, time, turned = start.copy(), 0.0, 0.0
     while time < 0.2:
-        made, _, verdict = stay(body, 0.0, Motion.SLIDING, y, 0.2 - time)
+        made, _, over, _ = following.follow(body, 0.0, Mode.SLIDING, y, 0.2 - time)
         time += made
         turned += made * np.linalg.norm(y[10:13])
         assert abs(gap(body, y[2], tuple(up_of(y)))) < 1e-14
         assert abs(velocity_of_lowest(body, y)[2]) < 1e-12
-        if verdict != Verdict.GOES_ON:
+        if over:
             break
     assert turned > 0.3, "it should move"
     assert energy_of(body, y) == pytest.approx(energy_of(body, start), rel=1e-11)
@@ -104,18 +95,18 @@ def test_a_coin_on_a_smooth_floor_keeps_energy_and_momentum_and_does_not_leave_i
     assert L_z == pytest.approx(L_z_start, rel=1e-11)
 
 
-@pytest.mark.parametrize("motion", [Motion.SLIDING, Motion.STICKING])
+@pytest.mark.parametrize("mode", [Mode.SLIDING, Mode.STICKING])
 @pytest.mark.parametrize("tilt", [0.3, 1.0, 1.3])
-def test_eulers_disk_precesses_at_its_rate(motion, tilt):
+def test_eulers_disk_precesses_at_its_rate(mode, tilt):
     """Ω² = 4 g/(r sin s) for a thin disk that rolls with C at rest: a state of the smooth floor too."""
     body = scenario(coin=THIN).body
     rate = np.sqrt(4 * G / (R_COIN * np.sin(tilt)))
     # Upright in the coin's plane the spin is Ω sin s, along the normal none; φ = 0 puts that axis along η.
-    y = on_floor(body, motion, (0.2, tilt, 0.0), (0.0, rate * np.sin(tilt), 0.0))
+    y = on_floor(body, mode, (0.2, tilt, 0.0), (0.0, rate * np.sin(tilt), 0.0))
     assert y[3:6] == pytest.approx(0, abs=1e-15)
-    mu = 0.0 if motion == Motion.SLIDING else 0.5
-    assert floor_force(body, mu, motion, y) == pytest.approx([0, 0, M * G], abs=1e-14)
-    states, times = follow(body, mu, motion, y, 30 / rate)
+    mu = 0.0 if mode == Mode.SLIDING else 0.5
+    assert floor_force(body, mu, mode, y) == pytest.approx([0, 0, M * G], abs=1e-14)
+    states, times = follow(body, mu, mode, y, 30 / rate)
     heights = [up_of(s)[2] for s in states]
     assert np.array(heights) == pytest.approx(np.cos(tilt), abs=1e-9)
     R = np.array(rotation_matrix(tuple(states[-1][6:10])))
@@ -143,9 +134,9 @@ def test_a_rolling_disk_moves_as_its_own_equations_say(seed):
     rng = np.random.default_rng([seed, 2])
     body = scenario(coin=THIN).body
     tilt, w = rng.uniform(0.6, 1.3), rng.uniform(-15, 15, 3)
-    y = on_floor(body, Motion.STICKING, (0.0, tilt, 0.0), w)
+    y = on_floor(body, Mode.STICKING, (0.0, tilt, 0.0), w)
     time = 0.05
-    states, _ = follow(body, 50.0, Motion.STICKING, y, time)
+    states, _ = follow(body, 50.0, Mode.STICKING, y, time)
     # With ψ = φ = 0 the axes ξ, η, ζ are those of the frame at the start.
     expected = solve_ivp(
         rolling_rates, (0, time), [tilt, *y[10:13]], args=(body,), rtol=1e-11, atol=1e-11, method="DOP853"
@@ -163,13 +154,13 @@ def test_a_rolling_disk_moves_as_its_own_equations_say(seed):
 def test_a_coin_that_rolls_keeps_its_energy(seed):
     rng = np.random.default_rng([seed, 3])
     body = scenario(coin=draw_coin(rng)).body
-    start = draw_wobble(rng, body, Motion.STICKING)
+    start = draw_wobble(rng, body, Mode.STICKING)
     y, time = start.copy(), 0.0
     while time < 0.1:
-        made, _, verdict = stay(body, 100.0, Motion.STICKING, y, 0.1 - time)
+        made, _, over, _ = following.follow(body, 100.0, Mode.STICKING, y, 0.1 - time)
         time += made
         assert np.abs(velocity_of_lowest(body, y)).max() < 1e-12
-        if verdict != Verdict.GOES_ON:
+        if over:
             break
     assert time > 0.01
     assert energy_of(body, y) == pytest.approx(energy_of(body, start), rel=1e-11)
@@ -181,11 +172,11 @@ def test_a_coin_that_slides_loses_what_friction_takes(seed):
     rng = np.random.default_rng([seed, 4])
     mu, body = 0.3, scenario(coin=draw_coin(rng)).body
     angles = rng.uniform(0, 6), rng.uniform(0.4, 1.0), rng.uniform(0, 6)
-    y = on_floor(body, Motion.SLIDING, angles, rng.uniform(-10, 10, 3), [0.4, 0.1])
+    y = on_floor(body, Mode.SLIDING, angles, rng.uniform(-10, 10, 3), [0.4, 0.1])
     time, n = 0.01, 401
     times = np.linspace(0, time, n)
     states = np.empty((n, 13))
-    sample_contact(body, mu, Motion.SLIDING, y, 0.0, times, states)
+    sample_contact(body, mu, Mode.SLIDING, y, 0.0, times, states)
     v_A = np.array([velocity_of_lowest(body, s) for s in states])
     slip = np.linalg.norm(v_A[:, :2], axis=1)
     assert slip.min() > 0.05
@@ -200,17 +191,17 @@ def test_a_coin_that_slides_loses_what_friction_takes(seed):
 
 @pytest.mark.parametrize("seed", range(20))
 def test_slip_that_starts_keeps_the_direction_to_which_friction_turns_all_slip(seed):
-    """A slip too small to move the coin, in any direction, turns into the one of `slip_direction`."""
+    """A slip too small to move the coin, in any direction, turns into the one of `starting_slip`."""
     rng = np.random.default_rng([seed, 5])
     A = rng.normal(size=(3, 3))
     K = A @ A.T + 2 * np.eye(3)
     b = np.array([*rng.normal(size=2) * 4, -rng.uniform(0.5, 2)])
     mu = rng.uniform(0.05, 0.4)
     rows = tuple(map(tuple, K))
-    if holds(mu, holding_force(rows, tuple(b))):
+    if friction_holds(mu, holding_force(rows, tuple(b))):
         b[:2] *= 20
-    assert not holds(mu, holding_force(rows, tuple(b)))
-    s = np.array(slip_direction(rows, tuple(b), mu))
+    assert not friction_holds(mu, holding_force(rows, tuple(b)))
+    s = np.array(starting_slip(rows, tuple(b), mu))
 
     def rate(_, v):
         direction = np.array([*(-mu * v / np.linalg.norm(v)), 1.0])
@@ -228,15 +219,15 @@ def test_slip_that_starts_keeps_the_direction_to_which_friction_turns_all_slip(s
 
 def test_friction_holds_just_within_the_cone():
     body = scenario(coin=THIN).body
-    y = on_floor(body, Motion.STICKING, (0.0, 1.0, 0.0), (1.0, 2.0, 3.0))
-    F = floor_force(body, 0.0, Motion.STICKING, y)
+    y = on_floor(body, Mode.STICKING, (0.0, 1.0, 0.0), (1.0, 2.0, 3.0))
+    F = floor_force(body, 0.0, Mode.STICKING, y)
     needed = np.hypot(F[0], F[1]) / F[2]
     assert 0.1 < needed < 2
-    assert next_motion(body, 1.001 * needed, Motion.FLIGHT, y.copy()) == Motion.STICKING
+    assert next_event(body, 1.001 * needed, Mode.FLIGHT, y.copy()) == Event.SLIP_STOPS
     creeping = y.copy()
-    assert next_motion(body, 0.999 * needed, Motion.FLIGHT, creeping) == Motion.CREEPING
-    made, _, verdict = stay(body, 0.999 * needed, Motion.CREEPING, creeping, 1e-3)
-    assert (made, verdict) == (1e-3, Verdict.GOES_ON)
+    assert next_event(body, 0.999 * needed, Mode.FLIGHT, creeping) == Event.SLIP_STARTS
+    made, _, over, _ = following.follow(body, 0.999 * needed, Mode.CREEPING, creeping, 1e-3)
+    assert (made, over) == (1e-3, False)
     slip = velocity_of_lowest(body, creeping)
     assert 0 < np.hypot(slip[0], slip[1])
     assert slip[:2] @ F[:2] < 0, "slip starts against the force that would hold it"
@@ -245,45 +236,43 @@ def test_friction_holds_just_within_the_cone():
 def test_slip_stops_where_friction_can_hold_it():
     """A disk put down upright with a slip along its plane: μ m g stops the slip and lets it roll."""
     mu, body = 0.2, scenario(coin=THIN).body
-    y = on_floor(body, Motion.SLIDING, (0.0, np.pi / 2, 0.0), (0.0, 0.0, 0.0), (0.3, 0.0))
-    _, time = follow_to_its_end(body, mu, Motion.SLIDING, y)
+    y = on_floor(body, Mode.SLIDING, (0.0, np.pi / 2, 0.0), (0.0, 0.0, 0.0), (0.3, 0.0))
+    _, time = follow_to_its_end(body, mu, Mode.SLIDING, y)
     # v falls by μ g t, and ω r rises by 2 μ g t: the slip v - ω r ends after v/(3 μ g), up to creep.
     assert time == pytest.approx(0.3 / (3 * mu * G), rel=2e-3)
-    assert next_motion(body, mu, Motion.SLIDING, y) == Motion.STICKING
+    assert next_event(body, mu, Mode.SLIDING, y) == Event.SLIP_STOPS
     assert y[3] == pytest.approx(0.2, rel=2e-3)
     assert abs(y[12]) == pytest.approx(0.2 / R_COIN, rel=2e-3)
     assert velocity_of_lowest(body, y) == pytest.approx(0, abs=1e-13)
 
 
 @pytest.mark.parametrize(
-    ("motion", "slip", "expected"),
+    ("mode", "slip", "expected"),
     [
-        (Motion.SLIDING, 0.5, Motion.STICKING),
-        (Motion.SLIDING, 0.6, Motion.SLIDING),
-        (Motion.CREEPING, 1.0, Motion.SLIDING),
-        (Motion.CREEPING, 0.9, Motion.STICKING),
+        (Mode.SLIDING, 0.5, Event.SLIP_STOPS),
+        (Mode.SLIDING, 0.6, Event.SLIPS),
+        (Mode.CREEPING, 1.0, Event.SLIPS),
+        (Mode.CREEPING, 0.9, Event.SLIP_STOPS),
     ],
 )
 @pytest.mark.parametrize("rounding", [-1e-12, 1e-12])
-def test_a_motion_that_ends_at_its_bound_of_slip_does_not_go_on_for_rounding(
-    motion, slip, expected, rounding
-):
+def test_a_mode_that_ends_at_its_bound_of_slip_does_not_go_on_for_rounding(mode, slip, expected, rounding):
     """An upright disk that slips along its plane: slip in 1e-3 √(g r); it would stop where friction holds."""
     body = scenario(coin=THIN).body
     speed = slip * (1 + rounding) * 1e-3 * np.sqrt(G * R_COIN)
-    y = on_floor(body, Motion.SLIDING, (0.0, np.pi / 2, 0.0), (0.0, 0.0, 0.0), (speed, 0.0))
-    assert next_motion(body, 0.2, motion, y) == expected
+    y = on_floor(body, Mode.SLIDING, (0.0, np.pi / 2, 0.0), (0.0, 0.0, 0.0), (speed, 0.0))
+    assert next_event(body, 0.2, mode, y) == expected
 
 
 def test_a_coin_leaves_the_floor_when_it_would_have_to_be_held_back():
     """It rises fast from a small tilt: the force falls to zero, and the gap opens from there."""
     body = scenario(coin=THIN).body
-    y = on_floor(body, Motion.SLIDING, (0.0, 3.067, 2.019), (-100.5, 39.9, -9.4))
-    assert floor_force(body, 0.0, Motion.SLIDING, y)[2] > 0
-    verdict, _ = follow_to_its_end(body, 0.0, Motion.SLIDING, y)
-    assert verdict == Verdict.CHANGES
-    assert floor_force(body, 0.0, Motion.SLIDING, y)[2] == pytest.approx(0, abs=1e-9 * M * G)
-    assert next_motion(body, 0.0, Motion.SLIDING, y) == Motion.FLIGHT
+    y = on_floor(body, Mode.SLIDING, (0.0, 3.067, 2.019), (-100.5, 39.9, -9.4))
+    assert floor_force(body, 0.0, Mode.SLIDING, y)[2] > 0
+    landing, _ = follow_to_its_end(body, 0.0, Mode.SLIDING, y)
+    assert landing == Event.NONE
+    assert floor_force(body, 0.0, Mode.SLIDING, y)[2] == pytest.approx(0, abs=1e-9 * M * G)
+    assert next_event(body, 0.0, Mode.SLIDING, y) == Event.LIFTS_OFF
 
 
 def test_friction_does_not_press_down_a_point_that_free_flight_lifts():
@@ -292,23 +281,21 @@ def test_friction_does_not_press_down_a_point_that_free_flight_lifts():
     lifted = pressed = 0
     for _ in range(500):
         angles = rng.uniform(0, 6), rng.uniform(0.3, 1.5), rng.uniform(0, 6)
-        y = on_floor(body, Motion.STICKING, angles, rng.uniform(-1, 1, 3) * [20, 20, 300])
-        dy = np.empty(13)
-        derivative(body, y, dy)
-        if contact(body, y, dy, side_of(y))[3][2] > 0:
+        y = on_floor(body, Mode.STICKING, angles, rng.uniform(-1, 1, 3) * [20, 20, 300])
+        if rim_contact(body, y, lower_rim_of(y)).free_acceleration[2] > 0:
             lifted += 1
-            pressed += floor_force(body, mu, Motion.CREEPING, y)[2] > 0
-            assert margin(body, mu, Motion.CREEPING, side_of(y), y) <= 0
-            assert next_motion(body, mu, Motion.CREEPING, y) == Motion.FLIGHT
+            pressed += floor_force(body, mu, Mode.CREEPING, y)[2] > 0
+            assert margin(body, mu, Mode.CREEPING, lower_rim_of(y), y) <= 0
+            assert next_event(body, mu, Mode.CREEPING, y) == Event.LIFTS_OFF
     assert lifted > 100
     assert pressed > 10
 
 
 def test_a_coin_that_tips_over_its_edge_lands_on_the_other_rim():
     body = scenario().body
-    y = on_floor(body, Motion.SLIDING, (0.0, 1.45, 0.0), (6.0, 0.0, 0.0))
-    verdict, _ = follow_to_its_end(body, 0.0, Motion.SLIDING, y)
-    assert verdict == Verdict.LANDS
+    y = on_floor(body, Mode.SLIDING, (0.0, 1.45, 0.0), (6.0, 0.0, 0.0))
+    landing, _ = follow_to_its_end(body, 0.0, Mode.SLIDING, y)
+    assert landing == Event.RIM_LANDS
     assert 0 <= up_of(y)[2] < 1e-9
     other = y.copy()
     other[6:10] = quaternion_from_angles((0.0, np.pi / 2 + 1e-6, 0.0))
@@ -317,11 +304,11 @@ def test_a_coin_that_tips_over_its_edge_lands_on_the_other_rim():
 
 def test_a_coin_that_falls_over_lands_on_its_face():
     body = scenario(coin=THIN).body
-    y = on_floor(body, Motion.SLIDING, (0.0, 0.4, 0.0), (0.0, 0.0, 30.0))
+    y = on_floor(body, Mode.SLIDING, (0.0, 0.4, 0.0), (0.0, 0.0, 30.0))
     y[10] = y[11] = 0.0
     y[12] = 0.0
-    verdict, _ = follow_to_its_end(body, 0.0, Motion.SLIDING, y)
-    assert verdict == Verdict.LANDS
+    landing, _ = follow_to_its_end(body, 0.0, Mode.SLIDING, y)
+    assert landing == Event.FACE_LANDS
     up = up_of(y)
     assert np.hypot(up[0], up[1]) == pytest.approx(1e-7, rel=1e-3)
 
@@ -331,9 +318,9 @@ def test_a_coin_stands_on_its_edge_while_it_does_not_turn_and_roll_too_fast(spin
     """Turning about the vertical at Ω it takes the moment J_ζ ω_ζ Ω to roll: the edge has m g h/2."""
     body = scenario().body
     spin, roll = spins
-    y = on_floor(body, Motion.SLIDING, (0.0, np.pi / 2, 0.0), (0.0, spin, roll))
+    y = on_floor(body, Mode.SLIDING, (0.0, np.pi / 2, 0.0), (0.0, spin, roll))
     assert (body.inertia[2][2] * spin * roll < M * G * body.thickness / 2) == steady
-    assert stands(body, 0.0, Motion.SLIDING, y) == steady
+    assert stands(body, 0.0, Mode.SLIDING, y) == steady
 
 
 def test_an_unbalanced_coin_that_spins_upright_is_not_said_to_stand():
@@ -341,35 +328,35 @@ def test_an_unbalanced_coin_that_spins_upright_is_not_said_to_stand():
     body = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}).body
     # C is level with B: it will swing down.
     spinning, still = (
-        on_floor(body, Motion.SLIDING, (0.0, np.pi / 2, 3 * np.pi / 4), (s, -s, 0.0)) for s in (42.0, 0.0)
+        on_floor(body, Mode.SLIDING, (0.0, np.pi / 2, 3 * np.pi / 4), (s, -s, 0.0)) for s in (42.0, 0.0)
     )
-    assert held_on_edge(body, 0.0, Motion.SLIDING, spinning)
-    assert not stands(body, 0.0, Motion.SLIDING, spinning)
-    assert stands(body, 0.0, Motion.SLIDING, still)
+    assert held_on_edge(body, 0.0, Mode.SLIDING, spinning)
+    assert not stands(body, 0.0, Mode.SLIDING, spinning)
+    assert stands(body, 0.0, Mode.SLIDING, still)
 
 
-@pytest.mark.parametrize("motion", [Motion.SLIDING, Motion.STICKING])
-def test_a_sampled_state_does_not_hang_on_the_other_times_asked_for(motion):
+@pytest.mark.parametrize("mode", [Mode.SLIDING, Mode.STICKING])
+def test_a_sampled_state_does_not_hang_on_the_other_times_asked_for(mode):
     body = scenario(coin=THIN).body
-    y = on_floor(body, motion, (0.0, 1.0, 0.0), (3.0, 20.0, 3.0))
-    mu, end = 0.0 if motion == Motion.SLIDING else 50.0, 2.0
-    states, times = follow(body, mu, motion, y, end)
+    y = on_floor(body, mode, (0.0, 1.0, 0.0), (3.0, 20.0, 3.0))
+    mu, end = 0.0 if mode == Mode.SLIDING else 50.0, 2.0
+    states, times = follow(body, mu, mode, y, end)
     alone, among = np.empty((1, 13)), np.empty((301, 13))
-    sample_contact(body, mu, motion, y, 0.0, times[-2:-1], alone)
+    sample_contact(body, mu, mode, y, 0.0, times[-2:-1], alone)
     assert alone[0] == pytest.approx(states[-2], abs=1e-10)
-    sample_contact(body, mu, motion, y, 0.0, np.append(np.linspace(0, times[-2], 301)[:-1], times[-2]), among)
+    sample_contact(body, mu, mode, y, 0.0, np.append(np.linspace(0, times[-2], 301)[:-1], times[-2]), among)
     assert np.array_equal(among[-1], alone[0])
 
 
 def test_air_slows_a_wobbling_coin():
     body = scenario(coin=THIN, air=AIR).body
-    y = on_floor(body, Motion.SLIDING, (0.0, 1.0, 0.0), (3.0, 20.0, 3.0))
-    states, _ = follow(body, 0.0, Motion.SLIDING, y, 0.1)
+    y = on_floor(body, Mode.SLIDING, (0.0, 1.0, 0.0), (3.0, 20.0, 3.0))
+    states, _ = follow(body, 0.0, Mode.SLIDING, y, 0.1)
     energies = np.array([energy_of(body, s) for s in states])
     assert np.all(np.diff(energies) < 0)
 
 
 def test_the_direction_of_no_slip_is_none():
-    assert direction_of((0.0, 0.0, 1.0), 0.3) == (0.0, 0.0)
-    assert direction_of((3.0, 4.0, 1.0), 0.0) == (0.0, 0.0)
-    assert direction_of((3.0, 4.0, 1.0), 0.3) == pytest.approx((0.6, 0.8))
+    assert slip_direction((0.0, 0.0, 1.0), 0.3) == (0.0, 0.0)
+    assert slip_direction((3.0, 4.0, 1.0), 0.0) == (0.0, 0.0)
+    assert slip_direction((3.0, 4.0, 1.0), 0.3) == pytest.approx((0.6, 0.8))

@@ -8,7 +8,7 @@ from analytic.flight.equations_of_motion import derivative
 from analytic.horizon.flight_tangent import flight_tangent
 from analytic.numerics.euler_angles import axis_rotation
 from analytic.toss import state_of
-from models.ending import barrier
+from models.barriers import barrier
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
 G = 9.81

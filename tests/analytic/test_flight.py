@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 import analytic
-from analytic.flight.equations_of_motion import STATE_SIZE, derivative, step
+from analytic.flight.equations_of_motion import derivative
+from analytic.flight.integrated_flight import step
+from analytic.flight.state_vector import STATE_SIZE
 from analytic.flight.touch_search import gap_acceleration
 from analytic.numerics.runge_kutta import STAGES, combined_error
 from analytic.toss import state_of

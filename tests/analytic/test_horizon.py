@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import analytic
-from analytic.events import Run, run
+from analytic.events import EventLog, run
 from analytic.horizon import horizon
 from analytic.horizon.horizon import IMPULSE_ERROR, TIME_ERROR, trusted_impacts
 from analytic.toss import state_of
@@ -78,7 +78,7 @@ def test_neither_of_two_neighbouring_tosses_trusts_the_impact_at_which_they_part
         case = draw_toss(rng, number)
         body, rules, release = case.body, case.rules._replace(max_impacts=8), state_of(case.release)
 
-        def tossed(spin: float, case: tuple[Any, ...] = (body, rules, release)) -> Run:
+        def tossed(spin: float, case: tuple[Any, ...] = (body, rules, release)) -> EventLog:
             start = case[2].copy()
             start[11] = spin
             return run(case[0], case[1], start)

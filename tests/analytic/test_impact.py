@@ -5,7 +5,7 @@ import pytest
 
 from analytic.impact.laws import mobility, sliding_friction
 from models.attitude import rotation_matrix
-from models.ending import energy
+from models.barriers import energy
 from models.laws import ContactLaw
 from models.records import Ending
 from tests.helpers.draws import PAPER_LAWS, scenario

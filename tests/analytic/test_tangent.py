@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analytic.events import run
-from analytic.flight.equations_of_motion import sample_flight
+from analytic.flight.integrated_flight import sample_flight
 from analytic.horizon.flight_tangent import flight_tangent
 from analytic.horizon.sensitivity import event_tangent
 from analytic.toss import state_of

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from analytic.flight.equations_of_motion import attitude_of, normalise
+from analytic.flight.state_vector import attitude_of, normalise
 from analytic.horizon.touch_derivatives import step_size, touch_derivatives, touch_differences
 from models.attitude import rotation_matrix
 from models.laws import ContactLaw, RestitutionKind

@@ -3,16 +3,17 @@
 import numpy as np
 import pytest
 
-from analytic.contact.contact import Verdict, next_motion, stay
+from analytic.automaton import Event, Mode
+from analytic.contact import following, modes, upright
 from analytic.contact.edge import rolls, stands
-from analytic.contact.floor_force import SLOW, Motion, contact
-from analytic.contact.upright import put_upright, rim_forces, start_creep
+from analytic.contact.rim_contact import both_rims
+from analytic.contact.upright import rim_forces, start_creep
 from analytic.events import run
-from analytic.flight.equations_of_motion import derivative
+from analytic.numerics.tolerances import SLOW
 from analytic.toss import state_of
 from compare.reproduction.studies.endings import draw_toss
 from models.attitude import quaternion_from_angles, rotation_matrix
-from models.ending import energy
+from models.barriers import energy
 from models.geometry import gap
 from models.records import Ending, Outcome
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
@@ -21,12 +22,12 @@ G, R_COIN, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
 UNBALANCED = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 
 
-def upright(body, phase, turn_rate, roll_rate):
+def upright_coin(body, phase, turn_rate, roll_rate):
     """Give a coin upright on the floor that turns about the vertical and rolls [rad/s]."""
     y = np.array([0, 0, 0, 0.1, -0.2, 0, *quaternion_from_angles((0.3, np.pi / 2, phase)), 0, 0, roll_rate])
     up = rotation_matrix(tuple(y[6:10]))[2]
     y[10:13] += turn_rate * np.array(up)
-    put_upright(body, y)
+    upright.put_on_floor(body, y)
     return y
 
 
@@ -39,8 +40,8 @@ def follow(body, y, time, longest, mu=0.0):
     """Give the states and times of a coin that stays upright for `time`."""
     y, states, times = y.copy(), [y.copy()], [0.0]
     while times[-1] < time:
-        made, _, verdict = stay(body, mu, Motion.UPRIGHT, y, min(longest, time - times[-1]))
-        assert verdict == Verdict.GOES_ON
+        made, _, over, _ = following.follow(body, mu, Mode.UPRIGHT, y, min(longest, time - times[-1]))
+        assert not over
         states.append(y.copy())
         times.append(times[-1] + made)
     return np.array(states), np.array(times)
@@ -49,7 +50,7 @@ def follow(body, y, time, longest, mu=0.0):
 def test_an_upright_coin_keeps_energy_and_momentum_and_both_rims_on_the_floor():
     """With the attitude's one freedom these fix the whole motion."""
     body = scenario(coin=UNBALANCED).body
-    states, _ = follow(body, upright(body, 0.4, 1.0, 45.0), 1.0, np.inf)
+    states, _ = follow(body, upright_coin(body, 0.4, 1.0, 45.0), 1.0, np.inf)
     energies = [energy(body, y[2], tuple(y[3:6]), tuple(y[10:13])) for y in states]
     assert energies == pytest.approx(np.full(len(states), energies[0]), rel=1e-11)
     turning = [momenta(body, y)[1][2] for y in states]
@@ -64,7 +65,7 @@ def test_an_upright_coin_keeps_energy_and_momentum_and_both_rims_on_the_floor():
 def test_the_rims_forces_are_what_changes_momentum_and_angular_momentum():
     """Half a step before and after, by central differences; both forces, and the tilting that they stop."""
     body = scenario(coin=UNBALANCED).body
-    y = upright(body, 0.4, 5.0, 20.0)
+    y = upright_coin(body, 0.4, 5.0, 20.0)
     dt = 1e-4
     states, times = follow(body, y, 2 * dt, dt)
     assert times == pytest.approx([0.0, dt, 2 * dt], rel=1e-12)
@@ -81,7 +82,7 @@ def test_the_rims_forces_are_what_changes_momentum_and_angular_momentum():
 
 def test_a_still_coin_presses_its_rims_as_the_lever_says():
     body = scenario(coin={**ZLOTY, "center_of_mass": (0.0, 0.0, 2e-4)}).body
-    N_tails, N_heads = rim_forces(body, 0.0, upright(body, 0.4, 0.0, 0.0))
+    N_tails, N_heads = rim_forces(body, 0.0, upright_coin(body, 0.4, 0.0, 0.0))
     # Heads' face is at ζ = h/2 = 1 mm.
     assert N_heads == pytest.approx(0.6 * M * G, rel=1e-12)
     assert N_tails == pytest.approx(0.4 * M * G, rel=1e-12)
@@ -89,21 +90,21 @@ def test_a_still_coin_presses_its_rims_as_the_lever_says():
 
 def test_a_coin_that_its_roll_tips_leaves_one_rim_and_falls_to_that_side():
     body = scenario(coin=UNBALANCED).body
-    y = upright(body, 3 * np.pi / 4, 59.4, 0.0)
+    y = upright_coin(body, 3 * np.pi / 4, 59.4, 0.0)
     assert min(rim_forces(body, 0.0, y)) > 0
-    verdict, time = Verdict.GOES_ON, 0.0
-    while verdict == Verdict.GOES_ON:
-        made, _, verdict = stay(body, 0.0, Motion.UPRIGHT, y, 0.01)
+    over, landing, time = False, Event.NONE, 0.0
+    while not over:
+        made, _, over, landing = following.follow(body, 0.0, Mode.UPRIGHT, y, 0.01)
         time += made
         assert time < 0.2
-    assert verdict == Verdict.CHANGES
+    assert landing == Event.NONE
     N_tails, N_heads = rim_forces(body, 0.0, y)
     assert min(N_tails, N_heads) == pytest.approx(0, abs=1e-9 * M * G)
-    assert next_motion(body, 0.0, Motion.UPRIGHT, y) == Motion.SLIDING
+    assert modes.next_event(body, 0.0, Mode.UPRIGHT, y) == Event.SLIPS
     side = 1 if N_tails > N_heads else -1
     for _ in range(20):
-        made, _, verdict = stay(body, 0.0, Motion.SLIDING, y, 1e-3)
-        assert verdict == Verdict.GOES_ON
+        _, _, over, _ = following.follow(body, 0.0, Mode.SLIDING, y, 1e-3)
+        assert not over
     assert side * rotation_matrix(tuple(y[6:10]))[2][2] > 1e-4
 
 
@@ -114,7 +115,7 @@ def test_without_loss_a_coin_stands_if_it_is_held_in_the_course_of_its_own_roll(
     # Ω makes up for the lever of C beside B, so the coin would not be held at rest in the other sense.
     roll = 0.8 * M * G * ZLOTY["thickness"] / 2 / (body.inertia[2][2] * 20.0)
     found = {
-        (turn, air): stands(b, 0.0, Motion.SLIDING, upright(b, 0.4, turn, roll))
+        (turn, air): stands(b, 0.0, Mode.SLIDING, upright_coin(b, 0.4, turn, roll))
         for turn in (20.0, -20.0)
         for air, b in (("vacuum", body), ("air", in_air))
     }
@@ -137,12 +138,12 @@ def test_a_toss_that_comes_upright_is_followed_until_it_stands():
     )
     tossed = run(case.body, case.rules, state_of(case.release))
     assert (tossed.outcome, tossed.ending) == (Outcome.EDGE, Ending.STANDING)
-    assert Motion.UPRIGHT in tossed.motions
+    assert Mode.UPRIGHT in tossed.modes
 
 
 def rolling(body, roll_rate):
     """Give a coin upright on the floor that rolls straight on [rad/s]."""
-    y = upright(body, 0.4, 0.0, roll_rate)
+    y = upright_coin(body, 0.4, 0.0, roll_rate)
     R = np.array(rotation_matrix(tuple(y[6:10])))
     y[3:5] = -np.cross(R @ y[10:13], lowest_arm(body, R))[:2]
     return y
@@ -159,7 +160,7 @@ def test_friction_at_both_rims_stops_a_coin_that_turns_upright_on_the_spot():
     slowing = mu * M * G * ZLOTY["thickness"] / 2 / body.inertia[0][0]
     # Later the least sideways motion grows: friction along the axle tips the load from rim to rim.
     time = 0.15 * turn / slowing
-    start = upright(body, 0.4, turn, 0.0)
+    start = upright_coin(body, 0.4, turn, 0.0)
     start[3:5] = 0.0
     states, times = follow(body, start, time, np.inf, mu)
     left = [rotation_matrix(tuple(y[6:10]))[2] @ y[10:13] for y in states]
@@ -169,7 +170,7 @@ def test_friction_at_both_rims_stops_a_coin_that_turns_upright_on_the_spot():
 def test_a_coin_that_slides_upright_ends_rolling_at_two_thirds_of_its_speed():
     """Angular momentum about a point of the floor: m v₀ r = m v r + (m r²/2) v/r."""
     body, mu = scenario(coin=ZLOTY).body, 0.3
-    y = upright(body, 0.4, 0.0, 0.0)
+    y = upright_coin(body, 0.4, 0.0, 0.0)
     n = np.array(rotation_matrix(tuple(y[6:10])))[:, 2]
     along = np.cross([0, 0, 1], n)
     y[3:6] = 0.5 * along
@@ -177,7 +178,7 @@ def test_a_coin_that_slides_upright_ends_rolling_at_two_thirds_of_its_speed():
     states, _ = follow(body, y, 2 * 0.5 / (mu * G), np.inf, mu)
     assert states[-1][3:6] == pytest.approx(0.5 * 2 / 3 * along, abs=1e-6)
     assert rolls(body, mu, states[-1])
-    assert stands(body, mu, Motion.STICKING, states[-1])
+    assert stands(body, mu, Mode.STICKING, states[-1])
 
 
 def test_an_unbalanced_coin_that_rolls_upright_keeps_its_energy_but_for_a_creep():
@@ -199,7 +200,7 @@ def test_an_unbalanced_coin_that_rolls_upright_keeps_its_energy_but_for_a_creep(
 )
 def test_a_rolling_coin_stands_unless_it_skids_or_its_roll_tips_it(roll_rate, mu, held):
     body = scenario(coin=UNBALANCED).body
-    assert stands(body, mu, Motion.STICKING, rolling(body, roll_rate)) == held
+    assert stands(body, mu, Mode.STICKING, rolling(body, roll_rate)) == held
 
 
 @pytest.mark.parametrize("number", [5496, 4614, 7739])
@@ -207,33 +208,36 @@ def test_a_toss_that_comes_upright_on_a_rough_floor_is_followed_to_its_end(numbe
     """Tosses of the study of endings in which the coin skids or rolls on both rims for a while."""
     _, case = draw_toss(np.random.default_rng((2008, 1, number)), "imperfect")
     tossed = run(case.body, case.rules, state_of(case.release))
-    assert Motion.UPRIGHT in tossed.motions
+    assert Mode.UPRIGHT in tossed.modes
     assert tossed.outcome != Outcome.UNDECIDED
 
 
-def pivoting(body, turn_rate, side):
+def pivoting(body, turn_rate, rim):
     """Give a coin upright on the floor that turns about the lowest point of one rim [rad/s]."""
-    y = upright(body, 0.4, turn_rate, 0.0)
-    y[3:5] -= rim_velocity(body, y, side)[:2]
+    y = upright_coin(body, 0.4, turn_rate, 0.0)
+    y[3:5] -= rim_velocity(body, y, rim)[:2]
     return y
 
 
-def rim_velocity(body, y, side):
+def rims_of(body, y, rim):
+    """Give the `RimContact` of a rim and that of the other."""
+    tails, heads = both_rims(body, y)
+    return (tails, heads) if rim < 0 else (heads, tails)
+
+
+def rim_velocity(body, y, rim):
     """Give the velocity of the lowest point of a rim, space frame, (3,)."""
-    dy = np.empty(13)
-    derivative(body, y, dy)
-    return np.array(contact(body, y, dy, side)[4])
+    return np.array(rims_of(body, y, rim)[0].velocity)
 
 
-def holding_force_of_the_rim_that_stuck(body, mu, side, y):
+def holding_force_of_the_rim_that_stuck(body, mu, rim, y):
     """Solve for the force at its lowest point, (3,), and the normal force at the other.
 
     The other rim skids, with friction μ N against its slip, less where that is slow.
     """
-    dy = np.empty(13)
-    derivative(body, y, dy)
-    R, arm, _, b, _ = contact(body, y, dy, side)
-    _, other_arm, _, other_b, other_slip = contact(body, y, dy, -side)
+    held, other = rims_of(body, y, rim)
+    R, arm, b = held.R, held.arm, held.free_acceleration
+    other_arm, other_b, other_slip = other.arm, other.free_acceleration, other.velocity
     J = np.array(R) @ np.array(body.inertia) @ np.array(R).T
     speed = max(np.hypot(*other_slip[:2]), SLOW * max(mu, 1) * (G * R_COIN) ** 0.5)
     direction = np.append(-mu * np.array(other_slip[:2]) / speed, 1.0)
@@ -246,34 +250,34 @@ def holding_force_of_the_rim_that_stuck(body, mu, side, y):
     return np.linalg.solve(A, [*(-np.array(b)), -other_b[2]])[:3]
 
 
-@pytest.mark.parametrize(("side", "mu", "turn_rate"), [(1.0, 0.3, 5.0), (-1.0, 2.0, 5.0), (1.0, 1e4, -5.0)])
-def test_a_rim_that_stuck_takes_the_slow_slip_at_which_friction_holds_it(side, mu, turn_rate):
+@pytest.mark.parametrize(("rim", "mu", "turn_rate"), [(-1.0, 0.3, 5.0), (1.0, 2.0, 5.0), (-1.0, 1e4, -5.0)])
+def test_a_rim_that_stuck_takes_the_slow_slip_at_which_friction_holds_it(rim, mu, turn_rate):
     """When the other, which skids round it, lands: its slip hardly changes."""
     body, dt = scenario(coin=UNBALANCED).body, 1e-8
-    y = pivoting(body, turn_rate, side)
+    y = pivoting(body, turn_rate, rim)
     start = y.copy()
-    start_creep(body, mu, side, y)
-    F = holding_force_of_the_rim_that_stuck(body, mu, side, start)
+    start_creep(body, mu, rim, y)
+    F = holding_force_of_the_rim_that_stuck(body, mu, rim, start)
     slip = -F[:2] / (mu * F[2]) * SLOW * max(mu, 1) * (G * R_COIN) ** 0.5
     assert np.hypot(*F[:2]) > 1e-2 * F[2]
-    assert rim_velocity(body, y, side)[:2] == pytest.approx(slip, rel=1e-9)
+    assert rim_velocity(body, y, rim)[:2] == pytest.approx(slip, rel=1e-9)
     assert [rim_velocity(body, y, s)[2] for s in (1.0, -1.0)] == pytest.approx([0, 0], abs=1e-17)
     kinetic = [energy(body, s[2], tuple(s[3:6]), tuple(s[10:13])) for s in (start, y)]
     assert kinetic[1] == pytest.approx(kinetic[0], abs=max(mu, 1) ** 2 * SLOW**2 * M * G * R_COIN)
     gained = []
     for begun in (start, y):
         after = begun.copy()
-        stay(body, mu, Motion.UPRIGHT, after, dt)
-        gained.append(np.hypot(*(rim_velocity(body, after, side) - rim_velocity(body, begun, side))[:2]))
+        following.follow(body, mu, Mode.UPRIGHT, after, dt)
+        gained.append(np.hypot(*(rim_velocity(body, after, rim) - rim_velocity(body, begun, rim))[:2]))
     # The slow slip turns the coin a little, and so changes what must be held.
     assert gained[1] < 0.15 * gained[0]
 
 
 def test_a_rim_that_friction_cannot_hold_takes_no_slip():
     body = scenario(coin=UNBALANCED).body
-    y = pivoting(body, 30.0, 1.0)
+    y = pivoting(body, 30.0, -1.0)
     before = y.copy()
-    start_creep(body, 1e-3, 1.0, y)
+    start_creep(body, 1e-3, -1.0, y)
     assert np.all(y == before)
 
 
@@ -282,6 +286,6 @@ def test_a_coin_that_pivots_on_one_rim_while_the_other_skids_goes_on():
     _, case = draw_toss(np.random.default_rng((2008, 1, 9428)), "imperfect")
     tossed = run(case.body, case.rules._replace(max_time=2.9), state_of(case.release))
     assert tossed.ending == Ending.MAX_TIME
-    lasting = np.diff(tossed.start_times)[tossed.motions[:-1] == Motion.UPRIGHT]
+    lasting = np.diff(tossed.start_times)[tossed.modes[:-1] == Mode.UPRIGHT]
     assert lasting.max() > 1e-3
-    assert len(tossed.motions) < 20_000
+    assert len(tossed.modes) < 20_000

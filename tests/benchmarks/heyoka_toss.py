@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from analytic.flight.equations_of_motion import STATE_SIZE
+from analytic.flight.state_vector import STATE_SIZE
 from tests.benchmarks.one_coin import OneCoin
 from tests.helpers.extended import Extended, integrator
 

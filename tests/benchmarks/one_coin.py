@@ -10,9 +10,11 @@ from typing import NamedTuple
 import numba
 import numpy as np
 
-from analytic.events import decided, hit
-from analytic.flight.equations_of_motion import STATE_SIZE, derivative
+from analytic.events import hit
+from analytic.flight.equations_of_motion import derivative
+from analytic.flight.state_vector import STATE_SIZE, state_of
 from analytic.flight.touch_search import closing_speed
+from models.ending import final_face
 from models.records import IMPACT_ROW, Array, Ending
 from models.scenario import Scenario
 
@@ -61,7 +63,7 @@ def mechanics(scenario: Scenario) -> OneCoin:
         ending = hit(body, rules, rules.restitution, y, row[0])
         y[2] += max(LIFT - closing_speed(body, y)[0], 0.0)
         if ending == Ending.NONE:
-            _, ending = decided(body, rules, y)
+            _, ending = final_face(body, rules, state_of(y))
         return row[0].face, ending != Ending.NONE
 
     return OneCoin(rate, gap, gaps, strike)

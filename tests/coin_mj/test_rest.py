@@ -14,7 +14,7 @@ from coin_mj.path import MOTION, STEP, TIME
 from coin_mj.toss import run
 from compare.reproduction.studies.endings import probability
 from models.attitude import quaternion_from_angles, rotation_matrix
-from models.ending import energy
+from models.barriers import energy
 from models.geometry import contact_velocity, gap, lowest_point
 from models.records import Ending, Outcome
 from models.releases import Releases

@@ -45,6 +45,7 @@ def test_settings_of_a_contact_are_those_on_which_it_depends():
         "stiffness": 1e10,
         "steps": 12,
         "flight_angle": 0.25,
+        "contact_steps": 1_000_000,
     }
     one_step = replace(coin_mj.MANY, contact=Realisation.ONE_STEP, slip_damping=2.0)
     assert one_step.as_dict() == {
@@ -53,6 +54,7 @@ def test_settings_of_a_contact_are_those_on_which_it_depends():
         "step": 1e-7,
         "slip_damping": 2.0,
         "flight_angle": 0.25,
+        "contact_steps": 1_000_000,
     }
     recorded: dict[str, Any] = one_step.as_dict()
     assert coin_mj.Settings(**recorded).as_dict() == recorded

@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
-from models import ending
 from models.attitude import quaternion_from_angles, rotation_matrix
-from models.ending import barrier, energy, face_up, judge
+from models.barriers import barrier, energy, spin_barrier, spin_barrier_bound
+from models.ending import face_up, final_face
 from models.geometry import gap
 from models.records import Ending, Face, Outcome
+from models.state import state
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
 IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
@@ -35,19 +36,21 @@ def test_the_barrier_is_the_lowest_pass(coin, up):
     assert barrier(body, up) == pytest.approx(lowest, rel=1e-3)
 
 
-def judged(case, tilt, v=(0.0, 0.0, 0.0), w=(0.0, 0.0, 0.0)):
-    """Judge a coin that touches the floor at this tilt with these velocities."""
+def classified(case, tilt, v=(0.0, 0.0, 0.0), w=(0.0, 0.0, 0.0)):
+    """Classify a coin that touches the floor at this tilt with these velocities."""
     body = case.body
-    up = rotation_matrix(quaternion_from_angles((0.0, tilt, 0.0)))[2]
+    e = quaternion_from_angles((0.0, tilt, 0.0))
+    up = rotation_matrix(e)[2]
     z = -gap(body, 0.0, up)
-    return judge(body, case.rules, z, v, up, w), energy(body, z, v, w), barrier(body, up[2])
+    touching = state((0.0, 0.0, z), v, e, w)
+    return final_face(body, case.rules, touching), energy(body, z, v, w), barrier(body, up[2])
 
 
 @pytest.mark.parametrize(("tilt", "face"), [(0.3, Outcome.HEADS), (np.pi - 0.3, Outcome.TAILS)])
 def test_a_slow_coin_is_settled_and_a_fast_one_is_not(tilt, face):
     case = scenario(air=AIR)
     for speed in (0.01, 0.2, 0.4, 0.6):
-        (outcome, ending), E, pass_ = judged(case, tilt, v=(0.0, 0.0, speed))
+        (outcome, ending), E, pass_ = classified(case, tilt, v=(0.0, 0.0, speed))
         expected = (face, Ending.SETTLED) if pass_ > E else (Outcome.UNDECIDED, Ending.NONE)
         assert (outcome, ending) == expected
     assert E > pass_, "one of the speeds should be above the pass"
@@ -55,14 +58,14 @@ def test_a_slow_coin_is_settled_and_a_fast_one_is_not(tilt, face):
 
 def test_a_thick_coin_can_be_caught_on_its_edge():
     case = scenario(coin={**ZLOTY, "thickness": 0.01}, air=AIR)
-    (outcome, ending), E, pass_ = judged(case, np.pi / 2 - 0.05)
+    (outcome, ending), E, pass_ = classified(case, np.pi / 2 - 0.05)
     assert pass_ > E
     assert (outcome, ending) == (Outcome.EDGE, Ending.SETTLED)
 
 
 def test_laws_that_may_add_energy_end_under_the_papers_name():
     case = scenario(floor={"contact": "knurled"})
-    assert judged(case, 0.3)[0] == (Outcome.HEADS, Ending.PAPER)
+    assert classified(case, 0.3)[0] == (Outcome.HEADS, Ending.PAPER)
 
 
 def test_the_papers_tests_compare_with_m_g_r():
@@ -70,27 +73,27 @@ def test_the_papers_tests_compare_with_m_g_r():
     slide = np.sqrt(2 * mgr / 2e-3)
     paper, smooth = scenario(ending={"test": "paper"}), scenario(ending={"test": "paper_smooth"})
     # Sliding fast over the floor, almost flat: eq. (20) leaves the sliding out.
-    assert judged(paper, 0.01, v=(slide, 0.0, 0.0))[0] == (Outcome.UNDECIDED, Ending.NONE)
-    assert judged(smooth, 0.01, v=(slide, 0.0, 0.0))[0] == (Outcome.HEADS, Ending.PAPER_SMOOTH)
-    assert judged(smooth, 0.01, w=(0.0, 0.0, 300.0))[0] == (Outcome.HEADS, Ending.PAPER_SMOOTH)
+    assert classified(paper, 0.01, v=(slide, 0.0, 0.0))[0] == (Outcome.UNDECIDED, Ending.NONE)
+    assert classified(smooth, 0.01, v=(slide, 0.0, 0.0))[0] == (Outcome.HEADS, Ending.PAPER_SMOOTH)
+    assert classified(smooth, 0.01, w=(0.0, 0.0, 300.0))[0] == (Outcome.HEADS, Ending.PAPER_SMOOTH)
 
 
 def test_what_a_smooth_floor_conserves_settles_a_fast_spinning_coin():
     """In vacuum neither sliding nor spin about the normal can turn the ideal coin over."""
     fast = {"v": (2.0, 0.0, 0.0), "w": (0.0, 0.0, 300.0)}
-    (outcome, ending), E, pass_ = judged(scenario(), 0.05, **fast)
+    (outcome, ending), E, pass_ = classified(scenario(), 0.05, **fast)
     assert E > 10 * pass_
     assert (outcome, ending) == (Outcome.HEADS, Ending.SETTLED)
     for air in (AIR, {"tangential": 0.2, "exponent": 1.0}, {"normal": 0.8, "exponent": 0.5}):
-        assert judged(scenario(air=air), 0.05, **fast)[0] == (Outcome.UNDECIDED, Ending.NONE)
-    assert judged(scenario(air={"exponent": 0.5}), 0.05, **fast)[0] == (Outcome.HEADS, Ending.SETTLED)
-    assert judged(scenario(coin=IMPERFECT), 0.05, **fast)[0] == (Outcome.HEADS, Ending.SETTLED)
+        assert classified(scenario(air=air), 0.05, **fast)[0] == (Outcome.UNDECIDED, Ending.NONE)
+    assert classified(scenario(air={"exponent": 0.5}), 0.05, **fast)[0] == (Outcome.HEADS, Ending.SETTLED)
+    assert classified(scenario(coin=IMPERFECT), 0.05, **fast)[0] == (Outcome.HEADS, Ending.SETTLED)
 
 
 @pytest.mark.parametrize(("spin", "expected"), [(40.0, Ending.SETTLED), (-40.0, Ending.NONE)])
 def test_a_coin_that_leans_near_its_edge_is_settled_if_its_spin_keeps_it_from_coming_upright(spin, expected):
     """L_z - L_ζ cos s grows on the way up for one sense of the spin, and shrinks for the other."""
-    (outcome, ending), E, pass_ = judged(scenario(), np.pi / 2 - 0.05, w=(0.0, 25.0, spin))
+    (outcome, ending), E, pass_ = classified(scenario(), np.pi / 2 - 0.05, w=(0.0, 25.0, spin))
     assert E > pass_
     assert ending == expected
     assert (outcome == Outcome.HEADS) == (expected == Ending.SETTLED)
@@ -98,7 +101,7 @@ def test_a_coin_that_leans_near_its_edge_is_settled_if_its_spin_keeps_it_from_co
 
 def test_an_upright_coin_is_not_settled_on_the_face_that_rounding_gives_it():
     for tilt in np.pi / 2 + np.array([-1e-9, -1e-12, 0.0, 1e-12, 1e-9]):
-        assert judged(scenario(), tilt, w=(0.0, 60.0, 0.0))[0] == (Outcome.UNDECIDED, Ending.NONE)
+        assert classified(scenario(), tilt, w=(0.0, 60.0, 0.0))[0] == (Outcome.UNDECIDED, Ending.NONE)
 
 
 def test_faces():
@@ -125,7 +128,7 @@ def test_an_imperfect_coin_is_settled_on_a_smooth_floor_only_below_every_way_ove
     seen = {True: 0, False: 0}
     for _ in range(200):
         w = tuple(rng.uniform(-60, 60, 3))
-        (outcome, _), E, pass_ = judged(case, 0.3, w=w)
+        (outcome, _), E, pass_ = classified(case, 0.3, w=w)
         if pass_ > E:
             continue
         up = np.array(rotation_matrix(quaternion_from_angles((0.0, 0.3, 0.0)))[2])
@@ -148,33 +151,29 @@ def test_a_flat_coin_lies_unless_its_unbalanced_spin_lifts_it(contact, spin, lie
     moment = np.hypot(J[0][2], J[1][2]) * spin**2
     assert (moment < 0.5 * 2e-3 * 9.81 * (1.25e-2 - c)) == lies
     expected = (Outcome.HEADS, Ending.LYING) if lies else (Outcome.UNDECIDED, Ending.NONE)
-    assert judged(case, 0.0, w=(0.0, 0.0, spin))[0] == expected
-    assert judged(case, 1e-3, w=(0.0, 0.0, 300.0))[0] == (Outcome.UNDECIDED, Ending.NONE), "it is tilted"
+    assert classified(case, 0.0, w=(0.0, 0.0, spin))[0] == expected
+    assert classified(case, 1e-3, w=(0.0, 0.0, 300.0))[0] == (Outcome.UNDECIDED, Ending.NONE), "it is tilted"
 
 
 def test_an_imperfect_coin_is_caught_on_its_edge_below_both_passes():
     coin = {**ZLOTY, "thickness": 0.01, "center_of_mass": [-1e-3, -1e-3, -2e-4]}
     for tilt in (np.pi / 2 - 0.05, np.pi / 2 + 0.05):
-        (outcome, ending), E, pass_ = judged(scenario(coin=coin, air=AIR), tilt)
+        (outcome, ending), E, pass_ = classified(scenario(coin=coin, air=AIR), tilt)
         assert pass_ > E
         assert (outcome, ending) == (Outcome.EDGE, Ending.SETTLED)
-    fast = judged(scenario(coin=coin, air=AIR), np.pi / 2 - 0.05, v=(0.0, 0.0, 0.2))
+    fast = classified(scenario(coin=coin, air=AIR), np.pi / 2 - 0.05, v=(0.0, 0.0, 0.2))
     assert fast[0] == (Outcome.UNDECIDED, Ending.NONE)
 
 
 @pytest.mark.parametrize("coin", [ZLOTY, IMPERFECT, {**ZLOTY, "thickness": 0.0}])
-def test_what_the_spin_needs_is_never_above_its_ceiling_and_often_near(coin):
-    """Else the judge would pass over a coin that is settled, or never gain by the ceiling."""
+def test_what_the_spin_needs_is_never_above_its_bound_and_often_near(coin):
+    """Else a settled coin would go unnoticed, or the bound would never save the trial of tilts."""
     rng, body = np.random.default_rng(21), scenario(coin=coin).body
-    ideal = "center_of_mass" not in coin
-    needed, most = (
-        (ending._top_barrier, ending._top_ceiling) if ideal else (ending._spin_barrier, ending._spin_ceiling)
-    )
     near = 0
     for _ in range(500):
         angles = (0.0, rng.uniform(0.01, np.pi - 0.01), rng.uniform(0, 6))
         up = rotation_matrix(quaternion_from_angles(angles))[2]
         w = tuple(rng.uniform(-1, 1, 3) * 10 ** rng.uniform(-1, 2))
-        assert needed(body, up, w) <= most(body, up, w)
-        near += needed(body, up, w) > 0.5 * most(body, up, w)
+        assert spin_barrier(body, up, w) <= spin_barrier_bound(body, up, w)
+        near += spin_barrier(body, up, w) > 0.5 * spin_barrier_bound(body, up, w)
     assert near > 100

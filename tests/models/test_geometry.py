@@ -9,15 +9,8 @@ import analytic
 from analytic.events import run
 from analytic.toss import state_of
 from models.attitude import rotation_matrix
-from models.geometry import (
-    acceleration_bounds,
-    clear_time,
-    contact_velocity,
-    damping_rate,
-    gap,
-    grazing_time,
-    lowest_point,
-)
+from models.clearance import acceleration_bounds, clear_time, damping_rate, grazing_time
+from models.geometry import contact_velocity, gap, lowest_point
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
 
 IMPERFECT = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}).body

@@ -3,18 +3,19 @@
 import numpy as np
 import pytest
 
-from models.perpetual import FIRST_LOOK, dies_away, first_contact, loss_to_come, no_looks
+from models.perpetual import FIRST_CHECK, energy_history, energy_loss_converges, loss_to_come, start_history
+from models.state import state
 from tests.helpers.draws import AIR, ZLOTY, scenario
 
 G = 9.81
 NONE = 1e-9
-UP, STILL = (0.0, 0.0, 1.0), (0.0, 0.0, 0.0)
+STILL = (0.0, 0.0, 0.0)
 UNKNOWN = np.inf
 RATE = 1e-6
 
 
 def energies(losses, known=6):
-    """Give the energies at the last six looks [J], of which so many are known, for the losses between."""
+    """Give the energies at the last six checks [J], of which so many are known, for the losses between."""
     seen = 1.0 - np.cumsum([0.0, *losses])
     return np.array([UNKNOWN] * (6 - known) + list(seen[-known:]))
 
@@ -31,7 +32,7 @@ def test_a_loss_that_falls_with_time_is_the_same_in_every_doubling():
     assert loss_to_come(energies([1e-3] * 5), NONE, 50.0) == pytest.approx(50e-3, rel=1e-9)
 
 
-def test_a_loss_that_shrinks_is_summed_to_its_limit_only_after_six_looks():
+def test_a_loss_that_shrinks_is_summed_to_its_limit_only_after_six_checks():
     shrinking = 1e-2 * 0.5 ** np.arange(5)
     assert loss_to_come(energies(shrinking), NONE, 60) == pytest.approx(shrinking[-1], rel=1e-9)
     for known in (4, 5):
@@ -54,29 +55,34 @@ def test_what_cannot_be_told_from_no_loss_is_none_and_energy_gained_is_no_eviden
     assert began > 1, "a loss out of nothing grows without bound"
 
 
+def converges(case, z, time, history, *, v=STILL, w=STILL, no_loss=1e-12):
+    flat = state((0.0, 0.0, z), v, (1.0, 0.0, 0.0, 0.0), w)
+    return energy_loss_converges(case.body, case.rules, flat, time, history, no_loss)
+
+
 def watched(case, share_at, until, v=STILL, w=STILL):
     """Tell when a coin is said to turn over for ever, in √(r/g) from its first contact on.
 
     Its energy is that of C at a share of twice the radius, and of its velocity and spin.
     """
-    looks, unit = no_looks(), (ZLOTY["radius"] / G) ** 0.5
-    first_contact(case.body, looks, 0.0)
-    for gone_by in np.arange(1.0, until):
-        z = 2 * ZLOTY["radius"] * share_at(gone_by)
-        if dies_away(case.body, case.rules, z, v, UP, w, 1e-12, gone_by * unit, looks):
-            return gone_by
+    history, unit = energy_history(), (ZLOTY["radius"] / G) ** 0.5
+    start_history(case.body, history, 0.0)
+    for elapsed in np.arange(1.0, until):
+        z = 2 * ZLOTY["radius"] * share_at(elapsed)
+        if converges(case, z, elapsed * unit, history, v=v, w=w):
+            return elapsed
     return None
 
 
-def test_a_coin_that_loses_nothing_is_known_after_four_looks_if_it_can_turn_over():
+def test_a_coin_that_loses_nothing_is_known_after_four_checks_if_it_can_turn_over():
     case = scenario(coin=ZLOTY)
-    assert watched(case, lambda _: 1.0, 1000) == pytest.approx(8 * FIRST_LOOK, abs=1)
+    assert watched(case, lambda _: 1.0, 1000) == pytest.approx(8 * FIRST_CHECK, abs=1)
     assert watched(case, lambda _: 0.4, 1000) is None
     assert watched(scenario(coin=ZLOTY, air=AIR), lambda _: 1.0, 1000) is None
 
 
 def test_a_coin_that_loses_steadily_is_never_said_to_go_on_for_ever():
-    """The pass is at half the energy; 55 doublings are to come after the fourth look, fewer after others."""
+    """The pass is at half the energy; 55 doublings are to come after the fourth check, fewer after others."""
     case = scenario(coin=ZLOTY)
     assert watched(case, lambda t: 1 - 1e-9 * t, 5000) is None
     assert watched(case, lambda t: 1 - 7e-3 * np.log2(t), 5000) is not None
@@ -100,24 +106,22 @@ def test_a_spin_about_the_vertical_does_not_turn_a_coin_over_on_a_smooth_floor()
     assert watched(rough, lambda _: 0.4, 1000, w=spin) is not None
 
 
-def test_looks_missed_in_a_long_flight_count_for_nothing():
+def test_checks_missed_in_a_long_flight_count_for_nothing():
     """Else energies of nearly the same moment would pass for those of as many doublings."""
-    case, looks, unit = scenario(coin=ZLOTY), no_looks(), (ZLOTY["radius"] / G) ** 0.5
-    first_contact(case.body, looks, 0.0)
+    case, history, unit = scenario(coin=ZLOTY), energy_history(), (ZLOTY["radius"] / G) ** 0.5
+    start_history(case.body, history, 0.0)
     said = [
-        dies_away(case.body, case.rules, 2 * ZLOTY["radius"], STILL, UP, STILL, 1e-12, gone_by * unit, looks)
-        for gone_by in (5000, 5001, 5002, 5003, 5004)
+        converges(case, 2 * ZLOTY["radius"], elapsed * unit, history)
+        for elapsed in (5000, 5001, 5002, 5003, 5004)
     ]
     assert not any(said)
-    assert looks[1] / unit == pytest.approx(8192)
+    assert history.next_check[0] / unit == pytest.approx(8192)
 
 
 def test_a_loss_that_no_engine_may_overlook_is_one():
     """An engine that can tell little does not make a coin that loses steadily one that goes on for ever."""
-    case, looks, unit = scenario(coin=ZLOTY), no_looks(), (ZLOTY["radius"] / G) ** 0.5
-    first_contact(case.body, looks, 0.0)
+    case, history, unit = scenario(coin=ZLOTY), energy_history(), (ZLOTY["radius"] / G) ** 0.5
+    start_history(case.body, history, 0.0)
     for k in range(7):
         z = 4 * ZLOTY["radius"] * (1 - 0.05 * k)
-        assert not dies_away(
-            case.body, case.rules, z, STILL, UP, STILL, 8e-5, 64 * 2**k * unit * 1.001, looks
-        )
+        assert not converges(case, z, 64 * 2**k * unit * 1.001, history, no_loss=8e-5)

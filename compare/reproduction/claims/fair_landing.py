@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 import analytic
 import coin_mj
-from analytic.flight.equations_of_motion import sample_flight
+from analytic.flight.integrated_flight import sample_flight
 from compare.reproduction.findings import Finding, Result, paper_figure
 from compare.reproduction.runner import Progress
 from compare.reproduction.setups.hands import releases_of_hands

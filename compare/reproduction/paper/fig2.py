@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure as Picture
 
 import coin_mj
-from analytic.flight.equations_of_motion import sample_flight
+from analytic.flight.integrated_flight import sample_flight
 from analytic.toss import state_of
 from compare.reproduction.findings import Finding, Result, paper_figure
 from compare.reproduction.runner import Progress

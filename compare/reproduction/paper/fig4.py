@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 import analytic
 import coin_mj
-from analytic.flight.equations_of_motion import sample_flight
+from analytic.flight.integrated_flight import sample_flight
 from compare.reproduction.findings import Finding, Result, paper_figure
 from compare.reproduction.runner import Progress
 from models.reading import load

@@ -1,0 +1,91 @@
+"""The modes of sustained contact, each with the same functions: rate, floor, margin, landing, next event."""
+
+import numpy as np
+
+from analytic.automaton import Event, Mode
+from analytic.contact import edge, one_rim, upright
+from analytic.flight.equations_of_motion import derivative
+from analytic.flight.state_vector import STATE_SIZE, velocity_of
+from models.kernel.compiled import compiled
+from models.kernel.vectors import scale, subtract
+
+
+@compiled
+def rate(body, mu, mode, rim, y, dy):
+    """Write the rate of change of the state y of a coin in contact into dy; both (13,).
+
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ.
+        mode: number of the `Mode`, in contact.
+        rim: the lower one, where the coin is in contact at one rim.
+        y: state, (13,).
+        dy: where its rate of change goes, (13,).
+    """
+    if mode == Mode.UPRIGHT:
+        upright.rate(body, mu, y, dy)
+    else:
+        one_rim.rate(body, mu, mode, rim, y, dy)
+
+
+@compiled
+def floor_force(body, mu, mode, y):
+    """Return the floor's force, of both rims where a coin is upright, space frame, (3,) [N].
+
+    It is what the rate of change in contact has more than that of free flight.
+
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ, 0 on a smooth floor.
+        mode: number of the `Mode`, in contact.
+        y: state, (13,).
+    """
+    free, held = np.empty(STATE_SIZE), np.empty(STATE_SIZE)
+    derivative(body, y, free)
+    rate(body, mu, mode, one_rim.lower_rim_of(y), y, held)
+    return scale(body.mass, subtract(velocity_of(held), velocity_of(free)))
+
+
+@compiled
+def put_on_floor(body, mu, mode, rim, y):
+    """Bring the points in contact to the floor, and their velocities to what the mode allows; see `rate`."""
+    if mode == Mode.UPRIGHT:
+        upright.put_on_floor(body, y)
+    else:
+        one_rim.put_on_floor(body, mu, mode, rim, y)
+
+
+@compiled
+def margin(body, mu, mode, rim, y):
+    """Return how far the mode is from its end: positive in it, 0 or below past it; see `rate`."""
+    return upright.margin(body, mu, y) if mode == Mode.UPRIGHT else one_rim.margin(body, mu, mode, rim, y)
+
+
+@compiled
+def landing(body, mode, rim, y):
+    """Return which part of the coin lands in the state y just past the end of a mode; see `rate`."""
+    return Event.NONE if mode == Mode.UPRIGHT else one_rim.landing(body, rim, y)
+
+
+@compiled
+def next_event(body, mu, mode, y):
+    """Return the event by which a mode that came to its end without a landing gives way; see `rate`."""
+    if mode == Mode.UPRIGHT:
+        upright.tip_over(body, mu, y)
+    return one_rim.next_event(body, mu, mode, y)
+
+
+@compiled
+def edge_event(body, mu, mode, steps, y):
+    """Return whether a coin on its edge comes upright, or stands for good: `Event.ENDS`.
+
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ.
+        mode: number of the `Mode`, in contact.
+        steps: made in the mode so far.
+        y: state, (13,); put upright where the coin comes so.
+    """
+    if mode == Mode.UPRIGHT:
+        return edge.event_of_upright_coin(body, mu, steps, y)
+    return edge.event_at_one_rim(body, mu, mode, y)

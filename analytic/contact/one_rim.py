@@ -1,0 +1,131 @@
+"""Contact at one rim point A: what sliding, creeping and sticking have in common."""
+
+import math
+
+from analytic.automaton import Event, Mode
+from analytic.contact import creeping, sliding, sticking
+from analytic.contact.floor_force import friction_holds, holding_force, slip_direction
+from analytic.contact.rim_contact import accelerate, rim_contact, rim_contact_in_flight
+from analytic.flight.equations_of_motion import derivative
+from analytic.flight.state_vector import attitude_of, set_height
+from analytic.impact.coulomb import coulomb
+from analytic.numerics.tolerances import BORDER, SLOW
+from models.attitude import rotation_matrix
+from models.geometry import FACE_SINE, lower_rim, tilt_sine_of
+from models.kernel.compiled import compiled
+from models.kernel.vectors import dot
+from models.laws import RestitutionKind
+
+
+@compiled
+def lower_rim_of(y):
+    """Return the `lower_rim` of the state y, (13,)."""
+    return lower_rim(rotation_matrix(attitude_of(y))[2][2])
+
+
+@compiled
+def force(A, mu, mode):
+    """Return the floor's force at A in a mode, space frame, (3,) [N].
+
+    Args:
+        A: the `RimContact`.
+        mu: coefficient of friction μ, 0 on a smooth floor.
+        mode: number of the `Mode`.
+    """
+    if mode == Mode.STICKING:
+        return sticking.force(A)
+    return creeping.force(A, mu) if mode == Mode.CREEPING else sliding.force(A, mu)
+
+
+@compiled
+def rate(body, mu, mode, rim, y, dy):
+    """Write the rate of change of the state y of a coin in contact at one rim into dy; both (13,)."""
+    derivative(body, y, dy)
+    A = rim_contact_in_flight(body, y, dy, rim)
+    accelerate(body, A, force(A, mu, mode), dy)
+
+
+@compiled
+def put_on_floor(body, mu, mode, rim, y):
+    """Bring A to the floor, and by an impulse there its velocity to what the mode allows.
+
+    A point that sticks has none; one that slides none upward; one that creeps moves in the direction in
+    which its slip grows.
+    """
+    A = rim_contact(body, y, rim)
+    set_height(y, -A.arm[2])
+    if mode == Mode.STICKING:
+        S = sticking.stopping_impulse(A)
+    elif mode == Mode.CREEPING:
+        S = creeping.stopping_impulse(A, mu)
+    else:
+        S = sliding.stopping_impulse(A, mu)
+    accelerate(body, A, S, y)
+
+
+@compiled
+def margin(body, mu, mode, rim, y):
+    """Return how far a contact is from its end: positive in it, 0 or below past it.
+
+    It ends when the floor would have to pull, when the coin comes upon its edge, so that the other rim lands,
+    or upon a face; and as its mode ends.
+
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ.
+        mode: number of the `Mode`.
+        rim: that is in contact.
+        y: state, (13,).
+    """
+    A = rim_contact(body, y, rim)
+    up = A.R[2]
+    F = force(A, mu, mode)
+    left = min(F[2] / (body.mass * body.gravity), tilt_sine_of(up) / FACE_SINE - 1)
+    if body.thickness > 0:
+        left = min(left, -rim * up[2])
+    if mode == Mode.STICKING:
+        return min(left, sticking.margin(body, F, mu))
+    if mode == Mode.CREEPING:
+        return min(left, creeping.margin(body, A, mu))
+    return min(left, sliding.margin(body, A, mu))
+
+
+@compiled
+def landing(body, rim, y):
+    """Return which part of the coin lands in the state y, (13,), just past the end of a contact at a rim."""
+    up = rotation_matrix(attitude_of(y))[2]
+    if body.thickness > 0 and -rim * up[2] <= 0:
+        return Event.RIM_LANDS
+    return Event.FACE_LANDS if tilt_sine_of(up) <= FACE_SINE else Event.NONE
+
+
+@compiled
+def next_event(body, mu, mode, y):
+    """Return how a coin goes on whose lowest point is on the floor with v_Az = 0; stop slip where A sticks.
+
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ, 0 on a smooth floor.
+        mode: number of the `Mode` up to here.
+        y: state, (13,).
+    """
+    rim = lower_rim_of(y)
+    A = rim_contact(body, y, rim)
+    K, b, v_A = A.mobility, A.free_acceleration, A.velocity
+    if b[2] >= 0:
+        return Event.LIFTS_OFF
+    if mu == 0:
+        return Event.SLIPS
+    slow = SLOW * (body.gravity * body.radius) ** 0.5
+    # A mode that ends at its bound must not go on for rounding.
+    least = (1 + BORDER) * slow / 2 if mode == Mode.SLIDING else (1 - BORDER) * slow
+    if math.hypot(v_A[0], v_A[1]) > least:
+        s = slip_direction(v_A, mu)
+        if dot(K[2], (-mu * s[0], -mu * s[1], 1.0)) > 0:
+            return Event.SLIPS
+        # Painlevé: sliding presses the coin into the floor, until an impact without approach stops the slip.
+        S = coulomb(K, (v_A[0], v_A[1], -1e-6 * slow), 0.0, mu, RestitutionKind.KINEMATIC)
+        accelerate(body, A, S, y)
+    holds = friction_holds(mu, holding_force(K, b))
+    put_on_floor(body, mu, Mode.STICKING.value if holds else Mode.CREEPING.value, rim, y)
+    return Event.SLIP_STOPS if holds else Event.SLIP_STARTS

@@ -1,0 +1,118 @@
+"""Flights that are integrated: steps of order 8 at tight tolerance, and the states between them."""
+
+import numpy as np
+
+from analytic.flight.equations_of_motion import derivative
+from analytic.flight.state_vector import STATE_SIZE, normalise, spin_of, velocity_of
+from analytic.numerics.runge_kutta import (
+    STAGES,
+    combined_error,
+    end_point,
+    error_parts,
+    stage_point,
+    step_factor,
+)
+from analytic.numerics.tolerances import STEP_ERROR
+from models.kernel.compiled import compiled
+from models.kernel.vectors import norm
+
+
+@compiled
+def step(body, y, dt, stages, y_new):
+    """Advance the state by one step of order 8, its quaternion brought back to norm 1.
+
+    Args:
+        body: the coin.
+        y: state at the start, (13,); the first row of `stages` must hold its derivative.
+        dt: length of the step [s].
+        stages: work space, (12, 13).
+        y_new: where the state at the end goes, (13,).
+    """
+    for stage in range(1, STAGES):
+        stage_point(y, dt, stages, stage, y_new)
+        derivative(body, y_new, stages[stage])
+    end_point(y, dt, stages, y_new)
+    normalise(y_new)
+
+
+@compiled
+def step_error(body, y, dt, stages):
+    """Estimate the error of the step just made, relative to the scales of the coin.
+
+    The scales: r for positions, √(g r) beside |v| for velocities, 1 for Euler parameters, √(g/r) beside
+    |ω| for angular velocities.
+    """
+    speed = (body.gravity * body.radius) ** 0.5 + norm(velocity_of(y))
+    spin = (body.gravity / body.radius) ** 0.5 + norm(spin_of(y))
+    sum_5, sum_3 = 0.0, 0.0
+    for i in range(STATE_SIZE):
+        size = body.radius if i < 3 else speed if i < 6 else 1.0 if i < 10 else spin
+        e5, e3 = error_parts(stages, i)
+        sum_5 += (e5 / size) ** 2
+        sum_3 += (e3 / size) ** 2
+    return combined_error(dt, sum_5, sum_3, STATE_SIZE)
+
+
+@compiled
+def first_step(body, y):
+    """Return a step with which to start a flight [s]: a twentieth of a radian, or of the time to fall r."""
+    return 0.05 / (norm(spin_of(y)) + (body.gravity / body.radius) ** 0.5)
+
+
+@compiled
+def accepted_step(body, y, dt, stages, y_new):
+    """Advance the state by a step whose error is within `STEP_ERROR`, at most dt long.
+
+    Args:
+        body: the coin.
+        y: state at the start, (13,).
+        dt: length to try first [s].
+        stages: work space, (12, 13).
+        y_new: where the state at the end goes, (13,).
+
+    Returns:
+        The length of the step made, and a length for the next [s].
+
+    Raises:
+        FloatingPointError: if no step is short enough to stay finite.
+    """
+    derivative(body, y, stages[0])
+    while True:
+        step(body, y, dt, stages, y_new)
+        error = step_error(body, y, dt, stages) / STEP_ERROR
+        if error <= 1:
+            return dt, dt * step_factor(error)
+        dt *= step_factor(error)
+        if dt == 0:
+            raise FloatingPointError("the motion leaves the range of floating-point numbers")
+
+
+@compiled
+def sample_flight(body, start, start_time, times, states):
+    """Write the states of one flight at `times` into `states`.
+
+    Args:
+        body: the coin.
+        start: state at the start of the flight, (13,).
+        start_time: its time [s].
+        times: increasing, none before start_time, (n,) [s].
+        states: where they go, (n, 13).
+
+    Returns:
+        The number of steps up to the last time.
+    """
+    stages = np.empty((STAGES, STATE_SIZE))
+    y, y_new = start.copy(), np.empty(STATE_SIZE)
+    elapsed, dt, steps = 0.0, first_step(body, y), 1
+    for i in range(len(times)):
+        while True:
+            ahead = times[i] - start_time - elapsed
+            if ahead <= dt:
+                break
+            made, dt = accepted_step(body, y, dt, stages, y_new)
+            elapsed += made
+            steps += 1
+            y[:] = y_new
+        derivative(body, y, stages[0])
+        step(body, y, ahead, stages, states[i])
+    return steps

@@ -1,0 +1,23 @@
+"""Where the analytic engine draws the line: what counts as touching, as slow, as upright, and why."""
+
+STEP_ERROR = 1e-13
+"""Error allowed in one step of the integrator, relative to the scales of the coin."""
+
+TOUCH = 1e-14
+"""A gap below this part of the radius is zero within rounding."""
+CLOSED_TOUCH = 2e-15
+"""Likewise where the flight is in closed form, whose rounding is less."""
+SINK = 1e-13
+"""In a step forced at a grazing point, each of three causes may lower the gap by this part of the radius."""
+TIME_STEP = 2.3e-16
+"""Time of flight has no finer step than this part of it."""
+CHATTERING = 3e-5
+"""Impacts chatter when the coin turns by less than this angle in the time of all still to come [rad]."""
+
+SLOW = 1e-3
+"""Against √(g r): slip slower than this is stopped where friction can hold it, and creeps elsewhere, for
+there friction would turn it in the time of slip/(μ g). Sliding is kept down to half of it."""
+BORDER = 1e-6
+"""Friction holds a part more than it starts with, or a coin on the border would for ever start and stop."""
+ON_EDGE = 1e-6
+"""A coin is on its edge below this sine of the angle off it, and below this rate of it against √(g/r)."""

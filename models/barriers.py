@@ -1,0 +1,151 @@
+"""The energy that a coin has, and that which it needs to turn over."""
+
+import math
+
+from models.body import is_ideal
+from models.kernel.compiled import compiled
+from models.kernel.vectors import apply, dot
+
+TILTS_TRIED = 128
+# A bound times it stays a bound whatever rounding does.
+BEYOND_ROUNDING = 1 + 1e-12
+
+
+@compiled
+def energy(body, z, v, w):
+    """Return the mechanical energy T + m g z_C [J], zero at rest with C on the floor.
+
+    Args:
+        body: the coin.
+        z: height of C [m].
+        v: velocity of C, space frame, (3,) [m/s].
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    return body.mass * (dot(v, v) / 2 + body.gravity * z) + dot(w, apply(body.inertia, w)) / 2
+
+
+@compiled
+def barrier(body, n_z):
+    """Return the lowest energy at which a coin can roll over its rim to the other face [J].
+
+    m g sqrt((r - |c_perp|)^2 + (h/2 ± c_zeta)^2), with + where heads is up: C must pass above the point of
+    the rim that is nearest to it.
+
+    Args:
+        body: the coin.
+        n_z: upward component of the coin's normal.
+    """
+    out, up = rim_offset(body, n_z)
+    return body.mass * body.gravity * math.hypot(out, up)
+
+
+@compiled
+def rim_offset(body, n_z):
+    """Return how far outward of C the nearest point of the lower rim lies, and how far below C [m]."""
+    c = body.center
+    out = body.radius - math.hypot(c[0], c[1])
+    up = body.thickness / 2 + (c[2] if n_z > 0 else -c[2])
+    return out, up
+
+
+@compiled
+def spin_barrier(body, up, w):
+    """Bound from below the energy at which a coin on a smooth floor in vacuum can turn over [J].
+
+    It leaves the horizontal motion out, and counts what the conserved spin needs.
+
+    Args:
+        body: the coin.
+        up: the upward unit vector in the body frame, (3,).
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    return _top_barrier(body, up, w) if is_ideal(body) else _general_barrier(body, up, w)
+
+
+@compiled
+def spin_barrier_bound(body, up, w):
+    """Bound `spin_barrier` from above without trying tilts [J].
+
+    Args:
+        body: the coin.
+        up: the upward unit vector in the body frame, (3,).
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    return _top_bound(body, up, w) if is_ideal(body) else _general_bound(body, up, w)
+
+
+@compiled
+def _top_barrier(body, up, w):
+    """Bound from below the energy at which the ideal coin on a smooth floor in vacuum can turn over [J].
+
+    There L_z and L_ζ are conserved, through impacts too, so that at tilt s the coin needs at least
+    m g (r sin s + (h/2) cos s) + (L_z - L_ζ cos s)²/(2 J_ξ sin² s), beside L_ζ²/(2 J_ζ). To turn over it
+    must pass every tilt from today's to π/2: the largest over a set of these tilts is needed for sure.
+    """
+    J_across, J_normal = body.inertia[0][0], body.inertia[2][2]
+    L = apply(body.inertia, w)
+    L_z = dot(up, L)
+    L_zeta = L[2] if up[2] > 0 else -L[2]
+    today = math.atan2(math.hypot(up[0], up[1]), abs(up[2]))
+    highest = 0.0
+    for i in range(TILTS_TRIED):
+        s = math.pi / 2 - (math.pi / 2 - today) * i / TILTS_TRIED
+        sine, cosine = math.sin(s), math.cos(s)
+        weight = body.mass * body.gravity * (body.radius * sine + body.thickness / 2 * cosine)
+        highest = max(highest, weight + (L_z - L_zeta * cosine) ** 2 / (2 * J_across * sine * sine))
+    return highest + L_zeta * L_zeta / (2 * J_normal)
+
+
+@compiled
+def _top_bound(body, up, w):
+    """Bound `_top_barrier` from above without trying tilts [J].
+
+    What the spin needs has no maximum inside: it is largest at today's tilt, where L_z - L_ζ cos s is the
+    part of L_z across the normal, or upright.
+    """
+    J = body.inertia
+    L = apply(J, w)
+    L_z, across = dot(up, L), L[0] * up[0] + L[1] * up[1]
+    spinning = max(L_z * L_z, across * across / (up[0] * up[0] + up[1] * up[1])) / (2 * J[0][0])
+    weight = body.mass * body.gravity * math.hypot(body.radius, body.thickness / 2)
+    return BEYOND_ROUNDING * (weight + spinning + L[2] * L[2] / (2 * J[2][2]))
+
+
+@compiled
+def _general_barrier(body, up, w):
+    """Bound from below the energy at which a coin on a smooth floor in vacuum can turn over [J].
+
+    Vertical impulses keep L_z, with which the coin has at least the energy L_z²/(2 uᵀ J u), u the upward unit
+    vector in the body frame. To turn over it must pass every tilt from today's to π/2, in some direction:
+    the largest over a set of these tilts, of the least over all directions, is needed for sure.
+    """
+    J = body.inertia
+    L_z = dot(up, apply(J, w))
+    today = math.atan2(math.hypot(up[0], up[1]), abs(up[2]))
+    side = 1.0 if up[2] > 0 else -1.0
+    c_across = math.hypot(body.center[0], body.center[1])
+    highest = 0.0
+    for i in range(TILTS_TRIED):
+        s = math.pi / 2 - (math.pi / 2 - today) * i / TILTS_TRIED
+        sine, cosine = math.sin(s), math.cos(s)
+        # The lowest height and the largest moment of inertia of all directions, each for itself.
+        z = (body.radius - c_across) * sine + (body.thickness / 2 + side * body.center[2]) * cosine
+        J_across = _largest_across(J)
+        moment = J_across * sine * sine + J[2][2] * cosine * cosine
+        moment += 2 * sine * cosine * math.hypot(J[0][2], J[1][2])
+        highest = max(highest, body.mass * body.gravity * z + L_z * L_z / (2 * moment))
+    return highest
+
+
+@compiled
+def _general_bound(body, up, w):
+    """Bound `_general_barrier` from above without trying tilts [J]."""
+    L_z = dot(up, apply(body.inertia, w))
+    return BEYOND_ROUNDING * (barrier(body, up[2]) + L_z * L_z / (2 * body.inertia_smallest))
+
+
+@compiled
+def _largest_across(J):
+    """Return the largest moment of inertia about an axis in the coin's plane."""
+    mean, half = (J[0][0] + J[1][1]) / 2, (J[0][0] - J[1][1]) / 2
+    return mean + math.hypot(half, J[0][1])

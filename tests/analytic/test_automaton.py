@@ -1,0 +1,106 @@
+"""The table of modes and events: what can follow what, and that a toss keeps to it."""
+
+import numpy as np
+import pytest
+
+import analytic
+from analytic.automaton import Event, Mode, mode_after
+from analytic.events import run
+from analytic.settings import Settings
+from analytic.toss import state_of
+from models.records import Ending, Outcome
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+
+CONTACT = (Mode.SLIDING, Mode.CREEPING, Mode.STICKING, Mode.UPRIGHT)
+
+
+@pytest.mark.parametrize("mode", [mode for mode in Mode if mode != Mode.ENDED])
+def test_every_mode_may_lift_off_slip_stick_and_end(mode):
+    expected = {
+        Event.LIFTS_OFF: Mode.FLIGHT,
+        Event.SLIPS: Mode.SLIDING,
+        Event.SLIP_STARTS: Mode.CREEPING,
+        Event.SLIP_STOPS: Mode.STICKING,
+        Event.ENDS: Mode.ENDED,
+    }
+    assert {event: mode_after(mode.value, event) for event in expected} == expected
+
+
+def test_only_a_flying_coin_bounces_and_only_one_in_contact_at_one_rim_comes_upright_or_lands_another():
+    possible = {
+        event: [mode for mode in Mode if mode != Mode.ENDED and can_end(mode, event)]
+        for event in (Event.IMPACT, Event.RIM_LANDS, Event.FACE_LANDS, Event.COMES_UPRIGHT)
+    }
+    one_rim = [Mode.SLIDING, Mode.CREEPING, Mode.STICKING]
+    assert possible == {
+        Event.IMPACT: [Mode.FLIGHT],
+        Event.RIM_LANDS: one_rim,
+        Event.FACE_LANDS: one_rim,
+        Event.COMES_UPRIGHT: one_rim,
+    }
+
+
+def can_end(mode, event):
+    try:
+        mode_after(mode.value, event)
+    except ValueError:
+        return False
+    return True
+
+
+def test_a_mode_that_goes_on_has_no_mode_after_it():
+    with pytest.raises(ValueError, match="cannot end this mode"):
+        mode_after(Mode.UPRIGHT.value, Event.COMES_UPRIGHT)
+
+
+@pytest.mark.parametrize("changed", [{}, {"thickness": 0.0}, {"center_of_mass": PAPER_OFFSET}])
+def test_a_toss_passes_through_its_modes_in_time_and_ends_once(changed):
+    coin, seen = {**ZLOTY, **changed}, set()
+    for spin in (20.0, 30.0, 40.0):
+        case = scenario(
+            coin=coin,
+            floor={"contact": "coulomb", "restitution": 0.5, "friction": 0.3},
+            release={"position": [0, 0, 0.1], "angles": [0, 1.0, 0], "angular_velocity": [3.0, spin, 5.0]},
+        )
+        log = run(case.body, case.rules, state_of(case.release))
+        assert log.modes[-1] == Mode.ENDED
+        assert Mode.ENDED not in log.modes[:-1]
+        assert log.modes[0] == Mode.FLIGHT
+        assert np.all(np.diff(log.start_times) >= 0)
+        seen |= {Mode(mode) for mode in log.modes}
+    assert {Mode.FLIGHT, Mode.SLIDING, Mode.STICKING, Mode.ENDED} <= seen
+
+
+ON_EDGE = {
+    "coin": {**ZLOTY, "center_of_mass": PAPER_OFFSET},
+    "air": AIR,
+    "floor": {"contact": "smooth", "restitution": 0.3},
+    "release": {
+        "position": [0.0, 0.0, 0.0145],
+        "velocity": [0.0, 0.0, 0.0],
+        "angles": [0.0, 1.57, 4.7],
+        "angular_velocity": [-2.0, 2.0, -50.0],
+    },
+}
+HIGH = {"release": {"position": [0.0, 0.0, 0.5], "angular_velocity": [0.0, 40.0, 0.0]}}
+
+
+@pytest.mark.parametrize(
+    ("case", "settings", "limits", "ending"),
+    [
+        (ON_EDGE, Settings(contact_steps=3), {}, Ending.CONTACT_STEPS),
+        (HIGH, Settings(), {"max_impacts": 2}, Ending.MAX_IMPACTS),
+        (HIGH, Settings(), {"max_time": 0.05}, Ending.MAX_TIME),
+    ],
+)
+def test_a_spent_budget_ends_a_toss_by_its_name(case, settings, limits, ending):
+    tossed = analytic.toss(scenario(**case, ending=limits), settings=settings)
+    assert (tossed.outcome, tossed.ending) == (Outcome.UNDECIDED, ending)
+    assert ending.label in tossed.ending.sentence
+    decided = analytic.toss(scenario(**case))
+    assert decided.outcome != Outcome.UNDECIDED
+
+
+def test_settings_refuse_a_budget_of_no_step():
+    with pytest.raises(ValueError, match=r"contact_steps: given 0, accepted: a whole number >= 1"):
+        Settings(contact_steps=0)
