@@ -188,7 +188,15 @@ def test_what_is_no_file_of_a_report_is_refused(folder, tmp_path):
 
 @pytest.mark.parametrize("max_time", [1e-9, 1e-3])
 def test_the_shortest_toss_has_a_report(tmp_path, max_time):
-    write_report(scenario(ending={"max_time": max_time}), "", "short", tmp_path, ADVICE, lambda *_: None)
+    page = write_report(
+        scenario(ending={"max_time": max_time}), "", "short", tmp_path, ADVICE, lambda *_: None
+    )
+    assert "max_time" in page.read_text(encoding="utf-8")
+    numbers = json.loads((tmp_path / "numbers.json").read_text(encoding="utf-8"))
+    assert [(toss["ending"], toss["impacts"]) for toss in numbers["tosses"]] == [("max_time", [])] * 2
+    for engine in ("analytic", "mujoco"):
+        rows = (tmp_path / f"path-{engine}.csv").read_text(encoding="utf-8").splitlines()
+        assert [float(row.split(",")[0]) for row in rows[1:]] == [0, max_time]
 
 
 def test_the_cards_say_where_the_horizon_ends_before_the_toss(tmp_path):
@@ -228,5 +236,8 @@ def test_what_is_not_opengls_fault_is_not_blamed_on_it(monkeypatch):
 
 
 def test_the_papers_scenario_says_what_it_assumes():
-    assert "does not say" in scenario_text("fig24a") or "but not which" in scenario_text("fig24a")
-    assert load("fig24a").coin.center_of_mass == (0, 0, 0)
+    said = " ".join(line[2:] for line in scenario_text("fig24a").splitlines() if line.startswith("# "))
+    assert "not which coin, which floor, or g. Here: the ideal coin with h = 2 mm on a smooth floor" in said
+    case = load("fig24a")
+    assert (case.coin.center_of_mass, case.coin.thickness) == ((0, 0, 0), 2e-3)
+    assert (case.floor.contact.label, case.gravity) == ("smooth", 9.81)
