@@ -15,9 +15,6 @@ import click
 
 # Only click is imported here: `cointoss --help` answers at once, each command brings what it needs.
 
-_BAR = 30
-"""Width of a progress bar, in characters."""
-
 _SCENARIO_HELP = (
     "SCENARIO is a TOML file, or the name of a scenario that comes with the package, such as fig24a. "
     "An unknown name prints the names that exist."
@@ -216,9 +213,11 @@ def compare(scenario: str, out: Path) -> None:
 
         problem = drawing_problem()
 
+        from compare.output.progress import bar
         from compare.report.folder import write_report
 
-        page = write_report(described, text, Path(scenario).stem, out, problem, _progress("video", "frames"))
+        with bar("video", "frames") as progress:
+            page = write_report(described, text, Path(scenario).stem, out, problem, progress)
         click.echo(page)
 
 
@@ -260,11 +259,12 @@ def video(scenario: str, out: Path, engine: str, camera: str) -> None:
         from compare.engines import Engine
         from compare.film.drawing import Camera
         from compare.film.video import FULL, write_video
+        from compare.output.progress import bar
 
         engines = list(Engine) if engine == "both" else [Engine(engine)]
         tosses = [each.package.toss(described) for each in engines]
-        with written_whole(out) as aside:
-            write_video(tosses, Camera(camera), FULL, aside, _progress("video", "frames"))
+        with written_whole(out) as aside, bar("video", "frames") as progress:
+            write_video(tosses, Camera(camera), FULL, aside, progress)
         click.echo(out)
 
 
@@ -299,8 +299,8 @@ def video(scenario: str, out: Path, engine: str, camera: str) -> None:
 @click.option("--png", type=click.Path(path_type=Path), help="Also draw the map to this .png file.")
 @click.option(
     "--palette",
-    type=click.Choice(["paper", "safe"]),
-    help="paper: black and white; safe: colours for the colour-blind.",
+    type=click.Choice(["safe", "paper"]),
+    help="safe (the default): gold and blue, for the colour-blind too; paper: black and white.",
 )
 @click.option("--boundaries", is_flag=True, help="Colour the pixels at a boundary.")
 @click.option("--size", type=_Size(), metavar="WIDTHxHEIGHT", help="Size of the picture in inches.")
@@ -350,6 +350,7 @@ def basin(
     with _plain_errors(scenario):
         from compare.basins.picture import DPI, Palette
         from compare.engines import Engine
+        from compare.output.progress import bar
         from compare.sweep.job import Job, make
         from compare.sweep.show import PictureStyle
         from models.reading import scenario_text
@@ -368,12 +369,13 @@ def basin(
             scheduler=scheduler,
             png=png,
             style=PictureStyle(
-                palette=Palette(palette or "paper"), boundaries=boundaries, size=size, dpi=dpi or DPI
+                palette=Palette(palette or "safe"), boundaries=boundaries, size=size, dpi=dpi or DPI
             ),
             report=report,
         )
-        for result in make(job, _watched, _progress("video", "frames")):
-            click.echo(result)
+        with bar("video", "frames") as progress:
+            for result in make(job, _watched, progress):
+                click.echo(result)
 
 
 @main.command()
@@ -381,7 +383,7 @@ def basin(
 @click.option(
     "--out",
     type=click.Path(path_type=Path),
-    help="Folder of the results, each in its NAME/; made if missing.",
+    help="Folder of the results, each in its reproduction/NAME/; made if missing.",
 )
 @click.option("--quick", is_flag=True, help="Compute the smaller version of each that has one.")
 @click.pass_context
@@ -394,7 +396,9 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
     """
     from compare.film.back_end import drawing_problem, require_mujoco
     from compare.output.files import require_folder
+    from compare.output.progress import bar
     from compare.reproduction import gallery, runner
+    from compare.reproduction.claim import unexpected
 
     with _plain_errors("reproduce"):
         # Figures may hold stills: the back end is chosen before MuJoCo is imported.
@@ -411,9 +415,9 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
     if not names and out is None:
         width = max(map(len, known)) + 2
         for name in known:
-            figure = runner.find(name)
-            place = f"{figure.paper}: " if figure.paper else ""
-            click.echo(f"{name:{width}}{place}{figure.title} ({figure.seconds:g} s)")
+            found = runner.find(name)
+            place = f"{found.paper}: " if found.paper else ""
+            click.echo(f"{name:{width}}{place}{found.title} ({found.seconds:g} s)")
         return
     if not names or out is None:
         ctx.fail(
@@ -422,48 +426,36 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
     with _plain_errors(str(out)):
         require_folder(out, gallery.PAGES if pages else ())
         for name in names:
-            runner.folder_of(name, out)
+            runner.require_writable(name, out)
         failed = []
         for name in names:
-            made = runner.reproduce(name, out, _progress(name, "parts"), quick=quick)
-            click.echo(made.text)
-            failed += [f"{name}: {claim}" for claim in made.failed]
+            with bar(name, "parts") as progress:
+                result = runner.reproduce(name, out, progress, quick=quick)
+            click.echo(result.text)
+            failed += [f"{name}: {claim}" for claim in unexpected(result.claims)]
         if pages:
             gallery.write(out, names, quick=quick)
     for claim in failed:
-        click.echo(f"cointoss: {claim}: not confirmed", err=True)
+        click.echo(f"cointoss: {claim}: another verdict than the known one", err=True)
     sys.exit(1 if failed else 0)
 
 
 @contextmanager
 def _watched(name: str, done: int, count: int) -> Iterator[Callable[[int], None]]:
     """Yield a function to report tosses to; show their number, rate and time left on the terminal."""
-    from tqdm import tqdm
+    from compare.output.progress import bar
 
     kept = done
 
     def more(tosses: int) -> None:
         nonlocal kept
         kept += tosses
-        bar.update(tosses)
+        progress(kept, count)
 
-    # Not on a terminal, it shows nothing.
-    with tqdm(desc=name, initial=done, total=count, unit=" tosses", unit_scale=True, disable=None) as bar:
-        try:
+    try:
+        with bar(name, "tosses", done=done) as progress:
+            progress(kept, count)
             yield more
-        except KeyboardInterrupt:
-            bar.close()
-            _say(f"{name}: {kept} of {count} tosses are saved; --resume continues")
-            raise
-
-
-def _progress(what: str, parts: str) -> Callable[[int, int], None]:
-    """Return a function that shows the progress of a job, in `parts`, as a bar on the terminal."""
-
-    def show(done: int, count: int) -> None:
-        if sys.stderr.isatty():
-            full = _BAR * done // count
-            bar = full * "#" + (_BAR - full) * "-"
-            click.echo(f"\r{what}: [{bar}] {done}/{count} {parts}", err=True, nl=done == count)
-
-    return show
+    except KeyboardInterrupt:
+        _say(f"{name}: {kept} of {count} tosses are saved; --resume continues")
+        raise

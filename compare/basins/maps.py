@@ -5,11 +5,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from models.records import Outcome
 
-Outcomes = NDArray[np.int8]
+OutcomeCodes = NDArray[np.int8]
 """Codes of `Outcome`."""
 
 
-def outcome_map(outcomes: ArrayLike) -> Outcomes:
+def outcome_map(outcomes: ArrayLike) -> OutcomeCodes:
     """Return an array, checked to be an outcome map, (y, x).
 
     Raises:
@@ -21,7 +21,7 @@ def outcome_map(outcomes: ArrayLike) -> Outcomes:
     return codes
 
 
-def outcome_codes(outcomes: ArrayLike) -> Outcomes:
+def outcome_codes(outcomes: ArrayLike) -> OutcomeCodes:
     """Return an array as outcomes, in any shape.
 
     Raises:

@@ -12,8 +12,9 @@ from matplotlib.patches import Patch
 from numpy.typing import ArrayLike, NDArray
 
 from compare.basins.boundary import boundary_pixels
-from compare.basins.maps import Outcomes, outcome_map
+from compare.basins.maps import OutcomeCodes, outcome_map
 from compare.output.files import written_whole
+from compare.output.style import GREEN, GREY, OUTCOMES, PURPLE, SKY, VERMILION
 from models.records import Outcome
 
 PANEL_SIZE = (5.0, 4.5)
@@ -22,41 +23,34 @@ COMPARISON_SIZE = (3 * PANEL_SIZE[0], PANEL_SIZE[1])
 """Of three maps side by side, width and height [inches]."""
 DPI = 150
 _ENTRY_WIDTH = 1.2  # of the legend [inches]
-_INK = "#5b6675"
-_SAME, _DIFFERENT = "#e6e9ed", "#D55E00"
+_SAME, _DIFFERENT = "#e6e9ed", VERMILION
 
 
 class Palette(StrEnum):
     """Colours of the outcomes."""
 
+    SAFE = "safe"
+    """Heads gold and tails blue, as on the coin; the colour-blind can distinguish all."""
     PAPER = "paper"
     """Heads black and tails white, as in Figs 29 to 31."""
-    SAFE = "safe"
-    """Blue and orange, with others that the colour-blind can distinguish."""
 
 
-# Okabe and Ito's colours; undecided is a hue in print, since fine stripes of black and white make every grey.
+# Undecided is a hue in print, since fine stripes of black and white make every grey.
 _COLORS = {
+    Palette.SAFE: OUTCOMES,
     Palette.PAPER: {
-        Outcome.UNDECIDED: "#CC79A7",
+        Outcome.UNDECIDED: PURPLE,
         Outcome.HEADS: "#000000",
         Outcome.TAILS: "#FFFFFF",
-        Outcome.EDGE: "#009E73",
-        Outcome.PERPETUAL: "#56B4E9",
-    },
-    Palette.SAFE: {
-        Outcome.UNDECIDED: "#FFFFFF",
-        Outcome.HEADS: "#0072B2",
-        Outcome.TAILS: "#E69F00",
-        Outcome.EDGE: "#009E73",
-        Outcome.PERPETUAL: "#CC79A7",
+        Outcome.EDGE: GREEN,
+        Outcome.PERPETUAL: SKY,
     },
 }
-_BOUNDARY = {Palette.PAPER: "#D55E00", Palette.SAFE: "#000000"}
+_BOUNDARY = {Palette.SAFE: "#000000", Palette.PAPER: VERMILION}
 
 
 @dataclass(frozen=True, kw_only=True)
-class Axis:
+class MapAxis:
     """What a map's columns, or rows, stand for; they are evenly spaced."""
 
     name: str
@@ -70,9 +64,9 @@ class Axis:
 def draw_map(
     outcomes: ArrayLike,
     *,
-    x: Axis,
-    y: Axis,
-    palette: Palette = Palette.PAPER,
+    x: MapAxis,
+    y: MapAxis,
+    palette: Palette = Palette.SAFE,
     boundaries: bool = False,
     size: tuple[float, float] = PANEL_SIZE,
 ) -> Figure:
@@ -97,9 +91,9 @@ def draw_panel(
     axes: Axes,
     outcomes: ArrayLike,
     *,
-    x: Axis,
-    y: Axis,
-    palette: Palette = Palette.PAPER,
+    x: MapAxis,
+    y: MapAxis,
+    palette: Palette = Palette.SAFE,
     boundaries: bool = False,
 ) -> None:
     """Draw a map into `axes`, without a legend; see `draw_map` for the other arguments."""
@@ -111,9 +105,9 @@ def draw_comparison(
     analytic: ArrayLike,
     mujoco: ArrayLike,
     *,
-    x: Axis,
-    y: Axis,
-    palette: Palette = Palette.PAPER,
+    x: MapAxis,
+    y: MapAxis,
+    palette: Palette = Palette.SAFE,
     boundaries: bool = False,
     size: tuple[float, float] = COMPARISON_SIZE,
     note: str = "",
@@ -177,7 +171,7 @@ def _difference_title(different: NDArray[np.bool_], decided: NDArray[np.bool_]) 
     return f"different: {100 * different.sum() / decided.sum():.3g} % of the pixels both decide"
 
 
-def _colored(codes: Outcomes, palette: Palette, boundaries: bool) -> NDArray[np.uint8]:
+def _colored(codes: OutcomeCodes, palette: Palette, boundaries: bool) -> NDArray[np.uint8]:
     """Return each pixel's colour, (y, x, 3)."""
     colors = np.array([_rgb(_COLORS[palette][outcome]) for outcome in Outcome])[codes]
     if boundaries:
@@ -189,28 +183,28 @@ def _rgb(color: str) -> NDArray[np.uint8]:
     return np.round(255 * np.array(to_rgb(color))).astype(np.uint8)
 
 
-def _show(axes: Axes, colors: NDArray[np.uint8], x: Axis, y: Axis) -> None:
+def _show(axes: Axes, colors: NDArray[np.uint8], x: MapAxis, y: MapAxis) -> None:
     ny, nx = colors.shape[:2]
     # Where several pixels share a dot, their colours are mixed: dropping some would make patterns.
     axes.imshow(
         colors, origin="lower", aspect="auto", extent=(*_ends(x, nx), *_ends(y, ny)), interpolation="auto"
     )
     axes.set_xlabel(_label(x))
-    axes.tick_params(color=_INK)
-    axes.spines[:].set_color(_INK)
+    axes.tick_params(color=GREY)
+    axes.spines[:].set_color(GREY)
 
 
-def _ends(axis: Axis, n: int) -> tuple[float, float]:
+def _ends(axis: MapAxis, n: int) -> tuple[float, float]:
     """Return the outer edges of the first and the last of n pixels."""
     half = (axis.stop - axis.start) / (n - 1) / 2 if n > 1 else 0.5
     return axis.start - half, axis.stop + half
 
 
-def _label(axis: Axis) -> str:
+def _label(axis: MapAxis) -> str:
     return f"{axis.name} [{axis.unit}]" if axis.unit else axis.name
 
 
-def _outcome_patches(maps: list[Outcomes], palette: Palette, boundaries: bool) -> list[Patch]:
+def _outcome_patches(maps: list[OutcomeCodes], palette: Palette, boundaries: bool) -> list[Patch]:
     present = [outcome for outcome in Outcome if any((codes == outcome).any() for codes in maps)]
     present.sort(key=lambda outcome: outcome is Outcome.UNDECIDED)
     patches = [_patch(_COLORS[palette][outcome], outcome.label) for outcome in present]
@@ -218,7 +212,7 @@ def _outcome_patches(maps: list[Outcomes], palette: Palette, boundaries: bool) -
 
 
 def _patch(color: str, label: str) -> Patch:
-    return Patch(facecolor=color, edgecolor=_INK, linewidth=0.6, label=label)
+    return Patch(facecolor=color, edgecolor=GREY, linewidth=0.6, label=label)
 
 
 def _legend(figure: Figure, patches: list[Patch]) -> None:

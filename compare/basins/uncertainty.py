@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.stats import t
 
-from compare.basins.maps import Outcomes, outcome_map
+from compare.basins.maps import OutcomeCodes, outcome_map
 from models.records import Array, Outcome
 
 BANDS = 8
@@ -113,7 +113,7 @@ def _checked(epsilons: Sequence[int], length: int) -> NDArray[np.int64]:
     return distances.astype(np.int64)
 
 
-def _count(lines: Outcomes, distance: int) -> tuple[Counts, Counts]:
+def _count(lines: OutcomeCodes, distance: int) -> tuple[Counts, Counts]:
     """Count the uncertain pixels and those known to be so or not, in each cell."""
     centre, before, after = lines[:, distance:-distance], lines[:, : -2 * distance], lines[:, 2 * distance :]
     inside = np.s_[:, distance:-distance]

@@ -4,16 +4,24 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib.colors import to_rgb
 from PIL import Image, ImageDraw, ImageFont
 
 from compare.film.drawing import FORCE_COLOR, IMPULSE_COLOR
 from compare.film.play import Play
+from compare.output.style import HEADS, TAILS
 from models.ending import face_up
 from models.records import Face, Outcome
 
 Color = tuple[int, int, int]
 
 Font = ImageFont.FreeTypeFont | ImageFont.ImageFont
+
+
+def _color(color: str | tuple[float, float, float]) -> Color:
+    r, g, b = (round(255 * part) for part in to_rgb(color))
+    return r, g, b
+
 
 EDGE = 2
 """Of the letters [pixels]."""
@@ -24,8 +32,8 @@ TITLES: dict[str, tuple[str, Color]] = {
 }
 """Name and colour of each engine."""
 LABELS: dict[Outcome, tuple[Color, Color]] = {
-    Outcome.HEADS: ((245, 171, 31), INK),
-    Outcome.TAILS: ((13, 92, 168), WHITE),
+    Outcome.HEADS: (_color(HEADS), INK),
+    Outcome.TAILS: (_color(TAILS), WHITE),
 }
 """Ground and ink of a face's label; an outcome that is none is grey."""
 
@@ -65,11 +73,11 @@ def caption_of(play: Play, i: int) -> Caption:
     shown = play.impulses(i)
     if shown:
         size = np.linalg.norm(shown[-1].impulse)
-        lines.append(Line(f"impulse {1000 * size:#.3g} mN s", _bytes(IMPULSE_COLOR)))
+        lines.append(Line(f"impulse {1000 * size:#.3g} mN s", _color(IMPULSE_COLOR)))
     if play.forces[i].any():
         weight = toss.scenario.coin.mass * toss.scenario.gravity
         weights = np.linalg.norm(play.forces[i]) / weight
-        lines.append(Line(f"floor's force {weights:.2f} m g", _bytes(FORCE_COLOR)))
+        lines.append(Line(f"floor's force {weights:.2f} m g", _color(FORCE_COLOR)))
     return Caption(Line(*TITLES[toss.engine]), label.upper(), *LABELS.get(outcome, (GREY, WHITE)), lines)
 
 
@@ -108,8 +116,3 @@ def _write(
 ) -> None:
     """Write a line with a white edge, to be read on any ground."""
     draw.text(place, line.text, line.color, font, anchor, stroke_width=EDGE, stroke_fill=WHITE)
-
-
-def _bytes(color: tuple[float, float, float]) -> Color:
-    r, g, b = (round(255 * part) for part in color)
-    return r, g, b

@@ -1,1 +1,1 @@
-"""Answers written: files, text, plot style; imports nothing of compare."""
+"""Answers written: files, text, tables, bars, palette; imports nothing of compare."""

@@ -5,6 +5,7 @@ import shutil
 import stat
 import sys
 import tempfile
+import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -110,21 +111,19 @@ def write_text(path: Path, text: str) -> None:
 
 @contextmanager
 def written_whole(path: Path) -> Iterator[Path]:
-    """Yield a path beside `path` to write to; rename it to `path` when all went well, else remove it.
+    """Yield a path beside `path` for a file or a folder; rename it to `path` when all went well.
 
     Raises:
         UnwritableError: naming the file and why, for every error of the system on the way.
     """
     with naming(path):
         target = _target(path)
-        handle, name = tempfile.mkstemp(dir=target.parent, prefix=".cointoss-", suffix=path.suffix)
-        os.close(handle)
-        aside = Path(name)
+        aside = beside(target)
         try:
             yield aside
             _move(aside, target)
         finally:
-            aside.unlink(missing_ok=True)
+            remove(aside)
 
 
 @contextmanager
@@ -159,6 +158,19 @@ def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
             raise
 
 
+def beside(path: Path) -> Path:
+    """Return a new name beside `path`, of the same kind."""
+    return path.with_name(f".cointoss-{uuid.uuid4().hex}{path.suffix}")
+
+
+def remove(path: Path) -> None:
+    """Remove a file or a folder, if it is there."""
+    if path.is_dir():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        path.unlink(missing_ok=True)
+
+
 @contextmanager
 def naming(path: Path) -> Iterator[None]:
     """Name a path in the system's errors about it."""
@@ -182,12 +194,12 @@ def _is_stdout(path: Path) -> bool:
 
 
 def _move(aside: Path, target: Path) -> None:
-    """Rename a file to what it replaces, with the mode of that, or with a new file's."""
+    """Rename a file or a folder to what it replaces, with the mode of that, or with a new one's."""
     if target.exists():
         mode = stat.S_IMODE(target.stat().st_mode)
     else:
         mask = os.umask(0)
         os.umask(mask)
-        mode = 0o666 & ~mask
+        mode = (0o777 if aside.is_dir() else 0o666) & ~mask
     aside.chmod(mode)
     aside.replace(target)

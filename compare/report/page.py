@@ -13,6 +13,7 @@ from pydantic import BaseModel
 from compare.metrics.comparison import Comparison
 from compare.metrics.sequences import SAFETY, aligned
 from compare.output.answer import MOST_SHOWN, shortened
+from compare.output.style import HEADS, TAILS
 from compare.report.map_section import MapSection
 from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.records import Face, Toss
@@ -52,6 +53,8 @@ def render(page: Page) -> str:
         tosses=tosses,
         labels={"analytic": "analytic", "mujoco": "MuJoCo"},
         parameters=_parameters(page.scenario),
+        heads=HEADS,
+        tails=TAILS,
         pairs=aligned(page.analytic.sequence, comparison.mujoco.sequence) if comparison else [],
         most_shown=MOST_SHOWN,
         sequence=shortened(page.analytic.sequence),

@@ -10,12 +10,12 @@ from matplotlib.ticker import FuncFormatter
 
 from compare.metrics.comparison import PARTED, Comparison
 from compare.metrics.trajectories import tilt
-from compare.output.style import STYLE
+from compare.output.style import ANALYTIC, GREEN, GREY, MUJOCO, PALE, PURPLE, STYLE
 from models.barriers import barrier
 from models.records import Array, States, Toss
 from models.scenario import Scenario
 
-COLORS = {"analytic": "#0072B2", "mujoco": "#D55E00"}
+COLORS = {"analytic": ANALYTIC, "mujoco": MUJOCO}
 LABELS = {"analytic": "analytic", "mujoco": "MuJoCo"}
 STYLES = {"analytic": "-", "mujoco": "--"}
 POINTS = 3000
@@ -122,7 +122,7 @@ def _tilt(sampled: list[tuple[Toss, States]]) -> Figure:
     figure = Figure(figsize=(5.2, 3.4))
     axes = figure.add_subplot()
     _lines(axes, sampled, [np.degrees(tilt(states)) for _, states in sampled])
-    axes.axhline(90, color="#5b6675", linewidth=0.8)
+    axes.axhline(90, color=GREY, linewidth=0.8)
     axes.set_ylabel("tilt of the normal from the vertical [deg]")
     axes.set_yticks([0, 45, 90, 135, 180], ["heads 0", "45", "90", "135", "tails 180"])
     axes.set_ylim(-3, 183)
@@ -148,14 +148,14 @@ def _energy(sampled: list[tuple[Toss, States]]) -> Figure:
     body = scenario.body
     barriers = {1e3 * barrier(body, side) for side in (1.0, -1.0)}
     for level in barriers:
-        axes.axhline(level, color="#5b6675", linewidth=0.8)
+        axes.axhline(level, color=GREY, linewidth=0.8)
     axes.text(
         0.01,
         min(barriers),
         "least energy to turn over",
         transform=axes.get_yaxis_transform(),
         va="top",
-        color="#5b6675",
+        color=GREY,
     )
     axes.set_yscale("log")
     axes.yaxis.set_major_formatter(FuncFormatter(lambda level, _: f"{level:g}"))
@@ -175,20 +175,20 @@ def _apart(comparison: Comparison) -> Figure:
     # Zero has no place on a logarithmic axis; rounding is drawn at the axis's foot.
     foot = 1e-16
     axes.semilogy(
-        together.time, np.maximum(together.distance / radius, foot), color="#009E73", label="distance / r"
+        together.time, np.maximum(together.distance / radius, foot), color=GREEN, label="distance / r"
     )
     axes.semilogy(
         together.time,
         np.maximum(together.attitude_angle, foot),
-        color="#CC79A7",
+        color=PURPLE,
         linewidth=1.1,
         label="angle [rad]",
     )
     for time in comparison.analytic.impacts.time:
-        axes.axvline(time, color="#aab3bf", linewidth=0.5)
-    axes.axhline(PARTED, color="#5b6675", linewidth=0.8)
+        axes.axvline(time, color=PALE, linewidth=0.5)
+    axes.axhline(PARTED, color=GREY, linewidth=0.8)
     across = axes.get_yaxis_transform()
-    axes.text(0.01, PARTED, f"{PARTED:g} r", transform=across, va="bottom", color="#5b6675")
+    axes.text(0.01, PARTED, f"{PARTED:g} r", transform=across, va="bottom", color=GREY)
     axes.set_ylim(foot, 1e3)
     axes.set_xlabel("t [s]")
     axes.set_ylabel("difference of the engines")

@@ -10,19 +10,21 @@ from pathlib import Path
 import jinja2
 
 from compare.output.files import written_together
+from compare.output.tables import table
 from compare.reproduction import runner
-from compare.reproduction.findings import Finding, read_findings, table, verdict
-from compare.reproduction.runner import Figure
+from compare.reproduction.claim import Claim, criteria_of, read_claims, table_of
+from compare.reproduction.runner import Reproduction
 
 PAGES = ("REPRODUCTION.md", "gallery.html")
 _ORDER = ("Table", "Fig", "Section", "Claims")
 _INTRODUCTION = """\
 # The paper, figure by figure
 
-What J. Strzalko, J. Grabski, A. Stefanski, P. Perlikowski and T. Kapitaniak, "Dynamics of coin tossing is
-predictable", Physics Reports 469 (2008) 59-92, shows and says, and what the paper's own mechanics and MuJoCo
-give here. One command makes this page, its pictures and a gallery to project; a name in the place of `all`
-makes one figure again:
+Does the paper hold? Of {count} claims of J. Strzalko, J. Grabski, A. Stefanski, P. Perlikowski and
+T. Kapitaniak, "Dynamics of coin tossing is predictable", Physics Reports 469 (2008) 59-92, and of papers
+that it cites, {held} hold and {failed} do not. Measured quantities and thresholds decide it, and are listed
+with each claim. One command makes this page, its pictures and a gallery to project; a name in the place of
+`all` makes one figure again:
 
     cointoss reproduce all {quick}--out docs
 """
@@ -33,18 +35,18 @@ class Entry:
     """One figure of the paper, reproduced."""
 
     name: str
-    figure: Figure
-    findings: Sequence[Finding]
+    found: Reproduction
+    claims: Sequence[Claim]
     picture: Path
 
     @property
     def in_full(self) -> bool:
         """Whether all claims hold."""
-        return all(finding.holds for finding in self.findings)
+        return all(claim.holds for claim in self.claims)
 
 
 def of_paper() -> list[str]:
-    """Give the names of all figures of the paper, in its order."""
+    """Return the names of all figures of the paper, in its order."""
     places = {name: runner.find(name).paper for name in runner.names()}
     return sorted((name for name, place in places.items() if place), key=lambda name: _place(places[name]))
 
@@ -67,47 +69,58 @@ def write(out: Path, names: Sequence[str], *, quick: bool) -> None:
 
 
 def entries(out: Path, names: Sequence[str]) -> list[Entry]:
-    """Read what runs of the figures `names` left in their folders in `out`."""
+    """Return what runs of the figures `names` left in their folders below `out`."""
     return [
         Entry(
             name=name,
-            figure=runner.find(name),
-            findings=read_findings(out / name),
-            picture=out / name / "figure.png",
+            found=runner.find(name),
+            claims=read_claims(runner.folder_of(name, out) / "claims.json"),
+            picture=runner.folder_of(name, out) / "figure.png",
         )
         for name in names
     ]
 
 
 def markdown(shown: Sequence[Entry], *, quick: bool) -> str:
-    """Give the page of the reader.
+    """Return the page of the reader.
 
     Args:
         shown: the figures.
         quick: whether they were made at their quick size.
     """
+    claims = [claim for entry in shown for claim in entry.claims]
+    held = sum(claim.holds for claim in claims)
+    size = "--quick " if quick else ""
     lines = [
-        _INTRODUCTION.format(quick="--quick " if quick else ""),
-        "| figure | the paper | here | MuJoCo | verdict |",
-        "|---|---|---|---|---|",
+        _INTRODUCTION.format(count=len(claims), held=held, failed=len(claims) - held, quick=size),
+        table(
+            ["figure", "the paper", "measured (threshold)", "verdict"],
+            [
+                (
+                    f"[{entry.found.paper}](#{entry.name})",
+                    claim.claim,
+                    criteria_of(claim, reasons=False),
+                    claim.verdict,
+                )
+                for entry in shown
+                for claim in entry.claims
+            ],
+            words=True,
+        ),
     ]
     for entry in shown:
-        for finding in entry.findings:
-            row = (finding.claim, finding.ours, finding.mujoco, verdict(finding))
-            lines.append(f"| [{entry.figure.paper}](#{entry.name}) | {' | '.join(row)} |")
-    for entry in shown:
-        lines += ["", f'## <a id="{entry.name}"></a>{entry.figure.paper}: {entry.figure.title}', ""]
-        if entry.figure.assumed:
-            lines += [f"Assumed: {entry.figure.assumed}", ""]
-        lines += [table(entry.findings), "", f"![{entry.figure.title}]({entry.name}/figure.png)", ""]
-        size = " --quick" if quick else ""
-        lines += [f"    cointoss reproduce {entry.name}{size} --out docs"]
+        title, folder = entry.found.title, runner.folder_of(entry.name, Path())
+        lines += ["", f'## <a id="{entry.name}"></a>{entry.found.paper}: {title}', ""]
+        if entry.found.assumed:
+            lines += [f"Assumed: {entry.found.assumed}", ""]
+        lines += [table_of(entry.claims), "", f"![{title}]({folder.as_posix()}/figure.png)", ""]
+        lines += [f"    cointoss reproduce {entry.name} {size}--out docs"]
     return "\n".join(lines) + "\n"
 
 
 def html(shown: Sequence[Entry]) -> str:
-    """Give the gallery, one self-contained page."""
+    """Return the gallery, one self-contained page."""
     template = (resources.files("compare.reproduction") / "gallery.html.j2").read_text(encoding="utf-8")
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
     pictures = {entry.name: b64encode(entry.picture.read_bytes()).decode("ascii") for entry in shown}
-    return environment.from_string(template).render(entries=shown, pictures=pictures, verdict=verdict)
+    return environment.from_string(template).render(entries=shown, pictures=pictures)

@@ -1,95 +1,117 @@
-"""The figures and studies that can be reproduced, each a module of one of `ROOMS` named as it is."""
+"""The figures, claims and studies that can be reproduced, each a module of one of `ROOMS` named as it is."""
 
 import importlib
 import pkgutil
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from compare.output.files import require_folder, written_together
+from compare.output.progress import Progress
 from compare.reproduction import claims, paper, studies
+from compare.reproduction.claim import Claim, table_of
+
+if TYPE_CHECKING:  # names are listed without it
+    from matplotlib.figure import Figure
 
 ROOMS = (paper, claims, studies)
-
-Progress = Callable[[int, int], None]
-"""Called after each part of a job with their number so far and in all."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Made:
-    """What a run gave, beside its files."""
-
-    text: str
-    """The results, to be printed."""
-    failed: tuple[str, ...]
-    """The claims of the figure that its numbers don't bear out."""
+FOLDER = "reproduction"
+"""Holds the folders of all that was reproduced."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Figure:
-    """A figure or a study that can be reproduced."""
+class Result:
+    """What a run found."""
+
+    claims: Sequence[Claim]
+    data: Any
+    """What its pictures show: arrays by name, or a record of numbers."""
+    tables: str = ""
+    """More of what it found, in Markdown, to be printed before the claims."""
+
+    @property
+    def text(self) -> str:
+        """The tables and the claims, in Markdown."""
+        return "\n\n".join(filter(None, [self.tables, table_of(self.claims)]))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reproduction:
+    """A figure, a claim or a study that can be reproduced."""
 
     title: str
     """What it shows, in a few words."""
     seconds: float
     """Roughly how long it takes on two cores [s]."""
-    files: tuple[str, ...]
-    """Names of the files it writes."""
-    run: Callable[[Path, Progress], Made]
-    """Compute it, write its files into a folder that exists, and check its claims."""
-    quick: Callable[[Path, Progress], Made] | None = None
-    """The same at a smaller size, where there is one."""
-    quick_seconds: float = 0.0
+    make: Callable[[Progress], Result]
+    """Computes it."""
+    draw: "Mapping[str, Callable[[Any], Figure]]"
+    """Its pictures, by name, each drawn from the data."""
+    quick: Callable[[Progress], Result] | None = None
+    """Computes a smaller size, where there is one."""
+    quick_seconds: float | None = None
     """Roughly how long that takes on two cores [s]."""
     paper: str = ""
-    """Its place in the paper, as in "Fig. 3"; empty for a study of our own."""
+    """Its place in the paper, as in "Fig. 3"; empty for a study of this project."""
     assumed: str = ""
-    """What the paper leaves unsaid, and what is taken here."""
+    """What the paper leaves unsaid, and what is assumed instead."""
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Names of all files that it may write."""
+        return ("claims.json", "data.npz", "numbers.json", *(f"{name}.png" for name in self.draw))
 
 
 def names() -> list[str]:
-    """Give the names of all that can be reproduced; no figure's module is imported."""
+    """Return the names of all that can be reproduced; none of their modules is imported."""
     return sorted(name.replace("_", "-") for name in _rooms())
 
 
 def _rooms() -> dict[str, str]:
-    """Give the package of each module that can be reproduced, by its name."""
+    """Return the package of each module that can be reproduced, by its name."""
     return {module.name: room.__name__ for room in ROOMS for module in pkgutil.iter_modules(room.__path__)}
 
 
-def find(name: str) -> Figure:
-    """Give a figure by its name, one of `names`."""
+def find(name: str) -> Reproduction:
+    """Return what has one of the `names`."""
     module = name.replace("-", "_")
-    return importlib.import_module(f"{_rooms()[module]}.{module}").FIGURE
+    return importlib.import_module(f"{_rooms()[module]}.{module}").REPRODUCTION
 
 
 def folder_of(name: str, out: Path) -> Path:
-    """Give the folder of a figure's files, and check that they would replace nothing but files.
+    """Return the folder of what one of the `names` writes below `out`."""
+    return out / FOLDER / name
 
-    Args:
-        name: of the figure.
-        out: folder of all figures; it need not exist.
+
+def require_writable(name: str, out: Path) -> None:
+    """Check that the files of one of the `names` would replace nothing but files.
 
     Raises:
         UnwritableError: naming what is in the way.
     """
-    require_folder(out, ())
-    require_folder(out / name, find(name).files)
-    return out / name
+    for folder in (out, out / FOLDER):
+        require_folder(folder, ())
+    require_folder(folder_of(name, out), find(name).files)
 
 
-def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) -> Made:
-    """Compute a figure and write its files into the folder `out`/`name`, all of them or none.
+def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) -> Result:
+    """Compute one of the `names` and write its files into its folder, all of them or none.
 
     Args:
-        name: of the figure, one of `names`.
-        out: folder of all figures, made if missing.
+        name: what to reproduce.
+        out: folder of all that is reproduced, made if missing.
         progress: called as the work goes on.
         quick: whether to make its quick size, if it has one.
 
     Raises:
         UnwritableError: naming the folder and why.
     """
-    figure = find(name)
-    with written_together(folder_of(name, out), figure.files) as aside:
-        return (figure.quick if quick and figure.quick else figure.run)(aside, progress)
+    from compare.reproduction.saving import save
+
+    found = find(name)
+    require_writable(name, out)
+    with written_together(folder_of(name, out), found.files) as aside:
+        result = (found.quick or found.make)(progress) if quick else found.make(progress)
+        save(aside, result, found.draw)
+    return result

@@ -18,7 +18,7 @@ from compare.sweep.pixels import check
 from models.reading import parse
 from models.scenario import Scenario
 
-Watch = Callable[[str, int, int], AbstractContextManager[run.Progress]]
+Watch = Callable[[str, int, int], AbstractContextManager[run.Tossed]]
 """Called with a map's name, the pixels that it has, and how many it will have; gives what to tell of more."""
 Frames = Callable[[int, int], None]
 """Called with the number of the video's frames that are drawn, and of all."""
@@ -118,8 +118,8 @@ def make(job: Job, watch: Watch, frames: Frames) -> Iterator[str]:
         for path, sweep in sweeps.items():
             with store.opened(path, sweep, job.text, overwrite=job.overwrite) as map_:
                 left, whole = run.missing(map_), run.size(map_.tiles)
-                with watch(path.name, whole - run.size(left), whole) as progress:
-                    run.fill(map_, sweep, left, tosser, progress)
+                with watch(path.name, whole - run.size(left), whole) as tossed:
+                    run.fill(map_, sweep, left, tosser, tossed)
                 yield show.describe_map(path, sweep, run.fractions_of(map_))
     maps = [show.outcomes_of(path) for path in (sweeps if len(sweeps) > 1 or job.png else ())]
     first = next(iter(sweeps.values()))

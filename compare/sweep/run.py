@@ -16,8 +16,8 @@ from models.records import Outcome
 
 Tosser = Callable[[Sweep, Iterable[Tile]], Iterator[tuple[Tile, Pixels]]]
 """Tosses all pixels of tiles and gives the tiles, in any order."""
-Progress = Callable[[int], None]
-"""Called with the number of pixels that were tossed."""
+Tossed = Callable[[int], None]
+"""Called with the number of pixels that were just tossed."""
 
 DRAWING_BYTES_PER_PIXEL = 80
 """Memory that measuring and drawing a map takes, at most."""
@@ -34,7 +34,7 @@ def missing(map_: Map) -> list[Tile]:
     return [tile for tile in map_.tiles if not map_.is_tossed(tile)]
 
 
-def fill(map_: Map, sweep: Sweep, tiles: Iterable[Tile], tosser: Tosser, progress: Progress) -> None:
+def fill(map_: Map, sweep: Sweep, tiles: Iterable[Tile], tosser: Tosser, tossed: Tossed) -> None:
     """Toss tiles and keep each as soon as it is whole.
 
     Raises:
@@ -43,7 +43,7 @@ def fill(map_: Map, sweep: Sweep, tiles: Iterable[Tile], tosser: Tosser, progres
     """
     for tile, pixels in tosser(sweep, tiles):
         map_.write(tile, pixels)
-        progress(pixels.outcome.size)
+        tossed(pixels.outcome.size)
 
 
 def fractions_of(map_: Map) -> dict[Outcome, float]:

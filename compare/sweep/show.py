@@ -27,7 +27,7 @@ AWAY = 2.0
 class PictureStyle:
     """How a picture is drawn."""
 
-    palette: picture.Palette = picture.Palette.PAPER
+    palette: picture.Palette = picture.Palette.SAFE
     boundaries: bool = False
     """Whether pixels at a boundary are coloured as such."""
     size: tuple[float, float] | None = None
@@ -139,5 +139,7 @@ def _share(share: Share) -> str:
     return f"none of {share.compared}" if part is None else f"{100 * part:.3f} % of {share.compared}"
 
 
-def _drawn(axis: Axis) -> picture.Axis:
-    return picture.Axis(name=axis.field, unit=axis.unit.replace("**", "^"), start=axis.start, stop=axis.stop)
+def _drawn(axis: Axis) -> picture.MapAxis:
+    return picture.MapAxis(
+        name=axis.field, unit=axis.unit.replace("**", "^"), start=axis.start, stop=axis.stop
+    )

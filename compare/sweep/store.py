@@ -4,7 +4,6 @@ import fcntl
 import json
 import os
 import shutil
-import uuid
 import warnings
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -19,7 +18,7 @@ from numpy.typing import NDArray
 from zarr.codecs import ZstdCodec
 from zarr.errors import ZarrUserWarning
 
-from compare.output.files import UnwritableError, naming
+from compare.output.files import UnwritableError, beside, naming, written_whole
 from compare.sweep.axes import Axis
 from compare.sweep.grid import Sweep, Tile, tile_shape, tiles
 from compare.sweep.pixels import Pixels
@@ -94,7 +93,7 @@ def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
         if not target.parent.is_dir():
             raise UnwritableError(f"{path}: accepted: a name in a folder that exists")
         if not target.exists() or (target.is_dir() and not any(target.iterdir())):
-            probe = _aside(target)
+            probe = beside(target)
             probe.mkdir()
             probe.rmdir()
         elif not _is_map(target):
@@ -149,16 +148,12 @@ def opened(path: Path, sweep: Sweep, scenario_text: str, *, overwrite: bool) -> 
 
 def _create(target: Path, sweep: Sweep, scenario_text: str) -> None:
     """Make an empty map, whole or not at all; where one has come up meanwhile, leave it."""
-    aside = _aside(target)
     try:
-        _write_empty(aside, sweep, scenario_text)
-        try:
-            aside.rename(target)
-        except OSError:
-            if not _is_map(target):
-                raise
-    finally:
-        shutil.rmtree(aside, ignore_errors=True)
+        with written_whole(target) as aside:
+            _write_empty(aside, sweep, scenario_text)
+    except UnwritableError:
+        if not _is_map(target):
+            raise
 
 
 def _write_empty(folder: Path, sweep: Sweep, scenario_text: str) -> None:
@@ -257,13 +252,9 @@ def _locked(path: Path, target: Path) -> Iterator[None]:
 
 def _remove(target: Path) -> None:
     """Remove a map; renamed first, so that no half of it is left under its name."""
-    aside = _aside(target)
+    aside = beside(target)
     target.rename(aside)
     shutil.rmtree(aside)
-
-
-def _aside(target: Path) -> Path:
-    return target.with_name(f".cointoss-{uuid.uuid4().hex}")
 
 
 def _pair(numbers: tuple[int, ...]) -> tuple[int, int]:

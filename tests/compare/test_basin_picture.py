@@ -5,14 +5,14 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
-from compare.basins.picture import Axis, Palette, draw_comparison, draw_map, write_png
+from compare.basins.picture import MapAxis, Palette, draw_comparison, draw_map, write_png
 from compare.output.files import UnwritableError
 from models.records import Outcome
 from tests.helpers.made_maps import EDGE, HEADS, TAILS, UNDECIDED, halves, stripes
 
-X = Axis(name="release.angular_velocity.eta", unit="rad/s", start=20.0, stop=60.0)
-Y = Axis(name="floor.restitution", unit="", start=0.5, stop=0.9)
-BLACK, WHITE, VERMILION = (0, 0, 0), (255, 255, 255), (213, 94, 0)
+X = MapAxis(name="release.angular_velocity.eta", unit="rad/s", start=20.0, stop=60.0)
+Y = MapAxis(name="floor.restitution", unit="", start=0.5, stop=0.9)
+GOLD, BLUE, BLACK, VERMILION = (245, 171, 31), (13, 92, 168), (0, 0, 0), (213, 94, 0)
 
 
 def drawn(figure, panel=0):
@@ -38,15 +38,15 @@ def test_each_pixel_is_drawn_around_its_coordinates():
     color = drawn(draw_map(outcomes, x=X, y=Y))
     for row, y in enumerate([0.5, 0.7, 0.9]):
         for column, x in enumerate([20, 30, 40, 50, 60]):
-            expected = BLACK if outcomes[row][column] == HEADS else WHITE
+            expected = GOLD if outcomes[row][column] == HEADS else BLUE
             for dx, dy in ((0, 0), (-4.5, -0.09), (4.5, 0.09)):
                 assert color(x + dx, y + dy) == expected
 
 
 def test_an_axis_that_falls_keeps_pixel_and_coordinate_together():
-    falling = Axis(name=X.name, unit=X.unit, start=60.0, stop=20.0)
+    falling = MapAxis(name=X.name, unit=X.unit, start=60.0, stop=20.0)
     color = drawn(draw_map(halves(2, 4), x=falling, y=Y))
-    assert (color(60, 0.5), color(20, 0.5)) == (BLACK, WHITE)
+    assert (color(60, 0.5), color(20, 0.5)) == (GOLD, BLUE)
 
 
 def test_axes_are_named_with_their_units_and_the_legend_names_what_is_there():
@@ -76,15 +76,14 @@ def test_the_legend_stays_in_the_picture(palette, width):
 
 def test_boundary_pixels_are_coloured_where_asked():
     plain, marked = (drawn(draw_map(halves(2, 5), x=X, y=Y, boundaries=on)) for on in (False, True))
-    assert [plain(x, 0.5) for x in (20, 30, 40, 50)] == [BLACK, BLACK, WHITE, WHITE]
-    assert [marked(x, 0.5) for x in (20, 30, 40, 50)] == [BLACK, VERMILION, VERMILION, WHITE]
+    assert [plain(x, 0.5) for x in (20, 30, 40, 50)] == [GOLD, GOLD, BLUE, BLUE]
+    assert [marked(x, 0.5) for x in (20, 30, 40, 50)] == [GOLD, BLACK, BLACK, BLUE]
 
 
 def test_stripes_finer_than_a_dot_are_mixed():
     color = drawn(draw_map(stripes(1000, 1601, 1), x=X, y=Y))
     seen = np.array([color(x, y) for x in np.linspace(22, 58, 40) for y in (0.55, 0.85)], dtype=float)
-    # Half of 255, and rounding.
-    assert np.abs(seen - 127.5).max() <= 2
+    assert np.abs(seen - (np.array(GOLD) + BLUE) / 2).max() <= 2  # rounding
 
 
 def test_a_comparison_shows_both_maps_and_where_they_differ():
@@ -94,10 +93,10 @@ def test_a_comparison_shows_both_maps_and_where_they_differ():
     titles = [axes.get_title() for axes in figure.axes]
     assert titles == ["analytic", "MuJoCo", "different: 50 % of the pixels both decide"]
     left, middle, right = (drawn(figure, panel) for panel in range(3))
-    assert [left(x, 0.6) for x in (20, 30, 40, 50)] == [BLACK, BLACK, WHITE, WHITE]
-    assert [middle(x, 0.6) for x in (20, 30, 40, 60)] == [BLACK, WHITE, WHITE, BLACK]
+    assert [left(x, 0.6) for x in (20, 30, 40, 50)] == [GOLD, GOLD, BLUE, BLUE]
+    assert [middle(x, 0.6) for x in (20, 30, 40, 60)] == [GOLD, BLUE, BLUE, GOLD]
     assert right(30, 0.6) == right(50, 0.6) == VERMILION
-    assert right(20, 0.6) == right(40, 0.6) not in {VERMILION, BLACK, WHITE}
+    assert right(20, 0.6) == right(40, 0.6) not in {VERMILION, GOLD, BLUE}
     assert right(60, 0.6) == left(60, 0.6)
     assert legend(figure) == ["heads", "tails", "edge", "undecided", "both alike", "different"]
 

@@ -6,7 +6,7 @@ import xarray as xr
 from PIL import Image
 
 from compare.basins.agreement import Agreement, Share
-from compare.basins.picture import Axis, Palette, draw_comparison
+from compare.basins.picture import MapAxis, Palette, draw_comparison
 from compare.sweep import show
 from tests.helpers.basin_runs import SCENARIO, basin
 from tests.helpers.made_maps import halves
@@ -63,18 +63,19 @@ def test_what_mujoco_cannot_do_is_refused_before_any_map(coin, tmp_path):
 
 def test_a_map_is_drawn_in_the_size_and_colours_asked(coin, tmp_path):
     out, png = tmp_path / "map.zarr", tmp_path / "map.png"
-    asked = ("--png", png, "--size", "4x3", "--dpi", 50, "--palette", "safe", "--boundaries")
+    asked = ("--png", png, "--size", "4x3", "--dpi", 50, "--palette", "paper", "--boundaries")
     assert basin(coin, *AXES, "--out", out, *asked).exit_code == 0
-    blue, black = (0, 114, 178), (0, 0, 0)
+    gold, vermilion = (245, 171, 31), (213, 94, 0)
 
     def colours():
         with Image.open(png) as image:
             assert image.size == (200, 150)
             return {color for _, color in image.convert("RGB").getcolors(1 << 16) or []}
 
-    assert {blue, black} <= colours()
+    assert {(0, 0, 0), vermilion} <= colours()
+    assert gold not in colours()
     assert basin(coin, *AXES, "--out", out, "--resume", *asked[:6]).exit_code == 0
-    assert blue not in colours()
+    assert gold in colours()
 
 
 def test_the_agreement_is_told_near_the_boundaries_and_away_from_them():
@@ -86,7 +87,7 @@ def test_the_agreement_is_told_near_the_boundaries_and_away_from_them():
 
 
 def test_the_difference_bears_the_note():
-    axis = Axis(name="gravity", unit="", start=0, stop=1)
+    axis = MapAxis(name="gravity", unit="", start=0, stop=1)
     figure = draw_comparison(
         halves(2, 4), halves(2, 4), x=axis, y=axis, palette=Palette.SAFE, note="all\nalike"
     )

@@ -16,11 +16,11 @@ from unittest.mock import patch
 import imageio_ffmpeg
 import pytest
 
-from compare.cli import _progress
 from compare.film.back_end import drawing_problem
 from compare.film.drawing import Drawer
 from compare.film.video import Format
 from compare.output.files import UnwritableError, require_file, write_text
+from compare.output.progress import bar
 from models.reading import scenario_text
 from tests.helpers.command_line import HERE, cointoss
 
@@ -397,16 +397,20 @@ def test_a_back_end_that_is_none_is_one_line_and_exit_status_2(tmp_path, command
 
 
 def test_progress_is_a_bar_on_a_terminal_alone(monkeypatch):
-    told = StringIO()
-    monkeypatch.setattr("sys.stderr", told)
-    show = _progress("video", "frames")
-    show(1, 2)
-    assert told.getvalue() == ""
-    monkeypatch.setattr(told, "isatty", lambda: True)
-    show(1, 2)
-    show(2, 2)
-    half, whole = 15 * "#", 30 * "#"
-    assert told.getvalue() == f"\rvideo: [{half}{15 * '-'}] 1/2 frames\rvideo: [{whole}] 2/2 frames\n"
+    shown = StringIO()
+    monkeypatch.setattr("sys.stderr", shown)
+    with bar("video", "frames") as progress:
+        progress(1, 2)
+    assert shown.getvalue() == ""
+    monkeypatch.setattr(shown, "isatty", lambda: True)
+    with bar("video", "frames"):
+        pass
+    assert shown.getvalue() == ""
+    with bar("video", "frames", done=1) as progress:
+        for done in (1, 2, 4):
+            progress(done, 4)
+    assert shown.getvalue().startswith("\rvideo:  25%|")
+    assert "4.00/4.00" in shown.getvalue().splitlines()[-1]
 
 
 def test_a_film_that_cannot_be_written_is_one_line(tmp_path):

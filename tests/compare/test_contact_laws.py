@@ -6,11 +6,14 @@ import numpy as np
 import pytest
 
 from analytic.impact.laws import mobility
+from compare.reproduction.claim import unexpected
+from compare.reproduction.saving import read_numbers
 from compare.reproduction.setups import contact_study
 from compare.reproduction.setups.contact_study import (
     COINS,
     LAWS,
     RESTITUTIONS,
+    ContactRecord,
     Drawn,
     body_of,
     record_of,
@@ -26,31 +29,34 @@ from compare.reproduction.studies import contact_laws
 from compare.reproduction.studies.contact_laws import (
     COUNT,
     SEED,
-    check,
-    from_json,
+    claims,
     kane_onset,
+    result,
     sliding_onset,
-    text,
 )
 from models.attitude import rotation_matrix
 from models.geometry import lowest_point
 from models.kernel.vectors import apply
-from tests.helpers.pages import DOCS, pictures, printed, saved_numbers
+from tests.helpers.pages import pictures, printed, saved
 
-SAVED = from_json(saved_numbers("contact-laws"))
+SAVED = read_numbers(saved("contact-laws"), ContactRecord)
+
+
+def check(found: ContactRecord) -> tuple[str, ...]:
+    return unexpected(claims(found))
 
 
 def test_the_page_shows_the_saved_numbers():
-    assert printed("CONTACT.md", "contact-laws") == text(SAVED)
+    assert printed("CONTACT.md", "contact-laws") == result(SAVED).text
     assert (SAVED.count, SAVED.seed) == (COUNT, SEED)
 
 
 def test_every_claim_holds_and_the_page_shows_every_picture():
     assert check(SAVED) == ()
-    drawn = {name for name in contact_laws.FIGURE.files if name.endswith(".png")}
+    drawn = {f"{name}.png" for name in contact_laws.REPRODUCTION.draw}
     assert pictures("CONTACT.md", "contact-laws") == drawn
-    for name in contact_laws.FIGURE.files:
-        assert (DOCS / "contact-laws" / name).stat().st_size < 150_000
+    for name in drawn:
+        assert (saved("contact-laws") / name).stat().st_size < 150_000
 
 
 def drawn_impacts(count):

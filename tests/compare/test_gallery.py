@@ -4,10 +4,11 @@ import re
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 
 from compare.reproduction import gallery, runner
-from compare.reproduction.findings import Finding, Result, paper_figure, read_findings
+from compare.reproduction.claim import Claim, Criterion, unexpected
+from compare.reproduction.runner import Reproduction, Result
 from tests.helpers.command_line import cointoss
 from tests.helpers.pages import DOCS
 
@@ -24,12 +25,13 @@ def test_figures_stand_in_the_papers_order():
 def made(tmp_path, monkeypatch):
     """Put two small figures in the place of the paper's and run `cointoss reproduce all`."""
     figures = {
-        name: paper_figure(
+        name: Reproduction(
             paper=place,
             title=f"a <sum> of {place}",
             assumed="that it rains",
             seconds=1,
             make=lambda progress, holds=holds: result(progress, holds),
+            draw={"figure": lambda _: Figure()},
         )
         for name, place, holds in (("second", "Fig. 10", False), ("first", "Fig. 9", True))
     }
@@ -42,20 +44,24 @@ def made(tmp_path, monkeypatch):
 
 def result(progress, holds):
     progress(1, 1)
-    finding = Finding(claim="1 < 2", ours="so it is", holds=holds, expected=holds)
-    return Result(findings=(finding,), draw=Picture, data={"one": np.ones(1)})
+    criterion = Criterion("one", 1, "<", 2 if holds else 0, "it <is> so")
+    claim = Claim(claim="1 < 2", analytic="so it is", criteria=[criterion], expected=holds)
+    return Result(claims=(claim,), data={"one": np.ones(1)})
 
 
 def test_all_makes_both_pages(made):
     page = (made / "REPRODUCTION.md").read_text(encoding="utf-8")
-    assert page.index("| [Fig. 9](#first) | 1 < 2 | so it is | - | holds |") < page.index(
-        "| [Fig. 10](#second) | 1 < 2 | so it is | - | does not hold |"
+    assert page.index("| [Fig. 9](#first) | 1 < 2 | one: 1 (< 2) | holds |") < page.index(
+        "| [Fig. 10](#second) | 1 < 2 | one: 1 (< 0) | does not hold |"
     )
+    assert "| 1 < 2 | so it is | one: 1 (< 2: it <is> so) | holds |" in page
+    assert "it cites, 1 hold and 1 do not" in " ".join(page.split())
     assert "cointoss reproduce all --quick --out docs" in page
-    assert "![a <sum> of Fig. 9](first/figure.png)" in page
+    assert "![a <sum> of Fig. 9](reproduction/first/figure.png)" in page
     assert "Assumed: that it rains" in page
     shown = (made / "gallery.html").read_text(encoding="utf-8")
     assert "a &lt;sum&gt; of Fig. 9" in shown
+    assert "(&lt; 2: it &lt;is&gt; so)" in shown
     assert shown.count("data:image/png;base64,") == 2
 
 
@@ -72,4 +78,4 @@ def test_the_page_in_docs_shows_the_saved_findings():
     assert (DOCS / "REPRODUCTION.md").read_text(encoding="utf-8") == gallery.markdown(shown, quick=False)
     for entry in shown:
         assert entry.picture.stat().st_size < 150_000
-        assert all(finding.holds == finding.expected for finding in read_findings(DOCS / entry.name))
+        assert unexpected(entry.claims) == ()

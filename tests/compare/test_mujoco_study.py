@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from coin_mj import Realisation, Settings
+from compare.reproduction import runner
+from compare.reproduction.claim import unexpected
 from compare.reproduction.setups.mujoco_fixed_steps import (
     one_step_solref,
     restitutions_of_a_ball,
@@ -23,15 +25,19 @@ from compare.reproduction.setups.mujoco_impacts import (
 )
 from compare.reproduction.setups.mujoco_study import (
     cone_formula,
+    native_cone,
     order,
     over_kinds,
     over_steps,
     over_stiffness,
-    own_cone,
     tilted_touch,
 )
-from compare.reproduction.studies import mujoco_laws, mujoco_limit
+from compare.reproduction.studies import mujoco_laws
 from models.laws import ContactLaw
+
+
+def unseen(done: int, whole: int) -> None:
+    assert done <= whole
 
 
 def test_touches_are_touches():
@@ -68,39 +74,39 @@ def test_kinds_of_impact_are_told_apart():
     kinds = over_kinds(40, np.random.default_rng(3))
     assert kinds["spring"]["frictionless"].number == 40
     assert sum(kinds["spring"][kind].number for kind in ("sticking", "sliding", "turning")) == 40
-    assert kinds["spring"]["sticking"].median < 1e-4 < kinds["spring, own cone"]["sticking"].median
+    assert kinds["spring"]["sticking"].median < 1e-4 < kinds["spring, native cone"]["sticking"].median
 
 
-def test_the_own_cone_keeps_a_restitution_only_without_friction():
-    found = own_cone(0.5, [20.0], [0.0, 1.0], [0.0, 2.0])
+def test_the_native_cone_keeps_a_restitution_only_without_friction():
+    found = native_cone(0.5, [20.0], [0.0, 1.0], [0.0, 2.0])
     assert found.obtained[0, :, 0] == pytest.approx([0.5, 0.5], abs=1e-4)
     assert found.obtained[0, 1, 1] > 0.6
 
 
-def test_one_step_with_the_own_cone_is_moreaus_law():
+def test_one_step_with_the_native_cone_is_moreaus_law():
     formula = cone_formula(30, np.random.default_rng(4))
     assert formula.normal_speed.worst < 2e-3
     assert formula.energy.worst < 2e-3
     assert formula.pushed > 1.05
-    assert formula.gains["one step, own cone"][0] == 0
+    assert formula.gains["one step, native cone"][0] == 0
 
 
-def test_the_own_cone_with_its_slip_undamped_preserves_slip():
-    found = mujoco_laws.study(10, 5)
-    assert mujoco_laws.check(found) == ()
-    assert found.best("(d) slip_preserving") == "own cone, μ = 100, slip undamped"
+def test_the_native_cone_with_its_slip_undamped_preserves_slip():
+    found = mujoco_laws.compute(10, 5, unseen)
+    assert unexpected(mujoco_laws.claims(found)) == ()
+    assert found.best("(d) slip_preserving") == "native cone, μ = 100, slip undamped"
     assert found.growing[1000.0].median < 1e-3 < found.growing[0.1].median
-    assert "| (e) smooth | **" in mujoco_laws.text(found)
+    assert "| (e) smooth | **" in mujoco_laws.tables(found)
 
 
 def test_a_law_that_mujoco_misses_fails_its_claim():
-    found = mujoco_laws.study(4, 6)
+    found = mujoco_laws.compute(4, 6, unseen)
     name = "(e) smooth"
     worse = {contact: mujoco_laws.Fit(median=0.1, worst=0.1) for contact in found.contacts}
-    broken = mujoco_laws.Study(
+    broken = mujoco_laws.LawFits(
         laws=found.laws, contacts=found.contacts, fits={**found.fits, name: worse}, growing=found.growing
     )
-    assert len(mujoco_laws.check(broken)) == 1
+    assert len(unexpected(mujoco_laws.claims(broken))) == 1
 
 
 @pytest.mark.parametrize("e", [0.0, 0.3, 1.0])
@@ -144,10 +150,8 @@ def test_the_example_of_the_docs_rebounds_as_it_says(capsys):
 
 @pytest.mark.slow
 def test_the_whole_study_bears_out_its_claims(tmp_path):
-    made = mujoco_limit.FIGURE.run(tmp_path, lambda *_: None)
-    assert made.failed == ()
-    assert "order 0.50" in made.text
-    assert {path.name for path in tmp_path.iterdir()} == set(mujoco_limit.FIGURE.files)
-    made = mujoco_laws.FIGURE.run(tmp_path, lambda *_: None)
-    assert made.failed == ()
-    assert set(mujoco_laws.FIGURE.files) <= {path.name for path in tmp_path.iterdir()}
+    for name, pictures in (("mujoco-limit", {"convergence", "native-cone"}), ("mujoco-laws", {"impulses"})):
+        result = runner.reproduce(name, tmp_path, unseen)
+        assert unexpected(result.claims) == ()
+        left = {path.stem for path in runner.folder_of(name, tmp_path).iterdir()}
+        assert left == {"claims", "numbers", *pictures}

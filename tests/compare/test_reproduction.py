@@ -1,5 +1,6 @@
 """`cointoss reproduce`: the list, unknown names, places in the way, failed claims, files that are whole."""
 
+import json
 import subprocess
 import sys
 
@@ -9,19 +10,32 @@ from compare.reproduction import runner, studies
 from tests.helpers.command_line import cointoss
 
 FAKE = """
-from compare.reproduction.runner import Figure, Made
+from dataclasses import dataclass
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 
-def run(folder, progress):
-    (folder / "numbers.json").write_text("new")
+@dataclass
+class Numbers:
+    sum: int
+
+def make(progress):
     progress(1, 1)
-    {ending}
+    return Result(
+        claims=[Claim(claim="two and two are five", criteria=[Criterion("sum", {sum}, "=", 5, "five")])],
+        data=Numbers({sum}),
+        tables="as drawn",
+    )
 
-FIGURE = Figure(title="a fake", seconds=0, files=("numbers.json", "gone.png"), run=run)
+REPRODUCTION = Reproduction(title="a fake", seconds=0, make=make, draw={{}})
 """
-ENDINGS = {
-    "good": 'return Made(text="as drawn", failed=())',
-    "doubtful": 'return Made(text="as drawn", failed=("two and two are five",))',
-    "broken": "raise KeyboardInterrupt",
+PRINTED = (
+    "as drawn\n\n| claim | measured (threshold: reason) | verdict |\n| --- | --- | --- |\n"
+    "| two and two are five | sum: {sum} (= 5: five) | {verdict} |\n"
+)
+SUMS = {
+    "good": "5",
+    "doubtful": "4",
+    "broken": "(_ for _ in ()).throw(KeyboardInterrupt)",
 }
 
 
@@ -29,11 +43,11 @@ ENDINGS = {
 def fakes(tmp_path, monkeypatch):
     folder = tmp_path / "figures"
     folder.mkdir()
-    for name, ending in ENDINGS.items():
-        (folder / f"fake_{name}.py").write_text(FAKE.format(ending=ending))
+    for name, value in SUMS.items():
+        (folder / f"fake_{name}.py").write_text(FAKE.format(sum=value))
     monkeypatch.setattr(studies, "__path__", [*studies.__path__, str(folder)])
     yield
-    for name in ENDINGS:
+    for name in SUMS:
         sys.modules.pop(f"{studies.__name__}.fake_{name}", None)
 
 
@@ -44,9 +58,9 @@ def test_without_a_name_it_lists_what_there_is():
     lines = answered.stdout.splitlines()
     assert [line.split()[0] for line in lines] == runner.names()
     for line, name in zip(lines, runner.names(), strict=True):
-        figure = runner.find(name)
-        assert figure.title in line
-        assert f"({figure.seconds:g} s)" in line
+        found = runner.find(name)
+        assert found.title in line
+        assert f"({found.seconds:g} s)" in line
     assert "contact-laws" in runner.names()
 
 
@@ -84,25 +98,33 @@ def test_wrong_names_and_missing_arguments_are_exit_status_2(tmp_path, arguments
 
 @pytest.mark.usefixtures("fakes")
 def test_files_are_written_and_the_results_printed(tmp_path):
-    old = tmp_path / "out" / "fake-good"
+    old = tmp_path / "out" / "reproduction" / "fake-good"
     old.mkdir(parents=True)
-    for name in ("numbers.json", "gone.png", "mine.txt"):
+    for name in ("numbers.json", "data.npz", "mine.txt"):
         (old / name).write_text("old")
     answered = cointoss("reproduce", "fake-good", "--out", tmp_path / "out")
-    assert (answered.exit_code, answered.stdout, answered.stderr) == (0, "as drawn\n", "")
-    assert {path.name: path.read_text() for path in old.iterdir()} == {
-        "numbers.json": "new",
-        "mine.txt": "old",
-    }
+    assert (answered.exit_code, answered.stdout, answered.stderr) == (
+        0,
+        PRINTED.format(sum=5, verdict="holds"),
+        "",
+    )
+    assert sorted(path.name for path in old.iterdir()) == ["claims.json", "mine.txt", "numbers.json"]
+    assert json.loads((old / "numbers.json").read_text()) == {"sum": 5}
+    assert (old / "mine.txt").read_text() == "old"
 
 
 @pytest.mark.usefixtures("fakes")
 def test_a_claim_that_fails_is_exit_status_1_and_keeps_the_evidence(tmp_path):
     answered = cointoss("reproduce", "fake-doubtful", "fake-good", "--out", tmp_path / "out")
     assert answered.exit_code == 1
-    assert answered.stdout == "as drawn\nas drawn\n"
-    assert answered.stderr == "cointoss: fake-doubtful: two and two are five: not confirmed\n"
-    assert (tmp_path / "out" / "fake-doubtful" / "numbers.json").read_text() == "new"
+    failed, held = (PRINTED.format(sum=n, verdict=v) for n, v in ((4, "does not hold"), (5, "holds")))
+    assert answered.stdout == failed + held
+    assert (
+        answered.stderr
+        == "cointoss: fake-doubtful: two and two are five: another verdict than the known one\n"
+    )
+    folder = tmp_path / "out" / "reproduction" / "fake-doubtful"
+    assert json.loads((folder / "numbers.json").read_text()) == {"sum": 4}
 
 
 @pytest.mark.usefixtures("fakes")
@@ -115,13 +137,13 @@ def test_an_interrupted_run_leaves_everything_as_it_was(tmp_path):
 @pytest.mark.usefixtures("fakes")
 def test_what_is_in_the_way_is_refused_before_any_work(tmp_path):
     (tmp_path / "file").write_text("mine")
-    (tmp_path / "out").mkdir()
-    (tmp_path / "out" / "fake-broken").write_text("mine")
-    (tmp_path / "taken" / "fake-broken" / "gone.png").mkdir(parents=True)
+    (tmp_path / "out" / "reproduction").mkdir(parents=True)
+    (tmp_path / "out" / "reproduction" / "fake-broken").write_text("mine")
+    (tmp_path / "taken" / "reproduction" / "fake-broken" / "data.npz").mkdir(parents=True)
     for out, named in (
         (tmp_path / "file", "file: accepted: a folder"),
         (tmp_path / "out", "fake-broken: accepted: a folder"),
-        (tmp_path / "taken", "gone.png: accepted: a new name or a regular file"),
+        (tmp_path / "taken", "data.npz: accepted: a new name or a regular file"),
     ):
         # Run, the good one would print and the broken one would abort.
         answered = cointoss("reproduce", "fake-good", "fake-broken", "--out", out)
@@ -129,5 +151,9 @@ def test_what_is_in_the_way_is_refused_before_any_work(tmp_path):
         assert answered.stdout == ""
         assert named in answered.stderr
         assert len(answered.stderr.splitlines()) == 1
-    assert (tmp_path / "file").read_text() == (tmp_path / "out" / "fake-broken").read_text() == "mine"
-    assert not (tmp_path / "out" / "fake-good").exists()
+    assert (
+        (tmp_path / "file").read_text()
+        == (tmp_path / "out" / "reproduction" / "fake-broken").read_text()
+        == "mine"
+    )
+    assert not (tmp_path / "out" / "reproduction" / "fake-good").exists()

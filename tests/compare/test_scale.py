@@ -1,9 +1,10 @@
 """The study of what maps cost: its tables follow from its times, and it runs."""
 
+from compare.reproduction.claim import unexpected
 from compare.reproduction.studies import scale
-from compare.reproduction.studies.scale import Study, check_claims, text
+from compare.reproduction.studies.scale import MapCosts, claims, tables
 
-STUDY = Study(
+COSTS = MapCosts(
     cores=2,
     toss={"thin coin": 2e-4, "thin coin by MuJoCo": 0.2},
     tile={100: 3e-4, 10000: 2e-4},
@@ -13,7 +14,7 @@ STUDY = Study(
 
 
 def test_the_tables_follow_from_the_times():
-    lines = text(STUDY).splitlines()
+    lines = tables(COSTS).splitlines()
     assert "| thin coin | 0.2 | 5,000 |" in lines
     assert "| 100 | 0.3 |" in lines
     assert "| toss | 9.5 | 95 |" in lines
@@ -24,9 +25,9 @@ def test_the_tables_follow_from_the_times():
 
 
 def test_a_map_that_does_not_consist_of_tosses_fails_its_claim():
-    assert check_claims(STUDY) == ()
-    slow = Study(**{**vars(STUDY), "parts": {"check the grid": 5.0, scale.TOSS: 9.5}})
-    assert "a map of 100000 tosses" in check_claims(slow)[0]
+    assert unexpected(claims(COSTS)) == ()
+    slow = MapCosts(**{**vars(COSTS), "parts": {"check the grid": 5.0, scale.TOSS: 9.5}})
+    assert "a map of 100000 tosses" in unexpected(claims(slow))[0]
 
 
 def test_the_study_runs(monkeypatch):
@@ -36,4 +37,4 @@ def test_the_study_runs(monkeypatch):
     assert done == [(i, 7) for i in range(1, 8)]
     assert study.tosses == 81
     assert all(cost > 0 for cost in [*study.toss.values(), *study.tile.values()])
-    assert text(study)
+    assert tables(study)

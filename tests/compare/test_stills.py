@@ -7,6 +7,8 @@ import pytest
 
 from compare.film.back_end import ADVICE, UNKNOWN, drawing_problem
 from compare.film.stills import stills
+from compare.reproduction import runner
+from compare.reproduction.claim import unexpected
 from compare.reproduction.paper import fig5
 from models.records import States
 from tests.helpers.draws import scenario
@@ -63,9 +65,7 @@ def test_the_back_end_is_tried_once(monkeypatch):
 
 def test_the_figure_comes_without_stills_too(monkeypatch, tmp_path):
     monkeypatch.setattr(fig5, "stills", lambda *_: "no library")
-    quick = fig5.FIGURE.quick
-    assert quick is not None
-    made = quick(tmp_path, lambda *_: None)
-    assert made.failed == ()
-    assert "no stills: no library" in made.text
-    assert (tmp_path / "figure.png").exists()
+    result = runner.reproduce("fig5", tmp_path, lambda *_: None, quick=True)
+    assert unexpected(result.claims) == ()
+    assert "no stills: no library" in result.text
+    assert (runner.folder_of("fig5", tmp_path) / "figure.png").exists()

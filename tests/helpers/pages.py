@@ -3,22 +3,24 @@
 import re
 from pathlib import Path
 
+from compare.reproduction.runner import folder_of
+
 DOCS = Path(__file__).parents[2] / "docs"
 
 
 def printed(page: str, study: str) -> str:
-    """Give the part of a page that `cointoss reproduce` printed."""
+    """Return the part of a page that `cointoss reproduce` printed."""
     text = (DOCS / page).read_text(encoding="utf-8")
     begin, end = f"<!-- printed by: cointoss reproduce {study} -->\n\n", "\n\n<!-- end -->\n"
     return text.split(begin)[1].split(end)[0]
 
 
 def pictures(page: str, study: str) -> set[str]:
-    """Give the names of a study's pictures that a page shows."""
+    """Return the names of a study's pictures that a page shows."""
     text = (DOCS / page).read_text(encoding="utf-8")
-    return set(re.findall(rf"\]\({study}/([\w-]+\.png)\)", text))
+    return set(re.findall(rf"\]\(reproduction/{study}/([\w-]+\.png)\)", text))
 
 
-def saved_numbers(study: str) -> str:
-    """Give the numbers of a study that come with its page."""
-    return (DOCS / study / "numbers.json").read_text(encoding="utf-8")
+def saved(study: str) -> Path:
+    """Return the folder of what a study saved beside its page."""
+    return folder_of(study, DOCS)

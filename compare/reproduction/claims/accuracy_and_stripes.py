@@ -4,17 +4,18 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import analytic
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
-from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, faces_after, releases
+from compare.output.progress import Progress
+from compare.output.style import GREY
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.setups.planar_maps import HEIGHTS, LANDINGS, SPINS, case, faces_after, releases
 from models.records import Array
 
 SEED = 53
-LANDINGS = {"soft floor": "#0072B2", "bouncing": "#D55E00"}
 LADDER = np.geomspace(1e-10, 0.1, 91)
 """Steps of the height by which a boundary is sought, 10 in a decade [m]."""
 RATIOS = 10.0 ** np.arange(-2, 5)
@@ -23,6 +24,8 @@ WIDEST = 0.1
 """Largest ε [m]: the release must stay above the floor."""
 HAND = 1e-3
 """An accuracy that a hand may reach [m]."""
+BY_CHANCE = 0.75
+"""A share that ends as meant below this is nearer to chance."""
 FEWEST = 5
 """Tosses from which a ratio is given."""
 
@@ -46,42 +49,65 @@ def make(progress: Progress, centers: int = 200, count: int = 60) -> Result:
         progress(2 * len(at_hand), 2 * len(LANDINGS))
     soft, bouncing = (data[f"{landing}, width"] for landing in LANDINGS)
     alike = data["bouncing, alike"]
-    findings = (
-        Finding(
+    claims = (
+        Claim(
             claim="if ε ≪ W the outcome is predictable",
-            ours=f"with ε = W/100 {alike[0]:.1%} of the tosses that bounce end as the one aimed at",
-            holds=bool(alike[0] > 0.97),
+            analytic=f"with ε = W/100 {alike[0]:.1%} of the tosses that bounce end as the one aimed at",
+            criteria=[
+                Criterion(
+                    "share with ε = W/100", alike[0], ">", 0.97, "a few lie at the edge of their stripe"
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="if ε ≫ W heads and tails are as likely",
-            ours=f"with ε = {_listed(alike)} end as the one aimed at",
-            holds=bool(np.nanmax(np.abs(alike[RATIOS >= 10] - 1 / 2)) < 0.1),
+            analytic=f"with ε = {_listed(alike)} end as the one aimed at",
+            criteria=[
+                Criterion(
+                    "largest difference from 1/2 for ε ≥ 10 W",
+                    np.nanmax(np.abs(alike[RATIOS >= 10] - 1 / 2)),
+                    "<",
+                    0.1,
+                    "chance over so many releases",
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="W depends on the coin and its landing: bouncing makes stripes narrow",
-            ours=(
+            analytic=(
                 f"in the median a release lies in a stripe {1e3 * np.median(bouncing):.2g} mm wide, on a "
                 f"soft floor {1e3 * np.median(soft):.0f} mm; a tenth of them in stripes below "
                 f"{1e6 * np.quantile(bouncing, 0.1):.2g} µm"
             ),
-            holds=bool(np.median(bouncing) < np.median(soft) / 100),
+            criteria=[
+                Criterion(
+                    "median width, bouncing [m]",
+                    np.median(bouncing),
+                    "<",
+                    np.median(soft) / 100,
+                    "a hundredth of that on a soft floor",
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="so a hand leaves a bouncing coin to chance",
-            ours=(
+            analytic=(
                 f"aimed within 1 mm {at_hand['bouncing']:.0%} end as meant, on a soft floor "
                 f"{at_hand['soft floor']:.0%}"
             ),
-            holds=bool(at_hand["bouncing"] < 0.75 < at_hand["soft floor"]),
+            criteria=[
+                Criterion("share, bouncing", at_hand["bouncing"], "<", BY_CHANCE, "nearer to 1/2 than to 1"),
+                Criterion("on a soft floor", at_hand["soft floor"], ">", BY_CHANCE, "nearer to 1"),
+            ],
         ),
     )
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
 def _listed(alike: Array) -> str:
-    """Tell what part ends as meant for each ratio from 1 on that could be tossed."""
-    told = [(ratio, share) for ratio, share in zip(RATIOS, alike, strict=True) if ratio >= 1 and share >= 0]
-    return ", ".join(f"{ratio:,.0f} W {share:.0%}" for ratio, share in told)
+    """Return what part ends as meant for each ratio from 1 on that could be tossed, in words."""
+    listed = [(ratio, share) for ratio, share in zip(RATIOS, alike, strict=True) if ratio >= 1 and share >= 0]
+    return ", ".join(f"{ratio:,.0f} W {share:.0%}" for ratio, share in listed)
 
 
 def _faces(landing: str, heights: Array, spins: Array) -> NDArray[np.int8]:
@@ -91,7 +117,7 @@ def _faces(landing: str, heights: Array, spins: Array) -> NDArray[np.int8]:
 
 
 def stripe_width(landing: str, height: float, spin: float) -> float:
-    """Give how far apart the next boundaries above and below a release are, as `LADDER` finds them [m].
+    """Return how far apart the next boundaries above and below a release are, as `LADDER` finds them [m].
 
     Args:
         landing: one of `LANDINGS`.
@@ -108,23 +134,23 @@ def stripe_width(landing: str, height: float, spin: float) -> float:
 def _alike(
     landing: str, heights: Array, spins: Array, accuracy: Array, count: int, rng: np.random.Generator
 ) -> Array:
-    """Give for each release which part of `count` tosses within its accuracy ends as itself, (n,)."""
+    """Return for each release which part of `count` tosses within its accuracy ends as itself, (n,)."""
     aimed = _faces(landing, heights, spins)
     tossed = heights[:, None] + accuracy[:, None] * rng.uniform(-1, 1, (len(heights), count))
     faces = _faces(landing, tossed.ravel(), np.repeat(spins, count)).reshape(tossed.shape)
     return np.mean(faces == aimed[:, None], axis=1)
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Picture:
-    picture = Picture(figsize=(9, 3.4))
+def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+    picture = Figure(figsize=(9, 3.4))
     alike, widths = picture.subplots(1, 2)
     for landing, color in LANDINGS.items():
         alike.semilogx(data["ratio"], data[f"{landing}, alike"], "o-", color=color, label=landing)
         width = np.sort(data[f"{landing}, width"])
         widths.semilogx(width, np.arange(1, len(width) + 1) / len(width), color=color, label=landing)
-    alike.axhline(0.5, color="#5b6675", linewidth=0.8)
+    alike.axhline(0.5, color=GREY, linewidth=0.8)
     alike.set(xlabel="accuracy over width, ε/W", ylabel="part that ends as meant", ylim=(0, 1.03))
-    widths.axvline(HAND, color="#5b6675", linewidth=0.8)
+    widths.axvline(HAND, color=GREY, linewidth=0.8)
     widths.set(
         xlabel="width W of a release's stripe [m]", ylabel="part of the releases below", ylim=(0, 1.03)
     )
@@ -133,7 +159,7 @@ def _draw(data: dict[str, NDArray[Any]]) -> Picture:
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Section 5.3",
     title="the accuracy of a release against the width of the stripes",
     assumed=(
@@ -144,6 +170,7 @@ FIGURE = paper_figure(
     ),
     seconds=15,
     make=make,
+    draw={"figure": _draw},
     quick_seconds=8,
     quick=partial(make, centers=15, count=20),
 )

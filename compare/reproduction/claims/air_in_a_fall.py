@@ -5,7 +5,7 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import analytic
@@ -13,8 +13,10 @@ import coin_mj
 from analytic.events import run
 from analytic.toss import state_of
 from coin_mj.toss import impacts_of
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
+from compare.output.style import BLUE, GREEN, GREY, VERMILION
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.planar_maps import SPINS, case, releases
 from models.reading import load
 from models.records import Array
@@ -30,8 +32,10 @@ DROPPED = IDEAL, IMPERFECT = "fig3_tilted", "fig3_tilted_imperfect"
 """The coins dropped without spin."""
 TILT = np.pi / 4
 """Of the coin dropped without spin, as in Fig. 3(d)-(f)."""
-LOOKS = 4000
-"""At a falling coin."""
+SAMPLES = 4000
+"""Of a fall."""
+NEGLIGIBLE = 0.1
+"""A share of the tosses that can be neglected."""
 AIR_DENSITY, AIR_VISCOSITY = 1.204, 1.516e-5
 """Of the air at 20 °C: ρ [kg/m³] and the kinematic ν [m²/s]."""
 DISC_DRAG = 1.17
@@ -62,69 +66,88 @@ def make(progress: Progress, count: int = 1000) -> Result:
     landing = np.sqrt(2 * 9.81 * 1.86)
     reynolds = [2 * r * v / AIR_VISCOSITY for r, v in ((0.01, 10.0), (coin.radius, landing))]
     stokes = AIR_VISCOSITY / (2 * coin.radius) / 9.81
-    findings = (
-        Finding(
+    claims = (
+        Claim(
             claim="over a small fall the air can be neglected (the landing)",
-            ours=(
+            analytic=(
                 f"from {FALLS[HAND]:g} m the coin lands {1e3 * later[HAND]:.1f} ms later, "
                 f"{np.degrees(turned[HAND]):.1f}° short of its turns and {1e3 * aside[HAND]:.2f} mm aside; "
                 f"{changed[HAND]:.1%} of {count} tosses land on another face"
             ),
-            mujoco=f"lands within {_mujoco_apart(spins):.0e} s and m of ours",
-            holds=bool(changed[HAND] < 0.1),
+            mujoco=f"lands within {_mujoco_apart(spins):.0e} s and m of the analytic engine",
+            criteria=[Criterion("share on another face", changed[HAND], "<", NEGLIGIBLE, "nine tenths stay")],
         ),
-        Finding(
+        Claim(
             claim="over a small fall the air can be neglected (the final face, after bouncing with χ = 0.6)",
-            ours=f"from {FALLS[HAND]:g} m it changes {bounced:.1%} of the outcomes",
-            holds=bool(bounced < 0.1),
+            analytic=f"from {FALLS[HAND]:g} m it changes {bounced:.1%} of the outcomes",
+            criteria=[Criterion("share of other outcomes", bounced, "<", NEGLIGIBLE, "nine tenths stay")],
             expected=False,
         ),
-        Finding(
+        Claim(
             claim="the path leaves the vertical only a little",
-            ours=(
+            analytic=(
                 f"a spinning coin lands {100 * aside[HAND]:.2g} cm aside from {FALLS[HAND]:g} m, "
                 f"{100 * aside[LONG]:.2g} cm from {FALLS[LONG]:g} m; one that keeps 45° glides "
                 f"{glided:.1f} m"
             ),
             mujoco=f"glides {by_mujoco[IDEAL][2][0]:.1f} m",
-            holds=bool(aside[LONG] < 0.02 * FALLS[LONG]),
+            criteria=[
+                Criterion(
+                    f"aside of a spinning coin from {FALLS[LONG]:g} m [m]",
+                    aside[LONG],
+                    "<",
+                    0.02 * FALLS[LONG],
+                    "2 % of the fall",
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="from tens of metres the coin flutters like a leaf (the ideal coin)",
-            ours=(
+            analytic=(
                 f"dropped at 45° it keeps its tilt: it turns back {reversals[IDEAL][LONG]} times in "
                 f"{FALLS[LONG]:g} m, for the air gives an ideal coin no moment but against its spin"
             ),
             mujoco=f"{reversals_mujoco[IDEAL]} times",
-            holds=bool(reversals[IDEAL][LONG] > 0),
+            criteria=[Criterion("turns back", reversals[IDEAL][LONG], ">", 0, "a flutter is some")],
             expected=False,
         ),
-        Finding(
+        Claim(
             claim="from tens of metres the coin flutters like a leaf (the imperfect coin)",
-            ours=(
+            analytic=(
                 "dropped at 45° it swings its heavy side down and turns back "
                 + ", ".join(f"{reversals[IMPERFECT][i]} times in {FALLS[i]:g} m" for i in (3, 5, 6, 7))
             ),
             mujoco=f"{reversals_mujoco[IMPERFECT]} times in {FALLS[LONG]:g} m",
-            holds=bool(reversals[IMPERFECT][LONG] > 5),
+            criteria=[Criterion("turns back", reversals[IMPERFECT][LONG], ">", 5, "a flutter goes on")],
         ),
-        Finding(
+        Claim(
             claim="linear air with λ_n = 0.8 is a real coin's (section 2): broadside it sinks as fast",
-            ours=(
+            analytic=(
                 f"its terminal speed is {terminal[0]:.1f} m/s; a real disc's with C_D = {DISC_DRAG:g} is "
                 f"{real:.1f} m/s; read as quadratic (b = 1) λ_n = 0.8 gives {terminal[1]:.1f} m/s"
             ),
             mujoco=f"{terminal[2]:.1f} and {terminal[3]:.1f} m/s",
-            holds=bool(abs(terminal[0] / real - 1) < 0.2),
+            criteria=[
+                Criterion(
+                    "terminal speed over the real one, less 1",
+                    abs(terminal[0] / real - 1),
+                    "<",
+                    0.2,
+                    "C_D is known to about a tenth",
+                )
+            ],
             expected=False,
         ),
-        Finding(
+        Claim(
             claim="Re reaches 10⁴, at 10 m/s with r = 1 cm",
-            ours=(
+            analytic=(
                 f"{reynolds[0]:.2g}; {reynolds[1]:.2g} at the end of the drops from 1.86 m, and above 1 from "
                 f"{1e6 * stokes:.0f} µs on, where resistance grows faster than v"
             ),
-            holds=bool(1 / 2 < reynolds[0] / 1e4 < 2),
+            criteria=[
+                Criterion("Re", reynolds[0], ">", 1e4 / 2, "half of it"),
+                Criterion("Re", reynolds[0], "<", 1e4 * 2, "twice it: an order of magnitude"),
+            ],
         ),
     )
     data: dict[str, NDArray[Any]] = {
@@ -136,7 +159,7 @@ def make(progress: Progress, count: int = 1000) -> Result:
     }
     for name, (times, tilts, _) in drops.items():
         data |= {f"{name}, time": times[-1], f"{name}, tilt": tilts[-1]}
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
 def landing_shifts(height: float, spins: Array) -> tuple[float, ...]:
@@ -174,21 +197,21 @@ def _one_touch(scenario: Scenario) -> Scenario:
 
 
 def _bounced(spins: Array) -> float:
-    """Give the part of the tosses from a hand's height whose final face the air changes."""
+    """Return the part of the tosses from a hand's height whose final face the air changes."""
     start = releases(np.full_like(spins, FALLS[HAND]), spins)
     air, vacuum = (analytic.toss_many(case(air=air), start).outcome for air in (True, False))
     return float(np.mean(air != vacuum))
 
 
 def _mujoco_apart(spins: Array) -> float:
-    """Give how far MuJoCo's landings in air are from ours, in time [s] or place [m]."""
+    """Return how far MuJoCo's landings in air are from the analytic engine's, in time [s] or place [m]."""
     apart = []
     for w in spins[:MUJOCO_TOSSES].tolist():
         release = Release(position=(0.0, 0.0, float(FALLS[HAND])), angular_velocity=(w, 0.0, 0.0))
         scenario = _one_touch(case(air=True)).replace("release", release)
-        ours = run(scenario.body, scenario.rules, state_of(release)).rows[0]
-        theirs = impacts_of(scenario)
-        apart += [abs(theirs.time[0] - ours["time"]), np.abs(theirs.position[0] - ours["position"]).max()]
+        landed = run(scenario.body, scenario.rules, state_of(release)).rows[0]
+        found = impacts_of(scenario)
+        apart += [abs(found.time[0] - landed["time"]), np.abs(found.position[0] - landed["position"]).max()]
     return float(max(apart))
 
 
@@ -204,7 +227,7 @@ def _tilts(engine: ModuleType, name: str, falls: Array) -> tuple[list[Array], li
         release = Release(position=(0.0, 0.0, height), angles=(0.0, TILT, 0.0))
         toss = engine.toss(scenario.replace("release", release))
         # At the touch itself the state is that after the impact.
-        t = np.linspace(0, toss.impacts.time[0], LOOKS)[:-1]
+        t = np.linspace(0, toss.impacts.time[0], SAMPLES)[:-1]
         times.append(t)
         tilts.append(np.arccos(np.clip(toss.sample(t).normal[:, 2], -1, 1)))
         aside.append(float(np.hypot(*toss.impacts.position[0][:2])))
@@ -219,32 +242,32 @@ def turning_points(tilt: Array) -> int:
 
 
 def _terminal(engine: ModuleType, exponent: float) -> float:
-    """Give the speed of a long fall broadside on [m/s]."""
+    """Return the speed of a long fall broadside on [m/s]."""
     scenario = load("fig3_flat")
     release, ending = Release(position=(0.0, 0.0, 5000.0)), Ending(max_time=TERMINAL_TIMES[exponent])
     falling = scenario.replace("air.exponent", exponent, "release", release, "ending", ending)
     return float(-engine.toss(falling).sample(TERMINAL_TIMES[exponent]).velocity[0, 2])
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Picture:
-    picture = Picture(figsize=(10, 3.4))
+def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+    picture = Figure(figsize=(10, 3.4))
     shifts, faces, flutter = picture.subplots(1, 3)
     height = data["height"]
     for values, label, color in (
-        (data["later"], "later [s]", "#0072B2"),
-        (data["turned"], "less turned [rad]", "#D55E00"),
-        (data["aside"], "aside [m]", "#009E73"),
+        (data["later"], "later [s]", BLUE),
+        (data["turned"], "less turned [rad]", VERMILION),
+        (data["aside"], "aside [m]", GREEN),
     ):
         shifts.loglog(height, values, "o-", color=color, label=label)
     shifts.set(title="how the air shifts the landing", xlabel="fall [m]")
     shifts.legend(loc="lower right", borderpad=0)
     shifts.set_ylim(1e-7, None)
-    faces.semilogx(height, data["changed"], "o-", color="#0072B2")
-    faces.axhline(0.5, color="#5b6675", linewidth=0.8)
+    faces.semilogx(height, data["changed"], "o-", color=BLUE)
+    faces.axhline(0.5, color=GREY, linewidth=0.8)
     faces.set(title="landings on another face", xlabel="fall [m]", ylabel="part of the tosses", ylim=(0, 1))
     for name, label, color in (
-        (IDEAL, "ideal", "#0072B2"),
-        (IMPERFECT, "imperfect", "#D55E00"),
+        (IDEAL, "ideal", BLUE),
+        (IMPERFECT, "imperfect", VERMILION),
     ):
         flutter.plot(data[f"{name}, time"], np.degrees(data[f"{name}, tilt"]), color=color, label=label)
     flutter.set(title=f"dropped at 45° from {FALLS[LONG]:g} m", xlabel="time [s]", ylabel="tilt [°]")
@@ -253,7 +276,7 @@ def _draw(data: dict[str, NDArray[Any]]) -> Picture:
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Claims of sections 4.2 and 5.1",
     title="the air over a small fall and a long one: landing, drift, flutter, terminal speed",
     assumed=(
@@ -263,6 +286,7 @@ FIGURE = paper_figure(
     ),
     seconds=20,
     make=make,
+    draw={"figure": _draw},
     quick_seconds=8,
     quick=partial(make, count=200),
 )

@@ -4,22 +4,24 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import analytic
 import coin_mj
-from compare.basins.picture import Axis, draw_panel
+from compare.basins.picture import MapAxis, draw_panel
 from compare.basins.stripes import crossings
-from compare.reproduction.findings import Finding, Result, paper_figure
+from compare.output.progress import Progress
+from compare.output.style import BLUE, VERMILION
+from compare.reproduction.claim import Claim, Criterion
 from compare.reproduction.paper.fig2 import FASTEST, HIGHEST
-from compare.reproduction.runner import Progress
+from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.planar_maps import case
 from models.records import Array, Face
 from models.releases import Releases
 from models.scenario import Scenario
 
-BODIES = {"disc": "#0072B2", "bar": "#D55E00"}
+BODIES = {"disc": BLUE, "bar": VERMILION}
 SPEEDS = np.array([0.025, 0.05, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25])
 """v_0/g of the lines on which stripes are counted [s]; the first is near zero, the last far from it."""
 SEED = 41
@@ -55,31 +57,47 @@ def make(progress: Progress, points: int = 90, line: int = 2500, tosses_mujoco: 
     same = [int(np.sum(mujoco[body].outcome == data[body].ravel()[few])) for body in BODIES]
     progress(2 * len(BODIES) + 1, 2 * len(BODIES) + 1)
     other = float(np.mean(data["bar"] != data["disc"]))
-    findings = (
-        Finding(
+    claims = (
+        Claim(
             claim="near zero the regions of a bouncing bar resemble Keller's (section 1)",
-            ours=f"at v_0/g = {SPEEDS[0]:g} s stripes are as wide: {_told(widths, 0)} of Keller's",
+            analytic=f"at v_0/g = {SPEEDS[0]:g} s stripes are as wide: {_listed(widths, 0)} of Keller's",
             mujoco=", ".join(
-                f"{number} of {tosses_mujoco} pixels of the map as ours ({body})"
+                f"{number} of {tosses_mujoco} pixels of the map as the analytic engine ({body})"
                 for number, body in zip(same, BODIES, strict=True)
             ),
-            holds=min(width[0] for width in widths.values()) > 1 / 3,
+            criteria=[
+                Criterion(
+                    "least width over Keller's, near zero",
+                    min(width[0] for width in widths.values()),
+                    ">",
+                    1 / 3,
+                    "of the same size",
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="far from zero they are narrower",
-            ours=f"at v_0/g = {SPEEDS[-1]:g} s on average {_told(widths, -1)} of Keller's or less",
-            holds=max(width[-1] for width in widths.values()) < 0.1,
+            analytic=f"at v_0/g = {SPEEDS[-1]:g} s on average {_listed(widths, -1)} of Keller's or less",
+            criteria=[
+                Criterion(
+                    "largest width over Keller's, far from zero",
+                    max(width[-1] for width in widths.values()),
+                    "<",
+                    0.1,
+                    "another size",
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="a bar with J = m l²/12 is no model of a coin with J = m r²/4 (section 4.1)",
-            ours=f"{other:.0%} of the pixels show the other face; its stripes are about as wide",
-            holds=bool(other > 0.25),
+            analytic=f"{other:.0%} of the pixels show the other face; its stripes are about as wide",
+            criteria=[Criterion("share of other faces", other, ">", 0.25, "half of what chance would give")],
         ),
     )
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
-def _told(widths: dict[str, Array], line: int) -> str:
+def _listed(widths: dict[str, Array], line: int) -> str:
     return ", ".join(f"{width[line]:.2g} ({body})" for body, width in widths.items())
 
 
@@ -88,7 +106,7 @@ def _middles(end: float, count: int) -> Array:
 
 
 def _scenario(body: str) -> Scenario:
-    """Give the scenario of a thin disc, or of a bar as long as it is wide, in vacuum."""
+    """Return the scenario of a thin disc, or of a bar as long as it is wide, in vacuum."""
     scenario = case(air=False)
     if body == "disc":
         return scenario
@@ -100,7 +118,7 @@ def _scenario(body: str) -> Scenario:
 
 
 def _releases(scenario: Scenario, over: Array, up: Array) -> Releases:
-    """Give releases flat, one radius above the floor, with ω_0/π [1/s] and v_0/g [s]."""
+    """Return releases flat, one radius above the floor, with ω_0/π [1/s] and v_0/g [s]."""
     zero = np.zeros_like(over)
     return Releases(
         position=np.column_stack([zero, zero, zero + scenario.coin.radius]),
@@ -114,11 +132,11 @@ def _faces(scenario: Scenario, over: Array, up: Array) -> NDArray[np.int8]:
     return analytic.toss_many(scenario, _releases(scenario, over, up)).outcome
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Picture:
-    picture = Picture(figsize=(11, 3.2))
+def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+    picture = Figure(figsize=(11, 3.2))
     *maps, widths = picture.subplots(1, 4)
-    x = Axis(name="ω₀/π", unit="1/s", start=0.0, stop=FASTEST)
-    y = Axis(name="v₀/g", unit="s", start=0.0, stop=HIGHEST)
+    x = MapAxis(name="ω₀/π", unit="1/s", start=0.0, stop=FASTEST)
+    y = MapAxis(name="v₀/g", unit="s", start=0.0, stop=HIGHEST)
     for axes, name in zip(maps, ("Keller", *BODIES), strict=True):
         draw_panel(axes, data[name], x=x, y=y)
         axes.set_title({"Keller": "Keller: caught"}.get(name, f"{name}, bouncing"))
@@ -131,17 +149,18 @@ def _draw(data: dict[str, NDArray[Any]]) -> Picture:
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Section 4.1, Vulović and Prange, Mizuguchi and Suwashita",
     title="a bouncing bar and a bouncing disc beside Keller's coin",
     assumed=(
         "Tossed flat, heads up, one radius above the floor, without air, bouncing on a smooth floor with "
-        "χ = 0.6 (the restitution of those studies is not told). The bar is as long as the disc is wide. "
+        "χ = 0.6 (the restitution of those studies is not given). The bar is as long as the disc is wide. "
         "Keller's coin is caught at the height of release. Widths are lengths of lines over "
         "the boundaries counted on them."
     ),
     seconds=35,
     make=make,
+    draw={"figure": _draw},
     quick_seconds=10,
     quick=partial(make, points=30, line=300, tosses_mujoco=20),
 )

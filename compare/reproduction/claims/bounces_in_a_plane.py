@@ -4,15 +4,17 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import analytic
 import coin_mj
 from analytic.events import run
 from coin_mj.toss import impacts_of
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
+from compare.output.style import BLUE, GREY, VERMILION
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, faces_after, releases
 from compare.reproduction.setups.release_arrays import chosen, moved, states_of
 from models.records import Outcome
@@ -22,8 +24,8 @@ from models.scenario import Release
 SEED = 71
 ASIDE = np.array([0.0, 0.01, 0.1, 1.0, 3.0, 10.0, 20.0])
 """Spins about ζ that are added to that about ξ [rad/s]."""
-TOLD = 5
-"""The spin of `ASIDE` whose effect is told."""
+SHOWN = 5
+"""The spin of `ASIDE` whose effect is shown."""
 HEIGHTS_OF_DROP = np.array([0.015, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0])
 """From which coins spin with `DROP_SPINS` [m]."""
 DROP_SPINS = (2.0, 20.0)
@@ -31,7 +33,7 @@ DROP_SPINS = (2.0, 20.0)
 FOLLOWED, IMPACTS = 6, 3
 """Tosses whose places are compared with MuJoCo's, and through so many impacts."""
 ACCURACY = 1e-6
-"""By which the height of twins differs [m]."""
+"""By which the height of nearby tosses differs [m]."""
 
 
 def make(progress: Progress, count: int = 2000, tosses_mujoco: int = 200) -> Result:
@@ -42,7 +44,7 @@ def make(progress: Progress, count: int = 2000, tosses_mujoco: int = 200) -> Res
     outcome = analytic.toss_many(scenario, flat).outcome
     first = faces_after(scenario, flat, 0)
     apart, mujoco = _in_plane(flat)
-    turned = moved(chosen(flat, slice(tosses_mujoco)), angular_velocity=np.array([0, 0, ASIDE[TOLD]]))
+    turned = moved(chosen(flat, slice(tosses_mujoco)), angular_velocity=np.array([0, 0, ASIDE[SHOWN]]))
     heads_mujoco = np.mean(
         coin_mj.toss_many(scenario, turned, settings=coin_mj.FINE).outcome == Outcome.HEADS
     )
@@ -66,34 +68,54 @@ def make(progress: Progress, count: int = 2000, tosses_mujoco: int = 200) -> Res
         uncertain.append(np.mean(one != other))
         progress(done, whole)
     error = 1 / (2 * np.sqrt(count))
-    findings = (
-        Finding(
+    claims = (
+        Claim(
             claim="two degrees of freedom, height and tilt, are enough for a coin that turns about ξ",
-            ours=(
+            analytic=(
                 f"it never leaves its plane ({apart[0]:.0e} m); in it the air pushes it aside by up to "
                 f"{1e6 * apart[1]:.0f} µm"
             ),
             mujoco=mujoco,
-            holds=bool(apart[0] < 1e-12 and apart[1] < 1e-3),
+            criteria=[
+                Criterion("off the plane [m]", apart[0], "<", 1e-12, "rounding"),
+                Criterion("aside in it [m]", apart[1], "<", 1e-3, "less than a tenth of r"),
+            ],
         ),
-        Finding(
+        Claim(
             claim="the results hold for two degrees of freedom only",
-            ours=(
-                f"{ASIDE[TOLD]:g} rad/s about the normal change {changed_first[TOLD]:.0%} of the first "
-                f"touches and {changed[TOLD]:.0%} of the outcomes, heads from {heads[0]:.0%} to "
-                f"{heads[TOLD]:.0%} (± {error:.0%}); {ASIDE[1]:g} rad/s change {changed[1]:.0%}"
+            analytic=(
+                f"{ASIDE[SHOWN]:g} rad/s about the normal change {changed_first[SHOWN]:.0%} of the first "
+                f"touches and {changed[SHOWN]:.0%} of the outcomes, heads from {heads[0]:.0%} to "
+                f"{heads[SHOWN]:.0%} (± {error:.0%}); {ASIDE[1]:g} rad/s change {changed[1]:.0%}"
             ),
-            mujoco=f"heads {heads_mujoco:.0%} of {tosses_mujoco} tosses with {ASIDE[TOLD]:g} rad/s",
-            holds=bool(changed[TOLD] > 0.2),
+            mujoco=f"heads {heads_mujoco:.0%} of {tosses_mujoco} tosses with {ASIDE[SHOWN]:g} rad/s",
+            criteria=[
+                Criterion(
+                    f"share of other outcomes with {ASIDE[SHOWN]:g} rad/s",
+                    changed[SHOWN],
+                    ">",
+                    0.2,
+                    "two fifths of what chance would give",
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="from apparently deterministic the toss becomes random (the title of that study)",
-            ours=(
+            analytic=(
                 f"1 µm of height changes {uncertain[0]:.1%} of the outcomes from "
                 f"{HEIGHTS_OF_DROP[0]:g} m, {uncertain[3]:.1%} from {HEIGHTS_OF_DROP[3]:g} m, "
                 f"{uncertain[-1]:.0%} from {HEIGHTS_OF_DROP[-1]:g} m"
             ),
-            holds=bool(uncertain[0] < 0.01 < 0.05 < uncertain[-1]),
+            criteria=[
+                Criterion(
+                    f"share of uncertain outcomes from {HEIGHTS_OF_DROP[0]:g} m",
+                    uncertain[0],
+                    "<",
+                    0.01,
+                    "nearly none",
+                ),
+                Criterion(f"from {HEIGHTS_OF_DROP[-1]:g} m", uncertain[-1], ">", 0.05, "five times as many"),
+            ],
         ),
     )
     data: dict[str, NDArray[Any]] = {
@@ -104,13 +126,13 @@ def make(progress: Progress, count: int = 2000, tosses_mujoco: int = 200) -> Res
         "height": HEIGHTS_OF_DROP,
         "uncertain": np.array(uncertain),
     }
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
 def _in_plane(flat: Releases) -> tuple[tuple[float, float], str]:
-    """Give how far coins come off their plane and, in it, aside [m], and what MuJoCo says."""
+    """Return how far coins come off their plane and, in it, aside [m], and what MuJoCo finds in words."""
     scenario = case(air=True)
-    off, aside, theirs, between = [], [], [], []
+    off, aside, off_mujoco, between = [], [], [], []
     for state in states_of(flat)[:FOLLOWED]:
         places = run(scenario.body, scenario.rules, state).rows["position"]
         off.append(np.abs(places[:, 0]).max())
@@ -118,39 +140,40 @@ def _in_plane(flat: Releases) -> tuple[tuple[float, float], str]:
         release = Release(position=(0.0, 0.0, float(state[2])), angular_velocity=(float(state[10]), 0.0, 0.0))
         shorter = scenario.replace("release", release, "ending.max_impacts", IMPACTS)
         found = impacts_of(shorter).position
-        theirs.append(np.abs(found[:, 0]).max())
+        off_mujoco.append(np.abs(found[:, 0]).max())
         between.append(np.abs(found[: len(places)] - places[: len(found)]).max())
-    told = (
-        f"leaves it by {max(theirs):.0e} m, within {1e3 * np.max(between):.1g} mm of ours over the first "
-        f"{IMPACTS} impacts"
+    by_mujoco = (
+        f"leaves it by {max(off_mujoco):.0e} m, within {1e3 * np.max(between):.1g} mm of the analytic "
+        f"engine over the first {IMPACTS} impacts"
     )
-    return (float(max(off)), float(max(aside))), told
+    return (float(max(off)), float(max(aside))), by_mujoco
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Picture:
-    picture = Picture(figsize=(9, 3.3))
+def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+    picture = Figure(figsize=(9, 3.3))
     spin, drop = picture.subplots(1, 2)
-    spin.plot(data["aside"], data["changed"], "o-", color="#D55E00", label="outcomes changed")
-    spin.plot(data["aside"], data["changed first"], "o-", color="#0072B2", label="first touches changed")
-    spin.plot(data["aside"], data["heads"], "o:", color="#5b6675", label="heads")
+    spin.plot(data["aside"], data["changed"], "o-", color=VERMILION, label="outcomes changed")
+    spin.plot(data["aside"], data["changed first"], "o-", color=BLUE, label="first touches changed")
+    spin.plot(data["aside"], data["heads"], "o:", color=GREY, label="heads")
     spin.set(xlabel="spin about the normal [rad/s]", ylabel="part of the tosses", ylim=(0, 1.02))
     spin.set_xscale("symlog", linthresh=0.01)
     spin.set_xlim(0, 1.2 * ASIDE[-1])
     spin.legend()
-    drop.plot(data["height"], data["uncertain"], "o-", color="#0072B2")
+    drop.plot(data["height"], data["uncertain"], "o-", color=BLUE)
     drop.set(xlabel="height of release [m]", ylabel="outcomes that 1 µm changes", ylim=(0, None))
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Section 1, Zeng-Yuan and Bin",
     title="bounces in air with two degrees of freedom, and with spin about the normal",
     assumed=(
-        "The paper tells no numbers of that study. The coin is the thin ideal one of Fig. 29 in air, "
+        "The paper gives no numbers of that study. The coin is the thin ideal one of Fig. 29 in air, "
         "χ = 0.6, released flat with 20 to 60 rad/s about ξ; in the last row with 2 to 20 rad/s."
     ),
     seconds=25,
     make=make,
+    draw={"figure": _draw},
     quick_seconds=6,
     quick=partial(make, count=200, tosses_mujoco=20),
 )

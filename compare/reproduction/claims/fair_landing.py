@@ -4,14 +4,16 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import analytic
 import coin_mj
 from analytic.flight.integrated_flight import sample_flight
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
+from compare.output.style import BLUE, GREY, VERMILION
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.hands import releases_of_hands
 from compare.reproduction.setups.release_arrays import chosen, states_of
 from models.laws import ContactLaw
@@ -54,17 +56,18 @@ def make(progress: Progress, hands: int = 300, each: int = 15, tosses_mujoco: in
         np.sum(coin_mj.toss_many(_once(scenario), few, settings=coin_mj.FINE).last_face == first_faces[every])
     )
     ended = coin_mj.toss_many(_on(scenario, next(iter(FLOORS.values()))), few, settings=coin_mj.FINE).outcome
-    ours = analytic.toss_many(_on(scenario, next(iter(FLOORS.values()))), few).outcome
-    heads_few = [float(np.mean(outcomes == Face.HEADS)) for outcomes in (ended, ours)]
+    by_analytic = analytic.toss_many(_on(scenario, next(iter(FLOORS.values()))), few).outcome
+    heads_few = [float(np.mean(outcomes == Face.HEADS)) for outcomes in (ended, by_analytic)]
     progress(whole, whole)
     bias = {key: bias_of_hands(shares, each) for key, shares in heads.items()}
     error = max(float(np.std(shares)) for shares in heads.values()) / np.sqrt(hands)
     plain, all_axes = ASIDE
     smooth, rough = FLOORS
-    findings = (
-        Finding(
+    of_soft = max(_off_half(heads[all_axes, landing]) for landing in LANDINGS[:2])
+    claims = (
+        Claim(
             claim="bouncing is less fair than a soft landing or a catch (a hand's bias)",
-            ours=(
+            analytic=(
                 "heads is off 1/2 by, in the root of the mean square over the hands: "
                 + "; ".join(
                     f"spin {kind} "
@@ -72,43 +75,60 @@ def make(progress: Progress, hands: int = 300, each: int = 15, tosses_mujoco: in
                     for kind in ASIDE
                 )
             ),
-            mujoco=f"{same} of {len(few)} first touches as ours",
-            holds=all(
-                bias[kind, bounced] > bias[kind, landing]
-                for kind in ASIDE
-                for bounced in FLOORS
-                for landing in ("caught", "soft floor")
-            ),
+            mujoco=f"{same} of {len(few)} first touches as the analytic engine",
+            criteria=[
+                Criterion(
+                    "least bias after bouncing",
+                    min(bias[kind, bounced] for kind in ASIDE for bounced in FLOORS),
+                    ">",
+                    max(bias[kind, landing] for kind in ASIDE for landing in LANDINGS[:2]),
+                    "the largest of the others",
+                )
+            ],
             expected=False,
         ),
-        Finding(
+        Claim(
             claim="bouncing is less fair than a soft landing or a catch (all hands together)",
-            ours=(
+            analytic=(
                 "a coin that spins about all axes, on a smooth floor, shows the side first up in "
                 f"{heads[all_axes, smooth].mean():.1%} of the tosses, on a soft floor "
                 f"{heads[all_axes, LANDINGS[1]].mean():.1%}, caught "
                 f"{heads[all_axes, LANDINGS[0]].mean():.1%} (± {error:.1%}): smooth impacts keep the angular "
                 "momenta about the normal and the vertical"
             ),
-            mujoco=f"{heads_few[0]:.1%} of {len(few)} tosses on a smooth floor, {heads_few[1]:.1%} by ours",
-            holds=_off_half(heads[all_axes, smooth])
-            > max(_off_half(heads[all_axes, landing]) for landing in LANDINGS[:2]),
+            mujoco=f"{heads_few[0]:.1%} of {len(few)} tosses on a smooth floor, {heads_few[1]:.1%} analytic",
+            criteria=[
+                Criterion(
+                    "off 1/2, smooth floor",
+                    _off_half(heads[all_axes, smooth]),
+                    ">",
+                    of_soft,
+                    "caught or on a soft floor",
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="bouncing is less fair than a soft landing or a catch (all hands together, rough floor)",
-            ours=(
+            analytic=(
                 f"with friction μ = 0.2 it shows it in {heads[all_axes, rough].mean():.1%}; a coin that "
                 f"spins about one axis in {heads[plain, smooth].mean():.1%} on a smooth floor (± {error:.1%})"
             ),
-            holds=_off_half(heads[all_axes, rough])
-            > max(_off_half(heads[all_axes, landing]) for landing in LANDINGS[:2]),
+            criteria=[
+                Criterion(
+                    "off 1/2, rough floor",
+                    _off_half(heads[all_axes, rough]),
+                    ">",
+                    of_soft,
+                    "caught or on a soft floor",
+                )
+            ],
             expected=False,
         ),
     )
     data: dict[str, NDArray[Any]] = {
         f"{kind}, {landing}": shares for (kind, landing), shares in heads.items()
     }
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
 def _on(scenario: Scenario, floor: Floor) -> Scenario:
@@ -116,7 +136,7 @@ def _on(scenario: Scenario, floor: Floor) -> Scenario:
 
 
 def _landed(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
-    """Give the face up at the first touch, where a floor without restitution keeps the coin, (n,)."""
+    """Return the face up at the first touch, where a floor without restitution keeps the coin, (n,)."""
     return analytic.toss_many(_once(scenario), tossed).last_face
 
 
@@ -125,7 +145,7 @@ def _once(scenario: Scenario) -> Scenario:
 
 
 def _caught(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
-    """Give the face up when a coin in vacuum would be back at the height of its release, (n,)."""
+    """Return the face up when a coin in vacuum would be back at the height of its release, (n,)."""
     faces, state = [], np.empty((1, 13))
     for start in states_of(tossed):
         sample_flight(scenario.body, start, 0.0, np.array([2 * start[5] / scenario.gravity]), state)
@@ -135,7 +155,7 @@ def _caught(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
 
 
 def bias_of_hands(shares: Array, each: int) -> float:
-    """Give the root of the mean square of p - 1/2 over the hands, less what counting adds.
+    """Return the root of the mean square of p - 1/2 over the hands, less what counting adds.
 
     Args:
         shares: of heads of each hand, (hands,).
@@ -149,22 +169,22 @@ def _off_half(shares: Array) -> float:
     return float(abs(shares.mean() - 1 / 2))
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Picture:
-    picture = Picture(figsize=(9, 3.4))
+def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+    picture = Figure(figsize=(9, 3.4))
     for axes, kind in zip(picture.subplots(1, 2, sharey=True), ASIDE, strict=True):
         for row, landing in enumerate(LANDINGS):
             shares = np.sort(data[f"{kind}, {landing}"])
             # Side by side in their order, that none hides another.
-            axes.plot(shares, row + np.linspace(-0.35, 0.35, len(shares)), ".", color="#0072B2", markersize=4)
-            axes.plot([shares.mean()] * 2, [row - 0.42, row + 0.42], color="#D55E00")
-        axes.axvline(0.5, color="#5b6675", linewidth=0.8)
+            axes.plot(shares, row + np.linspace(-0.35, 0.35, len(shares)), ".", color=BLUE, markersize=4)
+            axes.plot([shares.mean()] * 2, [row - 0.42, row + 0.42], color=VERMILION)
+        axes.axvline(0.5, color=GREY, linewidth=0.8)
         axes.set(title=f"spin {kind}", xlabel="part of heads", xlim=(-0.02, 1.02))
         axes.set_yticks(range(len(LANDINGS)), [landing.replace(", ", ",\n") for landing in LANDINGS])
     picture.axes[0].invert_yaxis()
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Claims of section 2",
     title="how fair hands are when the coin is caught, lands softly, or bounces",
     assumed=(
@@ -176,6 +196,7 @@ FIGURE = paper_figure(
     ),
     seconds=55,
     make=make,
+    draw={"figure": _draw},
     quick_seconds=10,
     quick=partial(make, hands=100, each=10, tosses_mujoco=20),
 )

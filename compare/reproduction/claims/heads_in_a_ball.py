@@ -4,14 +4,16 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 import analytic
 import coin_mj
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
+from compare.output.style import BLUE, GREY, VERMILION
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
 from models.records import Array, Outcome
 from models.releases import Releases
@@ -21,9 +23,9 @@ SEED = 52
 RADII = 10.0 ** -np.arange(1, 13)
 """ε, of the balls; lengths are measured by r, speeds by √(g r), angles in rad, spins by √(g/r)."""
 MUJOCO_RADIUS = 1e-12
-REACH, LOOKS = 0.1, 200
+REACH, SAMPLES = 0.1, 200
 """How far up a boundary is sought [m], and at how many heights."""
-KINDS = {"inside a basin": "#0072B2", "on a boundary": "#D55E00"}
+KINDS = {"inside a basin": BLUE, "on a boundary": VERMILION}
 
 
 def make(progress: Progress, centers: int = 10, count: int = 150, tosses_mujoco: int = 100) -> Result:
@@ -46,38 +48,58 @@ def make(progress: Progress, centers: int = 10, count: int = 150, tosses_mujoco:
     progress(2 * centers + 1, 2 * centers + 1)
     sure, even = heads.values()
     pure = (sure == 0) | (sure == 1)
-    # Of the radii from the smallest on, those up to which one side alone comes up.
+    # The largest radius up to which only one side comes up.
     first = RADII[[len(RADII) - int(np.argmin([*row[::-1], False])) for row in pure]]
     error = 1 / (2 * np.sqrt(count))
-    findings = (
-        Finding(
-            claim="for any release a ball exists in which one side alone comes up",
-            ours=(
+    claims = (
+        Claim(
+            claim="for any release a ball exists in which only one side comes up",
+            analytic=(
                 f"so in all balls of {RADII[-1]:.0e} about {centers} random releases, from "
                 f"{first.min():.0e} to {first.max():.0e} on"
             ),
-            mujoco=f"prob(heads) {mujoco:.2f} in one of them, {sure[0, -1]:.2f} by ours",
-            holds=bool(pure[:, -1].all()),
+            mujoco=f"prob(heads) {mujoco:.2f} in one of them, {sure[0, -1]:.2f} analytic",
+            criteria=[
+                Criterion(
+                    f"balls of {RADII[-1]:.0e} with only one side", pure[:, -1].sum(), "=", centers, "all"
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="on a boundary no ball is small enough",
-            ours=(
+            analytic=(
                 f"prob(heads) in those of {RADII[-1]:.0e} is {even[:, -1].min():.2f} to "
                 f"{even[:, -1].max():.2f}: 1/2, as on a smooth boundary"
             ),
-            holds=bool(np.abs(even[:, -1] - 1 / 2).max() < 5 * error),
+            criteria=[
+                Criterion(
+                    "largest difference from 1/2",
+                    np.abs(even[:, -1] - 1 / 2).max(),
+                    "<",
+                    5 * error,
+                    "five standard errors",
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="with the accuracy of a hand the outcome is left to chance",
-            ours=(
+            analytic=(
                 f"prob(heads) in balls of {RADII[0]:g}, {1e3 * RADII[0] * scenario.coin.radius:.1f} mm of "
                 f"height, is {sure[:, 0].min():.2f} to {sure[:, 0].max():.2f} (± {error:.2f})"
             ),
-            holds=bool(np.abs(sure[:, 0] - 1 / 2).max() < 5 * error),
+            criteria=[
+                Criterion(
+                    "largest difference from 1/2",
+                    np.abs(sure[:, 0] - 1 / 2).max(),
+                    "<",
+                    5 * error,
+                    "five standard errors",
+                )
+            ],
         ),
     )
     data: dict[str, NDArray[Any]] = {"radius": RADII, "release": inside, "boundary": border, **heads}
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
 def boundary_above(scenario: Scenario, height: float, spin: float) -> float:
@@ -95,7 +117,7 @@ def boundary_above(scenario: Scenario, height: float, spin: float) -> float:
     def outcome(z: float) -> int:
         return int(analytic.toss_many(scenario, releases(np.array([z]), np.array([spin]))).outcome[0])
 
-    line = np.linspace(height, height + REACH, LOOKS)
+    line = np.linspace(height, height + REACH, SAMPLES)
     faces = analytic.toss_many(scenario, releases(line, np.full_like(line, spin))).outcome
     change = int(np.flatnonzero(faces[1:] != faces[:-1])[0])
     low, high = line[change], line[change + 1]
@@ -133,18 +155,18 @@ def _heads(outcomes: NDArray[np.int8]) -> float:
     return float(np.mean(outcomes == Outcome.HEADS))
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Picture:
-    picture = Picture(figsize=(9, 3.4))
+def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+    picture = Figure(figsize=(9, 3.4))
     for axes, (kind, color) in zip(picture.subplots(1, 2, sharey=True), KINDS.items(), strict=True):
         axes.semilogx(data["radius"], data[kind].T, ".-", color=color, linewidth=0.7)
-        axes.axhline(0.5, color="#5b6675", linewidth=0.8)
+        axes.axhline(0.5, color=GREY, linewidth=0.8)
         axes.set(title=f"about a release {kind}", xlabel="radius ε of the ball", ylim=(-0.03, 1.03))
         axes.invert_xaxis()
     picture.axes[0].set_ylabel("prob(heads)")
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Section 5.2",
     title="the probability of heads in a ball about a release, as the ball shrinks",
     assumed=(
@@ -155,6 +177,7 @@ FIGURE = paper_figure(
     ),
     seconds=60,
     make=make,
+    draw={"figure": _draw},
     quick_seconds=10,
     quick=partial(make, centers=3, count=60, tosses_mujoco=10),
 )

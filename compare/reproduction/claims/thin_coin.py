@@ -5,15 +5,17 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import analytic
 import coin_mj
 from analytic.events import run
-from compare.reproduction.findings import Finding, Result, paper_figure
+from compare.output.progress import Progress
+from compare.output.style import BLUE, GREY, SKY, VERMILION
+from compare.reproduction.claim import Claim, Criterion
 from compare.reproduction.paper.fig28 import changes
-from compare.reproduction.runner import Progress
+from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.hands import releases_of_hands
 from compare.reproduction.setups.release_arrays import chosen, moved, states_of
 from models.laws import ContactLaw
@@ -38,7 +40,7 @@ SELDOM = 0.02
 """A part of the tosses."""
 STEP = 1e-5
 """By which the height of a release differs from the next toss of Fig. 24 [m]."""
-COLORS = {THIN: "#0072B2", NEAR: "#56B4E9", REAL: "#D55E00"}
+COLORS = {THIN: BLUE, NEAR: SKY, REAL: VERMILION}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,6 +57,9 @@ class Statistics:
     """Part with the outcome of the thin ideal coin."""
     uncertain: float
     """Part whose outcome `STEP` changes."""
+
+
+NAMES = [item.name for item in fields(Statistics)]
 
 
 def make(progress: Progress, count: int = 200, followed: int = 100, tosses_mujoco: int = 200) -> Result:
@@ -87,68 +92,99 @@ def make(progress: Progress, count: int = 200, followed: int = 100, tosses_mujoc
     error = 1 / (2 * np.sqrt(count))
     as_thin = {coin: float(np.mean(first[coin] == first[THIN])) for coin in COINS}
     soft = [row / (row + one) for row, one in chatter.values()]
-    findings = (
-        Finding(
+    claims = (
+        Claim(
             claim="the thin ideal coin is sufficient, toss by toss, for the face first up (soft floor)",
-            ours=(
+            analytic=(
                 f"it shows that of the real coin in {as_thin[REAL]:.1%} of {count} tosses, of one whose mass "
                 f"centre lies a tenth as far off in {as_thin[NEAR]:.1%}"
             ),
-            mujoco=f"{same_by_mujoco} of {tosses_mujoco} faces of the real coin as ours",
-            holds=bool(as_thin[NEAR] > MOSTLY),
+            mujoco=f"{same_by_mujoco} of {tosses_mujoco} faces of the real coin as the analytic engine",
+            criteria=[
+                Criterion("share of the same faces (c/10)", as_thin[NEAR], ">", MOSTLY, "1/2 is chance")
+            ],
         ),
-        Finding(
+        Claim(
             claim="the thin ideal coin is sufficient, toss by toss, for the outcome after bouncing",
-            ours=_listed("as the thin coin's:", found, "as_thin", (NEAR, REAL)),
-            holds=min(s.as_thin for s in found.values()) > MOSTLY,
+            analytic=_listed("as the thin coin's:", found, "as_thin", (NEAR, REAL)),
+            criteria=[
+                Criterion(
+                    "least share of the same outcomes",
+                    min(s.as_thin for s in found.values()),
+                    ">",
+                    MOSTLY,
+                    "1/2 is chance",
+                )
+            ],
             expected=False,
         ),
-        Finding(
+        Claim(
             claim="it is sufficient on average, for a mass centre that is close (c/10)",
-            ours=f"{_listed('heads', found, 'heads', (THIN, NEAR))} (± {error:.0%})",
-            holds=max(abs(found[NEAR, floor].heads - found[THIN, floor].heads) for floor in FLOORS)
-            < 4 * np.sqrt(2) * error,
+            analytic=f"{_listed('heads', found, 'heads', (THIN, NEAR))} (± {error:.0%})",
+            criteria=[_heads_apart(found, NEAR, error)],
         ),
-        Finding(
+        Claim(
             claim="it is sufficient on average, for the mass centre that the paper gives (c)",
-            ours=(
+            analytic=(
                 f"{_listed('heads', found, 'heads', (THIN, REAL))} (± {error:.0%}); impacts "
                 f"{found[THIN, SMOOTH].impacts:.0f} against {found[REAL, SMOOTH].impacts:.0f} and "
                 f"{found[THIN, ROUGH].impacts:.0f} against {found[REAL, ROUGH].impacts:.0f}"
             ),
-            holds=max(abs(found[REAL, floor].heads - found[THIN, floor].heads) for floor in FLOORS)
-            < 4 * np.sqrt(2) * error
-            and all(found[REAL, floor].impacts < 2 * found[THIN, floor].impacts for floor in FLOORS),
+            criteria=[
+                _heads_apart(found, REAL, error),
+                Criterion(
+                    "impacts over the thin coin's",
+                    max(found[REAL, floor].impacts / found[THIN, floor].impacts for floor in FLOORS),
+                    "<",
+                    2,
+                    "of the same size",
+                ),
+            ],
             expected=False,
         ),
-        Finding(
+        Claim(
             claim="a coin that is not thin seldom comes to rest on its edge (section 5.2)",
-            ours=_listed("on the edge", found, "edge", (NEAR, REAL)),
-            holds=max(statistics.edge for statistics in found.values()) < SELDOM,
+            analytic=_listed("on the edge", found, "edge", (NEAR, REAL)),
+            criteria=[
+                Criterion(
+                    "largest share on the edge",
+                    max(statistics.edge for statistics in found.values()),
+                    "<",
+                    SELDOM,
+                    "seldom",
+                )
+            ],
             expected=False,
         ),
-        Finding(
-            claim="it is sufficient to tell how unpredictable a toss is",
-            ours=f"{_listed(f'{1e6 * STEP:.0f} µm of height change', found, 'uncertain', COINS)}",
-            holds=max(abs(s.uncertain - found[THIN, SMOOTH].uncertain) for s in found.values())
-            < 8 * error,  # four standard errors of a difference between half as many tosses
+        Claim(
+            claim="it is sufficient for how unpredictable a toss is",
+            analytic=f"{_listed(f'{1e6 * STEP:.0f} µm of height change', found, 'uncertain', COINS)}",
+            criteria=[
+                Criterion(
+                    "largest difference of the shares",
+                    max(abs(s.uncertain - found[THIN, SMOOTH].uncertain) for s in found.values()),
+                    "<",
+                    8 * error,
+                    "four standard errors of a difference between half as many tosses",
+                )
+            ],  # four standard errors of a difference between half as many tosses
         ),
-        Finding(
+        Claim(
             claim="the face changes more often after a row of impacts (Fig. 28), whichever the coin",
-            ours=", ".join(f"{share:.0%} ({coin})" for share, coin in zip(soft, COINS, strict=True)),
-            holds=min(soft) > 1 / 2,
+            analytic=", ".join(f"{share:.0%} ({coin})" for share, coin in zip(soft, COINS, strict=True)),
+            criteria=[Criterion("least share after a row", min(soft), ">", 1 / 2, "more often than not")],
         ),
     )
     data: dict[str, NDArray[Any]] = {
-        f"{coin}, {floor}": np.array([getattr(statistics, item.name) for item in fields(Statistics)])
+        f"{coin}, {floor}": np.array([getattr(statistics, name) for name in NAMES])
         for (coin, floor), statistics in found.items()
     }
     data |= {"first touch as thin": np.array(list(as_thin.values())), "after a row": np.array(soft)}
-    return Result(findings=findings, draw=partial(_draw, found), data=data)
+    return Result(claims=claims, data=data)
 
 
 def _case(coin: str, floor: str) -> Scenario:
-    """Give the scenario of a coin, one of `COINS`, on a floor, one of `FLOORS`."""
+    """Return the scenario of a coin, one of `COINS`, on a floor, one of `FLOORS`."""
     zloty = load("zloty")
     if coin == THIN:
         changed = ("coin", Coin(mass=zloty.coin.mass, radius=zloty.coin.radius, thickness=0.0))
@@ -188,8 +224,19 @@ def _changes(scenario: Scenario, tossed: Releases, count: int) -> list[int]:
     return [sum(len(kind[i]) for kind in kinds) for i in (0, 1)]
 
 
+def _heads_apart(found: dict[tuple[str, str], Statistics], coin: str, error: float) -> Criterion:
+    """Return how far the shares of heads of a coin and the thin one differ at most, as a criterion."""
+    return Criterion(
+        "largest difference of the shares of heads",
+        max(abs(found[coin, floor].heads - found[THIN, floor].heads) for floor in FLOORS),
+        "<",
+        4 * np.sqrt(2) * error,
+        "four standard errors of a difference",
+    )
+
+
 def _listed(what: str, found: dict[tuple[str, str], Statistics], name: str, coins: tuple[str, ...]) -> str:
-    """Give one statistic of some coins on both floors in words."""
+    """Return one statistic of some coins on both floors in words."""
     floors = []
     for floor in FLOORS:
         values = ", ".join(f"{getattr(found[coin, floor], name):.0%} ({coin})" for coin in coins)
@@ -197,15 +244,15 @@ def _listed(what: str, found: dict[tuple[str, str], Statistics], name: str, coin
     return f"{what} {'; '.join(floors)}"
 
 
-def _draw(found: dict[tuple[str, str], Statistics]) -> Picture:
-    picture = Picture(figsize=(9, 3.2))
+def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+    picture = Figure(figsize=(9, 3.2))
     shown = {"heads": "heads", "as_thin": "as the thin ideal coin", "uncertain": "changed by 10 µm"}
     for axes, (name, title) in zip(picture.subplots(1, 3, sharey=True), shown.items(), strict=True):
         for i, coin in enumerate(COINS):
             at = np.arange(len(FLOORS)) + 0.25 * (i - 1)
-            values = [getattr(found[coin, floor], name) for floor in FLOORS]
+            values = [data[f"{coin}, {floor}"][NAMES.index(name)] for floor in FLOORS]
             axes.bar(at, values, 0.22, color=COLORS[coin], label=coin)
-        axes.axhline(0.5, color="#5b6675", linewidth=0.8)
+        axes.axhline(0.5, color=GREY, linewidth=0.8)
         axes.set(title=title, ylim=(0, 1), axisbelow=True)
         axes.set_xticks(range(len(FLOORS)), [f"{floor} floor" for floor in FLOORS])
     picture.axes[0].set_ylabel("part of the tosses")
@@ -213,7 +260,7 @@ def _draw(found: dict[tuple[str, str], Statistics]) -> Picture:
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Claims of section 6",
     title="the thin ideal coin beside real ones: toss by toss, and on average",
     assumed=(
@@ -224,6 +271,7 @@ FIGURE = paper_figure(
     ),
     seconds=50,
     make=make,
+    draw={"figure": _draw},
     quick_seconds=10,
     quick=partial(make, count=30, followed=10, tosses_mujoco=20),
 )

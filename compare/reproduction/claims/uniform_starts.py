@@ -6,21 +6,24 @@ from typing import Any
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import analytic
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
-from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, faces_after, releases
+from compare.output.progress import Progress
+from compare.output.style import GREY, SHARE_OF_HEADS
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.setups.planar_maps import HEIGHTS, LANDINGS, SPINS, case, faces_after, releases
 from models.records import Array, Face
 
 SEED = 37
-LANDINGS = {"soft floor": "#0072B2", "bouncing": "#D55E00"}
 CELLS = np.array([1, 2, 4, 8, 16, 32])
 """Cells along each side of the map."""
 SHOWN = 8
-"""Cells along each side whose spread is told."""
+"""Cells along each side whose spread is shown."""
+UNIFORM, LEAN = 0.15, 0.06
+"""A spread and a bias that are small."""
 HABITS = ("low", "fast", "at the corner", "about the middle", "about a quarter")
 """Densities of a hand's releases over the map."""
 
@@ -47,32 +50,48 @@ def make(progress: Progress, tosses: int = 200_000) -> Result:
     }
     off = {landing: float(np.abs(values - 1 / 2).max()) for landing, values in shares.items()}
     at = int(np.flatnonzero(CELLS == SHOWN)[0])
-    findings = (
-        Finding(
+    claims = (
+        Claim(
             claim="initial states leading to heads are spread uniformly, for a coin that bounces",
-            ours=(
+            analytic=(
                 f"in {SHOWN} × {SHOWN} cells of the map the share of heads differs, chance aside, by "
                 f"{spread['bouncing'][at]:.3f}; at the first touch by {spread['soft floor'][at]:.2f}"
             ),
-            holds=bool(spread["bouncing"][at] < 0.15 < spread["soft floor"][at]),
+            criteria=[
+                Criterion("spread, bouncing", spread["bouncing"][at], "<", UNIFORM, "the largest is 1/2"),
+                Criterion("at the first touch", spread["soft floor"][at], ">", UNIFORM, "the largest is 1/2"),
+            ],
         ),
-        Finding(
+        Claim(
             claim="then the frequency does not depend on how the experiment is prepared",
-            ours=(
+            analytic=(
                 f"with five densities of the release heads come up in {_listed(shares['bouncing'])} "
                 f"(± {errors.max():.1%}); at the first touch in {_listed(shares['soft floor'])}"
             ),
-            holds=bool(off["bouncing"] < 0.06 < off["soft floor"]),
+            criteria=[
+                Criterion(
+                    "largest difference from 1/2, bouncing", off["bouncing"], "<", LEAN, "a few percent"
+                ),
+                Criterion("at the first touch", off["soft floor"], ">", LEAN, "more than a few percent"),
+            ],
         ),
-        Finding(
+        Claim(
             claim="they are spread uniformly however small the cell",
-            ours=(
+            analytic=(
                 "the finer the cells, the more they differ: "
                 + ", ".join(
                     f"{value:.2f} ({n}²)" for n, value in zip(CELLS[1:], spread["bouncing"][1:], strict=True)
                 )
             ),
-            holds=bool(spread["bouncing"][-1] < 0.05),
+            criteria=[
+                Criterion(
+                    f"spread over {CELLS[-1]}² cells",
+                    spread["bouncing"][-1],
+                    "<",
+                    0.05,
+                    "that over a few cells",
+                )
+            ],
             expected=False,
         ),
     )
@@ -83,11 +102,11 @@ def make(progress: Progress, tosses: int = 200_000) -> Result:
             f"{landing}, spread": spread[landing],
             f"{landing}, shares": shares[landing],
         }
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
 def _densities(z: Array, w: Array) -> list[Array]:
-    """Give the densities of `HABITS`; both axes of the map run from 0 to 1."""
+    """Return the densities of `HABITS`; both axes of the map run from 0 to 1."""
     middle, quarter = (
         np.exp(-((z - at) ** 2 + (w - at) ** 2) / (2 * width**2)) for at, width in ((0.5, 0.2), (0.25, 0.1))
     )
@@ -99,14 +118,14 @@ def _between(low: float, high: float, part: Array) -> Array:
 
 
 def _shares(z: Array, w: Array, heads: NDArray[np.bool_], cells: int) -> tuple[Array, NDArray[np.intp]]:
-    """Give the share of heads in each cell, and the number of its tosses, (cells cells)."""
+    """Return the share of heads in each cell, and the number of its tosses, (cells cells)."""
     cell = np.floor(z * cells).astype(int) + cells * np.floor(w * cells).astype(int)
     count = np.bincount(cell, minlength=cells**2)
     return np.bincount(cell, weights=heads, minlength=cells**2) / np.maximum(count, 1), count
 
 
 def spread_over_cells(z: Array, w: Array, heads: NDArray[np.bool_], cells: int) -> float:
-    """Give the root of the mean square of p - 1/2 over the cells of the map, less what counting adds.
+    """Return the root of the mean square of p - 1/2 over the cells of the map, less what counting adds.
 
     Args:
         z: heights, from 0 to 1 over the map, (n,).
@@ -115,13 +134,13 @@ def spread_over_cells(z: Array, w: Array, heads: NDArray[np.bool_], cells: int) 
         cells: along each side.
     """
     p, count = _shares(z, w, heads, cells)
-    told = count > 1
-    by_chance = p[told] * (1 - p[told]) / (count[told] - 1)
-    return float(np.sqrt(max(np.mean((p[told] - 1 / 2) ** 2 - by_chance), 0)))
+    measured = count > 1
+    by_chance = p[measured] * (1 - p[measured]) / (count[measured] - 1)
+    return float(np.sqrt(max(np.mean((p[measured] - 1 / 2) ** 2 - by_chance), 0)))
 
 
 def _error(weights: Array) -> float:
-    """Give the standard error of a share of one half with these weights."""
+    """Return the standard error of a share of one half with these weights."""
     return float(np.sqrt((weights**2).sum()) / weights.sum() / 2)
 
 
@@ -129,15 +148,15 @@ def _listed(shares: Array) -> str:
     return ", ".join(f"{share:.1%}" for share in shares)
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Picture:
-    picture = Picture(figsize=(11, 3.3))
+def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+    picture = Figure(figsize=(11, 3.3))
     *maps, spread, habits = picture.subplots(1, 4)
     for axes, landing in zip(maps, LANDINGS, strict=True):
         p, _ = _shares(data["height"], data["spin"], data[f"{landing}, heads"], 2 * SHOWN)
         axes.imshow(
             p.reshape(2 * SHOWN, -1),
             origin="lower",
-            cmap="Greys",
+            cmap=SHARE_OF_HEADS,
             norm=Normalize(0, 1),
             extent=(*HEIGHTS, *SPINS),
             aspect="auto",
@@ -146,20 +165,20 @@ def _draw(data: dict[str, NDArray[Any]]) -> Picture:
         axes.grid(visible=False)
     maps[0].set_ylabel("spin [rad/s]")
     maps[1].set_yticklabels([])
-    picture.colorbar(ScalarMappable(Normalize(0, 1), "Greys"), ax=maps, label="share of heads")
+    picture.colorbar(ScalarMappable(Normalize(0, 1), SHARE_OF_HEADS), ax=maps, label="share of heads")
     for i, (landing, color) in enumerate(LANDINGS.items()):
         spread.semilogx(data["cells"], data[f"{landing}, spread"], "o-", color=color, label=landing, base=2)
         at = np.arange(len(HABITS)) + 0.35 * (i - 0.5)
         habits.barh(at, data[f"{landing}, shares"], 0.33, color=color)
     spread.set(title="spread over the cells", xlabel="cells along a side", ylim=(0, 0.55))
     spread.legend()
-    habits.axvline(0.5, color="#5b6675", linewidth=0.8)
+    habits.axvline(0.5, color=GREY, linewidth=0.8)
     habits.set(title="by the hand's habit", xlabel="share of heads", xlim=(0, 1), axisbelow=True)
     habits.set_yticks(range(len(HABITS)), HABITS)
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Section 5.1, Kechen",
     title="how uniformly the initial states that lead to heads are spread",
     assumed=(
@@ -170,6 +189,7 @@ FIGURE = paper_figure(
     ),
     seconds=20,
     make=make,
+    draw={"figure": _draw},
     quick_seconds=6,
     quick=partial(make, tosses=8000),
 )

@@ -1,1 +1,1 @@
-"""The paper's figures and its table, a module each, as `FIGURE`."""
+"""The paper's figures and its table, a module each, as `REPRODUCTION`."""

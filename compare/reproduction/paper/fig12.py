@@ -1,21 +1,22 @@
 """Fig. 12: the 1D coin, in plane motion by eqs (40)-(48) and by both engines."""
 
-from functools import partial
-
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
 
 import analytic
 import coin_mj
 from compare.metrics.trajectories import parting_time
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
+from compare.output.style import ANALYTIC, MUJOCO, PALE
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from models.attitude import rotation_matrix
 from models.reading import load
 from models.records import Array, States, Toss
 from models.scenario import Air, Scenario
 
+ENGINES = {"analytic": (ANALYTIC, "-", 1), "MuJoCo": (MUJOCO, ".", 10)}
 COINS = {"imperfect": "fig12_imperfect", "ideal": "fig12_ideal"}
 IMPACTS = 4
 """The motion is followed until this one."""
@@ -42,34 +43,51 @@ def make(progress: Progress) -> Result:
             states = toss.sample(t)
             out_of_plane[row, column] = _out_of_plane(case, states)
             from_eq_48[row, column] = _apart(toss.sample(falling), exact)
-            engine = ("ours", "MuJoCo")[column]
+            engine = list(ENGINES)[column]
             data |= {f"{name}, {engine}, position": states.position, f"{name}, time": t}
         data |= _edges(name, case, tosses[0], t[-1])
         progress(row + 1, 3)
     tilt, parted = _product_of_inertia()
     progress(3, 3)
-    findings = (
-        Finding(
+    claims = (
+        Claim(
             claim="if J_ξη = 0 a coin that turns about its level axis ξ keeps to one plane, eq. (48)",
-            ours=f"within {out_of_plane[:, 0].max():.1g} r and rad, through {IMPACTS - 1} impacts",
+            analytic=f"within {out_of_plane[:, 0].max():.1g} r and rad, through {IMPACTS - 1} impacts",
             mujoco=f"{out_of_plane[:, 1].max():.1g}",
-            holds=bool(out_of_plane.max() < IN_PLANE),
+            criteria=[
+                Criterion(
+                    "farthest off the plane [r, rad]",
+                    out_of_plane.max(),
+                    "<",
+                    IN_PLANE,
+                    "rounding and MuJoCo's steps",
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="there m ÿ = f_y, m z̈ = f_z, J_ξ ϑ̈ = M_ξ, eqs (40), (47), (48)",
-            ours=_distances(from_eq_48[:, 0]),
+            analytic=_distances(from_eq_48[:, 0]),
             mujoco=_distances(from_eq_48[:, 1]),
-            holds=bool(from_eq_48[..., 0].max() < 1e-10 and from_eq_48[..., 1].max() < 1e-8),
+            criteria=[
+                Criterion(
+                    "analytic engine off eq. (48) [m, rad]",
+                    from_eq_48[..., 0].max(),
+                    "<",
+                    1e-10,
+                    "two integrations to 1e-13",
+                ),
+                Criterion("MuJoCo off eq. (48) [m, rad]", from_eq_48[..., 1].max(), "<", 1e-8, "its steps"),
+            ],
         ),
-        Finding(
+        Claim(
             claim="eqs (41)-(43) with J_ξη ≠ 0 are a coin's plane motion too",
-            ours=f"ξ tilts by up to {tilt[0]:.1f}°, past 1° after {1e3 * (parted or np.nan):.0f} ms",
+            analytic=f"ξ tilts by up to {tilt[0]:.1f}°, past 1° after {1e3 * (parted or np.nan):.0f} ms",
             mujoco=f"{tilt[1]:.1f}°",
-            holds=bool(max(tilt) < 1e-6),
+            criteria=[Criterion("largest tilt of ξ [°]", max(tilt), "<", 1e-6, "rounding")],
             expected=False,
         ),
     )
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
 def _distances(found: Array) -> str:
@@ -77,7 +95,7 @@ def _distances(found: Array) -> str:
 
 
 def _out_of_plane(case: Scenario, states: States) -> float:
-    """Give how far C, in radii, and ξ, in radians, leave the plane yz and the x axis."""
+    """Return how far C, in radii, and ξ, in radians, leave the plane yz and the x axis."""
     xi = np.array([np.array(rotation_matrix(tuple(e)))[:, 0] for e in states.quaternion])
     return float(
         max(np.abs(states.position[:, 0]).max() / case.coin.radius, np.hypot(xi[:, 1], xi[:, 2]).max())
@@ -107,7 +125,7 @@ def _plane_motion(case: Scenario, t: Array) -> Array:
 
 
 def _apart(states: States, exact: Array) -> tuple[float, float]:
-    """Give how far states are from `exact` at most: of C [m], and in the attitude [rad]."""
+    """Return how far states are from `exact` at most: of C [m], and in the attitude [rad]."""
     e0, e1 = states.quaternion[:, 0], states.quaternion[:, 1]
     # Modulo whole turns.
     turned = np.angle(np.exp(1j * (2 * np.arctan2(e1, e0) - exact[:, 2])))
@@ -115,8 +133,8 @@ def _apart(states: States, exact: Array) -> tuple[float, float]:
 
 
 def _product_of_inertia() -> tuple[list[float], float | None]:
-    """Let a coin with J_ξη ≠ 0 fall without air; give how far ξ tilts by both engines [degrees], and when it
-    passes 1° by ours [s]."""
+    """Let a coin with J_ξη ≠ 0 fall without air; return how far ξ tilts by both engines [degrees], and
+    when it passes 1° by the analytic one [s]."""
     scenario = load(COINS["imperfect"])
     case = scenario.replace("coin.center_of_mass", OFF_THE_AXIS, "air", Air(), "ending.max_impacts", 1)
     tosses = analytic.toss(case), coin_mj.toss(case)
@@ -131,7 +149,7 @@ def _height_of_xi(states: States) -> Array:
 
 
 def _edges(name: str, case: Scenario, toss: Toss, until: float) -> dict[str, Array]:
-    """Give the ends of the coin in the plane yz at equal intervals, to be drawn, (n, 2, 2) [m]."""
+    """Return the ends of the coin in the plane yz at equal intervals, to be drawn, (n, 2, 2) [m]."""
     states = toss.sample(np.linspace(0, until, DRAWN))
     eta = np.array([np.array(rotation_matrix(tuple(e)))[1:, 1] for e in states.quaternion])
     B = states.position[:, 1:] - case.coin.center_of_mass[1] * eta
@@ -139,21 +157,21 @@ def _edges(name: str, case: Scenario, toss: Toss, until: float) -> dict[str, Arr
     return {f"{name}, edge": ends}
 
 
-def _draw(data: dict[str, Array]) -> Picture:
-    picture = Picture(figsize=(9, 3.8))
+def _draw(data: dict[str, Array]) -> Figure:
+    picture = Figure(figsize=(9, 3.8))
     for axes, name in zip(picture.subplots(1, 2, sharey=True), COINS, strict=True):
         for ends in data[f"{name}, edge"]:
-            axes.plot(*(100 * ends.T), color="#9aa4b0", linewidth=1.6)
-        for engine, color, look, part in (("ours", "#0072B2", "-", 1), ("MuJoCo", "#D55E00", ".", 10)):
+            axes.plot(*(100 * ends.T), color=PALE, linewidth=1.6)
+        for engine, (color, line, part) in ENGINES.items():
             _, y, z = 100 * data[f"{name}, {engine}, position"][::part].T
-            axes.plot(y, z, look, color=color, markersize=4, label=f"C, {engine}")
+            axes.plot(y, z, line, color=color, markersize=4, label=f"C, {engine}")
         axes.set(title=f"{name} coin", xlabel="y [cm]", aspect="equal")
     picture.axes[0].set_ylabel("z [cm]")
     picture.axes[0].legend()
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Fig. 12",
     title="the 1D coin: plane motion by eqs (40)-(48)",
     assumed=(
@@ -162,4 +180,5 @@ FIGURE = paper_figure(
     ),
     seconds=10,
     make=make,
+    draw={"figure": _draw},
 )

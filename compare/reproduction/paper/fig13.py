@@ -1,11 +1,10 @@
 """Figs 13-15: the velocities of a coin's surface, and the parts of it where the air presses."""
 
 import math
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 
 from analytic.air.force import force_and_moment
 from analytic.air.velocity_field import SurfaceFields, velocity_fields
@@ -13,8 +12,10 @@ from coin_mj import Settings
 from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
 from coin_mj.steps.mujoco_step import forward
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
+from compare.output.style import BLUE, GREEN, ORANGE, PALE
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from models.reading import load
 from models.records import Array
 from models.scenario import Scenario
@@ -36,7 +37,7 @@ PANELS = (
     ("thin", "tangential", "(b): tangential"),
 )
 """Coin, part of its velocities, and title."""
-COLORS = ("#0072B2", "#E69F00", "#009E73")
+COLORS = (BLUE, ORANGE, GREEN)
 """Of the faces ζ = +h/2 and -h/2, and the wall."""
 
 
@@ -57,39 +58,65 @@ def make(progress: Progress) -> Result:
     sums = {b: _sum(thick, fields, b) for b in (0.0, 1.0)}
     integrals = {b: _integral(thick, b) for b in (0.0, 1.0)}
     progress(2, 2)
-    findings = (
-        Finding(
+    claims = (
+        Claim(
             claim="the air presses where the surface moves outwards, eqs (55), (58)",
-            ours=(
+            analytic=(
                 f"on {upper.moves_outwards.mean():.0%} and {lower.moves_outwards.mean():.0%} of the faces, "
                 f"{wall.moves_outwards.mean():.0%} of the wall; the sum over its points is within "
                 f"{_apart(sums[0.0], integrals[0.0]):.0e} of force and moment"
             ),
             mujoco=f"{_apart(sums[0.0], _by_mujoco(thick)):.0e}",
-            holds=bool(
-                max(_apart(sums[0.0], other) for other in (integrals[0.0], _by_mujoco(thick))) < ENOUGH
-            ),
+            criteria=[
+                Criterion(
+                    "largest relative difference of sum and integrals",
+                    max(_apart(sums[0.0], other) for other in (integrals[0.0], _by_mujoco(thick))),
+                    "<",
+                    ENOUGH,
+                    "what a sum over so many points leaves",
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="of the faces of a thin coin exactly one moves outwards: s_1 + s_2 = 1, eqs (75)-(79)",
-            ours=(
+            analytic=(
                 f"at {_one_moves_outwards(of_thin):.0%} of its points, and at "
                 f"{_one_moves_outwards(fields):.0%} of a thick coin's; both faces of a thin one move alike "
                 f"to {np.abs(of_thin.upper.velocity - of_thin.lower.velocity).max():.1g} m/s"
             ),
-            holds=bool(
-                _one_moves_outwards(of_thin) == 1
-                and np.array_equal(of_thin.upper.velocity, of_thin.lower.velocity)
-            ),
+            criteria=[
+                Criterion(
+                    "part of the points of a thin coin",
+                    _one_moves_outwards(of_thin),
+                    "=",
+                    1,
+                    "the two normals are opposite",
+                ),
+                Criterion(
+                    "difference of both faces' velocities [m/s]",
+                    np.abs(of_thin.upper.velocity - of_thin.lower.velocity).max(),
+                    "=",
+                    0,
+                    "they are one face",
+                ),
+            ],
         ),
-        Finding(
+        Claim(
             claim="for b = 1 the forces are proportional to the velocities of Fig. 14 (section 4.2, ii)",
-            ours=(
+            analytic=(
                 "summed, they give force and moment at b = 0; at b = 1 they are off by "
                 f"{_apart(sums[0.0], integrals[1.0]):.0%}, and those with the square of the speed by "
                 f"{_apart(sums[1.0], integrals[1.0]):.0e}"
             ),
-            holds=bool(_apart(sums[0.0], integrals[1.0]) < ENOUGH),
+            criteria=[
+                Criterion(
+                    "relative difference at b = 1",
+                    _apart(sums[0.0], integrals[1.0]),
+                    "<",
+                    ENOUGH,
+                    "what a sum over so many points leaves",
+                )
+            ],
             expected=False,
         ),
     )
@@ -105,7 +132,7 @@ def make(progress: Progress) -> Result:
                 "tangential": field.tangential,
             }
             data |= {f"{coin}, {surface}, {part}": array for part, array in parts.items()}
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
 def _fields(case: Scenario, points: dict[str, int]) -> SurfaceFields:
@@ -114,7 +141,7 @@ def _fields(case: Scenario, points: dict[str, int]) -> SurfaceFields:
 
 
 def _one_moves_outwards(fields: SurfaceFields) -> float:
-    """Give the part of the points of which exactly one of their two faces moves outwards."""
+    """Return the part of the points of which exactly one of their two faces moves outwards."""
     return float(np.mean(fields.upper.moves_outwards != fields.lower.moves_outwards))
 
 
@@ -135,7 +162,7 @@ def _sum(case: Scenario, fields: SurfaceFields, b: float) -> Wrench:
 
 
 def _areas(case: Scenario) -> tuple[np.ndarray, ...]:
-    """Give the areas of the points of `FINE`, by the trapezoidal rule, for each surface [m²]."""
+    """Return the areas of the points of `FINE`, by the trapezoidal rule, for each surface [m²]."""
     r, h = case.coin.radius, case.coin.thickness
     rings, spokes, levels = FINE["rings"], FINE["spokes"], FINE["levels"]
     angle, across = 2 * math.pi / spokes, r / rings
@@ -147,14 +174,14 @@ def _areas(case: Scenario) -> tuple[np.ndarray, ...]:
 
 
 def _integral(case: Scenario, b: float) -> Wrench:
-    """Give the integral of the paper's mechanics."""
+    """Return the integral of the analytic engine."""
     body = case.replace("air.exponent", b).body
     f, m_C = force_and_moment(body, case.release.velocity, case.release.angular_velocity)
     return Wrench(np.array(f), np.array(m_C) + np.cross(body.center, f))
 
 
 def _by_mujoco(case: Scenario) -> Wrench:
-    """Give the forces of MuJoCo's actuators and its damping on the released coin."""
+    """Return the forces of MuJoCo's actuators and its damping on the released coin."""
     machine = machine_of(case, Settings(), shape_thickness(case))
     forward(machine.coin)
     force = machine.data.qfrc_actuator + machine.data.qfrc_passive
@@ -162,19 +189,19 @@ def _by_mujoco(case: Scenario) -> Wrench:
 
 
 def _apart(a: Wrench, b: Wrench) -> float:
-    """Give the largest difference of forces and of moments, each relative to b's size."""
+    """Return the largest difference of forces and of moments, each relative to b's size."""
     return float(max(np.linalg.norm(x - y) / np.linalg.norm(y) for x, y in zip(a, b, strict=True)))
 
 
-def _draw(data: dict[str, Array]) -> Picture:
-    picture = Picture(figsize=(7.4, 4.4))
+def _draw(data: dict[str, Array]) -> Figure:
+    picture = Figure(figsize=(7.4, 4.4))
     circle = np.linspace(0, 2 * math.pi, 61)
     for number, (coin, part, title) in enumerate(PANELS, start=1):
         axes = picture.add_subplot(2, 3, number, projection="3d")
         rim = data[f"{coin}, upper, point"]
         r, half = 100 * np.abs(rim[:, 0]).max(), 100 * rim[0, 2]
         for z in (-half, half):
-            axes.plot(r * np.cos(circle), r * np.sin(circle), z, color="#9aa4b0", linewidth=0.8)
+            axes.plot(r * np.cos(circle), r * np.sin(circle), z, color=PALE, linewidth=0.8)
         for surface, color in zip(SurfaceFields._fields, COLORS, strict=True):
             points, arrows = data[f"{coin}, {surface}, point"], data[f"{coin}, {surface}, {part}"]
             moving = np.linalg.norm(arrows, axis=1) > 0
@@ -194,7 +221,7 @@ def _draw(data: dict[str, Array]) -> Picture:
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Figs 13-15",
     title="velocities of a coin's surface, and where the air presses on it",
     assumed=(
@@ -203,4 +230,5 @@ FIGURE = paper_figure(
     ),
     seconds=5,
     make=make,
+    draw={"figure": _draw},
 )

@@ -2,18 +2,19 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 
 import analytic
 import coin_mj
 from coin_mj import Friction, Settings
 from coin_mj.model.settings import ROUGH
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
+from compare.output.style import BLUE, PALE, VERMILION
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.mujoco_impacts import on_floor
 from models.attitude import rotation_matrix
 from models.laws import ContactLaw
@@ -25,7 +26,7 @@ MU = load("contact_sliding_friction").floor.friction
 SAME = 1e-12
 """Speeds nearer to each other than this are the same, but for rounding [m/s]."""
 NEAR = 1e-3
-"""MuJoCo stands for a law where its impulse is within this part of the law's; (f) it has as Coulomb's."""
+"""MuJoCo realises a law where its impulse is within this part of the law's; (f) it has as Coulomb's."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +38,7 @@ class Law:
     misfit: Callable[[Array, Array, Array], Array]
     """What its conditions leave over, of v_A before and after (τ, ν, z) and of the impulse over the mass."""
     contact: tuple[float, Settings] | None
-    """Friction and settings of the MuJoCo contact that stands for it."""
+    """Friction and settings of the MuJoCo contact that realises it."""
 
 
 def _kept(before: Array, after: Array, number: int) -> float:
@@ -87,64 +88,70 @@ LAWS = {
 def make(progress: Progress) -> Result:
     """Let each law act on the first touch of the scenarios `contact_` and compare MuJoCo's contacts."""
     data: dict[str, Array] = {}
-    findings, gained = [], {}
+    claims: list[Claim] = []
+    gained = {}
     for done, (name, law) in enumerate(LAWS.items(), start=1):
         case = _one_impact(load(f"contact_{name.label}"))
-        ours = analytic.toss(case).impacts
-        before, after, S = _in_the_floor(ours)
+        by_law = analytic.toss(case).impacts
+        before, after, S = _in_the_floor(by_law)
         misfit = max(
             np.abs(law.misfit(before, after, S / case.coin.mass)).max(),
             abs(after[2] + case.floor.restitution * before[2]),
-            np.abs(ours.velocity_after - ours.velocity_before - ours.impulse / case.coin.mass).max(),
+            np.abs(by_law.velocity_after - by_law.velocity_before - by_law.impulse / case.coin.mass).max(),
         )
-        gained[law.letter] = _gained(ours)
+        gained[law.letter] = _gained(by_law)
         data |= {f"({law.letter}) before": before, f"({law.letter}) after": after}
         data |= {f"({law.letter}) impulse": S}
-        told, apart = "not realisable", 0.0
+        shown = "not realisable"
+        criteria = [Criterion("left of its conditions [m/s]", misfit, "<", SAME, "rounding")]
         if law.contact is not None:
             mu, settings = law.contact
-            theirs = coin_mj.impacts_of(on_floor(case, ContactLaw.COULOMB, mu), settings=settings)
-            _, after_theirs, S_theirs = _in_the_floor(theirs)
-            data |= {f"({law.letter}) after, MuJoCo": after_theirs}
-            data |= {f"({law.letter}) impulse, MuJoCo": S_theirs}
-            apart = float(np.linalg.norm(S_theirs - S) / np.linalg.norm(S))
-            told = f"{_row(after_theirs, S_theirs)}; impulse within {apart:.0e}"
+            by_mujoco = coin_mj.impacts_of(on_floor(case, ContactLaw.COULOMB, mu), settings=settings)
+            _, after_mujoco, S_mujoco = _in_the_floor(by_mujoco)
+            data |= {f"({law.letter}) after, MuJoCo": after_mujoco}
+            data |= {f"({law.letter}) impulse, MuJoCo": S_mujoco}
+            apart = float(np.linalg.norm(S_mujoco - S) / np.linalg.norm(S))
+            shown = f"{_row(after_mujoco, S_mujoco)}; impulse within {apart:.0e}"
             if name == ContactLaw.SLIDING_FRICTION:
-                told = f"Coulomb's friction: {told}"
-        findings.append(
-            Finding(
+                shown = f"Coulomb's friction: {shown}"
+            else:
+                criteria.append(Criterion("MuJoCo's error", apart, "<", NEAR, "MuJoCo realises the law"))
+        claims.append(
+            Claim(
                 claim=f"({law.letter}) {law.claim}",
-                ours=f"{_row(after, S)}; fulfilled within {misfit:.0e} m/s",
-                mujoco=told,
-                holds=bool(misfit < SAME and (name == ContactLaw.SLIDING_FRICTION or apart < NEAR)),
+                analytic=f"{_row(after, S)}; fulfilled within {misfit:.0e} m/s",
+                mujoco=shown,
+                criteria=criteria,
             )
         )
         progress(done, len(LAWS))
     S, before, after = (data[f"({part}"] for part in ("d) impulse", "f) before", "f) after"))
-    findings += [
-        Finding(
+    claims += [
+        Claim(
             claim="(d) is frictionless",
-            ours=f"to keep all slip takes a horizontal impulse of {np.hypot(S[0], S[1]) / S[2]:.2f} S_z",
-            holds=bool(np.hypot(S[0], S[1]) < SAME),
+            analytic=f"to keep all slip takes a horizontal impulse of {np.hypot(S[0], S[1]) / S[2]:.2f} S_z",
+            criteria=[Criterion("horizontal impulse [N s]", np.hypot(S[0], S[1]), "<", SAME, "rounding")],
             expected=False,
         ),
-        Finding(
+        Claim(
             claim="(f) brakes the slip",
-            ours=(
+            analytic=(
                 f"drives it on past its stop, from {np.hypot(*before[:2]):.2f} m/s to "
                 f"{np.hypot(*after[:2]):.2f} m/s the other way; takes {-gained['f']:.0%} of the energy, "
                 f"Coulomb's friction {-_gained_by_coulomb():.0%}"
             ),
             mujoco=f"Coulomb's friction stops it: {np.hypot(*data['(f) after, MuJoCo'][:2]):.0e} m/s",
-            holds=bool(np.hypot(*after[:2]) < np.hypot(*before[:2])),
+            criteria=[
+                Criterion("slip after [m/s]", np.hypot(*after[:2]), "<", np.hypot(*before[:2]), "that before")
+            ],
             expected=False,
         ),
     ]
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
 def _gained(impacts: Impacts) -> float:
-    """Give the change of energy in the first impact, relative to the energy before it."""
+    """Return the change of energy in the first impact, relative to the energy before it."""
     change = impacts.energy_change[0]
     return float(change / (impacts.energy[0] - change))
 
@@ -159,7 +166,7 @@ def _one_impact(case: Scenario) -> Scenario:
 
 
 def _in_the_floor(impacts: Impacts) -> tuple[Array, Array, Array]:
-    """Give v_A before and after the first impact, and its impulse: along the edge, across it, and up."""
+    """Return v_A before and after the first impact, and its impulse: along the edge, across it, and up."""
     xi, eta, _ = impacts.point[0]
     R = np.array(rotation_matrix(tuple(impacts.quaternion[0])))
     tau = R @ [-eta, xi, 0] / np.hypot(xi, eta)
@@ -172,7 +179,7 @@ def _in_the_floor(impacts: Impacts) -> tuple[Array, Array, Array]:
 
 
 def _row(after: Array, S: Array) -> str:
-    """Give velocity and impulse as they stand in the table."""
+    """Return velocity and impulse as they stand in the table."""
     return f"v_A' = {_triple(after)} m/s, S = {_triple(1e3 * S)} mN s"
 
 
@@ -180,16 +187,16 @@ def _triple(x: Array) -> str:
     return "(" + ", ".join(f"{number + 0:.3f}" for number in np.round(x, 3)) + ")"
 
 
-def _draw(data: dict[str, Array]) -> Picture:
-    picture = Picture(figsize=(9, 5.6))
+def _draw(data: dict[str, Array]) -> Figure:
+    picture = Figure(figsize=(9, 5.6))
     panels = picture.subplots(2, 3, sharex=True, sharey=True).flat
     for axes, (name, law) in zip(panels, LAWS.items(), strict=True):
         before, after, S = (data[f"({law.letter}) {part}"] for part in ("before", "after", "impulse"))
-        _arrow(axes, before, "#9aa4b0", 5, "v_A")
-        _arrow(axes, after, "#0072B2", 2, "v_A'")
-        _arrow(axes, 1e3 * S, "#D55E00", 2, "S [mN s]")
+        _arrow(axes, before, PALE, 5, "v_A")
+        _arrow(axes, after, BLUE, 2, "v_A'")
+        _arrow(axes, 1e3 * S, VERMILION, 2, "S [mN s]")
         if law.contact is not None:
-            for part, color, unit in (("after", "#0072B2", 1), ("impulse", "#D55E00", 1e3)):
+            for part, color, unit in (("after", BLUE, 1), ("impulse", VERMILION, 1e3)):
                 tip = unit * data[f"({law.letter}) {part}, MuJoCo"]
                 axes.plot(tip[0], tip[1], "o", color=color, markersize=9, fillstyle="none")
         title = f"({law.letter}) {name.label.replace('_', ' ')}: S_z = {1e3 * S[2]:.2f} mN s"
@@ -207,7 +214,7 @@ def _arrow(axes: Axes, tip: Array, color: str, width: float, label: str) -> None
     axes.plot(tip[0], tip[1], "o", color=color, markersize=4)
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Fig. 17",
     title="the six laws of contact, by the impacts that they make of one touch",
     assumed=(
@@ -216,4 +223,5 @@ FIGURE = paper_figure(
     ),
     seconds=5,
     make=make,
+    draw={"figure": _draw},
 )

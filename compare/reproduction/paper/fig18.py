@@ -1,24 +1,24 @@
 """Figs 18-20: four models of the coin in free fall, without and with air, and MuJoCo's coin over them."""
 
-from functools import partial
-
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 
 import analytic
 import coin_mj
 from compare.metrics.trajectories import attitude_angle, distance
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
+from compare.output.style import BLUE, GREEN, SKY, VERMILION
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from models.reading import load
 from models.records import Array
 from models.scenario import Air
 
 MODELS = {
-    "3D imperfect": ("fig18_3d_imperfect", "#009E73"),
-    "3D ideal": ("fig18_3d_ideal", "#1F3B8C"),
-    "2D imperfect": ("fig18_2d_imperfect", "#56B4E9"),
-    "2D ideal": ("fig18_2d_ideal", "#D55E00"),
+    "3D imperfect": ("fig18_3d_imperfect", GREEN),
+    "3D ideal": ("fig18_3d_ideal", BLUE),
+    "2D imperfect": ("fig18_2d_imperfect", SKY),
+    "2D ideal": ("fig18_2d_ideal", VERMILION),
 }
 MEDIA = {"vacuum": Air(), "air": Air(normal=0.8, tangential=0.2)}
 NEGLIGIBLE = 0.02
@@ -35,7 +35,7 @@ def make(progress: Progress) -> Result:
         cases = {name: load(file).replace("air", air) for name, (file, _) in MODELS.items()}
         pairs = {name: (analytic.toss(case), coin_mj.toss(case)) for name, case in cases.items()}
         t = np.linspace(0, min(toss.impacts.time[0] for pair in pairs.values() for toss in pair), 400)
-        paths = {name: ours.sample(t) for name, (ours, _) in pairs.items()}
+        paths = {name: toss.sample(t) for name, (toss, _) in pairs.items()}
         data[f"{medium}, time"] = t
         for name, path in paths.items():
             data |= {f"{medium}, {name}, position": path.position, f"{medium}, {name}, normal": path.normal}
@@ -43,7 +43,7 @@ def make(progress: Progress) -> Result:
         by_mujoco[medium] = (
             f"within {max(distance(paths[name], pairs[name][1].sample(t)).max() for name in MODELS):.1g} m "
             f"and {max(attitude_angle(paths[name], pairs[name][1].sample(t)).max() for name in MODELS):.1g} "
-            "rad of ours"
+            "rad of the analytic engine"
         )
         progress(1 + list(MEDIA).index(medium), len(MEDIA))
     t = data["air, time"]
@@ -51,33 +51,43 @@ def make(progress: Progress) -> Result:
     ballistic = np.outer(t, v) - np.outer(t**2, [0, 0, 9.81 / 2]) + [0, 0, 1]
     held_back = np.linalg.norm(data["air, 3D ideal, position"] - ballistic, axis=1).max()
     way = np.linalg.norm(np.diff(ballistic, axis=0), axis=1).sum()
-    findings = (
-        Finding(
+    claims = (
+        Claim(
             claim="without air the mass centres of the four coins move on one parabola (Figs 18, 19)",
-            ours=f"at most {between['vacuum']:.1g} m apart",
+            analytic=f"at most {between['vacuum']:.1g} m apart",
             mujoco=by_mujoco["vacuum"],
-            holds=bool(between["vacuum"] < SAME * 0.0125),
+            criteria=[
+                Criterion("largest distance [m]", between["vacuum"], "<", SAME * 0.0125, "1e-9 r: rounding")
+            ],
         ),
-        Finding(
+        Claim(
             claim="in air the four mass centres take paths of their own (Fig. 20)",
-            ours=f"up to {1e3 * between['air']:.1f} mm apart in {t[-1]:.2f} s",
+            analytic=f"up to {1e3 * between['air']:.1f} mm apart in {t[-1]:.2f} s",
             mujoco=by_mujoco["air"],
-            holds=bool(between["air"] > 1e-3),
+            criteria=[Criterion("largest distance [m]", between["air"], ">", 1e-3, "a millimetre is seen")],
         ),
-        Finding(
+        Claim(
             claim="over a small fall the air can be neglected",
-            ours=(
+            analytic=(
                 f"the ideal coin ends {1e3 * held_back:.1f} mm from the parabola, {held_back / way:.1%} of "
                 "its way"
             ),
-            holds=bool(held_back < NEGLIGIBLE * way),
+            criteria=[
+                Criterion(
+                    "part of the way that the air holds back",
+                    held_back / way,
+                    "<",
+                    NEGLIGIBLE,
+                    "2 % of a way can be neglected",
+                )
+            ],
         ),
     )
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
-def _draw(data: dict[str, Array]) -> Picture:
-    picture = Picture(figsize=(9, 4.2))
+def _draw(data: dict[str, Array]) -> Figure:
+    picture = Figure(figsize=(9, 4.2))
     for column, medium in enumerate(MEDIA):
         axes = picture.add_subplot(1, 3, 1 + column)
         for width, (name, (_, color)) in zip((5, 3.5, 2, 1), MODELS.items(), strict=True):
@@ -92,7 +102,7 @@ def _draw(data: dict[str, Array]) -> Picture:
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Figs 18-20",
     title="free fall of four models of the coin, without and with air",
     assumed=(
@@ -101,4 +111,5 @@ FIGURE = paper_figure(
     ),
     seconds=10,
     make=make,
+    draw={"figure": _draw},
 )

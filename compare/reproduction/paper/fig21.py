@@ -1,16 +1,16 @@
 """Figs 21-22: the scaled thin coin in air: speed, acceleration, tilt, and the vertical force of the air."""
 
-from functools import partial
-
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 
 import analytic
 import coin_mj
 from analytic.air.force import force_and_moment
 from compare.metrics.trajectories import distance
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
+from compare.output.style import BLUE, PALE
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from models.attitude import rotation_matrix
 from models.reading import load
 from models.records import Array, States
@@ -38,31 +38,49 @@ def make(progress: Progress) -> Result:
     swings = np.diff(turns)
     last = path.angular_velocity[-1, 0]
     apart = float(distance(path, mujoco.sample(t)).max())
-    findings = (
-        Finding(
+    claims = (
+        Claim(
             claim="in air speed and acceleration oscillate, without it they are straight lines (Fig. 21)",
-            ours=(
+            analytic=(
                 f"acceleration swings between {shown[:, 1].min():.2f} and {shown[:, 1].max():.2f} m/s²; "
                 f"without air within {np.ptp(shown_0[:, 1]):.1g} of g"
             ),
-            mujoco=f"within {apart:.1g} m of ours in {t_end:.1f} s",
-            holds=bool(np.ptp(shown[:, 1]) > 0.1 and np.ptp(shown_0[:, 1]) < 1e-9),
+            mujoco=f"within {apart:.1g} m of the analytic engine in {t_end:.1f} s",
+            criteria=[
+                Criterion(
+                    "swing of the acceleration in air [m/s²]",
+                    np.ptp(shown[:, 1]),
+                    ">",
+                    0.1,
+                    "1 % of g is seen",
+                ),
+                Criterion("without air [m/s²]", np.ptp(shown_0[:, 1]), "<", 1e-9, "rounding"),
+            ],
         ),
-        Finding(
+        Claim(
             claim="the tilt changes slower and slower, and becomes constant (Fig. 22)",
-            ours=(
+            analytic=(
                 f"{len(turns)} turning points of cos θ, {swings[0]:.2f} s apart at first and "
                 f"{swings[-1]:.2f} s at last; θ̇ falls from 20 to {abs(last):.1g} rad/s"
             ),
-            holds=bool(np.all(np.diff(swings) > 0) and abs(last) < 1e-3),
+            criteria=[
+                Criterion(
+                    "least growth from one swing of cos θ to the next [s]",
+                    np.diff(swings).min(),
+                    ">",
+                    0,
+                    "slower and slower",
+                ),
+                Criterion("last θ̇ [rad/s]", abs(last), "<", 1e-3, "5e-5 of the first"),
+            ],
         ),
     )
     data = {"time": t, "columns": shown, "time without air": t_0, "columns without air": shown_0}
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
 def _columns(scenario: Scenario, path: States) -> Array:
-    """Give the `COLUMNS` of a path, (n, 4)."""
+    """Return the `COLUMNS` of a path, (n, 4)."""
     rows = []
     for v, e, w in zip(path.velocity, path.quaternion, path.angular_velocity, strict=True):
         R = np.array(rotation_matrix(tuple(e)))
@@ -73,18 +91,18 @@ def _columns(scenario: Scenario, path: States) -> Array:
     return np.array(rows)
 
 
-def _draw(data: dict[str, Array]) -> Picture:
-    picture = Picture(figsize=(8, 4.6))
+def _draw(data: dict[str, Array]) -> Figure:
+    picture = Figure(figsize=(8, 4.6))
     for number, (axes, name) in enumerate(zip(picture.subplots(2, 2).flat, COLUMNS, strict=True)):
         without = data["columns without air"][:, number]
-        axes.plot(data["time without air"], without, ":", color="#9aa4b0", linewidth=1, label="without")
-        axes.plot(data["time"], data["columns"][:, number], color="#0072B2", label="in air")
+        axes.plot(data["time without air"], without, ":", color=PALE, linewidth=1, label="without")
+        axes.plot(data["time"], data["columns"][:, number], color=BLUE, label="in air")
         axes.set(xlabel="time [s]", ylabel=name, xlim=(0, SHOWN))
     picture.axes[0].legend()
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Figs 21-22",
     title="the scaled coin in air: its speed oscillates, its tilt becomes constant",
     assumed=(
@@ -93,4 +111,5 @@ FIGURE = paper_figure(
     ),
     seconds=10,
     make=make,
+    draw={"figure": _draw},
 )

@@ -1,18 +1,18 @@
 """Fig. 23: the mass centres of four models of the coin after collisions, by both engines while trusted."""
 
 import itertools
-from functools import partial
 
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 
 import analytic
 import coin_mj
 from compare.metrics.sequences import common_prefix
 from compare.metrics.trajectories import distance
-from compare.reproduction.findings import Finding, Result, paper_figure
+from compare.output.progress import Progress
+from compare.reproduction.claim import Claim, Criterion
 from compare.reproduction.paper.fig18 import MODELS
-from compare.reproduction.runner import Progress
+from compare.reproduction.runner import Reproduction, Result
 from models.reading import load
 from models.records import Array, Toss
 from models.scenario import Air, Scenario
@@ -32,51 +32,66 @@ def make(progress: Progress) -> Result:
         case = _up_to(load(file), IMPACTS)
         pairs[name] = analytic.toss(case), coin_mj.toss(case)
         progress(done, len(MODELS))
-    ours = {name: pair[0] for name, pair in pairs.items()}
+    by_analytic = {name: pair[0] for name, pair in pairs.items()}
     horizons = {name: _horizon(pair) for name, pair in pairs.items()}
-    first = min(toss.impacts.time[0] for toss in ours.values())
-    shared = min(toss.end_time for toss in ours.values())
-    before = _largest_distance(ours, np.linspace(0, first, 200)[:-1])
-    after = _largest_distance(ours, np.linspace(first, shared, 400))
+    first = min(toss.impacts.time[0] for toss in by_analytic.values())
+    shared = min(toss.end_time for toss in by_analytic.values())
+    before = _largest_distance(by_analytic, np.linspace(0, first, 200)[:-1])
+    after = _largest_distance(by_analytic, np.linspace(first, shared, 400))
     apart = {
         name: float(distance(*(toss.sample(np.linspace(0, horizons[name], 600)) for toss in pair)).max())
         for name, pair in pairs.items()
     }
-    real, simplest = ours[REAL], ours[SIMPLEST]
+    real, simplest = by_analytic[REAL], by_analytic[SIMPLEST]
     alike = common_prefix(real.sequence, simplest.sequence)
     times = np.linspace(first, shared, 400)
     strayed = float(distance(real.sample(times), simplest.sample(times)).max())
     radius = real.scenario.coin.radius
-    findings = (
-        Finding(
+    faces = ", ".join(toss.sequence for toss in by_analytic.values())
+    claims = (
+        Claim(
             claim="after collisions the four coins take different paths",
-            ours=(
+            analytic=(
                 f"{1e3 * before:.1f} mm apart up to the first impact, {1e2 * after:.0f} cm within "
-                f"{shared - first:.2f} s after it; faces {', '.join(t.sequence for t in ours.values())}"
+                f"{shared - first:.2f} s after it; faces {faces}"
             ),
             mujoco=(
-                f"within {1e3 * max(apart.values()):.2g} mm of ours while both are trusted, "
+                f"within {1e3 * max(apart.values()):.2g} mm of the analytic engine while both are trusted, "
                 f"{', '.join(str(min(t.trusted_impacts for t in pair)) for pair in pairs.values())} impacts"
             ),
-            holds=bool(after > 10 * before and max(apart.values()) < 0.1 * radius),
+            criteria=[
+                Criterion(
+                    "distance after the first impact [m]", after, ">", 10 * before, "ten times that before it"
+                ),
+                Criterion(
+                    "MuJoCo off the analytic engine [m]",
+                    max(apart.values()),
+                    "<",
+                    0.1 * radius,
+                    "r/10, while both are trusted",
+                ),
+            ],
         ),
-        Finding(
+        Claim(
             claim="the ideal thin coin is sufficient for the real one (section 5.1), after collisions too",
-            ours=(
+            analytic=(
                 f"in this toss it shows {alike} of {IMPACTS} faces as the 3D imperfect coin does, and is up "
                 f"to {1e2 * strayed:.0f} cm from it"
             ),
-            holds=bool(alike == IMPACTS and strayed < radius),
+            criteria=[
+                Criterion("faces alike from the start on", alike, "=", IMPACTS, "all that were followed"),
+                Criterion("largest distance [m]", strayed, "<", radius, "r"),
+            ],
             expected=False,
         ),
     )
     data: dict[str, Array] = {}
-    for name, (by_paper, by_mujoco) in pairs.items():
-        t = np.linspace(0, by_paper.end_time, 1500)
+    for name, (toss, by_mujoco) in pairs.items():
+        t = np.linspace(0, toss.end_time, 1500)
         trusted = np.linspace(0, horizons[name], 60)
-        data |= {f"{name}, time": t, f"{name}, ours": by_paper.sample(t).position}
+        data |= {f"{name}, time": t, f"{name}, analytic": toss.sample(t).position}
         data |= {f"{name}, trusted": trusted, f"{name}, MuJoCo": by_mujoco.sample(trusted).position}
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
 def _up_to(scenario: Scenario, impacts: int) -> Scenario:
@@ -84,23 +99,23 @@ def _up_to(scenario: Scenario, impacts: int) -> Scenario:
 
 
 def _horizon(pair: tuple[Toss, Toss]) -> float:
-    """Give the time of the first impact that not both engines trust, or of the end [s]."""
+    """Return the time of the first impact that not both engines trust, or of the end [s]."""
     trusted = min(toss.trusted_impacts for toss in pair)
     return float(min(toss.impacts.time[trusted] if trusted < IMPACTS else toss.end_time for toss in pair))
 
 
 def _largest_distance(tosses: dict[str, Toss], times: Array) -> float:
-    """Give the largest distance of any two mass centres at any of these times [m]."""
+    """Return the largest distance of any two mass centres at any of these times [m]."""
     paths = [toss.sample(times) for toss in tosses.values()]
     return float(max(distance(p, q).max() for p, q in itertools.combinations(paths, 2)))
 
 
-def _draw(data: dict[str, Array]) -> Picture:
-    picture = Picture(figsize=(9, 3.6))
+def _draw(data: dict[str, Array]) -> Figure:
+    picture = Figure(figsize=(9, 3.6))
     side, height = picture.subplots(1, 2, sharey=True)
     for name, (_, color) in MODELS.items():
         t, trusted = data[f"{name}, time"], data[f"{name}, trusted"]
-        x, _, z = 100 * data[f"{name}, ours"][t > LEFT_OUT].T
+        x, _, z = 100 * data[f"{name}, analytic"][t > LEFT_OUT].T
         x_mujoco, _, z_mujoco = 100 * data[f"{name}, MuJoCo"][trusted > LEFT_OUT].T
         side.plot(x, z, color=color, label=name)
         side.plot(x_mujoco, z_mujoco, "o", color=color, markersize=3)
@@ -112,7 +127,7 @@ def _draw(data: dict[str, Array]) -> Picture:
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Fig. 23",
     title="the mass centres of four models of the coin after collisions",
     assumed=(
@@ -121,4 +136,5 @@ FIGURE = paper_figure(
     ),
     seconds=10,
     make=make,
+    draw={"figure": _draw},
 )

@@ -1,21 +1,25 @@
-"""Fig. 28: the two kinds of impacts that change the coin's face, told apart by rule and counted."""
+"""Fig. 28: the two kinds of impacts that change the coin's face, distinguished by rule and counted."""
 
 from functools import partial
 
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from analytic.events import run
 from analytic.toss import state_of
 from coin_mj.toss import impacts_of
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
+from compare.output.style import BLUE, VERMILION
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from models.reading import load
 from models.records import Array
 from models.scenario import Scenario
 
 SEED = 28
+SOFTER = 0.8
+"""A ratio of medians below this is a difference."""
 SPREAD = 0.2
 """Part by which height and spin of the tosses differ from those of Fig. 24(a)."""
 
@@ -47,26 +51,42 @@ def make(progress: Progress, count: int = 4000, count_mujoco: int = 60) -> Resul
     share = len(soft) / whole
     error = np.sqrt(share * (1 - share) / whole)
     (S_soft, L_soft), (S_hard, L_hard) = np.median(soft, axis=0), np.median(hard, axis=0)
-    findings = (
-        Finding(
+    claims = (
+        Claim(
             claim="the face changes more often after a row of impacts on one face than after a single one",
-            ours=f"{len(soft)} of {whole} changes, {share:.1%} ± {error:.1%}, in {count} tosses",
+            analytic=f"{len(soft)} of {whole} changes, {share:.1%} ± {error:.1%}, in {count} tosses",
             mujoco=f"{by_mujoco[0]} of {sum(by_mujoco)} in {count_mujoco} tosses",
-            holds=bool(share > 0.5 + 3 * error),
+            criteria=[
+                Criterion(
+                    "share after a row", share, ">", 0.5 + 3 * error, "a half and three standard errors"
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="the first kind comes from soft impacts, the second from strong ones",
-            ours=f"median impulse {1e3 * S_soft:.2f} mN s after a row, {1e3 * S_hard:.2f} mN s after one",
-            holds=bool(S_soft < 0.8 * S_hard),
+            analytic=f"median impulse {1e3 * S_soft:.2f} mN s after a row, {1e3 * S_hard:.2f} mN s after one",
+            criteria=[
+                Criterion(
+                    "median impulse, soft over strong", S_soft / S_hard, "<", SOFTER, "a fifth less is seen"
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="the first kind transfers little angular momentum, the second much",
-            ours=f"median {1e6 * L_soft:.1f} µN m s after a row, {1e6 * L_hard:.1f} µN m s after one",
-            holds=bool(L_soft < 0.8 * L_hard),
+            analytic=f"median {1e6 * L_soft:.1f} µN m s after a row, {1e6 * L_hard:.1f} µN m s after one",
+            criteria=[
+                Criterion(
+                    "median angular momentum, little over much",
+                    L_soft / L_hard,
+                    "<",
+                    SOFTER,
+                    "a fifth less is seen",
+                )
+            ],
             expected=False,
         ),
     )
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
 def _scenario(rng: np.random.Generator) -> Scenario:
@@ -77,43 +97,44 @@ def _scenario(rng: np.random.Generator) -> Scenario:
 
 
 def changes(faces: NDArray[np.int8]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Give the last impacts before the face changes, by the kind of change.
+    """Return the last impacts before the face changes, by the kind of change.
 
     Args:
         faces: up at the touches, (n,).
 
     Returns:
-        Numbers of the impacts from 0: those that end a row on one face, and those alone on theirs.
+        Numbers of the impacts from 0: those that end a row on one face, and single ones.
     """
     last = np.flatnonzero(np.diff(faces))
     lengths = np.diff(np.concatenate([[-1], last]))
     return last[lengths > 1], last[lengths == 1]
 
 
-def _draw(data: dict[str, Array]) -> Picture:
-    picture = Picture(figsize=(9, 3.2))
+def _draw(data: dict[str, Array]) -> Figure:
+    picture = Figure(figsize=(9, 3.2))
     panels = zip(
         picture.subplots(1, 2), (1e3, 1e6), ("impulse [mN s]", "angular momentum given [µN m s]"), strict=True
     )
     for column, (axes, unit, label) in enumerate(panels):
         bins = np.linspace(0, unit * max(np.quantile(d[:, column], 0.99) for d in data.values()), 40)
-        for (name, given), color in zip(data.items(), ("#0072B2", "#D55E00"), strict=True):
+        for (name, given), color in zip(data.items(), (BLUE, VERMILION), strict=True):
             axes.hist(unit * given[:, column], bins.tolist(), histtype="step", color=color, label=name)
         axes.set(xlabel=f"last impact before the change: {label}", ylabel="changes")
     picture.axes[0].legend()
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Fig. 28",
     title="two kinds of impacts that change the face, counted",
     assumed=(
-        "The paper tells no tosses; here those of Fig. 24(a) with height and spins up to 20 % off. Its rule "
+        "The paper gives no tosses; here those of Fig. 24(a) with height and spins up to 20 % off. Its rule "
         "is taken at its word: a face that was up at two or more impacts in a row changes by the first kind, "
         "one that was up at a single impact by the second."
     ),
     seconds=60,
     make=make,
+    draw={"figure": _draw},
     quick_seconds=10,
     quick=partial(make, count=400, count_mujoco=6),
 )

@@ -3,19 +3,20 @@
 from functools import partial
 
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 
 from coin_mj.toss import impacts_of
 from compare.basins.boundary import distance_to_doubt
 from compare.basins.fractions import fractions
-from compare.basins.maps import Outcomes
-from compare.basins.picture import Axis, draw_panel
+from compare.basins.maps import OutcomeCodes
+from compare.basins.picture import draw_panel
 from compare.basins.stripes import crossings
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.planar_maps import (
-    HEIGHTS,
-    SPINS,
+    HEIGHT,
+    SPIN,
     Grid,
     case,
     faces_after,
@@ -24,9 +25,6 @@ from compare.reproduction.setups.planar_maps import (
 )
 from models.records import Face, Outcome
 from models.scenario import Scenario
-
-HEIGHT = Axis(name="height", unit="m", start=HEIGHTS[0], stop=HEIGHTS[1])
-SPIN = Axis(name="spin", unit="rad/s", start=SPINS[0], stop=SPINS[1])
 
 
 def make(progress: Progress, points: int = 400, points_mujoco: int = 16) -> Result:
@@ -42,42 +40,56 @@ def make(progress: Progress, points: int = 400, points_mujoco: int = 16) -> Resu
     away = distance_to_doubt(landed["vacuum"]) > 1
     wrong = int(np.sum((landed["vacuum"] != _closed_form(grid)) & away))
     coarse = whole_grid(points_mujoco)
-    ours = faces_after(case(air=True), coarse.releases, 0).reshape(coarse.shape)
-    same = int(np.sum(_first_touches(case(air=True), coarse) == ours))
+    faces = faces_after(case(air=True), coarse.releases, 0).reshape(coarse.shape)
+    same = int(np.sum(_first_touches(case(air=True), coarse) == faces))
     progress(5, 5)
     lines = {name: crossings(maps[::20]).mean() for name, maps in settled.items()}
     lines_landed = {name: crossings(maps[::20]).mean() for name, maps in landed.items()}
     changed = np.mean(landed["air"] != landed["vacuum"])
     undecided = sum(fractions(maps)[Outcome.UNDECIDED] for maps in settled.values())
-    findings = (
-        Finding(
+    claims = (
+        Claim(
             claim="without bouncing the basins are stripes as in Keller's model",
-            ours=f"off the boundaries {wrong} of {away.sum()} pixels differ from the planar closed form",
-            mujoco=f"{same} of {ours.size} pixels of a coarser map as ours",
-            holds=wrong == 0,
+            analytic=f"off the boundaries {wrong} of {away.sum()} pixels differ from the planar closed form",
+            mujoco=f"{same} of {faces.size} pixels of a coarser map as the analytic engine",
+            criteria=[
+                Criterion(
+                    "pixels off the closed form", wrong, "=", 0, "rounding moves no more than the boundaries"
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="without bouncing the air can be neglected",
-            ours=f"it changes {changed:.1%} of the pixels",
-            holds=bool(changed < 0.1),
+            analytic=f"it changes {changed:.1%} of the pixels",
+            criteria=[
+                Criterion("share of the pixels that air changes", changed, "<", 0.1, "nine tenths stay")
+            ],
         ),
-        Finding(
+        Claim(
             claim="bouncing makes the basins more complicated",
-            ours=(
+            analytic=(
                 f"a line through the map crosses {lines['air']:.0f} boundaries with air and "
                 f"{lines['vacuum']:.0f} without; without bouncing {lines_landed['air']:.1f} and "
                 f"{lines_landed['vacuum']:.1f}; {undecided:.1%} of the tosses undecided"
             ),
-            holds=min(lines.values()) > 10 * max(lines_landed.values()),
+            criteria=[
+                Criterion(
+                    "boundaries on a line, the fewest with bouncing",
+                    min(lines.values()),
+                    ">",
+                    10 * max(lines_landed.values()),
+                    "ten times the most without",
+                )
+            ],
         ),
     )
     data = {f"first touch, {name}": maps for name, maps in landed.items()}
     data |= {f"final, {name}": maps for name, maps in settled.items()}
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
-def _first_touches(scenario: Scenario, grid: Grid) -> Outcomes:
-    """Give MuJoCo's map of the face up at the first touch, (y, x)."""
+def _first_touches(scenario: Scenario, grid: Grid) -> OutcomeCodes:
+    """Return MuJoCo's map of the face up at the first touch, (y, x)."""
     faces, once = [], scenario.replace("ending.max_impacts", 1)
     for w in grid.spins.tolist():
         for z in grid.heights.tolist():
@@ -87,8 +99,8 @@ def _first_touches(scenario: Scenario, grid: Grid) -> Outcomes:
     return np.array(faces, dtype=np.int8).reshape(grid.shape)
 
 
-def _closed_form(grid: Grid) -> Outcomes:
-    """Give the face up at the first touch of a planar thin coin in vacuum, (y, x).
+def _closed_form(grid: Grid) -> OutcomeCodes:
+    """Return the face up at the first touch of a planar thin coin in vacuum, (y, x).
 
     It touches when z_0 - g t²/2 = r |sin ω t| for the first time; heads is up while cos ω t > 0.
     """
@@ -105,8 +117,8 @@ def _closed_form(grid: Grid) -> Outcomes:
     return np.where(np.cos(w * t) > 0, Face.HEADS, Face.TAILS).astype(np.int8)
 
 
-def _draw(data: dict[str, Outcomes]) -> Picture:
-    picture = Picture(figsize=(6.4, 5.6))
+def _draw(data: dict[str, OutcomeCodes]) -> Figure:
+    picture = Figure(figsize=(6.4, 5.6))
     order = ("first touch, air", "first touch, vacuum", "final, air", "final, vacuum")
     for axes, letter, name in zip(picture.subplots(2, 2).flat, "abcd", order, strict=True):
         draw_panel(axes, data[name], x=HEIGHT, y=SPIN)
@@ -115,9 +127,9 @@ def _draw(data: dict[str, Outcomes]) -> Picture:
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Fig. 29",
-    title="basins of heads (black) and tails (white): without and with bouncing, with air and without",
+    title="basins of heads (gold) and tails (blue): without and with bouncing, with air and without",
     assumed=(
         "The ranges of the axes are unsaid; here heights from 0.2 to 0.6 m and spins from 20 to 60 rad/s, "
         "the coin released flat, heads up. The impactless maps (χ = 0) show the face up at the first touch. "
@@ -125,6 +137,7 @@ FIGURE = paper_figure(
     ),
     seconds=60,
     make=make,
+    draw={"figure": _draw},
     quick_seconds=15,
     quick=partial(make, points=150, points_mujoco=6),
 )

@@ -1,15 +1,15 @@
 """Fig. 3: coins dropped from 186 cm flat and at 45 degrees keep their attitude, if they are ideal."""
 
-from functools import partial
-
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 
 import analytic
 import coin_mj
 from compare.metrics.trajectories import attitude_angle
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
+from compare.output.style import BLUE, ORANGE, SKY, VERMILION
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from models.reading import load
 from models.records import Array
 
@@ -26,38 +26,48 @@ KEPT = 0.1
 def make(progress: Progress) -> Result:
     """Drop the ideal and the imperfect coin by both engines until they touch the floor."""
     data: dict[str, Array] = {}
-    findings = []
+    claims: list[Claim] = []
     for done, (name, scenario) in enumerate(DROPS.items(), start=1):
         tosses = [engine(load(scenario)) for engine in (analytic.toss, coin_mj.toss)]
         t = np.linspace(0, min(toss.impacts.time[0] for toss in tosses), 200)
-        ours, mujoco = (np.degrees(attitude_angle(toss.sample(t), toss.sample(0 * t))) for toss in tosses)
-        data |= {f"{name}, time": t, f"{name}, ours": ours, f"{name}, MuJoCo": mujoco}
-        findings.append(
-            Finding(
+        by_analytic, mujoco = (
+            np.degrees(attitude_angle(toss.sample(t), toss.sample(0 * t))) for toss in tosses
+        )
+        data |= {f"{name}, time": t, f"{name}, analytic": by_analytic, f"{name}, MuJoCo": mujoco}
+        claims.append(
+            Claim(
                 claim=f"the coin keeps its attitude until it lands ({name})",
-                ours=f"turns by {ours.max():.3g}° in {t[-1]:.3f} s",
+                analytic=f"turns by {by_analytic.max():.3g}° in {t[-1]:.3f} s",
                 mujoco=f"{mujoco.max():.3g}°",
-                holds=bool(max(ours.max(), mujoco.max()) < KEPT),
+                criteria=[
+                    Criterion(
+                        "largest turn [°]",
+                        max(by_analytic.max(), mujoco.max()),
+                        "<",
+                        KEPT,
+                        "less is not seen",
+                    )
+                ],
                 expected=name.startswith("ideal"),
             )
         )
         progress(done, len(DROPS))
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
-def _draw(data: dict[str, Array]) -> Picture:
-    picture = Picture(figsize=(7, 3.4))
+def _draw(data: dict[str, Array]) -> Figure:
+    picture = Figure(figsize=(7, 3.4))
     axes = picture.subplots()
-    for name, color in zip(DROPS, ("#0072B2", "#56B4E9", "#D55E00", "#E69F00"), strict=True):
+    for name, color in zip(DROPS, (BLUE, SKY, VERMILION, ORANGE), strict=True):
         t = data[f"{name}, time"]
-        axes.plot(t, data[f"{name}, ours"], color=color, label=name)
+        axes.plot(t, data[f"{name}, analytic"], color=color, label=name)
         axes.plot(t[::10], data[f"{name}, MuJoCo"][::10], "o", color=color, markersize=3)
     axes.set(xlabel="time [s]", ylabel="turned from the release [°]")
-    axes.legend(title="lines: the paper's mechanics; dots: MuJoCo")
+    axes.legend(title="lines: analytic; dots: MuJoCo")
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Fig. 3",
     title="two drops from 186 cm: the attitude is kept, by an ideal coin",
     assumed=(
@@ -66,4 +76,5 @@ FIGURE = paper_figure(
     ),
     seconds=10,
     make=make,
+    draw={"figure": _draw},
 )

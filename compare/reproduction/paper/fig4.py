@@ -3,31 +3,35 @@
 from functools import partial
 
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
 import analytic
 import coin_mj
 from analytic.flight.integrated_flight import sample_flight
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
+from compare.output.style import BLUE, GREY, ORANGE, PALE, SKY, VERMILION
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from models.reading import load
 from models.records import Array, States
 from models.scenario import Air, Ending, Release, Scenario, vector
 
 AIR = Air(normal=0.8, tangential=0.2)
 CASES = {
-    "ideal, vacuum": ("fig4_ideal", Air(), "#0072B2"),
-    "ideal, air": ("fig4_ideal", AIR, "#56B4E9"),
-    "imperfect, vacuum": ("fig4_imperfect", Air(), "#D55E00"),
+    "ideal, vacuum": ("fig4_ideal", Air(), BLUE),
+    "ideal, air": ("fig4_ideal", AIR, SKY),
+    "imperfect, vacuum": ("fig4_imperfect", Air(), VERMILION),
 }
 KEPT = 1e-8
 """An angle that changes less stays [degrees]."""
-DURATION, LOOKS = 0.5, 400
-"""Of a random toss [s], and how often its face is looked at."""
+CHANGED = 0.1
+"""One that changes more does not [degrees]."""
+DURATION, SAMPLES = 0.5, 400
+"""Of a random toss [s], and how often its face is sampled."""
 MUJOCO_TOSSES = 10
 TURNS = 4000
-"""Looks at one turn of the normal about the angular momentum."""
+"""Samples of one turn of the normal about the angular momentum."""
 DIACONIS = np.radians(79.95), 0.51
 """The angle ψ and the probability of the first side there, by Diaconis, Holmes and Montgomery 2007."""
 
@@ -44,62 +48,80 @@ def make(progress: Progress, count: int = 1000) -> Result:
     swing = {name: [float(np.ptp(gamma)) for gamma in gammas] for name, (_, *gammas) in followed.items()}
     below, below_leaning = (tosses["gamma"] < np.pi / 4 for tosses in (flat, leaning))
     changed, changed_leaning = (
-        np.sum((tosses["lowest"] < 0) & chosen)
+        int(np.sum((tosses["lowest"] < 0) & chosen))
         for tosses, chosen in ((flat, below), (leaning, below_leaning))
     )
     foretold = np.abs(leaning["L"][:, 2]) > np.sin(leaning["gamma"])
     apart = max(tosses["apart"].max() for tosses in (flat, leaning))
-    findings = (
+    claims = (
         _about_gamma("without air the ideal coin keeps γ", swing["ideal, vacuum"], constant=True),
         _about_gamma("with air it does not", swing["ideal, air"], constant=False),
         _about_gamma("γ of the imperfect coin changes", swing["imperfect, vacuum"], constant=False),
-        Finding(
+        Claim(
             claim="the ideal coin with γ < π/4 never changes its face (if released flat)",
-            ours=(
+            analytic=(
                 f"{changed} of {below.sum()} random tosses change it; n_z within {apart:.0e} of the closed "
                 "form"
             ),
             mujoco=f"n_z within {_mujoco_apart(flat):.0e} of the closed form in {MUJOCO_TOSSES} tosses",
-            holds=bool(changed == 0 and below.sum() > count / 4 and apart < 1e-9),
+            criteria=[
+                Criterion("tosses that change it", changed, "=", 0, "never"),
+                Criterion("tosses with γ < π/4", below.sum(), ">", count / 4, "about half of them are"),
+                Criterion("n_z off the closed form", apart, "<", 1e-9, "rounding"),
+            ],
         ),
-        Finding(
+        Claim(
             claim="the ideal coin with γ < π/4 never changes its face (as printed, however released)",
-            ours=(
+            analytic=(
                 f"{changed_leaning} of {below_leaning.sum()} random tosses from any attitude change it; the "
-                "angular momentum must lie within π/2 - γ of the vertical, which tells "
-                f"{np.mean(foretold == (leaning['lowest'] > 0)):.1%} of all {count} right"
+                "angular momentum must lie within π/2 - γ of the vertical, which is right for "
+                f"{np.mean(foretold == (leaning['lowest'] > 0)):.1%} of all {count}"
             ),
-            holds=bool(changed_leaning == 0),
+            criteria=[Criterion("tosses that change it", changed_leaning, "=", 0, "never")],
             expected=False,
         ),
-        Finding(
+        Claim(
             claim=f"the first side has p = {DIACONIS[1]} at ψ = {np.degrees(DIACONIS[0]):.2f}° (section 1)",
-            ours=(
+            analytic=(
                 f"{counted[-1]:.4f} of a turn; p(ψ) in closed form {first_side(DIACONIS[0]):.4f}, at other "
                 f"angles within {np.abs(counted - first_side(psi)).max():.0e}"
             ),
             mujoco=f"{by_mujoco:.4f}",
-            holds=bool(
-                np.abs(counted - first_side(psi)).max() < 2 / TURNS
-                and abs(by_mujoco - counted[-1]) < 2 / TURNS
-                and abs(first_side(DIACONIS[0]) - DIACONIS[1]) < 5e-5
-            ),
+            criteria=[
+                Criterion(
+                    "counted off the closed form",
+                    np.abs(counted - first_side(psi)).max(),
+                    "<",
+                    2 / TURNS,
+                    "one sample at each change of face",
+                ),
+                Criterion(
+                    "MuJoCo off the analytic engine", abs(by_mujoco - counted[-1]), "<", 2 / TURNS, "as above"
+                ),
+                Criterion(
+                    "closed form off the printed p",
+                    float(abs(first_side(DIACONIS[0]) - DIACONIS[1])),
+                    "<",
+                    5e-5,
+                    "p = 0.5100 to four places",
+                ),
+            ],
         ),
     )
     data = {
         f"{name}, {part}": row
         for name, rows in followed.items()
-        for part, row in zip(("time", "ours", "MuJoCo"), rows, strict=True)
+        for part, row in zip(("time", "analytic", "MuJoCo"), rows, strict=True)
     }
     for name, tosses in (("flat", flat), ("leaning", leaning)):
         data |= {f"{name}, {part}": tosses[part] for part in ("gamma", "lowest")}
     data |= {"psi": psi, "counted": counted}
     progress(4, 4)
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
 def first_side(psi: Array | float) -> Array:
-    """Give the probability that the first side is up; Diaconis, Holmes and Montgomery 2007, theorem 2.
+    """Return the probability that the first side is up; Diaconis, Holmes and Montgomery 2007, theorem 2.
 
     The ideal coin is released flat, and caught after a time that leaves every phase of its turn about the
     angular momentum as likely.
@@ -111,28 +133,34 @@ def first_side(psi: Array | float) -> Array:
     return 1 / 2 + np.arcsin(cotangent**2) / np.pi
 
 
-def _about_gamma(claim: str, swing: list[float], *, constant: bool) -> Finding:
-    ours, mujoco = swing
-    return Finding(
+def _about_gamma(claim: str, swing: list[float], *, constant: bool) -> Claim:
+    by_analytic, mujoco = swing
+    return Claim(
         claim=claim,
-        ours=f"γ changes by {ours:.2g}°",
+        analytic=f"γ changes by {by_analytic:.2g}°",
         mujoco=f"by {mujoco:.2g}°",
-        holds=bool(max(ours, mujoco) < KEPT) if constant else bool(min(ours, mujoco) > 0.1),
+        criteria=[
+            Criterion(
+                "largest change [°]", max(by_analytic, mujoco), "<", KEPT, "rounding and MuJoCo's steps"
+            )
+            if constant
+            else Criterion("least change [°]", min(by_analytic, mujoco), ">", CHANGED, "what a picture shows")
+        ],
     )
 
 
 def _follow(scenario: Scenario, air: Air) -> tuple[Array, Array, Array]:
-    """Give times [s], and γ by both engines [degrees], until the coin lands."""
+    """Return times [s], and γ by both engines [degrees], until the coin lands."""
     case = scenario.replace("air", air, "ending", Ending(max_impacts=1))
     tosses = analytic.toss(case), coin_mj.toss(case)
     # At the touch itself the state is that after the impact.
     t = np.linspace(0, min(toss.impacts.time[0] for toss in tosses), 301)[:-1]
-    ours, mujoco = (np.degrees(_gamma(case, toss.sample(t))) for toss in tosses)
-    return t, ours, mujoco
+    by_analytic, mujoco = (np.degrees(_gamma(case, toss.sample(t))) for toss in tosses)
+    return t, by_analytic, mujoco
 
 
 def _gamma(case: Scenario, states: States) -> Array:
-    """Give the angle between the angular momentum and the normal, (n,) [rad]."""
+    """Return the angle between the angular momentum and the normal, (n,) [rad]."""
     L = states.angular_velocity @ case.coin.inertia_about_C
     return np.arctan2(np.hypot(L[:, 0], L[:, 1]), L[:, 2])
 
@@ -153,7 +181,7 @@ def _random_tosses(rng: np.random.Generator, count: int, anyhow: bool) -> dict[s
     attitude = Rotation.random(count, rng=rng) if anyhow else Rotation.identity(count)
     e = attitude.as_quat(scalar_first=True)
     starts = np.hstack([np.zeros((count, 6)), e, w])
-    times, states = np.linspace(0, DURATION, LOOKS), np.empty((LOOKS, 13))
+    times, states = np.linspace(0, DURATION, SAMPLES), np.empty((SAMPLES, 13))
     found = np.empty((count, 2))
     L_space = attitude.apply(L)
     n_0 = attitude.apply([0, 0, 1])
@@ -167,7 +195,7 @@ def _random_tosses(rng: np.random.Generator, count: int, anyhow: bool) -> dict[s
 
 
 def _closed_form(n: Array, L: Array, turn: float, times: Array) -> Array:
-    """Give n_z(t) of the ideal coin without air: its normal n turns about L.
+    """Return n_z(t) of the ideal coin without air: its normal n turns about L.
 
     Args:
         n: at time 0, space frame, (3,).
@@ -180,7 +208,7 @@ def _closed_form(n: Array, L: Array, turn: float, times: Array) -> Array:
 
 
 def _mujoco_apart(tosses: dict[str, Array]) -> float:
-    """Give how far n_z by MuJoCo is from the closed form in the first tosses from flat."""
+    """Return how far n_z by MuJoCo is from the closed form in the first tosses from flat."""
     scenario, times = load("fig4_ideal"), np.linspace(0, DURATION, 50)
     apart = []
     for i in range(MUJOCO_TOSSES):
@@ -196,7 +224,7 @@ def _first_side() -> tuple[Array, Array, float]:
     """Count for how much of a turn the first side is up.
 
     Returns:
-        Angles ψ [rad], the parts by the paper's mechanics, and that by MuJoCo at the last angle.
+        Angles ψ [rad], the parts by the analytic engine, and that by MuJoCo at the last angle.
     """
     scenario = load("fig4_ideal")
     psi = np.array([*np.radians(np.arange(40, 90, 4)), DIACONIS[0]])
@@ -215,34 +243,34 @@ def _first_side() -> tuple[Array, Array, float]:
     return psi, np.array(counted), float(np.mean(mujoco.sample(times).normal[:, 2] > 0))
 
 
-def _draw(data: dict[str, Array]) -> Picture:
-    picture = Picture(figsize=(10, 3.5))
+def _draw(data: dict[str, Array]) -> Figure:
+    picture = Figure(figsize=(10, 3.5))
     angle, heights, sides = picture.subplots(1, 3)
     for name, (_, _, color) in CASES.items():
         t = data[f"{name}, time"]
-        angle.plot(t, data[f"{name}, ours"], color=color, label=name)
+        angle.plot(t, data[f"{name}, analytic"], color=color, label=name)
         angle.plot(t[::20], data[f"{name}, MuJoCo"][::20], "o", color=color, markersize=3)
-    angle.set(title="lines: ours; dots: MuJoCo", xlabel="time [s]", ylabel="γ [°]")
+    angle.set(title="lines: analytic; dots: MuJoCo", xlabel="time [s]", ylabel="γ [°]")
     angle.legend()
-    for name, color in (("leaning", "#E69F00"), ("flat", "#0072B2")):
+    for name, color in (("leaning", ORANGE), ("flat", BLUE)):
         gamma = np.degrees(data[f"{name}, gamma"])
         heights.plot(gamma, data[f"{name}, lowest"], ".", color=color, markersize=2)
         heights.plot([], [], "o", color=color, label=f"released {name}")
-    heights.axvline(45, color="#5b6675", linewidth=0.8)
-    heights.axhline(0, color="#5b6675", linewidth=0.8)
+    heights.axvline(45, color=GREY, linewidth=0.8)
+    heights.axhline(0, color=GREY, linewidth=0.8)
     heights.set(
         title="random tosses", xlabel="γ [°]", ylabel="lowest n_z of the first side", xticks=range(0, 91, 15)
     )
     heights.legend(loc="upper right")
     psi = np.radians(np.linspace(40, 90, 300))
-    sides.plot(np.degrees(psi), first_side(psi), color="#9aa4b0", label="closed form")
-    sides.plot(np.degrees(data["psi"]), data["counted"], "o", color="#0072B2", markersize=4, label="counted")
+    sides.plot(np.degrees(psi), first_side(psi), color=PALE, label="closed form")
+    sides.plot(np.degrees(data["psi"]), data["counted"], "o", color=BLUE, markersize=4, label="counted")
     sides.set(title="first side up", xlabel="ψ [°]", ylabel="p")
     sides.legend()
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Fig. 4",
     title="the angle between angular momentum and normal, and the faces that it keeps",
     assumed=(
@@ -251,6 +279,7 @@ FIGURE = paper_figure(
     ),
     seconds=15,
     make=make,
+    draw={"figure": _draw},
     quick_seconds=10,
     quick=partial(make, count=300),
 )

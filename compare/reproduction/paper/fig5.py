@@ -1,17 +1,21 @@
 """Figs 5-7: a British 2-pound coin bounces: stills by MuJoCo, and what it does there."""
 
 from functools import partial
+from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 import analytic
 import coin_mj
 from compare.film.stills import stills
 from compare.metrics.sequences import common_prefix
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
+from compare.output.style import ANALYTIC, GREY, MUJOCO
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from models.reading import load
 from models.records import Array, Face, Toss
 from models.releases import Releases
@@ -34,7 +38,7 @@ def make(progress: Progress, count: int = 2000) -> Result:
     """Toss the coin by both engines, draw it, and toss it `count` times from slightly other attitudes."""
     scenario = load("fig5")
     begun = _up_to(scenario, IMPACTS)
-    ours, mujoco = analytic.toss(begun), coin_mj.toss(begun)
+    by_analytic, mujoco = analytic.toss(begun), coin_mj.toss(begun)
     progress(1, 3)
     last = mujoco.impacts.time[SHOWN_IMPACTS - 1] + BEFORE
     states = mujoco.sample(np.linspace(mujoco.impacts.time[0] - BEFORE, last, ROWS * COLUMNS))
@@ -44,47 +48,85 @@ def make(progress: Progress, count: int = 2000) -> Result:
     first, last_seen = (
         analytic.toss_many(_up_to(scenario, n), nearby).after(n - 1) == Face.HEADS for n in (1, IMPACTS)
     )
-    agreed = common_prefix(ours.sequence, mujoco.sequence)
-    findings = (
-        Finding(
+    agreed = common_prefix(by_analytic.sequence, mujoco.sequence)
+    claims = (
+        Claim(
             claim="the coin rotates around all possible axes",
-            ours=f"spins of up to {_spins(ours)} rad/s about ξ, η, ζ after its impacts",
+            analytic=f"spins of up to {_spins(by_analytic)} rad/s about ξ, η, ζ after its impacts",
             mujoco=f"{_spins(mujoco)} rad/s" + (f"; no stills: {drawn}" if isinstance(drawn, str) else ""),
-            holds=all(_largest_spins(toss).min() > TURNS for toss in (ours, mujoco)),
+            criteria=[
+                Criterion(
+                    "least of the largest spins [rad/s]",
+                    min(_largest_spins(toss).min() for toss in (by_analytic, mujoco)),
+                    ">",
+                    TURNS,
+                    "that counts as turning",
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="it slides on the floor",
-            ours=_sliding(ours),
+            analytic=_sliding(by_analytic),
             mujoco=_sliding(mujoco),
-            holds=all(_slip(toss).max() > SLIDES for toss in (ours, mujoco)),
+            criteria=[
+                Criterion(
+                    "largest slip [m/s]",
+                    min(_slip(toss).max() for toss in (by_analytic, mujoco)),
+                    ">",
+                    SLIDES,
+                    "that counts as sliding",
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="it can change its side between successive collisions",
-            ours=f"{ours.sequence}…",
-            mujoco=f"{mujoco.sequence}…; {agreed} faces as ours, {mujoco.trusted_impacts} trusted",
-            holds=all(len(set(toss.sequence[: toss.trusted_impacts])) == 2 for toss in (ours, mujoco)),
+            analytic=f"{by_analytic.sequence}…",
+            mujoco=f"{mujoco.sequence}…; {agreed} faces alike, {mujoco.trusted_impacts} trusted",
+            criteria=[
+                Criterion(
+                    "different faces up at trusted impacts",
+                    min(len(set(toss.sequence[: toss.trusted_impacts])) for toss in (by_analytic, mujoco)),
+                    "=",
+                    2,
+                    "heads and tails",
+                )
+            ],
         ),
-        Finding(
+        Claim(
             claim="bouncing makes the final side depend sensitively on the attitude",
-            ours=(
+            analytic=(
                 f"of {count} tosses with angles changed by up to {SPREAD:g} rad {first.mean():.0%} show "
                 f"heads at the first touch, {last_seen.mean():.0%} at impact {IMPACTS} or in the end"
             ),
-            holds=bool(first.mean() in (0, 1) and 0.1 < last_seen.mean() < 0.9),
+            criteria=[
+                Criterion(
+                    "share of the rarer face at the first touch",
+                    min(first.mean(), 1 - first.mean()),
+                    "=",
+                    0,
+                    "without bouncing it does not depend on it",
+                ),
+                Criterion(
+                    f"at impact {IMPACTS}",
+                    min(last_seen.mean(), 1 - last_seen.mean()),
+                    ">",
+                    0.1,
+                    "both come up",
+                ),
+            ],
         ),
     )
     t = np.linspace(0, last, 1500)
-    data: dict[str, Array] = {
+    data: dict[str, NDArray[Any]] = {
         "time": t,
-        "ours": ours.sample(t).position,
+        "analytic": by_analytic.sample(t).position,
         "MuJoCo": mujoco.sample(t).position,
-        "impacts": ours.impacts.time[ours.impacts.time < last],
+        "impacts": by_analytic.impacts.time[by_analytic.impacts.time < last],
         "stills, time": states.time,
-        "stills": np.zeros(0) if isinstance(drawn, str) else drawn,
+        "stills": np.array(drawn),  # or why there are none
     }
-    problem = drawn if isinstance(drawn, str) else ""
     progress(3, 3)
-    return Result(findings=findings, draw=partial(_draw, data, problem), data=data)
+    return Result(claims=claims, data=data)
 
 
 def _up_to(scenario: Scenario, impacts: int) -> Scenario:
@@ -100,7 +142,7 @@ def _spins(toss: Toss) -> str:
 
 
 def _slip(toss: Toss) -> Array:
-    """Give the speed along the floor of the contact point after the trusted impacts, (n,) [m/s]."""
+    """Return the speed along the floor of the contact point after the trusted impacts, (n,) [m/s]."""
     return np.linalg.norm(toss.impacts.contact_velocity_after[: toss.trusted_impacts, :2], axis=1)
 
 
@@ -110,7 +152,7 @@ def _sliding(toss: Toss) -> str:
 
 
 def _nearby(scenario: Scenario, count: int) -> Releases:
-    """Give the scenario's release `count` times, its attitude turned a little at random."""
+    """Return the scenario's release `count` times, its attitude turned a little at random."""
     release, rng = scenario.release, np.random.default_rng(SEED)
     turned = Rotation.from_rotvec(rng.uniform(-SPREAD, SPREAD, (count, 3)))
     attitude = Rotation.from_quat(release.attitude, scalar_first=True) * turned
@@ -122,12 +164,12 @@ def _nearby(scenario: Scenario, count: int) -> Releases:
     )
 
 
-def _draw(data: dict[str, Array], problem: str) -> Picture:
-    picture = Picture(figsize=(8, 6.4))
+def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+    picture = Figure(figsize=(8, 6.4))
     grid = picture.add_gridspec(2, 1, height_ratios=(3, 1))
     gallery, below = picture.add_subfigure(grid[0]), picture.add_subfigure(grid[1])
-    if problem:
-        gallery.text(0.5, 0.5, f"no stills: {problem}", ha="center", va="center", wrap=True)
+    if data["stills"].ndim == 0:
+        gallery.text(0.5, 0.5, f"no stills: {data['stills']}", ha="center", va="center", wrap=True)
     else:
         for axes, still, time in zip(
             gallery.subplots(ROWS, COLUMNS).flat, data["stills"], data["stills, time"], strict=True
@@ -137,15 +179,15 @@ def _draw(data: dict[str, Array], problem: str) -> Picture:
             axes.axis("off")
     axes = below.subplots()
     touched = data["impacts"][0]
-    for name, color, line in (("ours", "#0072B2", "-"), ("MuJoCo", "#D55E00", ":")):
+    for name, color, line in (("analytic", ANALYTIC, "-"), ("MuJoCo", MUJOCO, ":")):
         axes.plot(1e3 * (data["time"] - touched), 1e3 * data[name][:, 2], line, color=color, label=name)
-    axes.plot(1e3 * (data["impacts"] - touched), 0 * data["impacts"], "|", color="#5b6675")
+    axes.plot(1e3 * (data["impacts"] - touched), 0 * data["impacts"], "|", color=GREY)
     axes.set(xlabel="time since the first impact [ms]", ylabel="z of C [mm]", xlim=(-60, None), ylim=(0, 60))
     axes.legend()
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Figs 5-7",
     title="stills of a 2-pound coin that bounces: it turns, slides, and changes its side",
     assumed=(
@@ -154,6 +196,7 @@ FIGURE = paper_figure(
     ),
     seconds=15,
     make=make,
+    draw={"figure": _draw},
     quick_seconds=10,
     quick=partial(make, count=200),
 )

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
@@ -13,8 +13,10 @@ import coin_mj
 from analytic.flight.equations_of_motion import derivative
 from analytic.numerics.euler_angles import Sequence, rate_matrix, rotation_of, singularity
 from analytic.toss import state_of
-from compare.reproduction.findings import Finding, Result, paper_figure
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
+from compare.output.style import BLUE, VERMILION
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from models.attitude import quaternion_from_angles
 from models.reading import load
 from models.records import Array
@@ -58,38 +60,69 @@ def make(progress: Progress) -> Result:
     for done, least in enumerate(LEAST, start=1):
         rows.append(_fly(least))
         progress(done, len(LEAST))
-    angles, parameters, fixed_angles, fixed_parameters, ours, mujoco = np.array(rows).transpose(1, 0, 2)
-    findings = (
-        Finding(
+    angles, parameters, fixed_angles, fixed_parameters, engine, mujoco = np.array(rows).transpose(1, 0, 2)
+    claims = (
+        Claim(
             claim="the twelve sequences are singular where Table 1 says",
-            ours=f"{right} of {len(PRINTED)} rows follow from det B",
-            holds=right == len(PRINTED),
+            analytic=f"{right} of {len(PRINTED)} rows follow from det B",
+            criteria=[Criterion("rows that follow", right, "=", len(PRINTED), "all of the table")],
         ),
-        Finding(
+        Claim(
             claim="near a singularity Euler angles bring difficulties",
-            ours=(
+            analytic=(
                 f"{STEPS} fixed steps in a turn err by {fixed_angles[0, 0]:.0e} rad at a least θ of "
                 f"{LEAST[0]:g}, by up to {fixed_angles[:, 0].max():.0e} at smaller ones; steps chosen to "
                 f"{TOLERANCE:g} keep the error below {angles[:, 0].max():.0e} rad, but are "
                 f"{angles[0, 1]:.0f} and {angles[:, 1].max():.0f}"
             ),
-            holds=bool(
-                fixed_angles[:, 0].max() > 1e3 * fixed_angles[0, 0] and angles[:, 1].max() > 3 * angles[0, 1]
-            ),
+            criteria=[
+                Criterion(
+                    "largest error of fixed steps [rad]",
+                    fixed_angles[:, 0].max(),
+                    ">",
+                    1e3 * fixed_angles[0, 0],
+                    "a thousand times that far from the singularity",
+                ),
+                Criterion(
+                    "most chosen steps",
+                    angles[:, 1].max(),
+                    ">",
+                    3 * angles[0, 1],
+                    "three times those far from it",
+                ),
+            ],
         ),
-        Finding(
+        Claim(
             claim="Euler parameters have no singularity",
-            ours=(
+            analytic=(
                 f"at every θ: {STEPS} fixed steps err by {fixed_parameters[:, 0].max():.0e} rad, "
                 f"{parameters[:, 1].max():.0f} chosen steps by {parameters[:, 0].max():.0e}, the engine by "
-                f"{ours[:, 0].max():.0e}"
+                f"{engine[:, 0].max():.0e}"
             ),
             mujoco=f"{mujoco[:, 0].max():.0e} rad",
-            holds=bool(
-                np.ptp(parameters[:, 1]) <= 1
-                and fixed_parameters[:, 0].max() < 2 * fixed_parameters[:, 0].min()
-                and max(ours[:, 0].max(), mujoco[:, 0].max()) < 1e-9
-            ),
+            criteria=[
+                Criterion(
+                    "spread of the chosen steps",
+                    np.ptp(parameters[:, 1]),
+                    "≤",
+                    1,
+                    "the end may fall into one",
+                ),
+                Criterion(
+                    "largest error of fixed steps [rad]",
+                    fixed_parameters[:, 0].max(),
+                    "<",
+                    2 * fixed_parameters[:, 0].min(),
+                    "twice the smallest",
+                ),
+                Criterion(
+                    "largest error of both engines [rad]",
+                    max(engine[:, 0].max(), mujoco[:, 0].max()),
+                    "<",
+                    1e-9,
+                    "rounding and MuJoCo's steps",
+                ),
+            ],
         ),
     )
     data = {
@@ -98,14 +131,14 @@ def make(progress: Progress) -> Result:
         "parameters, fixed steps": fixed_parameters[:, 0],
         "angles, chosen steps": angles,
         "parameters, chosen steps": parameters,
-        "engine": ours[:, 0],
+        "engine": engine[:, 0],
         "MuJoCo": mujoco[:, 0],
     }
-    return Result(findings=findings, draw=partial(_draw, data), data=data)
+    return Result(claims=claims, data=data)
 
 
 def _fly(least: float) -> list[tuple[float, float]]:
-    """Fly a turn about the angular momentum past a least θ; give error [rad] and steps of all ways."""
+    """Return error [rad] and steps of all ways to fly a turn about the angular momentum past a least θ."""
     case, L, turn = _case(least)
     release = case.release
     J = case.coin.inertia_about_C
@@ -145,7 +178,7 @@ def _fly(least: float) -> list[tuple[float, float]]:
 
 
 def _case(least: float) -> tuple[Scenario, Array, float]:
-    """Give a toss whose normal passes the vertical at a least θ, the direction of its angular momentum in
+    """Return a toss whose normal passes the vertical at a least θ, the direction of its angular momentum in
     space, and the rate at which it turns about that [rad/s]."""
     scenario = load("fig18_3d_ideal")
     J = np.diag(scenario.coin.inertia_about_C)
@@ -169,7 +202,7 @@ def _rate_in_parameters(case: Scenario, y: Array) -> Array:
 
 
 def _rate_in_angles(case: Scenario, y: Array) -> Array:
-    """Give the same equations of motion with ψ, θ, φ for the attitude: φ̇ = B⁻¹ ω, section 3.2."""
+    """Return the same equations of motion with ψ, θ, φ for the attitude: φ̇ = B⁻¹ ω, section 3.2."""
     e = quaternion_from_angles(vector(y[6:9]))
     rate = _rate_in_parameters(case, np.array([*y[:6], *e, *y[9:]]))
     of_angles = np.linalg.solve(rate_matrix(CLASSICAL, y[6:9]), y[9:])
@@ -177,7 +210,7 @@ def _rate_in_angles(case: Scenario, y: Array) -> Array:
 
 
 def _runge_kutta(rate: Callable[[Array], Array], y: Array, duration: float) -> Array:
-    """Give the state after `STEPS` equal steps of the classical method of order 4."""
+    """Return the state after `STEPS` equal steps of the classical method of order 4."""
     dt = duration / STEPS
     for _ in range(STEPS):
         k_1 = rate(y)
@@ -188,25 +221,25 @@ def _runge_kutta(rate: Callable[[Array], Array], y: Array, duration: float) -> A
     return y
 
 
-def _draw(data: dict[str, Array]) -> Picture:
-    picture = Picture(figsize=(8.4, 3.4))
+def _draw(data: dict[str, Array]) -> Figure:
+    picture = Figure(figsize=(8.4, 3.4))
     errors, steps = picture.subplots(1, 2)
     theta = data["least angle"]
-    errors.loglog(theta, data["angles, fixed steps"], "o-", color="#D55E00", label="Euler angles")
-    errors.loglog(theta, data["parameters, fixed steps"], "o-", color="#0072B2", label="Euler parameters")
+    errors.loglog(theta, data["angles, fixed steps"], "o-", color=VERMILION, label="Euler angles")
+    errors.loglog(theta, data["parameters, fixed steps"], "o-", color=BLUE, label="Euler parameters")
     errors.set(
         title=f"{STEPS} fixed steps in a turn", xlabel="least θ [rad]", ylabel="error of the attitude [rad]"
     )
     errors.legend()
-    steps.loglog(theta, data["angles, chosen steps"][:, 1], "o-", color="#D55E00")
-    steps.loglog(theta, data["parameters, chosen steps"][:, 1], "o-", color="#0072B2")
+    steps.loglog(theta, data["angles, chosen steps"][:, 1], "o-", color=VERMILION)
+    steps.loglog(theta, data["parameters, chosen steps"][:, 1], "o-", color=BLUE)
     steps.set(title=f"steps chosen to {TOLERANCE:g}", xlabel="least θ [rad]", ylabel="number of steps")
     for axes in (errors, steps):
         axes.invert_xaxis()
     return picture
 
 
-FIGURE = paper_figure(
+REPRODUCTION = Reproduction(
     paper="Table 1",
     title="twelve Euler sequences, their singular angles, and a flight past θ = 0",
     assumed=(
@@ -215,4 +248,5 @@ FIGURE = paper_figure(
     ),
     seconds=10,
     make=make,
+    draw={"figure": _draw},
 )

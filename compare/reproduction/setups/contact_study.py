@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.single_impacts import strike
-from compare.reproduction.runner import Progress
+from compare.output.progress import Progress
 from compare.reproduction.setups.contact_thresholds import onset_of_gain, onset_without_solution
 from compare.reproduction.setups.random_impacts import draw_states
 from models.body import Body, Rules
@@ -78,8 +78,8 @@ class Onsets:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Study:
-    """The numbers of the study."""
+class ContactRecord:
+    """What all laws did, and where each first fails."""
 
     count: int
     """Impacts for each law and restitution, a quarter of them of each coin."""
@@ -91,7 +91,7 @@ class Study:
     `FRICTIONS_WITHOUT_SOLUTION`."""
 
 
-def compute(count: int, seed: int, progress: Progress) -> Study:
+def compute(count: int, seed: int, progress: Progress) -> ContactRecord:
     """Try every law on random impacts, and search for the onsets.
 
     Args:
@@ -137,7 +137,7 @@ def compute(count: int, seed: int, progress: Progress) -> Study:
         1 - np.mean([strike(d.body, sliding, d.states, restitution=1.0, friction=mu)[1] for d in impacts])
         for mu in FRICTIONS_WITHOUT_SOLUTION
     ]
-    return Study(
+    return ContactRecord(
         count=count,
         seed=seed,
         laws=laws,
@@ -147,14 +147,14 @@ def compute(count: int, seed: int, progress: Progress) -> Study:
 
 
 def body_of(coin: str) -> Body:
-    """Give one of `COINS`, without air."""
+    """Return one of `COINS`, without air."""
     thickness, center = COINS[coin]
     scenario = load("fig18_3d_ideal")
     return scenario.replace("coin.thickness", thickness, "coin.center_of_mass", center).body
 
 
 def rules_of(name: str) -> Rules:
-    """Give the rules of one of `LAWS`."""
+    """Return the rules of one of `LAWS`."""
     law, kind = LAWS[name]
     return load("fig18_3d_ideal").rules._replace(law=law, restitution_kind=kind)
 
@@ -198,12 +198,12 @@ def record_of(rules: Rules, drawn: list[Drawn]) -> LawRecord:
 
 
 def relative_change(impacts: Impacts) -> Array:
-    """Give the change of the energy over the kinetic energy before, of impacts with C at height 0, (n,)."""
+    """Return the change of the energy over the kinetic energy before, of impacts with C at height 0, (n,)."""
     return impacts.energy_change / (impacts.energy - impacts.energy_change)
 
 
 def friction_needed(impacts: Impacts) -> Array:
-    """Give |S_t|/S_z, the least μ whose cone holds the impulse, (n,); infinite where S_z <= 0."""
+    """Return |S_t|/S_z, the least μ whose cone holds the impulse, (n,); infinite where S_z <= 0."""
     along, up = np.hypot(impacts.impulse[:, 0], impacts.impulse[:, 1]), impacts.impulse[:, 2]
     return np.where(up > 0, along / np.where(up > 0, up, 1.0), math.inf)
 

@@ -20,7 +20,7 @@ _SLIP_EXPONENTS = (-8.0, 1.0)
 def touching_state(
     tilt: float, slip_exponent: float, direction: float = math.pi / 2, place: float = 0.0
 ) -> Array:
-    """Give a state of a coin that comes down on its rim without turning, (13,).
+    """Return a state of a coin that comes down on its rim without turning, (13,).
 
     What an impact does depends on the attitude and on the velocity of the contact point alone, and the
     velocity of C gives the latter any value.
@@ -37,7 +37,7 @@ def touching_state(
 
 
 def onset_of_gain(body: Body, rules: Rules, friction: float, seed: int) -> float:
-    """Give the least restitution at which some impact adds energy; 1 or more where none does.
+    """Return the least restitution at which some impact adds energy; 1 or more where none does.
 
     Args:
         body: the coin. If it is ideal, slip across its edge is searched; else all slip.
@@ -62,7 +62,7 @@ def onset_of_gain(body: Body, rules: Rules, friction: float, seed: int) -> float
 
 
 def onset_without_solution(body: Body, rules: Rules, seed: int) -> float:
-    """Give the least friction with which the law has no solution in some impact.
+    """Return the least friction with which the law has no solution in some impact.
 
     Args:
         body: the coin. If it is ideal, slip across its edge is searched; else all slip.

@@ -42,12 +42,12 @@ PHASES = 16
 
 
 def one_step_solref(restitution: float, dt: float) -> tuple[float, float]:
-    """Give the solref that makes an impact within one step: "0 -(1 + e)/dt"."""
+    """Return the solref that makes an impact within one step: "0 -(1 + e)/dt"."""
     return 0.0, -(1 + restitution) / dt
 
 
 def spring_solref(restitution: float, dt: float, steps: int) -> tuple[float, float]:
-    """Give the solref of a damped spring that is resolved by so many steps: k = (π/(n dt))², d = 2 ζ √k."""
+    """Return the solref of a damped spring that is resolved by so many steps: k = (π/(n dt))², d = 2 ζ √k."""
     root = math.pi / (steps * dt)
     return -root * root, -2 * damping_ratio_of(restitution) * root
 

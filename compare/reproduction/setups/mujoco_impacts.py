@@ -33,7 +33,7 @@ def touch(
     offset: tuple[float, float, float] = (0.0, 0.0, 0.0),
     restitution: float = 0.8,
 ) -> Scenario:
-    """Give the toss of the paper's 1 zloty coin that touches a smooth floor at once, for one impact.
+    """Return the toss of the paper's 1 zloty coin that touches a smooth floor at once, for one impact.
 
     Args:
         attitude: Euler parameters of norm 1, body to space, (4,).
@@ -95,7 +95,7 @@ def draw_touches(
 
 
 def velocity_at_touch(case: Scenario) -> Array:
-    """Give the velocity of the lowest point at release, space frame, (3,) [m/s]."""
+    """Return the velocity of the lowest point at release, space frame, (3,) [m/s]."""
     release, body = case.release, case.body
     R = rotation_matrix(release.attitude)
     point, _ = lowest_point(body, R[2], release.angular_velocity)
@@ -108,27 +108,27 @@ def _is_alone(case: Scenario) -> bool:
 
 
 def on_floor(case: Scenario, law: ContactLaw, friction: float) -> Scenario:
-    """Give the same touch of a floor with another law."""
+    """Return the same touch of a floor with another law."""
     floor = Floor(restitution=case.floor.restitution, contact=law, friction=friction)
     return case.replace("floor", floor)
 
 
 def by_law(cases: Iterable[Scenario]) -> list[Impacts]:
-    """Give the impacts by the paper's laws."""
+    """Return the impacts by the paper's laws."""
     return [analytic.toss(case).impacts for case in cases]
 
 
 def by_mujoco(cases: Iterable[Scenario], settings: Settings) -> list[Impacts]:
-    """Give the impacts by MuJoCo, whose floor is smooth, or Coulomb's."""
+    """Return the impacts by MuJoCo, whose floor is smooth, or Coulomb's."""
     return [coin_mj.impacts_of(case, settings=settings) for case in cases]
 
 
 def first(impacts: list[Impacts], column: str) -> Array:
-    """Give a column of the first impact of each, infinite where there is none, (n, ...)."""
+    """Return a column of the first impact of each, infinite where there is none, (n, ...)."""
     empty = np.full(getattr(impacts[0], column).shape[1:], np.inf)
     return np.array([getattr(one, column)[0] if len(one) else empty for one in impacts])
 
 
 def relative_errors(a: Array, b: Array) -> Array:
-    """Give |a - b|/|a| for each row, (n,)."""
+    """Return |a - b|/|a| for each row, (n,)."""
     return np.linalg.norm(a - b, axis=1) / np.linalg.norm(a, axis=1)

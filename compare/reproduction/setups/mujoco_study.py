@@ -43,8 +43,8 @@ KINDS = ("frictionless", "sticking", "sliding", "turning")
 CONTACTS = {
     "spring": Settings(),
     "one step": Settings(contact=Realisation.ONE_STEP),
-    "spring, own cone": Settings(friction=Friction.NATIVE),
-    "one step, own cone": Settings(contact=Realisation.ONE_STEP, friction=Friction.NATIVE),
+    "spring, native cone": Settings(friction=Friction.NATIVE),
+    "one step, native cone": Settings(contact=Realisation.ONE_STEP, friction=Friction.NATIVE),
 }
 
 
@@ -57,17 +57,17 @@ class Spread(NamedTuple):
 
 
 def spread(errors: Array) -> Spread:
-    """Give median and worst of errors, (n,)."""
+    """Return median and worst of errors, (n,)."""
     return Spread(float(np.median(errors)), float(errors.max()), len(errors))
 
 
 def order(sizes: Sequence[float], errors: Sequence[float]) -> float:
-    """Give the order p of errors that fall as sizes^-p, by least squares of the logarithms."""
+    """Return the order p of errors that fall as sizes^-p, by least squares of the logarithms."""
     return -float(np.polyfit(np.log(sizes), np.log(errors), 1)[0])
 
 
 def smooth_and_rubbed(cases: Sequence[Scenario]) -> dict[str, list[Scenario]]:
-    """Give touches of a smooth floor on that, and on Coulomb's with friction `RUBBED`."""
+    """Return touches of a smooth floor on that, and on Coulomb's with friction `RUBBED`."""
     return {
         "smooth": list(cases),
         f"coulomb, μ = {RUBBED:g}": [on_floor(case, ContactLaw.COULOMB, RUBBED) for case in cases],
@@ -75,7 +75,7 @@ def smooth_and_rubbed(cases: Sequence[Scenario]) -> dict[str, list[Scenario]]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stiffness:
+class StiffnessErrors:
     """Median errors of impacts against the law, over the stiffness of the spring."""
 
     stiffness: list[float]
@@ -96,7 +96,7 @@ class Stiffness:
     """p of errors like k^-p, over the stiffnesses from 1e8 to 1e14."""
 
 
-def over_stiffness(cases: Sequence[Scenario], stiffnesses: Sequence[float]) -> Stiffness:
+def over_stiffness(cases: Sequence[Scenario], stiffnesses: Sequence[float]) -> StiffnessErrors:
     """Compute the errors of impacts over the stiffness."""
     law = by_law(cases)
     S = first(law, "impulse")
@@ -113,7 +113,7 @@ def over_stiffness(cases: Sequence[Scenario], stiffnesses: Sequence[float]) -> S
         for name, steps in (("limit", Settings().steps), ("fine_limit", FINE)):
             columns[name].append(_median(relative_errors(S, _limit(cases, k, steps))))
     fitted = [i for i, k in enumerate(stiffnesses) if 0.9e8 < k < 1.1e14]
-    return Stiffness(
+    return StiffnessErrors(
         stiffness=list(stiffnesses),
         impulse=columns["impulse"],
         velocity=columns["velocity"],
@@ -150,7 +150,7 @@ def _with_guessed_mass(case: Scenario, settings: Settings) -> Impacts:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Steps:
+class StepErrors:
     """Median change of the impulse against that of the most steps, over the steps in a contact."""
 
     steps: list[int]
@@ -159,17 +159,17 @@ class Steps:
     """p of changes like steps^-p."""
 
 
-def over_steps(cases: Sequence[Scenario], steps: Sequence[int], most: int) -> Steps:
+def over_steps(cases: Sequence[Scenario], steps: Sequence[int], most: int) -> StepErrors:
     """Compute how impulses converge as a contact is resolved by more steps."""
     S = first(by_mujoco(cases, Settings(steps=most)), "impulse")
     errors = [
         _median(relative_errors(S, first(by_mujoco(cases, Settings(steps=n)), "impulse"))) for n in steps
     ]
-    return Steps(steps=list(steps), impulse=errors, order=order(steps, errors))
+    return StepErrors(steps=list(steps), impulse=errors, order=order(steps, errors))
 
 
 def over_kinds(count: int, rng: np.random.Generator) -> dict[str, dict[str, Spread]]:
-    """Give the errors of impulses by each of `CONTACTS`, apart for each of `KINDS`.
+    """Return the errors of impulses by each of `CONTACTS`, apart for each of `KINDS`.
 
     An impact sticks where its slip stops for good, slides where the slip after has a part along the slip
     before, and turns elsewhere.
@@ -199,7 +199,7 @@ def _kind(impacts: Impacts) -> str:
 def over_restitution(
     count: int, restitutions: Sequence[float], rng: np.random.Generator
 ) -> dict[float, Spread]:
-    """Give |χ' - χ|, χ' the restitution that the default spring gives on a smooth floor, for each χ."""
+    """Return |χ' - χ|, χ' the restitution that the default spring gives on a smooth floor, for each χ."""
     answers = {}
     for chi in restitutions:
         found = by_mujoco(draw_touches(rng, count, (chi, chi)), Settings())
@@ -209,7 +209,7 @@ def over_restitution(
 
 
 def over_friction(count: int, frictions: Sequence[float], rng: np.random.Generator) -> dict[float, Spread]:
-    """Give the errors of impulses of the default spring for each μ."""
+    """Return the errors of impulses of the default spring for each μ."""
     touches = draw_touches(rng, count, RESTITUTIONS)
     return {
         mu: default_errors([on_floor(case, ContactLaw.COULOMB, mu) for case in touches]) for mu in frictions
@@ -217,7 +217,7 @@ def over_friction(count: int, frictions: Sequence[float], rng: np.random.Generat
 
 
 def over_spin(count: int, spins: Sequence[float], rng: np.random.Generator) -> dict[float, Spread]:
-    """Give the errors of impulses of the default spring for coins that spin up to each speed [rad/s]."""
+    """Return the errors of impulses of the default spring for coins that spin up to each speed [rad/s]."""
     return {
         spin: default_errors(
             [
@@ -230,7 +230,7 @@ def over_spin(count: int, spins: Sequence[float], rng: np.random.Generator) -> d
 
 
 def over_tilt(count: int, tilts: Sequence[float], rng: np.random.Generator) -> dict[float, Spread]:
-    """Give the errors of impulses of the default spring for coins at each tilt [deg]."""
+    """Return the errors of impulses of the default spring for coins at each tilt [deg]."""
     return {
         tilt: default_errors(
             [
@@ -247,13 +247,13 @@ def over_tilt(count: int, tilts: Sequence[float], rng: np.random.Generator) -> d
 
 
 def default_errors(cases: Sequence[Scenario]) -> Spread:
-    """Give the errors of impulses by the default contact."""
+    """Return the errors of impulses by the default contact."""
     S, found = first(by_law(cases), "impulse"), first(by_mujoco(cases, Settings()), "impulse")
     return spread(relative_errors(S, found))
 
 
 def tilted_touch(tilt: float, slip: Array, restitution: float) -> Scenario:
-    """Give a touch of the ideal coin that does not turn, 1 m/s down.
+    """Return a touch of the ideal coin that does not turn, 1 m/s down.
 
     Args:
         tilt: of its normal from the vertical [deg].
@@ -271,8 +271,8 @@ def tilted_touch(tilt: float, slip: Array, restitution: float) -> Scenario:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class OwnCone:
-    """What MuJoCo's own friction cone does to a restitution."""
+class NativeCone:
+    """What MuJoCo's native friction cone does to a restitution."""
 
     restitution: float
     """That asked for."""
@@ -285,10 +285,10 @@ class OwnCone:
     """Restitutions, (tilts, slips, frictions)."""
 
 
-def own_cone(
+def native_cone(
     restitution: float, tilts: Sequence[float], frictions: Sequence[float], slips: Sequence[float]
-) -> OwnCone:
-    """Map the restitution that a spring with MuJoCo's own friction gives."""
+) -> NativeCone:
+    """Map the restitution that a spring with MuJoCo's native friction gives."""
     settings = Settings(friction=Friction.NATIVE)
     cases = [
         on_floor(tilted_touch(tilt, np.array([slip, 0.0]), restitution), ContactLaw.COULOMB, mu)
@@ -298,7 +298,7 @@ def own_cone(
     ]
     after = first(by_mujoco(cases, settings), "contact_velocity_after")[:, 2]
     shape = (len(tilts), len(slips), len(frictions))
-    return OwnCone(
+    return NativeCone(
         restitution=restitution,
         tilts=list(tilts),
         frictions=list(frictions),
@@ -309,7 +309,7 @@ def own_cone(
 
 @dataclass(frozen=True, kw_only=True)
 class ConeFormula:
-    """What MuJoCo's own cone does in one step, against its formulas.
+    """What MuJoCo's native cone does in one step, against its formulas.
 
     In a sliding contact the acceleration exceeds the reference along the edge of the dual cone,
     a_n - a_n* = μ |a_t - a_t*|, at a right angle to the force. With the damping (1 + χ)/dt along the floor
@@ -334,7 +334,7 @@ def cone_formula(count: int, rng: np.random.Generator) -> ConeFormula:
         for case in draw_touches(rng, count, RESTITUTIONS)
     ]
     undamped = Settings(friction=Friction.NATIVE, slip_damping=0.0)
-    found = by_mujoco(cases, CONTACTS["one step, own cone"])
+    found = by_mujoco(cases, CONTACTS["one step, native cone"])
     mu = np.array([case.floor.friction for case in cases])
     chi = np.array([case.floor.restitution for case in cases])
     S = first(found, "impulse")
@@ -349,11 +349,11 @@ def cone_formula(count: int, rng: np.random.Generator) -> ConeFormula:
         energy=spread(np.abs(gained - work) / (first(found, "energy") - gained)),
         pushed=float((after[:, 2] / newton).max()),
         gains={
-            "Routh's law": _gains(by_law(cases)),
+            "coulomb": _gains(by_law(cases)),
             "spring, Coulomb's force": _gains(by_mujoco(cases, CONTACTS["spring"])),
-            "one step, own cone": _gains(found),
-            "spring, own cone": _gains(by_mujoco(cases, CONTACTS["spring, own cone"])),
-            "spring, own cone, slip undamped": _gains(by_mujoco(cases, undamped)),
+            "one step, native cone": _gains(found),
+            "spring, native cone": _gains(by_mujoco(cases, CONTACTS["spring, native cone"])),
+            "spring, native cone, slip undamped": _gains(by_mujoco(cases, undamped)),
         },
     )
 

@@ -7,8 +7,10 @@ from numpy.typing import NDArray
 
 import analytic
 from analytic.events import run
-from compare.basins.maps import Outcomes
-from models.outcomes import Outcomes as Ended
+from compare.basins.maps import OutcomeCodes
+from compare.basins.picture import MapAxis
+from compare.output.style import BLUE, VERMILION
+from models.outcomes import Outcomes
 from models.reading import load
 from models.records import Array
 from models.releases import Releases
@@ -16,6 +18,11 @@ from models.scenario import Air, Scenario
 
 HEIGHTS, SPINS = (0.2, 0.6), (20.0, 60.0)
 """Ranges of the axes: release height [m] and spin about ξ [rad/s]."""
+HEIGHT = MapAxis(name="height", unit="m", start=HEIGHTS[0], stop=HEIGHTS[1])
+SPIN = MapAxis(name="spin", unit="rad/s", start=SPINS[0], stop=SPINS[1])
+MEDIA = {"air": BLUE, "vacuum": VERMILION}
+LANDINGS = {"soft floor": BLUE, "bouncing": VERMILION}
+"""How a toss ends, at its first touch or after its bounces; both with the colours of their curves."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -40,12 +47,12 @@ class Grid:
 
 
 def whole_grid(points: int) -> Grid:
-    """Give the grid of a whole map with so many points along each side."""
+    """Return the grid of a whole map with so many points along each side."""
     return Grid(heights=np.linspace(*HEIGHTS, points), spins=np.linspace(*SPINS, points))
 
 
 def releases(heights: Array, spins: Array) -> Releases:
-    """Give releases of the coin flat, heads up, at rest but for its spin about ξ; both arguments (n,)."""
+    """Return releases of the coin flat, heads up, at rest but for its spin about ξ; both arguments (n,)."""
     zero, one = np.zeros_like(heights), np.ones_like(heights)
     return Releases(
         position=np.stack([zero, zero, heights], axis=1),
@@ -56,7 +63,7 @@ def releases(heights: Array, spins: Array) -> Releases:
 
 
 def case(*, air: bool, restitution: float = 0.6, max_impacts: int | None = None) -> Scenario:
-    """Give the scenario of the maps.
+    """Return the scenario of the maps.
 
     Args:
         air: whether there is any.
@@ -68,19 +75,19 @@ def case(*, air: bool, restitution: float = 0.6, max_impacts: int | None = None)
     return scenario.replace("air", medium, "floor.restitution", restitution, "ending.max_impacts", most)
 
 
-def final_faces(scenario: Scenario, grid: Grid) -> Outcomes:
-    """Give the map of the outcomes, (y, x)."""
+def final_faces(scenario: Scenario, grid: Grid) -> OutcomeCodes:
+    """Return the map of the outcomes, (y, x)."""
     return analytic.toss_many(scenario, grid.releases).outcome.reshape(grid.shape)
 
 
 def faces_after(scenario: Scenario, points: Releases, impacts: int) -> NDArray[np.int8]:
-    """Give the face up at the touch after so many impacts, the outcome where the toss ended before, (n,)."""
-    ended: Ended = analytic.toss_many(scenario.replace("ending.max_impacts", impacts + 1), points)
+    """Return the face up at the touch after n impacts, the outcome where the toss ended before, (n,)."""
+    ended: Outcomes = analytic.toss_many(scenario.replace("ending.max_impacts", impacts + 1), points)
     return ended.after(impacts)
 
 
 def touched_faces(scenario: Scenario, heights: Array, spins: Array, touches: int) -> NDArray[np.int8]:
-    """Give the faces up at the first touches, the outcome once the toss has ended, (n, touches).
+    """Return the faces up at the first touches, the outcome once the toss has ended, (n, touches).
 
     Args:
         scenario: of the maps.

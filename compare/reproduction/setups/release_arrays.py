@@ -10,14 +10,14 @@ from models.releases import Releases
 
 
 def chosen(releases: Releases, which: slice | NDArray[np.intp]) -> Releases:
-    """Give some of many releases."""
+    """Return some of many releases."""
     return Releases(**{item.name: getattr(releases, item.name)[which] for item in fields(Releases)})
 
 
 def moved(
     releases: Releases, *, position: Array | float = 0.0, angular_velocity: Array | float = 0.0
 ) -> Releases:
-    """Give releases from elsewhere or with more spin.
+    """Return releases from elsewhere or with more spin.
 
     Args:
         releases: those to change.
@@ -33,5 +33,5 @@ def moved(
 
 
 def states_of(releases: Releases) -> Array:
-    """Give the states of releases as the engine's flight takes them, (n, 13)."""
+    """Return the states of releases as the engine's flight takes them, (n, 13)."""
     return np.hstack([releases.position, releases.velocity, releases.quaternion, releases.angular_velocity])

@@ -1,1 +1,1 @@
-"""Studies of the two engines, a module each, as `FIGURE`."""
+"""Studies of the two engines, a module each, as `REPRODUCTION`."""

@@ -1,16 +1,14 @@
 """When each contact law adds energy, pulls on the coin, leaves the friction cone, or has no solution."""
 
-import json
 import math
-from dataclasses import asdict
-from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 
-from compare.output.style import STYLE
-from compare.reproduction.runner import Figure, Made, Progress
+from compare.output.style import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION
+from compare.output.tables import table
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.contact_study import (
     COINS,
     FRICTIONS_OF_ONSETS,
@@ -18,9 +16,7 @@ from compare.reproduction.setups.contact_study import (
     FRICTIONS_WITHOUT_SOLUTION,
     LAWS,
     RESTITUTIONS,
-    LawRecord,
-    Onsets,
-    Study,
+    ContactRecord,
     compute,
 )
 
@@ -35,102 +31,154 @@ _NAMES = {
     law: f"({letter}) {law}"
     for letter, law in zip("abcdef", [name for name in LAWS if "coulomb" not in name], strict=True)
 }
-_LOOKS: dict[str, dict[str, Any]] = {
-    "sharp_edge": {"color": "#E69F00", "marker": "^"},
-    "knurled": {"color": "#009E73", "marker": "s"},
-    "perfectly_rough": {"color": "#D55E00", "marker": "v"},
-    "slip_preserving": {"color": "#0072B2", "marker": "D"},
-    "smooth": {"color": "#5b6675", "marker": ""},
-    "sliding_friction": {"color": "#56B4E9", "marker": "o"},
+_LINES: dict[str, dict[str, Any]] = {
+    "sharp_edge": {"color": ORANGE, "marker": "^"},
+    "knurled": {"color": GREEN, "marker": "s"},
+    "perfectly_rough": {"color": VERMILION, "marker": "v"},
+    "slip_preserving": {"color": BLUE, "marker": "D"},
+    "smooth": {"color": GREY, "marker": ""},
+    "sliding_friction": {"color": SKY, "marker": "o"},
     "coulomb, kinematic": {"color": "#000000", "marker": "P"},
 }
 
 
-def run(folder: Path, progress: Progress) -> Made:
-    """Make the study: numbers.json and three pictures."""
-    study = compute(COUNT, SEED, progress)
-    (folder / "numbers.json").write_text(
-        json.dumps(asdict(study), indent=1, allow_nan=False), encoding="utf-8"
+def result(found: ContactRecord) -> Result:
+    """Return the study's tables and claims."""
+    return Result(claims=claims(found), data=found, tables=tables(found))
+
+
+def claims(found: ContactRecord) -> tuple[Claim, ...]:
+    """Return the claims of the study."""
+    laws, onsets, every = found.laws, found.onsets, range(len(RESTITUTIONS))
+    gaining = ("knurled", "slip_preserving", "sliding_friction")
+    pulling = ("sharp_edge", "knurled", "perfectly_rough")
+    leaving = (*pulling, "slip_preserving")
+    below_onset = [
+        laws[law].gains_by_coin[number][i]
+        for law, onset in (
+            ("sharp_edge", onsets.sharp_edge),
+            ("perfectly_rough", onsets.perfectly_rough),
+            ("coulomb, kinematic", onsets.perfectly_rough),
+        )
+        for number, coin in enumerate(COINS)
+        for i in every
+        if RESTITUTIONS[i] < onset[coin]
+    ]
+    return (
+        Claim(
+            claim="smooth and coulomb with energetic restitution never add energy",
+            criteria=[
+                _largest("change of the energy", [max(laws[law].largest_change) for law in PASSIVE], ROUNDING)
+            ],
+        ),
+        Claim(
+            claim="every other law does",
+            criteria=[
+                Criterion(
+                    "largest gain of the law that gains least",
+                    min(max(laws[law].largest_change) for law in laws if law not in PASSIVE),
+                    ">",
+                    0.1,
+                    "a tenth of the kinetic energy is seen",
+                )
+            ],
+        ),
+        Claim(
+            claim="knurled, slip_preserving and sliding_friction do at every restitution",
+            criteria=[
+                Criterion(
+                    "least share of impacts that gain energy",
+                    min(laws[law].gains[i] for law in gaining for i in every),
+                    ">",
+                    0,
+                    "some do",
+                )
+            ],
+        ),
+        Claim(
+            claim="sharp_edge does so at every restitution to the imperfect coins, and only to them",
+            criteria=[
+                Criterion(
+                    "largest onset of the imperfect coins",
+                    max(onsets.sharp_edge[coin] for coin in COINS if "imperfect" in coin),
+                    "=",
+                    0,
+                    "at every restitution",
+                ),
+                Criterion(
+                    "least of the ideal ones",
+                    min(onsets.sharp_edge[coin] for coin in COINS if "imperfect" not in coin),
+                    "≥",
+                    THIN_ROUGH - SEARCH_ERROR,
+                    "√5/3, less the error of the search",
+                ),
+            ],
+        ),
+        Claim(
+            claim="no random impact of sharp_edge, perfectly_rough or coulomb adds energy below its onset",
+            criteria=[Criterion("largest share that does", max(below_onset), "=", 0, "none")],
+        ),
+        Claim(
+            claim="for the thin ideal coin sharp_edge and perfectly_rough begin at χ = √5/3",
+            criteria=[
+                _largest(
+                    "difference from it",
+                    [
+                        abs(one["thin ideal"] - THIN_ROUGH)
+                        for one in (onsets.sharp_edge, onsets.perfectly_rough)
+                    ],
+                )
+            ],
+        ),
+        Claim(
+            claim="for the thin ideal coin coulomb and sliding_friction begin where the closed forms say",
+            criteria=[
+                _largest(
+                    "difference from them",
+                    [
+                        abs(chi - closed_form(mu))
+                        for onset, closed_form in (
+                            (onsets.coulomb, kane_onset),
+                            (onsets.sliding_friction, sliding_onset),
+                        )
+                        for chi, mu in zip(onset, FRICTIONS_OF_ONSETS, strict=True)
+                    ],
+                )
+            ],
+        ),
+        Claim(
+            claim="for the thin ideal coin sliding_friction has a solution up to μ = √5/2",
+            criteria=[
+                _largest("difference from it", [abs(onsets.without_solution["thin ideal"] - THIN_SLIDING)])
+            ],
+        ),
+        Claim(
+            claim="sharp_edge, knurled and perfectly_rough pull in some impacts, and no other law",
+            criteria=_only({law: max(record.pulls) for law, record in laws.items()}, pulling),
+        ),
+        Claim(
+            claim="smooth, sliding_friction and coulomb stay in the friction cone, the others do not",
+            criteria=_only({law: max(record.leaves_cone) for law, record in laws.items()}, leaving),
+        ),
     )
-    with mpl.rc_context({**STYLE, "font.size": 13, "lines.linewidth": 1.8}):
-        for name, picture in (("energy", _energy), ("friction", _friction), ("onset", _onset)):
-            picture(study).savefig(folder / f"{name}.png", dpi=110)
-    return Made(text=text(study), failed=check(study))
 
 
-def from_json(written: str) -> Study:
-    """Read the study from numbers.json."""
-    read = json.loads(written)
-    laws = {name: LawRecord(**record) for name, record in read["laws"].items()}
-    return Study(**{**read, "laws": laws, "onsets": Onsets(**read["onsets"])})
+def _largest(quantity: str, values: list[float], threshold: float = SEARCH_ERROR) -> Criterion:
+    reason = "rounding" if threshold == ROUNDING else "the error of the search"
+    return Criterion(f"largest {quantity}", max(values), "<", threshold, reason)
 
 
-def check(study: Study) -> tuple[str, ...]:
-    """Give the claims that the numbers don't bear out."""
-    return tuple(claim for claim, holds in claims(study).items() if not holds)
-
-
-def claims(study: Study) -> dict[str, bool]:
-    """Tell of each claim of the study whether its numbers bear it out."""
-    laws, onsets, every = study.laws, study.onsets, range(len(RESTITUTIONS))
-    return {
-        "smooth and coulomb with energetic restitution never add energy": all(
-            max(laws[law].largest_change) < ROUNDING for law in PASSIVE
-        ),
-        "every other law does": all(
-            max(laws[law].largest_change) > 0.1 for law in laws if law not in PASSIVE
-        ),
-        "knurled, slip_preserving and sliding_friction do at every restitution": all(
-            laws[law].gains[i] > 0
-            for law in ("knurled", "slip_preserving", "sliding_friction")
-            for i in every
-        ),
-        "sharp_edge does so at every restitution to the imperfect coins, and only to them": all(
-            onsets.sharp_edge[coin] == 0
-            if "imperfect" in coin
-            else onsets.sharp_edge[coin] >= THIN_ROUGH - SEARCH_ERROR
-            for coin in COINS
-        ),
-        "no random impact of sharp_edge, perfectly_rough or coulomb adds energy below the onset found": all(
-            laws[law].gains_by_coin[number][i] == 0
-            for law, onset in (
-                ("sharp_edge", onsets.sharp_edge),
-                ("perfectly_rough", onsets.perfectly_rough),
-                ("coulomb, kinematic", onsets.perfectly_rough),
-            )
-            for number, coin in enumerate(COINS)
-            for i in every
-            if RESTITUTIONS[i] < onset[coin]
-        ),
-        "for the thin ideal coin sharp_edge and perfectly_rough begin at χ = √5/3": all(
-            abs(found["thin ideal"] - THIN_ROUGH) < SEARCH_ERROR
-            for found in (onsets.sharp_edge, onsets.perfectly_rough)
-        ),
-        "for the thin ideal coin coulomb and sliding_friction begin where the closed forms say": all(
-            abs(found - closed_form(mu)) < SEARCH_ERROR
-            for onset, closed_form in (
-                (onsets.coulomb, kane_onset),
-                (onsets.sliding_friction, sliding_onset),
-            )
-            for found, mu in zip(onset, FRICTIONS_OF_ONSETS, strict=True)
-        ),
-        "for the thin ideal coin sliding_friction has a solution up to μ = √5/2": (
-            abs(onsets.without_solution["thin ideal"] - THIN_SLIDING) < SEARCH_ERROR
-        ),
-        "sharp_edge, knurled and perfectly_rough pull in some impacts, and no other law": all(
-            (max(laws[law].pulls) > 0) == (law in ("sharp_edge", "knurled", "perfectly_rough"))
-            for law in laws
-        ),
-        "smooth, sliding_friction and coulomb stay in the friction cone, the others do not": all(
-            (max(laws[law].leaves_cone) > 0)
-            == (law in ("sharp_edge", "knurled", "perfectly_rough", "slip_preserving"))
-            for law in laws
-        ),
-    }
+def _only(shares: dict[str, float], chosen: tuple[str, ...]) -> list[Criterion]:
+    """Return as criteria that the chosen laws do it in some impacts, the others in none."""
+    least, most = min(shares[law] for law in chosen), max(shares[law] for law in shares if law not in chosen)
+    return [
+        Criterion("least of their largest shares", least, ">", 0, "some impacts"),
+        Criterion("largest share of the others", most, "=", 0, "no impact"),
+    ]
 
 
 def kane_onset(mu: float) -> float:
-    """Give the least restitution at which coulomb, kinematic, adds energy to the thin ideal coin.
+    """Return the least restitution at which coulomb, kinematic, adds energy to the thin ideal coin.
 
     The coin comes down with the slip that a blow straight up at A would leave it without,
     χ² = 1 - K_zν²/(K_νν K_zz), and must stick once slip has stopped, |K_zν| <= μ K_νν. At a tilt ϑ with
@@ -145,7 +193,7 @@ def kane_onset(mu: float) -> float:
 
 
 def sliding_onset(mu: float) -> float:
-    """Give the least restitution at which sliding_friction adds energy to the thin ideal coin.
+    """Return the least restitution at which sliding_friction adds energy to the thin ideal coin.
 
     Slip that all but rests is driven on: (1 - χ)/(1 + χ) = μ (μ K_νν + |K_zν|)/(K_zz + μ |K_zν|), with K as
     in `kane_onset`, largest at (5 μ² - 1) t² + 12 μ t + 5 - μ² = 0. From μ = 1/√5 on it adds energy at every
@@ -162,9 +210,9 @@ def sliding_onset(mu: float) -> float:
     return (1 - ratio) / (1 + ratio)
 
 
-def text(study: Study) -> str:
-    """Give the results as Markdown."""
-    laws, onsets = study.laws, study.onsets
+def tables(found: ContactRecord) -> str:
+    """Return the results as tables, in Markdown."""
+    laws, onsets = found.laws, found.onsets
     shown = [RESTITUTIONS.index(chi) for chi in SHOWN]
     frictions = [f"μ = {mu:g}" for mu in FRICTIONS_OF_ONSETS]
     energy = [
@@ -190,7 +238,7 @@ def text(study: Study) -> str:
         ]
         for law, record in laws.items()
     ]
-    found = [
+    extremes = [
         ["sharp_edge adds energy from χ =", *(f"{onsets.sharp_edge[coin]:.6f}" for coin in COINS)],
         ["perfectly_rough adds energy from χ =", *(f"{onsets.perfectly_rough[coin]:.6f}" for coin in COINS)],
         ["sliding_friction has no solution from μ =", *(f"{onsets.without_solution[c]:.6f}" for c in COINS)],
@@ -201,20 +249,21 @@ def text(study: Study) -> str:
         ["coulomb, kinematic, from χ =", *(f"{chi:.4f}" for chi in onsets.coulomb)],
         ["the same, closed form", *(f"{kane_onset(mu):.4f}" for mu in FRICTIONS_OF_ONSETS)],
     ]
-    unsolved = [["share of impacts", *(_percent(share) for share in study.share_without_solution)]]
+    unsolved = [["share of impacts", *(_percent(share) for share in found.share_without_solution)]]
     return "\n\n".join(
         [
-            f"{study.count} random impacts for each law and restitution χ, seed {study.seed}.",
+            f"{found.count} random impacts for each law and restitution χ, seed {found.seed}.",
             "Impacts that add energy; gains over the kinetic energy before the impact.",
-            _table(
-                ["law", *(f"χ = {chi:g}" for chi in SHOWN), "median gain, χ = 0.8", "largest, any χ"], energy
+            table(
+                ["law", *(f"χ = {chi:g}" for chi in SHOWN), "median gain, χ = 0.8", "largest, any χ"],
+                energy,
             ),
             "The same by coin, at χ = 0.8.",
-            _table(["law", *COINS], coins),
+            table(["law", *COINS], coins),
             "Impacts that pull on the coin (S_z < 0), and that leave the friction cone, μ drawn from 0 to 1. "
             "Over all χ: the μ that would do for a half and for 95 % of the impacts, and the share without a "
             "solution.",
-            _table(
+            table(
                 [
                     "law",
                     "pull, χ = 0.5",
@@ -229,20 +278,13 @@ def text(study: Study) -> str:
             ),
             "The extremes over all impacts, found by search. "
             f"For the thin ideal coin √5/3 = {THIN_ROUGH:.6f} and √5/2 = {THIN_SLIDING:.6f}.",
-            _table(["coin", *COINS], found),
+            table(["coin", *COINS], extremes),
             "The thin ideal coin gains energy from the floor:",
-            _table(["law", *frictions], kane),
+            table(["law", *frictions], kane),
             "Impacts in which sliding_friction has no solution: as printed it would pull (S_z < 0).",
-            _table(["", *(f"μ = {mu:g}" for mu in FRICTIONS_WITHOUT_SOLUTION)], unsolved),
-            "Claims:",
-            "\n".join(f"- {claim}: {'yes' if holds else 'NO'}" for claim, holds in claims(study).items()),
+            table(["", *(f"μ = {mu:g}" for mu in FRICTIONS_WITHOUT_SOLUTION)], unsolved),
         ]
     )
-
-
-def _table(head: list[str], rows: list[list[str]]) -> str:
-    lines = [head, ["---", *["---:"] * (len(head) - 1)], *rows]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
 def _percent(share: float) -> str:
@@ -257,31 +299,31 @@ def _mean(values: list[float]) -> float:
     return sum(values) / len(values)
 
 
-def _energy(study: Study) -> Picture:
-    picture = Picture(figsize=(11, 5))
+def _energy(found: ContactRecord) -> Figure:
+    picture = Figure(figsize=(8.4, 3.8))
     often, much = picture.subplots(1, 2)
-    for law, look in _LOOKS.items():
-        record = study.laws[law]
+    for law, line in _LINES.items():
+        record = found.laws[law]
         label = "smooth; coulomb, energetic" if law == "smooth" else law
-        often.plot(RESTITUTIONS, [100 * share for share in record.gains], label=label, **look)
+        often.plot(RESTITUTIONS, [100 * share for share in record.gains], label=label, **line)
         gains = [math.nan if gain is None else 100 * gain for gain in record.median_gain]
-        much.plot(RESTITUTIONS, gains, **look)
+        much.plot(RESTITUTIONS, gains, **line)
     often.set_ylabel("impacts that add energy [%]")
     much.set_ylabel("median gain / kinetic energy before [%]")
     much.set_ylim(bottom=0)
     for axes in (often, much):
         axes.set_xlabel("restitution χ")
         axes.set_xticks([0.2, 0.4, 0.6, 0.8, 1.0])
-    picture.legend(loc="outside lower center", ncols=4, fontsize=12)
+    picture.legend(loc="outside lower center", ncols=4)
     return picture
 
 
-def _friction(study: Study) -> Picture:
-    picture = Picture(figsize=(8, 4.8))
+def _friction(found: ContactRecord) -> Figure:
+    picture = Figure(figsize=(6, 3.6))
     axes = picture.subplots()
     for law in ("slip_preserving", "sharp_edge", "perfectly_rough", "knurled"):
-        share = [100 * part for part in study.laws[law].friction_sufficient]
-        axes.plot(FRICTIONS_SUFFICIENT, share, label=law, markevery=6, **_LOOKS[law])
+        share = [100 * part for part in found.laws[law].friction_sufficient]
+        axes.plot(FRICTIONS_SUFFICIENT, share, label=law, markevery=6, **_LINES[law])
     axes.set_xlabel("friction μ of the floor")
     axes.set_ylabel("impacts within its cone [%]")
     axes.set_xlim(0, FRICTIONS_SUFFICIENT[-1])
@@ -290,21 +332,21 @@ def _friction(study: Study) -> Picture:
     return picture
 
 
-def _onset(study: Study) -> Picture:
-    picture = Picture(figsize=(8, 4.8))
+def _onset(found: ContactRecord) -> Figure:
+    picture = Figure(figsize=(6, 3.6))
     axes = picture.subplots()
     top = FRICTIONS_OF_ONSETS[-1]
     fine = [top * step / 400 for step in range(1, 401)]
-    for name, found, closed_form in (
-        ("coulomb, kinematic", study.onsets.coulomb, kane_onset),
-        ("sliding_friction", study.onsets.sliding_friction, sliding_onset),
+    for name, onset, closed_form in (
+        ("coulomb, kinematic", found.onsets.coulomb, kane_onset),
+        ("sliding_friction", found.onsets.sliding_friction, sliding_onset),
     ):
-        look = _LOOKS[name]
-        axes.plot(fine, [closed_form(mu) for mu in fine], color=look["color"])
-        axes.plot(FRICTIONS_OF_ONSETS, found, look["marker"], color=look["color"], label=name, clip_on=False)
-    axes.axhline(THIN_ROUGH, color=_LOOKS["perfectly_rough"]["color"], linestyle="--", linewidth=1.2)
+        line = _LINES[name]
+        axes.plot(fine, [closed_form(mu) for mu in fine], color=line["color"])
+        axes.plot(FRICTIONS_OF_ONSETS, onset, line["marker"], color=line["color"], label=name, clip_on=False)
+    axes.axhline(THIN_ROUGH, color=_LINES["perfectly_rough"]["color"], linestyle="--", linewidth=1.2)
     axes.text(
-        top, THIN_ROUGH - 0.015, "perfectly_rough, sharp_edge: √5/3", va="top", ha="right", color="#D55E00"
+        top, THIN_ROUGH - 0.015, "perfectly_rough, sharp_edge: √5/3", va="top", ha="right", color=VERMILION
     )
     axes.set_xlabel("friction μ")
     axes.set_ylabel("restitution from which\nthe law can add energy")
@@ -314,9 +356,9 @@ def _onset(study: Study) -> Picture:
     return picture
 
 
-FIGURE = Figure(
+REPRODUCTION = Reproduction(
     title="when each contact law adds energy, pulls, leaves the friction cone, or has no solution",
     seconds=60,
-    files=("numbers.json", "energy.png", "friction.png", "onset.png"),
-    run=run,
+    make=lambda progress: result(compute(COUNT, SEED, progress)),
+    draw={"energy": _energy, "friction": _friction, "onset": _onset},
 )

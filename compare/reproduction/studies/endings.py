@@ -1,30 +1,32 @@
 """How thousands of random tosses end, by coin, floor and air, and how far both engines agree in it."""
 
-import json
 import os
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from itertools import product
-from pathlib import Path
 from typing import Any, NamedTuple
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 from scipy.stats import chi2_contingency
 
 import analytic
 import coin_mj
-from compare.output.style import STYLE
-from compare.reproduction.runner import Figure, Made, Progress
+from compare.output.progress import Progress
+from compare.output.style import GREY, OUTCOMES
+from compare.output.tables import table
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from models.records import Ending, Outcome
 from models.releases import Releases
 from models.scenario import Release, Scenario
 
 COUNT, COUNT_MUJOCO, SEED = 10_000, 5_000, 2008
-"""Tosses of each coin by the paper's mechanics, and by MuJoCo; and the seed."""
+"""Tosses of each coin by the analytic engine, and by MuJoCo; and the seed."""
+LEAST_PROBABLE = 1e-3
+"""By chance one of ten tests falls below it once in a hundred runs."""
 PAPER_OFFSET = (-1e-3, -1e-3, -2e-4)
 THICKNESS = 2e-3
 COINS = ("ideal", "imperfect")
@@ -50,32 +52,26 @@ class Kind(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Study:
-    """Counts of tosses."""
+class EndingCounts:
+    """How many tosses ended how."""
 
     outcomes: Counts
-    """By the paper's mechanics."""
+    """By the analytic engine."""
     mujoco: Counts
     """Of other tosses on `BY_BOTH`, by MuJoCo with the settings of many tosses."""
     most_impacts: int
-    """Of any toss that the paper's mechanics decides."""
+    """Of any toss that the analytic engine decides."""
     longest: float
     """Of any of those [s]."""
 
 
-def run(folder: Path, progress: Progress) -> Made:
-    """Make the study: numbers.json and endings.png."""
-    study = compute(COUNT, COUNT_MUJOCO, SEED, progress)
-    (folder / "numbers.json").write_text(
-        json.dumps(asdict(study), indent=1, allow_nan=False), encoding="utf-8"
-    )
-    with mpl.rc_context({**STYLE, "axes.grid": False}):
-        draw(study).savefig(folder / "endings.png", dpi=110)
-    return Made(text=text(study), failed=check(study))
+def result(counts: EndingCounts) -> Result:
+    """Return the study's tables and claims."""
+    return Result(claims=claims(counts), data=counts, tables=tables(counts))
 
 
-def compute(count: int, count_mujoco: int, seed: int, progress: Progress) -> Study:
-    """Toss `count` coins of each of `COINS` by the paper's mechanics, and `count_mujoco` by MuJoCo."""
+def compute(count: int, count_mujoco: int, seed: int, progress: Progress) -> EndingCounts:
+    """Toss `count` coins of each of `COINS` by the analytic engine, and `count_mujoco` by MuJoCo."""
     jobs = [(seed, coin, number) for coin in range(len(COINS)) for number in range(count)]
     jobs_mujoco = [(seed + 1, coin, number) for coin in range(len(COINS)) for number in range(count_mujoco)]
     outcomes: dict[str, Counter[str]] = {}
@@ -93,7 +89,9 @@ def compute(count: int, count_mujoco: int, seed: int, progress: Progress) -> Stu
         for done, (kind, outcome, ending) in enumerate(ended, start=len(jobs) + 1):
             mujoco.setdefault(_name(kind), Counter())[f"{outcome}, {ending}"] += 1
             progress(done, whole)
-    return Study(outcomes=_ordered(outcomes), mujoco=_ordered(mujoco), most_impacts=most, longest=longest)
+    return EndingCounts(
+        outcomes=_ordered(outcomes), mujoco=_ordered(mujoco), most_impacts=most, longest=longest
+    )
 
 
 def _ordered(counts: dict[str, Counter[str]]) -> Counts:
@@ -144,7 +142,7 @@ def _toss(job: tuple[int, int, int]) -> tuple[Kind, str, str, int, float]:
 
 
 def toss_by_mujoco(job: tuple[int, int, int]) -> tuple[Kind, str, str]:
-    """Toss a coin on one of the floors `BY_BOTH` by MuJoCo; give the kind, the outcome and the ending."""
+    """Return kind, outcome and ending of a toss by MuJoCo on one of the floors `BY_BOTH`."""
     rng = np.random.default_rng(job)
     kind, scenario = draw_toss(rng, COINS[job[1]])
     while kind.floor not in BY_BOTH:
@@ -168,11 +166,6 @@ def _name(kind: Kind) -> str:
     )
 
 
-def from_json(saved: str) -> Study:
-    """Read a study from its numbers.json."""
-    return Study(**json.loads(saved))
-
-
 def share(outcomes: Counts, outcome: str, within: Iterable[str] = ()) -> tuple[int, int]:
     """Count the tosses of an outcome, and all, of the kinds whose names have all of `within`."""
     words = list(within)
@@ -181,10 +174,10 @@ def share(outcomes: Counts, outcome: str, within: Iterable[str] = ()) -> tuple[i
     return of_outcome, sum(sum(ends.values()) for ends in kinds)
 
 
-def by_both(study: Study, within: Iterable[str]) -> dict[str, list[int]]:
+def by_both(counts: EndingCounts, within: Iterable[str]) -> dict[str, list[int]]:
     """Count the tosses of each outcome shown, by engine, of the kinds whose names have all of `within`."""
     words = list(within)
-    engines = {"analytic": study.outcomes, "mujoco": study.mujoco}
+    engines = {"analytic": counts.outcomes, "mujoco": counts.mujoco}
     return {
         engine: [share(outcomes, outcome.label, words)[0] for outcome in _SHOWN]
         for engine, outcomes in engines.items()
@@ -192,84 +185,110 @@ def by_both(study: Study, within: Iterable[str]) -> dict[str, list[int]]:
 
 
 def probability(counts: dict[str, list[int]]) -> float:
-    """Give the probability by chance of ends that differ so much between the engines, by a χ² test."""
+    """Return the probability by chance of ends that differ so much between the engines, by a χ² test."""
     met = np.array([counts["analytic"], counts["mujoco"]])
     test: Any = chi2_contingency(met[:, met.any(axis=0)])
     return float(test.pvalue)
 
 
-def check(study: Study) -> tuple[str, ...]:
-    """Give the claims that the counts don't bear out."""
-    both = {"analytic": study.outcomes, "mujoco": study.mujoco}
-    claims = {
-        "only in vacuum a coin goes on for ever": all(
-            share(outcomes, "perpetual", ["air"])[0] == 0 for outcomes in both.values()
+def claims(counts: EndingCounts) -> tuple[Claim, ...]:
+    """Return the claims of the counts."""
+    engines = (counts.outcomes, counts.mujoco)
+    undecided = [number / whole for number, whole in (share(one, "undecided") for one in engines)]
+    pooled = [*([floor, "air"] for floor in BY_BOTH), *([name] for name in _in_air(counts))]
+    return (
+        Claim(
+            claim="only in vacuum a coin goes on for ever",
+            criteria=[
+                Criterion(
+                    "perpetual tosses in air",
+                    sum(share(one, "perpetual", ["air"])[0] for one in engines),
+                    "=",
+                    0,
+                    "none",
+                )
+            ],
         ),
-        "at most 1 toss in 10,000 stays undecided": all(
-            10_000 * number <= whole
-            for number, whole in (share(outcomes, "undecided") for outcomes in both.values())
+        Claim(
+            claim="at most 1 toss in 10,000 stays undecided",
+            criteria=[Criterion("larger share of both engines", max(undecided), "≤", 1e-4, "1 in 10,000")],
         ),
-        "in air the engines' ends differ no more than by chance": all(
-            probability(by_both(study, words)) > 1e-3
-            for words in (*([floor, "air"] for floor in BY_BOTH), *([name] for name in _in_air(study)))
+        Claim(
+            claim="in air the engines' ends differ no more than by chance",
+            criteria=[
+                Criterion(
+                    f"least probability of {len(pooled)} χ² tests",
+                    min(probability(by_both(counts, words)) for words in pooled),
+                    ">",
+                    LEAST_PROBABLE,
+                    "by chance one falls below it once in a hundred runs",
+                )
+            ],
         ),
-    }
-    return tuple(claim for claim, holds in claims.items() if not holds)
+    )
 
 
-def _in_air(study: Study) -> list[str]:
-    return [name for name in study.mujoco if name.endswith(", air")]
+def _in_air(counts: EndingCounts) -> list[str]:
+    return [name for name in counts.mujoco if name.endswith(", air")]
 
 
-def _rows(study: Study) -> Iterator[tuple[str, list[float]]]:
-    for name, ends in study.outcomes.items():
+def _rows(counts: EndingCounts) -> Iterator[tuple[str, list[float]]]:
+    for name, ends in counts.outcomes.items():
         number = sum(ends.values())
         parts = [sum(n for end, n in ends.items() if end.startswith(f"{o.label}, ")) for o in _SHOWN]
         yield f"{name} ({number})", [100 * part / number for part in parts]
 
 
-def text(study: Study) -> str:
-    """Give the tables, in Markdown."""
-    lines = [
-        f"| coin, floor, air (tosses) | {' | '.join(f'{o.label} [%]' for o in _SHOWN)} |",
-        "|---" * (len(_SHOWN) + 1) + "|",
-    ]
-    lines += [f"| {name} | {' | '.join(f'{part:.2f}' for part in parts)} |" for name, parts in _rows(study)]
-    lines += ["", "| of all | tosses | share [%] |", "|---|---|---|"]
+def tables(counts: EndingCounts) -> str:
+    """Return the tables, in Markdown."""
+    shown = [f"{outcome.label} [%]" for outcome in _SHOWN]
+    parts = []
     for outcome in _SHOWN:
-        number, whole = share(study.outcomes, outcome.label)
-        lines.append(f"| {outcome.label} | {number} of {whole} | {100 * number / whole:.2f} |")
-    number, whole = share(study.outcomes, "perpetual", ["vacuum"])
-    lines.append(f"| perpetual, of those in vacuum | {number} of {whole} | {100 * number / whole:.2f} |")
-    lines += [
-        "",
-        f"A toss that was decided took at most {study.most_impacts} impacts and {study.longest:.0f} s.",
-        "",
-        f"| by MuJoCo (tosses) | {' | '.join(f'{o.label} [%]' for o in _SHOWN)} | probability by chance |",
-        "|---" * (len(_SHOWN) + 2) + "|",
-    ]
+        number, whole = share(counts.outcomes, outcome.label)
+        parts.append([outcome.label, f"{number} of {whole}", f"{100 * number / whole:.2f}"])
+    number, whole = share(counts.outcomes, "perpetual", ["vacuum"])
+    parts.append(["perpetual, of those in vacuum", f"{number} of {whole}", f"{100 * number / whole:.2f}"])
     pooled = {f"{floor}, {medium}": [floor, medium] for floor, medium in product(BY_BOTH, MEDIA)}
-    for name, words in {**{name: [name] for name in study.mujoco}, **pooled}.items():
-        counts = by_both(study, words)
-        number = sum(counts["mujoco"])
-        parts = [f"{100 * n / number:.2f}" for n in counts["mujoco"]]
-        lines.append(f"| {name} ({number}) | {' | '.join(parts)} | {probability(counts):.2g} |")
-    number, whole = share(study.mujoco, "undecided")
-    lines += ["", f"MuJoCo leaves {number} of {whole} undecided."]
-    return "\n".join(lines)
+    by_mujoco = []
+    for name, words in {**{name: [name] for name in counts.mujoco}, **pooled}.items():
+        ends = by_both(counts, words)
+        tosses = sum(ends["mujoco"])
+        shares = [f"{100 * n / tosses:.2f}" for n in ends["mujoco"]]
+        by_mujoco.append([f"{name} ({tosses})", *shares, f"{probability(ends):.2g}"])
+    number, whole = share(counts.mujoco, "undecided")
+    return "\n\n".join(
+        [
+            table(
+                ["coin, floor, air (tosses)", *shown],
+                [[name, *(f"{part:.2f}" for part in parts)] for name, parts in _rows(counts)],
+            ),
+            table(["of all", "tosses", "share [%]"], parts),
+            f"A toss that was decided took at most {counts.most_impacts} impacts and {counts.longest:.0f} s.",
+            table(["by MuJoCo (tosses)", *shown, "probability by chance"], by_mujoco),
+            f"MuJoCo leaves {number} of {whole} undecided.",
+        ]
+    )
 
 
-def draw(study: Study) -> Picture:
+def draw(counts: EndingCounts) -> Figure:
     """Draw the shares of the outcomes as bars."""
-    rows = list(_rows(study))[::-1]
-    picture = Picture(figsize=(9, 0.28 * len(rows) + 1.2))
+    rows = list(_rows(counts))[::-1]
+    picture = Figure(figsize=(9, 0.28 * len(rows) + 1.2))
     axes = picture.subplots()
-    left = np.zeros(len(rows))
-    looks = ("#0072B2", "#56B4E9", "#E69F00", "#009E73", "#000000")
-    for i, (outcome, color) in enumerate(zip(_SHOWN, looks, strict=True)):
+    names, left = [name for name, _ in rows], np.zeros(len(rows))
+    for i, outcome in enumerate(_SHOWN):
         parts = np.array([shares[i] for _, shares in rows])
-        axes.barh([name for name, _ in rows], parts, left=left, color=color, label=outcome.label)
+        axes.barh(
+            names,
+            parts,
+            left=left,
+            color=OUTCOMES[outcome],
+            edgecolor=GREY,
+            linewidth=0.4,
+            label=outcome.label,
+        )
         left += parts
+    axes.grid(visible=False)
     axes.set_xlim(0, 100)
     axes.set_xlabel("share of the tosses [%]")
     axes.margins(y=0.01)
@@ -277,9 +296,9 @@ def draw(study: Study) -> Picture:
     return picture
 
 
-FIGURE = Figure(
+REPRODUCTION = Reproduction(
     title="how thousands of random tosses end, and whether both engines end them alike",
     seconds=3200,
-    files=("numbers.json", "endings.png"),
-    run=run,
+    make=lambda progress: result(compute(COUNT, COUNT_MUJOCO, SEED, progress)),
+    draw={"endings": draw},
 )

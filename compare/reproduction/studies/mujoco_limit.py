@@ -1,16 +1,16 @@
 """How MuJoCo's contacts tend to the hard limit: errors of single impacts over every setting."""
 
-import json
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
-from pathlib import Path
+from dataclasses import dataclass
 from typing import Any
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib.figure import Figure as Picture
+from matplotlib.figure import Figure
 
-from compare.reproduction.runner import Figure, Made, Progress
+from compare.output.progress import Progress
+from compare.output.tables import table
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.mujoco_fixed_steps import (
     DEFAULT,
     HARDEST,
@@ -23,11 +23,12 @@ from compare.reproduction.setups.mujoco_study import (
     FINE,
     RUBBED,
     ConeFormula,
-    OwnCone,
+    NativeCone,
     Spread,
-    Steps,
-    Stiffness,
+    StepErrors,
+    StiffnessErrors,
     cone_formula,
+    native_cone,
     over_friction,
     over_kinds,
     over_restitution,
@@ -35,7 +36,6 @@ from compare.reproduction.setups.mujoco_study import (
     over_steps,
     over_stiffness,
     over_tilt,
-    own_cone,
     smooth_and_rubbed,
 )
 
@@ -63,24 +63,24 @@ class Sizes:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Study:
+class ImpactErrors:
     """All parts of the study; see `compare.reproduction.setups.mujoco_study` for each."""
 
     kinds: dict[str, dict[str, Spread]]
-    stiffness: dict[str, Stiffness]
-    steps: dict[str, Steps]
+    stiffness: dict[str, StiffnessErrors]
+    steps: dict[str, StepErrors]
     restitution: dict[float, Spread]
     friction: dict[float, Spread]
     spin: dict[float, Spread]
     tilt: dict[float, Spread]
-    cone: OwnCone
+    cone: NativeCone
     formula: ConeFormula
     users: dict[str, list[float]]
     """Largest |e' - e| of a ball stepped by `mj_step`, for each of `USERS_RESTITUTIONS`, by contact."""
 
 
-def study(sizes: Sizes, seed: int, progress: Callable[[int, int], None] = lambda *_: None) -> Study:
-    """Compute the study."""
+def compute(sizes: Sizes, seed: int, progress: Progress) -> ImpactErrors:
+    """Return the errors of all parts of the study."""
     rng = np.random.default_rng(seed)
     floors = smooth_and_rubbed(draw_touches(rng, sizes.impacts, (0.3, 1.0)))
     half = max(4, sizes.impacts // 2)
@@ -95,7 +95,7 @@ def study(sizes: Sizes, seed: int, progress: Callable[[int, int], None] = lambda
         "friction": lambda: over_friction(sizes.impacts, FRICTIONS, rng),
         "spin": lambda: over_spin(half, SPINS, rng),
         "tilt": lambda: over_tilt(half, TILTS, rng),
-        "cone": lambda: own_cone(CONE_RESTITUTION, CONE_TILTS, axis, [2 * part for part in axis]),
+        "cone": lambda: native_cone(CONE_RESTITUTION, CONE_TILTS, axis, [2 * part for part in axis]),
         "formula": lambda: cone_formula(sizes.kinds, rng),
         "users": _users,
     }
@@ -103,7 +103,7 @@ def study(sizes: Sizes, seed: int, progress: Callable[[int, int], None] = lambda
     for number, (name, job) in enumerate(jobs.items(), start=1):
         parts[name] = job()
         progress(number, len(jobs))
-    return Study(**parts)
+    return ImpactErrors(**parts)
 
 
 def _users() -> dict[str, list[float]]:
@@ -127,154 +127,190 @@ def _users() -> dict[str, list[float]]:
     return answers
 
 
-def check(found: Study) -> tuple[str, ...]:
-    """Give the claims that the numbers don't bear out."""
+def result(found: ImpactErrors) -> Result:
+    """Return the study's tables and claims."""
+    return Result(claims=claims(found), data=found, tables=tables(found))
+
+
+def claims(found: ImpactErrors) -> tuple[Claim, ...]:
+    """Return the claims of the study."""
     explicit = [fit for name in ("spring", "one step") for fit in found.kinds[name].values()]
-    own = [fit for name, kinds in found.kinds.items() if "cone" in name for fit in kinds.values()]
-    smooth = found.stiffness["smooth"]
-    claims = {
-        "impulses at the default settings: median below 2e-4, worst below 1e-3": all(
-            fit.median < 2e-4 and fit.worst < 1e-3 for fit in explicit
-        ),
-        "MuJoCo's own cone errs by more than 1e-3": all(fit.median > 1e-3 for fit in own),
-        "the error falls with the root of the stiffness": all(
-            0.45 < part.order < 0.55 for part in found.stiffness.values()
-        ),
-        "Richardson's limit is nearer than the hardest of its two springs, up to 1e12": all(
-            limit < error
-            for k, error, limit in zip(smooth.stiffness, smooth.impulse, smooth.limit, strict=True)
-            if k <= 1e12
-        ),
-        "the steps converge with second order": all(1.5 < part.order < 2.5 for part in found.steps.values()),
-        "the formulas of the own cone hold": found.formula.normal_speed.worst < 2e-3
-        and found.formula.energy.worst < 2e-3,
-        "Moreau's law gains no energy": found.formula.gains["one step, own cone"][0] == 0,
-        "one step of Euler is exact": max(found.users["one step, Euler"]) < 1e-9,
-    }
-    return tuple(claim for claim, holds in claims.items() if not holds)
-
-
-def _table(head: list[str], rows: list[list[str]]) -> list[str]:
-    return [f"| {' | '.join(row)} |" for row in (head, ["---"] * len(head), *rows)]
-
-
-def _spreads(name: str, spreads: dict[float, Spread]) -> list[str]:
-    rows = [[f"{value:g}", f"{fit.median:.1e}", f"{fit.worst:.1e}"] for value, fit in spreads.items()]
-    return _table([name, "median", "worst"], rows)
-
-
-def text(found: Study) -> str:
-    """Give the tables."""
-    lines = ["Errors of impulses by kind of impact, median (worst; number):", ""]
-    kinds = list(next(iter(found.kinds.values())))
-    lines += _table(
-        ["contact", *kinds],
-        [
-            [
-                name,
-                *(
-                    f"{fits[kind].median:.1e} ({fits[kind].worst:.1e}; {fits[kind].number})"
-                    if kind in fits
-                    else "as frictionless"
-                    for kind in kinds
+    native = [fit for name, kinds in found.kinds.items() if "cone" in name for fit in kinds.values()]
+    smooth, stiffness_orders = found.stiffness["smooth"], [part.order for part in found.stiffness.values()]
+    step_orders = [part.order for part in found.steps.values()]
+    nearer = [
+        limit / error
+        for k, error, limit in zip(smooth.stiffness, smooth.impulse, smooth.limit, strict=True)
+        if k <= 1e12
+    ]
+    return (
+        Claim(
+            claim="impulses at the default settings: median below 2e-4, worst below 1e-3",
+            criteria=[
+                Criterion(
+                    "largest median error", max(fit.median for fit in explicit), "<", 2e-4, "as claimed"
                 ),
-            ]
-            for name, fits in found.kinds.items()
-        ],
-    )
-    for name, part in found.stiffness.items():
-        lines += ["", f"Median errors over the stiffness, {name}; order {part.order:.2f}:", ""]
-        columns = (part.impulse, part.velocity, part.spin, part.guessed_mass, part.limit, part.fine_limit)
-        lines += _table(
-            [
-                "k [1/s²]",
-                "impulse",
-                "velocity",
-                "spin",
-                "impulse without diagexact",
-                "2 S(k) - S(k/4)",
-                f"with {FINE} steps",
+                Criterion("worst error", max(fit.worst for fit in explicit), "<", 1e-3, "as claimed"),
             ],
-            [[f"{k:.0e}", *(f"{column[i]:.1e}" for column in columns)] for i, k in enumerate(part.stiffness)],
-        )
-    for name, part in found.steps.items():
-        lines += [
-            "",
-            f"Change of the impulse against {MOST_STEPS} steps, {name}; order {part.order:.2f}:",
-            "",
+        ),
+        Claim(
+            claim="MuJoCo's native cone errs by more than 1e-3",
+            criteria=[
+                Criterion("least median error", min(fit.median for fit in native), ">", 1e-3, "as claimed")
+            ],
+        ),
+        Claim(
+            claim="the error falls with the root of the stiffness",
+            criteria=[
+                Criterion("least order", min(stiffness_orders), ">", 0.45, "1/2, less a tenth"),
+                Criterion("largest order", max(stiffness_orders), "<", 0.55, "1/2 and a tenth"),
+            ],
+        ),
+        Claim(
+            claim="Richardson's limit is nearer than the hardest of its two springs, up to 1e12",
+            criteria=[Criterion("largest ratio of the errors", max(nearer), "<", 1, "it is nearer")],
+        ),
+        Claim(
+            claim="the steps converge with second order",
+            criteria=[
+                Criterion("least order", min(step_orders), ">", 1.5, "nearer to 2 than to 1"),
+                Criterion("largest order", max(step_orders), "<", 2.5, "nearer to 2 than to 3"),
+            ],
+        ),
+        Claim(
+            claim="the formulas of the native cone hold",
+            criteria=[
+                Criterion(
+                    "worst error of v_n'",
+                    found.formula.normal_speed.worst,
+                    "<",
+                    2e-3,
+                    "the impedance is 0.9999",
+                ),
+                Criterion("of ΔE", found.formula.energy.worst, "<", 2e-3, "the same"),
+            ],
+        ),
+        Claim(
+            claim="Moreau's law gains no energy",
+            criteria=[
+                Criterion(
+                    "part of the impacts that gain",
+                    found.formula.gains["one step, native cone"][0],
+                    "=",
+                    0,
+                    "none",
+                )
+            ],
+        ),
+        Claim(
+            claim="one step of Euler is exact",
+            criteria=[
+                Criterion("largest |e' - e|", max(found.users["one step, Euler"]), "<", 1e-9, "rounding")
+            ],
+        ),
+    )
+
+
+def tables(found: ImpactErrors) -> str:
+    """Return the tables, in Markdown."""
+    kinds = list(next(iter(found.kinds.values())))
+    parts = [
+        "Errors of impulses by kind of impact, median (worst; number):",
+        table(
+            ["contact", *kinds],
+            [
+                [
+                    name,
+                    *(
+                        f"{fits[kind].median:.1e} ({fits[kind].worst:.1e}; {fits[kind].number})"
+                        if kind in fits
+                        else "as frictionless"
+                        for kind in kinds
+                    ),
+                ]
+                for name, fits in found.kinds.items()
+            ],
+        ),
+    ]
+    for name, part in found.stiffness.items():
+        columns = {
+            "impulse": part.impulse,
+            "velocity": part.velocity,
+            "spin": part.spin,
+            "impulse without diagexact": part.guessed_mass,
+            "2 S(k) - S(k/4)": part.limit,
+            f"with {FINE} steps": part.fine_limit,
+        }
+        rows = zip(part.stiffness, *columns.values(), strict=True)
+        parts += [
+            f"Median errors over the stiffness, {name}; order {part.order:.2f}:",
+            table(["k [1/s²]", *columns], [[f"{k:.0e}", *map(_short, errors)] for k, *errors in rows]),
         ]
-        lines += _table(
-            ["steps", "median"],
-            [[str(n), f"{error:.1e}"] for n, error in zip(part.steps, part.impulse, strict=True)],
-        )
-    lines += ["", "Restitution asked for, and |obtained - asked|, smooth:", ""]
-    lines += _spreads("χ", found.restitution)
+    for name, part in found.steps.items():
+        parts += [
+            f"Change of the impulse against {MOST_STEPS} steps, {name}; order {part.order:.2f}:",
+            table(
+                ["steps", "median"],
+                [[str(n), _short(error)] for n, error in zip(part.steps, part.impulse, strict=True)],
+            ),
+        ]
+    parts += ["Restitution asked for, and |obtained - asked|, smooth:", _spreads("χ", found.restitution)]
     for name, spreads in (
         ("μ", found.friction),
         (f"spin up to [rad/s], μ = {RUBBED:g}", found.spin),
         (f"tilt [deg], μ = {RUBBED:g}", found.tilt),
     ):
-        lines += ["", "Error of the impulse at the default settings:", "", *_spreads(name, spreads)]
-    lines += ["", *_cone_lines(found)]
-    lines += ["", "Largest |e' - e| of a ball, mj_step with a fixed step:", ""]
-    lines += _table(
-        ["contact", *(f"e = {e:g}" for e in USERS_RESTITUTIONS)],
-        [[name, *(f"{error:.0e}" for error in errors)] for name, errors in found.users.items()],
-    )
-    return "\n".join(lines)
-
-
-def _cone_lines(found: Study) -> list[str]:
-    cone, formula = found.cone, found.formula
-    lines = [f"Largest restitution of the spring with MuJoCo's own cone, {cone.restitution:g} asked for:", ""]
-    lines += _table(
-        ["tilt [deg]", "restitution", "at μ", "at slip/normal speed"],
-        [
-            [
-                f"{tilt:g}",
-                f"{plane.max():.3f}",
-                f"{cone.frictions[int(plane.argmax()) % plane.shape[1]]:.2f}",
-                f"{cone.slips[int(plane.argmax()) // plane.shape[1]]:.2f}",
-            ]
-            for tilt, plane in zip(cone.tilts, cone.obtained, strict=True)
-        ],
-    )
-    lines += [
-        "",
-        "In one step with the own cone:",
-        "",
-        f"- v_n' = χ |v_n| + μ |v_t' + χ v_t| holds to {formula.normal_speed.worst:.0e} |v_n|",
-        f"- ΔE = (1 - χ) S · v_A/2 holds to {formula.energy.worst:.0e} E",
-        f"- v_n' reaches {formula.pushed:.2f} χ |v_n|",
-        "",
+        parts += ["Error of the impulse at the default settings:", _spreads(name, spreads)]
+    parts += [
+        *_cone_parts(found),
+        "Largest |e' - e| of a ball, mj_step with a fixed step:",
+        table(
+            ["contact", *(f"e = {e:g}" for e in USERS_RESTITUTIONS)],
+            [[name, *(f"{error:.0e}" for error in errors)] for name, errors in found.users.items()],
+        ),
     ]
-    return lines + _table(
-        ["contact", "impacts that gain energy", "largest change over the energy before"],
-        [[name, f"{part:.0%}", f"{largest:+.1e}"] for name, (part, largest) in formula.gains.items()],
-    )
+    return "\n\n".join(parts)
 
 
-def run(folder: Path, progress: Progress) -> Made:
-    """Make the study; write its files; give its tables and the claims that fail."""
-    found = study(Sizes(), SEED, progress)
-    numbers = asdict(found)
-    numbers["cone"]["obtained"] = found.cone.obtained.tolist()
-    (folder / "numbers.json").write_text(json.dumps(numbers, indent=1, allow_nan=False), encoding="utf-8")
-    style: Any = {
-        "font.size": 9,
-        "axes.spines.top": False,
-        "axes.spines.right": False,
-        "legend.frameon": False,
-    }
-    with mpl.rc_context(style):
-        draw_convergence(found).savefig(folder / "convergence.png", dpi=80)
-        draw_cone(found.cone).savefig(folder / "own-cone.png", dpi=80)
-    return Made(text=text(found), failed=check(found))
+def _short(error: float) -> str:
+    return f"{error:.1e}"
 
 
-def draw_convergence(found: Study) -> Picture:
+def _spreads(name: str, spreads: dict[float, Spread]) -> str:
+    rows = [[f"{value:g}", _short(fit.median), _short(fit.worst)] for value, fit in spreads.items()]
+    return table([name, "median", "worst"], rows)
+
+
+def _cone_parts(found: ImpactErrors) -> list[str]:
+    cone, formula = found.cone, found.formula
+    return [
+        f"Largest restitution of the spring with MuJoCo's native cone, {cone.restitution:g} asked for:",
+        table(
+            ["tilt [deg]", "restitution", "at μ", "at slip/normal speed"],
+            [
+                [
+                    f"{tilt:g}",
+                    f"{plane.max():.3f}",
+                    f"{cone.frictions[int(plane.argmax()) % plane.shape[1]]:.2f}",
+                    f"{cone.slips[int(plane.argmax()) // plane.shape[1]]:.2f}",
+                ]
+                for tilt, plane in zip(cone.tilts, cone.obtained, strict=True)
+            ],
+        ),
+        "In one step with the native cone:",
+        f"- v_n' = χ |v_n| + μ |v_t' + χ v_t| holds to {formula.normal_speed.worst:.0e} |v_n|\n"
+        f"- ΔE = (1 - χ) S · v_A/2 holds to {formula.energy.worst:.0e} E\n"
+        f"- v_n' reaches {formula.pushed:.2f} χ |v_n|",
+        table(
+            ["contact", "impacts that gain energy", "largest change over the energy before"],
+            [[name, f"{part:.0%}", f"{largest:+.1e}"] for name, (part, largest) in formula.gains.items()],
+        ),
+    ]
+
+
+def draw_convergence(found: ImpactErrors) -> Figure:
     """Draw errors over the stiffness, over the steps, and over restitution, friction, spin and tilt."""
-    picture = Picture(figsize=(12, 6.6), layout="constrained")
+    picture = Figure(figsize=(12, 6.6))
     axes = picture.subplots(2, 3)
     for place, (name, part) in zip(axes[0], found.stiffness.items(), strict=False):
         for label, column, style in (
@@ -317,9 +353,10 @@ def draw_convergence(found: Study) -> Picture:
     return picture
 
 
-def draw_cone(cone: OwnCone) -> Picture:
-    """Draw the restitution that MuJoCo's own friction gives."""
-    picture = Picture(figsize=(12, 3.6), layout="constrained")
+def draw_cone(found: ImpactErrors) -> Figure:
+    """Draw the restitution that MuJoCo's native friction gives."""
+    cone = found.cone
+    picture = Figure(figsize=(12, 3.6))
     axes = picture.subplots(1, len(cone.tilts), sharey=True)
     meshes = []
     for place, tilt, plane in zip(axes, cone.tilts, cone.obtained, strict=True):
@@ -340,9 +377,9 @@ def draw_cone(cone: OwnCone) -> Picture:
     return picture
 
 
-FIGURE = Figure(
+REPRODUCTION = Reproduction(
     title="how MuJoCo's contacts tend to the paper's laws of impact",
     seconds=200,
-    files=("numbers.json", "convergence.png", "own-cone.png"),
-    run=run,
+    make=lambda progress: result(compute(Sizes(), SEED, progress)),
+    draw={"convergence": draw_convergence, "native-cone": draw_cone},
 )

@@ -3,10 +3,8 @@
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
 
-import json
 import time
-from dataclasses import asdict, dataclass, replace
-from pathlib import Path
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import mujoco
@@ -16,7 +14,10 @@ from numba import config
 import coin_mj
 from coin_mj import MANY, Realisation, Settings
 from coin_mj.model.state import of_release
-from compare.reproduction.runner import Figure, Made, Progress
+from compare.output.progress import Progress
+from compare.output.tables import table
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.mujoco_fixed_steps import loop_model, restitutions_of_coins
 from compare.reproduction.setups.mujoco_impacts import (
     by_law,
@@ -47,7 +48,7 @@ FINEST_STEP = 1e-7
 """The last [s]; with much finer ones MuJoCo takes impacts for errors."""
 
 
-class Loop(NamedTuple):
+class FixedSteps(NamedTuple):
     """Of `mj_step` with fixed steps and the same contact."""
 
     step: float
@@ -70,31 +71,27 @@ class Speed:
     """Relative errors of impulses on a smooth floor."""
     coulomb: Spread
     """And on one of friction `RUBBED`."""
-    loop: Loop | None
+    loop: FixedSteps | None
     """Whose restitution errs no more, at worst; none where no step is fine enough."""
-    loop_enough: Loop | None
+    loop_enough: FixedSteps | None
     """Whose restitution errs by at most `ENOUGH`."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Study:
-    """Speeds on so many threads."""
+class TossSpeeds:
+    """Speeds on all threads."""
 
     threads: int
     speeds: dict[str, Speed]
     """By realisation."""
 
 
-def run(folder: Path, progress: Progress) -> Made:
-    """Make the study: numbers.json."""
-    study = compute(TOSSES, TOUCHES, SEED, progress)
-    (folder / "numbers.json").write_text(
-        json.dumps(asdict(study), indent=1, allow_nan=False), encoding="utf-8"
-    )
-    return Made(text=text(study), failed=check(study))
+def result(found: TossSpeeds) -> Result:
+    """Return the study's tables and claims."""
+    return Result(claims=claims(found), data=found, tables=tables(found))
 
 
-def compute(tosses: int, touches: int, seed: int, progress: Progress) -> Study:
+def compute(tosses: int, touches: int, seed: int, progress: Progress) -> TossSpeeds:
     """Time `tosses` tosses by each realisation, and measure the errors of `touches` impacts."""
     rng = np.random.default_rng(seed)
     scenario, releases = load(SCENARIO), draw_releases(rng, tosses)
@@ -103,7 +100,7 @@ def compute(tosses: int, touches: int, seed: int, progress: Progress) -> Study:
     for number, (realisation, settings) in enumerate(SETTINGS.items(), start=1):
         speeds[realisation.value] = _speed(scenario, releases, settings, smooth, threads)
         progress(number, len(SETTINGS))
-    return Study(threads=threads, speeds=speeds)
+    return TossSpeeds(threads=threads, speeds=speeds)
 
 
 def draw_releases(rng: np.random.Generator, count: int) -> Releases:
@@ -157,8 +154,8 @@ def _loop(
     smooth: list[Scenario],
     error: float,
     seconds_per_second: float,
-) -> Loop | None:
-    """Give the fastest loop whose restitution errs by at most `error`.
+) -> FixedSteps | None:
+    """Return the fastest loop whose restitution errs by at most `error`.
 
     Args:
         scenario: tossed, to time the loop.
@@ -170,13 +167,13 @@ def _loop(
     chi, step = np.array([case.floor.restitution for case in smooth]), LONGEST_STEP[settings.contact]
     while step > FINEST_STEP:
         if np.abs(restitutions_of_coins(smooth, settings, step) - chi).max() <= error:
-            return Loop(step, seconds_per_second / _loop_seconds(scenario, settings, step))
+            return FixedSteps(step, seconds_per_second / _loop_seconds(scenario, settings, step))
         step /= 2**0.5
     return None
 
 
 def _loop_seconds(scenario: Scenario, settings: Settings, step: float) -> float:
-    """Give the time that the loop takes for a second of a toss [s]."""
+    """Return the time that the loop takes for a second of a toss [s]."""
     model = loop_model(scenario, settings, step)
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = of_release(scenario.body, scenario.release)
@@ -185,56 +182,76 @@ def _loop_seconds(scenario: Scenario, settings: Settings, step: float) -> float:
     return (time.process_time() - start) / data.time
 
 
-def check(study: Study) -> tuple[str, ...]:
-    """Give the claims that the numbers don't bear out."""
-    claims = {
-        "restitution errs by at most 1e-2": all(s.restitution.worst < ENOUGH for s in study.speeds.values()),
-        "no loop of fixed steps that is as exact is a tenth as fast": all(
-            s.loop is None or s.tosses_per_second > 10 * s.loop.tosses_per_second
-            for s in study.speeds.values()
+def claims(found: TossSpeeds) -> tuple[Claim, ...]:
+    """Return the claims of the study."""
+    times_faster = [
+        speed.tosses_per_second / speed.loop.tosses_per_second
+        for speed in found.speeds.values()
+        if speed.loop is not None
+    ]
+    return (
+        Claim(
+            claim="restitution errs by at most 1e-2",
+            criteria=[
+                Criterion(
+                    "worst error",
+                    max(speed.restitution.worst for speed in found.speeds.values()),
+                    "<",
+                    ENOUGH,
+                    "an error that may do",
+                )
+            ],
         ),
-    }
-    return tuple(claim for claim, holds in claims.items() if not holds)
+        Claim(
+            claim="no loop of fixed steps that is as exact is a tenth as fast",
+            criteria=[
+                Criterion(
+                    "least ratio of speeds", min(times_faster, default=np.inf), ">", 10, "ten times as fast"
+                )
+            ],
+        ),
+    )
 
 
-def text(study: Study) -> str:
-    """Give the table, in Markdown."""
+def tables(found: TossSpeeds) -> str:
+    """Return the tables, in Markdown."""
 
     def errors(fit: Spread) -> str:
-        return f"{fit[0]:.0e} ({fit[1]:.0e})"
+        return f"{fit.median:.0e} ({fit.worst:.0e})"
 
-    lines = [
-        "| contact | tosses per second | restitution | impulse, smooth | impulse, Coulomb |",
-        "|---|---|---|---|---|",
+    speeds = [
+        [
+            name,
+            f"{speed.tosses_per_second:.0f}",
+            *map(errors, (speed.restitution, speed.smooth, speed.coulomb)),
+        ]
+        for name, speed in found.speeds.items()
     ]
-    for name, speed in study.speeds.items():
-        parts = (speed.restitution, speed.smooth, speed.coulomb)
-        lines.append(f"| {name} | {speed.tosses_per_second:.0f} | {' | '.join(map(errors, parts))} |")
-    lines += [
-        "",
-        "| `mj_step` with fixed steps | step [s] | tosses per second | times fewer |",
-        "|---|---|---|---|",
-    ]
-    for name, speed in study.speeds.items():
+    loops = []
+    for name, speed in found.speeds.items():
         for error, loop in ((speed.restitution.worst, speed.loop), (ENOUGH, speed.loop_enough)):
             row = f"{name}, restitution to {error:.0e}"
             if loop is None:
-                lines.append(f"| {row} | none down to {FINEST_STEP:.0e} | | |")
+                loops.append([row, f"none down to {FINEST_STEP:.0e}", "", ""])
                 continue
             ratio = float(f"{speed.tosses_per_second / loop.tosses_per_second:.2g}")
-            lines.append(f"| {row} | {loop.step:.1e} | {loop.tosses_per_second:.2g} | {ratio:,g} |")
-    duration = study.speeds[Realisation.SPRING.value].duration
-    lines += [
-        "",
-        f"On {study.threads} threads with a core each, by the processor's time; "
-        f"a toss lasts {duration:.1f} s on average.",
-    ]
-    return "\n".join(lines)
+            loops.append([row, f"{loop.step:.1e}", f"{loop.tosses_per_second:.2g}", f"{ratio:,g}"])
+    duration = found.speeds[Realisation.SPRING.value].duration
+    return "\n\n".join(
+        [
+            table(
+                ["contact", "tosses per second", "restitution", "impulse, smooth", "impulse, Coulomb"], speeds
+            ),
+            table(["`mj_step` with fixed steps", "step [s]", "tosses per second", "times fewer"], loops),
+            f"On {found.threads} threads with a core each, by the processor's time; "
+            f"a toss lasts {duration:.1f} s on average.",
+        ]
+    )
 
 
-FIGURE = Figure(
+REPRODUCTION = Reproduction(
     title="how fast MuJoCo makes many tosses, how exactly, and beside a loop of fixed steps",
     seconds=200,
-    files=("numbers.json",),
-    run=run,
+    make=lambda progress: result(compute(TOSSES, TOUCHES, SEED, progress)),
+    draw={},
 )

@@ -3,10 +3,9 @@
 Times are the processor's, of all cores together: whatever else the machine does counts little.
 """
 
-import json
 import tempfile
 from collections.abc import Iterable, Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from time import process_time
 
@@ -14,7 +13,10 @@ import numpy as np
 from numba import config
 
 from compare.engines import Engine
-from compare.reproduction.runner import Figure, Made, Progress
+from compare.output.progress import Progress
+from compare.output.tables import table
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
 from compare.sweep import run as sweep_run
 from compare.sweep.axes import parse_axis
 from compare.sweep.grid import Sweep, Tile, tiles
@@ -53,8 +55,8 @@ LEAST_SHARE = 0.9
 
 
 @dataclass(frozen=True, kw_only=True)
-class Study:
-    """Processor times."""
+class MapCosts:
+    """Processor times of maps."""
 
     cores: int
     """Of this machine that were used."""
@@ -68,16 +70,12 @@ class Study:
     """In that map."""
 
 
-def run(folder: Path, progress: Progress) -> Made:
-    """Make the study: numbers.json."""
-    study = compute(SIDE, MUJOCO_SIDE, progress)
-    (folder / "numbers.json").write_text(
-        json.dumps(asdict(study), indent=1, allow_nan=False), encoding="utf-8"
-    )
-    return Made(text=text(study), failed=check_claims(study))
+def result(costs: MapCosts) -> Result:
+    """Return the study's tables and its claim."""
+    return Result(claims=claims(costs), data=costs, tables=tables(costs))
 
 
-def compute(side: int, mujoco_side: int, progress: Progress) -> Study:
+def compute(side: int, mujoco_side: int, progress: Progress) -> MapCosts:
     """Measure on maps of a thin coin on a smooth floor.
 
     Args:
@@ -107,7 +105,7 @@ def compute(side: int, mujoco_side: int, progress: Progress) -> Study:
         progress(len(toss) + len(tile), whole)
     steps = _steps(kinds["thin coin"], cores)
     progress(whole, whole)
-    return Study(cores=cores, toss=toss, tile=tile, parts=steps, tosses=side * side)
+    return MapCosts(cores=cores, toss=toss, tile=tile, parts=steps, tosses=side * side)
 
 
 def sweep_of(
@@ -119,7 +117,7 @@ def sweep_of(
     engine: Engine = Engine.ANALYTIC,
     axes: tuple[str, str] = RELEASE,
 ) -> Sweep:
-    """Give the sweep of a coin, by default over spin and height."""
+    """Return the sweep of a coin, by default over spin and height."""
     text = COIN.format(thickness=thickness, normal=normal, tangential=tangential)
     scenario = parse(text, "coin")
     x, y = (parse_axis(axis.format(side), scenario) for axis in axes)
@@ -127,7 +125,7 @@ def sweep_of(
 
 
 def _cost(sweep: Sweep, parts: Iterable[Tile]) -> float:
-    """Give the time of a toss, made in such parts [s]."""
+    """Return the time of a toss, made in such parts [s]."""
     start = process_time()
     count = sum(toss_pixels(sweep, part).outcome.size for part in parts)
     return (process_time() - start) / count
@@ -169,38 +167,62 @@ def _steps(sweep: Sweep, cores: int) -> dict[str, float]:
     }
 
 
-def check_claims(study: Study) -> tuple[str, ...]:
-    """Give the claims that the times don't bear out."""
-    share = study.parts[TOSS] / sum(study.parts.values())
-    claim = f"a map of {study.tosses} tosses takes {100 * LEAST_SHARE:g} % of its time for the tosses or more"
-    return () if share >= LEAST_SHARE else (claim,)
+def claims(costs: MapCosts) -> tuple[Claim, ...]:
+    """Return the claim of the study."""
+    return (
+        Claim(
+            claim=f"a map of {costs.tosses} tosses takes most of its time for the tosses",
+            criteria=[
+                Criterion(
+                    "share of the time that they take",
+                    costs.parts[TOSS] / sum(costs.parts.values()),
+                    "≥",
+                    LEAST_SHARE,
+                    "a tenth at most for all else",
+                )
+            ],
+        ),
+    )
 
 
-def text(study: Study) -> str:
-    """Give the tables, in Markdown."""
-    lines = ["| toss | on one core [ms] | tosses/s on one core |", "|---|---|---|"]
-    lines += [
-        f"| {name} | {1e3 * cost:.3g} | {float(f'{1 / cost:.3g}'):,g} |" for name, cost in study.toss.items()
-    ]
-    lines += ["", "| tosses in a tile | of a toss, thin coin, on one core [ms] |", "|---|---|"]
-    lines += [f"| {tosses} | {1e3 * cost:.3g} |" for tosses, cost in study.tile.items()]
-    whole = sum(study.parts.values())
-    lines += ["", f"| a map of {study.tosses} tosses on {study.cores} cores | [s] | [%] |", "|---|---|---|"]
-    lines += [
-        f"| {name} | {seconds:.3g} | {100 * seconds / whole:.2g} |" for name, seconds in study.parts.items()
-    ]
+def tables(costs: MapCosts) -> str:
+    """Return the tables, in Markdown."""
+    whole = sum(costs.parts.values())
     tosses = [f"{number:.0e}".replace("e+0", "e").replace("e+", "e") for number in TOSSES]
-    lines += ["", f"| toss, cores | {' | '.join(f'{number} tosses' for number in tosses)} |"]
-    lines.append("|---" * (len(TOSSES) + 1) + "|")
-    for name, cost in study.toss.items():
-        for cores in CORES:
-            times = [_duration(number * cost / cores) for number in TOSSES]
-            lines.append(f"| {name}, {cores} | {' | '.join(times)} |")
-    return "\n".join(lines)
+    return "\n\n".join(
+        [
+            table(
+                ["toss", "on one core [ms]", "tosses/s on one core"],
+                [
+                    [name, f"{1e3 * cost:.3g}", f"{float(f'{1 / cost:.3g}'):,g}"]
+                    for name, cost in costs.toss.items()
+                ],
+            ),
+            table(
+                ["tosses in a tile", "of a toss, thin coin, on one core [ms]"],
+                [[str(count), f"{1e3 * cost:.3g}"] for count, cost in costs.tile.items()],
+            ),
+            table(
+                [f"a map of {costs.tosses} tosses on {costs.cores} cores", "[s]", "[%]"],
+                [
+                    [name, f"{seconds:.3g}", f"{100 * seconds / whole:.2g}"]
+                    for name, seconds in costs.parts.items()
+                ],
+            ),
+            table(
+                ["toss, cores", *(f"{number} tosses" for number in tosses)],
+                [
+                    [f"{name}, {cores}", *(_duration(number * cost / cores) for number in TOSSES)]
+                    for name, cost in costs.toss.items()
+                    for cores in CORES
+                ],
+            ),
+        ]
+    )
 
 
 def _duration(seconds: float) -> str:
-    """Give a time in the largest unit of which it has one or more."""
+    """Return a time in the largest unit of which it has one or more."""
     for unit, length in (("years", 365.25 * 86400), ("days", 86400), ("h", 3600), ("min", 60)):
         if seconds >= length:
             return (
@@ -211,9 +233,9 @@ def _duration(seconds: float) -> str:
     return f"{seconds:.2g} s"
 
 
-FIGURE = Figure(
+REPRODUCTION = Reproduction(
     title="what maps cost, and how long those of up to 1e12 tosses take",
     seconds=120,
-    files=("numbers.json",),
-    run=run,
+    make=lambda progress: result(compute(SIDE, MUJOCO_SIDE, progress)),
+    draw={},
 )

@@ -1,0 +1,49 @@
+"""What a run leaves in its folder: claims, data, and pictures drawn from the data."""
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any, TypeVar
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.figure import Figure
+from PIL import Image
+from pydantic import TypeAdapter
+
+from compare.output.style import STYLE
+from compare.reproduction.claim import to_json
+from compare.reproduction.runner import Result
+
+_COLORS = 128
+Numbers = TypeVar("Numbers")
+
+
+def save(folder: Path, result: Result, draw: Mapping[str, Callable[[Any], Figure]]) -> None:
+    """Write claims.json, the data, and the pictures into a folder that exists."""
+    (folder / "claims.json").write_text(to_json(result.claims), encoding="utf-8")
+    data = result.data
+    if isinstance(data, Mapping):
+        np.savez_compressed(folder / "data.npz", allow_pickle=False, **data)
+    else:
+        numbers = json.dumps(asdict(data), indent=1, allow_nan=False, default=np.ndarray.tolist)
+        (folder / "numbers.json").write_text(numbers, encoding="utf-8")
+    draw_all(folder, result.data, draw)
+
+
+def draw_all(folder: Path, data: Any, draw: Mapping[str, Callable[[Any], Figure]]) -> None:
+    """Draw the pictures of a reproduction from its data into a folder that exists."""
+    for name, picture in draw.items():
+        path = folder / f"{name}.png"
+        with mpl.rc_context(STYLE):
+            picture(data).savefig(path, dpi=110)
+        # A map's fine stripes would make a large file in full colour.
+        with Image.open(path) as drawn:
+            few = drawn.convert("RGB").quantize(_COLORS)
+        few.save(path, optimize=True)
+
+
+def read_numbers(folder: Path, kind: type[Numbers]) -> Numbers:
+    """Read the numbers that a run of a study wrote, as the record that they are of."""
+    return TypeAdapter(kind).validate_json((folder / "numbers.json").read_bytes())

@@ -1,0 +1,128 @@
+"""A claim's verdict follows from measured quantities and thresholds, which are printed beside it."""
+
+import json
+import math
+from functools import partial
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from compare.reproduction import gallery, runner
+from compare.reproduction.claim import Claim, Criterion, read_claims, table_of, to_json, unexpected
+from compare.reproduction.runner import Reproduction, Result
+
+KNOWN = Claim(
+    claim="two and two are four", analytic="4", mujoco="4", criteria=[Criterion("sum", 4, "=", 4, "no more")]
+)
+REFUTED = Claim(
+    claim="two and two are five",
+    analytic="4",
+    criteria=[Criterion("sum", 4, "=", 5, "as printed"), Criterion("error [1]", 1e-20, "<", 0.5, "rounding")],
+    expected=False,
+)
+
+
+def unseen(done: int, whole: int) -> None:
+    assert done <= whole
+
+
+@pytest.mark.parametrize(
+    ("relation", "met"),
+    [("<", (1, 0, 0)), ("≤", (1, 1, 0)), ("=", (0, 1, 0)), ("≥", (0, 1, 1)), (">", (0, 0, 1))],
+)
+def test_a_criterion_is_met_on_the_right_side_of_its_threshold(relation, met):
+    found = [Criterion("x", value, relation, 2.0, "") for value in (1.0, 2.0, 3.0)]
+    assert [each.is_met for each in found] == [bool(one) for one in met]
+    assert not Criterion("x", math.nan, relation, 2.0, "").is_met
+
+
+def test_a_claim_holds_where_all_its_criteria_are_met():
+    assert (KNOWN.holds, REFUTED.holds) == (True, False)
+    assert (KNOWN.verdict, REFUTED.verdict) == ("holds", "does not hold")
+    with pytest.raises(ValueError, match="accepted: one or more"):
+        Claim(claim="so it is", criteria=[])
+
+
+@pytest.mark.parametrize("threshold", [4, 5])
+def test_a_verdict_that_is_not_the_known_one_is_unexpected(threshold):
+    criteria = [Criterion("sum", 4, "=", threshold, "")]
+    other = Claim(claim="it rains", criteria=criteria, expected=threshold != 4)
+    assert unexpected((KNOWN, other, REFUTED)) == ("it rains",)
+
+
+def test_the_table_shows_thresholds_with_their_reasons_and_no_empty_column():
+    assert table_of((KNOWN, REFUTED)).splitlines() == [
+        "| claim | analytic | MuJoCo | measured (threshold: reason) | verdict |",
+        "| --- | --- | --- | --- | --- |",
+        "| two and two are four | 4 | 4 | sum: 4 (= 4: no more) | holds |",
+        "| two and two are five | 4 | - | sum: 4 (= 5: as printed); error [1]: 1e-20 (< 0.5: rounding) "
+        "| does not hold |",
+    ]
+    bare = Claim(claim="a | b", criteria=KNOWN.criteria)
+    assert table_of((bare,)).splitlines()[::2] == [
+        "| claim | measured (threshold: reason) | verdict |",
+        "| a \\| b | sum: 4 (= 4: no more) | holds |",
+    ]
+
+
+def test_claims_are_read_as_they_were_written_and_judged_anew(tmp_path):
+    numbers = Claim(claim="n", criteria=[Criterion("n", np.arange(4).max(), "<", np.float64(4), "")])
+    path = tmp_path / "claims.json"
+    path.write_text(to_json((KNOWN, REFUTED, numbers)), encoding="utf-8")
+    assert read_claims(path) == (KNOWN, REFUTED, numbers)
+    listed = json.loads(path.read_text(encoding="utf-8"))
+    assert [one["holds"] for one in listed] == [True, False, True]
+    listed[0]["criteria"][0]["measured"] = 5
+    path.write_text(json.dumps(listed), encoding="utf-8")
+    assert not read_claims(path)[0].holds
+
+
+def test_a_run_leaves_its_claims_its_data_and_its_pictures(tmp_path, monkeypatch):
+    made = []
+
+    def make(progress, size="full"):
+        progress(1, 1)
+        made.append(size)
+        return Result(claims=(KNOWN, REFUTED), data={"sum": np.array([4.0])}, tables="a table")
+
+    def draw(data):
+        assert data["sum"] == [4.0]
+        return Figure()
+
+    found = Reproduction(
+        title="a sum",
+        seconds=1,
+        make=make,
+        draw={"figure": draw},
+        quick=partial(make, size="quick"),
+        paper="Fig. 0",
+    )
+    monkeypatch.setattr(runner, "find", lambda _: found)
+    answer = runner.reproduce("sum", tmp_path, unseen)
+    assert answer.text == f"a table\n\n{table_of((KNOWN, REFUTED))}"
+    folder = tmp_path / "reproduction" / "sum"
+    assert sorted(path.name for path in folder.iterdir()) == ["claims.json", "data.npz", "figure.png"]
+    assert read_claims(folder / "claims.json") == (KNOWN, REFUTED)
+    assert np.load(folder / "data.npz")["sum"] == [4.0]
+    runner.reproduce("sum", tmp_path, unseen, quick=True)
+    assert made == ["full", "quick"]
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.slow if (runner.find(name).quick_seconds or 10) >= 10 else ())
+        for name in gallery.of_paper()
+    ],
+)
+def test_the_papers_claims_come_out_as_known_and_each_shows_its_thresholds(name, tmp_path):
+    result = runner.reproduce(name, tmp_path, unseen, quick=True)
+    assert unexpected(result.claims) == ()
+    folder = runner.folder_of(name, tmp_path)
+    assert (folder / "figure.png").stat().st_size < 150_000
+    assert read_claims(folder / "claims.json") == tuple(result.claims)
+    for claim, line in zip(result.claims, result.text.splitlines()[2:], strict=True):
+        for criterion in claim.criteria:
+            assert f"({criterion.accepted}: {criterion.reason})" in line
+            assert criterion.reason

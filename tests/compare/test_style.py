@@ -1,0 +1,49 @@
+"""The palette: one pair of colours for the faces, and outcomes that the colour-blind can distinguish."""
+
+import itertools
+import re
+from importlib import resources
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+
+from compare.film.captions import LABELS
+from compare.output.style import HEADS, OUTCOMES, TAILS
+from models.records import Outcome
+
+# Linear RGB as seen by a protanope and a deuteranope; Viénot, Brettel and Mollon, Color Res. Appl. 24 (1999).
+SEEN = {
+    "by most": np.eye(3),
+    "by a protanope": np.array([[0.11238, 0.88762, 0], [0.11238, 0.88762, 0], [0.00401, -0.00401, 1]]),
+    "by a deuteranope": np.array([[0.29275, 0.70725, 0], [0.29275, 0.70725, 0], [-0.02234, 0.02234, 1]]),
+}
+
+
+def linear(color):
+    encoded = np.array(to_rgb(color))
+    return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
+
+
+@pytest.mark.parametrize("eyes", SEEN)
+def test_outcomes_are_distinguished_by_all_eyes(eyes):
+    seen = [np.clip(SEEN[eyes] @ linear(color), 0, 1) ** (1 / 2.2) for color in OUTCOMES.values()]
+    assert len(seen) == len(Outcome)
+    for one, other in itertools.combinations(seen, 2):
+        assert np.linalg.norm(one - other) > 0.2
+
+
+def test_heads_and_tails_differ_in_brightness():
+    light, dark = (linear(color) @ [0.2126, 0.7152, 0.0722] + 0.05 for color in (HEADS, TAILS))
+    # WCAG 2 asks for 3 between parts of a picture.
+    assert light / dark > 3
+
+
+@pytest.mark.parametrize(("face", "color"), [("heads", HEADS), ("tails", TAILS)])
+def test_the_coin_of_the_film_has_the_colours_of_the_maps(face, color):
+    model = (resources.files("models") / "coin.xml").read_text(encoding="utf-8")
+    material = re.search(rf'<material name="{face}" rgba="([\d. ]+) 1"', model)
+    assert material is not None
+    assert [float(part) for part in material[1].split()] == pytest.approx(to_rgb(color), abs=0.005)
+    ground, _ = LABELS[Outcome.HEADS if face == "heads" else Outcome.TAILS]
+    assert ground == tuple(round(255 * part) for part in to_rgb(color))
