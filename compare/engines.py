@@ -11,7 +11,7 @@ from models.releases import Releases
 from models.scenario import Scenario
 
 
-class Settings(Protocol):
+class EngineSettings(Protocol):
     """An engine's settings: a frozen dataclass."""
 
     def as_dict(self) -> dict[str, str | float]:

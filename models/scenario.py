@@ -273,7 +273,7 @@ class Release(_Part):
         return self.quaternion or quaternion_from_angles(self.angles or _ZERO)
 
 
-class Ending(_Part):
+class EndingCriteria(_Part):
     """When a toss is over."""
 
     test: Annotated[EndingTest, BeforeValidator(_named(EndingTest))] = EndingTest.RIGOROUS
@@ -294,7 +294,7 @@ class Scenario(_Part):
     air: Air = Air()
     floor: Floor
     release: Release
-    ending: Ending = Ending()
+    ending: EndingCriteria = EndingCriteria()
 
     @model_validator(mode="after")
     def _above_the_floor(self) -> Self:

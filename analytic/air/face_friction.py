@@ -13,17 +13,7 @@ FAR = 1.5
 def face_friction_change(body, v, w, dv, dw, nodes):
     """Return how the friction on both faces, at B, changes with the motion, from eqs (51) and (73).
 
-    Args:
-        body: the coin.
-        v: velocity of B, body frame, (3,) [m/s].
-        w: angular velocity, body frame, (3,) [rad/s].
-        dv: change of v, (3,) [m/s].
-        dw: change of w, (3,) [rad/s].
-        nodes: of the graded rules.
-
-    Returns:
-        df: change of the force, body frame, (3,) [N].
-        dm_B: change of the moment about B, body frame, (3,) [N m].
+    Arguments and returns as those of `air.force.change_about_B`.
     """
     b, r, half = body.air.exponent, body.radius, body.thickness / 2
     f_0, f_1, m_0, m_1, m_2 = 0.0, 0.0, 0.0, 0.0, 0.0

@@ -11,17 +11,7 @@ from models.kernel.vectors import add
 def pressure_change(body, v, w, dv, dw, nodes):
     """Return how pressure's force and moment at B change with the motion, from eqs (52), (54), (73), (74).
 
-    Args:
-        body: the coin.
-        v: velocity of B, body frame, (3,) [m/s].
-        w: angular velocity, body frame, (3,) [rad/s].
-        dv: change of v, (3,) [m/s].
-        dw: change of w, (3,) [rad/s].
-        nodes: of the graded rules.
-
-    Returns:
-        df: change of the force, body frame, (3,) [N].
-        dm_B: change of the moment about B, body frame, (3,) [N m].
+    Arguments and returns as those of `air.force.change_about_B`.
     """
     df, dm = _on_faces(body, v, w, dv, dw, nodes)
     if body.thickness > 0:

@@ -29,17 +29,7 @@ _NO_SUMS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 def wall_friction_change(body, v, w, dv, dw, nodes):
     """Return how the friction on the wall, at B, changes with the motion, from eqs (53) and (74).
 
-    Args:
-        body: the coin.
-        v: velocity of B, body frame, (3,) [m/s].
-        w: angular velocity, body frame, (3,) [rad/s].
-        dv: change of v, (3,) [m/s].
-        dw: change of w, (3,) [rad/s].
-        nodes: of the graded rules.
-
-    Returns:
-        df: change of the force, body frame, (3,) [N].
-        dm_B: change of the moment about B, body frame, (3,) [N m].
+    Arguments and returns as those of `air.force.change_about_B`.
     """
     half = body.thickness / 2
     total = _NO_SUMS

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from compare.engines import Engine, Settings
+from compare.engines import Engine, EngineSettings
 from compare.metrics.impulses import Differences, errors_of_impacts, match
 from compare.metrics.sequences import agreement_horizon, common_prefix
 from compare.metrics.trajectories import attitude_angle, distance, parting_time
@@ -58,7 +58,7 @@ class Comparison:
         self.errors.setflags(write=False)
 
 
-def compare(scenario: Scenario, mujoco: Settings | None = None) -> Comparison | tuple[Toss, str]:
+def compare(scenario: Scenario, mujoco: EngineSettings | None = None) -> Comparison | tuple[Toss, str]:
     """Toss a scenario by both engines and compare the answers.
 
     Args:

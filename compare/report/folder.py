@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from compare.engines import Settings
+from compare.engines import EngineSettings
 from compare.metrics.comparison import Comparison, compare
 from compare.output import answer
 from compare.output.files import written_together
@@ -28,7 +28,7 @@ def write_report(
     no_video: str | None,
     progress: Callable[[int, int], None],
     *,
-    mujoco: Settings | None = None,
+    mujoco: EngineSettings | None = None,
     maps: MapSection | None = None,
 ) -> Path:
     """Toss a scenario by both engines and write everything about it.

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from compare.engines import Engine, Settings
+from compare.engines import Engine, EngineSettings
 from compare.sweep.axes import Axis
 from compare.sweep.errors import SweepError
 from models.scenario import Scenario
@@ -31,7 +31,7 @@ class Sweep:
     engine: Engine
     x: Axis
     y: Axis
-    settings: Settings
+    settings: EngineSettings
     """Of its engine."""
     after: int | None = None
     """The map shows the face at the touch after so many impacts; None for the final outcome."""

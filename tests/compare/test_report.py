@@ -24,7 +24,7 @@ from tests.helpers.draws import AIR, scenario
 SHORT = scenario_text("zloty").replace("0.40001", "0.05") + "\n[ending]\nmax_impacts = 2\n"
 
 
-class Page(HTMLParser):
+class ParsedPage(HTMLParser):
     """Collects what a page asks for from outside, its headings, and checks that its tags nest."""
 
     VOID = frozenset({"meta", "br", "img", "link", "input", "hr"})
@@ -73,7 +73,7 @@ def test_the_folder_holds_page_film_numbers_and_paths(folder):
 
 def test_the_page_stands_alone_and_has_its_parts(folder):
     text = (folder / "report.html").read_text(encoding="utf-8")
-    page = Page(text)
+    page = ParsedPage(text)
     assert page.outside == []
     assert "url(" not in text.replace("url(#", "")
     assert page.videos == 1
@@ -121,7 +121,7 @@ def test_without_opengl_the_report_says_what_to_install(tmp_path):
     html = page.read_text(encoding="utf-8")
     assert "No video." in html
     assert "libegl1" in html
-    assert Page(html).videos == 0
+    assert ParsedPage(html).videos == 0
     assert not (tmp_path / "toss.mp4").exists()
 
 
@@ -130,7 +130,7 @@ def test_what_mujoco_cannot_realise_is_a_report_of_one_engine(tmp_path):
     page = write_report(parse(text, "knurled"), text, "knurled", tmp_path, None, lambda *_: None)
     html = page.read_text(encoding="utf-8")
     assert "Not realisable in MuJoCo" in html
-    assert Page(html).videos == 0
+    assert ParsedPage(html).videos == 0
     assert re.search(r'"not_realisable": ".*knurled', (tmp_path / "numbers.json").read_text(encoding="utf-8"))
     assert {path.name for path in tmp_path.iterdir()} == {"report.html", "numbers.json", "path-analytic.csv"}
 

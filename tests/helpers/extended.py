@@ -18,7 +18,7 @@ PI = Q("3.14159265358979323846264338327950288")
 _M, _R, _H, _G, _C, _J, _J_INVERSE, _DRAG, _COUNT = 0, 1, 2, 3, 4, 7, 16, 25, 29
 
 
-class Touch(NamedTuple):
+class ExtendedTouch(NamedTuple):
     """An impact, rounded to double precision."""
 
     time: float
@@ -156,7 +156,7 @@ class Extended:
             ]
         )
 
-    def toss(self) -> Iterator[Touch]:
+    def toss(self) -> Iterator[ExtendedTouch]:
         """Give one impact after the other.
 
         Raises:
@@ -175,7 +175,7 @@ class Extended:
             S, n_z, lift = self._hit(coin.state)
             if not S[2] > 0 and self.floor.contact.label == "sliding_friction":
                 return
-            yield Touch(float(coin.time), bool(n_z > 0), S.astype(float))
+            yield ExtendedTouch(float(coin.time), bool(n_z > 0), S.astype(float))
             if not lift > 0:
                 return
             # At the zero that the lift-off itself is, the isolation of roots may fail: first clear it.

@@ -20,7 +20,7 @@ from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.planar_maps import SPINS, case, releases
 from models.reading import load
 from models.records import Array
-from models.scenario import Ending, Release, Scenario
+from models.scenario import EndingCriteria, Release, Scenario
 
 FALLS = np.array([0.2, 0.4, 1.0, 1.86, 5.0, 10.0, 20.0, 50.0])
 """Heights of release [m]; the hand's 0.4 m, and the 1.86 m of the drops of section 2."""
@@ -193,7 +193,7 @@ def landing_shifts(height: float, spins: Array) -> tuple[float, ...]:
 
 
 def _one_touch(scenario: Scenario) -> Scenario:
-    return scenario.replace("ending", Ending(max_impacts=1))
+    return scenario.replace("ending", EndingCriteria(max_impacts=1))
 
 
 def _bounced(spins: Array) -> float:
@@ -244,7 +244,7 @@ def turning_points(tilt: Array) -> int:
 def _terminal(engine: ModuleType, exponent: float) -> float:
     """Return the speed of a long fall broadside on [m/s]."""
     scenario = load("fig3_flat")
-    release, ending = Release(position=(0.0, 0.0, 5000.0)), Ending(max_time=TERMINAL_TIMES[exponent])
+    release, ending = Release(position=(0.0, 0.0, 5000.0)), EndingCriteria(max_time=TERMINAL_TIMES[exponent])
     falling = scenario.replace("air.exponent", exponent, "release", release, "ending", ending)
     return float(-engine.toss(falling).sample(TERMINAL_TIMES[exponent]).velocity[0, 2])
 

@@ -20,7 +20,7 @@ from models.laws import ContactLaw
 from models.reading import load
 from models.records import Array, Face
 from models.releases import Releases
-from models.scenario import Ending, Floor, Scenario
+from models.scenario import EndingCriteria, Floor, Scenario
 
 SEED = 2
 SPREAD = 0.05
@@ -141,7 +141,7 @@ def _landed(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
 
 
 def _once(scenario: Scenario) -> Scenario:
-    return scenario.replace("ending", Ending(max_impacts=1))
+    return scenario.replace("ending", EndingCriteria(max_impacts=1))
 
 
 def _caught(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:

@@ -22,7 +22,7 @@ from models.laws import ContactLaw
 from models.reading import load
 from models.records import Outcome
 from models.releases import Releases
-from models.scenario import Coin, Ending, Floor, Scenario
+from models.scenario import Coin, EndingCriteria, Floor, Scenario
 
 SEED = 6
 ASIDE = 10.0
@@ -196,7 +196,7 @@ def _case(coin: str, floor: str) -> Scenario:
 
 
 def _first_touch(scenario: Scenario) -> Scenario:
-    return scenario.replace("ending", Ending(max_impacts=1))
+    return scenario.replace("ending", EndingCriteria(max_impacts=1))
 
 
 def _first_faces(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:

@@ -24,7 +24,7 @@ from compare.reproduction.setups.planar_maps import (
     whole_grid,
 )
 from models.records import Array
-from models.scenario import Ending, Scenario
+from models.scenario import EndingCriteria, Scenario
 
 SHOWN = (0, 2, 5, 9)
 TOUCHES = 10
@@ -159,7 +159,7 @@ def _same_by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
     faces, start = touched_faces(scenario, heights, spins, TOUCHES), releases(heights, spins)
     same = []
     for n in SHOWN:
-        once_more = scenario.replace("ending", Ending(max_impacts=n + 1))
+        once_more = scenario.replace("ending", EndingCriteria(max_impacts=n + 1))
         same.append(
             np.sum(coin_mj.toss_many(once_more, start, settings=coin_mj.FINE).after(n) == faces[:, n])
         )

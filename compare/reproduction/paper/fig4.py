@@ -15,7 +15,7 @@ from compare.reproduction.claim import Claim, Criterion
 from compare.reproduction.runner import Reproduction, Result
 from models.reading import load
 from models.records import Array, States
-from models.scenario import Air, Ending, Release, Scenario, vector
+from models.scenario import Air, EndingCriteria, Release, Scenario, vector
 
 AIR = Air(normal=0.8, tangential=0.2)
 CASES = {
@@ -151,7 +151,7 @@ def _about_gamma(claim: str, swing: list[float], *, constant: bool) -> Claim:
 
 def _follow(scenario: Scenario, air: Air) -> tuple[Array, Array, Array]:
     """Return times [s], and γ by both engines [degrees], until the coin lands."""
-    case = scenario.replace("air", air, "ending", Ending(max_impacts=1))
+    case = scenario.replace("air", air, "ending", EndingCriteria(max_impacts=1))
     tosses = analytic.toss(case), coin_mj.toss(case)
     # At the touch itself the state is that after the impact.
     t = np.linspace(0, min(toss.impacts.time[0] for toss in tosses), 301)[:-1]
@@ -213,7 +213,7 @@ def _mujoco_apart(tosses: dict[str, Array]) -> float:
     apart = []
     for i in range(MUJOCO_TOSSES):
         release = Release(position=(0.0, 0.0, 2.0), angular_velocity=vector(tosses["w"][i]))
-        case = scenario.replace("release", release, "ending", Ending(max_time=DURATION))
+        case = scenario.replace("release", release, "ending", EndingCriteria(max_time=DURATION))
         heights = coin_mj.toss(case).sample(times).normal[:, 2]
         exact = _closed_form(np.array([0, 0, 1.0]), tosses["L"][i], tosses["turn"][i], times)
         apart.append(np.abs(heights - exact).max())
@@ -238,7 +238,7 @@ def _first_side() -> tuple[Array, Array, float]:
         sample_flight(scenario.body, np.array([0, 0, 0, 0, 0, 0, 1.0, 0, 0, 0, *w]), 0.0, times, states)
         counted.append(np.mean(1 - 2 * (states[:, 7] ** 2 + states[:, 8] ** 2) > 0))
     release = Release(position=(0.0, 0.0, 1.0), velocity=(0.0, 0.0, 2.0), angular_velocity=vector(w))
-    ending = Ending(max_time=2 * np.pi / turn)
+    ending = EndingCriteria(max_time=2 * np.pi / turn)
     mujoco = coin_mj.toss(scenario.replace("release", release, "ending", ending))
     return psi, np.array(counted), float(np.mean(mujoco.sample(times).normal[:, 2] > 0))
 

@@ -20,7 +20,7 @@ from compare.reproduction.runner import Reproduction, Result
 from models.attitude import quaternion_from_angles
 from models.reading import load
 from models.records import Array
-from models.scenario import Ending, Release, Scenario, vector
+from models.scenario import EndingCriteria, Release, Scenario, vector
 
 PRINTED = {
     "121": ("sin", -1, 0.0),
@@ -191,7 +191,7 @@ def _case(least: float) -> tuple[Scenario, Array, float]:
     release = Release(
         position=(0.0, 0.0, 1.0), velocity=(0.1, 0.05, 2.0), angles=vector(angles), angular_velocity=vector(w)
     )
-    ending = Ending(max_time=1.01 * 2 * np.pi / turn)
+    ending = EndingCriteria(max_time=1.01 * 2 * np.pi / turn)
     return scenario.replace("release", release, "ending", ending), L, turn
 
 

@@ -12,7 +12,7 @@ from models.attitude import rotation_matrix
 from models.geometry import contact_velocity, gap, lowest_point
 from models.laws import ContactLaw
 from models.records import Array, Impacts
-from models.scenario import Ending, Floor, Release, Scenario, euler_parameters, vector
+from models.scenario import EndingCriteria, Floor, Release, Scenario, euler_parameters, vector
 
 CLEARANCE = 1e-9
 """Height of the lowest rim point at release [m]: nothing happens on the way down."""
@@ -53,7 +53,7 @@ def touch(
         "coin": {"mass": 2e-3, "radius": 1.25e-2, "thickness": thickness, "center_of_mass": offset},
         "floor": Floor(restitution=restitution, contact=ContactLaw.SMOOTH),
         "release": high,
-        "ending": Ending(max_impacts=1),
+        "ending": EndingCriteria(max_impacts=1),
     }
     case = Scenario.model_validate(described)
     z = 1.0 - gap(case.body, 1.0, rotation_matrix(high.attitude)[2]) + CLEARANCE
