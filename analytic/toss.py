@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from analytic.air.force import force_and_moment
 from analytic.automaton import Mode
 from analytic.contact.following import friction_in_contact, sample_contact
 from analytic.contact.modes import floor_force
@@ -16,6 +17,7 @@ from analytic.settings import FINE, Settings
 from models.attitude import rotation_matrix
 from models.barriers import barrier, energy
 from models.body import Body, in_vacuum, is_ideal
+from models.certificate import energies, measurements
 from models.records import Array, Impacts, Setting, States, Toss
 from models.scenario import Release, Scenario
 
@@ -44,13 +46,7 @@ class Pieces:
         for number in np.unique(piece):
             chosen = order[piece == number]
             rows[chosen] = self._piece(number, times[chosen])
-        return States(
-            time=times.copy(),
-            position=rows[:, 0:3].copy(),
-            velocity=rows[:, 3:6].copy(),
-            quaternion=rows[:, 6:10].copy(),
-            angular_velocity=rows[:, 10:13].copy(),
-        )
+        return _states(times, rows)
 
     def floor_force(self, times: Array) -> Array:
         """Return the floor's force at `times` in sustained contacts, space frame, (n, 3) [N]."""
@@ -103,6 +99,13 @@ def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
     body, rules, start = scenario.body, scenario.rules, state_of(scenario.release)
     answer = run(body, rules, start, settings)
     impacts, end = Impacts.from_rows(answer.rows), answer.start_states[-1]
+    path = Pieces(
+        body=body,
+        friction=friction_in_contact(rules),
+        start_times=answer.start_times,
+        start_states=answer.start_states,
+        modes=answer.modes,
+    )
     return Toss(
         engine="analytic",
         scenario=scenario,
@@ -121,14 +124,11 @@ def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
             Setting(name="safety factor of the horizon", value=SAFETY),
             Setting(name="energy at the end", value=_energy(body, end), unit="J"),
             Setting(name="energy of the lowest pass to the other face", value=_barrier(body, end), unit="J"),
+            *measurements(
+                scenario, impacts, answer.contacts, _contact_energies(body, answer), path, force_and_moment
+            ),
         ),
-        path=Pieces(
-            body=body,
-            friction=friction_in_contact(rules),
-            start_times=answer.start_times,
-            start_states=answer.start_states,
-            modes=answer.modes,
-        ),
+        path=path,
     )
 
 
@@ -145,6 +145,24 @@ def _before_contact(answer: EventLog) -> EventLog:
     if len(answer.contacts) == 0:
         return answer
     return answer._replace(rows=answer.rows[answer.rows["time"] < answer.contacts[0, 0]])
+
+
+def _contact_energies(body: Body, log: EventLog) -> Array:
+    """Return the energies at start and end of each stretch of contact in one mode, (n, 2) [J]."""
+    at_starts = energies(body, _states(log.start_times, log.start_states))
+    pairs = np.stack([at_starts[:-1], at_starts[1:]], axis=1)
+    return pairs[log.modes[:-1] != Mode.FLIGHT]
+
+
+def _states(times: Array, rows: Array) -> States:
+    """Return the states of which `rows` holds the state vectors, (n, 13)."""
+    return States(
+        time=times.copy(),
+        position=rows[:, 0:3].copy(),
+        velocity=rows[:, 3:6].copy(),
+        quaternion=rows[:, 6:10].copy(),
+        angular_velocity=rows[:, 10:13].copy(),
+    )
 
 
 def _energy(body: Body, y: Array) -> float:

@@ -10,13 +10,16 @@ import mujoco
 import numpy as np
 
 from coin_mj.events import toss_coin
+from coin_mj.model.air import air_force
 from coin_mj.model.air_callback import air_of
 from coin_mj.model.machine import Machine, machine_of
 from coin_mj.model.scene import shape_thickness
 from coin_mj.model.settings import FINE, ROUGH, Friction, Realisation, Settings
 from coin_mj.path import Knots
-from models.body import Rules
+from models.body import Body, Rules
+from models.certificate import energies, measurements
 from models.impact_row import FIRST_ROOM
+from models.kernel.vectors import Vector, cross, subtract
 from models.laws import ContactLaw, RestitutionKind
 from models.records import (
     IMPACT_ROW,
@@ -36,6 +39,8 @@ SOFTER = (10.0, 30.0)
 """How many times softer the contacts are that tell how far a toss can be trusted."""
 IMPULSE_CHANGE = 0.03
 """Within the horizon no softer contact changes an impulse by more than this part."""
+CONTACTS_MEASURED, PARTS_MEASURED = 32, 16
+"""The energy is measured in so many contacts, the longest, at the ends of so many parts of each."""
 
 
 class MujocoRun(NamedTuple):
@@ -113,6 +118,7 @@ def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
     machine = machine_of(scenario, settings, shape_thickness(scenario))
     answer = run(machine, scenario.rules)
     impacts = Impacts.from_rows(answer.rows)
+    path = Knots(machine=machine, knots=answer.knots, restitution=scenario.floor.restitution)
     return Toss(
         engine="mujoco",
         scenario=scenario,
@@ -128,8 +134,16 @@ def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
             Setting(name="largest turn in a step of flight", value=settings.flight_angle, unit="rad"),
             Setting(name="thickness of the shape", value=machine.coin.shape_thickness, unit="m"),
             Setting(name="steps", value=len(answer.knots) - 1),
+            *measurements(
+                scenario,
+                impacts,
+                answer.contacts,
+                _contact_energies(scenario.body, answer.contacts, path),
+                path,
+                _force_and_moment,
+            ),
         ),
-        path=Knots(machine=machine, knots=answer.knots, restitution=scenario.floor.restitution),
+        path=path,
     )
 
 
@@ -187,6 +201,22 @@ def _contact_certificate(machine: Machine) -> tuple[Setting, ...]:
         Setting(name="friction by", value=maker),
         Setting(name="coefficient of friction", value=friction),
     )
+
+
+def _contact_energies(body: Body, contacts: Array, path: Knots) -> Array:
+    """Return the energies at start and end of parts of the longest contacts, (n, 2) [J]."""
+    longest = contacts[np.argsort(contacts[:, 0] - contacts[:, 1], kind="stable")[:CONTACTS_MEASURED]]
+    times = np.linspace(longest[:, 0], longest[:, 1], PARTS_MEASURED + 1, axis=1)
+    found = energies(body, path.sample(times.ravel())).reshape(times.shape)
+    return np.stack([found[:, :-1].ravel(), found[:, 1:].ravel()], axis=1)
+
+
+def _force_and_moment(body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]:
+    """Return the air's force and its moment about C for b > 0; see `models.certificate.Air`."""
+    law, c = body.air, body.center
+    v_B = subtract(v, cross(w, c))
+    f, m_B = air_force(body.radius, body.thickness, law.normal, law.tangential, law.exponent, v_B, w)
+    return f, subtract(m_B, cross(c, f))
 
 
 def _trusted_impacts(scenario: Scenario, settings: Settings, impacts: Impacts) -> int:

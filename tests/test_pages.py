@@ -104,20 +104,24 @@ def test_the_code_of_a_page_runs_from_top_to_bottom(page, tmp_path, monkeypatch)
 
 
 def assert_shown(block: str, command: str, stdout: str) -> None:
-    """What a block shows below its only command is in the answer, numbers to a part in a thousand."""
+    """What a block shows below its only command is in the answer, numbers to a part in a thousand or 1e-9."""
     joined = re.sub(r"\\\n\s*", "", block)
     if len(commands(joined)) > 1:
         return
     _, _, below = joined.partition(command)
-    answer = [line.split() for line in stdout.splitlines()]
+    answer = [words_of(line) for line in stdout.splitlines()]
     for line in below.splitlines()[1:]:
         if line.strip() and not line.strip().startswith(("...", "…", "#")):
-            assert any(is_same(line.split(), told) for told in answer), f"{line!r} is not in\n{stdout}"
+            assert any(is_same(words_of(line), told) for told in answer), f"{line!r} is not in\n{stdout}"
+
+
+def words_of(line: str) -> list[str]:
+    return line.replace(",", "").split()
 
 
 def is_same(shown: list[str], told: list[str]) -> bool:
     return len(shown) == len(told) and all(
-        a == b or (is_number(a) and is_number(b) and float(a) == pytest.approx(float(b), rel=1e-3))
+        a == b or (is_number(a) and is_number(b) and float(a) == pytest.approx(float(b), rel=1e-3, abs=1e-9))
         for a, b in zip(shown, told, strict=True)
     )
 

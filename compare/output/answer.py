@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from models import certificate
 from models.records import Face, Impacts, Outcome, States, Toss, UnsupportedError
 
 _JSON_FIELDS = (
@@ -104,6 +105,8 @@ def as_lines(toss: Toss) -> str:
         f"sequence  {shown}",
         f"trusted   {counted(trusted, 'impact')}" + ("" if trusted >= len(sequence) else ", before the bar"),
     ]
+    if len(toss.impacts):
+        lines.append(f"checked   {_checked(toss)}")
     contacts = toss.contacts.tolist()
     if toss.outcome == Outcome.PERPETUAL:
         energies = [
@@ -127,3 +130,14 @@ def as_lines(toss: Toss) -> str:
     if len(impacts) > MOST_SHOWN:
         lines.append(f"... and {len(impacts) - MOST_SHOWN} more; --json gives them all")
     return "\n".join(lines)
+
+
+def _checked(toss: Toss) -> str:
+    """Return what a toss with impacts measured of itself, in one line: of each kind the largest residual."""
+    found = {item.name: float(item.value) for item in toss.certificate if item.name in certificate.NAMES}
+    law = max(found[certificate.LAW], found[certificate.MOMENTUM])
+    energy = max(found.get(name, 0.0) for name in certificate.OF_ENERGY)
+    return (
+        f"contact law {law:.0e}, energy {energy:.0e} m g r, |e| {found[certificate.NORM]:.0e}, "
+        f"gap {found[certificate.GAP]:.0e} r"
+    )

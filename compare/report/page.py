@@ -15,6 +15,7 @@ from compare.metrics.sequences import SAFETY, aligned
 from compare.output.answer import MOST_SHOWN, shortened
 from compare.output.style import HEADS, TAILS
 from compare.report.map_section import MapSection
+from models import certificate
 from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.records import Face, Toss
 from models.scenario import Scenario
@@ -51,6 +52,7 @@ def render(page: Page) -> str:
     return environment.from_string(template).render(
         page=page,
         tosses=tosses,
+        measured=certificate.NAMES,
         labels={"analytic": "analytic", "mujoco": "MuJoCo"},
         parameters=_parameters(page.scenario),
         heads=HEADS,

@@ -16,12 +16,14 @@ from unittest.mock import patch
 import imageio_ffmpeg
 import pytest
 
+import analytic
 from compare.film.back_end import drawing_problem
 from compare.film.drawing import Drawer
 from compare.film.video import Format
+from compare.output.answer import as_lines
 from compare.output.files import UnwritableError, require_file, write_text
 from compare.output.progress import bar
-from models.reading import scenario_text
+from models.reading import load, scenario_text
 from tests.helpers.command_line import HERE, cointoss
 
 WRONG = {
@@ -70,6 +72,19 @@ def test_text_shows_sequence_outcome_and_horizon():
     assert "outcome   heads" in text
     assert "settled: The energy is below the pass" in text
     assert "|" in text.split("sequence")[1].splitlines()[0]
+
+
+def test_text_shows_what_the_toss_measured_of_itself():
+    shown = cointoss("toss", "contact_coulomb", "--max-impacts", 2).stdout
+    number = r"-?\de[-+]\d\d"
+    pattern = rf"^checked   contact law {number}, energy {number} m g r, \|e\| {number}, gap {number} r$"
+    found = re.search(pattern, shown, re.MULTILINE)
+    assert found
+    numbers = [float(part) for part in re.findall(number, found[0])]
+    assert max(abs(part) for part in numbers) < 1e-10
+    assert numbers[0] > 0
+    in_the_air = analytic.toss(load("fig24a").replace("ending.max_time", 0.01))
+    assert "checked" not in as_lines(in_the_air)
 
 
 def test_text_shows_the_first_of_thousands_of_impacts():

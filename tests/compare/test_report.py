@@ -18,6 +18,7 @@ from compare.output.files import UnwritableError
 from compare.report.contents import FILES, require_folder
 from compare.report.folder import write_report
 from compare.report.page import versions
+from models import certificate
 from models.reading import load, parse, scenario_text
 from tests.helpers.draws import AIR, scenario
 
@@ -91,6 +92,12 @@ def test_the_page_stands_alone_and_has_its_parts(folder):
     assert "center_of_mass" in text
     assert "°" in text
     assert "<code>floor.restitution_kind</code></td><td>kinematic</td>" in text
+    assert text.count("Measured in this toss") == 2
+    for name in (certificate.LAW, certificate.FLIGHT_ENERGY, certificate.GAP):
+        rows = re.findall(f"<td>{re.escape(name)}</td><td>(-?[0-9.]+e[-+][0-9]+) ", text)
+        assert len(rows) == 2
+        assert abs(float(rows[0])) < 1e-11
+        assert abs(float(rows[1])) > 1e-9 or name != certificate.LAW, "a contact of MuJoCo takes time"
     for name, version in versions().items():
         assert name in text
         assert version in text

@@ -1,0 +1,253 @@
+"""What a toss measures of itself: the residuals of its impacts, the energy of its flights and contacts.
+
+Both engines measure by the same functions, from the record and the path alone; none of them solves an impact
+or integrates a motion. Of sustained contacts only the energy that they gain is measured, none on a passive
+floor, and not the work of friction in them.
+"""
+
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+
+from models.body import Body, Rules, in_vacuum
+from models.kernel.vectors import Vector
+from models.laws import ContactLaw, RestitutionKind
+from models.records import Array, Impacts, Path, Setting, States
+from models.scenario import Scenario
+
+LAW = "impacts: largest residual of the contact law, relative"
+MOMENTUM = "impacts: largest residual of linear and angular momentum, relative"
+IMPACT_ENERGY = "impacts: largest difference of energy change and work"
+FLIGHT_ENERGY = "flights: largest difference of energy change and work of the air"
+CONTACT_ENERGY = "sustained contacts: largest gain of energy"
+NORM = "largest deviation of the norm of the Euler parameters from 1"
+GAP = "smallest gap, at impacts and sampled in flight"
+OF_ENERGY = (IMPACT_ENERGY, FLIGHT_ENERGY, CONTACT_ENERGY)
+NAMES = (LAW, MOMENTUM, *OF_ENERGY, NORM, GAP)
+"""The lines of a certificate that are measured."""
+FLIGHTS = 10
+"""Flights that are sampled: the longest ones. The energy of every flight in vacuum is measured without it."""
+VACUUM_SAMPLES = 4
+"""Samples of a flight in vacuum; in air, where they are also the nodes of a quadrature, there are
+`AIR_SAMPLES` and two more for each radian of turn, at most `MOST_SAMPLES`."""
+AIR_SAMPLES = 20
+MOST_SAMPLES = 200
+
+Air = Callable[[Body, Vector, Vector], tuple[Vector, Vector]]
+"""An engine's own force of the air and its moment about C, from v_C and ω, all in the body frame."""
+
+
+def measurements(
+    scenario: Scenario, impacts: Impacts, contacts: Array, contact_energies: Array, path: Path, air: Air
+) -> tuple[Setting, ...]:
+    """Return what is measured of a toss, one line each; what did not happen has none.
+
+    Args:
+        scenario: what was tossed.
+        impacts: its impacts.
+        contacts: start and end of every sustained contact, (n, 2) [s].
+        contact_energies: at start and end of stretches of sustained contact, (n, 2) [J].
+        path: its path.
+        air: of the engine; measured where b > 0.
+    """
+    body = scenario.body
+    weight = body.mass * body.gravity * body.radius
+    lines = []
+    if len(impacts):
+        states, drift = _flights(scenario, impacts, contacts, path, air)
+        touches = States(
+            time=impacts.time,
+            position=impacts.position,
+            velocity=impacts.velocity_before,
+            quaternion=impacts.quaternion,
+            angular_velocity=impacts.angular_velocity_before,
+        )
+        norms = [np.linalg.norm(each.quaternion, axis=1) - 1 for each in (states, touches)]
+        lowest = min(gaps(body, each).min(initial=np.inf) for each in (states, touches))
+        lines += [
+            Setting(name=LAW, value=_largest(law_residuals(body, scenario.rules, impacts))),
+            Setting(name=MOMENTUM, value=_largest(momentum_residuals(body, impacts))),
+            Setting(name=IMPACT_ENERGY, value=_largest(energy_residuals(impacts)) / weight, unit="m g r"),
+            Setting(name=FLIGHT_ENERGY, value=_largest(drift) / weight, unit="m g r"),
+            Setting(name=NORM, value=_largest(np.concatenate(norms))),
+            Setting(name=GAP, value=float(lowest) / body.radius, unit="r"),
+        ]
+    if len(contact_energies):
+        gained = np.diff(contact_energies, axis=1).max() / weight
+        lines.append(Setting(name=CONTACT_ENERGY, value=max(float(gained), 0.0), unit="m g r"))
+    return tuple(lines)
+
+
+def law_residuals(body: Body, rules: Rules, impacts: Impacts) -> Array:
+    """Return by how much each impact misses its contact law, (n,).
+
+    Velocities relative to |v_A| before the impact, impulses relative to |S|. Newton's v_Az' = -χ v_Az, and
+    the law's own constraint; of Coulomb's law that |S_xy| <= μ S_z, and with energetic restitution that no
+    energy is gained. A flat landing's impulse is vertical.
+
+    Args:
+        body: the coin.
+        rules: its floor.
+        impacts: of it.
+    """
+    before, after, S = impacts.contact_velocity_before, impacts.contact_velocity_after, impacts.impulse
+    speed, size = np.linalg.norm(before, axis=1), np.linalg.norm(S, axis=1)
+    out = np.hypot(impacts.point[:, 0], impacts.point[:, 1])
+    flat = out < body.radius * (1 - 1e-9)
+    edge = np.stack([-impacts.point[:, 1], impacts.point[:, 0], 0 * out], axis=1)
+    tau = turned(impacts.quaternion, edge / np.where(out > 0, out, 1)[:, None])
+    nu = np.stack([-tau[:, 1], tau[:, 0], 0 * out], axis=1)
+    horizontal = np.hypot(S[:, 0], S[:, 1])
+    law, mu = rules.law, rules.friction
+
+    def kept(direction: Array) -> Array:
+        return np.abs(_dot(after - before, direction)) / speed
+
+    def stopped(direction: Array) -> Array:
+        return np.abs(_dot(after, direction)) / speed
+
+    x_axis, y_axis = np.eye(3)[:2]
+    own = {
+        ContactLaw.SHARP_EDGE: lambda: np.maximum(stopped(nu), kept(tau)),
+        ContactLaw.KNURLED: lambda: np.maximum(stopped(tau), kept(nu)),
+        ContactLaw.PERFECTLY_ROUGH: lambda: np.hypot(stopped(x_axis), stopped(y_axis)),
+        ContactLaw.SLIP_PRESERVING: lambda: np.hypot(kept(x_axis), kept(y_axis)),
+        ContactLaw.SMOOTH: lambda: horizontal / size,
+        ContactLaw.SLIDING_FRICTION: lambda: _off_slip(before, S, mu) / size,
+        ContactLaw.COULOMB: lambda: np.maximum(horizontal - mu * S[:, 2], 0) / size,
+    }[law]()
+    own = np.where(flat, horizontal / size, own)
+    if law == ContactLaw.COULOMB and rules.restitution_kind == RestitutionKind.ENERGETIC:
+        return np.maximum(own, np.maximum(impacts.energy_change, 0) / (size * speed))
+    return np.maximum(own, np.abs(after[:, 2] + rules.restitution * before[:, 2]) / speed)
+
+
+def momentum_residuals(body: Body, impacts: Impacts) -> Array:
+    """Return by how much m Δv = S and J_C Δω = Rᵀ (a × S) fail, relative to |S| and |a| |S|, (n,)."""
+    S, e = impacts.impulse, impacts.quaternion
+    size = np.linalg.norm(S, axis=1)
+    arm = impacts.point - np.array(body.center)
+    linear = body.mass * (impacts.velocity_after - impacts.velocity_before) - S
+    gained = (impacts.angular_velocity_after - impacts.angular_velocity_before) @ np.array(body.inertia)
+    angular = gained - np.cross(arm, turned(_conjugate(e), S))
+    return np.maximum(
+        np.linalg.norm(linear, axis=1) / size,
+        np.linalg.norm(angular, axis=1) / (size * np.linalg.norm(arm, axis=1)),
+    )
+
+
+def energy_residuals(impacts: Impacts) -> Array:
+    """Return the energy change of each impact less the work of its impulse, S . (v_A + v_A')/2, (n,) [J]."""
+    mean = (impacts.contact_velocity_before + impacts.contact_velocity_after) / 2
+    return impacts.energy_change - _dot(impacts.impulse, mean)
+
+
+def gaps(body: Body, states: States) -> Array:
+    """Return the height of the lowest point at each of the states, (n,) [m]."""
+    up = turned(_conjugate(states.quaternion), np.broadcast_to([0.0, 0.0, 1.0], states.position.shape))
+    on_normal = body.thickness / 2 * np.abs(up[:, 2]) + up @ np.array(body.center)
+    return states.position[:, 2] - on_normal - body.radius * np.hypot(up[:, 0], up[:, 1])
+
+
+def energies(body: Body, states: States) -> Array:
+    """Return the mechanical energy of each of the states, (n,) [J]."""
+    v, w = states.velocity, states.angular_velocity
+    turning = _dot(w, w @ np.array(body.inertia))
+    return body.mass * (_dot(v, v) / 2 + body.gravity * states.position[:, 2]) + turning / 2
+
+
+def air_power(body: Body, v: Array, w: Array, air: Air) -> Array:
+    """Return the power of the air, (n,) [W]: for b = 0 by the coefficients of `models.drag`.
+
+    Args:
+        body: the coin.
+        v: velocity of C, body frame, (n, 3) [m/s].
+        w: angular velocity, body frame, (n, 3) [rad/s].
+        air: for b > 0.
+    """
+    if body.air.exponent is None:
+        return linear_air_power(body, v, w)
+    pairs = [(air(body, tuple(a), tuple(b)), a, b) for a, b in zip(v.tolist(), w.tolist(), strict=True)]
+    return np.array([np.dot(f, a) + np.dot(m, b) for (f, m), a, b in pairs])
+
+
+def linear_air_power(body: Body, v: Array, w: Array) -> Array:
+    """Return the power of linear air drag at B and about B; see `air_power`."""
+    drag, v_B = body.drag, v - np.cross(w, np.array(body.center))
+    force = [drag.force_tangential, drag.force_tangential, drag.force_normal]
+    moment = [drag.moment_tangential, drag.moment_tangential, drag.moment_normal]
+    return -(v_B**2 @ force + w**2 @ moment)
+
+
+def turned(quaternions: Array, vectors: Array) -> Array:
+    """Return vectors turned by Euler parameters, x -> R(e) x, (n, 3)."""
+    axis, part = quaternions[:, 1:], quaternions[:, :1]
+    across = 2 * np.cross(axis, vectors)
+    return vectors + part * across + np.cross(axis, across)
+
+
+def _flights(
+    scenario: Scenario, impacts: Impacts, contacts: Array, path: Path, air: Air
+) -> tuple[States, Array]:
+    """Return samples of the longest flights, and energy changes of flights less the work of the air [J].
+
+    A flight starts at the release or an impact and ends in an impact. Where b > 0 the power of the air is not
+    smooth in time, and the quadrature of its work itself errs by some 1e-7 m g r.
+    """
+    body, release = scenario.body, scenario.release
+    ends = impacts.time
+    starts = np.concatenate([[0.0], ends[:-1]])
+    first = energies(
+        body,
+        States(
+            time=np.zeros(1),
+            position=np.array([release.position]),
+            velocity=np.array([release.velocity]),
+            quaternion=np.array([release.attitude]),
+            angular_velocity=np.array([release.angular_velocity]),
+        ),
+    )
+    change = impacts.energy - impacts.energy_change - np.concatenate([first, impacts.energy[:-1]])
+    before = np.searchsorted(contacts[:, 0], [starts, ends], side="left")
+    free = np.flatnonzero(before[0] == before[1])
+    vacuum = in_vacuum(body)
+    sampled = free[np.argsort(starts[free] - ends[free], kind="stable")[:FLIGHTS]]
+    durations = (ends - starts)[sampled]
+    turns = np.linalg.norm(impacts.angular_velocity_before[sampled], axis=1) * durations
+    counts = [VACUUM_SAMPLES if vacuum else min(AIR_SAMPLES + int(2 * turn), MOST_SAMPLES) for turn in turns]
+    # On [0, 1]: nodes of Gauss's rule, and their weights.
+    rules = [(0.5 + x / 2, weights / 2) for x, weights in map(_gauss, counts)]
+    begin = starts[sampled]
+    times = [t + x * length for t, (x, _), length in zip(begin, rules, durations, strict=True)]
+    states = path.sample(np.concatenate([np.empty(0), *times]))
+    if vacuum:
+        return states, change[free]
+    v = turned(_conjugate(states.quaternion), states.velocity)
+    rates = np.split(air_power(body, v, states.angular_velocity, air), np.cumsum(counts)[:-1])
+    work = [weights @ rate for (_, weights), rate in zip(rules, rates, strict=True)]
+    return states, change[sampled] - np.array(work) * durations
+
+
+@cache
+def _gauss(count: int) -> tuple[Array, Array]:
+    return np.polynomial.legendre.leggauss(count)
+
+
+def _off_slip(v_A: Array, S: Array, mu: float) -> Array:
+    """Return |S_xy + μ S_z u|, u the direction of the slip before, (n,) [N s]."""
+    slip = np.hypot(v_A[:, 0], v_A[:, 1])
+    u = v_A[:, :2] / np.where(slip > 0, slip, 1)[:, None]
+    return np.linalg.norm(S[:, :2] + mu * S[:, 2:] * u, axis=1)
+
+
+def _dot(a: Array, b: Array) -> Array:
+    return np.sum(a * b, axis=-1)
+
+
+def _conjugate(quaternions: Array) -> Array:
+    return quaternions * [1.0, -1.0, -1.0, -1.0]
+
+
+def _largest(values: Array) -> float:
+    return float(np.abs(values).max(initial=0.0))

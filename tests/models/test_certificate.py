@@ -1,0 +1,222 @@
+"""What a toss measures of itself: rounding where the engine is exact, and the damage done to a record."""
+
+from dataclasses import replace
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+import pytest
+
+import analytic
+import coin_mj
+from analytic.air.force import force_and_moment
+from models import certificate
+from models.certificate import linear_air_power, measurements
+from models.laws import ContactLaw
+from models.reading import load
+from models.records import Array, Impacts, States, Toss
+from models.scenario import Scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, draw_coin, draw_release, scenario
+
+OF_IMPACTS = (certificate.LAW, certificate.MOMENTUM, certificate.IMPACT_ENERGY)
+
+
+def measured(toss: Toss) -> dict[str, float]:
+    return {item.name: float(item.value) for item in toss.certificate if item.name in certificate.NAMES}
+
+
+def draw(seed: int, **floor: Any) -> Scenario:
+    rng = np.random.default_rng(seed)
+    return scenario(
+        coin=draw_coin(rng),
+        air=AIR if seed % 2 else {},
+        floor={"friction": 0.3, "restitution": 0.7, **floor},
+        release=draw_release(rng),
+        ending={"max_impacts": 20, "test": "paper"},
+    )
+
+
+def again(toss: Toss, impacts: Impacts | None = None, **parts: Any) -> dict[str, float]:
+    """Measure a toss anew, with its impacts or other parts exchanged."""
+    lines = measurements(
+        toss.scenario,
+        impacts or toss.impacts,
+        toss.contacts,
+        parts.get("contact_energies", np.empty((0, 2))),
+        parts.get("path", toss.path),
+        force_and_moment,
+    )
+    return {line.name: float(line.value) for line in lines}
+
+
+@pytest.mark.parametrize("law", list(ContactLaw))
+@pytest.mark.parametrize("seed", range(4))
+def test_the_analytic_engine_errs_by_rounding(law, seed):
+    toss = analytic.toss(draw(seed, contact=law.label))
+    found = measured(toss)
+    assert len(toss.impacts) >= 3
+    assert 0 < found[certificate.LAW] < 1e-11
+    assert 0 < found[certificate.MOMENTUM] < 1e-11
+    assert 0 <= found[certificate.IMPACT_ENERGY] < 1e-11
+    assert 0 < found[certificate.FLIGHT_ENERGY] < 1e-10
+    assert found[certificate.NORM] < 1e-14
+    assert abs(found[certificate.GAP]) < 1e-11
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_energetic_restitution_is_measured_by_what_it_may_not_gain(seed):
+    toss = analytic.toss(draw(seed, contact="coulomb", restitution_kind="energetic"))
+    assert measured(toss)[certificate.LAW] < 1e-11
+    impacts = replace(toss.impacts, energy_change=np.abs(toss.impacts.energy_change))
+    assert again(toss, impacts)[certificate.LAW] > 1e-3
+
+
+@pytest.mark.parametrize("law", list(ContactLaw))
+@pytest.mark.parametrize("part", [1e-8, 1e-4])
+def test_a_damaged_impulse_shows(law, part):
+    """Sideways it breaks the balances of momentum; with what it does to the coin, the law."""
+    toss = analytic.toss(draw(1, contact=law.label))
+    S = toss.impacts.impulse.copy()
+    size = float(np.linalg.norm(S[2]))
+    S[2, 0] += part * size
+    found = again(toss, replace(toss.impacts, impulse=S))
+    assert part / 2 < found[certificate.MOMENTUM] < 20 * part
+    if law in (ContactLaw.SMOOTH, ContactLaw.SLIDING_FRICTION):
+        assert part / 4 < found[certificate.LAW] < 4 * part
+
+
+@pytest.mark.parametrize("law", list(ContactLaw))
+@pytest.mark.parametrize("axis", range(3))
+def test_a_damaged_velocity_of_the_contact_point_shows(law, axis):
+    toss = analytic.toss(draw(2, contact=law.label))
+    v = toss.impacts.contact_velocity_after.copy()
+    v[1, axis] += 1e-6 * np.linalg.norm(toss.impacts.contact_velocity_before[1])
+    found = again(toss, replace(toss.impacts, contact_velocity_after=v))
+    of_edge = (ContactLaw.SHARP_EDGE, ContactLaw.KNURLED)
+    all_of_it = (ContactLaw.PERFECTLY_ROUGH, ContactLaw.SLIP_PRESERVING)
+    if axis == 2 or law in all_of_it:
+        assert found[certificate.LAW] == pytest.approx(1e-6, rel=1e-3)
+    elif law in of_edge:
+        assert 0.7e-6 < found[certificate.LAW] < 1.01e-6
+    if toss.impacts.impulse[1, axis] != 0:
+        assert found[certificate.IMPACT_ENERGY] > 1e3 * measured(toss)[certificate.IMPACT_ENERGY]
+
+
+def test_lost_energy_shows_in_the_impact_or_in_the_flight_that_lost_it():
+    toss = analytic.toss(draw(2))
+    body = toss.scenario.body
+    lost = 1e-6 * body.mass * body.gravity * body.radius
+    change = toss.impacts.energy_change.copy()
+    change[1] -= lost
+    found = again(toss, replace(toss.impacts, energy_change=change))
+    assert found[certificate.IMPACT_ENERGY] == pytest.approx(1e-6, rel=1e-4)
+    assert found[certificate.FLIGHT_ENERGY] == pytest.approx(1e-6, rel=1e-4)
+    assert found[certificate.MOMENTUM] == measured(toss)[certificate.MOMENTUM]
+
+
+def test_air_that_took_a_different_work_shows(monkeypatch):
+    toss = analytic.toss(draw(1))
+    monkeypatch.setattr(certificate, "linear_air_power", lambda *motion: 0.999 * linear_air_power(*motion))
+    exact, found = measured(toss)[certificate.FLIGHT_ENERGY], again(toss)
+    assert found[certificate.FLIGHT_ENERGY] > 1e-4 > 1e4 * exact
+
+
+def test_a_damaged_path_shows():
+    toss = analytic.toss(draw(2))
+
+    class Damaged:
+        def __init__(self, sink: float, stretch: float) -> None:
+            self.sink, self.stretch = sink, stretch
+
+        def sample(self, times: Array) -> States:
+            states = toss.path.sample(times)
+            return replace(
+                states,
+                position=states.position - [0, 0, self.sink],
+                quaternion=states.quaternion * (1 + self.stretch),
+            )
+
+    assert again(toss, path=Damaged(0.0, 1e-7))[certificate.NORM] == pytest.approx(1e-7)
+    assert again(toss, path=Damaged(0.5, 0.0))[certificate.GAP] < -0.1 / toss.scenario.coin.radius
+    assert again(toss, path=Damaged(0.0, 0.0)) == again(toss)
+
+
+def test_contacts_are_measured_where_there_are_any():
+    toss = analytic.toss(load("contact_coulomb"))
+    assert len(toss.contacts)
+    assert 0 <= measured(toss)[certificate.CONTACT_ENERGY] < 1e-9
+    found = again(toss, contact_energies=np.array([[2e-5, 1e-5], [1e-5, 1.1e-5]]))
+    body = toss.scenario.body
+    assert found[certificate.CONTACT_ENERGY] == pytest.approx(1e-6 / (body.mass * body.gravity * body.radius))
+    assert certificate.CONTACT_ENERGY not in measured(analytic.toss(draw(2)))
+
+
+def test_a_toss_without_impacts_measures_none():
+    toss = analytic.toss(scenario(ending={"max_time": 0.01}))
+    assert len(toss.impacts) == 0
+    assert measured(toss) == {}
+
+
+def test_a_flat_landing_is_measured_as_vertical():
+    toss = analytic.toss(scenario(floor={"contact": "perfectly_rough"}, release={"velocity": [0.3, 0, 0]}))
+    found = measured(toss)
+    assert len(toss.impacts) > 3
+    assert found[certificate.LAW] < 1e-12
+    S = toss.impacts.impulse + np.array([1e-9, 0, 0])
+    assert again(toss, replace(toss.impacts, impulse=S))[certificate.LAW] > 1e-7
+
+
+@pytest.mark.parametrize("offset", [[0.0, 0.0, 0.0], PAPER_OFFSET])
+def test_the_power_of_linear_air_is_that_of_its_force(offset):
+    body = scenario(coin={"center_of_mass": offset}, air=AIR).body
+    rng = np.random.default_rng(6)
+    v, w = rng.normal(size=(10, 3)), 30 * rng.normal(size=(10, 3))
+    expected = []
+    for a, b in zip(v, w, strict=True):
+        f, m = force_and_moment(body, tuple(a), tuple(b))
+        expected.append(np.dot(f, a) + np.dot(m, b))
+    assert max(expected) < 0
+    assert linear_air_power(body, v, w) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.fixture
+def without_softer_contacts(monkeypatch):
+    """They only tell how many impacts to trust."""
+    monkeypatch.setattr(import_module("coin_mj.toss"), "SOFTER", ())
+
+
+@pytest.mark.parametrize("air", [{}, AIR, {**AIR, "exponent": 0.5}])
+@pytest.mark.usefixtures("without_softer_contacts")
+def test_mujoco_measures_the_same(air):
+    """A spring's contact takes time: its impacts keep the law to some 1e-3, its flights their energy."""
+    case = scenario(
+        air=air,
+        release={"angles": [0, 0.4, 0], "angular_velocity": [3.0, 5.0, 2.0], "position": [0, 0, 0.05]},
+        ending={"max_impacts": 2},
+    )
+    found, exact = measured(coin_mj.toss(case)), measured(analytic.toss(case))
+    assert found.keys() == exact.keys() >= {*OF_IMPACTS, certificate.FLIGHT_ENERGY, certificate.NORM}
+    assert 1e-9 < found[certificate.LAW] < 5e-3
+    assert found[certificate.MOMENTUM] < 1e-2
+    assert found[certificate.FLIGHT_ENERGY] < 1e-5
+    assert exact[certificate.FLIGHT_ENERGY] < 1e-9
+    assert found[certificate.NORM] < 1e-12
+    assert -1e-4 < found[certificate.GAP] < 1e-4
+
+
+@pytest.mark.usefixtures("without_softer_contacts")
+def test_mujoco_measures_its_contacts():
+    rolls = scenario(
+        coin={"thickness": 0.0},
+        floor={"contact": "coulomb", "friction": 5.0, "restitution": 0.5},
+        release={
+            "position": [0, 0, 1.25e-2 * np.sin(1.3)],
+            "angles": [0, 1.3, 0],
+            "angular_velocity": [0, 8.0, 40.0],
+            "velocity": [-0.5, 0, 0],
+        },
+        ending={"test": "paper", "max_time": 0.2},
+    )
+    toss = coin_mj.toss(rolls)
+    assert np.sum(np.diff(toss.contacts, axis=1)) > 0.1
+    assert 0 < measured(toss)[certificate.CONTACT_ENERGY] < 5e-3
