@@ -38,7 +38,7 @@ def test_what_no_step_reaches_is_told():
     )
     lines = tables(replace(SAVED, speeds={"spring": spring})).splitlines()
     assert [line for line in lines if line.startswith("| spring, ")] == [
-        "| spring, restitution to 6e-03 | none down to 1e-07 | | |",
+        "| spring, restitution to 6e-03 | none down to 1e-07 |  |  |",
         "| spring, restitution to 1e-02 | 2.0e-06 | 0.5 | 200 |",
     ]
 
