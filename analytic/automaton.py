@@ -37,7 +37,7 @@ class Event(IntEnum):
     FACE_LANDS = 3
     """A face comes down to the floor: a touch of the opposite rim point follows."""
     SLIPS = 4
-    """A slips faster than `SLOW`."""
+    """A slips faster than `SLOW`, or has slipped and does so faster than half of it; or the floor is smooth."""
     SLIP_STARTS = 5
     """A hardly slips, and friction cannot hold it."""
     SLIP_STOPS = 6
@@ -57,6 +57,7 @@ _NEXT = np.array(
         [_, _F, _F, _F, _S, _C, _T, _U, _E],  # CREEPING
         [_, _F, _F, _F, _S, _C, _T, _U, _E],  # STICKING
         [_, _F, _, _, _S, _C, _T, _, _E],  # UPRIGHT
+        [_, _, _, _, _, _, _, _, _],  # ENDED
     ]
 )
 
@@ -72,7 +73,7 @@ def mode_after(mode, event):
     Raises:
         ValueError: for an event that cannot end this mode.
     """
-    following = _NEXT[mode, event.value]
+    following = -1 if event == Event.NONE else _NEXT[mode, event.value]
     if following < 0:
         raise ValueError("this event cannot end this mode")
     return following

@@ -37,7 +37,7 @@ def toss_many(scenario: Scenario, releases: Releases, *, settings: Settings = MA
 
 @compiled
 def _toss_each(body, rules, contact_steps, states, outcomes, endings, faces, impacts, end_times):
-    # Two rows, so that a touch without solution leaves the last impact's.
+    # Two rows: the last impact's, and the work space after it.
     rows = np.zeros(2, IMPACT_ROW)
     for i in range(len(states)):
         n, _, _, outcome, ending, end_time = toss_coin(body, rules, contact_steps, states[i], rows, False)

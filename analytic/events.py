@@ -109,10 +109,9 @@ def toss_coin(body, rules, contact_steps, y, rows, keep_all):
     Args:
         body: the coin.
         rules: floor and ending.
-        contact_steps: the most steps of the integrator in sustained contact.
+        contact_steps: the most steps in sustained contact.
         y: state at release, (13,); becomes the state at the end.
-        rows: where the impacts are recorded, (m,) of `IMPACT_ROW`. A touch for which the contact law has no
-            solution uses up the row of the impact that it is not.
+        rows: where the impacts are recorded, (m,) of `IMPACT_ROW`. The row after the last is work space.
         keep_all: whether all impacts are recorded, in as many rows as they need, and where modes start;
             else impact number n is recorded in row n modulo m.
 
@@ -224,7 +223,7 @@ def follow_to_event(body, rules, mu, mode, y, time, steps, contact_steps, histor
         y: state, (13,); advanced.
         time: now [s].
         steps: made in contact so far.
-        contact_steps: the most wanted.
+        contact_steps: the most allowed.
         history: `EnergyHistory` of the toss; kept up.
 
     Returns:

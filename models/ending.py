@@ -1,4 +1,4 @@
-"""How a toss ends: whether the face that is up can still change, told alike for both engines."""
+"""How a toss ends: whether the face that is up can still change, by one function for both engines."""
 
 import math
 

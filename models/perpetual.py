@@ -16,7 +16,7 @@ from models.records import Array
 FIRST_CHECK = 64.0
 # For ever: so many doublings of √(r/g), which takes a coin on Earth longer than the universe is old.
 _DOUBLINGS = 64
-# However little an engine can tell, a larger part of the energy is a loss.
+# What an engine cannot tell from no loss is never taken for more than this part of the energy.
 _LARGEST_NONE = 2e-2
 # So many checks are remembered, of which the last few are enough to tell a loss that does not grow.
 _REMEMBERED, _FEW = 6, 4

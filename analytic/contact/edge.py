@@ -26,8 +26,8 @@ from models.geometry import tilt_sine_of
 from models.kernel.compiled import compiled
 from models.kernel.vectors import apply, cross, dot, scale
 
-# The angle by which a coin on its edge is tried on either rim.
-_TIP = 1e-9
+# Half the angle by which a coin on its edge is tipped onto either rim, for trial.
+_TRIAL = 1e-9
 # In so many phases of its roll a coin on its edge is tried.
 _PHASES = 48
 # An upright coin is tried for whether it stands once in so many steps.
@@ -222,7 +222,7 @@ def held_on_edge(body, mu, mode, y):
     # Turn the coin a little to either side, about the horizontal axis in its plane.
     axis = cross(state.R[2], (0.0, 0.0, 1.0))
     for side in (-1.0, 1.0):
-        turn = quaternion_rate(e, scale(side * 2 * _TIP, axis))
+        turn = quaternion_rate(e, scale(side * 2 * _TRIAL, axis))
         set_attitude(tipped, (e[0] + turn[0], e[1] + turn[1], e[2] + turn[2], e[3] + turn[3]))
         one_rim.rate(body, mu, mode, lower_rim_of(tipped), tipped, dy)
         up = rotation_matrix(attitude_of(tipped))[2]

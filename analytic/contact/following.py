@@ -81,7 +81,7 @@ def accepted_contact_step(body, mu, mode, rim, y, dt, stages, y_new):
         if error <= 1:
             return dt, dt * step_factor(error)
         dt *= step_factor(error)
-        if dt == 0:
+        if not dt > 0:
             raise FloatingPointError("the contact leaves the range of floating-point numbers")
 
 

@@ -49,7 +49,7 @@ def rate(body, mu, mode, rim, y, dy):
 def put_on_floor(body, mu, mode, rim, y):
     """Bring A to the floor, and by an impulse there its velocity to what the mode allows.
 
-    A point that sticks has none; one that slides none upward; one that creeps moves in the direction in
+    A point that sticks has none; one that slides has v_Az = 0; one that creeps slips in the direction in
     which its slip grows.
     """
     A = rim_contact(body, y, rim)

@@ -83,7 +83,7 @@ def accepted_step(body, y, dt, stages, y_new):
         if error <= 1:
             return dt, dt * step_factor(error)
         dt *= step_factor(error)
-        if dt == 0:
+        if not dt > 0:
             raise FloatingPointError("the motion leaves the range of floating-point numbers")
 
 

@@ -49,8 +49,13 @@ def can_end(mode, event):
 
 
 def test_a_mode_that_goes_on_has_no_mode_after_it():
-    with pytest.raises(ValueError, match="cannot end this mode"):
-        mode_after(Mode.UPRIGHT.value, Event.COMES_UPRIGHT)
+    for mode, event in (
+        (Mode.UPRIGHT, Event.COMES_UPRIGHT),
+        (Mode.SLIDING, Event.NONE),
+        (Mode.ENDED, Event.ENDS),
+    ):
+        with pytest.raises(ValueError, match="cannot end this mode"):
+            mode_after(mode.value, event)
 
 
 @pytest.mark.parametrize("changed", [{}, {"thickness": 0.0}, {"center_of_mass": PAPER_OFFSET}])
@@ -101,6 +106,7 @@ def test_a_spent_budget_ends_a_toss_by_its_name(case, settings, limits, ending):
     assert decided.outcome != Outcome.UNDECIDED
 
 
-def test_settings_refuse_a_budget_of_no_step():
-    with pytest.raises(ValueError, match=r"contact_steps: given 0, accepted: a whole number >= 1"):
-        Settings(contact_steps=0)
+@pytest.mark.parametrize("steps", [0, 2.5])
+def test_settings_refuse_a_budget_that_is_no_number_of_steps(steps):
+    with pytest.raises(ValueError, match=rf"contact_steps: given {steps}, accepted: a whole number >= 1"):
+        Settings(contact_steps=steps)
