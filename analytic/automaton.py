@@ -37,7 +37,7 @@ class Event(IntEnum):
     FACE_LANDS = 3
     """A face comes down to the floor: a touch of the opposite rim point follows."""
     SLIPS = 4
-    """A slips faster than `SLOW`, or has slipped and does so faster than half of it; or the floor is smooth."""
+    """A slips faster than `SLOW`, or goes on slipping faster than half of it; or the floor is smooth."""
     SLIP_STARTS = 5
     """A hardly slips, and friction cannot hold it."""
     SLIP_STOPS = 6

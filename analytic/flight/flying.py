@@ -46,14 +46,7 @@ def fly_with_graze(body, y, longest):
 
 @compiled
 def sample(body, start, start_time, times, states):
-    """Write the states of one flight at `times` into `states`.
-
-    Args:
-        body: the coin.
-        start: state at the start of the flight, (13,).
-        start_time: its time [s].
-        times: increasing, none before start_time, (n,) [s].
-        states: where they go, (n, 13).
+    """Write the states of one flight at `times` into `states`; for the arguments see `sample_flight`.
 
     Returns:
         The number of steps up to the last time: on a parabola one.

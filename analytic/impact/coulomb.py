@@ -122,18 +122,12 @@ def end_straight(y, f, gained, p, stops, component, target):
 
 @compiled
 def slide(K, y, mu, no_slip, component, target):
-    """Follow the slip until it stops or a component has risen to its target; tell whether it has risen.
+    """Follow the slip until it stops or a component has risen to its target; return whether it has risen.
 
     With dp = |v_t| dτ the equations are regular where the slip stops: dS/dτ = (-μ v_t, |v_t|) and
     dv_A/dτ = K dS/dτ.
 
-    Args:
-        K: mobility of A [1/kg].
-        y: state of the impact, (7,); advanced.
-        mu: coefficient of friction μ.
-        no_slip: slip that counts as none [m/s].
-        component: `V_Z` or `WORK`.
-        target: its value at the end.
+    Arguments as those of `grow_impulse`.
     """
     stages, y_new = np.empty((STAGES, SIZE)), np.empty(SIZE)
     speed, dt = norm((y[0], y[1], y[2])), first_slip_step(K, mu)

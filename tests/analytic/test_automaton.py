@@ -48,12 +48,9 @@ def can_end(mode, event):
     return True
 
 
-def test_a_mode_that_goes_on_has_no_mode_after_it():
-    for mode, event in (
-        (Mode.UPRIGHT, Event.COMES_UPRIGHT),
-        (Mode.SLIDING, Event.NONE),
-        (Mode.ENDED, Event.ENDS),
-    ):
+def test_a_mode_that_goes_on_and_an_ended_toss_have_no_mode_after_them():
+    forbidden = {Mode.UPRIGHT: Event.COMES_UPRIGHT, Mode.SLIDING: Event.NONE, Mode.ENDED: Event.ENDS}
+    for mode, event in forbidden.items():
         with pytest.raises(ValueError, match="cannot end this mode"):
             mode_after(mode.value, event)
 
