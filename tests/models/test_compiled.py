@@ -37,6 +37,9 @@ def test_an_edited_callee_is_noticed(tmp_path, callee):
     edited = tmp_path.joinpath(*callee.split(".")).with_suffix(".py")
     for folder in (kernel, caller.parent, edited.parent):
         folder.mkdir(parents=True, exist_ok=True)
+    # Without it the installed package would be found first.
+    for package in ("models", "analytic"):
+        (tmp_path / package / "__init__.py").touch()
     shutil.copy(TOP / "models" / "kernel" / "compiled.py", kernel)
     caller.write_text(CALLER.format(callee))
 
