@@ -124,7 +124,7 @@ def law_residuals(body: Body, rules: Rules, impacts: Impacts) -> Array:
 
 
 def momentum_residuals(body: Body, impacts: Impacts) -> Array:
-    """Return by how much m Δv = S and J_C Δω = Rᵀ (a × S) fail, relative to |S| and |a| |S|, (n,)."""
+    """Return by how much m Δv = S and J_C Δω = Rᵀ (a × S) fail, relative to |S| and r |S|, (n,)."""
     S, e = impacts.impulse, impacts.quaternion
     size = np.linalg.norm(S, axis=1)
     arm = impacts.point - np.array(body.center)
@@ -133,7 +133,7 @@ def momentum_residuals(body: Body, impacts: Impacts) -> Array:
     angular = gained - np.cross(arm, turned(_conjugate(e), S))
     return np.maximum(
         np.linalg.norm(linear, axis=1) / size,
-        np.linalg.norm(angular, axis=1) / (size * np.linalg.norm(arm, axis=1)),
+        np.linalg.norm(angular, axis=1) / (size * body.radius),
     )
 
 
