@@ -109,10 +109,15 @@ def test_a_run_leaves_its_claims_its_data_and_its_pictures(tmp_path, monkeypatch
     assert made == ["full", "quick"]
 
 
+def seconds(name: str) -> float:
+    found = runner.find(name)
+    return found.quick_seconds or found.seconds
+
+
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(name, marks=pytest.mark.slow if (runner.find(name).quick_seconds or 10) >= 10 else ())
+        pytest.param(name, marks=pytest.mark.slow if seconds(name) >= 10 else ())
         for name in gallery.of_paper()
     ],
 )
