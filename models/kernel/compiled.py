@@ -1,72 +1,188 @@
-"""Compile a function with numba and keep the machine code for the next process."""
+"""Compile a function with numba when it is first called, and keep its code for the next process."""
 
-import hashlib
-import os
-import tempfile
+# numba describes few types.
+# pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
+# pyright: reportIncompatibleMethodOverride=false
+
 from collections.abc import Callable
-from functools import cache
-from pathlib import Path
 from typing import Any
 
-import numba
-from numba.core import config
+from numba import _dynfunc
+from numba.core.compiler import Compiler, CompileResult, compile_result
+from numba.core.compiler_lock import global_compiler_lock
+from numba.core.dispatcher import _FunctionCompiler
+from numba.core.environment import lookup_environment
+from numba.core.registry import CPUDispatcher, cpu_target
 
-COMPILED_PACKAGES = {
-    "models": ("models",),
-    "analytic": ("models", "analytic"),
-    "coin_mj": ("models", "coin_mj"),
-}
-"""Packages with compiled functions, each with those whose functions and records its own may use."""
+from models.kernel.callee_code import Callee, CalleeCode, CalleeCompiler
+from models.kernel.code_cache import PACKAGES, CodeCache, LocatedImpl
+
+_OPTIONS = {"nopython": True, "nogil": True, "error_model": "numpy"}
+_WITHOUT_WRAPPERS = {**_OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
-@cache
-def cache_folder(package: str) -> Path:
-    """Return the folder of the machine code of one package, for exactly these sources.
+class CompiledFunction(CPUDispatcher):
+    """A function compiled for its compiled callers; called from Python, it is made into machine code.
 
-    numba checks only the file of the function it compiles, so an edit in a function that this one calls would
-    go unnoticed. The folder's name is a hash of every source that the package's functions may use: an edit in
-    any of them starts a new folder.
-
-    Args:
-        package: one of `COMPILED_PACKAGES`.
-
-    Returns:
-        A folder below $NUMBA_CACHE_DIR, else below the user's cache, else below the temporary folder.
+    See `models.kernel.callee_code`.
     """
-    top = Path(__file__).parents[2]
-    digest = hashlib.sha256()
-    for used in COMPILED_PACKAGES[package]:
-        for source in sorted((top / used).rglob("*.py")):
-            digest.update(f"{source.relative_to(top).as_posix()}\n".encode())
-            digest.update(source.read_bytes())
-    name = f"cointoss-{package}-{digest.hexdigest()[:16]}"
-    for base in _cache_bases():
-        folder = base / name
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError:
-            continue
-        if os.access(folder, os.W_OK):
-            return folder
-    return Path(tempfile.mkdtemp(prefix="cointoss-"))
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        """Compile nothing yet."""
+        super().__init__(function, targetoptions=_WITHOUT_WRAPPERS)
+        self._compiler = _ForCallers(self)
+        self._from_python: _FromPython | None = None
+
+    def __call__(self, *arguments: Any, **named: Any) -> Any:
+        """Run the machine code."""
+        return self.from_python(*arguments, **named)
+
+    @property
+    def from_python(self) -> CPUDispatcher:
+        """The function as Python calls it."""
+        if self._from_python is None:
+            with global_compiler_lock:
+                self._from_python = self._from_python or _FromPython(self)
+        return self._from_python
+
+    def compile(self, sig: Any) -> Any:
+        """Compile for arguments of these types, or read what is kept of an earlier process."""
+        _keep_code(self, _CalleeCache)
+        return super().compile(sig)
+
+    def __reduce__(self) -> Any:
+        """Return the function by its name."""
+        return self.__qualname__
 
 
-def _cache_bases() -> list[Path]:
-    chosen = os.environ.get("NUMBA_CACHE_DIR")
-    user = Path(os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser())
-    return [*([Path(chosen)] if chosen else []), user / "cointoss"]
+class _ForCallers(_FunctionCompiler):
+    """Compiles a function to `CalleeCode`."""
+
+    def __init__(self, dispatcher: CompiledFunction) -> None:
+        super().__init__(
+            dispatcher.py_func, dispatcher.targetdescr, dispatcher.targetoptions, {}, CalleeCompiler
+        )
+        self._dispatcher = dispatcher
+
+    def _customize_flags(self, flags: Any) -> Any:
+        flags.no_compile = True
+        return flags
+
+    def _compile_core(self, args: Any, return_type: Any) -> CompileResult:
+        result = super()._compile_core(args, return_type)
+        result.library.callee = Callee(self._dispatcher, result.signature.args)
+        result.library.finalize()
+        result = result._replace(entry_point=_name_for_callers(result))
+        self.targetdescr.target_context.insert_user_function(
+            result.entry_point, result.fndesc, [result.library]
+        )
+        return result
+
+
+def _name_for_callers(result: CompileResult) -> Any:
+    """Return what numba knows a compiled function by: a function of C, but this one cannot be called."""
+    return _dynfunc.make_function(
+        result.fndesc.lookup_module(),
+        result.fndesc.qualname,
+        "compiled for callers",
+        0,
+        result.environment,
+        (result.library,),
+    )
+
+
+class _CalleeImpl(LocatedImpl):
+    """How a function compiled for callers is kept: its own code, and the names of those it calls."""
+
+    def get_filename_base(self, fullname: str, abiflags: str) -> str:
+        return "callee-" + super().get_filename_base(fullname, abiflags)
+
+    def reduce(self, data: CompileResult) -> Any:
+        code = data.library
+        data.fndesc.typemap = data.fndesc.calltypes = None
+        return (
+            code.name,
+            code.bitcode(),
+            code.callee,
+            code.callees,
+            data.fndesc,
+            data.environment,
+            data.signature,
+        )
+
+    def rebuild(self, target_context: Any, reduced_data: Any) -> CompileResult:
+        name, bitcode, callee, callees, description, environment, signature = reduced_data
+        code = CalleeCode.from_bitcode(name, bitcode, callees)
+        code.callee = callee
+        result = _result(target_context, code, description, environment, signature)
+        return result._replace(entry_point=_name_for_callers(result))
+
+
+class _CalleeCache(CodeCache):
+    _impl_class = _CalleeImpl
+
+
+class _FromPython(CPUDispatcher):
+    """A compiled function as Python calls it."""
+
+    def __init__(self, compiled_function: CompiledFunction) -> None:
+        super().__init__(compiled_function.py_func, targetoptions=_OPTIONS)
+        self._compiler = _Linker(compiled_function)
+
+    def compile(self, sig: Any) -> Any:
+        _keep_code(self, CodeCache)
+        return super().compile(sig)
+
+
+class _Linker(_FunctionCompiler):
+    """Makes machine code of a function and all it calls."""
+
+    def __init__(self, compiled_function: CompiledFunction) -> None:
+        super().__init__(compiled_function.py_func, cpu_target, _OPTIONS, {}, Compiler)
+        self._function = compiled_function
+
+    def _compile_core(self, args: Any, *_: Any) -> CompileResult:
+        self._function.compile(args)
+        callee = self._function.overloads[args]
+        description, environment = callee.fndesc, callee.environment
+        context = cpu_target.target_context.subtarget(enable_nrt=True)
+        library = context.codegen().create_library(callee.library.name)
+        library.enable_object_caching()
+        context.create_cpython_wrapper(library, description, environment, None, release_gil=True)
+        callee.library.link_into(library._final_module)
+        library.finalize()
+        for variable in library._final_module.global_variables:
+            used = lookup_environment(variable.name)
+            if used is not None:
+                context.codegen().set_env(variable.name, used)
+        result = _result(context, library, description, environment, callee.signature)
+        return result._replace(entry_point=context.get_executable(library, description, environment))
+
+
+def _result(context: Any, library: Any, description: Any, environment: Any, signature: Any) -> CompileResult:
+    return compile_result(
+        typing_context=context.typing_context,
+        target_context=context,
+        library=library,
+        fndesc=description,
+        environment=environment,
+        signature=signature,
+        objectmode=False,
+        lifted=(),
+        reload_init=[],
+        typing_error=None,
+    )
+
+
+def _keep_code(dispatcher: CPUDispatcher, cache: type[CodeCache]) -> None:
+    """Keep what is compiled of a function from here on, if it is one of ours."""
+    if dispatcher.__module__.partition(".")[0] in PACKAGES and not isinstance(dispatcher._cache, cache):
+        dispatcher._cache = cache(dispatcher.py_func)
 
 
 def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compile `function` at its first call, without the GIL, and cache the machine code on disk.
+    """Compile `function` when it is first called, without the GIL, and keep the code on disk.
 
-    It must be defined in one of `COMPILED_PACKAGES`.
+    Code of functions outside `models.kernel.code_cache.PACKAGES` is not kept.
     """
-    # numba has no argument for the folder: it reads this setting when the function is declared.
-    settings = config.__dict__
-    before = settings["CACHE_DIR"]
-    settings["CACHE_DIR"] = str(cache_folder(function.__module__.partition(".")[0]))
-    try:
-        return numba.njit(cache=True, nogil=True, error_model="numpy")(function)
-    finally:
-        settings["CACHE_DIR"] = before
+    return CompiledFunction(function)

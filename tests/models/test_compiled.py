@@ -1,70 +1,226 @@
-"""The cache of machine code notices an edit in a function that another compiled function calls."""
+"""Compiled functions are called by Python, by each other and by numba's, and what is kept is never stale."""
 
+import importlib
+import os
+import pickle
+import pkgutil
 import shutil
 import subprocess
 import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from enum import IntEnum
 from pathlib import Path
+from typing import Any, NamedTuple
 
+import numba
+import numpy as np
 import pytest
 
-import models.kernel.compiled
-from models.kernel.compiled import COMPILED_PACKAGES, cache_folder
+import models.kernel.code_cache as code_cache
+from models.kernel.code_cache import PACKAGES, UNUSED, cache_folder, remove_unused, source_hash
+from models.kernel.compiled import CompiledFunction, compiled
+from models.kernel.vectors import add
 
-TOP = Path(models.kernel.compiled.__file__).parents[2]
+TOP = Path(code_cache.__file__).parents[2]
 IMPORT = "from models.kernel.compiled import compiled\n"
 CALLEE = IMPORT + "\n\n@compiled\ndef part(x):\n    return {} * x\n"
-CALLER = IMPORT + "from {} import part\n\n\n@compiled\ndef whole(x):\n    return part(x) + 1\n"
+CALLER = IMPORT + "from {} import part\n\n\n@compiled\ndef whole(x):\n    return part(x) + {}\n"
 
 
-def run_caller(folder):
-    script = "from analytic.caller import whole\nprint(whole(10.0), sum(whole.stats.cache_hits.values()))"
-    environment = {"NUMBA_CACHE_DIR": str(folder / "cache"), "PATH": ""}
+class Kind(IntEnum):
+    ODD = 1
+
+
+class Pair(NamedTuple):
+    first: float
+    second: float
+
+
+@compiled
+def squares(n):
+    if n < 0:
+        raise ValueError("fewer than none")
+    return np.arange(n) ** 2.0
+
+
+@compiled
+def squares_from(pair, n, kind=Kind.ODD):
+    found = squares(n)
+    return found + pair.first, kind, "ab"[:1] == "a"
+
+
+def run(folder, script):
     done = subprocess.run(
         [sys.executable, "-c", script],
         cwd=folder,
-        env=environment,
+        env={"NUMBA_CACHE_DIR": str(folder / "cache"), "PATH": ""},
         capture_output=True,
         text=True,
         check=True,
     )
-    value, hits = done.stdout.split()
-    return float(value), int(hits)
+    return [float(word) for word in done.stdout.split()]
+
+
+def run_caller(folder):
+    """Return the answer, and what was read from disk: of the caller for Python, and of it and its callee."""
+    return run(
+        folder,
+        "from analytic.caller import whole, part\n"
+        "print(whole(10.0))\n"
+        "for f in (whole.from_python, whole, part):\n"
+        "    print(sum(f.stats.cache_hits.values()))",
+    )
+
+
+@pytest.fixture
+def folder(tmp_path):
+    for package in ("models", "analytic"):
+        (tmp_path / package).mkdir()
+        # Without it the installed package would be found first.
+        (tmp_path / package / "__init__.py").touch()
+    shutil.copytree(TOP / "models" / "kernel", tmp_path / "models" / "kernel")
+    return tmp_path
+
+
+def write(folder, module, source):
+    file = folder.joinpath(*module.split(".")).with_suffix(".py")
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(source)
 
 
 @pytest.mark.parametrize("callee", ["analytic.callee", "analytic.room.callee", "models.room.deeper.callee"])
-def test_an_edited_callee_is_noticed(tmp_path, callee):
-    kernel, caller = tmp_path / "models" / "kernel", tmp_path / "analytic" / "caller.py"
-    edited = tmp_path.joinpath(*callee.split(".")).with_suffix(".py")
-    for folder in (kernel, caller.parent, edited.parent):
-        folder.mkdir(parents=True, exist_ok=True)
-    # Without it the installed package would be found first.
-    for package in ("models", "analytic"):
-        (tmp_path / package / "__init__.py").touch()
-    shutil.copy(TOP / "models" / "kernel" / "compiled.py", kernel)
-    caller.write_text(CALLER.format(callee))
-
-    edited.write_text(CALLEE.format(2.0))
-    assert run_caller(tmp_path) == (21.0, 0)
-    assert run_caller(tmp_path) == (21.0, 1), "the cache should be used where nothing changed"
-    edited.write_text(CALLEE.format(3.0))
-    assert run_caller(tmp_path) == (31.0, 0)
+def test_an_edit_compiles_anew_what_it_can_change_and_no_more(folder, callee):
+    write(folder, "analytic.caller", CALLER.format(callee, 1))
+    write(folder, callee, CALLEE.format(2.0))
+    assert run_caller(folder) == [21, 0, 0, 0]
+    assert run_caller(folder) == [21, 1, 0, 0], "what is kept for Python needs nothing of its callees"
+    write(folder, callee, CALLEE.format(3.0))
+    assert run_caller(folder) == [31, 0, 0, 0]
+    write(folder, "analytic.caller", CALLER.format(callee, 2))
+    assert run_caller(folder) == [32, 0, 0, 1]
+    write(folder, "analytic.other", "unused = 1\n")
+    assert run_caller(folder) == [32, 1, 0, 0]
 
 
-def test_every_package_with_compiled_functions_is_watched():
+def test_named_tuples_with_other_fields_are_other_types(folder):
+    """A function need not import the named tuple that it is given, so an edit there is not in its hash."""
+    tuples = "from typing import NamedTuple\n\n\nclass Pair(NamedTuple):\n    {}: float\n    {}: float\n"
+    write(folder, "analytic.user", IMPORT + "\n\n@compiled\ndef difference(p):\n    return p.a - p.b\n")
+    script = "from analytic.{0} import difference\nfrom models.pair import Pair\nprint(difference({1}))"
+    nested = IMPORT + "from analytic.user import difference as of\n"
+    write(folder, "analytic.inner", nested + "\n\n@compiled\ndef difference(p):\n    return of(p[1])\n")
+    for names, answer in (("ab", -2), ("ba", 2)):
+        write(folder, "models.pair", tuples.format(*names))
+        assert run(folder, script.format("user", "Pair(1.0, 3.0)")) == [answer]
+        assert run(folder, script.format("inner", "(0.0, Pair(1.0, 3.0))")) == [answer]
+
+
+def test_every_compiled_function_that_one_calls_is_in_its_hash():
+    """A callee's module is imported, in one of the ways that `source_hash` reads."""
+    functions = {
+        value
+        for package in PACKAGES
+        for found in pkgutil.walk_packages(importlib.import_module(package).__path__, f"{package}.")
+        for value in vars(importlib.import_module(found.name)).values()
+        if isinstance(value, CompiledFunction)
+    }
+    assert len(functions) > 200
+    for function in functions:
+        names = function.py_func.__globals__
+        for name in function.py_func.__code__.co_names:
+            callee = names.get(name)
+            module = getattr(callee, "__module__", None)
+            if isinstance(callee, CompiledFunction) and module != function.__module__:
+                assert module in code_cache.imported(function.__module__), (function, callee)
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "import models.room.far",
+        "import os, models.room.far as near",
+        "from models.room.far import a, b",
+        "from models.room import (\n    other,\n    far as near,  # )\n)",
+        "def f():\n    from models.room import far\n",
+        "from models.room.package import a",
+    ],
+)
+def test_the_hash_is_of_all_that_is_imported(folder, monkeypatch, source):
+    write(folder, "models.room.package.__init__", "from models.room.far import a\n")
+    write(folder, "models.near", source + "\n")
+    monkeypatch.setattr(code_cache, "_TOP", folder)
+    hashes = []
+    for a in (1, 2):
+        write(folder, "models.room.far", f"a = b = {a}\n")
+        for cached in (code_cache.source_hash, code_cache.imported, code_cache._source):
+            cached.cache_clear()
+        hashes.append(source_hash("models.near"))
+    assert hashes[0] != hashes[1]
+
+
+def test_every_package_with_compiled_functions_is_kept():
     users = {
         path.relative_to(TOP).parts[0]
         for package in ("models", "analytic", "coin_mj", "compare")
         for path in (TOP / package).rglob("*.py")
         if "@compiled" in path.read_text(encoding="utf-8")
     }
-    assert users == set(COMPILED_PACKAGES)
+    assert users == set(PACKAGES)
 
 
-def test_each_package_has_a_folder_that_its_own_sources_name(tmp_path, monkeypatch):
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
-    folders = {cache_folder.__wrapped__(package) for package in COMPILED_PACKAGES}
-    assert {folder.parent for folder in folders} == {tmp_path}
-    assert {folder.name.rpartition("-")[0] for folder in folders} == {
-        f"cointoss-{package}" for package in COMPILED_PACKAGES
-    }
-    assert len({folder.name.rpartition("-")[2] for folder in folders}) == len(COMPILED_PACKAGES)
+def test_folders_long_unused_are_removed_when_one_is_made(tmp_path, monkeypatch):
+    monkeypatch.setattr(code_cache, "_base", lambda: tmp_path)
+    names = ("cointoss-a.b-0123456789abcdef", "cointoss-a.b-fedcba9876543210", "cointoss-maps")
+    used, unused, foreign = (tmp_path / name for name in names)
+    long_ago = time.time() - UNUSED - 60
+    for folder in (used, unused, foreign):
+        folder.mkdir()
+        (folder / "file").touch()
+        os.utime(folder, (long_ago, long_ago))
+    os.utime(used)
+    made = cache_folder.__wrapped__("models.body")
+    assert sorted(tmp_path.iterdir()) == sorted([used, foreign, made])
+    os.utime(made, (0, 0))
+    assert cache_folder.__wrapped__("models.body") == made
+    remove_unused(tmp_path)
+    assert made.is_dir(), "what a process begins to use is kept"
+
+
+def test_python_calls_a_function_with_what_it_calls():
+    found, kind, same = squares_from(Pair(1.0, 2.0), 3)
+    assert np.array_equal(found, [1, 2, 5])
+    assert kind is Kind.ODD
+    assert same
+    assert np.array_equal(squares_from(n=2, pair=Pair(2.0, 2.0))[0], [2, 3])
+    with pytest.raises(ValueError, match="fewer than none"):
+        squares_from(Pair(1.0, 2.0), -1)
+
+
+def test_what_numba_compiles_calls_our_functions():
+    @numba.njit
+    def plain(n):
+        return squares_from(Pair(1.0, 0.0), n)[0].sum()
+
+    signature: Any = numba.types.float64(numba.types.int64)
+
+    @numba.cfunc(signature)
+    def pointer(n):
+        return squares_from(Pair(1.0, 0.0), n)[0].sum()
+
+    assert plain(3) == pointer.ctypes(3) == 8.0
+
+
+def test_threads_compile_once():
+    def third(x):
+        return squares_from(Pair(x, x), 5)[0][2]
+
+    slow = CompiledFunction(third)
+
+    with ThreadPoolExecutor(8) as pool:
+        assert set(pool.map(slow, [1.0] * 8)) == {5.0}
+    assert sum(slow.from_python.stats.cache_misses.values()) == 1
+
+
+def test_a_function_is_pickled_by_its_name():
+    assert pickle.loads(pickle.dumps(add)) is add

@@ -1,0 +1,147 @@
+"""Code of compiled functions for their compiled callers: LLVM's, without machine code of its own.
+
+numba optimises every function and makes machine code of it, with a wrapper for Python and one for C, though a
+function that only compiled functions call runs as a copy within them. Here its code stays as numba wrote it.
+What Python calls is linked with the code of all it calls, optimised as one, and made into machine code once.
+"""
+
+# numba describes few types.
+# pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
+# pyright: reportIncompatibleMethodOverride=false
+
+from typing import Any, NamedTuple
+
+from llvmlite import binding
+from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
+from numba.core.compiler import Compiler
+from numba.core.registry import cpu_target
+from numba.core.runtime import rtsys
+
+
+class Callee(NamedTuple):
+    """A compiled function and the types of its arguments."""
+
+    function: Any
+    arguments: tuple[Any, ...]
+
+    def code(self) -> "CalleeCode":
+        """Return its code; compiled, or read from disk, if that was not done yet."""
+        self.function.compile(self.arguments)
+        return self.function.overloads[self.arguments].library
+
+
+class CalleeCode(JITCodeLibrary):
+    """The code of one function, with what it uses of numba's own; compiled functions it calls by name."""
+
+    def __init__(self, codegen: Any, name: str) -> None:
+        """Start without code."""
+        super().__init__(codegen, name)
+        self.callee: Callee | None = None
+        """Whose code this is; None for a function of numba's own."""
+        self.callees: list[Callee] = []
+        """Whom it calls."""
+
+    def add_linking_library(self, library: Any) -> None:
+        """Take the code of a function that this one calls."""
+        if not isinstance(library, CalleeCode):
+            # numba's runtime library is linked to every function, and so once to all of them.
+            if library is not rtsys.library:
+                self._linking_libraries.append(library)
+        elif library.callee:
+            self.callees.append(library.callee)
+        else:
+            library._ensure_finalized()
+            self._linking_libraries.append(library)
+            self.callees += library.callees
+
+    def finalize(self) -> None:
+        """Take no more code: nothing is optimised."""
+        self._raise_if_finalized()
+        for library in dict.fromkeys(self._linking_libraries):
+            own = (
+                library._shareable() if isinstance(library, CalleeCode) else library._get_module_for_linking()
+            )
+            self._final_module.link_in(own, preserve=True)
+        self.callees = list(dict.fromkeys(self.callees))
+        self._finalize_dynamic_globals()
+        self._finalized = True
+
+    @classmethod
+    def from_bitcode(cls, name: str, bitcode: bytes, callees: list[Callee]) -> "CalleeCode":
+        """Return the code that was kept on disk."""
+        code = cls(callee_codegen(), name)
+        code._final_module, code.callees, code._finalized = binding.parse_bitcode(bitcode), callees, True
+        return code
+
+    def bitcode(self) -> bytes:
+        """Return the code as it is kept on disk, without its callees."""
+        return self._final_module.as_bitcode()
+
+    def link_into(self, module: binding.ModuleRef) -> None:
+        """Add this code and that of all it calls to a module that calls it."""
+        exported = _exported(module)
+        found = {self.callee}
+        codes: list[CalleeCode] = [self]
+        for code in codes:
+            # The linker leaves out what is not external and not called by what is there already.
+            module.link_in(code._final_module, preserve=True)
+            for callee in code.callees:
+                if callee not in found:
+                    found.add(callee)
+                    codes.append(callee.code())
+        for name in _exported(module) - exported:
+            module.get_function(name).linkage = "linkonce_odr"
+        module.link_in(rtsys.library._get_module_for_linking(), preserve=True)
+
+    def _get_module_for_linking(self) -> binding.ModuleRef:
+        whole = callee_codegen().create_library(self.name)._final_module
+        self.link_into(whole)
+        return whole
+
+    def _shareable(self) -> binding.ModuleRef:
+        """Return the code as one that several functions may bring along."""
+        module = self._final_module.clone()
+        for name in _exported(module):
+            module.get_function(name).linkage = "linkonce_odr"
+        return module
+
+
+def _exported(module: binding.ModuleRef) -> set[str]:
+    return {
+        function.name
+        for function in module.functions
+        if not function.is_declaration and function.linkage == binding.Linkage.external
+    }
+
+
+class CalleeCodegen(JITCPUCodegen):
+    """Makes code for callers, for the processor and by the settings of numba's own `JITCPUCodegen`."""
+
+    _library_class = CalleeCode
+
+    def __init__(self) -> None:
+        """Share all but the kind of code with numba's own."""
+        vars(self).update(vars(cpu_target.target_context.codegen()))
+        self.own_functions: dict[Any, Any] = {}
+        """numba's own functions as code for callers."""
+
+
+_made: list[CalleeCodegen] = []
+
+
+def callee_codegen() -> CalleeCodegen:
+    """Return the one there is; made at the first use, for it starts LLVM."""
+    if not _made:
+        _made.append(CalleeCodegen())
+    return _made[0]
+
+
+class CalleeCompiler(Compiler):
+    """numba's compiler, but that it makes code for callers."""
+
+    def __init__(self, *arguments: Any) -> None:
+        """Prepare to compile one function; the arguments are numba's."""
+        super().__init__(*arguments)
+        context = self.state.targetctx
+        context._internal_codegen = callee_codegen()
+        context.cached_internal_func = callee_codegen().own_functions

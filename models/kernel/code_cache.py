@@ -1,0 +1,161 @@
+"""Keep compiled code on disk, for exactly the sources that it was made of."""
+
+# numba describes few types.
+# pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
+# pyright: reportIncompatibleMethodOverride=false
+
+import hashlib
+import os
+import re
+import shutil
+import tempfile
+import time
+from functools import cache
+from pathlib import Path
+from typing import Any, ClassVar
+
+from numba.core import types
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
+
+PACKAGES = ("models", "analytic", "coin_mj")
+"""Packages with compiled functions; what others compile is not kept."""
+UNUSED = 3 * 24 * 3600.0
+"""Folders not used for so long are removed when another is made [s]."""
+_TOP = Path(__file__).parents[2]
+_FOLDER = re.compile(r"cointoss-[\w.]+-[0-9a-f]{16}")
+_IMPORT = re.compile(r"^[ \t]*(?:from[ \t]+([\w.]+)[ \t]+)?import[ \t]+(\([^)]*\)|[^\n]*)", re.MULTILINE)
+
+
+@cache
+def cache_folder(module: str) -> Path:
+    """Return the folder of the compiled code of one module, for exactly these sources.
+
+    numba checks only the file of the function it compiles, so an edit in a function that this one calls would
+    go unnoticed. The folder's name is a hash of the module's source and of all that it imports, directly or
+    not, from these packages: an edit in any of them starts a new folder, an edit elsewhere does not.
+
+    Args:
+        module: its full name, in one of `PACKAGES`.
+
+    Returns:
+        A folder below $NUMBA_CACHE_DIR, else below the user's cache, else below the temporary folder.
+    """
+    folder = _base() / f"cointoss-{module}-{source_hash(module)}"
+    try:
+        # What is used is kept: see `remove_unused`.
+        os.utime(folder)
+    except OSError:
+        remove_unused(folder.parent)
+        folder.mkdir(exist_ok=True)
+    return folder
+
+
+@cache
+def _base() -> Path:
+    chosen = os.environ.get("NUMBA_CACHE_DIR")
+    user = Path(os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser())
+    for base in (*([Path(chosen)] if chosen else []), user / "cointoss"):
+        try:
+            base.mkdir(parents=True, exist_ok=True)
+        except OSError:
+            continue
+        if os.access(base, os.W_OK):
+            return base
+    return Path(tempfile.mkdtemp(prefix="cointoss-"))
+
+
+def remove_unused(base: Path) -> None:
+    """Remove our folders below `base` that no process has begun to use for long.
+
+    A process that still uses one compiles anew what it has not read yet.
+    """
+    for folder in base.glob("cointoss-*"):
+        try:
+            unused = time.time() - folder.stat().st_mtime
+        except OSError:
+            continue
+        if unused > UNUSED and _FOLDER.fullmatch(folder.name):
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+@cache
+def source_hash(module: str) -> str:
+    """Return the hash of the sources of a module and of what it imports, directly or not, from `PACKAGES`."""
+    digest = hashlib.sha256()
+    found, todo = {module}, [module]
+    while todo:
+        new = imported(todo.pop()) - found
+        found |= new
+        todo += new
+    for name in sorted(found):
+        digest.update(f"{name}\n".encode())
+        digest.update(_source(name) or b"")
+    return digest.hexdigest()[:16]
+
+
+@cache
+def _source(module: str) -> bytes | None:
+    """Return the source of a module, None where there is none of this name."""
+    path = _TOP.joinpath(*module.split("."))
+    for file in (path.with_suffix(".py"), path / "__init__.py"):
+        if file.is_file():
+            return file.read_bytes()
+    return None
+
+
+@cache
+def imported(module: str) -> frozenset[str]:
+    """Return the modules of `PACKAGES` that a module imports: a name that it imports may be one."""
+    names = {module.rpartition(".")[0]}
+    for start, listed in _IMPORT.findall((_source(module) or b"").decode()):
+        imported = [words.split()[0] for words in re.sub(r"[()]|#.*", "", listed).split(",") if words.split()]
+        names |= {start, *(f"{start}.{name}" for name in imported)} if start else set(imported)
+    parents = {name.rpartition(".")[0] for name in names}
+    return frozenset(
+        name for name in names | parents if name.partition(".")[0] in PACKAGES and _source(name) is not None
+    )
+
+
+class _Locator(_CacheLocator):
+    """Where the code of a function is kept."""
+
+    def __init__(self, module: str) -> None:
+        self._module = module
+
+    @classmethod
+    def from_function(cls, py_func: Any, _file: str) -> "_Locator":
+        return cls(py_func.__module__)
+
+    def ensure_cache_path(self) -> None:
+        Path(self.get_cache_path()).mkdir(parents=True, exist_ok=True)
+
+    def get_cache_path(self) -> str:
+        return str(cache_folder(self._module))
+
+    def get_source_stamp(self) -> str:
+        return source_hash(self._module)
+
+    def get_disambiguator(self) -> str:
+        return self._module
+
+
+class LocatedImpl(CompileResultCacheImpl):
+    """How a function compiled for Python is kept: as numba does, in the folder of its module."""
+
+    _locator_classes: ClassVar = [_Locator]
+
+
+class CodeCache(FunctionCache):
+    """Keeps what is compiled of one function."""
+
+    _impl_class: type[CompileResultCacheImpl] = LocatedImpl
+
+    def _index_key(self, sig: Any, codegen: Any) -> tuple[Any, ...]:
+        # To numba two named tuples of one name and of the same types are one type.
+        return *super()._index_key(sig, codegen), tuple(map(_fields, sig))
+
+
+def _fields(kind: Any) -> Any:
+    """Return the names of the fields of a type, if it is a tuple with or of named ones."""
+    parts = tuple(map(_fields, kind.types)) if isinstance(kind, types.BaseTuple) else ()
+    return getattr(kind, "fields", ()) if isinstance(kind, types.BaseNamedTuple) else (), parts
