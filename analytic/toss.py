@@ -18,6 +18,7 @@ from models.attitude import rotation_matrix
 from models.barriers import barrier, energy
 from models.body import Body, in_vacuum, is_ideal
 from models.certificate import energies, measurements
+from models.interruptible import interruptible
 from models.records import Array, Impacts, Setting, States, Toss
 from models.scenario import Release, Scenario
 
@@ -96,6 +97,10 @@ def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
         scenario: what to toss.
         settings: of the engine.
     """
+    return interruptible(lambda: _toss(scenario, settings))
+
+
+def _toss(scenario: Scenario, settings: Settings) -> Toss:
     body, rules, start = scenario.body, scenario.rules, state_of(scenario.release)
     answer = run(body, rules, start, settings)
     impacts, end = Impacts.from_rows(answer.rows), answer.start_states[-1]

@@ -19,6 +19,7 @@ from coin_mj.path import Knots
 from models.body import Body, Rules
 from models.certificate import energies, measurements
 from models.impact_row import FIRST_ROOM
+from models.interruptible import interruptible
 from models.kernel.vectors import Vector, cross, subtract
 from models.laws import ContactLaw, RestitutionKind
 from models.records import (
@@ -115,6 +116,10 @@ def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
     """
     require_supported(scenario, settings=settings)
     warn_of_approximation(scenario)
+    return interruptible(lambda: _toss(scenario, settings))
+
+
+def _toss(scenario: Scenario, settings: Settings) -> Toss:
     machine = machine_of(scenario, settings, shape_thickness(scenario))
     answer = run(machine, scenario.rules)
     impacts = Impacts.from_rows(answer.rows)
@@ -172,7 +177,7 @@ def impacts_of(scenario: Scenario, *, settings: Settings = FINE, thickness: floa
         thickness: of the coin's shape, by default `shape_thickness` [m].
     """
     machine = machine_of(scenario, settings, thickness or shape_thickness(scenario))
-    return Impacts.from_rows(run(machine, scenario.rules).rows)
+    return Impacts.from_rows(interruptible(lambda: run(machine, scenario.rules)).rows)
 
 
 def _contact_certificate(machine: Machine) -> tuple[Setting, ...]:

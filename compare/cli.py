@@ -2,7 +2,6 @@
 
 import json
 import os
-import signal
 import sys
 import warnings
 from collections.abc import Callable, Iterator
@@ -13,7 +12,9 @@ from typing import Any, NoReturn
 
 import click
 
-# Only click is imported here: `cointoss --help` answers at once, each command brings what it needs.
+from compare.output.interruption import Interruption, run_to_exit
+
+# Little is imported here: `cointoss --help` answers at once, each command brings what it needs.
 
 _SCENARIO_HELP = (
     "SCENARIO is a TOML file, or the name of a scenario that comes with the package, such as fig24a. "
@@ -24,9 +25,10 @@ _SCENARIO_HELP = (
 class _Commands(click.Group):
     """The commands, each of whose failures is one line."""
 
+    def __call__(self, *args: Any, **extra: Any) -> NoReturn:
+        run_to_exit(lambda: self.main(*args, **extra))
+
     def main(self, *args: Any, **extra: Any) -> NoReturn:
-        # As an exception, the request to end removes what was written aside.
-        signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
         try:
             status = super().main(*args, **{"prog_name": "cointoss", **extra, "standalone_mode": False})
             if sys.stdout is not None:  # None where the shell has closed it
@@ -34,9 +36,8 @@ class _Commands(click.Group):
         except click.UsageError as error:
             command = error.ctx.command_path if error.ctx else "cointoss"
             _refuse(f"{error.format_message().rstrip('.')} (see {command} --help)")
-        except click.Abort:
-            click.echo("Aborted!", err=True)
-            sys.exit(1)
+        except click.Abort:  # KeyboardInterrupt
+            _refuse("interrupted", status=130)
         except OSError as error:
             _lose_stdout()
             _refuse(f"{error.filename or 'standard output'}: can't be written ({error.strerror})", status=1)
@@ -374,7 +375,7 @@ def basin(
             report=report,
         )
         with bar("video", "frames") as progress:
-            for result in make(job, _watched, progress):
+            for result in make(job, _watched, progress, _say):
                 click.echo(result)
 
 
@@ -456,6 +457,6 @@ def _watched(name: str, done: int, count: int) -> Iterator[Callable[[int], None]
         with bar(name, "tosses", done=done) as progress:
             progress(kept, count)
             yield more
-    except KeyboardInterrupt:
-        _say(f"{name}: {kept} of {count} tosses are saved; --resume continues")
+    except Interruption as interruption:
+        interruption.message = f"{name}: {kept} of {count} tosses are saved; --resume continues"
         raise

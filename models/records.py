@@ -8,6 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from models.interruptible import interruptible
 from models.scenario import Scenario
 
 Array = NDArray[np.float64]
@@ -286,7 +287,8 @@ class Toss:
         Raises:
             ValueError: for a time outside the toss, or times in more than one dimension.
         """
-        return self.path.sample(self._required(times))
+        t = self._required(times)
+        return interruptible(lambda: self.path.sample(t))
 
     def floor_force(self, times: ArrayLike) -> Array:
         """Return the floor's force on the coin in its sustained contacts, space frame, (n, 3) [N].
@@ -305,7 +307,7 @@ class Toss:
         ends = np.append(self.contacts[:, 1], -np.inf)  # the last is that of contact -1, before the first
         held = t <= ends[contact]
         if held.any():
-            force[held] = self.path.floor_force(t[held])
+            force[held] = interruptible(lambda: self.path.floor_force(t[held]))
         return force
 
     def _required(self, times: ArrayLike) -> Array:

@@ -1,12 +1,14 @@
 """Many tosses cut into tiles, made on all cores."""
 
+from collections import deque
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import wait
 from typing import Any
 
 import numpy as np
 from numba import config
 
+from models.interruptible import begun
 from models.outcomes import Outcomes
 from models.releases import Releases
 
@@ -16,7 +18,7 @@ def toss_in_tiles(releases: Releases, tile: int, toss_tile: Callable[..., Any]) 
 
     Args:
         releases: the states at time 0.
-        tile: tosses that a thread makes at a time; Ctrl-C waits for them.
+        tile: tosses that a thread makes at a time; Ctrl-C leaves them to their thread.
         toss_tile: makes some tosses. It is given their states (k, 13), and outcomes, endings, last faces,
             numbers of impacts and end times, (k,) each, to be written. It should not hold Python's lock.
 
@@ -29,14 +31,26 @@ def toss_in_tiles(releases: Releases, tile: int, toss_tile: Callable[..., Any]) 
     impacts, end_time = np.empty(n, dtype=np.int32), np.empty(n)
     columns = (states, outcome, ending, face, impacts, end_time)
 
-    def toss_some(first: int) -> None:
-        toss_tile(*(column[first : first + tile] for column in columns))
+    left = deque(range(0, n, tile))
 
-    if n <= tile:
-        toss_some(0)
-    else:
-        with ThreadPoolExecutor(config.__dict__["NUMBA_NUM_THREADS"]) as pool:
-            # An exception, so also Ctrl-C, cancels the tiles not yet begun.
-            for _ in pool.map(toss_some, range(0, n, tile)):
-                pass
+    def toss_what_is_left() -> None:
+        while True:
+            try:
+                first = left.popleft()
+            except IndexError:
+                return
+            try:
+                toss_tile(*(column[first : first + tile] for column in columns))
+            except BaseException:
+                left.clear()
+                raise
+
+    threads = min(len(left), config.__dict__["NUMBA_NUM_THREADS"])
+    tossing = [begun(toss_what_is_left) for _ in range(threads)]
+    try:
+        wait(tossing)
+    finally:
+        left.clear()  # a signal's handler may have raised
+    for done in tossing:
+        done.result()
     return Outcomes(outcome=outcome, ending=ending, impacts=impacts, last_face=face, end_time=end_time)

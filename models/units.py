@@ -9,6 +9,17 @@ if TYPE_CHECKING:
 
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*")
 
+_COMMON = {
+    "": {"%": 0.01},
+    "kg": {"kg": 1.0, "g": 0.001},
+    "m": {"m": 1.0, "cm": 0.01, "mm": 0.001},
+    "s": {"s": 1.0, "ms": 0.001},
+    "m/s": {"m/s": 1.0, "cm/s": 0.01, "mm/s": 0.001},
+    "rad": {"rad": 1.0, "deg": 0.017453292519943295},
+    "rad/s": {"rad/s": 1.0, "deg/s": 0.017453292519943295, "rpm": 0.10471975511965977},
+}
+"""Pint's factors from units that are written often, lest half a second goes by until pint is there."""
+
 
 def in_si(text: str, unit: str) -> float:
     """Read a quantity such as "1.25 cm" or "7 deg" as a number of `unit`.
@@ -23,6 +34,9 @@ def in_si(text: str, unit: str) -> float:
     parts = _NUMBER_AND_UNIT.fullmatch(text)
     if parts is None or (unit and not parts[2]):
         raise ValueError(_accepted(unit))
+    factor = _COMMON.get(unit, {}).get(parts[2])
+    if factor is not None:
+        return float(parts[1]) * factor
     try:
         registry = _registry()
         given = registry.parse_units(parts[2])

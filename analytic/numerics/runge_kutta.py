@@ -5,12 +5,10 @@ slope at each stage; `stages` holds them, (STAGES, size).
 """
 
 import numpy as np
-from scipy.integrate import DOP853
 
+from analytic.numerics.tableau import E3, E5, STAGES, A, B
 from models.kernel.compiled import compiled
 
-STAGES = 12
-_A, _B, _E3, _E5 = (np.array(table) for table in (DOP853.A, DOP853.B, DOP853.E3, DOP853.E5))
 _SAFETY, _SHRINK_MOST, _GROW_MOST = 0.9, 0.2, 6.0
 
 
@@ -20,7 +18,7 @@ def stage_point(y, dt, stages, stage, point):
     for i in range(len(y)):
         slope = 0.0
         for j in range(stage):
-            slope += _A[stage, j] * stages[j, i]
+            slope += A[stage, j] * stages[j, i]
         point[i] = y[i] + dt * slope
 
 
@@ -30,7 +28,7 @@ def end_point(y, dt, stages, point):
     for i in range(len(y)):
         slope = 0.0
         for j in range(STAGES):
-            slope += _B[j] * stages[j, i]
+            slope += B[j] * stages[j, i]
         point[i] = y[i] + dt * slope
 
 
@@ -39,8 +37,8 @@ def error_parts(stages, i):
     """Return the estimates of orders 5 and 3 of the error in component i, per unit of step."""
     e5, e3 = 0.0, 0.0
     for j in range(STAGES):
-        e5 += _E5[j] * stages[j, i]
-        e3 += _E3[j] * stages[j, i]
+        e5 += E5[j] * stages[j, i]
+        e3 += E3[j] * stages[j, i]
     return e5, e3
 
 

@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from compare.output.interruption import undoing
+
 
 class UnwritableError(OSError):
     """A place that can't be written; the message names it and says why."""
@@ -119,11 +121,9 @@ def written_whole(path: Path) -> Iterator[Path]:
     with naming(path):
         target = _target(path)
         aside = beside(target)
-        try:
+        with undoing(lambda: remove(aside)):
             yield aside
             _move(aside, target)
-        finally:
-            remove(aside)
 
 
 @contextmanager
@@ -137,25 +137,18 @@ def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
         UnwritableError: naming the folder and why, for every error of the system on the way.
     """
     made = [part for part in (folder, *folder.parents) if not os.path.lexists(part)]
-    with naming(folder):
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            # Inside, because the rename must stay on one disk.
-            aside = Path(tempfile.mkdtemp(dir=folder, prefix=".cointoss-"))
-            try:
-                yield aside
-                for name in names:
-                    if (aside / name).exists():
-                        _move(aside / name, folder / name)
-                    else:
-                        (folder / name).unlink(missing_ok=True)
-            finally:
-                shutil.rmtree(aside, ignore_errors=True)
-        except BaseException:
-            with suppress(OSError):
-                for part in made:
-                    part.rmdir()
-            raise
+    with naming(folder), undoing(lambda: _remove_empty(made)):
+        folder.mkdir(parents=True, exist_ok=True)
+        # Inside, because the rename must stay on one disk.
+        aside = beside(folder / "aside")
+        with undoing(lambda: remove(aside)):
+            aside.mkdir(mode=0o700)
+            yield aside
+            for name in names:
+                if (aside / name).exists():
+                    _move(aside / name, folder / name)
+                else:
+                    (folder / name).unlink(missing_ok=True)
 
 
 def beside(path: Path) -> Path:
@@ -169,6 +162,13 @@ def remove(path: Path) -> None:
         shutil.rmtree(path, ignore_errors=True)
     else:
         path.unlink(missing_ok=True)
+
+
+def _remove_empty(folders: list[Path]) -> None:
+    """Remove folders, the inner ones first, up to the first that holds something."""
+    with suppress(OSError):
+        for folder in folders:
+            folder.rmdir()
 
 
 @contextmanager

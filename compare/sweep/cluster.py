@@ -1,7 +1,7 @@
 """Toss tiles on the workers of a Dask cluster."""
 
 import asyncio
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from itertools import islice
 from typing import Any
@@ -13,12 +13,12 @@ from compare.sweep.run import Tosser
 
 AHEAD = 2
 """Tiles given out for each thread of a worker: one that it tosses, and one that waits."""
-PATIENCE = 60
+PATIENCE, PATIENCE_FOR_WORKERS = 10, 60
 """How long to wait for the scheduler, and for a first worker [s]."""
 
 
 @contextmanager
-def cluster(address: str) -> Iterator[Tosser]:
+def cluster(address: str, say: Callable[[str], None]) -> Iterator[Tosser]:
     """Give a tosser that has the workers of a cluster toss the tiles.
 
     The workers keep nothing: a tile lost with its worker is tossed again by another. A worker tosses on all
@@ -26,6 +26,7 @@ def cluster(address: str) -> Iterator[Tosser]:
 
     Args:
         address: of the Dask scheduler, such as tcp://10.0.0.1:8786.
+        say: called with what is waited for.
 
     Raises:
         SweepError: if dask.distributed is not installed, or the cluster can't be reached or has no worker;
@@ -37,6 +38,7 @@ def cluster(address: str) -> Iterator[Tosser]:
         raise SweepError(
             f'--scheduler {address}: needs dask.distributed; accepted: pip install "cointoss[cluster]"'
         ) from None
+    say(f"--scheduler {address}: connecting, for up to {PATIENCE} s")
     try:
         asyncio.run(_reach(address))
         client: Any = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
@@ -46,8 +48,10 @@ def cluster(address: str) -> Iterator[Tosser]:
             f"--scheduler {address}: accepted: the address of a running Dask scheduler ({why})"
         ) from None
     with client:
+        if not client.nthreads():
+            say(f"--scheduler {address}: waiting for a first worker, for up to {PATIENCE_FOR_WORKERS} s")
         try:
-            client.wait_for_workers(1, timeout=PATIENCE)
+            client.wait_for_workers(1, timeout=PATIENCE_FOR_WORKERS)
         except TimeoutError:
             raise SweepError(f"--scheduler {address}: accepted: a cluster with a worker") from None
 

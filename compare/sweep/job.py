@@ -22,6 +22,8 @@ Watch = Callable[[str, int, int], AbstractContextManager[run.Tossed]]
 """Called with a map's name, the pixels that it has, and how many it will have; gives what to tell of more."""
 Frames = Callable[[int, int], None]
 """Called with the number of the video's frames that are drawn, and of all."""
+Say = Callable[[str], None]
+"""Called with what is waited for."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,7 +85,7 @@ def _engines_of(job: Job) -> dict[Path, Engine]:
     return {job.out: job.engine or Engine.ANALYTIC} | ({} if job.engine else {second: Engine.MUJOCO})
 
 
-def make(job: Job, watch: Watch, frames: Frames) -> Iterator[str]:
+def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
     """Make what is asked for, and give the results as text, each as soon as it is there.
 
     Nothing is begun before all is checked that can be.
@@ -114,7 +116,7 @@ def make(job: Job, watch: Watch, frames: Frames) -> Iterator[str]:
         check(sweep)
         drawn = len(sweeps) > 1 or job.png is not None
         run.require_room(sweep, job.out.parent, maps=len(sweeps), drawn=drawn)
-    with _tosser(job.scheduler) as tosser:
+    with _tosser(job.scheduler, say) as tosser:
         for path, sweep in sweeps.items():
             with store.opened(path, sweep, job.text, overwrite=job.overwrite) as map_:
                 left, whole = run.missing(map_), run.size(map_.tiles)
@@ -152,17 +154,21 @@ def _require_report(folder: Path, maps: Iterable[Path], source: str) -> None:
 
 
 def _command(job: Job) -> str:
-    """Give the command line that makes the maps of both engines and their report."""
-    after = [] if job.after is None else ["--after", str(job.after)]
-    made = ["--contact", job.contact, "--out", str(job.out), "--report", str(job.report)]
-    return shlex.join(
-        ["cointoss", "basin", job.source, "--x", job.x, "--y", job.y, *after, "--compare", *made]
-    )
+    """Give the command line that makes the report, and the maps of both engines where they do not exist."""
+    words: list[object] = ["cointoss", "basin", job.source, "--x", job.x, "--y", job.y]
+    if job.after is not None:
+        words += ["--after", job.after]
+    words += ["--compare", "--contact", job.contact, "--out", job.out, "--report", job.report, "--resume"]
+    style = job.style
+    words += ["--palette", style.palette, "--dpi", style.dpi] + ["--boundaries"] * style.boundaries
+    if style.size is not None:
+        words += ["--size", "x".join(f"{length:.17g}" for length in style.size)]
+    return shlex.join(map(str, words))
 
 
-def _tosser(scheduler: str | None) -> AbstractContextManager[run.Tosser]:
+def _tosser(scheduler: str | None, say: Say) -> AbstractContextManager[run.Tosser]:
     if scheduler is None:
         return nullcontext(run.toss_here)
     from compare.sweep.cluster import cluster
 
-    return cluster(scheduler)
+    return cluster(scheduler, say)

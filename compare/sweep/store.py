@@ -3,7 +3,6 @@
 import fcntl
 import json
 import os
-import shutil
 import warnings
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -18,11 +17,12 @@ from numpy.typing import NDArray
 from zarr.codecs import ZstdCodec
 from zarr.errors import ZarrUserWarning
 
-from compare.output.files import UnwritableError, beside, naming, written_whole
+from compare.output.files import UnwritableError, beside, naming, remove, written_whole
+from compare.output.interruption import undoing
 from compare.sweep.axes import Axis
 from compare.sweep.grid import Sweep, Tile, tile_shape, tiles
 from compare.sweep.pixels import Pixels
-from models.errors import ScenarioError
+from models.errors import ScenarioError, shown
 from models.reading import parse
 from models.records import Outcome
 
@@ -30,7 +30,16 @@ FORMAT = 1
 """Of a map, under the attribute `cointoss_map`."""
 NOT_TOSSED = -1
 """What `outcome` and `impacts` hold where no toss was made yet."""
-BYTES_PER_PIXEL = np.dtype(np.int8).itemsize + np.dtype(np.int32).itemsize
+_ARRAYS = {"outcome": np.int8, "impacts": np.int32}
+_ATTRIBUTES = {
+    "scenario": str,
+    "engine": str,
+    "engine_settings": dict,
+    "after": int | None,
+    "versions": dict,
+}
+_WAYS_OUT = "accepted: a new name, or --overwrite"
+BYTES_PER_PIXEL = sum(np.dtype(kind).itemsize for kind in _ARRAYS.values())
 """On disk, before compression."""
 
 
@@ -50,12 +59,12 @@ class Map:
     def is_tossed(self, tile: Tile) -> bool:
         """Tell whether a tile is on disk, whole."""
         try:
-            return all(
-                not (self._array(name)[tile.rows, tile.columns] == NOT_TOSSED).any()
-                for name in ("outcome", "impacts")
-            )
-        except (RuntimeError, ValueError):  # its checksum is wrong, or it breaks off
+            outcome, impacts = (self._array(name)[tile.rows, tile.columns] for name in ("outcome", "impacts"))
+        except OSError:
+            raise
+        except Exception:  # its checksum is wrong, or it breaks off; each codec fails in its own way
             return False
+        return bool(np.isin(outcome, list(Outcome)).all() and (impacts >= 0).all())
 
     def read(self, tile: Tile) -> NDArray[np.int8]:
         """Give the outcomes of a tile, (y, x)."""
@@ -94,8 +103,8 @@ def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
             raise UnwritableError(f"{path}: accepted: a name in a folder that exists")
         if not target.exists() or (target.is_dir() and not any(target.iterdir())):
             probe = beside(target)
-            probe.mkdir()
-            probe.rmdir()
+            with undoing(lambda: remove(probe)):
+                probe.mkdir()
         elif not _is_map(target):
             raise UnwritableError(f"{path}: accepted: a new name, or a map of cointoss (this is none)")
         elif not (resume or overwrite):
@@ -114,7 +123,8 @@ def require_same(path: Path, sweep: Sweep) -> None:
     with naming(path):
         target = Path(os.path.realpath(path))
         if _is_map(target):
-            _require_same(path, zarr.open_group(target, mode="r", use_consolidated=False), sweep)
+            with _readable(path):
+                _require_same(path, zarr.open_group(target, mode="r", use_consolidated=False), sweep)
 
 
 @contextmanager
@@ -139,8 +149,9 @@ def opened(path: Path, sweep: Sweep, scenario_text: str, *, overwrite: bool) -> 
             if not _is_map(target):
                 _create(target, sweep, scenario_text)
             kept.enter_context(_locked(path, target))
-            group = zarr.open_group(target, mode="r+", use_consolidated=False)
-            _require_same(path, group, sweep)
+            with _readable(path):
+                group = zarr.open_group(target, mode="r+", use_consolidated=False)
+                _require_same(path, group, sweep)
             for left in target.rglob("*.partial"):  # by a process that was killed
                 left.unlink()
         yield Map(path=path, group=group)
@@ -159,15 +170,15 @@ def _create(target: Path, sweep: Sweep, scenario_text: str) -> None:
 def _write_empty(folder: Path, sweep: Sweep, scenario_text: str) -> None:
     group = zarr.create_group(folder, zarr_format=3, attributes=_attributes(sweep, scenario_text))
     meanings = {int(outcome): outcome.label for outcome in Outcome}
-    for name, kind, long_name in (
-        ("outcome", np.int8, ", ".join(f"{code} {label}" for code, label in meanings.items())),
-        ("impacts", np.int32, "number of impacts"),
+    for name, long_name in (
+        ("outcome", ", ".join(f"{code} {label}" for code, label in meanings.items())),
+        ("impacts", "number of impacts"),
     ):
         group.create_array(
             name,
             shape=sweep.shape,
             chunks=tile_shape(sweep),
-            dtype=kind,
+            dtype=_ARRAYS[name],
             fill_value=NOT_TOSSED,
             dimension_names=("y", "x"),
             # A tile that breaks off must not pass for one.
@@ -198,6 +209,10 @@ def _attributes(sweep: Sweep, scenario_text: str) -> dict[str, Any]:
 def _require_same(path: Path, group: zarr.Group, sweep: Sweep) -> None:
     """Refuse to go on with a map of another sweep, or of other versions: its pixels would be of two kinds."""
     found: dict[str, Any] = dict(group.attrs)
+    for name, kind in _ATTRIBUTES.items():
+        if name not in found or not isinstance(found[name], kind):
+            given = f"= {shown(found[name])}" if name in found else "missing"
+            raise _damaged(path, f"attribute {name} {given}")
     made_by = {name: found["versions"].get(name) for name in sweep.engine.versions}
     try:
         same_scenario = parse(found["scenario"], str(path)) == sweep.scenario
@@ -216,9 +231,44 @@ def _require_same(path: Path, group: zarr.Group, sweep: Sweep) -> None:
         (f"versions, {json.dumps(made_by)}", made_by == sweep.engine.versions),
     ):
         if not same:
-            raise UnwritableError(
-                f"{path}: is a map with another {what}; accepted: a new name, or --overwrite"
-            )
+            raise UnwritableError(f"{path}: is a map with another {what}; {_WAYS_OUT}")
+    consolidated = zarr.open_group(group.store, mode="r", use_consolidated=True)
+    for read in (group, consolidated):
+        for name, kind in _ARRAYS.items():
+            _require_array(path, read, name, kind, sweep)
+    for name, axis in (("x", sweep.x), ("y", sweep.y)):
+        if not _is_axis(consolidated, name, axis):
+            raise _damaged(path, f"array {axis.field}: not in the consolidated metadata")
+
+
+def _require_array(path: Path, group: zarr.Group, name: str, kind: type[np.integer], sweep: Sweep) -> None:
+    """Refuse an array that is none of a map of a sweep."""
+    array: Any = group.get(name)
+    if not isinstance(array, zarr.Array):
+        raise _damaged(path, f"array {name} missing")
+    for what, there, due in (
+        ("type", array.dtype.name, np.dtype(kind).name),
+        ("shape", array.shape, sweep.shape),
+        ("tile", array.chunks, tile_shape(sweep)),
+        ("fill value", array.fill_value, NOT_TOSSED),
+    ):
+        if there != due:
+            raise _damaged(path, f"array {name}: {what} {there}, not {due}")
+
+
+@contextmanager
+def _readable(path: Path) -> Iterator[None]:
+    """Name a map in what goes wrong in reading it; zarr raises errors of any kind."""
+    try:
+        yield
+    except OSError:
+        raise
+    except Exception as error:
+        raise _damaged(path, f"{type(error).__name__}: {error}") from None
+
+
+def _damaged(path: Path, what: str) -> UnwritableError:
+    return UnwritableError(f"{path}: is a damaged map ({what}); {_WAYS_OUT}")
 
 
 def _is_axis(group: zarr.Group, dimension: str, axis: Axis) -> bool:
@@ -253,8 +303,8 @@ def _locked(path: Path, target: Path) -> Iterator[None]:
 def _remove(target: Path) -> None:
     """Remove a map; renamed first, so that no half of it is left under its name."""
     aside = beside(target)
-    target.rename(aside)
-    shutil.rmtree(aside)
+    with undoing(lambda: remove(aside)):
+        target.rename(aside)
 
 
 def _pair(numbers: tuple[int, ...]) -> tuple[int, int]:

@@ -12,10 +12,12 @@ import signal
 import struct
 import termios
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
+import zarr
 from zarr.storage import LocalStore
 
 import coin_mj
@@ -135,7 +137,7 @@ def test_a_killed_map_is_resumed_to_the_same_pixels(undisturbed, coin, tmp_path,
     assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 0
 
 
-@pytest.mark.parametrize(("sign", "status"), [(signal.SIGINT, 1), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(("sign", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupted_map_is_resumed_to_the_same_pixels(
     undisturbed, coin, tmp_path, monkeypatch, sign, status
 ):
@@ -145,9 +147,8 @@ def test_an_interrupted_map_is_resumed_to_the_same_pixels(
     process.send_signal(sign)
     said = process.communicate(timeout=60)[1]
     assert process.returncode == status
-    if sign == signal.SIGINT:
-        kept = int(said.split("map.zarr: ")[1].split(" of 1920 tosses are saved; --resume continues")[0])
-        assert SMALL * whole_tiles(out) - SMALL <= kept <= SMALL * whole_tiles(out)
+    kept = int(said.split("map.zarr: ")[1].split(" of 1920 tosses are saved; --resume continues")[0])
+    assert SMALL * whole_tiles(out) - SMALL <= kept <= SMALL * whole_tiles(out)
     assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) <= TILES - 4
     assert_same(out, undisturbed)
 
@@ -217,6 +218,110 @@ def test_a_damaged_tile_is_tossed_again(undisturbed, coin, tmp_path, monkeypatch
                 "flipped": whole[:middle] + flipped + whole[middle + 1 :],
             }[damage]
         )
+    assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 1
+    assert_same(out, undisturbed)
+
+
+def edited(change):
+    """Return a damage: a change of what a map's zarr.json holds."""
+
+    def damage(out):
+        described = json.loads((out / "zarr.json").read_text())
+        change(described)
+        (out / "zarr.json").write_text(json.dumps(described))
+
+    return damage
+
+
+def array_edited(name, **changed):
+    """Return a damage: entries of the description of a map's array, there and in the map's."""
+
+    def damage(out):
+        for path, part in ((out / name / "zarr.json", []), (out / "zarr.json", [name])):
+            described = json.loads(path.read_text())
+            (described["consolidated_metadata"]["metadata"][name] if part else described).update(changed)
+            path.write_text(json.dumps(described))
+
+    return damage
+
+
+def retyped(out):
+    """Make the outcomes int16, whole in themselves."""
+    there = pixels(out)["outcome"].astype(np.int16)
+    group: Any = zarr.open_group(out, mode="r+", use_consolidated=False)
+    chunks = group["outcome"].chunks
+    del group["outcome"]
+    group.create_array("outcome", data=there, chunks=chunks, fill_value=-1, dimension_names=("y", "x"))
+
+
+X = AXES[1].partition("=")[0]
+
+
+@pytest.mark.parametrize(
+    ("damage", "said"),
+    [
+        (lambda out: shutil.rmtree(out / "outcome"), "array outcome missing"),
+        (lambda out: shutil.rmtree(out / "impacts"), "array impacts missing"),
+        (lambda out: shutil.rmtree(out / X), "grid in x"),
+        (lambda out: (out / "outcome" / "zarr.json").unlink(), "array outcome missing"),
+        (lambda out: (out / "outcome" / "zarr.json").write_text("{"), "damaged map"),
+        (lambda out: (out / "outcome" / "zarr.json").write_text("{}"), "damaged map"),
+        (lambda out: (out / "outcome" / "zarr.json").write_bytes(b"\xff\xfe"), "damaged map"),
+        (lambda out: (out / X / "c" / "0").write_bytes(b"garbage"), "damaged map"),
+        (lambda out: (out / X / "c" / "0").write_bytes(b""), "damaged map"),
+        (lambda out: (out / X / "c" / "0").unlink(), "grid in x"),
+        (retyped, "array outcome: type int16, not int8"),
+        (array_edited("outcome", data_type="int16"), "array outcome: type int16, not int8"),
+        (array_edited("outcome", data_type="nonsense"), "damaged map"),
+        (array_edited("outcome", shape=[40, 47]), "array outcome: shape (40, 47), not (40, 48)"),
+        (array_edited("impacts", fill_value=0), "array impacts: fill value 0, not -1"),
+        (array_edited("impacts", codecs=[{"name": "nonsense"}]), "damaged map"),
+        (
+            array_edited(
+                "impacts",
+                chunk_grid={"name": "regular", "configuration": {"chunk_shape": [5, 5]}},
+            ),
+            "array impacts: tile (5, 5), not",
+        ),
+        (edited(lambda all_: all_["attributes"].pop("versions")), "attribute versions missing"),
+        (edited(lambda all_: all_["attributes"].pop("after")), "attribute after missing"),
+        (edited(lambda all_: all_["attributes"].update(versions="1")), 'attribute versions = "1"'),
+        (edited(lambda all_: all_["attributes"].update(scenario=7)), "attribute scenario = 7"),
+        (edited(lambda all_: all_["attributes"].update(engine=None)), "attribute engine = None"),
+        (edited(lambda all_: all_.pop("consolidated_metadata")), "damaged map"),
+        (
+            edited(lambda all_: all_["consolidated_metadata"]["metadata"].pop("outcome")),
+            "array outcome missing",
+        ),
+        (edited(lambda all_: all_["consolidated_metadata"]["metadata"].pop(X)), "not in the consolidated"),
+        (edited(lambda all_: all_.update(zarr_format=9)), "damaged map"),
+        (lambda out: (out / "zarr.json").write_text("{"), "this is none"),
+    ],
+)
+def test_a_damaged_map_is_one_line(coin, tmp_path, damage, said):
+    out = tmp_path / "map.zarr"
+    with opened(out, sweep_of(), SCENARIO, overwrite=False):
+        pass
+    damage(out)
+    answered = basin(coin, *AXES, "--out", out, "--resume")
+    assert (answered.exit_code, answered.stdout) == (2, "")
+    assert len(answered.stderr.splitlines()) == 1
+    assert answered.stderr.startswith(f"cointoss: {out}: ")
+    assert said in answered.stderr
+    assert "accepted: a new name, or " in answered.stderr
+
+
+@pytest.mark.parametrize("value", [-7, 5, 100])
+@pytest.mark.parametrize("name", ["outcome", "impacts"])
+def test_a_tile_with_numbers_that_mean_nothing_is_tossed_again(
+    undisturbed, coin, tmp_path, monkeypatch, name, value
+):
+    out = tmp_path / "map.zarr"
+    assert basin(coin, *AXES, "--out", out).exit_code == 0
+    if name == "impacts":
+        value = -abs(value)
+    array: Any = zarr.open_group(out, mode="r+", use_consolidated=False)[name]
+    array[7, 7] = value
     assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 1
     assert_same(out, undisturbed)
 

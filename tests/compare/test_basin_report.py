@@ -27,7 +27,7 @@ from compare.sweep.store import opened
 from models.reading import parse
 from models.records import Outcome
 from tests.helpers.basin_runs import SCENARIO, basin
-from tests.helpers.command_line import HERE
+from tests.helpers.command_line import HERE, cointoss
 from tests.helpers.made_maps import halves
 
 COIN = f"{SCENARIO}[ending]\nmax_impacts = 2\n"
@@ -97,8 +97,9 @@ def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path,
     assert shlex.split(numbers["command"]) == [
         *("cointoss", "basin", str(coin)),
         *map(str, asked),
-        *("--report", str(report)),
+        *("--report", str(report), "--resume", "--palette", "safe", "--dpi", "60"),
     ]
+    assert cointoss(*shlex.split(numbers["command"])[1:]).exit_code == 0
 
     html = (report / "report.html").read_text(encoding="utf-8")
     assert html.index(">Impacts<") < html.index(">Basin map<") < html.index(">Scenario<")

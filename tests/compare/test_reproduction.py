@@ -130,7 +130,7 @@ def test_a_claim_that_fails_is_exit_status_1_and_keeps_the_evidence(tmp_path):
 @pytest.mark.usefixtures("fakes")
 def test_an_interrupted_run_leaves_everything_as_it_was(tmp_path):
     answered = cointoss("reproduce", "fake-broken", "--out", tmp_path / "out")
-    assert answered.exit_code == 1
+    assert answered.exit_code == 130
     assert not (tmp_path / "out").exists()
 
 

@@ -1,0 +1,13 @@
+"""The coefficients of the Runge-Kutta pair are SciPy's."""
+
+import numpy as np
+from scipy.integrate import DOP853
+
+from analytic.numerics import tableau
+
+
+def test_the_coefficients_are_those_of_scipy_to_the_bit():
+    for name in ("A", "B", "E3", "E5"):
+        ours, theirs = getattr(tableau, name), getattr(DOP853, name)
+        assert np.array_equal(ours, theirs[..., : tableau.STAGES])
+        assert not theirs[..., tableau.STAGES :].any()

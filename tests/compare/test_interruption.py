@@ -1,0 +1,217 @@
+"""Ctrl-C, SIGTERM and SIGHUP end every command soon, with one line, and leave nothing half-made."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from compare.engines import Engine
+from compare.sweep import grid
+from tests.helpers.basin_runs import AXES, SCENARIO, SMALL, assert_same, basin, pixels
+from tests.helpers.command_line import HERE
+
+STATUSES = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
+SOON = 10.0
+"""A second on a machine of one's own; this much on one that tests of other work keep busy [s]."""
+
+ENDLESS = """
+import sys, numba, analytic, coin_mj
+from pathlib import Path
+from compare.cli import main
+
+@numba.njit(nogil=True)
+def endless(x):
+    while x > 0:
+        x = x * 1.1 % 7 + 1
+    return x
+
+def toss(*_):
+    Path("begun").touch()
+    return endless(1.0)
+"""
+"""For a child process: a compiled call that never ends, as a toss, from when there is a file `begun`."""
+OF_TOSS = ENDLESS + 'sys.modules["analytic.toss"].run = sys.modules["coin_mj.toss"].run = toss\n'
+
+
+def child(folder, script, *arguments, **extra):
+    return subprocess.Popen(
+        [sys.executable, "-c", script, *map(str, arguments)],
+        cwd=folder,
+        env=HERE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        **extra,
+    )
+
+
+def ended(process, folder, number):
+    """Send a signal once the child has begun; return its exit status and what it said."""
+    deadline = time.monotonic() + 200
+    while not (folder / "begun").exists() and process.poll() is None and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert process.poll() is None, process.communicate()
+    time.sleep(0.1)
+    sent = time.monotonic()
+    process.send_signal(number)
+    try:
+        _, said = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    assert time.monotonic() - sent < SOON
+    return process.returncode, said
+
+
+@pytest.mark.parametrize("number", STATUSES)
+@pytest.mark.parametrize("engine", Engine)
+def test_a_toss_is_interrupted(tmp_path, engine, number):
+    process = child(tmp_path, OF_TOSS + "main()", "toss", "fig24a", "--engine", engine)
+    said = f"cointoss: interrupted by {number.name}\n"
+    assert ended(process, tmp_path, number) == (STATUSES[number], said)
+
+
+@pytest.mark.parametrize("command", ["compare fig24a --out new/report", "video fig24a --out film.mp4"])
+def test_the_toss_of_a_report_or_a_film_is_interrupted(tmp_path, command):
+    process = child(tmp_path, OF_TOSS + "main()", *command.split())
+    assert ended(process, tmp_path, signal.SIGHUP) == (129, "cointoss: interrupted by SIGHUP\n")
+    assert [path.name for path in tmp_path.iterdir()] == ["begun"]
+
+
+@pytest.mark.parametrize("engine", Engine)
+def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(tmp_path, monkeypatch, engine):
+    monkeypatch.setitem(grid.TILE_TOSSES, engine, SMALL)
+    (tmp_path / "coin.toml").write_text(SCENARIO + "[ending]\nmax_impacts = 1\n")
+    asked = ("coin.toml", "--x", f"{AXES[1][:-2]}20", "--y", f"{AXES[3][:-2]}20", "--engine", engine)
+    script = (
+        f"{ENDLESS}\nfrom compare.engines import Engine; from compare.sweep import grid\n"
+        f"grid.TILE_TOSSES[Engine('{engine}')] = {SMALL}\n"
+        f"of_many, left = sys.modules[Engine('{engine}').package.__name__ + '.ensemble'], [5]\n"
+        "in_tiles = of_many.toss_in_tiles\n"
+        "def some(releases, tile, make):\n"
+        "    left[0] -= 1\n"
+        "    return in_tiles(releases, tile, make if left[0] > 0 else toss)\n"
+        "of_many.toss_in_tiles = some\n"
+        "main()"
+    )
+    process = child(tmp_path, script, "basin", *asked, "--out", "map.zarr")
+    status, said = ended(process, tmp_path, signal.SIGTERM)
+    kept = np.sum(pixels(tmp_path / "map.zarr")["impacts"] >= 0)
+    assert 0 < kept < 400
+    assert (status, said) == (
+        143,
+        f"cointoss: map.zarr: {kept} of 400 tosses are saved; --resume continues\n",
+    )
+    assert {path.name for path in tmp_path.iterdir()} == {"begun", "coin.toml", "map.zarr"}
+    monkeypatch.chdir(tmp_path)
+    assert basin(*asked, "--out", "map.zarr", "--resume").exit_code == 0
+    assert basin(*asked, "--out", "undisturbed.zarr").exit_code == 0
+    assert_same(tmp_path / "map.zarr", pixels(tmp_path / "undisturbed.zarr"))
+
+
+def test_in_python_ctrl_c_raises_out_of_a_toss_and_of_many(tmp_path):
+    script = OF_TOSS + (
+        'of_many = sys.modules["analytic.ensemble"]\n'
+        "in_tiles = of_many.toss_in_tiles\n"
+        "of_many.toss_in_tiles = lambda releases, tile, make: in_tiles(releases, tile, toss)\n"
+        "from models.reading import load\n"
+        "from models.releases import Releases\n"
+        "fig = load('fig24a')\n"
+        "many = Releases(position=[[0, 0, 1]] * 9999, velocity=[[0, 0, 0]] * 9999,\n"
+        "    quaternion=[[1, 0, 0, 0]] * 9999, angular_velocity=[[0, 0, 0]] * 9999)\n"
+        "for each in (analytic.toss, coin_mj.toss, lambda case: analytic.toss_many(case, many)):\n"
+        "    try: each(fig)\n"
+        "    except KeyboardInterrupt: print('back', flush=True)\n"
+        "import os; os._exit(0)"
+    )
+    process = child(tmp_path, script)
+    for _ in range(3):
+        deadline = time.monotonic() + 200
+        while not (tmp_path / "begun").exists() and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+        (tmp_path / "begun").unlink()
+        time.sleep(0.1)
+        sent = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        assert process.stdout is not None
+        assert process.stdout.readline() == "back\n"
+        assert time.monotonic() - sent < SOON
+    assert process.wait(60) == 0
+    process.communicate()
+
+
+# A call that keeps the main thread, so that Python can't raise there.
+STUCK = """
+import hashlib, os, signal, sys, threading
+from pathlib import Path
+from compare.output.files import written_together, written_whole
+from compare.output.interruption import run_to_exit
+
+def stuck():
+    Path("begun").touch()
+    hashlib.pbkdf2_hmac("sha256", b"", b"", (1 << 31) - 1)
+"""
+
+
+@pytest.mark.parametrize("number", STATUSES)
+def test_a_main_thread_that_is_stuck_keeps_nothing(tmp_path, number):
+    script = STUCK + (
+        "def command():\n"
+        "    with written_together(Path('new/folder'), ('a',)) as a, written_whole(Path('file')) as b:\n"
+        "        (a / 'a').touch(), b.touch()\n"
+        "        stuck()\n"
+        "run_to_exit(command)"
+    )
+    status, said = ended(child(tmp_path, script), tmp_path, number)
+    assert (status, said) == (STATUSES[number], f"cointoss: interrupted by {number.name}\n")
+    assert [path.name for path in tmp_path.iterdir()] == ["begun"]
+
+
+def test_what_swallows_the_interruption_or_takes_long_to_end_does_not_keep_the_process(tmp_path):
+    for command in (
+        "while True:\n        try: threading.Event().wait()\n        except BaseException: pass",
+        "try: stuck()\n    finally: threading.Event().wait()",
+        "threading.Thread(target=threading.Event().wait).start(); threading.Event().wait()",
+    ):
+        script = f"{STUCK}def command():\n    Path('begun').touch()\n    {command}\nrun_to_exit(command)"
+        assert ended(child(tmp_path, script), tmp_path, signal.SIGINT)[0] == 130
+        (tmp_path / "begun").unlink()
+
+
+def test_another_error_on_the_way_out_is_not_told(tmp_path):
+    script = STUCK + (
+        "def command():\n"
+        "    Path('begun').touch()\n"
+        "    try: threading.Event().wait()\n"
+        "    except BaseException: raise ValueError('because of it')\n"
+        "run_to_exit(command)"
+    )
+    status, said = ended(child(tmp_path, script), tmp_path, signal.SIGTERM)
+    assert (status, said) == (143, "cointoss: interrupted by SIGTERM\n")
+
+
+def test_a_signal_that_is_ignored_stays_so(tmp_path):
+    script = STUCK + (
+        "def command():\n"
+        "    os.kill(os.getpid(), signal.SIGHUP)\n"
+        "    print('goes on')\n"
+        "    sys.exit(3)\n"
+        "signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as nohup does\n"
+        "run_to_exit(command)"
+    )
+    process = child(tmp_path, script)
+    assert process.communicate(timeout=60) == ("goes on\n", "")
+    assert process.returncode == 3
+
+
+def test_what_was_printed_before_is_there(tmp_path):
+    script = f"{STUCK}def command():\n    print('first')\n    stuck()\nrun_to_exit(command)"
+    process = child(tmp_path, script)
+    deadline = time.monotonic() + 60
+    while not (tmp_path / "begun").exists() and time.monotonic() < deadline:
+        time.sleep(0.01)
+    os.kill(process.pid, signal.SIGINT)
+    assert process.communicate(timeout=60) == ("first\n", "cointoss: interrupted by SIGINT\n")

@@ -1,0 +1,76 @@
+"""Work on another thread: its answers, errors, warnings and settings are those of the thread that asks."""
+
+import threading
+import traceback
+import warnings
+
+import numpy as np
+import pytest
+
+from models.interruptible import begun, interruptible
+from models.releases import Releases
+from models.tiles import toss_in_tiles
+
+
+def test_the_main_thread_waits_for_another_which_does_nested_work_itself():
+    main, inner, nested = interruptible(
+        lambda: (
+            threading.main_thread() is threading.current_thread(),
+            threading.current_thread(),
+            interruptible(threading.current_thread),
+        )
+    )
+    assert not main
+    assert inner is nested
+    assert inner.daemon
+
+
+def test_an_error_comes_with_its_traceback():
+    def failing():
+        raise LookupError("inside")
+
+    with pytest.raises(LookupError, match="inside") as caught:
+        interruptible(failing)
+    assert "failing" in [frame.name for frame in traceback.extract_tb(caught.tb)]
+
+
+def test_warnings_and_numpy_errors_are_treated_as_the_caller_asks():
+    with pytest.raises(UserWarning, match="here"):  # the tests make warnings errors
+        interruptible(lambda: warnings.warn("here", stacklevel=1))
+    with np.errstate(divide="raise"), pytest.raises(FloatingPointError):
+        interruptible(lambda: np.float64(1) / np.float64(0))
+    with np.errstate(divide="ignore"):
+        assert begun(lambda: np.float64(1) / np.float64(0)).result() == np.inf
+
+
+def many(n):
+    return Releases(
+        position=np.ones((n, 3)),
+        velocity=np.zeros((n, 3)),
+        quaternion=np.tile([1.0, 0, 0, 0], (n, 1)),
+        angular_velocity=np.zeros((n, 3)),
+    )
+
+
+@pytest.mark.parametrize("n", [0, 1, 4, 5, 1000])
+def test_every_tile_is_made_once(n):
+    def number(states, outcomes, *others):
+        outcomes[:] = 3
+        for column in others:
+            column[:] = len(states)
+
+    made = toss_in_tiles(many(n), 5, number)
+    assert made.outcome.tolist() == [3] * n
+    assert made.impacts.tolist() == [5] * (n - n % 5) + [n % 5] * (n % 5)
+
+
+def test_a_tile_that_fails_keeps_those_not_begun_from_being_made():
+    made = []
+
+    def failing(states, *_):
+        made.append(len(states))
+        raise LookupError("a tile")
+
+    with pytest.raises(LookupError, match="a tile"):
+        toss_in_tiles(many(1000), 1, failing)
+    assert 1 <= len(made) <= threading.active_count() + 64
