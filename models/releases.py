@@ -41,7 +41,9 @@ class Releases:
                 raise ValueError(f"Releases.{item.name}: shape {array.shape}, expected {(n, columns)}")
             _refuse(item.name, array, ~(np.abs(array) <= LARGEST).all(axis=1), f"numbers within {LARGEST:g}")
             if item.name == "quaternion":
-                size = np.array([math.hypot(*e) for e in array.tolist()])
+                # In a map the attitude is often one; numpy's own norm rounds otherwise than math.hypot.
+                distinct = array[:1] if (array == array[:1]).all() else array
+                size = np.array([math.hypot(*e) for e in distinct.tolist()])
                 _refuse(item.name, array, ~(np.abs(size - 1) <= 1e-3), "four numbers of norm 1 within 1e-3")
                 array /= np.where(np.abs(size - 1) <= NORM_ROUNDING, 1.0, size)[:, None]
             array.setflags(write=False)
