@@ -17,6 +17,7 @@ from models.body import Body, Rules
 from models.ending import classify_ending
 from models.geometry import contact_velocity, lowest_point
 from models.impact_row import FIRST_ROOM, with_room, write_impact
+from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, apply, scale, subtract
 from models.perpetual import energy_history, start_history
@@ -128,7 +129,7 @@ def toss_coin(body, rules, contact_steps, y, rows, keep_all):
             if k == len(pieces):
                 pieces = doubled(pieces)
             pieces[k, 0], pieces[k, 1] = time, mode
-            pieces[k, 2:] = y
+            copy_into(pieces[k, 2:], y)
             k += 1
         if mode == Mode.ENDED:
             break
@@ -152,7 +153,8 @@ def toss_coin(body, rules, contact_steps, y, rows, keep_all):
 def doubled(table):
     """Return the table with twice its rows."""
     larger = np.empty((2 * len(table), table.shape[1]))
-    larger[: len(table)] = table
+    for i in range(len(table)):
+        copy_into(larger[i], table[i])
     return larger
 
 

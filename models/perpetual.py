@@ -7,6 +7,7 @@ import numpy as np
 
 from models.barriers import barrier, energy, spin_barrier
 from models.body import in_vacuum
+from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.laws import ContactLaw
 from models.records import Array
@@ -77,7 +78,7 @@ def energy_loss_converges(body, rules, state, time, history, no_loss):
         elapsed *= 2
         energies[:] = np.inf
     history.next_check[0] = start + 2 * elapsed
-    energies[:-1] = energies[1:]
+    copy_into(energies[:-1], energies[1:])
     energies[-1] = E
     if not energies[-_FEW] < np.inf:
         return False

@@ -23,6 +23,7 @@ from analytic.numerics.tolerances import ON_EDGE, SLOW
 from models.attitude import quaternion_product, rotation_matrix
 from models.body import in_vacuum
 from models.geometry import tilt_sine_of
+from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import apply, cross, dot, scale
 
@@ -54,7 +55,7 @@ def event_at_one_rim(body, mu, mode, y):
         upright.start_creep(body, mu, lower_rim_of(y), both)
     if not upright.margin(body, mu, both) > 0:
         return Event.NONE
-    y[:] = both
+    copy_into(y, both)
     return Event.COMES_UPRIGHT
 
 
@@ -171,7 +172,7 @@ def rolled_on(body, mu, mode, straight, y, half_angle, phase):
     if mu > 0:
         energy += m * (v[0] * v[0] + v[1] * v[1]) / 2
     c, s = math.cos(half_angle), math.sin(half_angle)
-    phase[:] = y
+    copy_into(phase, y)
     set_attitude(phase, quaternion_product(state.attitude, (c, 0.0, 0.0, s)))
     up = rotation_matrix(attitude_of(phase))[2]
     z = body.radius * tilt_sine_of(up) + dot(up, body.center)

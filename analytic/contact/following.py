@@ -10,6 +10,7 @@ from analytic.flight.state_vector import STATE_SIZE, normalise
 from analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
 from analytic.numerics.runge_kutta import STAGES, end_point, stage_point, step_factor
 from analytic.numerics.tolerances import STEP_ERROR
+from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.laws import ContactLaw
 
@@ -104,7 +105,7 @@ def follow(body, mu, mode, y, dt):
     rim = lower_rim_of(y)
     high, dt = accepted_contact_step(body, mu, mode, rim, y, dt, stages, y_new)
     if modes.margin(body, mu, mode, rim, y_new) > 0:
-        y[:] = y_new
+        copy_into(y, y_new)
         return high, dt, False, Event.NONE
     low, high = _bracket_end(body, mu, mode, rim, y, high, stages, y_new)
     contact_step(body, mu, mode, rim, y, high, stages, y_new)
@@ -113,7 +114,7 @@ def follow(body, mu, mode, y, dt):
         # The other rim point is still to land: its velocity is that before the crossing.
         contact_step(body, mu, mode, rim, y, low, stages, y_new)
         high = low
-    y[:] = y_new
+    copy_into(y, y_new)
     return high, dt, True, landing
 
 
@@ -159,7 +160,7 @@ def sample_contact(body, mu, mode, start, start_time, times, states):
         # The steps are those of `follow`: a time between them changes none.
         while times[i] - start_time > elapsed + made:
             elapsed += made
-            y[:] = y_new
+            copy_into(y, y_new)
             made, dt = accepted_contact_step(body, mu, mode, rim, y, dt, stages, y_new)
         modes.rate(body, mu, mode, rim, y, stages[0])
         contact_step(body, mu, mode, rim, y, times[i] - start_time - elapsed, stages, states[i])

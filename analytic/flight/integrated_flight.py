@@ -13,6 +13,7 @@ from analytic.numerics.runge_kutta import (
     step_factor,
 )
 from analytic.numerics.tolerances import STEP_ERROR
+from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import norm
 
@@ -112,7 +113,7 @@ def sample_flight(body, start, start_time, times, states):
             made, dt = accepted_step(body, y, dt, stages, y_new)
             elapsed += made
             steps += 1
-            y[:] = y_new
+            copy_into(y, y_new)
         derivative(body, y, stages[0])
         step(body, y, ahead, stages, states[i])
     return steps

@@ -10,6 +10,7 @@ from analytic.numerics.tolerances import CHATTERING, SINK, TIME_STEP, TOUCH
 from models.attitude import rotation_matrix
 from models.clearance import clear_time, grazing_time
 from models.geometry import FLAT_SINE, contact_velocity, gap, lowest_point, tilt_sine_of
+from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, cross, dot, norm
 
@@ -120,7 +121,7 @@ def fly_by_steps(body, y, longest):
     graze, height_before, speed_before, evaluations = np.inf, np.inf, 0.0, 0
     while elapsed < longest:
         made, dt = accepted_step(body, y, min(dt, longest - elapsed), stages, y_end)
-        y_near[:] = y
+        copy_into(y_near, y)
         inside = 0.0
         while inside < made:
             height, speed = closing_speed(body, y_near)
@@ -132,7 +133,7 @@ def fly_by_steps(body, y, longest):
             # Also where time itself has no finer step than the coin still has to fall.
             if height <= TOUCH * body.radius or inside + ahead == inside:
                 if speed < touching_speed:
-                    y[:] = y_near
+                    copy_into(y, y_near)
                     return elapsed + inside, True, evaluations, graze
                 ahead = max(ahead, smallest_flight(body, y_near)[0], TIME_STEP * inside)
             touching_speed = 0.0
@@ -141,5 +142,5 @@ def fly_by_steps(body, y, longest):
                 derivative(body, y, stages[0])
                 step(body, y, inside, stages, y_near)
         elapsed += made
-        y[:] = y_end
+        copy_into(y, y_end)
     return longest, False, evaluations, graze

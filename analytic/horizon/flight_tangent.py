@@ -13,6 +13,7 @@ from analytic.flight.state_vector import STATE_SIZE, attitude_of, spin_of, veloc
 from analytic.numerics.rotation import quaternion_rate, rotation_change
 from analytic.numerics.runge_kutta import STAGES, end_point, stage_point
 from models.attitude import rotation_matrix
+from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, apply, apply_transposed, cross, subtract
 
@@ -97,6 +98,6 @@ def flight_tangent(body, y, duration, changes, moved):
         for i in range(STATE_SIZE):
             moved[i] = moved[i] or y[i] != 0 or y_new[i] != 0
         step_change(body, y, made, stages, changes)
-        y[:] = y_new
+        copy_into(y, y_new)
         elapsed += made
         dt = dt_next

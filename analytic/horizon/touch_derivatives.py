@@ -10,6 +10,7 @@ from analytic.flight.state_vector import STATE_SIZE, attitude_of, normalise
 from models.attitude import rotation_matrix
 from models.body import Body, Rules
 from models.geometry import FLAT_SINE, gap
+from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import norm
 from models.laws import ContactLaw
@@ -83,7 +84,7 @@ def touch_values(body, rules, y, values):
     """
     up, rows = rotation_matrix(attitude_of(y))[2], np.zeros(1, IMPACT_ROW)
     values[0] = gap(body, y[2], up)
-    values[_AFTER:] = y
+    copy_into(values[_AFTER:], y)
     hit(body, rules, rules.restitution, values[_AFTER:], rows[0])
     for i in range(3):
         values[_UP + i] = up[i]
@@ -148,9 +149,10 @@ def touch_differences(body, rules, y, part):
         )
         change = part * size
         for i in range(2):
-            moved[:] = y
+            copy_into(moved, y)
             moved[column] += change if i == 0 else -change
             normalise(moved)
             touch_values(body, rules, moved, ends[i])
-        slopes[:, column] = (ends[0] - ends[1]) / (2 * change)
+        for i in range(len(slopes)):
+            slopes[i, column] = (ends[0, i] - ends[1, i]) / (2 * change)
     return slopes

@@ -18,6 +18,7 @@ from analytic.numerics.runge_kutta import (
     stage_point,
     step_factor,
 )
+from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import apply, norm
 from models.laws import RestitutionKind
@@ -139,7 +140,7 @@ def slide(K, y, mu, no_slip, component, target):
             end_straight(y, f, gained, p, stops, component, target)
             return not stops
         _, dt = accepted_slip_step(K, y, mu, speed, dt, stages, y_new, component, target)
-        y[:] = y_new
+        copy_into(y, y_new)
     return True
 
 

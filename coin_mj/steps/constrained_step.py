@@ -25,6 +25,7 @@ from coin_mj.model.state import motion_of, set_motion
 from coin_mj.steps.free_step import place_body
 from coin_mj.steps.runge_kutta import add_rate, end_motion, stage_motion
 from models.attitude import rotation_matrix
+from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import cross
 
@@ -72,7 +73,7 @@ def constrained_step(coin, constraint, dt):
     """Advance by dt [s] with RK4, after `constrained_forward`; see there for the arguments."""
     start = motion_of(coin)
     rate, total, motion = np.empty(13), np.zeros(13), np.empty(13)
-    motion[:] = start
+    copy_into(motion, start)
     for stage in range(4):
         if stage > 0:
             stage_motion(start, rate, stage, dt, motion)

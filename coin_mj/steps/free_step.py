@@ -14,6 +14,7 @@ from coin_mj.model.library import (
 )
 from coin_mj.model.state import motion_of, set_motion
 from coin_mj.steps.runge_kutta import add_rate, end_motion, stage_motion
+from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 
 
@@ -25,7 +26,7 @@ def free_step(coin, dt):
     """
     start = motion_of(coin)
     rate, total, motion = np.empty(13), np.zeros(13), np.empty(13)
-    motion[:] = start
+    copy_into(motion, start)
     for stage in range(4):
         if stage > 0:
             stage_motion(start, rate, stage, dt, motion)

@@ -12,6 +12,7 @@ What Python calls is linked with the code of all it calls, optimised as one, and
 from typing import Any, NamedTuple
 
 from llvmlite import binding
+from numba.core import types
 from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.compiler import Compiler
 from numba.core.registry import cpu_target
@@ -124,6 +125,7 @@ class CalleeCodegen(JITCPUCodegen):
         vars(self).update(vars(cpu_target.target_context.codegen()))
         self.own_functions: dict[Any, Any] = {}
         """numba's own functions as code for callers."""
+        self.typing = _Typing(cpu_target.typing_context)
 
 
 _made: list[CalleeCodegen] = []
@@ -136,6 +138,28 @@ def callee_codegen() -> CalleeCodegen:
     return _made[0]
 
 
+class _Typing:
+    """numba's typing, which remembers the types of what its own operators and functions give.
+
+    numba goes through all it knows to add, from arrays to dates, for each plus sign.
+    """
+
+    def __init__(self, context: Any) -> None:
+        self._context = context
+        self._known: dict[Any, Any] = {}
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._context, name)
+
+    def resolve_function_type(self, func: Any, args: Any, kws: Any) -> Any:
+        if kws or not isinstance(func, types.Function):
+            return self._context.resolve_function_type(func, args, kws)
+        key = func, tuple(args)
+        if key not in self._known:
+            self._known[key] = self._context.resolve_function_type(func, args, kws)
+        return self._known[key]
+
+
 class CalleeCompiler(Compiler):
     """numba's compiler, but that it makes code for callers."""
 
@@ -145,3 +169,4 @@ class CalleeCompiler(Compiler):
         context = self.state.targetctx
         context._internal_codegen = callee_codegen()
         context.cached_internal_func = callee_codegen().own_functions
+        self.state.typingctx = callee_codegen().typing

@@ -119,12 +119,12 @@ def imported(module: str) -> frozenset[str]:
 class _Locator(_CacheLocator):
     """Where the code of a function is kept."""
 
-    def __init__(self, module: str) -> None:
-        self._module = module
+    def __init__(self, module: str, py_file: str) -> None:
+        self._module, self._py_file = module, py_file
 
     @classmethod
-    def from_function(cls, py_func: Any, _file: str) -> "_Locator":
-        return cls(py_func.__module__)
+    def from_function(cls, py_func: Any, py_file: str) -> "_Locator":
+        return cls(py_func.__module__, py_file)
 
     def ensure_cache_path(self) -> None:
         Path(self.get_cache_path()).mkdir(parents=True, exist_ok=True)

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 from numba import _dynfunc
+from numba.core import types
 from numba.core.compiler import Compiler, CompileResult, compile_result
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.dispatcher import _FunctionCompiler
@@ -49,6 +50,12 @@ class CompiledFunction(CPUDispatcher):
         """Compile for arguments of these types, or read what is kept of an earlier process."""
         _keep_code(self, _CalleeCache)
         return super().compile(sig)
+
+    def get_call_template(self, args: Any, kws: Any) -> Any:
+        """Return the function for a call in compiled code: for a literal it is that for any number."""
+        return super().get_call_template(
+            tuple(map(types.unliteral, args)), {name: types.unliteral(kind) for name, kind in kws.items()}
+        )
 
     def __reduce__(self) -> Any:
         """Return the function by its name."""

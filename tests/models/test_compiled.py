@@ -1,6 +1,8 @@
 """Compiled functions are called by Python, by each other and by numba's, and what is kept is never stale."""
 
+import ast
 import importlib
+import inspect
 import os
 import pickle
 import pkgutil
@@ -116,8 +118,7 @@ def test_named_tuples_with_other_fields_are_other_types(folder):
         assert run(folder, script.format("inner", "(0.0, Pair(1.0, 3.0))")) == [answer]
 
 
-def test_every_compiled_function_that_one_calls_is_in_its_hash():
-    """A callee's module is imported, in one of the ways that `source_hash` reads."""
+def all_compiled():
     functions = {
         value
         for package in PACKAGES
@@ -126,7 +127,21 @@ def test_every_compiled_function_that_one_calls_is_in_its_hash():
         if isinstance(value, CompiledFunction)
     }
     assert len(functions) > 200
-    for function in functions:
+    return functions
+
+
+def test_no_compiled_function_assigns_an_array_to_a_slice():
+    """To compile `a[:] = b` takes seconds, for the text of its error: see `copy_into`."""
+    for function in all_compiled():
+        for node in ast.walk(ast.parse(inspect.getsource(function.py_func))):
+            if isinstance(node, ast.Assign) and ast.unparse(node.value) not in ("0", "0.0", "np.inf"):
+                for part in ast.walk(ast.List(node.targets)):
+                    assert not isinstance(part, ast.Slice), (function, ast.unparse(node))
+
+
+def test_every_compiled_function_that_one_calls_is_in_its_hash():
+    """A callee's module is imported, in one of the ways that `source_hash` reads."""
+    for function in all_compiled():
         names = function.py_func.__globals__
         for name in function.py_func.__code__.co_names:
             callee = names.get(name)
