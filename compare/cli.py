@@ -94,6 +94,7 @@ def _plain_errors(source: str) -> Iterator[None]:
     """Turn the errors of bad input into one line and exit status 2, and warnings into one line each."""
     from compare.film.back_end import BackEndError
     from compare.output.files import UnwritableError
+    from compare.output.progress import compile_bar
     from compare.sweep.errors import SweepError
     from models.errors import ScenarioError
     from models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
@@ -108,7 +109,7 @@ def _plain_errors(source: str) -> Iterator[None]:
         else:
             show(message, category, *where, **extra)
 
-    with warnings.catch_warnings():
+    with compile_bar(), warnings.catch_warnings():
         warnings.simplefilter("always", ApproximationWarning)
         show, warnings.showwarning = warnings.showwarning, report
         try:

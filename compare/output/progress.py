@@ -1,7 +1,11 @@
 """Bars that show on the terminal how far a job is."""
 
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
+
+from models.kernel.compiling import compiling
 
 Progress = Callable[[int, int], None]
 """Called after each part of a job with the number of parts done so far and of all."""
@@ -14,20 +18,69 @@ def bar(name: str, unit: str, *, done: int = 0) -> Iterator[Progress]:
     Args:
         name: of the job.
         unit: what its parts are.
-        done: parts that were done before, which say nothing of its speed.
+        done: parts that were done before, which say nothing of its speed; nor does the time to compile.
     """
     from tqdm import tqdm  # takes longer to import than the command line
 
     shown: tqdm | None = None
+    compiled = compiling.seconds
 
     def progress(done_now: int, whole: int) -> None:
-        nonlocal shown
+        nonlocal shown, compiled
         if shown is None:
             shown = tqdm(desc=name, initial=done, total=whole, unit=f" {unit}", unit_scale=True, disable=None)
+        elif not shown.disable:
+            shown.start_t += compiling.seconds - compiled
+            shown.last_print_t += compiling.seconds - compiled
+        compiled = compiling.seconds
         shown.update(done_now - shown.n)
 
     try:
         yield progress
     finally:
+        if shown is not None:
+            shown.close()
+
+
+@contextmanager
+def compile_bar(after: float = 1.0) -> Iterator[None]:
+    """Say within, on standard error if that is a terminal, that functions are compiled, and how many.
+
+    Args:
+        after: as soon as it takes longer than this [s].
+    """
+    shown: Any = None
+    said = False
+
+    def watch() -> None:
+        nonlocal shown, said
+        if not compiling.now:
+            if shown is not None:
+                shown.close()
+            shown = None
+        elif shown is not None:
+            shown.update(compiling.begun - shown.n)
+        elif compiling.seconds > after:
+            from tqdm import tqdm
+
+            if not said:
+                tqdm.write("cointoss: compiling, once and for up to a minute", file=sys.stderr)
+            said = True
+            shown = tqdm(
+                desc="compiling",
+                initial=compiling.begun,
+                total=max(compiling.declared, compiling.begun),
+                unit=" functions",
+                leave=False,
+            )
+
+    if sys.stderr is None or sys.stderr.closed or not sys.stderr.isatty():
+        yield
+        return
+    compiling.watchers.append(watch)
+    try:
+        yield
+    finally:
+        compiling.watchers.remove(watch)
         if shown is not None:
             shown.close()

@@ -17,6 +17,7 @@ from numba.core.registry import CPUDispatcher, cpu_target
 
 from models.kernel.callee_code import Callee, CalleeCode, CalleeCompiler
 from models.kernel.code_cache import PACKAGES, CodeCache, LocatedImpl
+from models.kernel.compiling import compiling
 
 _OPTIONS = {"nopython": True, "nogil": True, "error_model": "numpy"}
 _WITHOUT_WRAPPERS = {**_OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
@@ -76,7 +77,8 @@ class _ForCallers(_FunctionCompiler):
         return flags
 
     def _compile_core(self, args: Any, return_type: Any) -> CompileResult:
-        result = super()._compile_core(args, return_type)
+        with compiling.one():
+            result = super()._compile_core(args, return_type)
         result.library.callee = Callee(self._dispatcher, result.signature.args)
         result.library.finalize()
         result = result._replace(entry_point=_name_for_callers(result))
@@ -149,6 +151,10 @@ class _Linker(_FunctionCompiler):
         self._function = compiled_function
 
     def _compile_core(self, args: Any, *_: Any) -> CompileResult:
+        with compiling.one():
+            return self._linked(args)
+
+    def _linked(self, args: Any) -> CompileResult:
         self._function.compile(args)
         callee = self._function.overloads[args]
         description, environment = callee.fndesc, callee.environment
@@ -192,4 +198,5 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
 
     Code of functions outside `models.kernel.code_cache.PACKAGES` is not kept.
     """
+    compiling.declared += 1
     return CompiledFunction(function)
