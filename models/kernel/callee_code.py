@@ -13,10 +13,14 @@ from typing import Any, NamedTuple
 
 from llvmlite import binding
 from numba.core import types
+from numba.core.bytecode import FunctionIdentity
 from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
-from numba.core.compiler import Compiler
+from numba.core.compiler import Compiler, CompileResult
 from numba.core.registry import cpu_target
 from numba.core.runtime import rtsys
+from numba.core.untyped_passes import ExtractByteCode
+
+from models.kernel.code_cache import PACKAGES, source_hash
 
 
 class Callee(NamedTuple):
@@ -63,6 +67,10 @@ class CalleeCode(JITCodeLibrary):
                 library._shareable() if isinstance(library, CalleeCode) else library._get_module_for_linking()
             )
             self._final_module.link_in(own, preserve=True)
+        # Other processes give the names of numba's own functions to others.
+        for function in self._final_module.functions:
+            if function.linkage == binding.Linkage.linkonce_odr:
+                function.linkage = binding.Linkage.internal
         self.callees = list(dict.fromkeys(self.callees))
         self._finalize_dynamic_globals()
         self._finalized = True
@@ -170,3 +178,14 @@ class CalleeCompiler(Compiler):
         context._internal_codegen = callee_codegen()
         context.cached_internal_func = callee_codegen().own_functions
         self.state.typingctx = callee_codegen().typing
+
+    def compile_extra(self, func: Any) -> CompileResult:
+        """Compile a function under the name that it has in every process: code kept on disk calls it so."""
+        identity = FunctionIdentity.from_function(func)
+        if identity.modname.partition(".")[0] in PACKAGES and "<locals>" not in identity.func_qualname:
+            identity.unique_id = int(source_hash(identity.modname), 16)
+            identity.unique_name = f"{identity.func_qualname}${identity.unique_id}"
+        self.state.func_id = identity
+        ExtractByteCode().run_pass(self.state)
+        self.state.lifted, self.state.lifted_from = (), None
+        return self._compile_bytecode()
