@@ -10,14 +10,7 @@ import math
 
 import numpy as np
 
-from analytic.numerics.runge_kutta import (
-    STAGES,
-    combined_error,
-    end_point,
-    error_parts,
-    stage_point,
-    step_factor,
-)
+from analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
 from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import apply, norm
@@ -26,7 +19,15 @@ from models.laws import RestitutionKind
 # The state of an impact: v_A, S and the work of the normal impulse, ∫ v_Az dp.
 SIZE = 7
 V_Z, WORK = 2, 6
-TOLERANCE = 1e-13
+# The slip's power series: its order, and what its last two terms are at most, against slip and speed.
+ORDER, SMALLEST = 20, 1e-16
+# Columns of the series: v_A, S, the work, and |v_t|.
+COLUMNS, SLIP = 8, 7
+# |v_t| of the series and of v_A in it agree to this part of the slip. Beyond a slip of almost 0 they do not:
+# the series goes on as if it had passed 0.
+AGREES = 1e-13
+# Where a component reaches its target in a step is found to this part of the step.
+TARGET = 0.5**50
 # Slip slower than this part of the speed of A is none.
 NO_SLIP = 1e-12
 # Slip slower than this part of it is followed to the error of slip as fast as this, well below `NO_SLIP`.
@@ -130,8 +131,7 @@ def slide(K, y, mu, no_slip, component, target):
 
     Arguments as those of `grow_impulse`.
     """
-    stages, y_new = np.empty((STAGES, SIZE)), np.empty(SIZE)
-    speed, dt = norm((y[0], y[1], y[2])), first_slip_step(K, mu)
+    series, y_new, speed = np.empty((ORDER + 1, COLUMNS)), np.empty(COLUMNS), norm((y[0], y[1], y[2]))
     while y[component] < target:
         if math.hypot(y[0], y[1]) <= no_slip:
             return False
@@ -139,7 +139,15 @@ def slide(K, y, mu, no_slip, component, target):
         if p > 0:
             end_straight(y, f, gained, p, stops, component, target)
             return not stops
-        _, dt = accepted_slip_step(K, y, mu, speed, dt, stages, y_new, component, target)
+        length, size = expand_slip(K, y, mu, speed, series)
+        while True:
+            slipped(series, length, y_new)
+            if abs(y_new[SLIP] - math.hypot(y_new[0], y_new[1])) <= AGREES * size:
+                break
+            length /= 2
+        if y_new[component] >= target:
+            slipped(series, time_to(series, length, y_new, component, target), y_new)
+            y_new[component] = target
         copy_into(y, y_new)
     return True
 
@@ -184,97 +192,76 @@ def straight_slip(K, y, mu, component, target):
 
 
 @compiled
-def first_slip_step(K, mu):
-    """Return a step in τ with which to start, well below the time in which slip turns or stops."""
-    return 0.1 / ((1 + mu) * (K[0][0] + K[1][1] + K[2][2]))
+def expand_slip(K, y, mu, speed, series):
+    """Expand the motion of the slipping point as a power series of τ.
 
-
-@compiled
-def accepted_slip_step(K, y, mu, speed, dt, stages, y_new, component, target):
-    """Advance the state by a step in τ whose error is within `TOLERANCE`, and not beyond the target.
+    dS/dτ = (-μ v_t, q) with q = |v_t|, so the next coefficients of S, and of v_A by K, follow from those of
+    v_t and q, and the next one of q from q² = v_t².
 
     Args:
         K: mobility of A [1/kg].
-        y: state at the start, (7,).
+        y: state at the start, (7,), which slips.
         mu: coefficient of friction μ.
-        speed: of A before the impact, the scale of errors [m/s].
-        dt: length to try first, in τ.
-        stages: work space, (12, 7).
-        y_new: where the state at the end goes, (7,).
+        speed: of A before the impact [m/s].
+        series: where the coefficients go, (ORDER + 1, COLUMNS).
+
+    Returns:
+        The τ up to which the series holds, and the scale of the slip [m/s].
+    """
+    slip = math.hypot(y[0], y[1])
+    copy_into(series[0, :SIZE], y)
+    series[0, SLIP] = slip
+    size = max(slip, SLOW_SLIP * speed)
+    length = np.inf
+    for k in range(ORDER):
+        part = 1 / (k + 1)
+        S = (-mu * series[k, 0] * part, -mu * series[k, 1] * part, series[k, SLIP] * part)
+        v = apply(K, S)
+        for i in range(3):
+            series[k + 1, i], series[k + 1, 3 + i] = v[i], S[i]
+        work, square = 0.0, 2 * (series[0, 0] * v[0] + series[0, 1] * v[1])
+        for j in range(k + 1):
+            work += series[j, V_Z] * series[k - j, SLIP]
+        for j in range(1, k + 1):
+            square += series[j, 0] * series[k + 1 - j, 0] + series[j, 1] * series[k + 1 - j, 1]
+            square -= series[j, SLIP] * series[k + 1 - j, SLIP]
+        series[k + 1, WORK], series[k + 1, SLIP] = work * part, square / (2 * slip)
+        if k >= ORDER - 2:
+            term = max(abs(v[0]), abs(v[1]), abs(series[k + 1, SLIP])) / size
+            term = max(term, abs(v[2]) / speed)
+            if term > 0:
+                length = min(length, (SMALLEST / term) ** part)
+    return length, size
+
+
+@compiled
+def slipped(series, t, y_new):
+    """Write the state of the impact at τ = t of a series, and |v_t|, into y_new, (8,)."""
+    for i in range(COLUMNS):
+        y_new[i] = 0.0
+    for k in range(ORDER, -1, -1):
+        for i in range(COLUMNS):
+            y_new[i] = y_new[i] * t + series[k, i]
+
+
+@compiled
+def time_to(series, length, y_new, component, target):
+    """Return the τ at which a component of the state rises to its target.
+
+    Args:
+        series: see `expand_slip`.
+        length: τ at which the component is beyond the target.
+        y_new: state there, (8,); work space.
         component: `V_Z` or `WORK`.
         target: its value at the end.
-
-    Returns:
-        The length of the step made, and a length for the next.
     """
-    slip_rate(K, y, mu, stages[0])
-    while True:
-        slip_step(K, y, mu, dt, stages, y_new)
-        slip = max(math.hypot(y[0], y[1]), SLOW_SLIP * speed)
-        error = slip_error(dt, stages, slip, speed, speed / K[2][2]) / TOLERANCE
-        if error <= 1:
-            break
-        dt *= step_factor(error)
-    if y_new[component] < target:
-        return dt, dt * step_factor(error)
-    return slip_step_to(K, y, mu, dt, stages, y_new, component, target), dt
-
-
-@compiled
-def slip_rate(K, y, mu, dy):
-    """Write the rate of change of the state with τ into dy."""
-    slip = (y[0] * y[0] + y[1] * y[1]) ** 0.5
-    dS = (-mu * y[0], -mu * y[1], slip)
-    dy[0], dy[1], dy[2] = apply(K, dS)
-    dy[3], dy[4], dy[5] = dS
-    dy[WORK] = y[2] * slip
-
-
-@compiled
-def slip_step(K, y, mu, dt, stages, y_new):
-    """Write the state after a step of dt in τ into y_new; `stages[0]` must hold the rate at y."""
-    for stage in range(1, STAGES):
-        stage_point(y, dt, stages, stage, y_new)
-        slip_rate(K, y_new, mu, stages[stage])
-    end_point(y, dt, stages, y_new)
-
-
-@compiled
-def slip_error(dt, stages, slip, speed, momentum):
-    """Estimate the error of the step just made, relative to the slip, a speed and a momentum."""
-    sum_5, sum_3 = 0.0, 0.0
-    for i in range(SIZE):
-        size = slip if i < V_Z else speed if i == V_Z else momentum if i < 6 else speed * momentum
-        e5, e3 = error_parts(stages, i)
-        sum_5 += (e5 / size) ** 2
-        sum_3 += (e3 / size) ** 2
-    return combined_error(dt, sum_5, sum_3, SIZE)
-
-
-@compiled
-def slip_step_to(K, y, mu, dt, stages, y_new, component, target):
-    """Shorten a step of dt until the component just reaches its target; its end goes into y_new.
-
-    A root by regula falsi (Illinois); each try is one step from the same start.
-
-    Returns:
-        The length of the shortened step.
-    """
-    low, high = 0.0, dt
-    below, above = y[component] - target, y_new[component] - target
-    for _ in range(60):
-        middle = high - above * (high - low) / (above - below)
-        if above == 0 or not low < middle < high:
-            break
-        slip_step(K, y, mu, middle, stages, y_new)
-        excess = y_new[component] - target
-        if excess >= 0:
-            high, above, below = middle, excess, below / 2
-        else:
-            low, below, above = middle, excess, above / 2
-    slip_step(K, y, mu, high, stages, y_new)
-    y_new[component] = target
-    return high
+    tolerance = TARGET * length
+    bracket = bracket_between(0.0, target - series[0, component], length, target - y_new[component])
+    while not is_narrow(bracket, tolerance):
+        tried = next_try(bracket)
+        slipped(series, tried, y_new)
+        bracket = narrowed(bracket, tried, target - y_new[component], tolerance)
+    return bracket.high
 
 
 @compiled

@@ -268,3 +268,27 @@ def test_an_impact_whose_slip_dies_a_million_times_slower_than_it_turns_takes_fe
         K, v, mu = draw_critical(rng)
         S = coulomb(K, v, 0.7, mu, KINEMATIC)
         assert after(K, v, S)[2] == pytest.approx(-0.7 * v[2])
+
+
+@pytest.mark.parametrize("aside", [1e-3, 1e-6, 1e-9])
+def test_slip_that_passes_near_zero_is_followed_round_it(aside):
+    """|v_t| has a kink there in the limit: a series from before would go on as if slip turned negative."""
+    K, mu = ((900.0, 0.0, 600.0), (0.0, 700.0, 0.0), (600.0, 0.0, 1000.0)), 0.2
+    # Slip along -x is pushed back by K_xz, through zero and on along +x.
+    v = (-1.0, aside, -2.0)
+    S = np.array(coulomb(K, v, 0.5, mu, KINEMATIC))
+
+    def rate(_, y):
+        s = y[:2] / np.hypot(*y[:2])
+        return np.array([*(np.array(K) @ [-mu * s[0], -mu * s[1], 1]), -mu * s[0], -mu * s[1]])
+
+    def ends(_, y):
+        return y[2] - 1.0
+
+    ends.terminal = True  # pyright: ignore[reportFunctionMemberAccess]
+    solved = solve_ivp(rate, (0, 1), [*v, 0, 0], method="Radau", rtol=1e-10, atol=1e-14, events=ends)
+    p, slip = solved.t[-1], np.hypot(*solved.y[:2])
+    assert slip.min() < 1.1 * aside
+    assert solved.y[0, -1] > 0.1
+    assert np.array([*solved.y[3:, -1], p]) == pytest.approx(S, rel=1e-6, abs=1e-6 * p)
+    assert after(K, v, S)[2] == pytest.approx(1.0, rel=1e-12)
