@@ -3,7 +3,7 @@
 import numpy as np
 
 from analytic.events import toss_coin
-from analytic.settings import MANY, Settings
+from analytic.settings import MANY, Settings, contact_limits
 from models.kernel.compiled import compiled
 from models.outcomes import Outcomes
 from models.records import IMPACT_ROW
@@ -30,16 +30,17 @@ def toss_many(scenario: Scenario, releases: Releases, *, settings: Settings = MA
         ValueError: for a release that a scenario with this coin and air would refuse.
     """
     check_releases(scenario, releases)
-    body, rules, steps = scenario.body, scenario.rules, settings.contact_steps
+    body, rules = scenario.body, scenario.rules
+    limits = contact_limits(settings)
     tile = TILE if body.air.exponent is None else SLOW_TILE
-    return toss_in_tiles(releases, tile, lambda *columns: _toss_each(body, rules, steps, *columns))
+    return toss_in_tiles(releases, tile, lambda *columns: _toss_each(body, rules, limits, *columns))
 
 
 @compiled
-def _toss_each(body, rules, contact_steps, states, outcomes, endings, faces, impacts, end_times):
+def _toss_each(body, rules, limits, states, outcomes, endings, faces, impacts, end_times):
     # Two rows: the last impact's, and the work space after it.
     rows = np.zeros(2, IMPACT_ROW)
     for i in range(len(states)):
-        n, _, _, outcome, ending, end_time = toss_coin(body, rules, contact_steps, states[i], rows, False)
+        n, _, _, outcome, ending, end_time = toss_coin(body, rules, limits, states[i], rows, False)
         outcomes[i], endings[i], impacts[i], end_times[i] = outcome.value, ending.value, n, end_time
         faces[i] = rows[(n - 1) % 2]["face"] if n > 0 else 0

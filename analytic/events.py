@@ -7,14 +7,15 @@ from numpy.typing import NDArray
 
 from analytic.automaton import Event, Mode, mode_after
 from analytic.contact import modes, one_rim
-from analytic.contact.following import follow, friction_in_contact, is_followed
+from analytic.contact.following import follow, friction_in_contact, is_followed, start_following
+from analytic.contact.periodic import repeats, start_tilting
 from analytic.flight.flying import fly
 from analytic.flight.state_vector import STATE_SIZE, position_of, set_height, set_spin, set_velocity, state_of
 from analytic.flight.touch_search import closing_speed, is_chattering
 from analytic.impact.laws import impulse, spin_gained
-from analytic.settings import FINE, Settings
+from analytic.settings import FINE, Settings, contact_limits
 from models.body import Body, Rules
-from models.ending import classify_ending
+from models.ending import classify_ending, endless
 from models.geometry import contact_velocity, lowest_point
 from models.impact_row import FIRST_ROOM, with_room, write_impact
 from models.kernel.arrays import copy_into
@@ -26,7 +27,7 @@ from models.records import IMPACT_ROW, Array, Ending, Outcome
 # A mode that lasts less than this part of √(r/g) costs so many steps, lest changes that take no time go on.
 _NO_TIME, _STALLED = 1e-12, 1000
 NO_LOSS = 1e-12
-"""A loss in the time √(r/g) that is none, against the energy: rounding takes up to a tenth of it."""
+"""A loss in the time √(r/g) that rounding may cause, against the energy; steps of contact come on top."""
 
 
 class EventLog(NamedTuple):
@@ -51,7 +52,7 @@ def run(body: Body, rules: Rules, start: Array, settings: Settings = FINE) -> Ev
     """Toss the coin in state `start`, (13,), until the toss is decided or a budget is spent."""
     room = np.zeros(FIRST_ROOM, IMPACT_ROW)
     n, rows, pieces, outcome, ending, end_time = toss_coin(
-        body, rules, settings.contact_steps, start.copy(), room, True
+        body, rules, contact_limits(settings), start.copy(), room, True
     )
     start_times, started = pieces[:, 0].copy(), pieces[:, 1].astype(np.int8)
     return EventLog(
@@ -104,13 +105,13 @@ def hit(body, rules, chi, y, row):
 
 
 @compiled
-def toss_coin(body, rules, contact_steps, y, rows, keep_all):
+def toss_coin(body, rules, limits, y, rows, keep_all):
     """Run the event loop.
 
     Args:
         body: the coin.
         rules: floor and ending.
-        contact_steps: the most steps in sustained contact.
+        limits: `ContactLimits`.
         y: state at release, (13,); becomes the state at the end.
         rows: where the impacts are recorded, (m,) of `IMPACT_ROW`. The row after the last is work space.
         keep_all: whether all impacts are recorded, in as many rows as they need, and where modes start;
@@ -122,7 +123,11 @@ def toss_coin(body, rules, contact_steps, y, rows, keep_all):
     """
     pieces = np.empty((FIRST_ROOM if keep_all else 0, 2 + STATE_SIZE))
     time, n, k, steps = 0.0, 0, 0, 0
-    mode, history, mu = Mode.FLIGHT.value, energy_history(), friction_in_contact(rules)
+    mode, history, mu = (
+        Mode.FLIGHT.value,
+        energy_history(NO_LOSS + limits.tolerance),
+        friction_in_contact(rules),
+    )
     outcome, ending = Outcome.UNDECIDED, Ending.NONE
     while True:
         if keep_all:
@@ -141,9 +146,9 @@ def toss_coin(body, rules, contact_steps, y, rows, keep_all):
             steps += event != Event.IMPACT
         else:
             event, time, steps, outcome, ending = follow_to_event(
-                body, rules, mu, mode, y, time, steps, contact_steps, history
+                body, rules, mu, mode, y, time, steps, limits, history
             )
-        if event != Event.ENDS and steps >= contact_steps:
+        if event != Event.ENDS and steps >= limits.steps:
             event, ending = Event.ENDS, Ending.CONTACT_STEPS
         mode = mode_after(mode, event)
     return n, rows, pieces[:k], outcome, ending, time
@@ -190,7 +195,7 @@ def fly_to_event(body, rules, mu, y, time, n, row, history):
     row.time = time
     # A step forced at a grazing point may have left the coin a little below the floor.
     set_height(y, position_of(y)[2] - min(closing_speed(body, y)[0], 0.0))
-    outcome, ending = classify_ending(body, rules, state_of(y), time, history, NO_LOSS)
+    outcome, ending = classify_ending(body, rules, state_of(y), time, history)
     return Event.IMPACT if ending == Ending.NONE else Event.ENDS, time, n + 1, outcome, ending
 
 
@@ -201,7 +206,7 @@ def come_to_stay(body, rules, mu, y, time, row, history):
     Returns:
         The event, the outcome and the ending.
     """
-    outcome, ending = classify_ending(body, rules, state_of(y), time, history, NO_LOSS)
+    outcome, ending = classify_ending(body, rules, state_of(y), time, history)
     if ending == Ending.NONE and not is_followed(rules.law):
         ending = Ending.CHATTER
     if ending != Ending.NONE:
@@ -214,7 +219,7 @@ def come_to_stay(body, rules, mu, y, time, row, history):
 
 
 @compiled
-def follow_to_event(body, rules, mu, mode, y, time, steps, contact_steps, history):
+def follow_to_event(body, rules, mu, mode, y, time, steps, limits, history):
     """Follow a sustained contact to the end of its mode, or of the toss.
 
     Args:
@@ -225,28 +230,32 @@ def follow_to_event(body, rules, mu, mode, y, time, steps, contact_steps, histor
         y: state, (13,); advanced.
         time: now [s].
         steps: made in contact so far.
-        contact_steps: the most allowed.
+        limits: `ContactLimits`.
         history: `EnergyHistory` of the toss; kept up.
 
     Returns:
         The event, the time [s], the steps, the outcome and the ending.
     """
     undecided, dt, in_mode = Outcome.UNDECIDED, np.inf, 0
+    stages, tilting = start_following(body, mu, mode, y), start_tilting(body, mu, mode, y)
     while time < rules.max_time:
-        made, dt, over, event = follow(body, mu, mode, y, min(dt, rules.max_time - time))
+        longest = min(dt, rules.max_time - time)
+        made, dt, over, event = follow(body, mu, mode, y, longest, limits.tolerance, stages)
         time += made
         in_mode += 1
         stalled = over and event == Event.NONE and made < _NO_TIME * (body.radius / body.gravity) ** 0.5
         steps += _STALLED if stalled else 1
-        outcome, ending = classify_ending(body, rules, state_of(y), time, history, NO_LOSS)
+        outcome, ending = classify_ending(body, rules, state_of(y), time, history)
         if ending != Ending.NONE:
             return Event.ENDS, time, steps, outcome, ending
+        if not over and repeats(tilting, y):
+            return Event.ENDS, time, steps, *endless(body, rules, state_of(y))
         on_edge = modes.edge_event(body, mu, mode, in_mode, y)
         if on_edge == Event.ENDS:
             return Event.ENDS, time, steps, Outcome.EDGE, Ending.STANDING
         if on_edge == Event.COMES_UPRIGHT:
             return on_edge, time, steps, undecided, Ending.NONE
-        if steps >= contact_steps:
+        if steps >= limits.steps:
             return Event.ENDS, time, steps, undecided, Ending.CONTACT_STEPS
         if over:
             if event == Event.NONE:

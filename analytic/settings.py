@@ -2,8 +2,12 @@
 
 from dataclasses import asdict, dataclass, field
 from numbers import Integral
+from typing import NamedTuple
 
-from analytic.numerics.tolerances import STEP_ERROR
+from analytic.numerics.tolerances import CONTACT_STEP_ERROR, STEP_ERROR
+
+FINEST, COARSEST = 1e-14, 1e-6
+"""Of the tolerances accepted: rounding, and a motion that hardly keeps its energy."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -11,7 +15,9 @@ class Settings:
     """What the tosses of this engine depend on beside their scenario."""
 
     tolerance: float = field(default=STEP_ERROR, init=False)
-    """Error allowed in a step, relative; compiled in."""
+    """Error allowed in a step of flight, relative; compiled in."""
+    contact_tolerance: float = CONTACT_STEP_ERROR
+    """Error allowed in a step of sustained contact, relative."""
     contact_steps: int = 50_000_000
     """The most steps in the sustained contacts of a toss; a mode that takes no time costs a thousand."""
 
@@ -24,9 +30,26 @@ class Settings:
         if not (isinstance(self.contact_steps, Integral) and self.contact_steps >= 1):
             raise ValueError(f"contact_steps: given {self.contact_steps}, accepted: a whole number >= 1")
 
+        if not FINEST <= self.contact_tolerance <= COARSEST:
+            raise ValueError(
+                f"contact_tolerance: given {self.contact_tolerance}, accepted: {FINEST:g} to {COARSEST:g}"
+            )
+
     def as_dict(self) -> dict[str, str | float]:
         """Return the settings on which a toss depends, by name."""
         return asdict(self)
+
+
+class ContactLimits(NamedTuple):
+    """How sustained contact is followed, as numbers for compiled code."""
+
+    steps: int
+    tolerance: float
+
+
+def contact_limits(settings: Settings) -> ContactLimits:
+    """Return the settings of sustained contact."""
+    return ContactLimits(settings.contact_steps, settings.contact_tolerance)
 
 
 FINE = MANY = Settings()

@@ -32,6 +32,8 @@ class Pieces:
     body: Body
     friction: float
     """μ of a contact, 0 on a smooth floor."""
+    contact_tolerance: float
+    """Error allowed in a step of contact, relative."""
     start_times: Array
     """(n,) [s]."""
     start_states: Array
@@ -69,7 +71,9 @@ class Pieces:
         if mode in (Mode.FLIGHT, Mode.ENDED):
             sample(self.body, start, start_time, times, states)
         else:
-            sample_contact(self.body, self.friction, mode, start, start_time, times, states)
+            sample_contact(
+                self.body, self.friction, mode, start, start_time, times, self.contact_tolerance, states
+            )
         return states
 
 
@@ -107,6 +111,7 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
     path = Pieces(
         body=body,
         friction=friction_in_contact(rules),
+        contact_tolerance=settings.contact_tolerance,
         start_times=answer.start_times,
         start_states=answer.start_states,
         modes=answer.modes,
@@ -122,7 +127,8 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
         trusted_impacts=trusted_impacts(body, rules, _before_contact(answer)),
         certificate=(
             Setting(name="flight", value=_flight(body)),
-            Setting(name="error allowed in a step, relative", value=settings.tolerance),
+            Setting(name="error allowed in a step of flight, relative", value=settings.tolerance),
+            Setting(name="error allowed in a step of contact, relative", value=settings.contact_tolerance),
             Setting(name="error of a step carried to the horizon: of the motion, relative", value=STEP_ERROR),
             Setting(name="error of a step carried to the horizon: of the attitude", value=TURN_ERROR),
             Setting(name="part of these errors in a step in closed form", value=CLOSED_FORM),

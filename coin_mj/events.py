@@ -34,7 +34,7 @@ def toss_coin(coin, rules, contact_steps, rows, keep_all):
         Number of impacts; the rows; knots of the path, see `path.Knots`, (k, 15), or none; start and end of
         every sustained contact, (c, 2) [s]; outcome; ending; and the time of the end [s].
     """
-    time, n, steps_left, history = 0.0, 0, contact_steps, energy_history()
+    time, n, steps_left, history = 0.0, 0, contact_steps, energy_history(NO_LOSS)
     knots, contacts = [knot_of(coin, time, Step.FLIGHT)], [(time, time)]
     contacts.clear()
     if not keep_all:
@@ -61,7 +61,7 @@ def toss_coin(coin, rules, contact_steps, rows, keep_all):
                 record(coin.body, start, touch, impulse, state_of(coin), rows[n % len(rows)])
                 n += 1
                 now = state(*state_of(coin))
-                outcome, ending = classify_ending(coin.body, rules, now, time, history, NO_LOSS)
+                outcome, ending = classify_ending(coin.body, rules, now, time, history)
         lands = False
         if sustained:
             start_history(coin.body, history, time)

@@ -25,6 +25,19 @@ def energy(body, z, v, w):
 
 
 @compiled
+def energy_without_spin(body, state):
+    """Return the energy without that of horizontal motion and of spin about the normal, eq. (20) [J].
+
+    Args:
+        body: the coin.
+        state: of the coin, a `State`.
+    """
+    v, w = state.velocity, state.spin
+    kept = body.mass * (v[0] * v[0] + v[1] * v[1]) / 2 + body.inertia[2][2] * w[2] * w[2] / 2
+    return energy(body, state.position[2], v, w) - kept
+
+
+@compiled
 def barrier(body, n_z):
     """Return the lowest energy at which a coin can roll over its rim to the other face [J].
 

@@ -36,6 +36,8 @@ class Body(NamedTuple):
     air: AirLaw
     drag: Drag
     """Of linear air: of use where `air.exponent` is None."""
+    sliding_share: float
+    """See `models.drag.sliding_share`; of use where `drag` is."""
     gravity: float
 
 

@@ -3,6 +3,8 @@
 import math
 from typing import NamedTuple
 
+_SHARE_ERROR = 1e-9
+
 
 class Drag(NamedTuple):
     """Coefficients of force and moment at B, diagonal in the body frame.
@@ -50,3 +52,45 @@ def linear_drag(radius: float, thickness: float, normal: float, tangential: floa
         ),
         moment_normal=(pi * r**4 + 2 * pi * r**3 * h) * lt,
     )
+
+
+def sliding_share(drag: Drag, offset: float) -> float:
+    """Return the part a of its horizontal energy that air can still turn into height on a smooth floor.
+
+    E - (1 - a) m v_h²/2 never grows: v_B, ω and the air's force and moment at B turn its rate of change into
+    -(v_B · W D v_B + ω · d ω) + (1 - a) (ω × c)_h · D v_B, with D = diag(c_t, c_t, c_n) about the normal and
+    W = diag(a, a, 1) about the vertical. It is never positive if 4 μ d >= ((1 - a) |c| c_max)², d the smaller
+    moment coefficient and μ the least eigenvalue of the symmetric part of W D at any tilt; docs/ENDINGS.md
+    derives it. For the balanced coin a = ((√κ - 1)/(√κ + 1))², κ = c_n/c_t.
+
+    Args:
+        drag: coefficients at B.
+        offset: |c|, of C from B [m].
+
+    Returns:
+        The least such a, from above, within 1e-9; 1 without air.
+    """
+    largest = max(drag.force_normal, drag.force_tangential)
+    least_moment = min(drag.moment_normal, drag.moment_tangential)
+    low, high = 0.0, 1.0
+    while high - low > _SHARE_ERROR:
+        a = (low + high) / 2
+        needed = ((1 - a) * offset * largest) ** 2
+        if largest > 0 and (mu := _least_eigenvalue(drag, a)) >= 0 and 4 * mu * least_moment >= needed:
+            high = a
+        else:
+            low = a
+    return high
+
+
+def _least_eigenvalue(drag: Drag, a: float) -> float:
+    """Return μ of `sliding_share`: with the sine of the tilt squared as x, it is convex in x."""
+    across, apart = drag.force_tangential, drag.force_normal - drag.force_tangential
+    # In the plane of normal and vertical: the trace is T - (1 - a) apart x, the discriminant A² + B x.
+    trace, A = (1 + a) * across + apart, -(1 - a) * across - apart
+    B = -(1 - a * a) * apart * (2 * across + apart)
+    x = min(max((((1 + a) * (across + apart / 2)) ** 2 - A * A) / B, 0.0), 1.0) if B != 0 else 0.0
+    candidates = (
+        (trace - (1 - a) * apart * tilt - math.sqrt(max(A * A + B * tilt, 0.0))) / 2 for tilt in (0.0, x, 1.0)
+    )
+    return min(a * across, *candidates)

@@ -2,8 +2,15 @@
 
 import math
 
-from models.barriers import barrier, energy, rim_offset, spin_barrier, spin_barrier_bound
-from models.body import in_vacuum
+from models.barriers import (
+    barrier,
+    energy,
+    energy_without_spin,
+    rim_offset,
+    spin_barrier,
+    spin_barrier_bound,
+)
+from models.body import in_vacuum, is_ideal
 from models.clearance import drag_bound
 from models.geometry import tilt_sine_of
 from models.kernel.compiled import compiled
@@ -23,7 +30,7 @@ def face_up(n_z):
 
 
 @compiled
-def classify_ending(body, rules, state, time, history, no_loss):
+def classify_ending(body, rules, state, time, history):
     """Return how a toss in this state ends; `Outcome.UNDECIDED` and `Ending.NONE` where it goes on.
 
     Args:
@@ -32,43 +39,82 @@ def classify_ending(body, rules, state, time, history, no_loss):
         state: of the coin, a `State`.
         time: now [s].
         history: `EnergyHistory` of the toss; kept up.
-        no_loss: a loss in the time √(r/g) that an engine cannot tell from none, against the energy.
     """
     outcome, ending = final_face(body, rules, state)
-    if ending == Ending.NONE and energy_loss_converges(body, rules, state, time, history, no_loss):
-        return Outcome.PERPETUAL, Ending.PERPETUAL
+    if ending == Ending.NONE and energy_loss_converges(body, rules, state, time, history):
+        return endless(body, rules, state)
     return outcome, ending
 
 
 @compiled
-def final_face(body, rules, state):
-    """Return the face that stays up and why, or the edge; UNDECIDED and NONE where either may still come.
+def endless(body, rules, state):
+    """Return how a toss ends whose coin goes on for ever without meeting the test of its scenario.
 
-    "rigorous": the energy is below the pass to the other face (or, on a smooth floor in vacuum, below it with
-    what the conserved spin needs) and the tilt is on this face's side of the pass; or the coin lies flat. A
-    thick coin may also be caught on its edge. Only the smooth law, and `coulomb` with energetic restitution,
-    never add energy; for every other the same test ends the toss as `Ending.PAPER`. "paper" is E < m g r and
-    "paper_smooth" is eq. (20) of Strzalko et al. 2008.
+    Where one of the paper's tests never comes true, the face may still be settled.
 
     Args:
         body: the coin.
         rules: floor and ending.
         state: of the coin, a `State`.
     """
-    z, v, w, up = state.position[2], state.velocity, state.spin, state.R[2]
-    E = energy(body, z, v, w)
-    face = Outcome.HEADS if up[2] > 0 else Outcome.TAILS
-    mgr = body.mass * body.gravity * body.radius
-    if rules.test == EndingTest.PAPER:
-        if E < mgr:
-            return face, Ending.PAPER
-        return Outcome.UNDECIDED, Ending.NONE
-    if rules.test == EndingTest.PAPER_SMOOTH:
-        kept = body.mass * (v[0] * v[0] + v[1] * v[1]) / 2 + body.inertia[2][2] * w[2] * w[2] / 2
-        if E - kept < mgr:
-            return face, Ending.PAPER_SMOOTH
-        return Outcome.UNDECIDED, Ending.NONE
+    outcome, ending = settled_face(body, rules, state)
+    if ending != Ending.NONE:
+        return outcome, ending
+    return Outcome.PERPETUAL, Ending.PERPETUAL
 
+
+@compiled
+def final_face(body, rules, state):
+    """Return the face that stays up and why, or the edge; UNDECIDED and NONE where either may still come.
+
+    "rigorous" is `settled_face`, "paper" is E < m g r and "paper_smooth" is eq. (20) of Strzalko et al. 2008;
+    under each a coin may come to lie flat, with energy left that no longer turns it.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        state: of the coin, a `State`.
+    """
+    face, mgr = _face(state), body.mass * body.gravity * body.radius
+    if rules.test == EndingTest.RIGOROUS:
+        outcome, ending = settled_face(body, rules, state)
+        if ending != Ending.NONE:
+            return outcome, ending
+    elif rules.test == EndingTest.PAPER:
+        if energy(body, state.position[2], state.velocity, state.spin) < mgr:
+            return face, Ending.PAPER
+    elif energy_without_spin(body, state) < mgr:
+        return face, Ending.PAPER_SMOOTH
+    if _lies(body, rules, state):
+        return face, Ending.LYING
+    return Outcome.UNDECIDED, Ending.NONE
+
+
+@compiled
+def _face(state):
+    """Return the face that is up, as an outcome."""
+    return Outcome.HEADS if state.R[2][2] > 0 else Outcome.TAILS
+
+
+@compiled
+def settled_face(body, rules, state):
+    """Return the face that is proved to stay up and why, or the edge; UNDECIDED and NONE where none is.
+
+    The energy is below the pass to the other face and the tilt is on this face's side of it. On a smooth
+    floor, energies that cannot lift the coin are left out: in vacuum those of the conserved v_h and L_z, in
+    linear air most of that of v_h, and of a balanced coin that of its spin. A thick coin may also be caught
+    on its edge. docs/ENDINGS.md has the proofs.
+
+    Only the smooth law, and `coulomb` with energetic restitution, never add energy; for every other the same
+    test ends the toss as `Ending.PAPER`.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        state: of the coin, a `State`.
+    """
+    v, w, up = state.velocity, state.spin, state.R[2]
+    E, face = energy(body, state.position[2], v, w), _face(state)
     smooth = rules.law == ContactLaw.SMOOTH
     energetic = rules.restitution_kind == RestitutionKind.ENERGETIC
     ending = Ending.SETTLED if smooth or energetic else Ending.PAPER
@@ -83,12 +129,30 @@ def final_face(body, rules, state):
     if smooth and in_vacuum(body):
         E_turning = E - body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
         # Off the face's side of the pass a coin may be just upright, within rounding of what it needs.
-        E_turning += 0.0 if on_face else WOBBLE * mgr
+        E_turning += 0.0 if on_face else WOBBLE * body.mass * body.gravity * body.radius
         if not E_turning > spin_barrier_bound(body, up, w) and E_turning < spin_barrier(body, up, w):
             return face, Ending.SETTLED
-    if _lies(body, rules, state):
-        return face, Ending.LYING
+    elif smooth and on_face and E - idle_energy(body, v, w) < barrier(body, up[2]):
+        return face, Ending.SETTLED
     return Outcome.UNDECIDED, Ending.NONE
+
+
+@compiled
+def idle_energy(body, v, w):
+    """Return energy that a coin in air on a smooth floor never turns into height [J].
+
+    (1 - a) m v_h²/2, a the `sliding_share`, and of a balanced coin J_ζ ω_ζ²/2: without them its energy
+    never grows, in linear air; in other air none is known.
+
+    Args:
+        body: the coin.
+        v: velocity of C, space frame, (3,) [m/s].
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    if body.air.exponent is not None:
+        return 0.0
+    idle = (1 - body.sliding_share) * body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
+    return idle + body.inertia[2][2] * w[2] * w[2] / 2 if is_ideal(body) else idle
 
 
 @compiled
@@ -120,9 +184,14 @@ def _lies(body, rules, state):
     weight = body.mass * body.gravity
     if wobble > WOBBLE * weight * body.radius:
         return False
-    mu = rules.friction if rules.law == ContactLaw.COULOMB else 0.0
-    if rules.law != ContactLaw.COULOMB and rules.law != ContactLaw.SMOOTH:
+    if not (
+        rules.law == ContactLaw.COULOMB
+        or rules.law == ContactLaw.SMOOTH
+        or rules.law == ContactLaw.PERFECTLY_ROUGH
+    ):
         return False
+    # On a face no law but Coulomb's acts on the slip.
+    mu = rules.friction if rules.law == ContactLaw.COULOMB else 0.0
     k, arm, turn_drag = drag_bound(body, body.air.exponent, v, w, 0.0)
     drag = k * (norm(v) + arm * norm(w))
     slowing = (mu * weight * body.radius + turn_drag * abs(w[2]) + drag * arm) / J[2][2]

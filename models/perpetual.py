@@ -5,11 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from models.barriers import barrier, energy, spin_barrier
+from models.barriers import barrier, energy, energy_without_spin, spin_barrier
 from models.body import in_vacuum
 from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
-from models.laws import ContactLaw
+from models.laws import ContactLaw, EndingTest
 from models.records import Array
 
 # The energy is checked so many √(r/g) after the first sustained contact, then whenever the time since it has
@@ -32,12 +32,14 @@ class EnergyHistory(NamedTuple):
     """Time of the next check, infinite before that contact, (1,) [s]."""
     energies: Array
     """At the last checks, the oldest first, infinite where there was none, (6,) [J]."""
+    no_loss: float
+    """A loss in the time √(r/g) that the engine cannot tell from none, against the energy."""
 
 
 @compiled
-def energy_history():
-    """Return the `EnergyHistory` of a toss that was not in sustained contact yet."""
-    return EnergyHistory(np.full(1, np.inf), np.full(1, np.inf), np.full(_REMEMBERED, np.inf))
+def energy_history(no_loss):
+    """Return the `EnergyHistory`, with this `no_loss`, of a toss that was not in sustained contact yet."""
+    return EnergyHistory(np.full(1, np.inf), np.full(1, np.inf), np.full(_REMEMBERED, np.inf), no_loss)
 
 
 @compiled
@@ -49,7 +51,7 @@ def start_history(body, history, time):
 
 
 @compiled
-def energy_loss_converges(body, rules, state, time, history, no_loss):
+def energy_loss_converges(body, rules, state, time, history):
     """Return whether a coin in vacuum keeps enough energy to turn over for ever, as its losses suggest.
 
     The energy is checked whenever the time since the first sustained contact has doubled, and `loss_to_come`
@@ -62,15 +64,10 @@ def energy_loss_converges(body, rules, state, time, history, no_loss):
         state: of the coin, a `State`.
         time: now [s].
         history: kept up.
-        no_loss: a loss in the time √(r/g) that an engine cannot tell from none, against the energy.
     """
     if time < history.next_check[0] or not in_vacuum(body):
         return False
-    v, up, w = state.velocity, state.R[2], state.spin
-    E, needed = energy(body, state.position[2], v, w), max(barrier(body, 1.0), barrier(body, -1.0))
-    if rules.law == ContactLaw.SMOOTH:
-        E -= body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
-        needed = max(needed, spin_barrier(body, up, w))
+    E, needed = _energy_and_need(body, rules, state)
     start, energies = history.start[0], history.energies
     elapsed = history.next_check[0] - start
     while start + 2 * elapsed <= time:
@@ -83,9 +80,25 @@ def energy_loss_converges(body, rules, state, time, history, no_loss):
     if not energies[-_FEW] < np.inf:
         return False
     elapsed /= (body.radius / body.gravity) ** 0.5
-    none = E * min(no_loss * elapsed / 2, _LARGEST_NONE)
+    none = E * min(history.no_loss * elapsed / 2, _LARGEST_NONE)
     to_come = loss_to_come(energies, none, _DOUBLINGS - math.log2(elapsed))
     return E - to_come > needed
+
+
+@compiled
+def _energy_and_need(body, rules, state):
+    """Return the energy that losses take from, and what must be left of it to go on undecided [J]."""
+    v, w = state.velocity, state.spin
+    if rules.test == EndingTest.PAPER_SMOOTH:
+        return energy_without_spin(body, state), body.mass * body.gravity * body.radius
+    E = energy(body, state.position[2], v, w)
+    if rules.test == EndingTest.PAPER:
+        return E, body.mass * body.gravity * body.radius
+    needed = max(barrier(body, 1.0), barrier(body, -1.0))
+    if rules.law != ContactLaw.SMOOTH:
+        return E, needed
+    E -= body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
+    return E, max(needed, spin_barrier(body, state.R[2], w))
 
 
 @compiled

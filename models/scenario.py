@@ -20,7 +20,7 @@ from pydantic import (
 from models.attitude import Quaternion, quaternion_from_angles, rotation_matrix
 from models.body import AirLaw, Body, Rules
 from models.clearance import damping_rate
-from models.drag import linear_drag
+from models.drag import linear_drag, sliding_share
 from models.errors import FieldError, ScenarioError, describe
 from models.fields import lambda_unit, put
 from models.geometry import gap
@@ -358,6 +358,7 @@ class Scenario(_Part):
         coin, air = self.coin, self.air
         J = coin.inertia_about_C
         moments = np.linalg.eigvalsh(J)
+        drag = linear_drag(coin.radius, coin.thickness, air.normal, air.tangential)
         return Body(
             mass=coin.mass,
             radius=coin.radius,
@@ -368,7 +369,8 @@ class Scenario(_Part):
             inertia_smallest=float(moments[0]),
             inertia_largest=float(moments[-1]),
             air=AirLaw(exponent=air.exponent or None, normal=air.normal, tangential=air.tangential),
-            drag=linear_drag(coin.radius, coin.thickness, air.normal, air.tangential),
+            drag=drag,
+            sliding_share=sliding_share(drag, float(np.linalg.norm(coin.center_of_mass))),
             gravity=self.gravity,
         )
 

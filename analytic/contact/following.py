@@ -9,7 +9,6 @@ from analytic.flight.integrated_flight import first_step, step_error
 from analytic.flight.state_vector import STATE_SIZE, normalise
 from analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
 from analytic.numerics.runge_kutta import STAGES, end_point, stage_point, step_factor
-from analytic.numerics.tolerances import STEP_ERROR
 from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.laws import ContactLaw
@@ -19,6 +18,8 @@ from models.laws import ContactLaw
 _ROUGH = 1e4
 # The end of a contact is bracketed to this part of a step, in at most so many tries.
 _END, _MOST_TRIES = 0.5**50, 150
+# A step of contact is at most so many times longer than one that is short against the coin's motion.
+_LONGEST = 4
 
 
 @compiled
@@ -36,6 +37,17 @@ def friction_in_contact(rules):
 
 
 @compiled
+def start_following(body, mu, mode, y):
+    """Return the work space of a contact that starts in the state y, (13,); for the others see `modes.rate`.
+
+    Its first row holds the rate of change at y, its last one that at the end of a step, (13, 13).
+    """
+    stages = np.empty((STAGES + 1, STATE_SIZE))
+    modes.rate(body, mu, mode, lower_rim_of(y), y, stages[0])
+    return stages
+
+
+@compiled
 def contact_step(body, mu, mode, rim, y, dt, stages, y_new):
     """Advance the state by one step in contact, and put it back on the floor.
 
@@ -44,22 +56,30 @@ def contact_step(body, mu, mode, rim, y, dt, stages, y_new):
         mu: coefficient of friction μ.
         mode: number of the `Mode`, in contact.
         rim: the lower one.
-        y: state at the start, (13,); the first row of `stages` must hold its rate of change.
+        y: state at the start, (13,).
         dt: length of the step [s].
-        stages: work space, (12, 13).
+        stages: see `start_following`.
         y_new: where the state at the end goes, (13,).
+
+    Returns:
+        The least margin of the mode at the stages between.
     """
+    inside = np.inf
     for stage in range(1, STAGES):
         stage_point(y, dt, stages, stage, y_new)
-        modes.rate(body, mu, mode, rim, y_new, stages[stage])
+        inside = min(inside, modes.rate(body, mu, mode, rim, y_new, stages[stage]))
     end_point(y, dt, stages, y_new)
     normalise(y_new)
     modes.put_on_floor(body, mu, mode, rim, y_new)
+    return inside
 
 
 @compiled
-def accepted_contact_step(body, mu, mode, rim, y, dt, stages, y_new):
-    """Advance the state by a contact step whose error is within `STEP_ERROR`, at most dt long.
+def accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new):
+    """Advance the state by a contact step whose error is within the tolerance, at most dt long.
+
+    Lest an end of the contact is passed by, a step is short against the coin's motion, or at all its stages
+    the mode goes on.
 
     Args:
         body: the coin.
@@ -67,27 +87,28 @@ def accepted_contact_step(body, mu, mode, rim, y, dt, stages, y_new):
         mode: number of the `Mode`, in contact.
         rim: the lower one.
         y: state at the start, (13,).
-        dt: length to try first [s]; the coin's motion bounds it too, lest an end of the contact is passed by.
-        stages: work space, (12, 13).
+        dt: length to try first [s].
+        tolerance: error allowed in the step, relative to the scales of the coin.
+        stages: see `start_following`.
         y_new: where the state at the end goes, (13,).
 
     Returns:
         The length of the step made, and a length for the next [s].
     """
-    modes.rate(body, mu, mode, rim, y, stages[0])
-    dt = min(8 * first_step(body, y), dt)
+    short = 8 * first_step(body, y)
+    dt = min(_LONGEST * short, dt)
     while True:
-        contact_step(body, mu, mode, rim, y, dt, stages, y_new)
-        error = step_error(body, y, dt, stages) / STEP_ERROR
-        if error <= 1:
+        inside = contact_step(body, mu, mode, rim, y, dt, stages, y_new)
+        error = step_error(body, y, dt, stages) / tolerance
+        if error <= 1 and (dt <= short or inside > 0):
             return dt, dt * step_factor(error)
-        dt *= step_factor(error)
+        dt = max(short, dt / 2) if error <= 1 else dt * step_factor(error)
         if not dt > 0:
             raise FloatingPointError("the contact leaves the range of floating-point numbers")
 
 
 @compiled
-def follow(body, mu, mode, y, dt):
+def follow(body, mu, mode, y, dt, tolerance, stages):
     """Follow a contact for one step of the integrator, or to its end.
 
     Args:
@@ -96,16 +117,18 @@ def follow(body, mu, mode, y, dt):
         mode: number of the `Mode`, in contact.
         y: state, (13,); advanced.
         dt: length of the step to try first [s]; infinite at the start of a contact.
+        tolerance: error allowed in a step, relative to the scales of the coin.
+        stages: see `start_following`; kept up.
 
     Returns:
         The elapsed time, a length for the next step [s], whether the contact came to its end, and the event
         of a landing, `Event.NONE` without one.
     """
-    stages, y_new = np.empty((STAGES, STATE_SIZE)), np.empty(STATE_SIZE)
-    rim = lower_rim_of(y)
-    high, dt = accepted_contact_step(body, mu, mode, rim, y, dt, stages, y_new)
-    if modes.margin(body, mu, mode, rim, y_new) > 0:
+    y_new, rim = np.empty(STATE_SIZE), lower_rim_of(y)
+    high, dt = accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new)
+    if modes.rate(body, mu, mode, rim, y_new, stages[STAGES]) > 0:
         copy_into(y, y_new)
+        copy_into(stages[0], stages[STAGES])
         return high, dt, False, Event.NONE
     low, high = _bracket_end(body, mu, mode, rim, y, high, stages, y_new)
     contact_step(body, mu, mode, rim, y, high, stages, y_new)
@@ -122,26 +145,28 @@ def follow(body, mu, mode, y, dt):
 def _bracket_end(body, mu, mode, rim, y, longest, stages, y_new):
     """Bracket the end of a contact in a step, to the part `_END` of it.
 
-    Args as `contact_step`'s, where at the end y_new of the step, `longest` [s], the contact is over.
+    Args as `contact_step`'s, where at the end of the step, `longest` [s], the contact is over.
 
     Returns:
         A length of the step at whose end the contact goes on, and one at which it does not [s].
     """
-    tolerance, at_start = longest * _END, modes.margin(body, mu, mode, rim, y)
+    at_end, tolerance = modes.rate(body, mu, mode, rim, y_new, stages[STAGES]), longest * _END
+    at_start = modes.rate(body, mu, mode, rim, y, stages[0])
     if not at_start > 0:
         return 0.0, tolerance
-    bracket = bracket_between(0.0, at_start, longest, modes.margin(body, mu, mode, rim, y_new))
+    bracket = bracket_between(0.0, at_start, longest, at_end)
     for _ in range(_MOST_TRIES):
         tried = next_try(bracket)
         contact_step(body, mu, mode, rim, y, tried, stages, y_new)
-        bracket = narrowed(bracket, tried, modes.margin(body, mu, mode, rim, y_new), tolerance)
+        left = modes.rate(body, mu, mode, rim, y_new, stages[STAGES])
+        bracket = narrowed(bracket, tried, left, tolerance)
         if is_narrow(bracket, tolerance):
             break
     return bracket.low, bracket.high
 
 
 @compiled
-def sample_contact(body, mu, mode, start, start_time, times, states):
+def sample_contact(body, mu, mode, start, start_time, times, tolerance, states):
     """Write the states of one contact at `times` into `states`.
 
     Args:
@@ -151,16 +176,17 @@ def sample_contact(body, mu, mode, start, start_time, times, states):
         start: state at the start of the contact, (13,).
         start_time: its time [s].
         times: increasing, none before start_time, (n,) [s].
+        tolerance: error allowed in a step, relative to the scales of the coin.
         states: where they go, (n, 13).
     """
-    stages, y, y_new = np.empty((STAGES, STATE_SIZE)), start.copy(), np.empty(STATE_SIZE)
+    stages, y, y_new = start_following(body, mu, mode, start), start.copy(), np.empty(STATE_SIZE)
     elapsed, rim = 0.0, lower_rim_of(start)
-    made, dt = accepted_contact_step(body, mu, mode, rim, y, np.inf, stages, y_new)
+    made, dt = accepted_contact_step(body, mu, mode, rim, y, np.inf, tolerance, stages, y_new)
     for i in range(len(times)):
         # The steps are those of `follow`: a time between them changes none.
         while times[i] - start_time > elapsed + made:
             elapsed += made
             copy_into(y, y_new)
-            made, dt = accepted_contact_step(body, mu, mode, rim, y, dt, stages, y_new)
-        modes.rate(body, mu, mode, rim, y, stages[0])
+            modes.rate(body, mu, mode, rim, y, stages[0])
+            made, dt = accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new)
         contact_step(body, mu, mode, rim, y, times[i] - start_time - elapsed, stages, states[i])

@@ -21,11 +21,13 @@ def rate(body, mu, mode, rim, y, dy):
         rim: the lower one, where the coin is in contact at one rim.
         y: state, (13,).
         dy: where its rate of change goes, (13,).
+
+    Returns:
+        How far the mode is from its end: positive in it, 0 or below past it.
     """
     if mode == Mode.UPRIGHT:
-        upright.rate(body, mu, y, dy)
-    else:
-        one_rim.rate(body, mu, mode, rim, y, dy)
+        return upright.rate(body, mu, y, dy)
+    return one_rim.rate(body, mu, mode, rim, y, dy)
 
 
 @compiled
@@ -53,12 +55,6 @@ def put_on_floor(body, mu, mode, rim, y):
         upright.put_on_floor(body, y)
     else:
         one_rim.put_on_floor(body, mu, mode, rim, y)
-
-
-@compiled
-def margin(body, mu, mode, rim, y):
-    """Return how far the mode is from its end: positive in it, 0 or below past it; see `rate`."""
-    return upright.margin(body, mu, y) if mode == Mode.UPRIGHT else one_rim.margin(body, mu, mode, rim, y)
 
 
 @compiled

@@ -6,7 +6,7 @@ from analytic.automaton import Event, Mode
 from analytic.contact import creeping, sliding, sticking
 from analytic.contact.floor_force import friction_holds, holding_force, slip_direction
 from analytic.contact.rim_contact import accelerate, rim_contact, rim_contact_in_flight
-from analytic.flight.equations_of_motion import derivative
+from analytic.flight.equations_of_motion import flight_of, write_rate
 from analytic.flight.state_vector import attitude_of, set_height
 from analytic.impact.coulomb import coulomb
 from analytic.numerics.tolerances import BORDER, SLOW
@@ -39,10 +39,17 @@ def force(A, mu, mode):
 
 @compiled
 def rate(body, mu, mode, rim, y, dy):
-    """Write the rate of change of the state y of a coin in contact at one rim into dy; both (13,)."""
-    derivative(body, y, dy)
-    A = rim_contact_in_flight(body, y, dy, rim)
-    accelerate(body, A, force(A, mu, mode), dy)
+    """Write the rate of change of the state y of a coin in contact at one rim into dy; both (13,).
+
+    Returns:
+        The `margin` of the contact in this state.
+    """
+    flight = flight_of(body, y)
+    write_rate(body, flight, dy)
+    A = rim_contact_in_flight(body, flight, rim)
+    F = force(A, mu, mode)
+    accelerate(body, A, F, dy)
+    return margin(body, A, F, mu, mode, rim)
 
 
 @compiled
@@ -64,7 +71,7 @@ def put_on_floor(body, mu, mode, rim, y):
 
 
 @compiled
-def margin(body, mu, mode, rim, y):
+def margin(body, A, F, mu, mode, rim):
     """Return how far a contact is from its end: positive in it, 0 or below past it.
 
     It ends when the floor would have to pull, when the coin comes upon its edge, so that the other rim lands,
@@ -72,14 +79,13 @@ def margin(body, mu, mode, rim, y):
 
     Args:
         body: the coin.
+        A: the `RimContact`.
+        F: the floor's force there, space frame, (3,) [N].
         mu: coefficient of friction μ.
         mode: number of the `Mode`.
         rim: that is in contact.
-        y: state, (13,).
     """
-    A = rim_contact(body, y, rim)
     up = A.R[2]
-    F = force(A, mu, mode)
     left = min(F[2] / (body.mass * body.gravity), tilt_sine_of(up) / FACE_SINE - 1)
     if body.thickness > 0:
         left = min(left, -rim * up[2])

@@ -6,14 +6,21 @@ force F at A, dv_A/dt = b + K F, K the mobility of A as in an impact and b what 
 
 from typing import NamedTuple
 
-import numpy as np
-
-from analytic.flight.equations_of_motion import derivative
-from analytic.flight.state_vector import STATE_SIZE, set_spin, set_velocity, spin_of, state_of, velocity_of
-from analytic.impact.laws import mobility, spin_gained
+from analytic.flight.equations_of_motion import flight_of
+from analytic.flight.state_vector import set_spin, set_velocity, spin_of, velocity_of
 from models.geometry import tilt_sine_of
 from models.kernel.compiled import compiled
-from models.kernel.vectors import Matrix, Vector, add, apply, cross, subtract
+from models.kernel.vectors import (
+    Matrix,
+    Vector,
+    add,
+    apply,
+    apply_transposed,
+    cross,
+    dot,
+    scale,
+    subtract,
+)
 
 
 class RimContact(NamedTuple):
@@ -23,6 +30,8 @@ class RimContact(NamedTuple):
     """Rotation matrix, body to space."""
     arm: Vector
     """From C to A [m]."""
+    spins: Matrix
+    """Changes of ω by unit impulses at A along x, y and z, body frame, row by row [rad/(N s²)]."""
     mobility: Matrix
     """K [1/kg]."""
     free_acceleration: Vector
@@ -40,43 +49,48 @@ def rim_contact(body, y, rim):
         y: state, (13,), not flat.
         rim: -1 for tails' rim, 1 for heads'; see `models.geometry.lower_rim`.
     """
-    dy = np.empty(STATE_SIZE)
-    derivative(body, y, dy)
-    return rim_contact_in_flight(body, y, dy, rim)
+    return rim_contact_in_flight(body, flight_of(body, y), rim)
 
 
 @compiled
 def both_rims(body, y):
     """Return the `RimContact` of tails' rim and that of heads', in the state y, (13,)."""
-    dy = np.empty(STATE_SIZE)
-    derivative(body, y, dy)
-    return rim_contact_in_flight(body, y, dy, -1.0), rim_contact_in_flight(body, y, dy, 1.0)
+    flight = flight_of(body, y)
+    return rim_contact_in_flight(body, flight, -1.0), rim_contact_in_flight(body, flight, 1.0)
 
 
 @compiled
-def rim_contact_in_flight(body, y, dy, rim):
-    """Return what `rim_contact` does, where the rate of change dy in free flight, (13,), is known."""
-    state = state_of(y)
-    R, w, up = state.R, state.spin, state.R[2]
-    up_rate = cross(up, w)
+def rim_contact_in_flight(body, flight, rim):
+    """Return what `rim_contact` does, where the `Flight` is known."""
+    R, w, up = flight.state.R, flight.state.spin, flight.state.R[2]
     sine = tilt_sine_of(up)
-    sine_rate = (up[0] * up_rate[0] + up[1] * up_rate[1]) / sine
+    # Outward to the rim point, and the rate at which that direction turns about ζ.
+    out = (-up[0] / sine, -up[1] / sine)
+    up_rate = cross(up, w)
+    turning = (up[0] * up_rate[1] - up[1] * up_rate[0]) / (sine * sine)
     r = body.radius
-    a = subtract((-r * up[0] / sine, -r * up[1] / sine, rim * body.thickness / 2), body.center)
-    a_rate = (
-        -r * (up_rate[0] * sine - up[0] * sine_rate) / (sine * sine),
-        -r * (up_rate[1] * sine - up[1] * sine_rate) / (sine * sine),
-        0.0,
-    )
+    a = subtract((r * out[0], r * out[1], rim * body.thickness / 2), body.center)
+    a_rate = (-r * turning * out[1], r * turning * out[0], 0.0)
     turn = cross(w, a)
-    turn_rate = add(cross(spin_of(dy), a), cross(w, add(turn, a_rate)))
-    arm = apply(R, a)
+    turn_rate = add(cross(flight.spin_rate, a), cross(w, add(turn, a_rate)))
+    levers = (cross(a, R[0]), cross(a, R[1]), cross(a, R[2]))
+    J_inverse = body.inertia_inverse
+    spins = (apply(J_inverse, levers[0]), apply(J_inverse, levers[1]), apply(J_inverse, levers[2]))
+    by_mass = 1 / body.mass
+    b = apply(R, add(scale(by_mass, flight.force), turn_rate))
+    xy, xz, yz = dot(levers[0], spins[1]), dot(levers[0], spins[2]), dot(levers[1], spins[2])
+    K = (
+        (by_mass + dot(levers[0], spins[0]), xy, xz),
+        (xy, by_mass + dot(levers[1], spins[1]), yz),
+        (xz, yz, by_mass + dot(levers[2], spins[2])),
+    )
     return RimContact(
         R=R,
-        arm=arm,
-        mobility=mobility(body, R, arm),
-        free_acceleration=add(velocity_of(dy), apply(R, turn_rate)),
-        velocity=add(state.velocity, apply(R, turn)),
+        arm=apply(R, a),
+        spins=spins,
+        mobility=K,
+        free_acceleration=(b[0], b[1], b[2] - body.gravity),
+        velocity=apply(R, add(flight.velocity, turn)),
     )
 
 
@@ -87,7 +101,7 @@ def accelerate(body, A, F, dy):
     Of an impulse [N s] and the state itself: the change that it makes.
     """
     set_velocity(dy, add_quotient(velocity_of(dy), F, body.mass))
-    set_spin(dy, add(spin_of(dy), spin_gained(body, A.R, A.arm, F)))
+    set_spin(dy, add(spin_of(dy), apply_transposed(A.spins, F)))
 
 
 @compiled

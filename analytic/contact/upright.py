@@ -8,7 +8,7 @@ import math
 
 from analytic.contact.floor_force import friction_holds, holding_force
 from analytic.contact.rim_contact import accelerate, add_quotient, both_rims, rim_contact_in_flight
-from analytic.flight.equations_of_motion import derivative
+from analytic.flight.equations_of_motion import flight_of, write_rate
 from analytic.flight.state_vector import (
     attitude_of,
     normalise,
@@ -55,14 +55,19 @@ def rate(body, mu, y, dy):
         mu: coefficient of friction μ, 0 on a smooth floor; it acts on each rim against that rim's slip.
         y: state, (13,).
         dy: where its rate of change goes, (13,).
+
+    Returns:
+        How far the contact is from its end, > 0 in it: there the floor would have to pull.
     """
-    derivative(body, y, dy)
-    tails = rim_contact_in_flight(body, y, dy, -1.0)
-    heads = rim_contact_in_flight(body, y, dy, 1.0)
+    flight = flight_of(body, y)
+    write_rate(body, flight, dy)
+    tails = rim_contact_in_flight(body, flight, -1.0)
+    heads = rim_contact_in_flight(body, flight, 1.0)
     fall = (tails.free_acceleration[2], heads.free_acceleration[2])
-    _, F, turned = _holding(body, mu, tails, heads, fall)
+    N, F, turned = _holding(body, mu, tails, heads, fall)
     set_velocity(dy, add_quotient(velocity_of(dy), F, body.mass))
     set_spin(dy, add(spin_of(dy), turned))
+    return min(N) / (body.mass * body.gravity)
 
 
 @compiled

@@ -2,13 +2,11 @@
 
 import numpy as np
 
-from analytic.flight.fall import ORDER, clock, expand, fallen, slowing_of, time_of
+from analytic.flight.fall import ORDER, clock, expand, fall_freely, fallen, slowing_of, time_of
 from analytic.flight.first_touch import Found, bounds_of, first_touch, lowest_dip
 from analytic.flight.state_vector import (
     attitude_of,
     position_of,
-    set_position,
-    set_velocity,
     spin_of,
     velocity_of,
 )
@@ -112,21 +110,6 @@ def _bounds(body, turning, piece, v):
     jerk = (rate + 3 * piece.slowing) * (body.gravity + drag) + 2 * turning.rate * rate * speed
     down, up = body.gravity + drag, max(drag - body.gravity, 0.0)
     return bounds_of(turning, down / left**2, up / left**2, jerk / left**3)
-
-
-@compiled
-def fall_freely(body, y, t, y_new):
-    """Write position and velocity of the state at the time t of a flight on a parabola into y_new.
-
-    Args:
-        body: the coin.
-        y: state at the start of the flight, (13,).
-        t: time [s].
-        y_new: state, (13,).
-    """
-    x, v = position_of(y), velocity_of(y)
-    set_position(y_new, (x[0] + t * v[0], x[1] + t * v[1], x[2] + t * (v[2] - t * body.gravity / 2)))
-    set_velocity(y_new, (v[0], v[1], v[2] - t * body.gravity))
 
 
 @compiled

@@ -1,43 +1,57 @@
 """The equations of motion of a flying coin."""
 
+from typing import NamedTuple
+
 from analytic.air.force import force_and_moment
-from analytic.flight.state_vector import (
-    attitude_of,
-    set_attitude,
-    set_position,
-    set_spin,
-    set_velocity,
-    spin_of,
-    velocity_of,
-)
+from analytic.flight.state_vector import set_attitude, set_position, set_spin, set_velocity, state_of
 from analytic.numerics.rotation import quaternion_rate
-from models.attitude import rotation_matrix
 from models.kernel.compiled import compiled
-from models.kernel.vectors import apply, apply_transposed, cross, subtract
+from models.kernel.vectors import Vector, apply, apply_transposed, cross, subtract
+from models.state import State
+
+
+class Flight(NamedTuple):
+    """A coin that nothing but air and weight acts on, in one state; body frame."""
+
+    state: State
+    velocity: Vector
+    """Of C [m/s]."""
+    force: Vector
+    """Of the air [N]."""
+    spin_rate: Vector
+    """dω/dt [rad/s²]."""
+
+
+@compiled
+def flight_of(body, y):
+    """Return the `Flight` of a coin in the state y, (13,).
+
+    J_C ω̇ + ω × J_C ω = m_C; Strzalko et al. 2008, eq. (22).
+    """
+    state = state_of(y)
+    v, w = apply_transposed(state.R, state.velocity), state.spin
+    f, m_C = force_and_moment(body, v, w)
+    gyroscopic = cross(w, apply(body.inertia, w))
+    return Flight(state, v, f, apply(body.inertia_inverse, subtract(m_C, gyroscopic)))
+
+
+@compiled
+def write_rate(body, flight, dy):
+    """Write the rate of change of a flying coin's state into dy, (13,); m a_C = f, eq. (21)."""
+    state, f = flight.state, apply(flight.state.R, flight.force)
+    set_position(dy, state.velocity)
+    set_velocity(dy, (f[0] / body.mass, f[1] / body.mass, f[2] / body.mass - body.gravity))
+    set_attitude(dy, quaternion_rate(state.attitude, state.spin))
+    set_spin(dy, flight.spin_rate)
 
 
 @compiled
 def derivative(body, y, dy):
     """Write the time derivative of the state y into dy.
 
-    m a_C = f and J_C ω̇ + ω × J_C ω = m_C; Strzalko et al. 2008, eqs (21)-(22).
-
     Args:
         body: the coin.
         y: state, (13,).
         dy: where its rate of change goes, (13,).
     """
-    v, e, w = velocity_of(y), attitude_of(y), spin_of(y)
-    R = rotation_matrix(e)
-    f, m_C = force_and_moment(body, apply_transposed(R, v), w)
-    f_space = apply(R, f)
-    gyroscopic = cross(w, apply(body.inertia, w))
-    acceleration = (
-        f_space[0] / body.mass,
-        f_space[1] / body.mass,
-        f_space[2] / body.mass - body.gravity,
-    )
-    set_position(dy, v)
-    set_velocity(dy, acceleration)
-    set_attitude(dy, quaternion_rate(e, w))
-    set_spin(dy, apply(body.inertia_inverse, subtract(m_C, gyroscopic)))
+    write_rate(body, flight_of(body, y), dy)

@@ -1,4 +1,4 @@
-"""The fall through linear air of an ideal coin that turns in closed form: a power series of its position.
+"""The fall of a coin: a parabola; or through linear air, where it turns in closed form, a power series.
 
 With n the normal, v' = -c_t/m v - (c_n - c_t)/m n (n . v) - g ẑ. There n (n . v) is (v + w)/2, where
 w = 2 n (n . v) - v is v mirrored at the line of n. As n turns about a fixed axis a, at a constant rate by the
@@ -31,6 +31,21 @@ SMALLEST = 1e-17
 
 _NONE = (0.0, 0.0, 0.0)
 _INVERSE = 1 / np.arange(1, ORDER + 1)
+
+
+@compiled
+def fall_freely(body, y, t, y_new):
+    """Write position and velocity of the state at the time t of a flight on a parabola into y_new.
+
+    Args:
+        body: the coin.
+        y: state at the start of the flight, (13,).
+        t: time [s].
+        y_new: state, (13,).
+    """
+    x, v = position_of(y), velocity_of(y)
+    set_position(y_new, (x[0] + t * v[0], x[1] + t * v[1], x[2] + t * (v[2] - t * body.gravity / 2)))
+    set_velocity(y_new, (v[0], v[1], v[2] - t * body.gravity))
 
 
 class Piece(NamedTuple):

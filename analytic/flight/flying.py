@@ -24,7 +24,7 @@ def fly(body, y, longest):
     """
     if turns_in_closed_form(body, spin_of(y)):
         return fly_closed(body, y, longest)
-    flown, touches, evaluations, _ = fly_by_steps(body, y, longest)
+    flown, touches, evaluations, _ = fly_by_steps(body, y, longest, False)
     return flown, touches, evaluations
 
 
@@ -40,7 +40,7 @@ def fly_with_graze(body, y, longest):
         start = y.copy()
         flown, _, _ = fly_closed(body, y, longest)
         return flown, closed_graze(body, start, flown)
-    flown, _, _, graze = fly_by_steps(body, y, longest)
+    flown, _, _, graze = fly_by_steps(body, y, longest, True)
     return flown, graze
 
 

@@ -1,8 +1,9 @@
-"""Flights that are integrated: steps of order 8 at tight tolerance, and the states between them."""
+"""Flights step by step, by power series or where b > 0 by Runge-Kutta, and the states between."""
 
 import numpy as np
 
 from analytic.flight.equations_of_motion import derivative
+from analytic.flight.power_series import COLUMNS, ORDER, expand_flight, state_in_flight
 from analytic.flight.state_vector import STATE_SIZE, normalise, spin_of, velocity_of
 from analytic.numerics.runge_kutta import (
     STAGES,
@@ -89,6 +90,54 @@ def accepted_step(body, y, dt, stages, y_new):
 
 
 @compiled
+def flight_work(body):
+    """Return the work space of a flight: for its series, or where b > 0 for Runge-Kutta steps."""
+    if body.air.exponent is None:
+        return np.empty((ORDER + 1, COLUMNS))
+    return np.empty((STAGES, STATE_SIZE))
+
+
+@compiled
+def flight_step(body, y, dt, longest, work):
+    """Prepare a step of a flight: expand it, or where b > 0 find how long a Runge-Kutta step may be.
+
+    Args:
+        body: the coin.
+        y: state at the start, (13,).
+        dt: length to try first where b > 0 [s].
+        longest: the longest step wanted [s].
+        work: see `flight_work`.
+
+    Returns:
+        The length of the step, a length to try first for the next [s], and the order of the series.
+    """
+    if body.air.exponent is None:
+        length, order = expand_flight(body, y, longest, work)
+        return length, np.inf, order
+    made, dt = accepted_step(body, y, min(dt, longest), work, np.empty(STATE_SIZE))
+    return made, dt, 0
+
+
+@compiled
+def within_step(body, y, t, order, work, y_new):
+    """Write the state at the time t within a step into y_new.
+
+    Args:
+        body: the coin.
+        y: state at the start of the step, (13,).
+        t: time since then [s].
+        order: see `flight_step`.
+        work: see `flight_work`.
+        y_new: state, (13,).
+    """
+    if body.air.exponent is None:
+        state_in_flight(body, work, order, t, y, y_new)
+    else:
+        derivative(body, y, work[0])
+        step(body, y, t, work, y_new)
+
+
+@compiled
 def sample_flight(body, start, start_time, times, states):
     """Write the states of one flight at `times` into `states`.
 
@@ -102,18 +151,15 @@ def sample_flight(body, start, start_time, times, states):
     Returns:
         The number of steps up to the last time.
     """
-    stages = np.empty((STAGES, STATE_SIZE))
-    y, y_new = start.copy(), np.empty(STATE_SIZE)
-    elapsed, dt, steps = 0.0, first_step(body, y), 1
+    work, y, y_new = flight_work(body), start.copy(), np.empty(STATE_SIZE)
+    elapsed, steps = 0.0, 1
+    made, dt, order = flight_step(body, y, first_step(body, y), np.inf, work)
     for i in range(len(times)):
-        while True:
-            ahead = times[i] - start_time - elapsed
-            if ahead <= dt:
-                break
-            made, dt = accepted_step(body, y, dt, stages, y_new)
+        while times[i] - start_time > elapsed + made:
+            within_step(body, y, made, order, work, y_new)
             elapsed += made
-            steps += 1
             copy_into(y, y_new)
-        derivative(body, y, stages[0])
-        step(body, y, ahead, stages, states[i])
+            made, dt, order = flight_step(body, y, dt, np.inf, work)
+            steps += 1
+        within_step(body, y, times[i] - start_time - elapsed, order, work, states[i])
     return steps

@@ -3,9 +3,9 @@
 import numpy as np
 
 from analytic.flight.equations_of_motion import derivative
-from analytic.flight.integrated_flight import accepted_step, first_step, step
+from analytic.flight.gap_polynomials import DEGREE, gap_polynomials, time_surely_clear
+from analytic.flight.integrated_flight import first_step, flight_step, flight_work, within_step
 from analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
-from analytic.numerics.runge_kutta import STAGES
 from analytic.numerics.tolerances import CHATTERING, SINK, TIME_STEP, TOUCH
 from models.attitude import rotation_matrix
 from models.clearance import clear_time, grazing_time
@@ -13,6 +13,9 @@ from models.geometry import FLAT_SINE, contact_velocity, gap, lowest_point, tilt
 from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, cross, dot, norm
+
+# After so many gap evaluations in a step, and whenever their number has doubled, its polynomials are used.
+_MANY = 16
 
 
 @compiled
@@ -74,6 +77,27 @@ def is_chattering(body, chi, y):
 
 
 @compiled
+def expected_flight(body, y):
+    """Return twice the time for which a coin that leaves the floor would fly if its gap were a parabola [s].
+
+    Infinite where the gap does not turn down, or where the coin is not on the floor.
+    """
+    height, speed = closing_speed(body, y)
+    up = rotation_matrix(attitude_of(y))[2]
+    if height > TOUCH * body.radius or tilt_sine_of(up) <= FLAT_SINE:
+        return np.inf
+    falling = -gap_acceleration(body, y)
+    return 4 * speed / falling if falling > 0 and speed > 0 else np.inf
+
+
+@compiled
+def sink_of_squares(body, y):
+    """Return what a sink of `SINK` takes from q² - r² sin² of the lower rim of a coin on the floor [m²]."""
+    sine = tilt_sine_of(rotation_matrix(attitude_of(y))[2])
+    return 2 * body.radius * sine * SINK * body.radius
+
+
+@compiled
 def clear(body, y, window):
     """Return a time during which the coin in state y surely stays above the floor, at most `window` [s]."""
     R = rotation_matrix(attitude_of(y))
@@ -97,50 +121,63 @@ def smallest_flight(body, y):
 
 
 @compiled
-def fly_by_steps(body, y, longest):
+def fly_by_steps(body, y, longest, with_graze):
     """Fly until the coin first touches the floor.
 
-    Every accepted step of the integrator is searched by steps of `clear_time`, which never pass a touch;
-    each is one step of order 8 from the same start, so the state found is as exact as the integration.
+    Every step is searched by steps of `clear_time`, which never pass a touch; each ends at a state computed
+    from the start of the step, so the state found is as exact as the step.
 
     Args:
         body: the coin.
         y: state at the start, (13,); becomes the state at the touch, or at the end of the flight.
         longest: the longest flight wanted [s].
+        with_graze: whether minima of the gap are looked for on the way.
 
     Returns:
         The time of flight [s], whether the coin touches, the number of gap evaluations, and a graze: a
         height such that no minimum of the gap on the way is below half of it, infinite where it has none [m].
     """
-    stages = np.empty((STAGES, STATE_SIZE))
-    y_end, y_near = np.empty(STATE_SIZE), np.empty(STATE_SIZE)
-    elapsed, dt = 0.0, first_step(body, y)
+    work, y_near, polynomials = flight_work(body), np.empty(STATE_SIZE), np.empty((2, DEGREE + 1))
+    elapsed, dt, expected = 0.0, first_step(body, y), expected_flight(body, y)
     # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch at once.
     touching_speed = -smallest_flight(body, y)[1]
     # The steps shrink towards a minimum of the gap, so that the last one before it starts hardly higher.
     graze, height_before, speed_before, evaluations = np.inf, np.inf, 0.0, 0
     while elapsed < longest:
-        made, dt = accepted_step(body, y, min(dt, longest - elapsed), stages, y_end)
+        made, dt, order = flight_step(body, y, dt, min(longest - elapsed, expected), work)
+        hops, expected = expected == np.inf, np.inf
         copy_into(y_near, y)
-        inside = 0.0
+        inside, in_step, patience = 0.0, 0, _MANY
         while inside < made:
             height, speed = closing_speed(body, y_near)
             evaluations += 1
+            in_step += 1
             if speed_before < 0 <= speed:
                 graze = min(graze, height_before, height)
             height_before, speed_before = height, speed
             ahead = clear(body, y_near, made - inside)
             # Also where time itself has no finer step than the coin still has to fall.
-            if height <= TOUCH * body.radius or inside + ahead == inside:
+            on_floor = height <= TOUCH * body.radius or inside + ahead == inside
+            if on_floor:
                 if speed < touching_speed:
                     copy_into(y, y_near)
                     return elapsed + inside, True, evaluations, graze
                 ahead = max(ahead, smallest_flight(body, y_near)[0], TIME_STEP * inside)
+            lifts_off = on_floor and hops and in_step == 1
+            if body.air.exponent is None and not with_graze and (lifts_off or in_step == patience):
+                least = gap_polynomials(body, work, order, made, polynomials)
+                if lifts_off:
+                    least -= sink_of_squares(body, y)
+                else:
+                    patience *= 2
+                left = made - inside
+                surely = time_surely_clear(body, polynomials, 2 * order, least, inside, left, 3 * ahead)
+                ahead = max(ahead, surely)
             touching_speed = 0.0
             inside += ahead
             if inside < made:
-                derivative(body, y, stages[0])
-                step(body, y, inside, stages, y_near)
+                within_step(body, y, inside, order, work, y_near)
+        within_step(body, y, made, order, work, y_near)
         elapsed += made
-        copy_into(y, y_end)
+        copy_into(y, y_near)
     return longest, False, evaluations, graze

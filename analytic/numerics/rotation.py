@@ -49,6 +49,43 @@ def axis_and_angle(e: Quaternion) -> tuple[Vector, float]:
     return (e[1] / length, e[2] / length, e[3] / length), 2 * math.atan2(length, e[0])
 
 
+@compiled
+def attitude_products(R):
+    """Return 4 e_i² and all 4 e_i e_j of a rotation matrix, the inverse of eq. (15)."""
+    trace = R[0][0] + R[1][1] + R[2][2]
+    squares = (1 + trace, 1 + 2 * R[0][0] - trace, 1 + 2 * R[1][1] - trace, 1 + 2 * R[2][2] - trace)
+    a, b, c = R[2][1] - R[1][2], R[0][2] - R[2][0], R[1][0] - R[0][1]
+    p, q, s = R[1][0] + R[0][1], R[0][2] + R[2][0], R[2][1] + R[1][2]
+    return squares, (
+        (squares[0], a, b, c),
+        (a, squares[1], p, q),
+        (b, p, squares[2], s),
+        (c, q, s, squares[3]),
+    )
+
+
+@compiled
+def attitude_near(R, e):
+    """Return the Euler parameters of a rotation matrix that continue others, (4,), of norm 1.
+
+    Of e' e'ᵀ, which R determines, e picks e' (e' · e): the turn between them must be less than half a turn.
+
+    Args:
+        R: rotation matrix, body to space, rows, (3, 3).
+        e: Euler parameters not far away, (4,).
+    """
+    _, products = attitude_products(R)
+    a, b = _dot_4(products[0], e), _dot_4(products[1], e)
+    c, d = _dot_4(products[2], e), _dot_4(products[3], e)
+    length = (a * a + b * b + c * c + d * d) ** 0.5
+    return a / length, b / length, c / length, d / length
+
+
+@compiled
+def _dot_4(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
+
+
 def quaternion_from_matrix(R: Matrix) -> Quaternion:
     """Return the Euler parameters of a rotation matrix, the inverse of eq. (15).
 
@@ -61,17 +98,7 @@ def quaternion_from_matrix(R: Matrix) -> Quaternion:
     Returns:
         e: Euler parameters, norm 1; of e and -e the one whose largest component is positive.
     """
-    trace = R[0][0] + R[1][1] + R[2][2]
-    squares = (1 + trace, *(1 + 2 * R[i][i] - trace for i in range(3)))
-    a, b, c = R[2][1] - R[1][2], R[0][2] - R[2][0], R[1][0] - R[0][1]
-    p, q, s = R[1][0] + R[0][1], R[0][2] + R[2][0], R[2][1] + R[1][2]
-    # 4 e_i e_j
-    products = (
-        (squares[0], a, b, c),
-        (a, squares[1], p, q),
-        (b, p, squares[2], s),
-        (c, q, s, squares[3]),
-    )
+    squares, products = attitude_products(R)
     row = products[squares.index(max(squares))]
     length = math.hypot(*row)
     return row[0] / length, row[1] / length, row[2] / length, row[3] / length

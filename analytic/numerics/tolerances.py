@@ -3,6 +3,10 @@
 STEP_ERROR = 1e-13
 """Error allowed in one step of the integrator, relative to the scales of the coin."""
 
+CONTACT_STEP_ERROR = 1e-9
+"""Likewise in sustained contact, by default. Contacts come after the horizon of trust: what comes before them
+has made errors far larger than those of their own steps."""
+
 TOUCH = 1e-14
 """A gap below this part of the radius is zero within rounding."""
 CLOSED_TOUCH = 2e-15

@@ -49,6 +49,7 @@ def _shape_of(coin):
         body.inertia_largest,
         body.air,
         body.drag,
+        body.sliding_share,
         body.gravity,
     )
 

@@ -91,7 +91,7 @@ def follow_contact(coin, rules, time, steps_left, history, knots):
         # Where the coin would be if it did not sink: the energy tests are finer than that.
         z = x[2] - min(evaluate_gap(coin).gap, 0.0)
         now = state((x[0], x[1], z), v, e, w)
-        outcome, ending = classify_ending(body, rules, now, time, history, NO_LOSS)
+        outcome, ending = classify_ending(body, rules, now, time, history)
         if ending == Ending.NONE and upright * rate > FIRST_CHECK:
             outcome, ending = Outcome.EDGE, Ending.STANDING
         if ending == Ending.NONE and steps_left <= 0:

@@ -107,3 +107,18 @@ def test_a_spent_budget_ends_a_toss_by_its_name(case, settings, limits, ending):
 def test_settings_refuse_a_budget_that_is_no_number_of_steps(steps):
     with pytest.raises(ValueError, match=rf"contact_steps: given {steps}, accepted: a whole number >= 1"):
         Settings(contact_steps=steps)
+
+
+@pytest.mark.parametrize("tolerance", [1e-15, 1e-5, float("nan")])
+def test_settings_refuse_a_tolerance_beyond_rounding_or_too_coarse(tolerance):
+    with pytest.raises(ValueError, match=rf"contact_tolerance: given {tolerance}, accepted: 1e-14 to 1e-06"):
+        Settings(contact_tolerance=tolerance)
+
+
+def test_a_finer_tolerance_takes_more_of_a_lasting_contact_but_ends_it_alike():
+    case = scenario(coin=ZLOTY, floor={"restitution": 0.5}, release=HIGH["release"] | {"angles": [0, 0.4, 0]})
+    coarse, fine = (analytic.toss(case, settings=Settings(contact_tolerance=t)) for t in (1e-9, 1e-13))
+    assert len(coarse.contacts) > 0
+    assert coarse.outcome == fine.outcome
+    assert coarse.contacts[0, 0] == fine.contacts[0, 0]
+    assert coarse.end_time == pytest.approx(fine.end_time, rel=1e-3)

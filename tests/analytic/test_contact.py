@@ -5,15 +5,16 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from analytic.automaton import Event, Mode
-from analytic.contact import following
 from analytic.contact.edge import held_on_edge, stands
 from analytic.contact.floor_force import friction_holds, holding_force, slip_direction, starting_slip
 from analytic.contact.following import sample_contact
-from analytic.contact.one_rim import force, lower_rim_of, margin, next_event, put_on_floor
+from analytic.contact.one_rim import force, lower_rim_of, next_event, put_on_floor, rate
 from analytic.contact.rim_contact import rim_contact
+from analytic.numerics.tolerances import STEP_ERROR
 from models.attitude import quaternion_from_angles, rotation_matrix
 from models.barriers import energy
 from models.geometry import contact_velocity, gap, lowest_point
+from tests.helpers.contacts import follow_step
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, scenario
 
 G, R_COIN, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
@@ -51,7 +52,7 @@ def follow(body, mu, mode, y, time):
     """Give the states and times after every step of a contact that goes on for `time`."""
     y, states, times, dt = y.copy(), [y.copy()], [0.0], np.inf
     while times[-1] < time:
-        made, dt, over, _ = following.follow(body, mu, mode, y, min(dt, time - times[-1]))
+        made, dt, over, _ = follow_step(body, mu, mode, y, min(dt, time - times[-1]))
         assert not over
         states.append(y.copy())
         times.append(times[-1] + made)
@@ -62,7 +63,7 @@ def follow_to_its_end(body, mu, mode, y):
     """Advance y to the end of a contact that ends within a second; return what lands and the time."""
     time, dt, over, landing = 0.0, np.inf, False, Event.NONE
     while not over:
-        made, dt, over, landing = following.follow(body, mu, mode, y, dt)
+        made, dt, over, landing = follow_step(body, mu, mode, y, dt)
         time += made
         assert time < 1
     return landing, time
@@ -81,7 +82,7 @@ def test_a_coin_on_a_smooth_floor_keeps_energy_and_momentum_and_does_not_leave_i
     start = draw_wobble(rng, body, Mode.SLIDING)
     y, time, turned = start.copy(), 0.0, 0.0
     while time < 0.2:
-        made, _, over, _ = following.follow(body, 0.0, Mode.SLIDING, y, 0.2 - time)
+        made, _, over, _ = follow_step(body, 0.0, Mode.SLIDING, y, 0.2 - time)
         time += made
         turned += made * np.linalg.norm(y[10:13])
         assert abs(gap(body, y[2], tuple(up_of(y)))) < 1e-14
@@ -157,7 +158,7 @@ def test_a_coin_that_rolls_keeps_its_energy(seed):
     start = draw_wobble(rng, body, Mode.STICKING)
     y, time = start.copy(), 0.0
     while time < 0.1:
-        made, _, over, _ = following.follow(body, 100.0, Mode.STICKING, y, 0.1 - time)
+        made, _, over, _ = follow_step(body, 100.0, Mode.STICKING, y, 0.1 - time)
         time += made
         assert np.abs(velocity_of_lowest(body, y)).max() < 1e-12
         if over:
@@ -176,7 +177,7 @@ def test_a_coin_that_slides_loses_what_friction_takes(seed):
     time, n = 0.01, 401
     times = np.linspace(0, time, n)
     states = np.empty((n, 13))
-    sample_contact(body, mu, Mode.SLIDING, y, 0.0, times, states)
+    sample_contact(body, mu, Mode.SLIDING, y, 0.0, times, STEP_ERROR, states)
     v_A = np.array([velocity_of_lowest(body, s) for s in states])
     slip = np.linalg.norm(v_A[:, :2], axis=1)
     assert slip.min() > 0.05
@@ -226,7 +227,7 @@ def test_friction_holds_just_within_the_cone():
     assert next_event(body, 1.001 * needed, Mode.FLIGHT, y.copy()) == Event.SLIP_STOPS
     creeping = y.copy()
     assert next_event(body, 0.999 * needed, Mode.FLIGHT, creeping) == Event.SLIP_STARTS
-    made, _, over, _ = following.follow(body, 0.999 * needed, Mode.CREEPING, creeping, 1e-3)
+    made, _, over, _ = follow_step(body, 0.999 * needed, Mode.CREEPING, creeping, 1e-3)
     assert (made, over) == (1e-3, False)
     slip = velocity_of_lowest(body, creeping)
     assert 0 < np.hypot(slip[0], slip[1])
@@ -285,7 +286,7 @@ def test_friction_does_not_press_down_a_point_that_free_flight_lifts():
         if rim_contact(body, y, lower_rim_of(y)).free_acceleration[2] > 0:
             lifted += 1
             pressed += floor_force(body, mu, Mode.CREEPING, y)[2] > 0
-            assert margin(body, mu, Mode.CREEPING, lower_rim_of(y), y) <= 0
+            assert rate(body, mu, Mode.CREEPING, lower_rim_of(y), y, np.empty(13)) <= 0
             assert next_event(body, mu, Mode.CREEPING, y) == Event.LIFTS_OFF
     assert lifted > 100
     assert pressed > 10
@@ -342,9 +343,11 @@ def test_a_sampled_state_does_not_hang_on_the_other_times_asked_for(mode):
     mu, end = 0.0 if mode == Mode.SLIDING else 50.0, 2.0
     states, times = follow(body, mu, mode, y, end)
     alone, among = np.empty((1, 13)), np.empty((301, 13))
-    sample_contact(body, mu, mode, y, 0.0, times[-2:-1], alone)
+    sample_contact(body, mu, mode, y, 0.0, times[-2:-1], STEP_ERROR, alone)
     assert alone[0] == pytest.approx(states[-2], abs=1e-10)
-    sample_contact(body, mu, mode, y, 0.0, np.append(np.linspace(0, times[-2], 301)[:-1], times[-2]), among)
+    sample_contact(
+        body, mu, mode, y, 0.0, np.append(np.linspace(0, times[-2], 301)[:-1], times[-2]), STEP_ERROR, among
+    )
     assert np.array_equal(among[-1], alone[0])
 
 

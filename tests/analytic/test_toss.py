@@ -124,7 +124,7 @@ def test_a_coin_that_rattles_between_two_rim_points_lies():
     tossed = analytic.toss(
         scenario(
             air={"normal": 8.0, "tangential": 0.2},
-            floor={"restitution": 0.0},
+            floor={"restitution": 0.0, "contact": "coulomb", "friction": 0.0},
             release={
                 "position": [0, 0, 0.0435],
                 "velocity": [-0.601, 0.531, -0.2456],

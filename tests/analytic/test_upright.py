@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analytic.automaton import Event, Mode
-from analytic.contact import following, modes, upright
+from analytic.contact import modes, upright
 from analytic.contact.edge import rolls, stands
 from analytic.contact.rim_contact import both_rims
 from analytic.contact.upright import rim_forces, start_creep
@@ -16,6 +16,7 @@ from models.attitude import quaternion_from_angles, rotation_matrix
 from models.barriers import energy
 from models.geometry import gap
 from models.records import Ending, Outcome
+from tests.helpers.contacts import follow_step
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
 G, R_COIN, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
@@ -40,7 +41,7 @@ def follow(body, y, time, longest, mu=0.0):
     """Give the states and times of a coin that stays upright for `time`."""
     y, states, times = y.copy(), [y.copy()], [0.0]
     while times[-1] < time:
-        made, _, over, _ = following.follow(body, mu, Mode.UPRIGHT, y, min(longest, time - times[-1]))
+        made, _, over, _ = follow_step(body, mu, Mode.UPRIGHT, y, min(longest, time - times[-1]))
         assert not over
         states.append(y.copy())
         times.append(times[-1] + made)
@@ -94,7 +95,7 @@ def test_a_coin_that_its_roll_tips_leaves_one_rim_and_falls_to_that_side():
     assert min(rim_forces(body, 0.0, y)) > 0
     over, landing, time = False, Event.NONE, 0.0
     while not over:
-        made, _, over, landing = following.follow(body, 0.0, Mode.UPRIGHT, y, 0.01)
+        made, _, over, landing = follow_step(body, 0.0, Mode.UPRIGHT, y, 0.01)
         time += made
         assert time < 0.2
     assert landing == Event.NONE
@@ -103,7 +104,7 @@ def test_a_coin_that_its_roll_tips_leaves_one_rim_and_falls_to_that_side():
     assert modes.next_event(body, 0.0, Mode.UPRIGHT, y) == Event.SLIPS
     side = 1 if N_tails > N_heads else -1
     for _ in range(20):
-        _, _, over, _ = following.follow(body, 0.0, Mode.SLIDING, y, 1e-3)
+        _, _, over, _ = follow_step(body, 0.0, Mode.SLIDING, y, 1e-3)
         assert not over
     assert side * rotation_matrix(tuple(y[6:10]))[2][2] > 1e-4
 
@@ -267,7 +268,7 @@ def test_a_rim_that_stuck_takes_the_slow_slip_at_which_friction_holds_it(rim, mu
     gained = []
     for begun in (start, y):
         after = begun.copy()
-        following.follow(body, mu, Mode.UPRIGHT, after, dt)
+        follow_step(body, mu, Mode.UPRIGHT, after, dt)
         gained.append(np.hypot(*(rim_velocity(body, after, rim) - rim_velocity(body, begun, rim))[:2]))
     # The slow slip turns the coin a little, and so changes what must be held.
     assert gained[1] < 0.15 * gained[0]

@@ -108,7 +108,7 @@ def test_the_map_has_the_agreed_form(undisturbed, coin, tmp_path):
     assert (eta.to_numpy() == np.linspace(20, 60, 48)).all()
     assert found.attrs["scenario"] == SCENARIO
     assert (found.attrs["engine"], found.attrs["after"]) == ("analytic", None)
-    assert found.attrs["engine_settings"].keys() == {"tolerance", "contact_steps"}
+    assert found.attrs["engine_settings"].keys() == {"tolerance", "contact_tolerance", "contact_steps"}
     assert found.attrs["versions"].keys() == {"cointoss", "numba", "numpy", "zarr"}
     assert_same(out, undisturbed)
     heads = 100 * np.mean(undisturbed["outcome"] == Outcome.HEADS)

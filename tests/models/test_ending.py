@@ -3,13 +3,15 @@
 import numpy as np
 import pytest
 
+from analytic.air.force import force_and_moment
 from models.attitude import quaternion_from_angles, rotation_matrix
 from models.barriers import barrier, energy, spin_barrier, spin_barrier_bound
+from models.drag import linear_drag, sliding_share
 from models.ending import face_up, final_face
 from models.geometry import gap
 from models.records import Ending, Face, Outcome
 from models.state import state
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_quaternion, scenario
 
 IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 
@@ -84,10 +86,50 @@ def test_what_a_smooth_floor_conserves_settles_a_fast_spinning_coin():
     (outcome, ending), E, pass_ = classified(scenario(), 0.05, **fast)
     assert E > 10 * pass_
     assert (outcome, ending) == (Outcome.HEADS, Ending.SETTLED)
-    for air in (AIR, {"tangential": 0.2, "exponent": 1.0}, {"normal": 0.8, "exponent": 0.5}):
+    for air in ({"tangential": 0.2, "exponent": 1.0}, {"normal": 0.8, "exponent": 0.5}):
         assert classified(scenario(air=air), 0.05, **fast)[0] == (Outcome.UNDECIDED, Ending.NONE)
     assert classified(scenario(air={"exponent": 0.5}), 0.05, **fast)[0] == (Outcome.HEADS, Ending.SETTLED)
     assert classified(scenario(coin=IMPERFECT), 0.05, **fast)[0] == (Outcome.HEADS, Ending.SETTLED)
+
+
+def test_in_linear_air_an_unbalanced_coin_is_settled_without_its_sliding_but_with_its_spin():
+    sliding, spinning = {"v": (2.0, 0.0, 0.0)}, {"w": (0.0, 0.0, 300.0)}
+    for coin in (ZLOTY, IMPERFECT):
+        case = scenario(coin=coin, air=AIR)
+        assert classified(case, 0.05, **sliding)[0] == (Outcome.HEADS, Ending.SETTLED)
+        undecided = coin is IMPERFECT
+        assert (classified(case, 0.05, **spinning)[0][1] == Ending.NONE) == undecided
+        assert classified(case, 0.05, v=(8.0, 0.0, 0.0))[0][1] == Ending.NONE, "a twentieth of it may rise"
+
+
+@pytest.mark.parametrize("thickness", [0.0, 2e-3])
+@pytest.mark.parametrize("offset", [(0.0, 0.0, 0.0), (-1e-3, -1e-3, 0.0), (3e-3, 0.0, 0.0)])
+def test_energy_without_the_idle_part_never_grows_in_linear_air(thickness, offset):
+    """At any motion: its rate of change, from the forces on the coin, of which the floor's does no work."""
+    body = scenario(coin={**ZLOTY, "thickness": thickness, "center_of_mass": offset}, air=AIR).body
+    rng, a = np.random.default_rng(8), body.sliding_share
+    largest = -np.inf
+    for _ in range(3000):
+        R = np.array(rotation_matrix(tuple(draw_quaternion(rng))))
+        w, v = rng.normal(size=3) * 10 ** rng.uniform(-1, 3), rng.normal(size=3)
+        f, m_C = force_and_moment(body, tuple(R.T @ v), tuple(w))
+        f_space = R @ np.array(f)
+        power = f_space @ v + np.array(m_C) @ w - (1 - a) * (f_space[:2] @ v[:2])
+        if not any(offset):
+            power -= w[2] * m_C[2]
+        largest = max(largest, power / abs(f_space @ v + np.array(m_C) @ w))
+    assert largest <= 1e-12
+    if not any(offset):
+        assert largest > -0.05, "some motion comes near to growth: no smaller share would do"
+
+
+@pytest.mark.parametrize(("thickness", "ratio"), [(0.0, 2.0), (2e-3, 1.0), (2e-3, 8.0)])
+def test_the_sliding_share_of_a_balanced_coin_is_its_closed_form(thickness, ratio):
+    drag = linear_drag(0.0125, thickness, 0.2 * ratio, 0.2)
+    root = (drag.force_normal / drag.force_tangential) ** 0.5
+    assert sliding_share(drag, 0.0) == pytest.approx(((root - 1) / (root + 1)) ** 2, abs=2e-9)
+    assert sliding_share(drag, 1e-3) > sliding_share(drag, 0.0)
+    assert sliding_share(linear_drag(0.0125, thickness, 0.0, 0.0), 0.0) == 1
 
 
 @pytest.mark.parametrize(("spin", "expected"), [(40.0, Ending.SETTLED), (-40.0, Ending.NONE)])

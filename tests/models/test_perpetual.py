@@ -55,9 +55,9 @@ def test_what_cannot_be_told_from_no_loss_is_none_and_energy_gained_is_no_eviden
     assert began > 1, "a loss out of nothing grows without bound"
 
 
-def converges(case, z, time, history, *, v=STILL, w=STILL, no_loss=1e-12):
+def converges(case, z, time, history, *, v=STILL, w=STILL):
     flat = state((0.0, 0.0, z), v, (1.0, 0.0, 0.0, 0.0), w)
-    return energy_loss_converges(case.body, case.rules, flat, time, history, no_loss)
+    return energy_loss_converges(case.body, case.rules, flat, time, history)
 
 
 def watched(case, share_at, until, v=STILL, w=STILL):
@@ -65,7 +65,7 @@ def watched(case, share_at, until, v=STILL, w=STILL):
 
     Its energy is that of C at a share of twice the radius, and of its velocity and spin.
     """
-    history, unit = energy_history(), (ZLOTY["radius"] / G) ** 0.5
+    history, unit = energy_history(1e-12), (ZLOTY["radius"] / G) ** 0.5
     start_history(case.body, history, 0.0)
     for elapsed in np.arange(1.0, until):
         z = 2 * ZLOTY["radius"] * share_at(elapsed)
@@ -108,7 +108,7 @@ def test_a_spin_about_the_vertical_does_not_turn_a_coin_over_on_a_smooth_floor()
 
 def test_checks_missed_in_a_long_flight_count_for_nothing():
     """Else energies of nearly the same moment would pass for those of as many doublings."""
-    case, history, unit = scenario(coin=ZLOTY), energy_history(), (ZLOTY["radius"] / G) ** 0.5
+    case, history, unit = scenario(coin=ZLOTY), energy_history(1e-12), (ZLOTY["radius"] / G) ** 0.5
     start_history(case.body, history, 0.0)
     said = [
         converges(case, 2 * ZLOTY["radius"], elapsed * unit, history)
@@ -120,8 +120,8 @@ def test_checks_missed_in_a_long_flight_count_for_nothing():
 
 def test_a_loss_that_no_engine_may_overlook_is_one():
     """An engine that can tell little does not make a coin that loses steadily one that goes on for ever."""
-    case, history, unit = scenario(coin=ZLOTY), energy_history(), (ZLOTY["radius"] / G) ** 0.5
+    case, history, unit = scenario(coin=ZLOTY), energy_history(8e-5), (ZLOTY["radius"] / G) ** 0.5
     start_history(case.body, history, 0.0)
     for k in range(7):
         z = 4 * ZLOTY["radius"] * (1 - 0.05 * k)
-        assert not converges(case, z, 64 * 2**k * unit * 1.001, history, no_loss=8e-5)
+        assert not converges(case, z, 64 * 2**k * unit * 1.001, history)

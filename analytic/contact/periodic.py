@@ -1,0 +1,65 @@
+"""Sustained contact that repeats itself for ever: one period of it is proof."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from analytic.automaton import Mode
+from analytic.flight.state_vector import attitude_of, spin_of
+from models.attitude import rotation_matrix
+from models.body import in_vacuum, is_ideal
+from models.kernel.compiled import compiled
+from models.records import Array
+
+
+class Tilting(NamedTuple):
+    """How often the tilt of a coin has turned back; the array is written to as it goes on."""
+
+    periodic: bool
+    """Whether the tilt is periodic while the mode lasts."""
+    rate: Array
+    """Rate of n_z at the last step, (1,) [1/s]."""
+    turns: Array
+    """Extremes of n_z so far, (1,)."""
+
+
+@compiled
+def start_tilting(body, mu, mode, y):
+    """Return the `Tilting` of a contact that starts in the state y, (13,).
+
+    An ideal coin in vacuum that slides without friction, or rolls without slip, has one degree of freedom,
+    its tilt: L_z and L_ζ, or what takes their place in rolling, are functions of it (E. J. Routh, Advanced
+    Rigid Dynamics, §§ 241-246). The energy is kept, so the tilt goes to and fro between two extremes for
+    ever, if the contact holds from the one to the other and back.
+
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ, 0 on a smooth floor.
+        mode: number of the `Mode`, in contact.
+        y: state, (13,).
+    """
+    lossless = mode == Mode.STICKING or (mode == Mode.SLIDING and mu == 0)
+    periodic = lossless and is_ideal(body) and in_vacuum(body)
+    return Tilting(periodic, np.full(1, tilt_rate(y)), np.zeros(1))
+
+
+@compiled
+def repeats(tilting, y):
+    """Return whether a contact that came to the state y, (13,), has gone through a whole period.
+
+    Args:
+        tilting: of the contact; kept up.
+        y: state at the end of a step.
+    """
+    rate = tilt_rate(y)
+    if rate * tilting.rate[0] < 0:
+        tilting.turns[0] += 1
+    tilting.rate[0] = rate
+    return tilting.periodic and tilting.turns[0] == 3
+
+
+@compiled
+def tilt_rate(y):
+    """Return the rate of n_z in the state y, (13,) [1/s]."""
+    up, w = rotation_matrix(attitude_of(y))[2], spin_of(y)
+    return up[0] * w[1] - up[1] * w[0]

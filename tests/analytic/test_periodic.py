@@ -1,0 +1,55 @@
+"""Contact that repeats itself: an ideal coin's in vacuum, after one period."""
+
+import numpy as np
+import pytest
+
+from analytic.automaton import Mode
+from analytic.contact.one_rim import lower_rim_of, put_on_floor
+from analytic.contact.periodic import repeats, start_tilting, tilt_rate
+from models.attitude import quaternion_from_angles, rotation_matrix
+from tests.helpers.contacts import follow_step
+from tests.helpers.draws import AIR, ZLOTY, scenario
+
+THIN = {**ZLOTY, "thickness": 0.0}
+
+
+def wobbling(body, mode):
+    y = np.array([0, 0, 0, 0, 0, 0, *quaternion_from_angles((0.0, 0.9, 0.0)), 2.0, 9.0, 4.0])
+    put_on_floor(body, 0.0, mode, lower_rim_of(y), y)
+    return y
+
+
+@pytest.mark.parametrize(("mode", "mu"), [(Mode.SLIDING, 0.0), (Mode.STICKING, 50.0)])
+def test_after_a_period_the_tilt_and_its_rate_are_those_before(mode, mu):
+    body = scenario(coin=THIN).body
+    y = wobbling(body, mode)
+    tilting, at_turns, rates, time = start_tilting(body, mu, mode, y), [], [tilt_rate(y)], 0.0
+    while not repeats(tilting, y):
+        made, _, over, _ = follow_step(body, mu, mode, y, 1e-4)
+        assert not over
+        time += made
+        rates.append(tilt_rate(y))
+        if rates[-1] * rates[-2] < 0:
+            at_turns.append(rotation_matrix(tuple(y[6:10]))[2][2])
+    assert time > 0.05
+    assert len(at_turns) == 3
+    assert at_turns[2] == pytest.approx(at_turns[0], abs=1e-5)
+    assert abs(at_turns[1] - at_turns[0]) > 0.05
+
+
+@pytest.mark.parametrize(
+    ("coin", "air", "mode", "mu"),
+    [
+        ({**THIN, "center_of_mass": [-1e-3, -1e-3, 0.0]}, {}, Mode.SLIDING, 0.0),
+        (THIN, AIR, Mode.SLIDING, 0.0),
+        (THIN, {}, Mode.SLIDING, 0.3),
+        (THIN, {}, Mode.CREEPING, 0.3),
+    ],
+)
+def test_an_unbalanced_coin_air_and_friction_on_slip_repeat_nothing(coin, air, mode, mu):
+    body = scenario(coin=coin, air=air).body
+    y = wobbling(body, Mode.SLIDING)
+    tilting = start_tilting(body, mu, mode, y)
+    for k in range(10):
+        y[11] = 9.0 * (-1) ** k
+        assert not repeats(tilting, y)

@@ -1,0 +1,109 @@
+"""Flights by power series: against an independent integration; and the proof that they are clear."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from analytic.flight.equations_of_motion import derivative
+from analytic.flight.gap_polynomials import DEGREE, gap_polynomials, time_surely_clear
+from analytic.flight.integrated_flight import first_step, flight_step, flight_work, within_step
+from analytic.flight.power_series import COLUMNS, ORDER, expand_flight
+from analytic.flight.touch_search import closing_speed, fly_by_steps
+from analytic.toss import state_of
+from models.body import Body
+from models.records import Array
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+
+
+def coin_and_start(rng, *, thickness=2e-3, offset=PAPER_OFFSET, air=AIR, spin=40.0):
+    if thickness == 0:
+        offset = [*offset[:2], 0.0]
+    case = scenario(
+        coin={**ZLOTY, "thickness": thickness, "center_of_mass": offset},
+        air=air,
+        release=draw_release(rng, spin=spin),
+    )
+    return case.body, state_of(case.release)
+
+
+def flown(body: Body, start: Array, duration: float) -> Array:
+    """Give the state after a flight, step by step."""
+    work, y, y_new, elapsed = flight_work(body), start.copy(), np.empty(13), 0.0
+    while elapsed < duration:
+        made, _, order = flight_step(body, y, first_step(body, y), duration - elapsed, work)
+        within_step(body, y, made, order, work, y_new)
+        y[:] = y_new
+        elapsed += made
+    return y
+
+
+@pytest.mark.parametrize("air", [{}, AIR, {"normal": 20.0, "tangential": 5.0}])
+@pytest.mark.parametrize("offset", [(0.0, 0.0, 0.0), PAPER_OFFSET])
+def test_a_flight_by_power_series_is_that_of_an_independent_integration(air, offset):
+    rng = np.random.default_rng(6)
+    for spin in (0.3, 40.0, 400.0):
+        body, start = coin_and_start(rng, air=air, offset=offset, spin=spin)
+
+        def rate(_, y, body=body):
+            dy = np.empty(13)
+            derivative(body, y, dy)
+            return dy
+
+        turned = 8.0
+        duration = min(turned / spin, 0.5)
+        other = solve_ivp(rate, (0, duration), start, method="DOP853", rtol=1e-13, atol=1e-15).y[:, -1]
+        sizes = np.repeat([1.0, 10.0, 1.0, spin + 30], [3, 3, 4, 3])
+        assert np.abs((flown(body, start, duration) - other) / sizes).max() < 3e-12
+
+
+def test_the_order_of_the_series_follows_the_length_of_the_step():
+    body, start = coin_and_start(np.random.default_rng(7))
+    orders = []
+    for longest in (1e-5, 1e-3, 1e-2, 1.0):
+        series = np.empty((ORDER + 1, COLUMNS))
+        length, order = expand_flight(body, start, longest, series)
+        assert length <= longest
+        assert (length == longest) == (order < ORDER)
+        orders.append(order)
+    assert orders == sorted(set(orders))
+    assert orders[-1] == ORDER
+
+
+@pytest.mark.parametrize("thickness", [0.0, 2e-3])
+def test_what_is_surely_clear_is_clear_and_a_touch_is_not(thickness):
+    """Over times before the first touch, and over times beyond it."""
+    rng, proved = np.random.default_rng(9), 0
+    for _ in range(30):
+        body, start = coin_and_start(rng, thickness=thickness)
+        end = start.copy()
+        touch, touches, *_ = fly_by_steps(body, end, 10.0, True)
+        assert touches
+        # The last step before the touch, from a time at which it is still to come.
+        y = flown(body, start, touch - 5e-3)
+        series, polynomials = np.empty((ORDER + 1, COLUMNS)), np.empty((2, DEGREE + 1))
+        length, order = expand_flight(body, y, 8e-3, series)
+        rounding = gap_polynomials(body, series, order, length, polynomials)
+        assert 0 < rounding < 1e-12 * closing_speed(body, y)[0]
+        clear = time_surely_clear(body, polynomials, 2 * order, rounding, 0.0, length, 0.0)
+        assert clear <= 5e-3
+        proved += clear > 2e-3
+        again = time_surely_clear(body, polynomials, 2 * order, rounding, 1e-3, 3e-3, 0.0)
+        assert again <= 4e-3
+        assert time_surely_clear(body, polynomials, 2 * order, rounding, 5e-3, 1e-3, 0.0) < 1e-4
+    assert proved > 20
+
+
+def test_a_coin_that_hardly_leaves_the_floor_is_searched_in_a_few_steps():
+    """Its gap grows with the cube of time, and bounds on accelerations alone would need hundreds."""
+    body, y = coin_and_start(np.random.default_rng(10), air={}, offset=(-1e-3, 0.0, 0.0))
+    y[2] -= closing_speed(body, y)[0]
+    lift = closing_speed(body, y)[1]
+    # Let the lowest point rest, and the coin's weight hardly act: the turning lifts it.
+    y[5] -= lift
+    body = body._replace(gravity=1e-3)
+    start, with_proof = y.copy(), y.copy()
+    flown_for, touches, evaluations, _ = fly_by_steps(body, with_proof, 10.0, False)
+    alone, also_touches, without, _ = fly_by_steps(body, start, 10.0, True)
+    assert touches == also_touches
+    assert flown_for == pytest.approx(alone, rel=1e-12)
+    assert evaluations < without
