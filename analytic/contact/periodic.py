@@ -28,9 +28,9 @@ def start_tilting(body, mu, mode, y):
     """Return the `Tilting` of a contact that starts in the state y, (13,).
 
     An ideal coin in vacuum that slides without friction, or rolls without slip, has one degree of freedom,
-    its tilt: L_z and L_ζ, or what takes their place in rolling, are functions of it (E. J. Routh, Advanced
-    Rigid Dynamics, §§ 241-246). The energy is kept, so the tilt goes to and fro between two extremes for
-    ever, if the contact holds from the one to the other and back.
+    its tilt: L_z and L_ζ, or what takes their place in rolling, are functions of it (S. A. Chaplygin 1897;
+    P. Appell and D. J. Korteweg 1900). Its energy is kept, so the tilt goes to and fro between two extremes
+    for ever, if the contact holds from the one to the other and back.
 
     Args:
         body: the coin.
