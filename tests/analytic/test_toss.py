@@ -11,8 +11,15 @@ from tests.helpers.draws import AIR, PAPER_LAWS, ZLOTY, draw_coin, draw_release,
 from tests.helpers.referee import Referee
 
 
-@pytest.mark.parametrize("law", PAPER_LAWS)
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(
+    ("law", "seed"),
+    # The others are slow for no more than a second opinion.
+    [
+        pytest.param(law, seed, marks=[] if (law + seed) % 2 else [pytest.mark.slow])
+        for law in PAPER_LAWS
+        for seed in range(2)
+    ],
+)
 def test_impacts_are_those_of_an_independent_integration(law, seed):
     rng = np.random.default_rng([int(law), seed])
     case = scenario(
