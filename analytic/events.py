@@ -243,6 +243,8 @@ def follow_to_event(body, rules, mu, mode, y, time, steps, limits, history):
         made, dt, over, event = follow(body, mu, mode, y, longest, limits.tolerance, stages)
         time += made
         in_mode += 1
+        if event == Event.ENDS:
+            return event, time, steps, undecided, Ending.NO_SOLUTION
         stalled = over and event == Event.NONE and made < _NO_TIME * (body.radius / body.gravity) ** 0.5
         steps += _STALLED if stalled else 1
         outcome, ending = classify_ending(body, rules, state_of(y), time, history)

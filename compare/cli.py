@@ -153,6 +153,11 @@ _contact = click.option(
 )
 @_contact
 @click.option("--max-impacts", type=_Count(1, 30_000_000), help="Stop after this number of impacts.")
+@click.option(
+    "--contact-steps",
+    type=_Count(1, 1_000_000_000),
+    help="Stop after this number of steps of sustained contact; by default an engine's own.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
 @click.option("--trajectory", type=click.Path(path_type=Path), help="Also write the path to this .csv file.")
 def toss(
@@ -160,6 +165,7 @@ def toss(
     engine: str,
     contact: str | None,
     max_impacts: int | None,
+    contact_steps: int | None,
     as_json: bool,
     trajectory: Path | None,
 ) -> None:
@@ -181,7 +187,8 @@ def toss(
         if max_impacts is not None:
             described = described.replace("ending.max_impacts", max_impacts)
         package = Engine(engine).package
-        chosen = {"contact": contact} if contact else {}
+        given = {"contact": contact, "contact_steps": contact_steps}
+        chosen = {name: value for name, value in given.items() if value is not None}
         result = package.toss(described, settings=replace(package.FINE, **chosen))
         if trajectory is not None:
             times = answer.path_times(result)

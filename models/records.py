@@ -80,7 +80,7 @@ _SENTENCES = {
     Ending.LYING: "The coin lies on a face; it only slides and spins, which can't tip it.",
     Ending.STANDING: "The coin stands on its edge: tipped onto either rim, it is turned back by the floor.",
     Ending.PERPETUAL: "The energy loss converges: the coin keeps enough energy to turn over for ever.",
-    Ending.CONTACT_STEPS: "The engine made as many steps as its contact_steps allows; raise it to go on.",
+    Ending.CONTACT_STEPS: "Contact took as many steps as contact_steps allows; raise it: --contact-steps N.",
 }
 
 

@@ -218,9 +218,11 @@ def held_on_edge(body, mu, mode, y):
         mode: number of the `Mode`, at one rim.
         y: state of a coin on its edge, (13,).
     """
-    dy, tipped, state = np.empty(STATE_SIZE), y.copy(), state_of(y)
+    dy, tipped = np.empty(STATE_SIZE), y.copy()
+    # Level the coin, then turn it a little to either side, about the horizontal axis in its plane.
+    upright.tilt(tipped, rotation_matrix(attitude_of(y))[2][2])
+    state = state_of(tipped)
     e, w = state.attitude, state.spin
-    # Turn the coin a little to either side, about the horizontal axis in its plane.
     axis = cross(state.R[2], (0.0, 0.0, 1.0))
     for side in (-1.0, 1.0):
         turn = quaternion_rate(e, scale(side * 2 * _TRIAL, axis))

@@ -18,6 +18,8 @@ from models.laws import ContactLaw
 _ROUGH = 1e4
 # The end of a contact is bracketed to this part of a step, in at most so many tries.
 _END, _MOST_TRIES = 0.5**50, 150
+# A step shorter than this part of one that is short against the coin's motion is none.
+_NO_STEP = 1e-30
 # A step of contact is at most so many times longer than one that is short against the coin's motion.
 _LONGEST = 4
 
@@ -93,7 +95,7 @@ def accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new):
         y_new: where the state at the end goes, (13,).
 
     Returns:
-        The length of the step made, and a length for the next [s].
+        The length of the step made, 0 where none is short enough, and a length for the next [s].
     """
     short = 8 * first_step(body, y)
     dt = min(_LONGEST * short, dt)
@@ -103,8 +105,8 @@ def accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new):
         if error <= 1 and (dt <= short or inside > 0):
             return dt, dt * step_factor(error)
         dt = max(short, dt / 2) if error <= 1 else dt * step_factor(error)
-        if not dt > 0:
-            raise FloatingPointError("the contact leaves the range of floating-point numbers")
+        if not dt > _NO_STEP * short:
+            return 0.0, short
 
 
 @compiled
@@ -122,10 +124,12 @@ def follow(body, mu, mode, y, dt, tolerance, stages):
 
     Returns:
         The elapsed time, a length for the next step [s], whether the contact came to its end, and the event
-        of a landing, `Event.NONE` without one.
+        of a landing, `Event.NONE` without one, `Event.ENDS` where the motion has no solution.
     """
     y_new, rim = np.empty(STATE_SIZE), lower_rim_of(y)
     high, dt = accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new)
+    if high == 0:
+        return high, dt, True, Event.ENDS
     if modes.rate(body, mu, mode, rim, y_new, stages[STAGES]) > 0:
         copy_into(y, y_new)
         copy_into(stages[0], stages[STAGES])
@@ -184,7 +188,7 @@ def sample_contact(body, mu, mode, start, start_time, times, tolerance, states):
     made, dt = accepted_contact_step(body, mu, mode, rim, y, np.inf, tolerance, stages, y_new)
     for i in range(len(times)):
         # The steps are those of `follow`: a time between them changes none.
-        while times[i] - start_time > elapsed + made:
+        while made > 0 and times[i] - start_time > elapsed + made:
             elapsed += made
             copy_into(y, y_new)
             modes.rate(body, mu, mode, rim, y, stages[0])

@@ -7,7 +7,13 @@ friction on slow slip grows in proportion to it.
 import math
 
 from analytic.contact.floor_force import friction_holds, holding_force
-from analytic.contact.rim_contact import accelerate, add_quotient, both_rims, rim_contact_in_flight
+from analytic.contact.rim_contact import (
+    accelerate,
+    add_quotient,
+    both_rims,
+    rim_contact,
+    rim_contact_in_flight,
+)
 from analytic.flight.equations_of_motion import flight_of, write_rate
 from analytic.flight.state_vector import (
     attitude_of,
@@ -78,7 +84,7 @@ def put_on_floor(body, y):
         body: the coin.
         y: state, (13,).
     """
-    _tilt(y, rotation_matrix(attitude_of(y))[2][2])
+    tilt(y, rotation_matrix(attitude_of(y))[2][2])
     tails, heads = both_rims(body, y)
     _, S, turned = _holding(body, 0.0, tails, heads, (tails.velocity[2], heads.velocity[2]))
     v = velocity_of(y)
@@ -95,7 +101,7 @@ def margin(body, mu, y):
 
 @compiled
 def tip_over(body, mu, y):
-    """Tip an upright coin a little onto the rim that is pressed harder.
+    """Tip an upright coin a little onto the rim that is pressed harder, which stays on the floor.
 
     Args:
         body: the coin.
@@ -104,7 +110,9 @@ def tip_over(body, mu, y):
     """
     on_tails, on_heads = rim_forces(body, mu, y)
     # Tails' rim is the lower one of a coin with heads up.
-    _tilt(y, -_TIP if on_tails > on_heads else _TIP)
+    rim = -1.0 if on_tails > on_heads else 1.0
+    tilt(y, rim * _TIP)
+    set_height(y, -rim_contact(body, y, rim).arm[2])
 
 
 @compiled
@@ -213,7 +221,7 @@ def _slow_slip(body, mu):
 
 
 @compiled
-def _tilt(y, angle):
+def tilt(y, angle):
     """Turn the coin about the horizontal axis in its plane so that n_z falls by a small `angle`."""
     e = attitude_of(y)
     up = rotation_matrix(e)[2]

@@ -16,7 +16,7 @@ from analytic.horizon.sensitivity import delay_of, flight_map, impact_map, touch
 from analytic.horizon.touch_derivatives import Touch, touch_derivatives
 from analytic.numerics.tolerances import TIME_STEP, TOUCH
 from models.attitude import rotation_matrix
-from models.body import Body, Rules
+from models.body import Body, Rules, in_vacuum
 from models.geometry import FLAT_SINE
 from models.laws import ContactLaw
 from models.records import Array
@@ -38,6 +38,9 @@ TIME_ERROR = 1e-7
 """Within the horizon the time of an impact is good to this [s]."""
 IMPULSE_ERROR = 1e-5
 """Within the horizon an impulse is good to this part of it."""
+MOST_CARRIED, TOUCH_COST, DRAG_COST = 1e5, 20.0, 400.0
+"""Errors are carried through this much turning [rad], which takes seconds: an impact costs as much as the
+second, a turn in air with b > 0 the third times as much as another."""
 LINEAR_RANGE = 1e-3
 """Tilt, closing speed and time of flight must be known to this part of theirs, so that the tangent map holds;
 the tilt's direction is the place on the rim."""
@@ -46,15 +49,20 @@ the tilt's direction is the place on the rim."""
 def trusted_impacts(body: Body, rules: Rules, toss: EventLog) -> int:
     """Count the leading impacts whose time, impulse, face, place and order the engine's errors cannot change.
 
+    None is counted after which the errors were carried through `MOST_CARRIED`.
+
     Args:
         body: the coin.
         rules: floor and ending.
         toss: from its release on.
     """
     # Of the state after the last impact, and of its time.
-    errors = np.zeros((STATE_SIZE + 1, 0))
+    errors, carried = np.zeros((STATE_SIZE + 1, 0)), 0.0
     for i, row in enumerate(toss.rows):
         y = toss.start_states[i].copy()
+        carried += TOUCH_COST + _turning(body, y, row["time"] - toss.start_times[i])
+        if carried > MOST_CARRIED:
+            return i
         closed = turns_in_closed_form(body, y[10:13])
         at_start, flight, at_end, duration, graze = _flight(
             body, rules, y, toss.start_times[i], CLOSED_FORM if closed else 1.0
@@ -75,6 +83,18 @@ def trusted_impacts(body: Body, rules: Rules, toss: EventLog) -> int:
         # A triangle of as many error vectors as dimensions has the same covariance.
         errors = np.transpose(np.linalg.qr((impact_map(touch) @ errors).T, mode="r"))
     return len(toss.rows)
+
+
+def _turning(body: Body, y: Array, duration: float) -> float:
+    """Return about how far a coin turns in a flight, which says how many steps it takes [rad].
+
+    Args:
+        body: the coin.
+        y: state at the start, (13,).
+        duration: of the flight [s].
+    """
+    turned = duration * ((body.gravity / body.radius) ** 0.5 + float(np.linalg.norm(y[10:13])))
+    return turned if body.air.exponent is None or in_vacuum(body) else DRAG_COST * turned
 
 
 def _flight(

@@ -5,9 +5,11 @@ import pytest
 
 import analytic
 from analytic.automaton import Event, Mode, mode_after
-from analytic.events import run
-from analytic.settings import Settings
+from analytic.contact.following import friction_in_contact
+from analytic.events import NO_LOSS, follow_to_event, run
+from analytic.settings import Settings, contact_limits
 from analytic.toss import state_of
+from models.perpetual import energy_history
 from models.records import Ending, Outcome
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
@@ -101,6 +103,18 @@ def test_a_spent_budget_ends_a_toss_by_its_name(case, settings, limits, ending):
     assert ending.label in tossed.ending.sentence
     decided = analytic.toss(scenario(**case))
     assert decided.outcome != Outcome.UNDECIDED
+
+
+def test_a_contact_that_no_step_is_short_enough_to_follow_has_no_solution():
+    case = scenario(floor={"contact": "coulomb", "friction": 0.3})
+    y = state_of(case.release)
+    y[6:10], y[12] = (0.8, 0.6, 0.0, 0.0), np.inf
+    mu, history = friction_in_contact(case.rules), energy_history(NO_LOSS)
+    with np.errstate(all="ignore"):
+        event, time, _, outcome, ending = follow_to_event(
+            case.body, case.rules, mu, Mode.SLIDING.value, y, 2.0, 0, contact_limits(Settings()), history
+        )
+    assert (event, time, outcome, ending) == (Event.ENDS, 2.0, Outcome.UNDECIDED, Ending.NO_SOLUTION)
 
 
 @pytest.mark.parametrize("steps", [0, 2.5])

@@ -126,6 +126,21 @@ def test_a_coin_kept_flat_by_symmetry_is_trusted_to_its_end():
     assert tilted.trusted_impacts == 0
 
 
+def test_errors_are_carried_through_so_much_turning_and_no_impact_after_it_is_trusted(monkeypatch):
+    case = scenario(release={"angular_velocity": [0, 0, 5.0]}, ending={"max_impacts": 8})
+    log = run(case.body, case.rules, state_of(case.release))
+    assert trusted_impacts(case.body, case.rules, log) == 8
+    monkeypatch.setattr(horizon, "MOST_CARRIED", 4.5 * horizon.TOUCH_COST + 33 * log.rows["time"][3])
+    assert trusted_impacts(case.body, case.rules, log) == 4
+
+
+def test_a_coin_that_falls_for_a_thousand_seconds_is_not_trusted_beyond_what_takes_seconds():
+    """Its impacts spin it at 1e5 rad/s, and to carry errors through the next flight would take an hour."""
+    release = {"position": [0, 0, 1e6], "quaternion": [0.9, 0.3, 0.3, 0.1], "angular_velocity": [3, 30, 5]}
+    tossed = analytic.toss(scenario(floor={"restitution": 0.6}, release=release))
+    assert 0 < tossed.trusted_impacts < len(tossed.impacts)
+
+
 def test_a_flat_coin_that_turns_and_does_not_fall_is_not_trusted():
     """The whole face touches at once, and the gap has no rate."""
     release = {"position": [0, 0, 1e-3], "angular_velocity": [5.0, 0, 0]}

@@ -5,7 +5,7 @@ import pytest
 
 from analytic.automaton import Event, Mode
 from analytic.contact import modes, upright
-from analytic.contact.edge import rolls, stands
+from analytic.contact.edge import held_on_edge, rolls, stands
 from analytic.contact.rim_contact import both_rims
 from analytic.contact.upright import rim_forces, start_creep
 from analytic.events import run
@@ -107,6 +107,30 @@ def test_a_coin_that_its_roll_tips_leaves_one_rim_and_falls_to_that_side():
         _, _, over, _ = follow_step(body, 0.0, Mode.SLIDING, y, 1e-3)
         assert not over
     assert side * rotation_matrix(tuple(y[6:10]))[2][2] > 1e-4
+
+
+def test_a_coin_that_tips_over_keeps_the_pressed_rim_on_the_floor():
+    body = scenario(coin=UNBALANCED).body
+    for phase in np.linspace(0.1, 6.0, 12):
+        y = upright_coin(body, phase, 5.0, 20.0)
+        upright.tip_over(body, 0.0, y)
+        up = rotation_matrix(tuple(y[6:10]))[2]
+        assert 0 < abs(up[2]) < 2e-12
+        assert abs(gap(body, y[2], tuple(up))) < 1e-17
+
+
+def test_a_coin_is_tried_on_either_rim_however_it_leans():
+    """Turning tips a rolling coin, or does not: leaning less than `ON_EDGE` must change neither."""
+    body, found = scenario(coin=UNBALANCED).body, set()
+    for turn in np.linspace(-70.0, 70.0, 29):
+        level = upright_coin(body, 0.4, turn, 20.0)
+        held = held_on_edge(body, 0.0, Mode.SLIDING, level)
+        found.add(held)
+        for lean in (-5e-7, 5e-7):
+            leaning = level.copy()
+            upright.tilt(leaning, lean)
+            assert held_on_edge(body, 0.0, Mode.SLIDING, leaning) == held
+    assert found == {True, False}
 
 
 def test_without_loss_a_coin_stands_if_it_is_held_in_the_course_of_its_own_roll():

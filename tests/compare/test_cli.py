@@ -67,6 +67,20 @@ def test_both_engines_answer_in_the_same_form():
     assert a["impacts"][0]["impulse"] == pytest.approx(b["impacts"][0]["impulse"], abs=1e-3 * 0.01)
 
 
+@pytest.mark.parametrize("engine", ["analytic", "mujoco"])
+def test_a_number_of_contact_steps_ends_a_toss_that_rolls_on(tmp_path, engine):
+    source = tmp_path / "rolls.toml"
+    source.write_text(
+        '[coin]\nmass = "2 g"\nradius = "1.25 cm"\nthickness = 0\n'
+        '[floor]\ncontact = "coulomb"\nfriction = 0.9\nrestitution = 0.1\n'
+        "[release]\nposition = [0, 0, 0.013]\nangles = [0, 1.5, 0]\nangular_velocity = [0, 0, 60]\n"
+    )
+    answered = cointoss("toss", source, "--engine", engine, "--contact-steps", 7)
+    assert answered.exit_code == 0
+    assert "outcome   undecided" in answered.stdout
+    assert "--contact-steps N" in answered.stdout
+
+
 def test_text_shows_sequence_outcome_and_horizon():
     text = cointoss("toss", "fig24a").stdout
     assert "outcome   heads" in text
@@ -156,6 +170,7 @@ def test_a_contact_may_take_one_step(tmp_path):
         ["toss", "fig24a", "--engine", "bullet"],
         ["toss", "fig24a", "--max-impacts", "0"],
         ["toss", "fig24a", "--max-impacts", "many"],
+        ["toss", "fig24a", "--contact-steps", "0"],
         ["toss", "fig24a", "--max-impact", "3", "--jsn"],
         ["toss"],
         [],
