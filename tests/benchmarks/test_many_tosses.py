@@ -1,10 +1,9 @@
-"""Whole tosses of a thin coin, by the engine and, in air, by two integrators of general use.
+"""Whole tosses of a planar thin coin, by the engine and, in air, by two integrators of general use.
 
 The coin falls on a smooth floor, χ = 0.6, from heights of 0.2 to 0.6 m with spins of 20 to 60 rad/s.
 `make bench` prints how many each makes in a second; `make test` makes a few, to see that they are the same.
 """
 
-import time
 from collections.abc import Callable
 from functools import cache
 from typing import Any
@@ -21,11 +20,11 @@ from models.releases import Releases
 from models.scenario import Scenario
 from tests.benchmarks import scipy_toss
 from tests.benchmarks.one_coin import OneCoin, mechanics
+from tests.benchmarks.rates import report
 from tests.helpers.draws import AIR, ZLOTY, scenario
 
 MANY, FEW = 8192, 8
-RATES: dict[str, np.ndarray] = {}
-"""Tosses in a second, and in a second of processor time, by whom."""
+BY_HEYOKA = "planar, by_heyoka"
 
 
 def family(n: int, air: dict[str, float]) -> list[Scenario]:
@@ -79,19 +78,6 @@ def by_scipy() -> list[tuple[list[float], list[int]]]:
     return [scipy_toss.toss(case, coin()) for case in IN_AIR]
 
 
-def report(capsys: Any, benchmark: Any, name: str, tosses: int, toss: Callable[[], Any]) -> None:
-    """Print the rate of the best round where it was timed, that by processor time, and ratios to heyoka's."""
-    if not benchmark.stats:
-        return
-    start = time.process_time()
-    toss()
-    RATES[name] = tosses / np.array([benchmark.stats.stats.min, time.process_time() - start])
-    (rate, by_processor), ratios = RATES[name], RATES[name] / RATES.get("by_heyoka", np.nan)
-    with capsys.disabled():
-        print(f"\n{name}: {rate:.0f} tosses/s, {ratios[0]:.3g} times heyoka's;", end=" ")
-        print(f"{by_processor:.0f} in a second of processor time, {ratios[1]:.3g} times", end="")
-
-
 @pytest.mark.parametrize("toss", [by_heyoka, by_scipy])
 def test_other_integrators_make_the_same_tosses(benchmark, capsys, toss: Callable[[], list[Any]]):
     for (times, faces), case in zip(toss(), IN_AIR, strict=True):
@@ -100,7 +86,7 @@ def test_other_integrators_make_the_same_tosses(benchmark, capsys, toss: Callabl
         assert times[:3] == pytest.approx(rows["time"], abs=1e-7)
         assert faces[:3] == rows["face"].tolist()
     benchmark(toss)
-    report(capsys, benchmark, toss.__name__, FEW, toss)
+    report(capsys, benchmark, f"planar, {toss.__name__}", FEW, toss, heyoka=BY_HEYOKA)
 
 
 @pytest.mark.parametrize("air", [AIR, {}])
@@ -120,8 +106,8 @@ def test_many_tosses(benchmark, capsys, monkeypatch, air, cores):
         return analytic.toss_many(cases[0], releases)
 
     benchmark(toss)
-    name = f"analytic.toss_many, {'in air' if air else 'in vacuum'}, cores: {cores}"
-    report(capsys, benchmark, name, len(cases), toss)
+    name = f"planar, analytic.toss_many, {'in air' if air else 'in vacuum'}, cores: {cores}"
+    report(capsys, benchmark, name, len(cases), toss, heyoka=BY_HEYOKA)
 
 
 @pytest.mark.parametrize(("air", "most"), [({}, 8), (AIR, 10)])

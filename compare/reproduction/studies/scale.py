@@ -1,4 +1,4 @@
-"""What a map costs on this machine, and so how long maps of 1e6 to 1e12 tosses would take.
+"""What a map of planar coins costs on this machine, and so how long ones of 1e6 to 1e12 tosses would take.
 
 Times are the processor's, of all cores together: whatever else the machine does counts little.
 """
@@ -17,6 +17,7 @@ from compare.output.progress import Progress
 from compare.output.tables import table
 from compare.reproduction.claim import Claim, Criterion
 from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.setups.map_times import map_times
 from compare.sweep import run as sweep_run
 from compare.sweep.axes import parse_axis
 from compare.sweep.grid import Sweep, Tile, tiles
@@ -47,8 +48,6 @@ SIDE = 1000
 MUJOCO_SIDE = 60
 TILED_SIDE, TILE_SIDES = 100, (10, 32, 100)
 """Pixels along a side of a map that is cut into tiles, and of these: of 1e2, 1e3, 1e4 tosses."""
-TOSSES = (1e6, 1e9, 1e12)
-CORES = (2, 16, 128, 1024)
 TOSS = "toss"
 LEAST_SHARE = 0.9
 """Of the time of a map that its tosses take, at least."""
@@ -85,11 +84,11 @@ def compute(side: int, mujoco_side: int, progress: Progress) -> MapCosts:
     """
     cores = int(config.__dict__["NUMBA_NUM_THREADS"])
     kinds = {
-        "thin coin": sweep_of(side),
-        "thin coin in air": sweep_of(side, normal=0.8, tangential=0.2),
-        "coin 2 mm thick": sweep_of(side, thickness=2e-3),
-        "thin coin, each on its own floor": sweep_of(side // 3, axes=FLOOR),
-        "thin coin by MuJoCo": sweep_of(mujoco_side, engine=Engine.MUJOCO),
+        "planar thin coin": sweep_of(side),
+        "planar thin coin in air": sweep_of(side, normal=0.8, tangential=0.2),
+        "planar coin 2 mm thick": sweep_of(side, thickness=2e-3),
+        "planar thin coin, each on its own floor": sweep_of(side // 3, axes=FLOOR),
+        "planar thin coin by MuJoCo": sweep_of(mujoco_side, engine=Engine.MUJOCO),
     }
     whole = len(kinds) + len(TILE_SIDES) + 1
     toss: dict[str, float] = {}
@@ -103,7 +102,7 @@ def compute(side: int, mujoco_side: int, progress: Progress) -> MapCosts:
         parts = tiles((TILED_SIDE, TILED_SIDE), (tile_side, tile_side))
         tile[tile_side**2] = _cost(sweep_of(TILED_SIDE), parts)
         progress(len(toss) + len(tile), whole)
-    steps = _steps(kinds["thin coin"], cores)
+    steps = _steps(kinds["planar thin coin"], cores)
     progress(whole, whole)
     return MapCosts(cores=cores, toss=toss, tile=tile, parts=steps, tosses=side * side)
 
@@ -188,7 +187,6 @@ def claims(costs: MapCosts) -> tuple[Claim, ...]:
 def tables(costs: MapCosts) -> str:
     """Return the tables, in Markdown."""
     whole = sum(costs.parts.values())
-    tosses = [f"{number:.0e}".replace("e+0", "e").replace("e+", "e") for number in TOSSES]
     return "\n\n".join(
         [
             table(
@@ -199,7 +197,7 @@ def tables(costs: MapCosts) -> str:
                 ],
             ),
             table(
-                ["tosses in a tile", "of a toss, thin coin, on one core [ms]"],
+                ["tosses in a tile", "of a toss, planar thin coin, on one core [ms]"],
                 [[str(count), f"{1e3 * cost:.3g}"] for count, cost in costs.tile.items()],
             ),
             table(
@@ -209,32 +207,13 @@ def tables(costs: MapCosts) -> str:
                     for name, seconds in costs.parts.items()
                 ],
             ),
-            table(
-                ["toss, cores", *(f"{number} tosses" for number in tosses)],
-                [
-                    [f"{name}, {cores}", *(_duration(number * cost / cores) for number in TOSSES)]
-                    for name, cost in costs.toss.items()
-                    for cores in CORES
-                ],
-            ),
+            map_times(costs.toss),
         ]
     )
 
 
-def _duration(seconds: float) -> str:
-    """Return a time in the largest unit of which it has one or more."""
-    for unit, length in (("years", 365.25 * 86400), ("days", 86400), ("h", 3600), ("min", 60)):
-        if seconds >= length:
-            return (
-                f"{seconds / length:.2g} {unit}"
-                if seconds < 100 * length
-                else f"{seconds / length:.0f} {unit}"
-            )
-    return f"{seconds:.2g} s"
-
-
 REPRODUCTION = Reproduction(
-    title="what maps cost, and how long those of up to 1e12 tosses take",
+    title="what maps of planar coins cost, and how long those of up to 1e12 tosses take",
     seconds=120,
     make=lambda progress: result(compute(SIDE, MUJOCO_SIDE, progress)),
     draw={},

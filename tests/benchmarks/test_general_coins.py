@@ -1,0 +1,108 @@
+"""Tosses of general coins: whole ones by the engine, and their first impacts by the engine and by heyoka.
+
+`make bench` prints how many each makes in a second; `make test` makes a few, to see that they are the same.
+heyoka has flights and impacts only, so it makes tosses that have no sustained contact so far.
+"""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numba import config
+
+import analytic
+from analytic.events import run
+from compare.reproduction.setups.general_coins import CLASSES, CoinClass
+from models.records import Array, Ending
+from models.releases import Releases
+from models.scenario import Scenario
+from tests.benchmarks.one_coin import mechanics
+from tests.benchmarks.rates import report
+
+MANY, FEW = 64, 4
+IMPACTS = 4
+"""Of a toss that heyoka makes too."""
+PARTS = ("position", "velocity", "quaternion", "angular_velocity")
+SHOWN = (
+    "thin, ideal, air, smooth",
+    "thin, ideal, vacuum, coulomb",
+    "thick, imperfect, air, smooth",
+    "thick, imperfect, air, coulomb",
+)
+KINDS = [kind for kind in CLASSES if kind.name in SHOWN]
+
+
+def number_of_tosses(benchmark: Any) -> int:
+    """Return as many as are worth timing only where they are timed."""
+    return FEW if benchmark.disabled else MANY
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
+def test_whole_tosses(benchmark, capsys, monkeypatch, kind):
+    monkeypatch.setitem(config.__dict__, "NUMBA_NUM_THREADS", 1)
+    scenario, number = kind.scenario, number_of_tosses(benchmark)
+    releases = kind.releases(number)
+
+    def toss():
+        return analytic.toss_many(scenario, releases)
+
+    end_times = toss().end_time[:FEW]
+    starts = kind.starts(number)[:FEW]
+    assert end_times.tolist() == [run(scenario.body, scenario.rules, start).end_time for start in starts]
+    benchmark(toss)
+    report(capsys, benchmark, f"{kind.name}, whole: analytic.toss_many", number, toss)
+
+
+def bouncing(kind: CoinClass, number: int) -> tuple[Scenario, Array]:
+    """Return the scenario with a toss over after `IMPACTS`, and starts that come so far, (number, 13)."""
+    scenario = kind.scenario.replace("ending.max_impacts", IMPACTS)
+    starts = []
+    for start in kind.starts(2 * number):
+        log = run(scenario.body, scenario.rules, start)
+        if log.ending == Ending.MAX_IMPACTS and len(log.contacts) == 0:
+            starts.append(start)
+    assert len(starts) >= number
+    return scenario, np.array(starts[:number])
+
+
+def parts_of(starts: Array) -> dict[str, Array]:
+    """Return states, (13,) or (n, 13), as those of a release or of releases."""
+    return dict(zip(PARTS, np.split(starts, [3, 6, 10], axis=-1), strict=True))
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
+def test_first_impacts_by_heyoka(benchmark, capsys, kind):
+    pytest.importorskip("heyoka", reason="heyoka has wheels for Linux on x86-64 only")
+    from tests.benchmarks import heyoka_toss
+    from tests.helpers.extended import Extended
+
+    scenario, starts = bouncing(kind, number_of_tosses(benchmark))
+    coin = mechanics(scenario)
+    numbers = [Extended(scenario.replace("release", parts_of(start))) for start in starts]
+
+    def toss():
+        return [heyoka_toss.toss(one, coin, 10.0, IMPACTS) for one in numbers]
+
+    for (times, faces), start in zip(toss(), starts, strict=True):
+        rows = run(scenario.body, scenario.rules, start).rows
+        # An impact multiplies what tolerances differ by, by less than 100 on average.
+        assert times == pytest.approx(rows["time"], abs=1e-6)
+        assert faces == rows["face"].tolist()
+    benchmark(toss)
+    name = f"{kind.name}, {IMPACTS} impacts: heyoka"
+    report(capsys, benchmark, name, len(starts), toss, heyoka=name)
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
+def test_first_impacts_by_the_engine(benchmark, capsys, monkeypatch, kind):
+    monkeypatch.setitem(config.__dict__, "NUMBA_NUM_THREADS", 1)
+    scenario, starts = bouncing(kind, number_of_tosses(benchmark))
+    releases = Releases(**parts_of(starts))
+
+    def toss():
+        return analytic.toss_many(scenario, releases)
+
+    assert (toss().impacts == IMPACTS).all()
+    benchmark(toss)
+    name = f"{kind.name}, {IMPACTS} impacts: "
+    report(capsys, benchmark, f"{name}analytic.toss_many", len(starts), toss, heyoka=f"{name}heyoka")

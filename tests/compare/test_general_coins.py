@@ -1,0 +1,166 @@
+"""The study of general coins: its classes and releases, its replays, its claims, its tables and its page."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import analytic
+from analytic.automaton import Mode
+from analytic.events import run
+from analytic.settings import MANY
+from compare.reproduction.claim import unexpected
+from compare.reproduction.saving import read_numbers, save
+from compare.reproduction.setups.general_coins import CLASSES
+from compare.reproduction.studies import general_coins
+from compare.reproduction.studies.general_coins import (
+    ClassCosts,
+    GeneralCosts,
+    TossParts,
+    call_time,
+    claims,
+    compute,
+    joined,
+    pieces_of,
+    replay,
+    replay_contacts,
+    replay_flights,
+    replay_impacts,
+    result,
+    tables,
+    timed_toss,
+)
+from models.records import Ending, Outcome
+from tests.helpers.pages import printed, saved
+
+SAVED = read_numbers(saved("general-coins"), GeneralCosts)
+FAST = ClassCosts(
+    tosses=2,
+    mean=4e-4,
+    median=3e-4,
+    percentile_99=6e-4,
+    worst=7e-4,
+    parts=TossParts(flight=1e-4, impact=5e-5, contact=2e-4),
+    ends={"heads, settled": 2},
+)
+ALL_FAST = GeneralCosts({kind.name: FAST for kind in CLASSES})
+IN_AIR = [kind for kind in CLASSES if kind.air]
+
+
+def test_the_page_shows_the_saved_numbers():
+    assert printed("SCALE.md", "general-coins") == result(SAVED).text
+    assert list(SAVED.classes) == [kind.name for kind in CLASSES]
+    assert all(sum(one.ends.values()) == one.tosses for one in SAVED.classes.values())
+
+
+def test_the_verdicts_are_the_known_ones():
+    assert unexpected(claims(SAVED)) == ()
+
+
+def test_the_classes_are_the_corners_of_coin_air_and_floor():
+    assert len({kind.name for kind in CLASSES}) == 16
+    centers = {kind.scenario.coin.center_of_mass for kind in CLASSES}
+    assert centers == {(0.0, 0.0, 0.0), (-1e-3, -1e-3, 0.0), (-1e-3, -1e-3, -2e-4)}
+    for kind in CLASSES:
+        scenario = kind.scenario
+        assert ("thick" in kind.name) == (scenario.coin.thickness == 2e-3)
+        assert ("vacuum" in kind.name) == (scenario.air.normal == scenario.air.tangential == 0)
+        assert (scenario.floor.friction == 0.2) == (scenario.floor.contact.label == "coulomb")
+        assert scenario.floor.restitution == 0.6
+
+
+def test_releases_are_those_of_the_class_and_spread_as_they_should():
+    first, again, other = (kind.starts(4000) for kind in (CLASSES[0], CLASSES[0], CLASSES[1]))
+    assert (first == again).all()
+    assert (first != other)[:, 2:].all()
+    assert first[:, 2].min() == pytest.approx(0.2, abs=1e-3)
+    assert first[:, 2].max() == pytest.approx(0.6, abs=1e-3)
+    # Normal numbers: within five standard errors.
+    assert first[:, 3:6].std(axis=0) == pytest.approx([0.3] * 3, rel=5 / np.sqrt(8000))
+    assert first[:, [10, 12]].std(axis=0) == pytest.approx([10, 10], rel=5 / np.sqrt(8000))
+    assert first[:, 11].min() == pytest.approx(20, abs=0.1)
+    assert first[:, 11].max() == pytest.approx(60, abs=0.1)
+    # Uniform over all attitudes: the components of a unit 4-vector have the variance 1/4.
+    assert (first[:, 6:10] ** 2).mean(axis=0) == pytest.approx([0.25] * 4, abs=0.02)
+
+
+@pytest.mark.parametrize("kind", [IN_AIR[0], IN_AIR[-1]], ids=lambda kind: kind.name)
+def test_a_replay_is_the_motion_of_the_toss(kind):
+    """Where a piece ends, the next one starts, but for a height that rounding moves."""
+    body, rules = kind.scenario.body, kind.scenario.rules
+    bounces, contacts = 0, 0
+    for start in kind.starts(6):
+        pieces = pieces_of(kind.scenario, start)
+        ends = run(body, rules, start).start_states[1:]
+        held = pieces.modes != Mode.FLIGHT
+        bounced = ~held & np.append(~held[1:], False)
+        flown, followed = pieces.of(bounced), pieces.of(held)
+        touches = np.zeros(len(flown.modes), dtype=np.bool_)
+        replay_flights(body, rules, flown.start_times, flown.states, touches)
+        assert touches.all()
+        replay_impacts(body, rules, flown.states, touches)
+        assert (flown.states[:, 3:] == ends[bounced, 3:]).all()
+        assert (np.abs(flown.states[:, :3] - ends[bounced, :3]) < 1e-12).all()
+        replay_contacts(body, rules, MANY.contact_tolerance, *vars(followed).values())
+        # Where slip stops, the velocity and the spin change at once.
+        assert (np.abs(followed.states[:, 6:10] - ends[held, 6:10]) < 1e-12).all()
+        bounces, contacts = bounces + len(flown.modes), contacts + len(followed.modes)
+    assert bounces > 10
+    assert contacts > 3
+
+
+def test_the_pieces_of_several_tosses_are_replayed_together():
+    kind = IN_AIR[0]
+    tosses = [pieces_of(kind.scenario, start) for start in kind.starts(2)]
+    pieces = joined(tosses)
+    assert len(pieces.modes) == sum(len(toss.modes) for toss in tosses)
+    before = pieces.states.copy()
+    assert (replay(kind.scenario, pieces) > 0).all()
+    assert (pieces.states == before).all()
+
+
+def test_a_timed_toss_is_one_of_toss_many():
+    kind = IN_AIR[0]
+    tossed = analytic.toss_many(kind.scenario, kind.releases(4))
+    timed = [timed_toss(kind.scenario.body, kind.scenario.rules, start) for start in kind.starts(4)]
+    ends = zip(tossed.outcome, tossed.ending, strict=True)
+    assert [end for _, end in timed] == [f"{Outcome(o).label}, {Ending(e).label}" for o, e in ends]
+    # A call makes no flight: least of all does it take as long as the longest toss.
+    assert 0 < call_time(kind.scenario, kind.starts(1)[0]) < max(time for time, _ in timed)
+
+
+@pytest.mark.parametrize(
+    ("name", "changed", "missed"),
+    [
+        ("thick, imperfect, air, coulomb", {"mean": 6e-4}, "in air"),
+        ("thin, ideal, vacuum, smooth", {"mean": 1.1e-3}, "of an ideal coin in vacuum"),
+        ("thin, imperfect, vacuum, coulomb", {"mean": 5.1e-3}, "of an imperfect coin in vacuum"),
+        ("thin, ideal, air, smooth", {"worst": 1.1}, "no toss takes more than 1 s"),
+    ],
+)
+def test_a_bar_is_missed_by_one_class_that_is_too_slow(name, changed, missed):
+    assert all(claim.holds for claim in claims(ALL_FAST))
+    slow = GeneralCosts({**ALL_FAST.classes, name: replace(FAST, **changed)})
+    assert [missed in claim.claim for claim in claims(slow) if not claim.holds] == [True]
+
+
+def test_the_tables_follow_from_the_times():
+    slow = {kind.name: replace(FAST, mean=2e-3) for kind in CLASSES if not kind.air}
+    lines = tables(GeneralCosts({**ALL_FAST.classes, **slow})).splitlines()
+    assert "| thin, ideal, air, smooth | 0.4 | 0.3 | 0.6 | 0.7 | 0.1 | 0.05 | 0.2 | 0.05 |" in lines
+    # 1e6 * 4e-4 s / 2 and 1e9 * 2e-3 s / 16
+    assert next(line for line in lines if line.startswith("| general coin in air, 2 |")).count("3.3 min") == 1
+    assert next(line for line in lines if "in vacuum, 16" in line).split(" | ")[2] == "1.4 days"
+
+
+def test_a_small_study_is_made(monkeypatch):
+    monkeypatch.setattr(general_coins, "CLASSES", tuple(IN_AIR[:2]))
+    told = []
+    study = compute(2, lambda *progress: told.append(progress))
+    assert told == [(i, 4) for i in range(1, 5)]
+    assert [one.tosses for one in study.classes.values()] == [2, 2]
+
+
+def test_the_saved_numbers_are_read_again(tmp_path):
+    save(tmp_path, result(ALL_FAST), {})
+    assert read_numbers(tmp_path, GeneralCosts) == ALL_FAST
