@@ -18,7 +18,7 @@ class Settings:
     """Error allowed in a step of flight, relative; compiled in."""
     contact_tolerance: float = CONTACT_STEP_ERROR
     """Error allowed in a step of sustained contact, relative."""
-    contact_steps: int = 3_000_000
+    contact_steps: int = 2_000_000
     """The most steps in the sustained contacts of a toss; a mode that takes no time costs a thousand."""
 
     def __post_init__(self) -> None:

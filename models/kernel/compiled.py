@@ -5,6 +5,7 @@
 # pyright: reportIncompatibleMethodOverride=false
 
 from collections.abc import Callable
+from copy import copy
 from typing import Any
 
 from numba import _dynfunc
@@ -12,7 +13,7 @@ from numba.core import types
 from numba.core.compiler import Compiler, CompileResult, compile_result
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.dispatcher import _FunctionCompiler
-from numba.core.environment import lookup_environment
+from numba.core.environment import Environment, lookup_environment
 from numba.core.registry import CPUDispatcher, cpu_target
 
 from models.kernel.callee_code import Callee, CalleeCode, CalleeCompiler
@@ -157,7 +158,10 @@ class _Linker(_FunctionCompiler):
     def _linked(self, args: Any) -> CompileResult:
         self._function.compile(args)
         callee = self._function.overloads[args]
-        description, environment = callee.fndesc, callee.environment
+        # The wrapper keeps constants of its own, lest one who knew the function without them has too few.
+        description = copy(callee.fndesc)
+        description.env_name += "_from_python"
+        environment = Environment.from_fndesc(description)
         context = cpu_target.target_context.subtarget(enable_nrt=True)
         library = context.codegen().create_library(callee.library.name)
         library.enable_object_caching()
