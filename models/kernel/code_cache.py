@@ -17,7 +17,7 @@ from typing import Any, ClassVar
 from numba.core import types
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
 
-PACKAGES = ("models", "analytic", "coin_mj")
+PACKAGES = ("models", "analytic", "coin_mj", "compare")
 """Packages with compiled functions; what others compile is not kept."""
 UNUSED = 3 * 24 * 3600.0
 """Folders not used for so long are removed when another is made [s]."""
