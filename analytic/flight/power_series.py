@@ -41,7 +41,8 @@ def expand_flight(body, y, longest, series):
         series: where the coefficients go, (ORDER + 1, COLUMNS).
 
     Returns:
-        For how long the series holds [s], at most until C falls to the floor if that is soon, and its order.
+        For how long the series holds [s], and its order. The time is at most that of a fall in vacuum to
+        the floor, or by a radius if that is farther.
     """
     state = state_of(y)
     U = apply_transposed(state.R, state.velocity)
@@ -143,10 +144,9 @@ def state_in_flight(body, series, order, t, y, y_new):
 
 @compiled
 def _fall_time(body, state):
-    """Return the time in which C falls to the floor from this `State` in vacuum, infinite below it [s]."""
-    z, rise = state.position[2], state.velocity[2]
-    square = rise * rise + 2 * body.gravity * z
-    return (rise + square**0.5) / body.gravity if z > 0 else np.inf
+    """Return the time in which C falls in vacuum to the floor, or by a radius if that is farther [s]."""
+    depth, rise = max(state.position[2], body.radius), state.velocity[2]
+    return (rise + (rise * rise + 2 * body.gravity * depth) ** 0.5) / body.gravity
 
 
 @compiled

@@ -51,8 +51,10 @@ def test_a_flight_by_power_series_is_that_of_an_independent_integration(air, off
 
         turned = 8.0
         duration = min(turned / spin, 0.5)
-        other = solve_ivp(rate, (0, duration), start, method="DOP853", rtol=1e-13, atol=1e-15).y[:, -1]
         sizes = np.repeat([1.0, 10.0, 1.0, spin + 30], [3, 3, 4, 3])
+        # An absolute tolerance of each part's own size: rounding would meet no smaller one.
+        settings = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-14 * sizes}
+        other = solve_ivp(rate, (0, duration), start, **settings).y[:, -1]
         assert np.abs((flown(body, start, duration) - other) / sizes).max() < 3e-12
 
 
@@ -106,4 +108,4 @@ def test_a_coin_that_hardly_leaves_the_floor_is_searched_in_a_few_steps():
     alone, also_touches, without, _ = fly_by_steps(body, start, 10.0, True)
     assert touches == also_touches
     assert flown_for == pytest.approx(alone, rel=1e-12)
-    assert evaluations < without
+    assert evaluations < without / 5
