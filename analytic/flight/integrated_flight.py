@@ -62,13 +62,14 @@ def first_step(body, y):
 
 
 @compiled
-def accepted_step(body, y, dt, stages, y_new):
-    """Advance the state by a step whose error is within `STEP_ERROR`, at most dt long.
+def accepted_step(body, y, dt, tolerance, stages, y_new):
+    """Advance the state by a step at most dt long.
 
     Args:
         body: the coin.
         y: state at the start, (13,).
         dt: length to try first [s].
+        tolerance: error allowed, see `step_error`.
         stages: work space, (12, 13).
         y_new: where the state at the end goes, (13,).
 
@@ -81,7 +82,7 @@ def accepted_step(body, y, dt, stages, y_new):
     derivative(body, y, stages[0])
     while True:
         step(body, y, dt, stages, y_new)
-        error = step_error(body, y, dt, stages) / STEP_ERROR
+        error = step_error(body, y, dt, stages) / tolerance
         if error <= 1:
             return dt, dt * step_factor(error)
         dt *= step_factor(error)
@@ -114,7 +115,7 @@ def flight_step(body, y, dt, longest, work):
     if body.air.exponent is None:
         length, order = expand_flight(body, y, longest, work)
         return length, np.inf, order
-    made, dt = accepted_step(body, y, min(dt, longest), work, np.empty(STATE_SIZE))
+    made, dt = accepted_step(body, y, min(dt, longest), STEP_ERROR, work, np.empty(STATE_SIZE))
     return made, dt, 0
 
 

@@ -1,7 +1,7 @@
 """The tangent map of a flight: how a small change of its start grows.
 
-The Runge-Kutta tableau of the flight acts on the linearised equations of motion at the flight's own stages:
-the result is the derivative of the very numbers the flight computes, its steps held.
+The Runge-Kutta tableau acts on the linearised equations of motion at the stages of a flight: the result is
+the derivative of the very numbers that these steps compute, their lengths held.
 """
 
 import numpy as np
@@ -12,10 +12,14 @@ from analytic.flight.integrated_flight import accepted_step, first_step, step
 from analytic.flight.state_vector import STATE_SIZE, attitude_of, spin_of, velocity_of
 from analytic.numerics.rotation import quaternion_rate, rotation_change
 from analytic.numerics.runge_kutta import STAGES, end_point, stage_point
+from analytic.numerics.tolerances import STEP_ERROR
 from models.attitude import rotation_matrix
 from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, apply, apply_transposed, cross, subtract
+
+STEP_ERROR_IN_AIR = 1e-7
+"""Error allowed in one step where b > 0 and each step takes many quadratures: a growth is wanted to 1e-3."""
 
 
 @compiled
@@ -89,8 +93,9 @@ def flight_tangent(body, y, duration, changes, moved):
     """
     stages, y_new = np.empty((STAGES, STATE_SIZE)), np.empty(STATE_SIZE)
     elapsed, dt = 0.0, first_step(body, y)
+    tolerance = STEP_ERROR if body.air.exponent is None else STEP_ERROR_IN_AIR
     while elapsed < duration:
-        made, dt_next = accepted_step(body, y, dt, stages, y_new)
+        made, dt_next = accepted_step(body, y, dt, tolerance, stages, y_new)
         if elapsed + made >= duration:
             made = duration - elapsed
             derivative(body, y, stages[0])
