@@ -237,7 +237,7 @@ def follow_to_event(body, rules, mu, mode, y, time, steps, limits, history):
         The event, the time [s], the steps, the outcome and the ending.
     """
     undecided, dt, in_mode = Outcome.UNDECIDED, np.inf, 0
-    stages, tilting = start_following(body, mu, mode, y), start_tilting(body, mu, mode, y)
+    stages, tilting = start_following(body, mu, mode, y), start_tilting(body, mu, mode)
     while time < rules.max_time:
         longest = min(dt, rules.max_time - time)
         made, dt, over, event = follow(body, mu, mode, y, longest, limits.tolerance, stages)

@@ -11,21 +11,26 @@ from models.body import in_vacuum, is_ideal
 from models.kernel.compiled import compiled
 from models.records import Array
 
+# A rate of n_z below this part of √(g/r) has no sign: it may be rounding.
+_NOTICEABLE = 1e-6
+
 
 class Tilting(NamedTuple):
     """How often the tilt of a coin has turned back; the array is written to as it goes on."""
 
     periodic: bool
     """Whether the tilt is periodic while the mode lasts."""
+    slowest: float
+    """Slower changes of n_z are none [1/s]."""
     rate: Array
-    """Rate of n_z at the last step, (1,) [1/s]."""
+    """The last rate of n_z that was not slower, (1,) [1/s]."""
     turns: Array
     """Extremes of n_z so far, (1,)."""
 
 
 @compiled
-def start_tilting(body, mu, mode, y):
-    """Return the `Tilting` of a contact that starts in the state y, (13,).
+def start_tilting(body, mu, mode):
+    """Return the `Tilting` of a contact that starts.
 
     An ideal coin in vacuum that slides without friction, or rolls without slip, has one degree of freedom,
     its tilt: L_z and L_ζ, or what takes their place in rolling, are functions of it (S. A. Chaplygin 1897;
@@ -36,11 +41,11 @@ def start_tilting(body, mu, mode, y):
         body: the coin.
         mu: coefficient of friction μ, 0 on a smooth floor.
         mode: number of the `Mode`, in contact.
-        y: state, (13,).
     """
     lossless = mode == Mode.STICKING or (mode == Mode.SLIDING and mu == 0)
     periodic = lossless and is_ideal(body) and in_vacuum(body)
-    return Tilting(periodic, np.full(1, tilt_rate(y)), np.zeros(1))
+    slowest = _NOTICEABLE * (body.gravity / body.radius) ** 0.5
+    return Tilting(periodic, slowest, np.zeros(1), np.zeros(1))
 
 
 @compiled
@@ -52,9 +57,10 @@ def repeats(tilting, y):
         y: state at the end of a step.
     """
     rate = tilt_rate(y)
-    if rate * tilting.rate[0] < 0:
-        tilting.turns[0] += 1
-    tilting.rate[0] = rate
+    if abs(rate) > tilting.slowest:
+        if rate * tilting.rate[0] < 0:
+            tilting.turns[0] += 1
+        tilting.rate[0] = rate
     return tilting.periodic and tilting.turns[0] == 3
 
 

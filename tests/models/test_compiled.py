@@ -105,6 +105,31 @@ def test_an_edit_compiles_anew_what_it_can_change_and_no_more(folder, callee):
     assert run_caller(folder) == [32, 1, 0, 0]
 
 
+def test_kept_code_calls_what_another_process_has_compiled_anew(folder):
+    """A process that compiles the callee alone numbers its functions otherwise."""
+    write(folder, "analytic.callee", CALLEE.format(2.0))
+    write(folder, "analytic.caller", CALLER.format("analytic.callee", 1))
+    write(folder, "analytic.above", CALLER.format("analytic.caller", 5).replace("part", "whole as part", 1))
+    assert run_caller(folder)[0] == 21
+    for kept in folder.glob("cache/cointoss-analytic.callee-*"):
+        shutil.rmtree(kept)
+    others = "\n".join(f"@compiled\ndef f{i}(x):\n    return x\nf{i}(1.0)" for i in range(5))
+    run(folder, f"{IMPORT}{others}\nfrom analytic.callee import part\npart(1.0)")
+    assert run(folder, "from analytic.above import whole\nprint(whole(10.0))") == [26]
+
+
+def test_a_function_kept_for_python_works_where_it_was_kept_for_callers_too(folder):
+    """Python's wrapper makes an array by constants that the code for callers does not have."""
+    source = IMPORT + "import numpy as np\n\n\n@compiled\ndef part(x):\n    return np.full(3, x), x\n"
+    write(folder, "analytic.callee", source)
+    above = "from {} import part\n\n\n@compiled\ndef {}(x):\n    return part(x)[0][1] + {}\n"
+    for name in ("one", "two"):
+        write(folder, f"analytic.{name}", IMPORT + above.format("analytic.callee", name, 1))
+    script = "from analytic.{0} import {0}, part\nprint({0}(10.0))\nprint(part(3.0)[0].sum())"
+    assert run(folder, script.format("one")) == [11, 9]
+    assert run(folder, script.format("two")) == [11, 9]
+
+
 def test_named_tuples_with_other_fields_are_other_types(folder):
     """A function need not import the named tuple that it is given, so an edit there is not in its hash."""
     tuples = "from typing import NamedTuple\n\n\nclass Pair(NamedTuple):\n    {}: float\n    {}: float\n"

@@ -75,9 +75,16 @@ def make(progress: Progress) -> Result:
             analytic=f"{lasting} impacts; with {OTHERS} other spins {others.min()} to {others.max()}",
             mujoco=mujoco["air"].split(";")[0],
             criteria=[
-                Criterion("fewest with other spins", int(others.min()), "<", PRINTED["air"][1], "as printed"),
-                Criterion("most", int(others.max()), ">", PRINTED["air"][1], "as printed; it is chaotic"),
+                Criterion(
+                    "impacts over those printed, less 1",
+                    abs(lasting / PRINTED["air"][1] - 1),
+                    "<",
+                    0.05,
+                    "half the spread over other spins",
+                )
             ],
+            # The number is chaotic: another rounding gives another one.
+            expected=False,
         ),
         Claim(
             claim="the exponents are 0.024 with air and 0.08 without",
