@@ -1,6 +1,7 @@
-"""What all tests share: a back end for offscreen drawing, and reproducible Hypothesis runs."""
+"""What all tests share: a back end for drawing, signals that processes heed, and reproducible Hypothesis."""
 
 import os
+import signal
 
 import pytest
 from hypothesis import settings
@@ -8,6 +9,10 @@ from hypothesis import settings
 from compare.film.back_end import drawing_problem
 
 os.environ.setdefault("MUJOCO_GL", "egl")
+
+# Runs in the background ignore Ctrl-C, and what they start would too.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 settings.register_profile("cointoss", deadline=None, derandomize=True, max_examples=100)
 settings.load_profile("cointoss")
