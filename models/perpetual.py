@@ -114,10 +114,13 @@ def loss_to_come(energies, none, doublings):
         none: a loss that cannot be told from none [J].
         doublings: how many.
     """
-    losses = energies[:-1] - energies[1:]
+    losses = np.empty(len(energies) - 1)
+    for i in range(len(losses)):
+        losses[i] = energies[i] - energies[i + 1]
     few = losses[1 - _FEW :]
-    if few.min() < -none:
-        return np.inf
+    for loss in few:
+        if loss < -none:
+            return np.inf
     growth = _largest_growth(losses, none) if energies[0] < np.inf else np.inf
     if growth >= 1:
         growth = max(_largest_growth(few, none), 1.0)

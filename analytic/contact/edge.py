@@ -123,10 +123,11 @@ def stands(body, mu, mode, y):
     if not held_on_edge(body, mu, mode, y):
         return False
     lossless = (mu == 0 or straight) and in_vacuum(body)
+    one_way = lossless
     phases, roll_rates = np.empty((_PHASES, STATE_SIZE)), np.empty(_PHASES)
     for i in range(_PHASES):
         roll_rates[i] = rolled_on(body, mu, mode, straight, y, math.pi * i / _PHASES, phases[i])
-    one_way = lossless and roll_rates.min() > 0
+        one_way = one_way and roll_rates[i] > 0
     L_z = dot(rotation_matrix(attitude_of(y))[2], apply(body.inertia, spin_of(y)))
     for i in range(_PHASES):
         for share in (1.0, -1.0, 0.0):

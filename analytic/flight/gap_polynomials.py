@@ -98,4 +98,7 @@ def _is_above(polynomial, length, least, bernstein):
     for i in range(1, degree + 1):
         for k in range(degree, i - 1, -1):
             bernstein[k] += bernstein[k - 1]
-    return bernstein.min() > least
+    above = True
+    for k in range(degree + 1):
+        above = above and bernstein[k] > least
+    return above
