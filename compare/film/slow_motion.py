@@ -13,16 +13,19 @@ SLOW_FOR = 0.02
 WEAK = 0.1
 """The film is not slowed down for an impulse below this part of its toss's largest."""
 LONGEST = 30.0
-"""A longer film is sped up to this length [s]."""
+"""A longer film is sped up to this length, if no other is asked for [s]."""
 _AROUND = SLOW_FOR * np.linspace(-1, 1, 41)
 
 
-def film_times(tosses: Sequence[Toss], frames_per_second: int) -> tuple[Array, Array]:
+def film_times(
+    tosses: Sequence[Toss], frames_per_second: int, longest: float = LONGEST
+) -> tuple[Array, Array]:
     """Choose the times that a film of some tosses, shown at once, consists of.
 
     Args:
         tosses: what to show, to the end of the longest.
         frames_per_second: of the film.
+        longest: how long it may take [s].
 
     Returns:
         times: of the frames, increasing from 0 to the end, (n,) [s].
@@ -35,7 +38,7 @@ def film_times(tosses: Sequence[Toss], frames_per_second: int) -> tuple[Array, A
     part = np.clip(_distance_to(slow, grid) / SLOW_FOR, 0, 1)
     speed = SLOW + (FAST - SLOW) * part * part * (3 - 2 * part)
     film = np.append(0.0, np.cumsum(np.diff(grid) * (1 / speed[1:] + 1 / speed[:-1]) / 2))
-    stretch = max(1.0, film[-1] / LONGEST)
+    stretch = max(1.0, film[-1] / longest)
     count = max(2, round(film[-1] / stretch * frames_per_second))
     times = np.interp(np.linspace(0, film[-1], count), film, grid)
     return times, np.interp(times, grid, speed) * stretch

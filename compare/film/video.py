@@ -14,7 +14,7 @@ import numpy as np
 from compare.film.captions import caption_of, written
 from compare.film.drawing import Camera, Drawer, box_of
 from compare.film.play import play_of
-from compare.film.slow_motion import film_times
+from compare.film.slow_motion import LONGEST, film_times
 from models.records import Toss
 
 HELD = 1.5
@@ -29,15 +29,19 @@ class Format(NamedTuple):
     height: int
     """[pixels]."""
     frames_per_second: int
+    longest: float = LONGEST
+    """A film that would take longer is sped up to this length [s]."""
+    samples: int = 2
+    """Points of a pixel at which the coin's border is looked for; two take twice the time of one."""
 
 
-FULL, SMALL = Format(1280, 720, 60), Format(960, 540, 30)
-"""Of a film that stands alone, and of one in a page."""
+FULL, SMALL = Format(1280, 720, 60), Format(960, 540, 24, longest=15.0, samples=1)
+"""Of a film that stands alone, and of one in a page, whose reader waits for it."""
 
 
 def frame_count(tosses: Sequence[Toss], form: Format) -> int:
     """Return the number of frames of a film."""
-    return len(film_times(tosses, form.frames_per_second)[0]) + _held(form)
+    return len(film_times(tosses, form.frames_per_second, form.longest)[0]) + _held(form)
 
 
 def frames(tosses: Sequence[Toss], camera: Camera, form: Format) -> Iterator[np.ndarray]:
@@ -48,12 +52,15 @@ def frames(tosses: Sequence[Toss], camera: Camera, form: Format) -> Iterator[np.
         camera: from where.
         form: of the film.
     """
-    times, speeds = film_times(tosses, form.frames_per_second)
+    times, speeds = film_times(tosses, form.frames_per_second, form.longest)
     plays = [play_of(toss, times) for toss in tosses]
     box, width = box_of(plays), form.width // len(tosses)
     with ExitStack() as stack:
         drawers = [
-            stack.enter_context(Drawer(play, camera, box, height=form.height, width=width)) for play in plays
+            stack.enter_context(
+                Drawer(play, camera, box, height=form.height, width=width, samples=form.samples)
+            )
+            for play in plays
         ]
         for i, (time, speed) in enumerate(zip(times, speeds, strict=True)):
             picture = np.concatenate([drawer.draw(i) for drawer in drawers], axis=1)

@@ -6,7 +6,8 @@ from pathlib import Path
 from compare.output import files
 from compare.output.files import UnwritableError
 
-FILES = ("report.html", "toss.mp4", "numbers.json", "path-analytic.csv", "path-mujoco.csv")
+OF_THE_FILM = ("report.html", "toss.mp4")
+FILES = (*OF_THE_FILM, "numbers.json", "path-analytic.csv", "path-mujoco.csv")
 
 
 def require_folder(folder: Path, source: str) -> None:

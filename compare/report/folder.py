@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,11 +13,16 @@ from compare.metrics.comparison import Comparison, compare
 from compare.output import answer
 from compare.output.files import written_together
 from compare.report import plots
-from compare.report.contents import FILES
+from compare.report.contents import FILES, OF_THE_FILM
 from compare.report.map_section import MapSection
 from compare.report.page import Page, render, versions
 from models.records import Array, Toss
 from models.scenario import Scenario
+
+BEING_DRAWN = (
+    "It is being drawn: reload this page when cointoss has ended. "
+    "If that was interrupted, cointoss video draws the film alone."
+)
 
 
 def write_report(
@@ -31,7 +36,9 @@ def write_report(
     mujoco: EngineSettings | None = None,
     maps: MapSection | None = None,
 ) -> Path:
-    """Toss a scenario by both engines and write everything about it.
+    """Toss a scenario by both engines and write everything about it, the film last.
+
+    Before the film is drawn the page stands without it.
 
     Args:
         scenario: what to toss.
@@ -61,14 +68,7 @@ def write_report(
             states = toss.sample(answer.path_times(toss))
             (aside / f"path-{toss.engine}.csv").write_text(answer.path_csv(states), encoding="utf-8")
 
-        video = None
-        if comparison and no_video is None:
-            from compare.film.drawing import Camera
-            from compare.film.video import SMALL, write_video
-
-            write_video(tosses, Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress)
-            video = (aside / "toss.mp4").read_bytes()
-
+        filmed = comparison is not None and no_video is None
         page = Page(
             name=name,
             scenario=scenario,
@@ -77,11 +77,19 @@ def write_report(
             comparison=comparison,
             not_realisable=not_realisable,
             figures=plots.draw(tosses, comparison),
-            video=video,
-            no_video=no_video or not_realisable,
+            video=None,
+            no_video=BEING_DRAWN if filmed else no_video or not_realisable,
             maps=maps,
         )
         (aside / "report.html").write_text(render(page), encoding="utf-8")
+    if filmed:
+        with written_together(folder, OF_THE_FILM) as aside:
+            from compare.film.drawing import Camera
+            from compare.film.video import SMALL, write_video
+
+            write_video(tosses, Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress)
+            with_film = replace(page, video=(aside / "toss.mp4").read_bytes(), no_video=None)
+            (aside / "report.html").write_text(render(with_film), encoding="utf-8")
     return folder / "report.html"
 
 

@@ -16,10 +16,11 @@ from compare.film.video import SMALL, frame_count
 from compare.metrics.comparison import Comparison, compare
 from compare.output.files import UnwritableError
 from compare.report.contents import FILES, require_folder
-from compare.report.folder import write_report
+from compare.report.folder import BEING_DRAWN, write_report
 from compare.report.page import versions
 from models import certificate
 from models.reading import load, parse, scenario_text
+from tests.helpers.command_line import cointoss
 from tests.helpers.draws import AIR, scenario
 
 SHORT = scenario_text("zloty").replace("0.40001", "0.05") + "\n[ending]\nmax_impacts = 2\n"
@@ -120,6 +121,30 @@ def test_the_film_has_its_frames(folder):
     assert isinstance(compared, Comparison)
     assert frames == frame_count([compared.analytic, compared.mujoco], SMALL)
     assert seconds == pytest.approx(frames / SMALL.frames_per_second, abs=0.1)
+
+
+def test_the_page_stands_before_the_film_is_drawn_and_after_it_was_interrupted(tmp_path):
+    said = []
+
+    def interrupt(*_):
+        said.append((tmp_path / "report.html").read_text(encoding="utf-8"))
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        write_report(parse(SHORT, "short"), SHORT, "short", tmp_path, None, interrupt)
+    after = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert said == [after]
+    assert BEING_DRAWN in after
+    assert {path.name for path in tmp_path.iterdir()} == set(FILES) - {"toss.mp4"}
+
+
+def test_no_video_is_drawn_where_none_is_asked_for(tmp_path):
+    (tmp_path / "short.toml").write_text(SHORT)
+    assert (
+        cointoss("compare", tmp_path / "short.toml", "--out", tmp_path / "out", "--no-video").exit_code == 0
+    )
+    assert {path.name for path in (tmp_path / "out").iterdir()} == set(FILES) - {"toss.mp4"}
+    assert "None was asked for" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
 
 
 def test_without_opengl_the_report_says_what_to_install(tmp_path):
