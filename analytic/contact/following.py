@@ -4,7 +4,7 @@ import numpy as np
 
 from analytic.automaton import Event
 from analytic.contact import modes
-from analytic.contact.one_rim import lower_rim_of
+from analytic.contact.one_rim import lay_flat, lower_rim_of
 from analytic.flight.integrated_flight import first_step, step_error
 from analytic.flight.state_vector import STATE_SIZE, normalise
 from analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
@@ -140,6 +140,8 @@ def follow(body, mu, mode, y, dt, tolerance, stages):
     if landing != Event.NONE:
         # The other rim point is still to land: its velocity is that before the crossing.
         contact_step(body, mu, mode, rim, y, low, stages, y_new)
+        if landing == Event.FACE_LANDS and low == 0:
+            lay_flat(body, y_new)
         high = low
     copy_into(y, y_new)
     return high, dt, True, landing

@@ -7,7 +7,7 @@ from analytic.contact import creeping, sliding, sticking
 from analytic.contact.floor_force import friction_holds, holding_force, slip_direction
 from analytic.contact.rim_contact import accelerate, rim_contact, rim_contact_in_flight
 from analytic.flight.equations_of_motion import flight_of, write_rate
-from analytic.flight.state_vector import attitude_of, set_height
+from analytic.flight.state_vector import attitude_of, normalise, set_attitude, set_height
 from analytic.impact.coulomb import coulomb
 from analytic.numerics.tolerances import BORDER, SLOW
 from models.attitude import rotation_matrix
@@ -103,6 +103,20 @@ def landing(body, rim, y):
     if body.thickness > 0 and -rim * up[2] <= 0:
         return Event.RIM_LANDS
     return Event.FACE_LANDS if tilt_sine_of(up) <= FACE_SINE else Event.NONE
+
+
+@compiled
+def lay_flat(body, y):
+    """Turn a coin that all but lies on a face until it does, and all of the face touches the floor.
+
+    A coin whose axis passes the vertical at a tilt below `FACE_SINE` would go on upon its rim, around which
+    the lowest point runs in no time: here the opposite rim point lands, as where the axis passes through it.
+    """
+    a, b, c, d = attitude_of(y)
+    heads_up = rotation_matrix((a, b, c, d))[2][2] > 0
+    set_attitude(y, (a, 0.0, 0.0, d) if heads_up else (0.0, b, c, 0.0))
+    normalise(y)
+    set_height(y, body.thickness / 2 + (body.center[2] if heads_up else -body.center[2]))
 
 
 @compiled

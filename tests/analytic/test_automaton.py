@@ -117,6 +117,31 @@ def test_a_contact_that_no_step_is_short_enough_to_follow_has_no_solution():
     assert (event, time, outcome, ending) == (Event.ENDS, 2.0, Outcome.UNDECIDED, Ending.NO_SOLUTION)
 
 
+def test_a_coin_whose_axis_all_but_passes_the_vertical_slaps_down_on_the_other_side():
+    """In contact its lowest point would run around the rim at 3e10 rad/s, in ever shorter steps."""
+    case = scenario(
+        coin={**ZLOTY, "thickness": 0.0},
+        air=AIR,
+        floor={"restitution": 0.6},
+        release={
+            "position": [-4.12166290146489e-06, 1.9874639767390407e-06, 0.4078093587545604],
+            "velocity": [4.908879801449538e-05, -5.786803456321336e-05, 7.528228911044744e-05],
+            "quaternion": [
+                0.9999999946268999,
+                -1.7953782491403496e-05,
+                9.076534390480717e-05,
+                -4.674948368603285e-05,
+            ],
+            "angular_velocity": [24.692654152520984, -0.0076354518627679705, 0.0010798050343003407],
+        },
+    )
+    tossed = analytic.toss(case, settings=Settings(contact_steps=2000))
+    assert tossed.ending == Ending.SETTLED
+    slap = np.argmax(tossed.impacts.time > tossed.contacts[0, 1] - 1e-9)
+    assert tossed.impacts.contact_velocity_before[slap, 2] < -1
+    assert tossed.impacts.energy_change[slap] < 0
+
+
 @pytest.mark.parametrize("steps", [0, 2.5])
 def test_settings_refuse_a_budget_that_is_no_number_of_steps(steps):
     with pytest.raises(ValueError, match=rf"contact_steps: given {steps}, accepted: a whole number >= 1"):
