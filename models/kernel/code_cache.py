@@ -10,12 +10,13 @@ import re
 import shutil
 import tempfile
 import time
+import uuid
 from functools import cache
 from pathlib import Path
 from typing import Any, ClassVar
 
 from numba.core import types
-from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile, _CacheLocator
 
 PACKAGES = ("models", "analytic", "coin_mj", "compare")
 """Packages with compiled functions; what others compile is not kept."""
@@ -145,10 +146,35 @@ class LocatedImpl(CompileResultCacheImpl):
     _locator_classes: ClassVar = [_Locator]
 
 
+class CodeFiles(IndexDataCacheFile):
+    """The files of one function: an index, and the code for each kind of arguments.
+
+    numba numbers the code's files, and two processes that compile at once may give one number to code for
+    different arguments; then a third would run the one for the other.
+    """
+
+    def save(self, key: Any, data: Any) -> None:
+        """Keep code in a new file, and after that say so in the index."""
+        name = f"{Path(self._index_path).stem}.{uuid.uuid4().hex}.nbc"
+        self._save_data(name, data)
+        overloads = self._load_index()
+        former = overloads.get(key)
+        self._save_index({**overloads, key: name})
+        if former is not None:
+            Path(self._cache_path, former).unlink(missing_ok=True)
+
+
 class CodeCache(FunctionCache):
     """Keeps what is compiled of one function."""
 
     _impl_class: type[CompileResultCacheImpl] = LocatedImpl
+
+    def __init__(self, py_func: Any) -> None:
+        """Find the function's files."""
+        super().__init__(py_func)
+        self._cache_file = CodeFiles(
+            self._cache_path, self._impl.filename_base, self._impl.locator.get_source_stamp()
+        )
 
     def _index_key(self, sig: Any, codegen: Any) -> tuple[Any, ...]:
         # To numba two named tuples of one name and of the same types are one type.

@@ -20,7 +20,14 @@ import numpy as np
 import pytest
 
 import models.kernel.code_cache as code_cache
-from models.kernel.code_cache import PACKAGES, UNUSED, cache_folder, remove_unused, source_hash
+from models.kernel.code_cache import (
+    PACKAGES,
+    UNUSED,
+    CodeFiles,
+    cache_folder,
+    remove_unused,
+    source_hash,
+)
 from models.kernel.compiled import CompiledFunction, compiled
 from models.kernel.vectors import add
 
@@ -225,6 +232,25 @@ def test_folders_long_unused_are_removed_when_one_is_made(tmp_path, monkeypatch)
     assert cache_folder.__wrapped__("models.body") == made
     remove_unused(tmp_path)
     assert made.is_dir(), "what a process begins to use is kept"
+
+
+def test_two_processes_that_keep_code_at_once_do_not_mix_it_up(tmp_path, monkeypatch):
+    one, other, third = (CodeFiles(str(tmp_path), "function", "source") for _ in range(3))
+    save_data = one._save_data
+
+    def save_data_meanwhile(name, data):
+        other.save("integers", "code for integers")
+        save_data(name, data)
+
+    # The other has read the index before the one wrote it.
+    monkeypatch.setattr(other, "_load_index", dict)
+    monkeypatch.setattr(one, "_save_data", save_data_meanwhile)
+    one.save("numbers", "code for numbers")
+    assert third.load("numbers") == "code for numbers"
+    assert third.load("integers") == "code for integers"
+    third.save("numbers", "the same once more")
+    assert third.load("numbers") == "the same once more"
+    assert len(list(tmp_path.glob("*.nbc"))) == 2
 
 
 def test_python_calls_a_function_with_what_it_calls():
