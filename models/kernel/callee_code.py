@@ -9,6 +9,7 @@ What Python calls is linked with the code of all it calls, optimised as one, and
 # pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
 # pyright: reportIncompatibleMethodOverride=false
 
+import hashlib
 from typing import Any, NamedTuple
 
 from llvmlite import binding
@@ -16,6 +17,7 @@ from numba.core import types
 from numba.core.bytecode import FunctionIdentity
 from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 from numba.core.compiler import Compiler, CompileResult
+from numba.core.funcdesc import default_mangler
 from numba.core.registry import cpu_target
 from numba.core.runtime import rtsys
 from numba.core.untyped_passes import ExtractByteCode
@@ -168,6 +170,20 @@ class _Typing:
         return self._known[key]
 
 
+def _mangled(name: str, kinds: Any, **tags: Any) -> str:
+    """Return the name of a function for these kinds of arguments, the same in every process.
+
+    numba names records by a number that counts the types met so far.
+    """
+    mangled = default_mangler(name, kinds, **tags)
+    for kind in kinds:
+        record = kind.dtype if isinstance(kind, types.Array) else kind
+        if isinstance(record, types.Record):
+            number = int(hashlib.sha256(str(record.dtype).encode()).hexdigest()[:15], 16)
+            mangled = mangled.replace(f"6RecordILi{record._code}E", f"6RecordILi{number}E")
+    return mangled
+
+
 class CalleeCompiler(Compiler):
     """numba's compiler, but that it makes code for callers."""
 
@@ -177,6 +193,7 @@ class CalleeCompiler(Compiler):
         context = self.state.targetctx
         context._internal_codegen = callee_codegen()
         context.cached_internal_func = callee_codegen().own_functions
+        context.mangler = _mangled
         self.state.typingctx = callee_codegen().typing
 
     def compile_extra(self, func: Any) -> CompileResult:

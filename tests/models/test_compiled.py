@@ -234,6 +234,21 @@ def test_folders_long_unused_are_removed_when_one_is_made(tmp_path, monkeypatch)
     assert made.is_dir(), "what a process begins to use is kept"
 
 
+def test_a_function_of_records_has_one_name_in_every_process():
+    """Where its callers were kept by a process that knew another name, they would call nothing."""
+
+    def count(rows):
+        return len(rows)
+
+    function = CompiledFunction(count)
+    rows = np.zeros(3, [("time", float), ("face", np.int8)])
+    assert function(rows) == 3
+    (description,) = (made.fndesc for made in function.overloads.values())
+    record = numba.typeof(rows).dtype
+    assert "6RecordILi" in description.mangled_name
+    assert f"6RecordILi{record._code}E" not in description.mangled_name
+
+
 def test_two_processes_that_keep_code_at_once_do_not_mix_it_up(tmp_path, monkeypatch):
     one, other, third = (CodeFiles(str(tmp_path), "function", "source") for _ in range(3))
     save_data = one._save_data
