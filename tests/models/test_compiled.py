@@ -244,9 +244,9 @@ def test_a_function_of_records_has_one_name_in_every_process():
     rows = np.zeros(3, [("time", float), ("face", np.int8)])
     assert function(rows) == 3
     (description,) = (made.fndesc for made in function.overloads.values())
-    record = numba.typeof(rows).dtype
+    kind: Any = numba.typeof(rows)
     assert "6RecordILi" in description.mangled_name
-    assert f"6RecordILi{record._code}E" not in description.mangled_name
+    assert f"6RecordILi{kind.dtype._code}E" not in description.mangled_name
 
 
 def test_two_processes_that_keep_code_at_once_do_not_mix_it_up(tmp_path, monkeypatch):
