@@ -18,7 +18,7 @@ from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, apply, apply_transposed, cross, subtract
 
-STEP_ERROR_IN_AIR = 1e-7
+STEP_ERROR_OF_GROWTH = 1e-7
 """Error allowed in one step where b > 0 and each step takes many quadratures: a growth is wanted to 1e-3."""
 
 
@@ -93,7 +93,7 @@ def flight_tangent(body, y, duration, changes, moved):
     """
     stages, y_new = np.empty((STAGES, STATE_SIZE)), np.empty(STATE_SIZE)
     elapsed, dt = 0.0, first_step(body, y)
-    tolerance = STEP_ERROR if body.air.exponent is None else STEP_ERROR_IN_AIR
+    tolerance = STEP_ERROR if body.air.exponent is None else STEP_ERROR_OF_GROWTH
     while elapsed < duration:
         made, dt_next = accepted_step(body, y, dt, tolerance, stages, y_new)
         if elapsed + made >= duration:

@@ -44,7 +44,8 @@ def write_report(
         scenario: what to toss.
         scenario_text: the text it was read from.
         name: what to call it.
-        folder: where to write, made if missing; an earlier report there is replaced as a whole, at the end.
+        folder: where to write, made if missing; an earlier report there is replaced as a whole before the
+            film is drawn.
         no_video: why no video can be drawn, or None.
         progress: called after each frame of the video with their number so far and in all.
         mujoco: MuJoCo's settings, by default those of one toss.

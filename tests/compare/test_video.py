@@ -19,7 +19,7 @@ from compare.film.captions import caption_of, written
 from compare.film.drawing import LONGEST_FAR, LONGEST_NEAR, MARGIN, Box, Camera, Drawer, box_of
 from compare.film.play import SHOWN_FOR, WEAKEST, play_of
 from compare.film.slow_motion import FAST, LONGEST, SLOW, SLOW_FOR, WEAK, film_times
-from compare.film.video import HELD, Format, frame_count, frames, write_video
+from compare.film.video import FULL, HELD, SMALL, Format, frame_count, frames, write_video
 from compare.film.visual_model import build_visual_model
 from models.records import IMPACT_ROW, Array, Ending, Face, Impacts, Outcome, States, Toss
 from tests.helpers.draws import ZLOTY, scenario
@@ -133,6 +133,17 @@ def test_the_film_is_not_slowed_down_for_weak_impacts_which_show_no_arrow():
     assert [len(play_of(toss, np.array([t])).impulses(0)) for t in (0.301, 0.601, 0.801)] == [1, 1, 0]
 
 
+def test_only_the_film_of_a_page_leaves_the_border_jagged():
+    """With more samples of a pixel its colours mix along the coin's border."""
+    toss = made(MadePath(position=(0, 0, 0.1)))
+    colors = []
+    for form in (FULL, SMALL):
+        still = form._replace(width=160, height=120, frames_per_second=2)
+        picture = next(frames([toss], Camera.CLOSE_UP, still))
+        colors.append(len(np.unique(picture[:100].reshape(-1, 3), axis=0)))
+    assert colors[0] > 1.1 * colors[1]
+
+
 @pytest.mark.parametrize("impacts", [0, 2000])
 def test_the_longest_toss_has_no_more_frames_than_fit(impacts):
     path = MadePath(position=(0, 0, 0.1))
@@ -142,6 +153,7 @@ def test_the_longest_toss_has_no_more_frames_than_fit(impacts):
     assert len(times) == LONGEST * 60
     assert (times[0], times[-1]) == (0, end)
     assert np.mean(speeds) == pytest.approx(end / LONGEST, rel=0.1)
+    assert len(film_times([toss], 60, longest=5.0)[0]) == 300
 
 
 # The coin.

@@ -173,9 +173,9 @@ class Referee:
             (0, duration),
             y,
             method="DOP853",
-            rtol=1e-13 if linear else 1e-8,
-            atol=1e-14 if linear else 1e-10,
-            max_step=(5e-4 if linear else 2e-3) if until_touch else np.inf,
+            rtol=1e-13 if linear else 1e-10,
+            atol=1e-15 if linear else 1e-12,
+            max_step=(2e-4 if linear else 2e-3) if until_touch else np.inf,
             events=event if until_touch else None,
         )
         assert flight.success
