@@ -88,8 +88,8 @@ class CalleeCode(JITCodeLibrary):
         """Return the code as it is kept on disk, without its callees."""
         return self._final_module.as_bitcode()
 
-    def link_into(self, module: binding.ModuleRef) -> None:
-        """Add this code and that of all it calls to a module that calls it."""
+    def link_into(self, module: binding.ModuleRef, linkage: str = "linkonce_odr") -> None:
+        """Add this code and that of all it calls, with this linkage, to a module that calls it."""
         exported = _exported(module)
         found = {self.callee}
         codes: list[CalleeCode] = [self]
@@ -101,7 +101,7 @@ class CalleeCode(JITCodeLibrary):
                     found.add(callee)
                     codes.append(callee.code())
         for name in _exported(module) - exported:
-            module.get_function(name).linkage = "linkonce_odr"
+            module.get_function(name).linkage = linkage
         module.link_in(rtsys.library._get_module_for_linking(), preserve=True)
 
     def _get_module_for_linking(self) -> binding.ModuleRef:
@@ -115,6 +115,20 @@ class CalleeCode(JITCodeLibrary):
         for name in _exported(module):
             module.get_function(name).linkage = "linkonce_odr"
         return module
+
+
+def spare_references(module: binding.ModuleRef, codegen: JITCPUCodegen) -> None:
+    """Remove the counting of references to arrays across calls that cannot fail.
+
+    numba counts across every call, lest an error leaves a count behind, and removes what it can by looking at
+    one function at a time. Where nothing else calls a module's functions it is known which calls cannot fail.
+    """
+    passes = binding.create_new_module_pass_manager()
+    passes.add_ipsccp_pass()
+    passes.add_simplify_cfg_pass()
+    passes.add_sroa_pass()
+    passes.add_refprune_pass()
+    passes.run(module, codegen._pass_builder(opt=0, loop_vectorize=False, slp_vectorize=False))
 
 
 def _exported(module: binding.ModuleRef) -> set[str]:

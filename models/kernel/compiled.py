@@ -16,7 +16,7 @@ from numba.core.dispatcher import _FunctionCompiler
 from numba.core.environment import Environment, lookup_environment
 from numba.core.registry import CPUDispatcher, cpu_target
 
-from models.kernel.callee_code import Callee, CalleeCode, CalleeCompiler
+from models.kernel.callee_code import Callee, CalleeCode, CalleeCompiler, spare_references
 from models.kernel.code_cache import PACKAGES, CodeCache, LocatedImpl
 from models.kernel.compiling import compiling
 
@@ -166,7 +166,9 @@ class _Linker(_FunctionCompiler):
         library = context.codegen().create_library(callee.library.name)
         library.enable_object_caching()
         context.create_cpython_wrapper(library, description, environment, None, release_gil=True)
-        callee.library.link_into(library._final_module)
+        # Nothing else calls them here: LLVM may do with these functions what it likes.
+        callee.library.link_into(library._final_module, "internal")
+        spare_references(library._final_module, context.codegen())
         library.finalize()
         for variable in library._final_module.global_variables:
             used = lookup_environment(variable.name)

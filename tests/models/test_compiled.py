@@ -278,6 +278,24 @@ def test_python_calls_a_function_with_what_it_calls():
         squares_from(Pair(1.0, 2.0), -1)
 
 
+def test_no_references_are_counted_across_calls_that_cannot_fail():
+    @compiled
+    def double_first(numbers):
+        numbers[0] *= 2
+        return numbers[0]
+
+    def sum_of_doubled(numbers):
+        total = 0.0
+        for _ in range(3):
+            total += double_first(numbers) + double_first(numbers)
+        return total
+
+    summed = CompiledFunction(sum_of_doubled)
+    assert summed(np.ones(1)) == 2 + 4 + 8 + 16 + 32 + 64
+    (found,) = summed.from_python.overloads.values()
+    assert "NRT_incref" not in found.library.get_llvm_str()
+
+
 def test_what_numba_compiles_calls_our_functions():
     @numba.njit
     def plain(n):
