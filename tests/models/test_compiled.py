@@ -296,6 +296,28 @@ def test_no_references_are_counted_across_calls_that_cannot_fail():
     assert "NRT_incref" not in found.library.get_llvm_str()
 
 
+@compiled
+def first_of_sum(numbers, others):
+    if len(numbers) != len(others):
+        raise ValueError("not as many")
+    return (numbers + others)[0]
+
+
+def test_numba_finds_our_functions_beside_their_machine_code():
+    """Machine code of ours may pass other arguments than numba's callers: they must not find it by its name."""
+
+    @compiled
+    def of_one(numbers):
+        return first_of_sum(numbers, numbers) + first_of_sum(numbers, numbers)
+
+    @numba.njit
+    def of_two(numbers, others):
+        return first_of_sum(numbers, others)
+
+    assert of_one(np.ones(2)) == 4.0
+    assert of_two(np.ones(2), np.ones(2)) == 2.0
+
+
 def test_what_numba_compiles_calls_our_functions():
     @numba.njit
     def plain(n):
