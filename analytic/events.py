@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from analytic.automaton import Event, Mode, mode_after
-from analytic.contact import modes, one_rim
+from analytic.contact import edge, modes, one_rim
 from analytic.contact.following import follow, friction_in_contact, is_followed, start_following
 from analytic.contact.periodic import repeats, start_tilting
 from analytic.flight.flying import fly
@@ -91,8 +91,8 @@ def hit(body, rules, chi, y, row):
     x, v, e, w, R = state_of(y)
     point, flat = lowest_point(body, R[2], w)
     arm = apply(R, subtract(point, body.center))
-    edge = (point[0] ** 2 + point[1] ** 2) ** 0.5
-    tau = apply(R, (-point[1] / edge, point[0] / edge, 0.0)) if edge > 0 else (1.0, 0.0, 0.0)
+    out = (point[0] ** 2 + point[1] ** 2) ** 0.5
+    tau = apply(R, (-point[1] / out, point[0] / out, 0.0)) if out > 0 else (1.0, 0.0, 0.0)
     v_A = contact_velocity(body, R, v, w, point)
     S, ending = impulse(body, rules, chi, R, arm, tau, v_A, flat)
     v_after = add(v, scale(1 / body.mass, S))
@@ -215,6 +215,7 @@ def come_to_stay(body, rules, mu, y, time, row, history):
     if ending != Ending.NONE:
         return Event.ENDS, outcome, ending
     start_history(body, history, time)
+    edge.lean(body, y)
     return one_rim.next_event(body, mu, Mode.FLIGHT.value, y), outcome, ending
 
 

@@ -2,11 +2,16 @@
 
 import math
 
+import numpy as np
+
 from models.body import is_ideal
+from models.geometry import tilt_sine_of
 from models.kernel.compiled import compiled
 from models.kernel.vectors import apply, dot
 
-TILTS_TRIED = 128
+# Tilts at which what a coin needs is computed, from just off a face to upright: their sines and cosines.
+_TILTS = np.pi / 2 * np.arange(1, 129) / 128
+_SINES, _COSINES = np.sin(_TILTS), np.cos(_TILTS)
 # A bound times it stays a bound whatever rounding does.
 BEYOND_ROUNDING = 1 + 1e-12
 
@@ -99,11 +104,11 @@ def _top_barrier(body, up, w):
     L = apply(body.inertia, w)
     L_z = dot(up, L)
     L_zeta = L[2] if up[2] > 0 else -L[2]
-    today = math.atan2(math.hypot(up[0], up[1]), abs(up[2]))
-    highest = 0.0
-    for i in range(TILTS_TRIED):
-        s = math.pi / 2 - (math.pi / 2 - today) * i / TILTS_TRIED
-        sine, cosine = math.sin(s), math.cos(s)
+    today, highest = tilt_sine_of(up), 0.0
+    for i in range(len(_SINES)):
+        sine, cosine = _SINES[i], _COSINES[i]
+        if sine < today:
+            continue
         weight = body.mass * body.gravity * (body.radius * sine + body.thickness / 2 * cosine)
         highest = max(highest, weight + (L_z - L_zeta * cosine) ** 2 / (2 * J_across * sine * sine))
     return highest + L_zeta * L_zeta / (2 * J_normal)
@@ -134,16 +139,16 @@ def _general_barrier(body, up, w):
     """
     J = body.inertia
     L_z = dot(up, apply(J, w))
-    today = math.atan2(math.hypot(up[0], up[1]), abs(up[2]))
+    today = tilt_sine_of(up)
     side = 1.0 if up[2] > 0 else -1.0
     c_across = math.hypot(body.center[0], body.center[1])
-    highest = 0.0
-    for i in range(TILTS_TRIED):
-        s = math.pi / 2 - (math.pi / 2 - today) * i / TILTS_TRIED
-        sine, cosine = math.sin(s), math.cos(s)
+    highest, J_across = 0.0, _largest_across(J)
+    for i in range(len(_SINES)):
+        sine, cosine = _SINES[i], _COSINES[i]
+        if sine < today:
+            continue
         # The lowest height and the largest moment of inertia of all directions, each for itself.
         z = (body.radius - c_across) * sine + (body.thickness / 2 + side * body.center[2]) * cosine
-        J_across = _largest_across(J)
         moment = J_across * sine * sine + J[2][2] * cosine * cosine
         moment += 2 * sine * cosine * math.hypot(J[0][2], J[1][2])
         highest = max(highest, body.mass * body.gravity * z + L_z * L_z / (2 * moment))

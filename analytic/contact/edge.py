@@ -8,6 +8,7 @@ from analytic.automaton import Event, Mode
 from analytic.contact import one_rim, upright
 from analytic.contact.floor_force import friction_holds, holding_force
 from analytic.contact.one_rim import lower_rim_of
+from analytic.contact.periodic import tilt_rate
 from analytic.contact.rim_contact import both_rims
 from analytic.flight.state_vector import (
     STATE_SIZE,
@@ -22,7 +23,7 @@ from analytic.numerics.rotation import quaternion_rate
 from analytic.numerics.tolerances import ON_EDGE, SLOW
 from models.attitude import quaternion_product, rotation_matrix
 from models.body import in_vacuum
-from models.geometry import tilt_sine_of
+from models.geometry import FLAT_SINE, tilt_sine_of
 from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import apply, cross, dot, scale
@@ -73,6 +74,19 @@ def event_of_upright_coin(body, mu, steps, y):
     if steps % _BETWEEN_TRIALS != 0 or not held_on_edge(body, mu, at_one_rim, y):
         return Event.NONE
     return Event.ENDS if stands(body, mu, at_one_rim, y) else Event.NONE
+
+
+@compiled
+def lean(body, y):
+    """Let a coin that is just passing its edge lean as it turns: onto the rim that landed.
+
+    Args:
+        body: the coin.
+        y: state, (13,).
+    """
+    up, rate = rotation_matrix(attitude_of(y))[2], tilt_rate(y)
+    if body.thickness > 0 and abs(up[2]) < FLAT_SINE and rate != 0:
+        upright.tilt(y, up[2] - math.copysign(FLAT_SINE / 8, rate))
 
 
 @compiled

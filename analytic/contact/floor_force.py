@@ -49,8 +49,10 @@ def friction_holds(mu, F):
 @compiled
 def slip_direction(v_A, mu):
     """Return the direction of the slip of A, (2,); none on a smooth floor."""
+    if mu == 0:
+        return 0.0, 0.0
     speed = math.hypot(v_A[0], v_A[1])
-    if mu == 0 or speed == 0:
+    if speed == 0:
         return 0.0, 0.0
     return v_A[0] / speed, v_A[1] / speed
 

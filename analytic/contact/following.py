@@ -16,8 +16,11 @@ from models.laws import ContactLaw
 # In sustained contact a perfectly rough floor is nearly the limit of Coulomb's: it lets go a point that it
 # could only hold by pulling.
 _ROUGH = 1e4
-# The end of a contact is bracketed to this part of a step, in at most so many tries.
-_END, _MOST_TRIES = 0.5**50, 150
+# The end of a contact is bracketed to this part of a step, or where its margin is no more than rounding, in
+# at most so many tries.
+_END, _ROUNDING, _MOST_TRIES = 0.5**50, 1e-16, 150
+# A step goes on by this part beyond the time at which a landing is in sight, and is not short for it alone.
+_BEYOND, _NOT_SHORT = 1.1, 1e-6
 # A step shorter than this part of one that is short against the coin's motion is none.
 _NO_STEP = 1e-30
 # A step of contact is at most so many times longer than one that is short against the coin's motion.
@@ -98,7 +101,8 @@ def accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new):
         The length of the step made, 0 where none is short enough, and a length for the next [s].
     """
     short = 8 * first_step(body, y)
-    dt = min(_LONGEST * short, dt)
+    landing = _BEYOND * modes.time_to_landing(body, mode, rim, y, stages[0])
+    dt = min(_LONGEST * short, dt, max(landing, _NOT_SHORT * short))
     while True:
         inside = contact_step(body, mu, mode, rim, y, dt, stages, y_new)
         error = step_error(body, y, dt, stages) / tolerance
@@ -156,10 +160,11 @@ def _bracket_end(body, mu, mode, rim, y, longest, stages, y_new):
     Returns:
         A length of the step at whose end the contact goes on, and one at which it does not [s].
     """
-    at_end, tolerance = modes.rate(body, mu, mode, rim, y_new, stages[STAGES]), longest * _END
+    at_end = modes.rate(body, mu, mode, rim, y_new, stages[STAGES])
     at_start = modes.rate(body, mu, mode, rim, y, stages[0])
     if not at_start > 0:
-        return 0.0, tolerance
+        return 0.0, longest * _END
+    tolerance = longest * max(_END, min(_ROUNDING / (at_start - at_end), 1e-3))
     bracket = bracket_between(0.0, at_start, longest, at_end)
     for _ in range(_MOST_TRIES):
         tried = next_try(bracket)

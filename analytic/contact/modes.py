@@ -64,6 +64,12 @@ def landing(body, mode, rim, y):
 
 
 @compiled
+def time_to_landing(body, mode, rim, y, dy):
+    """Return about when the other rim will land [s], infinite where that is not in sight; see `rate`."""
+    return np.inf if mode == Mode.UPRIGHT else one_rim.time_to_landing(body, rim, y, dy)
+
+
+@compiled
 def next_event(body, mu, mode, y):
     """Return the event by which a mode that came to its end without a landing gives way; see `rate`."""
     if mode == Mode.UPRIGHT:

@@ -2,18 +2,20 @@
 
 import math
 
+import numpy as np
+
 from analytic.automaton import Event, Mode
 from analytic.contact import creeping, sliding, sticking
 from analytic.contact.floor_force import friction_holds, holding_force, slip_direction
 from analytic.contact.rim_contact import accelerate, rim_contact, rim_contact_in_flight
 from analytic.flight.equations_of_motion import flight_of, write_rate
-from analytic.flight.state_vector import attitude_of, normalise, set_attitude, set_height
+from analytic.flight.state_vector import attitude_of, normalise, set_attitude, set_height, spin_of
 from analytic.impact.coulomb import coulomb
 from analytic.numerics.tolerances import BORDER, SLOW
 from models.attitude import rotation_matrix
 from models.geometry import FACE_SINE, lower_rim, tilt_sine_of
 from models.kernel.compiled import compiled
-from models.kernel.vectors import dot
+from models.kernel.vectors import cross, dot
 from models.laws import RestitutionKind
 
 
@@ -103,6 +105,30 @@ def landing(body, rim, y):
     if body.thickness > 0 and -rim * up[2] <= 0:
         return Event.RIM_LANDS
     return Event.FACE_LANDS if tilt_sine_of(up) <= FACE_SINE else Event.NONE
+
+
+@compiled
+def time_to_landing(body, rim, y, dy):
+    """Return when the other rim would land if n_z were a parabola [s], infinite where it would not.
+
+    Args:
+        body: the coin.
+        rim: that is in contact.
+        y: state, (13,).
+        dy: its rate of change, (13,).
+    """
+    if body.thickness == 0:
+        return np.inf
+    up, w = rotation_matrix(attitude_of(y))[2], spin_of(y)
+    up_rate = cross(up, w)
+    left, speed = max(-rim * up[2], 0.0), -rim * up_rate[2]
+    acceleration = -rim * (cross(up_rate, w)[2] + cross(up, spin_of(dy))[2])
+    squared = speed * speed - 2 * left * acceleration
+    if not squared >= 0:
+        return np.inf
+    if speed < 0:
+        return 2 * left / (squared**0.5 - speed)
+    return (speed + squared**0.5) / -acceleration if acceleration < 0 else np.inf
 
 
 @compiled

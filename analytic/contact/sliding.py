@@ -31,5 +31,7 @@ def margin(body, A, mu):
     It ends when slip is slow, or when friction would press a point down that free flight lifts (Painlevé).
     """
     left = -A.free_acceleration[2] / body.gravity
+    if mu == 0:
+        return left
     slip = math.hypot(A.velocity[0], A.velocity[1]) / (body.gravity * body.radius) ** 0.5
-    return min(left, slip - SLOW / 2) if mu > 0 else left
+    return min(left, slip - SLOW / 2)

@@ -58,7 +58,7 @@ def is_chattering(body, chi, y):
 
     Where the gap accelerates downward by A in free flight, an approach at the speed v leads to impacts that
     all come within 2 v/(A (1 - χ)). In that time the coin must turn, and fall, by less than `CHATTERING`. An
-    approach too slow to be told from contact stays too.
+    approach too slow to be told from contact stays too. A coin that lands flat bounces until it lies.
 
     Args:
         body: the coin.
@@ -69,10 +69,12 @@ def is_chattering(body, chi, y):
     speed, (_, slowest, most) = -closing_speed(body, y)[1], smallest_flight(body, y)
     if speed < slowest:
         return True
+    if tilt_sine_of(up) <= FLAT_SINE:
+        return False
     least = 2 * speed * (norm(w) + (body.gravity / body.radius) ** 0.5) / (CHATTERING * (1 - chi))
     if least >= most:
         return False
-    falling = body.gravity if tilt_sine_of(up) <= FLAT_SINE else -gap_acceleration(body, y)
+    falling = -gap_acceleration(body, y)
     return falling > 0 and least < falling
 
 
