@@ -166,8 +166,8 @@ class _Linker(_FunctionCompiler):
         library = context.codegen().create_library(callee.library.name)
         library.enable_object_caching()
         context.create_cpython_wrapper(library, description, environment, None, release_gil=True)
-        # Nothing else calls them here, so LLVM may do with these functions what it likes; an internal one would
-        # still be found by its name.
+        # Nothing else calls these functions here, so LLVM may change them as it likes.
+        # Internal ones would still be found by their names.
         callee.library.link_into(library._final_module, "private")
         spare_references(library._final_module, context.codegen())
         library.finalize()

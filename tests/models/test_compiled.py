@@ -304,7 +304,7 @@ def first_of_sum(numbers, others):
 
 
 def test_numba_finds_our_functions_beside_their_machine_code():
-    """Machine code of ours may pass other arguments than numba's callers: they must not find it by its name."""
+    """Machine code of ours may expect other arguments: numba's callers must not find it by its name."""
 
     @compiled
     def of_one(numbers):
