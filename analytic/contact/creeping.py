@@ -2,7 +2,7 @@
 
 import math
 
-from analytic.contact.floor_force import friction_holds, holding_force, sliding_force, starting_slip
+from analytic.contact.floor_force import holding_force, sliding_force, starting_slip
 from analytic.numerics.tolerances import SLOW
 from models.kernel.compiled import compiled
 from models.kernel.vectors import subtract
@@ -35,7 +35,9 @@ def margin(body, A, mu):
     It ends when friction holds A, when slip is no longer slow, or when friction would press a point down that
     free flight lifts (Painlevé).
     """
-    if friction_holds(mu, holding_force(A.mobility, A.free_acceleration)):
-        return 0.0
     slip = math.hypot(A.velocity[0], A.velocity[1]) / (body.gravity * body.radius) ** 0.5
-    return min(-A.free_acceleration[2] / body.gravity, SLOW - slip)
+    left = min(-A.free_acceleration[2] / body.gravity, SLOW - slip)
+    F = holding_force(A.mobility, A.free_acceleration)
+    if not F[2] > 0:
+        return left
+    return min(left, (math.hypot(F[0], F[1]) - mu * F[2]) / (body.mass * body.gravity))

@@ -11,8 +11,9 @@ import numpy as np
 from models.kernel.compiled import compiled
 from models.kernel.vectors import dot, scale, solve
 
-# The direction in which slip starts is sought from the best of so many.
-_DIRECTIONS = 24
+# The direction in which slip starts is sought from the best of these.
+_ANGLES = 2 * np.pi * np.arange(24) / 24
+_COSINES, _SINES = np.cos(_ANGLES), np.sin(_ANGLES)
 
 
 @compiled
@@ -71,13 +72,12 @@ def starting_slip(K, b, mu):
         mu: coefficient of friction μ.
     """
     best, angle = -np.inf, 0.0
-    for i in range(_DIRECTIONS):
-        tried = 2 * math.pi * i / _DIRECTIONS
-        turning, _, growth = _slip_turning(K, b, mu, tried)
+    for i in range(len(_ANGLES)):
+        turning, _, growth = _slip_turning(K, b, mu, (_COSINES[i], _SINES[i]))
         if growth - abs(turning) > best:
-            best, angle = growth - abs(turning), tried
+            best, angle = growth - abs(turning), _ANGLES[i]
     for _ in range(30):
-        turning, slope, _ = _slip_turning(K, b, mu, angle)
+        turning, slope, _ = _slip_turning(K, b, mu, (math.cos(angle), math.sin(angle)))
         change = -turning / slope if slope < 0 else math.copysign(0.1, turning)
         angle += min(max(change, -0.2), 0.2)
         if abs(change) < 1e-14:
@@ -86,12 +86,12 @@ def starting_slip(K, b, mu):
 
 
 @compiled
-def _slip_turning(K, b, mu, angle):
-    """Return s × q, its derivative, and s · q for the slip's direction s at this angle.
+def _slip_turning(K, b, mu, s):
+    """Return s × q, its derivative by the angle of s, and s · q for the slip's direction s.
 
     q = D a_t, D = K_zz - μ K_zt · s: the acceleration of the slip, cleared of N's denominator.
     """
-    s, t = (math.cos(angle), math.sin(angle)), (-math.sin(angle), math.cos(angle))
+    t = (-s[1], s[0])
     D = K[2][2] - mu * (K[2][0] * s[0] + K[2][1] * s[1])
     D_rate = -mu * (K[2][0] * t[0] + K[2][1] * t[1])
     q = (
