@@ -358,11 +358,10 @@ def basin(
             "--palette, --boundaries, --size and --dpi: accepted: only beside --png or --report"
         )
     with _plain_errors(scenario):
-        from compare.basins.picture import DPI, Palette
+        from compare.basins.picture_style import DPI, Palette, PictureStyle
         from compare.engines import Engine
         from compare.output.progress import bar
         from compare.sweep.job import Job, make
-        from compare.sweep.show import PictureStyle
         from models.reading import scenario_text
 
         job = Job(

@@ -2,7 +2,6 @@
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.ndimage import distance_transform_edt
 
 from compare.basins.maps import outcome_map
 from models.records import Array, Outcome
@@ -29,6 +28,9 @@ def distance_to_doubt(outcomes: ArrayLike) -> Array:
     That is one with another outcome, an undecided one, or one outside the map. It is measured between the
     pixels' centres, so it is at least 1; for an undecided pixel it is 0.
     """
+    # A map alone does not need it.
+    from scipy.ndimage import distance_transform_edt
+
     codes = np.pad(outcome_map(outcomes), 1, constant_values=Outcome.UNDECIDED)
     distance = np.zeros(codes.shape)
     for outcome in Outcome:

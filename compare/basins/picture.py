@@ -1,7 +1,6 @@
 """Pictures of outcome maps."""
 
 from dataclasses import dataclass
-from enum import StrEnum
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from compare.basins.boundary import boundary_pixels
 from compare.basins.maps import OutcomeCodes, outcome_map
+from compare.basins.picture_style import DPI, Palette
 from compare.output.files import written_whole
 from compare.output.style import GREEN, GREY, OUTCOMES, PURPLE, SKY, VERMILION
 from models.records import Outcome
@@ -21,18 +21,8 @@ PANEL_SIZE = (5.0, 4.5)
 """Of one map, width and height [inches]."""
 COMPARISON_SIZE = (3 * PANEL_SIZE[0], PANEL_SIZE[1])
 """Of three maps side by side, width and height [inches]."""
-DPI = 150
 _ENTRY_WIDTH = 1.2  # of the legend [inches]
 _SAME, _DIFFERENT = "#e6e9ed", VERMILION
-
-
-class Palette(StrEnum):
-    """Colours of the outcomes."""
-
-    SAFE = "safe"
-    """Heads gold and tails blue, as on the coin; the colour-blind can distinguish all."""
-    PAPER = "paper"
-    """Heads black and tails white, as in Figs 29 to 31."""
 
 
 # Undecided is a hue in print, since fine stripes of black and white make every grey.

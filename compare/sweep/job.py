@@ -7,11 +7,12 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from compare.basins.picture_style import PictureStyle
 from compare.engines import Engine
 from compare.film.back_end import drawing_problem, require_mujoco
 from compare.output.files import UnwritableError, require_file
 from compare.report.contents import require_folder
-from compare.sweep import run, show, store
+from compare.sweep import describe, run, store
 from compare.sweep.axes import Axis, parse_axis
 from compare.sweep.grid import Sweep
 from compare.sweep.pixels import check
@@ -54,7 +55,7 @@ class Job:
     """Address of a cluster's scheduler, if the tosses are made there."""
     png: Path | None
     """Where to draw."""
-    style: show.PictureStyle
+    style: PictureStyle
     """How to draw."""
     report: Path | None
     """Folder of a report on both engines' maps and tosses; accepted for both engines only."""
@@ -122,11 +123,14 @@ def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
                 left, whole = run.missing(map_), run.size(map_.tiles)
                 with watch(path.name, whole - run.size(left), whole) as tossed:
                     run.fill(map_, sweep, left, tosser, tossed)
-                yield show.describe_map(path, sweep, run.fractions_of(map_))
-    maps = [show.outcomes_of(path) for path in (sweeps if len(sweeps) > 1 or job.png else ())]
-    first = next(iter(sweeps.values()))
+                yield describe.describe_map(path, sweep, run.fractions_of(map_))
+    if len(sweeps) == 1 and job.png is None:
+        return
+    from compare.sweep import show
+
+    maps, first = [show.outcomes_of(path) for path in sweeps], next(iter(sweeps.values()))
     if len(maps) > 1:
-        yield show.describe_agreement(show.measure(*maps))
+        yield describe.describe_agreement(describe.measure(*maps))
     if job.png is not None:
         show.write(job.png, maps, first, job.style)
         yield f"picture    {job.png}"

@@ -1,8 +1,8 @@
-"""Maps for a person: their pictures, and what is measured on them in a few lines."""
+"""Pictures of maps, for a file and for a report."""
 
 import io
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -12,62 +12,18 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from compare.basins import picture
-from compare.basins.agreement import Agreement, Share, agreement
 from compare.basins.fractions import fractions
+from compare.basins.picture_style import PictureStyle
 from compare.report.map_section import MapSection
 from compare.sweep.axes import Axis
+from compare.sweep.describe import AWAY, measure, percent
 from compare.sweep.grid import Sweep
-from models.records import Outcome
-
-AWAY = 2.0
-"""A pixel is away from the boundaries where all within this distance have its outcome [pixels]."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class PictureStyle:
-    """How a picture is drawn."""
-
-    palette: picture.Palette = picture.Palette.SAFE
-    boundaries: bool = False
-    """Whether pixels at a boundary are coloured as such."""
-    size: tuple[float, float] | None = None
-    """Width and height of the whole, by default those of `picture` [inches]."""
-    dpi: float = picture.DPI
-    """Pixels per inch."""
 
 
 def outcomes_of(path: Path) -> NDArray[np.int8]:
     """Read the outcomes of a map, (y, x)."""
     with xarray.open_dataset(path, engine="zarr", consolidated=True) as dataset:
         return dataset["outcome"].to_numpy()
-
-
-def describe_map(path: Path, sweep: Sweep, fractions: dict[Outcome, float]) -> str:
-    """Return a map as text: where it is, what it is of, and the share of each outcome."""
-    ny, nx = sweep.shape
-    shown = "" if sweep.after is None else f"face at touch {sweep.after + 1}, or "
-    lines = [
-        f"map        {path}",
-        f"engine     {sweep.engine}",
-        f"tosses     {nx} by {ny}: {shown}final outcome",
-        *(
-            f"{outcome.label:11}{100 * share:.3f} %"
-            for outcome, share in fractions.items()
-            if share > 0 or outcome in (Outcome.HEADS, Outcome.TAILS)
-        ),
-    ]
-    return "\n".join(lines)
-
-
-def describe_agreement(measured: Agreement) -> str:
-    """Return how far two maps agree as text."""
-    return "\n".join(
-        [
-            f"agreement  {_share(measured.away)} more than {AWAY:g} pixels from the boundaries of the first",
-            f"           {_share(measured.near)} nearer to the boundaries",
-            f"           {measured.undecided} pixels are undecided in one or both",
-        ]
-    )
 
 
 def write(png: Path, maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle) -> None:
@@ -124,19 +80,9 @@ def _figure(maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle) -> 
             *maps,
             **common,
             size=style.size or picture.COMPARISON_SIZE,
-            note=f"agree: {_share(measured.away)} away from boundaries,\n{_share(measured.near)} near them",
+            note=f"agree: {percent(measured.away)} away from boundaries,\n{percent(measured.near)} near them",
         )
     return picture.draw_map(maps[0], **common, size=style.size or picture.PANEL_SIZE)
-
-
-def measure(analytic: NDArray[np.int8], mujoco: NDArray[np.int8]) -> Agreement:
-    """Compare the maps of both engines; the boundaries are those of the analytic map."""
-    return agreement(analytic, mujoco, distance=AWAY)
-
-
-def _share(share: Share) -> str:
-    part = share.fraction
-    return f"none of {share.compared}" if part is None else f"{100 * part:.3f} % of {share.compared}"
 
 
 def _drawn(axis: Axis) -> picture.MapAxis:

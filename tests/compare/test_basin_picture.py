@@ -5,7 +5,8 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
-from compare.basins.picture import MapAxis, Palette, draw_comparison, draw_map, write_png
+from compare.basins.picture import MapAxis, draw_comparison, draw_map, write_png
+from compare.basins.picture_style import Palette
 from compare.output.files import UnwritableError
 from models.records import Outcome
 from tests.helpers.made_maps import EDGE, HEADS, TAILS, UNDECIDED, halves, stripes

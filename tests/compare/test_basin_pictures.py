@@ -6,8 +6,9 @@ import xarray as xr
 from PIL import Image
 
 from compare.basins.agreement import Agreement, Share
-from compare.basins.picture import MapAxis, Palette, draw_comparison
-from compare.sweep import show
+from compare.basins.picture import MapAxis, draw_comparison
+from compare.basins.picture_style import Palette
+from compare.sweep import describe
 from tests.helpers.basin_runs import SCENARIO, basin
 from tests.helpers.made_maps import halves
 
@@ -80,7 +81,7 @@ def test_a_map_is_drawn_in_the_size_and_colours_asked(coin, tmp_path):
 
 def test_the_agreement_is_told_near_the_boundaries_and_away_from_them():
     measured = Agreement(near=Share(agreeing=3, compared=4), away=Share(agreeing=0, compared=0), undecided=2)
-    said = show.describe_agreement(measured).splitlines()
+    said = describe.describe_agreement(measured).splitlines()
     assert said[0].startswith("agreement  none of 0 more than 2 pixels")
     assert said[1].startswith("           75.000 % of 4 nearer")
     assert said[2].startswith("           2 pixels are undecided")
@@ -99,6 +100,6 @@ def test_the_boundaries_that_count_are_those_of_the_paper():
     right = halves(20, 20)
     wrong = right.copy()
     wrong[10, 3] = 3 - wrong[10, 3]
-    measured = show.measure(right, wrong)
+    measured = describe.measure(right, wrong)
     assert measured.away.compared - measured.away.agreeing == 1
     assert measured.near.agreeing == measured.near.compared

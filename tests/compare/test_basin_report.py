@@ -15,6 +15,7 @@ import xarray as xr
 from PIL import Image
 
 from coin_mj import Realisation, Settings
+from compare.basins.picture_style import PictureStyle
 from compare.engines import Engine
 from compare.film.back_end import ADVICE
 from compare.metrics.comparison import Comparison, compare
@@ -22,6 +23,7 @@ from compare.report.contents import require_folder
 from compare.report.folder import write_report
 from compare.sweep import job, show
 from compare.sweep.axes import parse_axis
+from compare.sweep.describe import AWAY
 from compare.sweep.grid import Sweep
 from compare.sweep.store import opened
 from models.reading import parse
@@ -50,7 +52,7 @@ def sweep_of(case, engine, after=None):
 def section_of(maps, after=None):
     case = parse(COIN, "coin")
     sweeps = [sweep_of(case, engine, after) for engine in Engine]
-    return show.section(maps, sweeps, show.PictureStyle(dpi=20), "cointoss basin")
+    return show.section(maps, sweeps, PictureStyle(dpi=20), "cointoss basin")
 
 
 def shown_of(section, folder):
@@ -93,7 +95,7 @@ def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path,
     alike, undecided = int(np.sum(maps[0] == maps[1])), numbers["agreement"]["undecided"]
     near, away = numbers["agreement"]["near"], numbers["agreement"]["away"]
     assert (near["agreeing"] + away["agreeing"], near["compared"] + away["compared"]) == (alike, 20)
-    assert (undecided, numbers["agreement"]["distance"]) == (0, show.AWAY)
+    assert (undecided, numbers["agreement"]["distance"]) == (0, AWAY)
     assert shlex.split(numbers["command"]) == [
         *("cointoss", "basin", str(coin)),
         *map(str, asked),

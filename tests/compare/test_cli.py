@@ -508,12 +508,16 @@ HEAVY = {
         ("toss --help", set()),
         # SciPy is numba's wish, of which it takes the linear algebra alone.
         ("toss fig24a", {"numba", "numpy", "pydantic", "scipy"}),
+        (
+            "basin fig24a --x release.position.z=0.2:1:2 --y floor.restitution=0:1:2 --out {}/map.zarr",
+            {"numba", "numpy", "pydantic", "scipy", "zarr"},
+        ),
     ],
 )
-def test_a_command_imports_no_more_than_it_needs(words, needed):
+def test_a_command_imports_no_more_than_it_needs(words, needed, tmp_path):
     script = (
         "import sys\nfrom click.testing import CliRunner\nfrom compare.cli import main\n"
-        f"assert CliRunner().invoke(main, {words.split()}).exit_code == 0\n"
+        f"assert CliRunner().invoke(main, {words.format(tmp_path).split()}).exit_code == 0\n"
         "print(*sys.modules)"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)

@@ -1,0 +1,52 @@
+"""Maps in a few lines of text, and how far two agree."""
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.basins.agreement import Agreement, Share, agreement
+from compare.sweep.grid import Sweep
+from models.records import Outcome
+
+AWAY = 2.0
+"""A pixel is away from the boundaries where all within this distance have its outcome [pixels]."""
+
+
+def describe_map(path: Path, sweep: Sweep, fractions: dict[Outcome, float]) -> str:
+    """Return a map as text: where it is, what it is of, and the share of each outcome."""
+    ny, nx = sweep.shape
+    shown = "" if sweep.after is None else f"face at touch {sweep.after + 1}, or "
+    lines = [
+        f"map        {path}",
+        f"engine     {sweep.engine}",
+        f"tosses     {nx} by {ny}: {shown}final outcome",
+        *(
+            f"{outcome.label:11}{100 * share:.3f} %"
+            for outcome, share in fractions.items()
+            if share > 0 or outcome in (Outcome.HEADS, Outcome.TAILS)
+        ),
+    ]
+    return "\n".join(lines)
+
+
+def describe_agreement(measured: Agreement) -> str:
+    """Return how far two maps agree as text."""
+    return "\n".join(
+        [
+            f"agreement  {percent(measured.away)} more than {AWAY:g} pixels from the boundaries of the first",
+            f"           {percent(measured.near)} nearer to the boundaries",
+            f"           {measured.undecided} pixels are undecided in one or both",
+        ]
+    )
+
+
+def measure(analytic: NDArray[np.int8], mujoco: NDArray[np.int8]) -> Agreement:
+    """Compare the maps of both engines; the boundaries are those of the analytic map."""
+    return agreement(analytic, mujoco, distance=AWAY)
+
+
+def percent(share: Share) -> str:
+    """Return the share of the pixels compared that agree as text."""
+    part = share.fraction
+    return f"none of {share.compared}" if part is None else f"{100 * part:.3f} % of {share.compared}"
