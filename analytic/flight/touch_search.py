@@ -57,7 +57,8 @@ def is_chattering(body, chi, y):
     """Return whether the impacts of a coin that touches the floor chatter (Zeno): it will stay in contact.
 
     Where the gap accelerates downward by A in free flight, an approach at the speed v leads to impacts that
-    all come within 2 v/(A (1 - χ)). In that time the coin must turn, and fall, by less than `CHATTERING`. An
+    all come within 2 v/(A (1 - χ)). In that time the coin must turn, and fall, by less than `CHATTERING`
+    times the sine of its tilt: the smaller that is, the faster the lowest point runs round the rim. An
     approach too slow to be told from contact stays too. A coin that lands flat bounces until it lies.
 
     Args:
@@ -69,9 +70,10 @@ def is_chattering(body, chi, y):
     speed, (_, slowest, most) = -closing_speed(body, y)[1], smallest_flight(body, y)
     if speed < slowest:
         return True
-    if tilt_sine_of(up) <= FLAT_SINE:
+    sine = tilt_sine_of(up)
+    if sine <= FLAT_SINE:
         return False
-    least = 2 * speed * (norm(w) + (body.gravity / body.radius) ** 0.5) / (CHATTERING * (1 - chi))
+    least = 2 * speed * (norm(w) + (body.gravity / body.radius) ** 0.5) / (CHATTERING * sine * (1 - chi))
     if least >= most:
         return False
     falling = -gap_acceleration(body, y)

@@ -15,10 +15,9 @@ SINK = 1e-13
 """In a step forced at a grazing point, each of three causes may lower the gap by this part of the radius."""
 TIME_STEP = 2.3e-16
 """Time of flight has no finer step than this part of it."""
-CHATTERING = 3e-4
-"""Impacts chatter when the coin turns by less than this angle in the time of all still to come [rad].
-
-Contact has the impulse and the mean force that they have, so it errs by the square of the angle."""
+CHATTERING = 1e-2
+"""Impacts chatter when in the time of all still to come the coin turns by less than this angle times the sine
+of its tilt [rad]. Contact has their impulse and mean force: it errs by the third power of the angle."""
 
 SLOW = 1e-3
 """Against √(g r): slip slower than this is stopped where friction can hold it, and creeps elsewhere, for
