@@ -104,7 +104,7 @@ def _top_barrier(body, up, w):
     L = apply(body.inertia, w)
     L_z = dot(up, L)
     L_zeta = L[2] if up[2] > 0 else -L[2]
-    today, highest = tilt_sine_of(up), 0.0
+    today, highest = min(tilt_sine_of(up), 1.0), 0.0
     for i in range(len(_SINES)):
         sine, cosine = _SINES[i], _COSINES[i]
         if sine < today:
@@ -139,7 +139,7 @@ def _general_barrier(body, up, w):
     """
     J = body.inertia
     L_z = dot(up, apply(J, w))
-    today = tilt_sine_of(up)
+    today = min(tilt_sine_of(up), 1.0)
     side = 1.0 if up[2] > 0 else -1.0
     c_across = math.hypot(body.center[0], body.center[1])
     highest, J_across = 0.0, _largest_across(J)

@@ -237,3 +237,11 @@ def test_a_coin_flat_on_the_floor_lies_under_every_test_whatever_spin_it_has_lef
     assert ending == by_energy.get((law, test), Ending.LYING)
     sharp = scenario(floor={"contact": "sharp_edge"}, ending={"test": "rigorous"})
     assert classified(sharp, 0.0, v=(3.0, 0.0, 0.0))[0][1] == Ending.NONE
+
+
+@pytest.mark.parametrize("center", [(0.0, 0.0, 0.0), PAPER_OFFSET])
+def test_a_coin_upright_within_rounding_still_needs_its_spin(center):
+    body, w = scenario(coin={**ZLOTY, "center_of_mass": center}).body, (0.0, 30.0, 0.0)
+    exactly, beyond = (spin_barrier(body, (0.0, sine, 0.0), w) for sine in (1.0, np.nextafter(1.0, 2.0)))
+    assert beyond == pytest.approx(exactly, rel=1e-12)
+    assert exactly > body.mass * body.gravity * body.radius / 2
