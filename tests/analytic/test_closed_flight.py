@@ -36,12 +36,12 @@ def draw_flight(
 @pytest.mark.parametrize("air", [{}, AIR, STRONG_AIR])
 def test_a_flight_in_closed_form_is_the_integrated_one(thickness, air):
     rng = np.random.default_rng([61, int(1e4 * thickness), len(air)])
-    turned, looks = 0.0, 0
+    turned, evaluations = 0.0, 0
     for _ in range(100):
         case, start = draw_flight(rng, thickness, air)
         body, closed, integrated = case.body, start.copy(), start.copy()
         assert turns_in_closed_form(body, start[10:13])
-        flown, touches, looked = fly_closed(body, closed, 10.0)
+        flown, touches, evaluated = fly_closed(body, closed, 10.0)
         other, also_touches, *_ = fly_by_steps(body, integrated, 10.0, True)
         assert touches
         assert also_touches
@@ -52,10 +52,10 @@ def test_a_flight_in_closed_form_is_the_integrated_one(thickness, air):
         # Late in a long flight one step of floating-point time lowers the coin by 1e-14 of its radius.
         assert abs(closing_speed(body, closed)[0]) < 1e-13 * body.radius
         turned += float(np.linalg.norm(start[10:13])) * flown
-        looks += looked
+        evaluations += evaluated
     assert turned > 300, "the coins should turn"
     # In strong air the bounds are wide.
-    assert looks < 100 * (40 if air == STRONG_AIR else 12)
+    assert evaluations < 100 * (40 if air == STRONG_AIR else 12)
 
 
 @pytest.mark.parametrize("air", [{}, AIR, STRONG_AIR])

@@ -1,4 +1,4 @@
-"""Routh's law against a brute-force integration, the laws it meets in its limits, and its energy."""
+"""The law `coulomb` against a brute-force integration, the laws it meets in its limits, and its energy."""
 
 import numpy as np
 import pytest

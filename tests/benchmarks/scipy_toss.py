@@ -1,4 +1,4 @@
-"""The toss by SciPy's solve_ivp: an event for the touch, and a look at the gap between its steps."""
+"""The toss by SciPy's solve_ivp: an event for the touch, and gap evaluations between its steps."""
 
 from functools import partial
 from typing import Any
@@ -10,8 +10,8 @@ from analytic.toss import state_of
 from models.scenario import Scenario
 from tests.benchmarks.one_coin import OneCoin
 
-LOOK_EVERY = 1e-4
-"""Time between two looks at the gap [s]; solve_ivp itself looks only at the ends of its steps."""
+EVALUATED_EVERY = 1e-4
+"""Time between two gap evaluations [s]; solve_ivp itself makes them only at the ends of its steps."""
 
 
 def toss(scenario: Scenario, coin: OneCoin) -> tuple[list[float], list[int]]:
@@ -44,7 +44,7 @@ def _first_touch(coin: OneCoin, start: float, y: np.ndarray, latest: float) -> t
         dense_output=True,
     )
     end = flight.t[-1]
-    looks = np.linspace(start, end, int((end - start) / LOOK_EVERY) + 3)[1:-1]
-    if (coin.gaps(np.ascontiguousarray(flight.sol(looks).T)) < 0).any():
+    evaluated = np.linspace(start, end, int((end - start) / EVALUATED_EVERY) + 3)[1:-1]
+    if (coin.gaps(np.ascontiguousarray(flight.sol(evaluated).T)) < 0).any():
         raise RuntimeError("a touch went unseen between two steps")
     return end, flight.y[:, -1].copy()

@@ -111,13 +111,13 @@ def test_many_tosses(benchmark, capsys, monkeypatch, air, cores):
 
 
 @pytest.mark.parametrize(("air", "most"), [({}, 8), (AIR, 10)])
-def test_few_looks_at_the_gap_find_a_touch(capsys, air, most):
-    looks, flights = 0, 0
+def test_few_gap_evaluations_find_a_touch(capsys, air, most):
+    evaluations, flights = 0, 0
     for case in family(40, air):
         for start in run(case.body, case.rules, state_of(case.release)).start_states[:-1]:
-            looks += fly(case.body, start.copy(), 10.0)[2]
+            evaluations += fly(case.body, start.copy(), 10.0)[2]
             flights += 1
-    assert looks < most * flights
+    assert evaluations < most * flights
     with capsys.disabled():
         where = "in air" if air else "in vacuum"
-        print(f"\n{looks / flights:.1f} looks at the gap for an impact {where}", end="")
+        print(f"\n{evaluations / flights:.1f} gap evaluations for an impact {where}", end="")

@@ -1,4 +1,4 @@
-"""Coulomb's force in MuJoCo's contacts: closed forms, then impacts against Routh's law."""
+"""Coulomb's force in MuJoCo's contacts: closed forms, then impacts against the law `coulomb`."""
 
 import numpy as np
 import pytest
