@@ -81,7 +81,7 @@ class GeneralCosts:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Pieces:
+class FlightsAndContacts:
     """Flights and contacts of tosses, (n,) each: where they start and when they end."""
 
     start_times: Array
@@ -90,9 +90,9 @@ class Pieces:
     """(n, 13)."""
     end_times: Array
 
-    def of(self, chosen: NDArray[np.bool_]) -> "Pieces":
+    def of(self, chosen: NDArray[np.bool_]) -> "FlightsAndContacts":
         """Return the pieces that are chosen, (n,), as copies."""
-        return Pieces(
+        return FlightsAndContacts(
             start_times=self.start_times[chosen],
             modes=self.modes[chosen],
             states=self.states[chosen],
@@ -133,7 +133,7 @@ def measure(kind: CoinClass, count: int, tossed: Callable[[int], None]) -> Class
     """
     scenario, starts = kind.scenario, kind.starts(count)
     times, ends, spent = [], Counter[str](), np.zeros(3)
-    kept: list[Pieces] = []
+    kept: list[FlightsAndContacts] = []
     call = call_time(scenario, starts[0])
     for i, start in enumerate(starts):
         time, end = timed_toss(scenario.body, scenario.rules, start)
@@ -170,10 +170,10 @@ def call_time(scenario: Scenario, start: Array) -> float:
     return float(np.median([timed_toss(body, rules, start)[0] for _ in range(CALLS)]))
 
 
-def pieces_of(scenario: Scenario, start: Array) -> Pieces:
+def pieces_of(scenario: Scenario, start: Array) -> FlightsAndContacts:
     """Return the flights and contacts of a toss."""
     log = run(scenario.body, scenario.rules, start, MANY)
-    return Pieces(
+    return FlightsAndContacts(
         start_times=log.start_times[:-1],
         modes=log.modes[:-1],
         states=log.start_states[:-1],
@@ -181,9 +181,9 @@ def pieces_of(scenario: Scenario, start: Array) -> Pieces:
     )
 
 
-def joined(kept: Sequence[Pieces]) -> Pieces:
+def joined(kept: Sequence[FlightsAndContacts]) -> FlightsAndContacts:
     """Return the pieces of several tosses as one record."""
-    return Pieces(
+    return FlightsAndContacts(
         start_times=np.concatenate([one.start_times for one in kept]),
         modes=np.concatenate([one.modes for one in kept]),
         states=np.concatenate([one.states for one in kept]),
@@ -191,7 +191,7 @@ def joined(kept: Sequence[Pieces]) -> Pieces:
     )
 
 
-def replay(scenario: Scenario, pieces: Pieces) -> Array:
+def replay(scenario: Scenario, pieces: FlightsAndContacts) -> Array:
     """Return the processor times of all flights, of the impacts that end them, and of contacts, (3,) [s]."""
     flights, contacts = pieces.of(pieces.modes == Mode.FLIGHT), pieces.of(pieces.modes != Mode.FLIGHT)
     touches = np.zeros(len(flights.modes), dtype=np.bool_)
