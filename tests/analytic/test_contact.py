@@ -8,16 +8,19 @@ from analytic.automaton import Event, Mode
 from analytic.contact.edge import held_on_edge, stands
 from analytic.contact.floor_force import friction_holds, holding_force, slip_direction, starting_slip
 from analytic.contact.following import sample_contact
-from analytic.contact.one_rim import force, lower_rim_of, next_event, put_on_floor, rate
+from analytic.contact.one_rim import (
+    force,
+    lower_rim_of,
+    next_event,
+    put_on_floor,
+    rate,
+    time_to_landing,
+)
 from analytic.contact.rim_contact import rim_contact
-from analytic.events import hit
-from analytic.flight.flying import fly
-from analytic.flight.touch_search import closing_speed, gap_acceleration
-from analytic.numerics.tolerances import CHATTERING, CONTACT_STEP_ERROR, STEP_ERROR
+from analytic.numerics.tolerances import STEP_ERROR
 from models.attitude import quaternion_from_angles, rotation_matrix
 from models.barriers import energy
 from models.geometry import contact_velocity, gap, lowest_point
-from models.records import IMPACT_ROW
 from tests.helpers.contacts import follow_step
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, scenario
 
@@ -369,38 +372,14 @@ def test_the_direction_of_no_slip_is_none():
     assert slip_direction((3.0, 4.0, 1.0), 0.3) == pytest.approx((0.6, 0.8))
 
 
-def at_the_end(case, speed, duration, *, bouncing):
-    """Give the state at `duration` after a touch at `speed`: bounced into contact, or put there at once."""
-    body, rules, rows, elapsed = case.body, case.rules, np.zeros(1, IMPACT_ROW), 0.0
-    y = np.array([0, 0, 0, 0.2, 0.1, 0, *quaternion_from_angles((0.0, 0.6, 0.0)), 1.0, 0.5, 0.3])
-    height, falling = closing_speed(body, y)
-    y[2] -= height
-    y[5] -= falling + speed
-    while bouncing and -closing_speed(body, y)[1] > 1e-3 * speed:
-        hit(body, rules, rules.restitution, y, rows[0])
-        elapsed += fly(body, y, 1.0)[0]
-    hit(body, rules, 0.0, y, rows[0])
-    next_event(body, rules.friction, Mode.FLIGHT.value, y)
-    state = np.empty((1, 13))
-    sample_contact(body, rules.friction, Mode.SLIDING.value, y, elapsed, np.array([duration]), 1e-12, state)
-    return state[0]
-
-
-@pytest.mark.parametrize("friction", [0.0, 0.2])
-@pytest.mark.parametrize("coin", [THIN, UNBALANCED])
-def test_contact_takes_the_place_of_chattering_to_the_third_power_of_the_angle(coin, friction):
-    law = "coulomb" if friction else "smooth"
-    case = scenario(coin=coin, floor={"restitution": 0.6, "contact": law, "friction": friction})
-    body, rate = case.body, (G / R_COIN) ** 0.5
-
-    def error(angle):
-        y = on_floor(body, Mode.SLIDING.value, (0.0, 0.6, 0.0), (1.0, 0.5, 0.3), (0.2, 0.1))
-        still_to_come = angle * np.sin(0.6) / (rate + np.linalg.norm(y[10:]))
-        speed = -gap_acceleration(body, y) * (1 - 0.6) * still_to_come / 2
-        bounced, held = (
-            at_the_end(case, speed, 3 * still_to_come, bouncing=bouncing) for bouncing in (True, False)
-        )
-        return np.abs(bounced - held)[10:].max() / rate
-
-    assert error(CHATTERING) < CONTACT_STEP_ERROR
-    assert 7 < error(4 * CHATTERING) / error(2 * CHATTERING) < 9
+@pytest.mark.parametrize("turning", [-0.3, 0.3])
+def test_the_landing_ahead_is_where_the_other_rim_lands(turning):
+    body, angle = scenario(coin=UNBALANCED).body, 0.01
+    y = on_floor(body, Mode.SLIDING.value, (0.0, np.pi / 2 - angle, 0.0), (turning, 0.0, 0.0))
+    rim, dy, at_landing = lower_rim_of(y), np.empty(13), np.empty((1, 13))
+    rate(body, 0.0, Mode.SLIDING.value, rim, y, dy)
+    ahead = time_to_landing(body, rim, y, dy)
+    sample_contact(body, 0.0, Mode.SLIDING.value, y, 0.0, np.array([ahead]), 1e-12, at_landing)
+    assert abs(up_of(at_landing[0])[2]) < angle / 20
+    assert abs(up_of(y)[2]) > 0.99 * angle
+    assert time_to_landing(scenario(coin=THIN).body, rim, y, dy) == np.inf

@@ -1,0 +1,65 @@
+"""Contact takes the place of the impacts that chatter: how far its motion is from theirs."""
+
+import numpy as np
+import pytest
+
+from analytic.automaton import Mode
+from analytic.contact.following import sample_contact
+from analytic.contact.one_rim import next_event
+from analytic.events import hit
+from analytic.flight.flying import fly
+from analytic.flight.touch_search import closing_speed, gap_acceleration
+from analytic.numerics.tolerances import CHATTERING, CONTACT_STEP_ERROR
+from models.attitude import quaternion_from_angles
+from models.records import IMPACT_ROW
+from tests.helpers.draws import PAPER_OFFSET, ZLOTY, scenario
+
+THIN, UNBALANCED = {**ZLOTY, "thickness": 0.0}, {**ZLOTY, "center_of_mass": PAPER_OFFSET}
+
+
+def touching(body, speed):
+    """Give a tilted coin whose lowest point touches the floor at this speed."""
+    y = np.array([0, 0, 0, 0.2, 0.1, 0, *quaternion_from_angles((0.0, 0.6, 0.0)), 1.0, 0.5, 0.3])
+    height, falling = closing_speed(body, y)
+    y[2] -= height
+    y[5] -= falling + speed
+    return y
+
+
+def at_the_end(case, speed, duration, *, bouncing):
+    """Give the state at `duration` after a touch at `speed`: bounced into contact, or put there at once."""
+    body, rules, rows, elapsed = case.body, case.rules, np.zeros(1, IMPACT_ROW), 0.0
+    y = touching(body, speed)
+    while bouncing and -closing_speed(body, y)[1] > 1e-3 * speed:
+        hit(body, rules, rules.restitution, y, rows[0])
+        elapsed += fly(body, y, 1.0)[0]
+    hit(body, rules, 0.0, y, rows[0])
+    next_event(body, rules.friction, Mode.FLIGHT.value, y)
+    state = np.empty((1, 13))
+    sample_contact(body, rules.friction, Mode.SLIDING.value, y, elapsed, np.array([duration]), 1e-12, state)
+    return state[0]
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.2])
+@pytest.mark.parametrize(
+    "coin",
+    [{**ZLOTY, "thickness": 0.0}, {**ZLOTY, "center_of_mass": PAPER_OFFSET}],
+    ids=["thin", "unbalanced"],
+)
+def test_contact_takes_the_place_of_chattering_to_the_third_power_of_the_angle(coin, friction):
+    law = "coulomb" if friction else "smooth"
+    case = scenario(coin=coin, floor={"restitution": 0.6, "contact": law, "friction": friction})
+    body = case.body
+    rate = (body.gravity / body.radius) ** 0.5
+
+    def error(angle):
+        y = touching(body, 0.0)
+        still_to_come = angle * np.sin(0.6) / (rate + np.linalg.norm(y[10:]))
+        speed = -gap_acceleration(body, y) * (1 - 0.6) * still_to_come / 2
+        bounced, held = (
+            at_the_end(case, speed, 3 * still_to_come, bouncing=bouncing) for bouncing in (True, False)
+        )
+        return np.abs(bounced - held)[10:].max() / rate
+
+    assert error(CHATTERING) < CONTACT_STEP_ERROR
+    assert 7 < error(4 * CHATTERING) / error(2 * CHATTERING) < 9
