@@ -27,7 +27,7 @@ def scenario_text(source: str) -> str:
     names = named_scenarios()
     path = Path(source)
     try:
-        if source in names and not path.exists():
+        if source in names and (not path.exists() or path.is_dir()):
             return (resources.files("models") / "scenarios" / f"{source}.toml").read_text(encoding="utf-8")
         return path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:

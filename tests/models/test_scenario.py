@@ -7,7 +7,7 @@ import pytest
 
 from models.errors import ScenarioError
 from models.laws import ContactLaw, EndingTest
-from models.reading import load, named_scenarios, parse
+from models.reading import load, named_scenarios, parse, scenario_text
 from models.scenario import MOST_IMPACTS, MOST_LOSSLESS, Scenario
 from tests.helpers.draws import scenario
 
@@ -287,6 +287,15 @@ def test_a_folder_or_a_binary_file_is_no_scenario(tmp_path):
 def test_a_byte_order_mark_is_read_over(tmp_path):
     (tmp_path / "coin.toml").write_text(GOOD, encoding="utf-8-sig")
     assert load(str(tmp_path / "coin.toml")) == parse(GOOD, "good.toml")
+
+
+def test_a_shipped_scenario_is_shadowed_by_a_file_of_its_name_but_by_no_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    shipped = scenario_text("fig3_flat")
+    (tmp_path / "fig3_flat").mkdir()
+    assert scenario_text("fig3_flat") == shipped
+    (tmp_path / "fig21").write_text("mine")
+    assert scenario_text("fig21") == "mine"
 
 
 def test_several_wrong_fields_are_all_named():
