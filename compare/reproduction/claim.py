@@ -1,6 +1,7 @@
 """A claim, the measured quantities and thresholds that decide it, and its verdict."""
 
 import json
+import math
 import operator
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
@@ -12,6 +13,32 @@ from compare.output.tables import table
 
 Relation = Literal["<", "≤", "=", "≥", ">"]
 _COMPARE = {"<": operator.lt, "≤": operator.le, "=": operator.eq, "≥": operator.ge, ">": operator.gt}
+VERDICTS = {True: "holds", False: "does not hold", None: "cannot be tested"}
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A quantity estimated from a random sample, with its 99 % confidence interval."""
+
+    value: float
+    low: float
+    high: float
+    count: int
+    """Size of the sample."""
+    counted: str = "tosses"
+    """What the sample is of, in the plural."""
+
+    def needed(self, threshold: float) -> int | None:
+        """Return the size of sample whose interval would leave out a threshold; None where none would.
+
+        An interval shrinks as 1/√count; the value is taken to stay as found.
+        """
+        side = self.low if threshold < self.value else self.high
+        if self.value == threshold:
+            return None
+        exact = self.count * ((self.value - side) / (self.value - threshold)) ** 2
+        unit = 10 ** max(math.floor(math.log10(exact)) - 1, 0)
+        return unit * math.ceil(exact / unit)
 
 
 @dataclass(frozen=True)
@@ -20,26 +47,46 @@ class Criterion:
 
     quantity: str
     """What is measured, with its unit in brackets."""
-    measured: float
+    measured: float | Estimate
     relation: Relation
     threshold: float
     reason: str
     """Why this is the threshold."""
 
     @property
-    def is_met(self) -> bool:
-        """Whether the measured quantity is on the right side of the threshold; never so for NaN."""
+    def is_met(self) -> bool | None:
+        """Whether the quantity is on the right side of the threshold; never so for NaN.
+
+        None where the interval of an estimate contains the threshold.
+        """
+        if isinstance(self.measured, Estimate):
+            if self.measured.low <= self.threshold <= self.measured.high:
+                return None
+            return bool(_COMPARE[self.relation](self.measured.value, self.threshold))
         return bool(_COMPARE[self.relation](self.measured, self.threshold))
 
     @property
     def found(self) -> str:
-        """The measured quantity in words."""
-        return f"{self.quantity}: {_number(self.measured)}"
+        """The measured quantity in words, with its interval."""
+        if not isinstance(self.measured, Estimate):
+            return f"{self.quantity}: {_number(self.measured)}"
+        value, low, high = _alike(self.measured.value, self.measured.low, self.measured.high)
+        return f"{self.quantity}: {value} [{low}, {high}]"
 
     @property
     def accepted(self) -> str:
         """The threshold in words."""
         return f"{self.relation} {_number(self.threshold)}"
+
+    @property
+    def wanted(self) -> str:
+        """What would decide it, in words; empty where it is decided."""
+        if self.is_met is not None or not isinstance(self.measured, Estimate):
+            return ""
+        needed, sample = self.measured.needed(self.threshold), self.measured
+        if needed is None:
+            return f"no number of {sample.counted} would tell"
+        return f"about {needed:,d} {sample.counted} would tell, not {sample.count:,d}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,34 +95,53 @@ class Claim:
 
     claim: str
     """What the paper shows or says, or what a study found."""
-    criteria: Sequence[Criterion]
-    """The claim holds where all are met."""
+    criteria: Sequence[Criterion] = ()
+    """The claim holds where all are met, and does not where one is not."""
+    missing: str = ""
+    """What the paper leaves out, without which the claim cannot be tested."""
     analytic: str = "-"
     """What the analytic engine finds; "-" where the criteria say all."""
     mujoco: str = "-"
     """What MuJoCo finds, or how far it is from the analytic engine; "-" where it has no part in the claim."""
-    expected: bool = True
-    """The known verdict; it is False for a claim of the paper that is known to fail."""
+    expected: bool | None = True
+    """The known verdict, as `holds` has it."""
 
     def __post_init__(self) -> None:
         """Refuse a claim that nothing decides."""
-        if not self.criteria:
-            raise ValueError(f"criteria of {self.claim!r}: none; accepted: one or more")
+        if not self.criteria and not self.missing:
+            raise ValueError(f"criteria of {self.claim!r}: none; accepted: one or more, or what is missing")
 
     @property
-    def holds(self) -> bool:
-        """Whether all criteria are met."""
-        return all(criterion.is_met for criterion in self.criteria)
+    def holds(self) -> bool | None:
+        """Whether all criteria are met; None where the claim cannot be tested."""
+        met = [criterion.is_met for criterion in self.criteria]
+        if self.missing:
+            return None
+        if False in met:
+            return False
+        return None if None in met else True
 
     @property
     def verdict(self) -> str:
-        """The verdict in words."""
-        return "holds" if self.holds else "does not hold"
+        """The verdict in words, with what would make it one where there is none."""
+        wanted = [self.missing, *(criterion.wanted for criterion in self.criteria)]
+        if self.holds is not None:
+            return VERDICTS[self.holds]
+        return f"{VERDICTS[None]}: {'; '.join(filter(None, wanted))}"
 
 
-def unexpected(claims: Sequence[Claim]) -> tuple[str, ...]:
-    """Return the claims whose verdict is not the known one."""
-    return tuple(claim.claim for claim in claims if claim.holds != claim.expected)
+def unexpected(claims: Sequence[Claim], *, quick: bool = False) -> tuple[str, ...]:
+    """Return the claims whose verdict is not the known one.
+
+    Args:
+        claims: to be looked at.
+        quick: whether fewer tosses were made, which may leave a verdict open.
+    """
+    return tuple(
+        claim.claim
+        for claim in claims
+        if claim.holds is not claim.expected and not (quick and claim.holds is None)
+    )
 
 
 def table_of(claims: Sequence[Claim]) -> str:
@@ -84,7 +150,7 @@ def table_of(claims: Sequence[Claim]) -> str:
         "claim": [claim.claim for claim in claims],
         "analytic": [claim.analytic for claim in claims],
         "MuJoCo": [claim.mujoco for claim in claims],
-        "measured (threshold: reason)": [criteria_of(claim) for claim in claims],
+        "measured (threshold: reason)": [criteria_of(claim) or "-" for claim in claims],
         "verdict": [claim.verdict for claim in claims],
     }
     shown = {name: cells for name, cells in columns.items() if set(cells) != {"-"}}
@@ -110,9 +176,21 @@ def read_claims(path: Path) -> tuple[Claim, ...]:
     listed = json.loads(path.read_text(encoding="utf-8"))
     for one in listed:
         del one["holds"]
-        one["criteria"] = [Criterion(**criterion) for criterion in one["criteria"]]
+        for criterion in one["criteria"]:
+            if isinstance(criterion["measured"], dict):
+                criterion["measured"] = Estimate(**criterion["measured"])
+        one["criteria"] = tuple(Criterion(**criterion) for criterion in one["criteria"])
     return tuple(Claim(**one) for one in listed)
 
 
 def _number(value: float) -> str:
     return f"{value:,d}" if isinstance(value, Integral) else f"{value:.3g}"
+
+
+def _alike(value: float, low: float, high: float) -> tuple[str, ...]:
+    """Return an estimate and its interval, both to the second digit of half the interval's length."""
+    half = (high - low) / 2
+    if not 0 < half < math.inf or max(abs(low), abs(high)) >= 1e5 or half < 1e-4:
+        return tuple(f"{one:.3g}" for one in (value, low, high))
+    digits = max(1 - math.floor(math.log10(half)), 0)
+    return tuple(f"{one:,.{digits}f}" for one in (value, low, high))

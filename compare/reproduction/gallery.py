@@ -2,6 +2,7 @@
 
 import re
 from base64 import b64encode
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import resources
@@ -17,14 +18,24 @@ from compare.reproduction.runner import Reproduction
 
 PAGES = ("REPRODUCTION.md", "gallery.html")
 _ORDER = ("Table", "Fig", "Section", "Claims")
+SKETCHES = {
+    "Fig. 1": "Keller's coin and its axis",
+    "Figs 8-11": "the coin, its frames and its rotations",
+    "Fig. 16": "the velocities at an impact",
+}
+"""Figures that show definitions: there is nothing to reproduce."""
+_KINDS = {True: "holds", False: "fails", None: "open"}
+"""The classes of the verdicts in the gallery."""
 _INTRODUCTION = """\
 # The paper, figure by figure
 
 Does the paper hold? Of {count} claims of J. Strzalko, J. Grabski, A. Stefanski, P. Perlikowski and
 T. Kapitaniak, "Dynamics of coin tossing is predictable", Physics Reports 469 (2008) 59-92, and of papers
-that it cites, {held} hold and {failed} do not. Measured quantities and thresholds decide it, and are listed
-with each claim. One command makes this page, its pictures and a gallery to project; a name in the place of
-`all` makes one figure again:
+that it cites, {held} hold, {failed} do not, and {open} cannot be tested: the paper leaves out what they need,
+or more tosses would be needed to tell. Measured quantities and thresholds decide it, and are listed with each
+claim. What comes from random tosses has its 99 % confidence interval in brackets, and a threshold inside it
+decides nothing. Sketches make no claim: {sketches}. One command makes this page, its pictures and a gallery
+to project; a name in the place of `all` makes one figure again:
 
     cointoss reproduce all {quick}--out docs
 """
@@ -40,9 +51,10 @@ class Entry:
     picture: Path
 
     @property
-    def in_full(self) -> bool:
-        """Whether all claims hold."""
-        return all(claim.holds for claim in self.claims)
+    def holds(self) -> bool | None:
+        """Whether all claims hold; None where none fails but one cannot be tested."""
+        found = {claim.holds for claim in self.claims}
+        return False if False in found else None if None in found else True
 
 
 def of_paper() -> list[str]:
@@ -89,10 +101,17 @@ def markdown(shown: Sequence[Entry], *, quick: bool) -> str:
         quick: whether they were made at their quick size.
     """
     claims = [claim for entry in shown for claim in entry.claims]
-    held = sum(claim.holds for claim in claims)
+    verdicts = Counter(claim.holds for claim in claims)
     size = "--quick " if quick else ""
     lines = [
-        _INTRODUCTION.format(count=len(claims), held=held, failed=len(claims) - held, quick=size),
+        _INTRODUCTION.format(
+            count=len(claims),
+            held=verdicts[True],
+            failed=verdicts[False],
+            open=verdicts[None],
+            sketches=", ".join(f"{place} ({shows})" for place, shows in SKETCHES.items()),
+            quick=size,
+        ),
         table(
             ["figure", "the paper", "measured (threshold)", "verdict"],
             [
@@ -123,4 +142,4 @@ def html(shown: Sequence[Entry]) -> str:
     template = (resources.files("compare.reproduction") / "gallery.html.j2").read_text(encoding="utf-8")
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
     pictures = {entry.name: b64encode(entry.picture.read_bytes()).decode("ascii") for entry in shown}
-    return environment.from_string(template).render(entries=shown, pictures=pictures)
+    return environment.from_string(template).render(entries=shown, pictures=pictures, kinds=_KINDS)

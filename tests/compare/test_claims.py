@@ -9,16 +9,25 @@ import pytest
 from matplotlib.figure import Figure
 
 from compare.reproduction import gallery, runner
-from compare.reproduction.claim import Claim, Criterion, read_claims, table_of, to_json, unexpected
+from compare.reproduction.claim import (
+    Claim,
+    Criterion,
+    Estimate,
+    criteria_of,
+    read_claims,
+    table_of,
+    to_json,
+    unexpected,
+)
 from compare.reproduction.runner import Reproduction, Result
 
 KNOWN = Claim(
-    claim="two and two are four", analytic="4", mujoco="4", criteria=[Criterion("sum", 4, "=", 4, "no more")]
+    claim="two and two are four", analytic="4", mujoco="4", criteria=(Criterion("sum", 4, "=", 4, "no more"),)
 )
 REFUTED = Claim(
     claim="two and two are five",
     analytic="4",
-    criteria=[Criterion("sum", 4, "=", 5, "as printed"), Criterion("error [1]", 1e-20, "<", 0.5, "rounding")],
+    criteria=(Criterion("sum", 4, "=", 5, "as printed"), Criterion("error [1]", 1e-20, "<", 0.5, "rounding")),
     expected=False,
 )
 
@@ -44,6 +53,30 @@ def test_a_claim_holds_where_all_its_criteria_are_met():
         Claim(claim="so it is", criteria=[])
 
 
+@pytest.mark.parametrize(
+    ("low", "high", "verdict"), [(2.1, 3.1, True), (1.0, 1.9, False), (1.9, 3.0, None), (2.0, 3.0, None)]
+)
+def test_an_estimate_decides_where_its_interval_leaves_the_threshold_out(low, high, verdict):
+    criterion = Criterion("x", Estimate((low + high) / 2, low, high, 400), ">", 2.0, "")
+    assert criterion.is_met is verdict
+    assert Claim(claim="more than two", criteria=[criterion]).holds is verdict
+
+
+def test_a_claim_that_cannot_be_tested_says_what_would_decide_it():
+    close = Criterion("x", Estimate(0.52, 0.46, 0.58, 400), ">", 0.5, "chance")
+    claim = Claim(claim="more than half", criteria=[KNOWN.criteria[0], close], expected=None)
+    # Nine times the tosses have a third of the interval.
+    assert claim.verdict == "cannot be tested: about 3,600 tosses would tell, not 400"
+    assert criteria_of(claim, reasons=False) == "sum: 4 (= 4); x: 0.520 [0.460, 0.580] (> 0.5)"
+    assert Claim(claim="x", criteria=[close, REFUTED.criteria[0]]).holds is False
+    even = Criterion("x", Estimate(0.5, 0.46, 0.54, 400), ">", 0.5, "chance")
+    assert even.wanted == "no number of tosses would tell"
+    unsaid = Claim(claim="as printed", missing="the paper names no coin", criteria=REFUTED.criteria)
+    assert unsaid.verdict == "cannot be tested: the paper names no coin"
+    assert unexpected((claim, unsaid)) == ("as printed",)
+    assert unexpected((claim, unsaid), quick=True) == ()
+
+
 @pytest.mark.parametrize("threshold", [4, 5])
 def test_a_verdict_that_is_not_the_known_one_is_unexpected(threshold):
     criteria = [Criterion("sum", 4, "=", threshold, "")]
@@ -67,12 +100,19 @@ def test_the_table_shows_thresholds_with_their_reasons_and_no_empty_column():
 
 
 def test_claims_are_read_as_they_were_written_and_judged_anew(tmp_path):
-    numbers = Claim(claim="n", criteria=[Criterion("n", np.arange(4).max(), "<", np.float64(4), "")])
+    numbers = Claim(
+        claim="n",
+        criteria=(
+            Criterion("n", np.arange(4).max(), "<", np.float64(4), ""),
+            Criterion("share", Estimate(0.5, np.float64(0.4), 0.6, 9), "<", 0.55, ""),
+        ),
+        expected=None,
+    )
     path = tmp_path / "claims.json"
     path.write_text(to_json((KNOWN, REFUTED, numbers)), encoding="utf-8")
     assert read_claims(path) == (KNOWN, REFUTED, numbers)
     listed = json.loads(path.read_text(encoding="utf-8"))
-    assert [one["holds"] for one in listed] == [True, False, True]
+    assert [one["holds"] for one in listed] == [True, False, None]
     listed[0]["criteria"][0]["measured"] = 5
     path.write_text(json.dumps(listed), encoding="utf-8")
     assert not read_claims(path)[0].holds
@@ -123,7 +163,7 @@ def seconds(name: str) -> float:
 )
 def test_the_papers_claims_come_out_as_known_and_each_shows_its_thresholds(name, tmp_path):
     result = runner.reproduce(name, tmp_path, unseen, quick=True)
-    assert unexpected(result.claims) == ()
+    assert unexpected(result.claims, quick=True) == ()
     folder = runner.folder_of(name, tmp_path)
     assert (folder / "figure.png").stat().st_size < 150_000
     assert read_claims(folder / "claims.json") == tuple(result.claims)

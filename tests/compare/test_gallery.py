@@ -21,6 +21,17 @@ def test_figures_stand_in_the_papers_order():
     assert kinds == sorted(kinds, key=("Table", "Fig", "Section", "Claim").index)
 
 
+def test_no_figure_of_the_paper_is_missing():
+    places = [*(runner.find(name).paper for name in gallery.of_paper()), *gallery.SKETCHES]
+    found = []
+    for place in places:
+        if place.startswith("Fig"):
+            numbers = [int(number) for number in re.findall(r"\d+", place.split(", section")[0])]
+            found += range(numbers[0], numbers[1] + 1) if "-" in place else numbers
+    assert sorted(found) == list(range(1, 33))
+    assert "Table 1" in places
+
+
 @pytest.fixture
 def made(tmp_path, monkeypatch):
     """Put two small figures in the place of the paper's and run `cointoss reproduce all`."""
@@ -33,7 +44,11 @@ def made(tmp_path, monkeypatch):
             make=lambda progress, holds=holds: result(progress, holds),
             draw={"figure": lambda _: Figure()},
         )
-        for name, place, holds in (("second", "Fig. 10", False), ("first", "Fig. 9", True))
+        for name, place, holds in (
+            ("second", "Fig. 10", False),
+            ("first", "Fig. 9", True),
+            ("third", "Fig. 11", None),
+        )
     }
     monkeypatch.setattr(runner, "names", lambda: sorted(figures))
     monkeypatch.setattr(runner, "find", figures.__getitem__)
@@ -45,7 +60,8 @@ def made(tmp_path, monkeypatch):
 def result(progress, holds):
     progress(1, 1)
     criterion = Criterion("one", 1, "<", 2 if holds else 0, "it <is> so")
-    claim = Claim(claim="1 < 2", analytic="so it is", criteria=[criterion], expected=holds)
+    missing = "the paper has no two" if holds is None else ""
+    claim = Claim(claim="1 < 2", analytic="so it is", criteria=[criterion], missing=missing, expected=holds)
     return Result(claims=(claim,), data={"one": np.ones(1)})
 
 
@@ -55,14 +71,17 @@ def test_all_makes_both_pages(made):
         "| [Fig. 10](#second) | 1 < 2 | one: 1 (< 0) | does not hold |"
     )
     assert "| 1 < 2 | so it is | one: 1 (< 2: it <is> so) | holds |" in page
-    assert "it cites, 1 hold and 1 do not" in " ".join(page.split())
+    assert "it cites, 1 hold, 1 do not, and 1 cannot be tested: the paper" in " ".join(page.split())
+    assert "Sketches make no claim: Fig. 1 (" in page
     assert "cointoss reproduce all --quick --out docs" in page
     assert "![a <sum> of Fig. 9](reproduction/first/figure.png)" in page
     assert "Assumed: that it rains" in page
     shown = (made / "gallery.html").read_text(encoding="utf-8")
     assert "a &lt;sum&gt; of Fig. 9" in shown
     assert "(&lt; 2: it &lt;is&gt; so)" in shown
-    assert shown.count("data:image/png;base64,") == 2
+    assert shown.count("data:image/png;base64,") == 3
+    for kind, verdict in (("holds", "holds"), ("fails", "does not hold"), ("open", "cannot be tested: the")):
+        assert f'class="{kind}">{verdict}' in shown
 
 
 def test_a_page_in_the_way_is_refused_before_any_work(made, tmp_path):

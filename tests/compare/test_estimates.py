@@ -1,0 +1,47 @@
+"""Confidence intervals of estimates hold what was estimated as often as they say."""
+
+import numpy as np
+import pytest
+
+from compare.reproduction.estimates import LEVEL, difference, jackknife, mean, ratio_of_medians, share
+
+RUNS = 400
+KINDS = {
+    "share": (0.3, lambda rng: share(rng.random(200) < 0.3)),
+    "mean": (2.0, lambda rng: mean(rng.exponential(2.0, 400))),
+    "difference": (1.0, lambda rng: difference(rng.normal(3, 1, 60), rng.normal(2, 3, 200))),
+    "jackknife": (2.0, lambda rng: _spread(rng.normal(0, 2, 400))),
+    "ratio": (2.0, lambda rng: ratio_of_medians(rng.exponential(2, 150), rng.exponential(1, 150), rng)),
+}
+
+
+def _spread(drawn):
+    return jackknife(lambda kept: float(np.sqrt(np.mean(drawn[kept] ** 2))), len(drawn))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_an_interval_holds_the_truth_as_often_as_its_level_says(kind):
+    truth, draw = KINDS[kind]
+    rng = np.random.default_rng(0)
+    found = [draw(rng) for _ in range(RUNS)]
+    held = np.mean([one.low <= truth <= one.high for one in found])
+    # Four standard errors of the count, and a hundredth for what an approximate interval may lack.
+    scatter = 4 * np.sqrt(LEVEL * (1 - LEVEL) / RUNS)
+    assert LEVEL - scatter - 0.01 < held < min(LEVEL + scatter, 1.001)
+    assert np.mean([one.value for one in found]) == pytest.approx(truth, rel=0.03)
+
+
+def test_a_share_of_none_has_an_interval_above_it():
+    none = share(np.zeros(500, dtype=bool), counted="impacts")
+    assert (none.value, none.low, none.count, none.counted) == (0, 0, 500, "impacts")
+    assert 0.005 < none.high < 0.02
+
+
+def test_as_many_as_it_says_would_tell():
+    drawn = np.arange(400) % 100 < 52
+    small = share(drawn)
+    needed = small.needed(0.5)
+    assert needed is not None
+    assert small.low < 0.5 < small.high
+    many = share(np.arange(needed) % 100 < 52)
+    assert 0.497 < many.low < 0.503
