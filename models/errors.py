@@ -7,6 +7,8 @@ from typing import Any, cast
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
+from models.meanings import meanings
+
 
 class ScenarioError(ValueError):
     """A scenario that can't be used; the message names file, field, value and what is accepted."""
@@ -106,12 +108,11 @@ def _accepted(detail: ErrorDetails, model: type[BaseModel]) -> str:
 
 
 def _meaning(detail: ErrorDetails, model: type[BaseModel]) -> str:
-    fields = _model_at(detail["loc"][:-1], model).model_fields
-    field = fields[cast("str", detail["loc"][-1])]
-    annotation = field.annotation
+    part, name = _model_at(detail["loc"][:-1], model), cast("str", detail["loc"][-1])
+    annotation = part.model_fields[name].annotation
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return f"a table [{detail['loc'][-1]}] with {', '.join(annotation.model_fields)}"
-    return str(field.description)
+        return f"a table [{name}] with {', '.join(annotation.model_fields)}"
+    return meanings(part)[name]
 
 
 def _range(detail: ErrorDetails, model: type[BaseModel]) -> str:

@@ -17,6 +17,7 @@ from compare.output.style import HEADS, TAILS
 from compare.report.map_section import MapSection
 from models import certificate
 from models.laws import ContactLaw, EndingTest, RestitutionKind
+from models.meanings import meanings
 from models.records import Face, Toss
 from models.scenario import Scenario
 
@@ -78,13 +79,13 @@ def _parameters(scenario: Scenario) -> list[tuple[str, str, str]]:
     rows: list[tuple[str, str, str]] = []
 
     def walk(part: BaseModel, path: str) -> None:
-        for name, field in type(part).model_fields.items():
+        for name in type(part).model_fields:
             value = getattr(part, name)
             if isinstance(value, BaseModel):
                 walk(value, f"{path}{name}.")
             elif value is not None:
                 degrees = f" = {_shown(tuple(np.degrees(value).tolist()))}°" if name == "angles" else ""
-                rows.append((f"{path}{name}", _shown(value) + degrees, field.description or ""))
+                rows.append((f"{path}{name}", _shown(value) + degrees, meanings(type(part))[name]))
 
     walk(scenario, "")
     return rows

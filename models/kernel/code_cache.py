@@ -17,6 +17,7 @@ from typing import Any, ClassVar
 
 from numba.core import types
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile, _CacheLocator
+from numba.core.runtime import rtsys
 
 PACKAGES = ("models", "analytic", "coin_mj", "compare")
 """Packages with compiled functions; what others compile is not kept."""
@@ -175,6 +176,15 @@ class CodeCache(FunctionCache):
         self._cache_file = CodeFiles(
             self._cache_path, self._impl.filename_base, self._impl.locator.get_source_stamp()
         )
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Return what is kept for these types of arguments, or None.
+
+        To read it numba would import all that it can compile, which takes longer than most tosses.
+        """
+        rtsys.initialize(target_context)
+        with self._guard_against_spurious_io_errors():
+            return self._load_overload(sig, target_context)
 
     def _index_key(self, sig: Any, codegen: Any) -> tuple[Any, ...]:
         # To numba two named tuples of one name and of the same types are one type.

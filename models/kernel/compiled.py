@@ -6,8 +6,10 @@
 
 from collections.abc import Callable
 from copy import copy
+from inspect import signature
 from typing import Any
 
+from llvmlite import binding
 from numba import _dynfunc
 from numba.core import types
 from numba.core.compiler import Compiler, CompileResult, compile_result
@@ -32,6 +34,8 @@ class CompiledFunction(CPUDispatcher):
 
     def __init__(self, function: Callable[..., Any]) -> None:
         """Compile nothing yet."""
+        # numba asks for it three times.
+        function.__dict__["__signature__"] = signature(function)
         super().__init__(function, targetoptions=_WITHOUT_WRAPPERS)
         self._compiler = _ForCallers(self)
         self._from_python: _FromPython | None = None
@@ -132,6 +136,41 @@ class _CalleeCache(CodeCache):
     _impl_class = _CalleeImpl
 
 
+class _LinkedImpl(LocatedImpl):
+    """How a function is kept as Python calls it: machine code alone, for its callers have their own kind.
+
+    numba keeps code for callers beside it, which takes longer to read than the machine code.
+    """
+
+    def reduce(self, data: CompileResult) -> Any:
+        code = data.library
+        data.fndesc.typemap = data.fndesc.calltypes = None
+        return (
+            code.name,
+            code._get_compiled_object(),
+            data.fndesc,
+            data.environment,
+            data.signature,
+            data._find_referenced_environments(),
+        )
+
+    def rebuild(self, target_context: Any, reduced_data: Any) -> CompileResult:
+        name, machine_code, description, environment, signature, environments = reduced_data
+        codegen = target_context.codegen()
+        # numba looks for what is defined in the code for callers.
+        defined = f'define void @"{description.llvm_cpython_wrapper_name}"() {{ ret void }}'
+        for_callers = binding.parse_assembly(defined).as_bitcode()
+        library = codegen.unserialize_library((name, "object", (machine_code, for_callers)))
+        for used in environments:
+            codegen.set_env(used.env_name, used)
+        result = _result(target_context, library, description, environment, signature)
+        return result._replace(entry_point=target_context.get_executable(library, description, environment))
+
+
+class _LinkedCache(CodeCache):
+    _impl_class = _LinkedImpl
+
+
 class _FromPython(CPUDispatcher):
     """A compiled function as Python calls it."""
 
@@ -140,7 +179,7 @@ class _FromPython(CPUDispatcher):
         self._compiler = _Linker(compiled_function)
 
     def compile(self, sig: Any) -> Any:
-        _keep_code(self, CodeCache)
+        _keep_code(self, _LinkedCache)
         return super().compile(sig)
 
 
@@ -162,6 +201,8 @@ class _Linker(_FunctionCompiler):
         description = copy(callee.fndesc)
         description.env_name += "_from_python"
         environment = Environment.from_fndesc(description)
+        # The code may all have been read from disk: see `CodeCache.load_overload`.
+        cpu_target.target_context.refresh()
         context = cpu_target.target_context.subtarget(enable_nrt=True)
         library = context.codegen().create_library(callee.library.name)
         library.enable_object_caching()
@@ -170,6 +211,9 @@ class _Linker(_FunctionCompiler):
         # Internal ones would still be found by their names.
         callee.library.link_into(library._final_module, "private")
         spare_references(library._final_module, context.codegen())
+        for variable in library._final_module.global_variables:
+            if lookup_environment(variable.name) is not None:
+                variable.linkage = "linkonce_odr"  # Most are not used, and LLVM removes them.
         library.finalize()
         for variable in library._final_module.global_variables:
             used = lookup_environment(variable.name)

@@ -137,6 +137,32 @@ def test_a_function_kept_for_python_works_where_it_was_kept_for_callers_too(fold
     assert run(folder, script.format("two")) == [11, 9]
 
 
+def test_python_calls_what_was_only_kept_for_callers(folder):
+    """Then nothing is compiled but Python's wrapper, for which numba has not yet read how to make one."""
+    part = "\n\n@compiled\ndef part(x, text):\n    return np.full(3, x), text\n"
+    write(folder, "analytic.callee", f"{IMPORT}import numpy as np\n{part}")
+    caller = "from {} import part\n\n\n@compiled\ndef whole(x):\n    return part(x, 'ab')[0][1]\n"
+    write(folder, "analytic.caller", IMPORT + caller.format("analytic.callee"))
+    assert run(folder, "from analytic.caller import whole\nprint(whole(10.0))") == [10]
+    script = (
+        "from analytic.callee import part\n"
+        "numbers, text = part(3.0, 'abcd')\n"
+        "print(sum(numbers), len(text))\n"
+        "print(*(sum(f.stats.cache_misses.values()) for f in (part.from_python, part)))"
+    )
+    assert run(folder, script) == [9, 4, 1, 0]
+    assert run(folder, script) == [9, 4, 0, 0]
+
+
+def test_code_kept_for_python_is_read_without_what_numba_can_compile(folder):
+    write(folder, "analytic.callee", CALLEE.format(2.0))
+    write(folder, "analytic.caller", CALLER.format("analytic.callee", 1))
+    script = "import sys\nfrom analytic.caller import whole\nprint(whole(1.0))\n"
+    imported = "print(int('numba.np.linalg' in sys.modules))"
+    assert run(folder, script + imported) == [3, 1]
+    assert run(folder, script + imported) == [3, 0]
+
+
 def test_named_tuples_with_other_fields_are_other_types(folder):
     """A function need not import the named tuple that it is given, so an edit there is not in its hash."""
     tuples = "from typing import NamedTuple\n\n\nclass Pair(NamedTuple):\n    {}: float\n    {}: float\n"

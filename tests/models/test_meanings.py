@@ -1,0 +1,24 @@
+"""Every field of a scenario says what it means."""
+
+import pytest
+from pydantic import BaseModel
+
+from models.meanings import meanings
+from models.scenario import Air, Coin, EndingCriteria, Floor, Release, Scenario
+
+
+@pytest.mark.parametrize("part", [Scenario, Coin, Air, Floor, Release, EndingCriteria])
+def test_every_field_but_the_tables_has_a_meaning(part):
+    tables = {
+        name
+        for name, field in part.model_fields.items()
+        if isinstance(field.annotation, type) and issubclass(field.annotation, BaseModel)
+    }
+    assert meanings(part).keys() == part.model_fields.keys() - tables
+    assert all(meanings(part).values())
+
+
+def test_a_meaning_is_the_text_below_the_field():
+    assert meanings(Coin)["radius"] == "r [m]."
+    assert "inertia_about_C" not in meanings(Coin)
+    assert meanings(Coin)["inertia"].splitlines()[1] == "cylinder's about B, moved to C."
