@@ -10,9 +10,6 @@ from analytic.toss import state_of
 from models.records import Array
 from models.scenario import Scenario
 
-BLOCK = 25
-"""Growth is averaged over blocks of so many impacts before its scatter is taken: neighbours hang together."""
-
 
 def growth_by_tangent(scenario: Scenario) -> Array:
     """Return the logarithm of the growth of a small change from impact to impact, (n,).
@@ -36,12 +33,6 @@ def growth_by_tangent(scenario: Scenario) -> Array:
         growth.append(np.log(size))
         change /= size
     return np.array(growth)
-
-
-def mean_and_error(growth: Array) -> tuple[float, float]:
-    """Return the mean growth per impact and its standard error, from blocks of `BLOCK` impacts."""
-    blocks = [part.mean() for part in np.array_split(growth, max(len(growth) // BLOCK, 2))]
-    return float(growth.mean()), float(np.std(blocks, ddof=1) / len(blocks) ** 0.5)
 
 
 def divergence(angles: Array, dimension: int, longest: int) -> Array:

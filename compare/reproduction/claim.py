@@ -3,7 +3,7 @@
 import json
 import math
 import operator
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from numbers import Integral
 from pathlib import Path
@@ -11,8 +11,17 @@ from typing import Literal
 
 from compare.output.tables import table
 
-Relation = Literal["<", "≤", "=", "≥", ">"]
-_COMPARE = {"<": operator.lt, "≤": operator.le, "=": operator.eq, "≥": operator.ge, ">": operator.gt}
+Relation = Literal["<", "≤", "=", "≥", ">", "within ±"]
+_COMPARE: dict[Relation, Callable[[float, float], bool]] = {
+    "<": operator.lt,
+    "≤": operator.le,
+    "=": operator.eq,
+    "≥": operator.ge,
+    ">": operator.gt,
+    "within ±": lambda measured, threshold: abs(measured) <= threshold,
+}
+_MOST = 1e12
+"""Nobody makes so many tosses."""
 VERDICTS = {True: "holds", False: "does not hold", None: "cannot be tested"}
 
 
@@ -37,6 +46,8 @@ class Estimate:
         if self.value == threshold:
             return None
         exact = self.count * ((self.value - side) / (self.value - threshold)) ** 2
+        if exact > _MOST:
+            return None
         unit = 10 ** max(math.floor(math.log10(exact)) - 1, 0)
         return unit * math.ceil(exact / unit)
 
@@ -59,11 +70,17 @@ class Criterion:
 
         None where the interval of an estimate contains the threshold.
         """
-        if isinstance(self.measured, Estimate):
-            if self.measured.low <= self.threshold <= self.measured.high:
-                return None
-            return bool(_COMPARE[self.relation](self.measured.value, self.threshold))
-        return bool(_COMPARE[self.relation](self.measured, self.threshold))
+        compare = _COMPARE[self.relation]
+        if not isinstance(self.measured, Estimate):
+            return bool(compare(self.measured, self.threshold))
+        if any(self.measured.low <= limit <= self.measured.high for limit in self._limits):
+            return None
+        return bool(compare(self.measured.value, self.threshold))
+
+    @property
+    def _limits(self) -> tuple[float, ...]:
+        """Where the verdict changes."""
+        return (self.threshold, -self.threshold) if self.relation == "within ±" else (self.threshold,)
 
     @property
     def found(self) -> str:
@@ -83,7 +100,9 @@ class Criterion:
         """What would decide it, in words; empty where it is decided."""
         if self.is_met is not None or not isinstance(self.measured, Estimate):
             return ""
-        needed, sample = self.measured.needed(self.threshold), self.measured
+        sample = self.measured
+        nearest = min(self._limits, key=lambda limit: abs(limit - sample.value))
+        needed = sample.needed(nearest)
         if needed is None:
             return f"no number of {sample.counted} would tell"
         return f"about {needed:,d} {sample.counted} would tell, not {sample.count:,d}"

@@ -27,6 +27,17 @@ def share(met: ArrayLike, counted: str = "tosses") -> Estimate:
     return Estimate(float(flags.mean()), float(interval.low), float(interval.high), flags.size, counted)
 
 
+def mean_share(shares: ArrayLike, counted: str = "tosses") -> Estimate:
+    """Return the mean of shares, with Student's interval, or Wilson's where all are 0 or all are 1.
+
+    Args:
+        shares: of a sample, (n,).
+        counted: what the sample is of.
+    """
+    values = np.asarray(shares, dtype=float)
+    return mean(values, counted) if np.ptp(values) > 0 else share(values > 1 / 2, counted)
+
+
 def mean(values: ArrayLike, counted: str = "tosses") -> Estimate:
     """Return the mean of what a sample was drawn from, with Student's interval.
 

@@ -62,6 +62,16 @@ def test_an_estimate_decides_where_its_interval_leaves_the_threshold_out(low, hi
     assert Claim(claim="more than two", criteria=[criterion]).holds is verdict
 
 
+@pytest.mark.parametrize(
+    ("low", "high", "verdict"),
+    [(-0.5, 0.5, True), (1.1, 1.9, False), (-3.0, -1.2, False), (0.5, 1.5, None), (-2.0, 2.0, None)],
+)
+def test_a_difference_is_within_a_threshold_on_both_sides(low, high, verdict):
+    criterion = Criterion("x", Estimate((low + high) / 2, low, high, 400), "within ±", 1.0, "")
+    assert criterion.is_met is verdict
+    assert (criterion.wanted == "") is (verdict is not None)
+
+
 def test_a_claim_that_cannot_be_tested_says_what_would_decide_it():
     close = Criterion("x", Estimate(0.52, 0.46, 0.58, 400), ">", 0.5, "chance")
     claim = Claim(claim="more than half", criteria=[KNOWN.criteria[0], close], expected=None)

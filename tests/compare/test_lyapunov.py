@@ -5,7 +5,7 @@ import pytest
 
 from analytic.events import run
 from analytic.toss import state_of
-from compare.metrics.lyapunov import divergence, growth_by_tangent, mean_and_error
+from compare.metrics.lyapunov import divergence, growth_by_tangent
 from tests.helpers.draws import scenario
 
 
@@ -45,10 +45,3 @@ def test_the_growth_of_a_change_is_that_of_two_tosses():
     growth = growth_by_tangent(case(0.4))
     assert np.log(apart[5] / apart[2]) == pytest.approx(growth[3:6].sum(), abs=0.7)
     assert growth[3:6].sum() > 3
-
-
-def test_the_error_of_a_mean_is_that_of_its_blocks():
-    rng = np.random.default_rng(3)
-    mean, error = mean_and_error(rng.normal(0.5, 1.0, 10_000))
-    assert mean == pytest.approx(0.5, abs=0.04)
-    assert error == pytest.approx(0.01, rel=0.3)

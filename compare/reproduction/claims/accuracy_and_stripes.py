@@ -1,5 +1,6 @@
 """Section 5.3: the accuracy ε of a release against the width W of the stripes of the basins."""
 
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -10,7 +11,8 @@ from numpy.typing import NDArray
 import analytic
 from compare.output.progress import Progress
 from compare.output.style import GREY
-from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.claim import Claim, Criterion, Estimate
+from compare.reproduction.estimates import mean_share, ratio_of_medians
 from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.planar_maps import HEIGHTS, LANDINGS, SPINS, case, faces_after, releases
 from models.records import Array
@@ -28,6 +30,8 @@ BY_CHANCE = 0.75
 """A share that ends as meant below this is nearer to chance."""
 FEWEST = 5
 """Tosses from which a ratio is given."""
+NONE = Estimate(np.nan, np.nan, np.nan, 0)
+"""Of fewer."""
 
 
 def make(progress: Progress, centers: int = 200, count: int = 60) -> Result:
@@ -35,7 +39,8 @@ def make(progress: Progress, centers: int = 200, count: int = 60) -> Result:
     rng = np.random.default_rng(SEED)
     heights, spins = rng.uniform(*HEIGHTS, centers), rng.uniform(*SPINS, centers)
     data: dict[str, NDArray[Any]] = {"ratio": RATIOS}
-    at_hand = {}
+    at_hand: dict[str, Estimate] = {}
+    alike: dict[str, list[Estimate]] = {}
     for landing in LANDINGS:
         width = np.array([stripe_width(landing, z, w) for z, w in zip(heights, spins, strict=True)])
         progress(2 * len(at_hand) + 1, 2 * len(LANDINGS))
@@ -43,33 +48,38 @@ def make(progress: Progress, centers: int = 200, count: int = 60) -> Result:
         for ratio in RATIOS:
             within = width * ratio <= WIDEST
             shares = _alike(landing, heights, spins, np.where(within, width * ratio, 0), count, rng)
-            rows.append(np.mean(shares[within]) if within.sum() >= FEWEST else np.nan)
-        data |= {f"{landing}, width": width, f"{landing}, alike": np.array(rows)}
-        at_hand[landing] = float(np.mean(_alike(landing, heights, spins, np.full(centers, HAND), count, rng)))
+            rows.append(mean_share(shares[within], "releases") if within.sum() >= FEWEST else NONE)
+        alike[landing] = rows
+        data |= {f"{landing}, width": width, f"{landing}, alike": np.array([one.value for one in rows])}
+        at_hand[landing] = mean_share(
+            _alike(landing, heights, spins, np.full(centers, HAND), count, rng), "releases"
+        )
         progress(2 * len(at_hand), 2 * len(LANDINGS))
     soft, bouncing = (data[f"{landing}, width"] for landing in LANDINGS)
-    alike = data["bouncing, alike"]
+    bounced = alike["bouncing"]
     claims = (
         Claim(
             claim="if ε ≪ W the outcome is predictable",
-            analytic=f"with ε = W/100 {alike[0]:.1%} of the tosses that bounce end as the one aimed at",
+            analytic=f"with ε = W/100 {bounced[0].value:.1%} of the bouncing tosses end as the one aimed at",
             criteria=[
                 Criterion(
-                    "share with ε = W/100", alike[0], ">", 0.97, "a few lie at the edge of their stripe"
+                    "share with ε = W/100", bounced[0], ">", 0.97, "a few lie at the edge of their stripe"
                 )
             ],
         ),
         Claim(
             claim="if ε ≫ W heads and tails are as likely",
-            analytic=f"with ε = {_listed(alike)} end as the one aimed at",
+            analytic=f"with ε = {_listed(data['bouncing, alike'])} end as the one aimed at",
             criteria=[
                 Criterion(
-                    "largest difference from 1/2 for ε ≥ 10 W",
-                    np.nanmax(np.abs(alike[RATIOS >= 10] - 1 / 2)),
-                    "<",
+                    f"share with ε = {ratio:,.0f} W, less 1/2",
+                    replace(one, value=one.value - 1 / 2, low=one.low - 1 / 2, high=one.high - 1 / 2),
+                    "within ±",
                     0.1,
-                    "chance over so many releases",
+                    "nearer to chance than a hand's habit",
                 )
+                for ratio, one in zip(RATIOS, bounced, strict=True)
+                if ratio >= 10 and one.count
             ],
         ),
         Claim(
@@ -81,19 +91,19 @@ def make(progress: Progress, centers: int = 200, count: int = 60) -> Result:
             ),
             criteria=[
                 Criterion(
-                    "median width, bouncing [m]",
-                    np.median(bouncing),
+                    "median width, bouncing over soft floor",
+                    ratio_of_medians(bouncing, soft, rng, "releases"),
                     "<",
-                    np.median(soft) / 100,
-                    "a hundredth of that on a soft floor",
+                    0.01,
+                    "another size",
                 )
             ],
         ),
         Claim(
             claim="so a hand leaves a bouncing coin to chance",
             analytic=(
-                f"aimed within 1 mm {at_hand['bouncing']:.0%} end as meant, on a soft floor "
-                f"{at_hand['soft floor']:.0%}"
+                f"aimed within 1 mm {at_hand['bouncing'].value:.0%} end as meant, on a soft floor "
+                f"{at_hand['soft floor'].value:.0%}"
             ),
             criteria=[
                 Criterion("share, bouncing", at_hand["bouncing"], "<", BY_CHANCE, "nearer to 1/2 than to 1"),

@@ -14,6 +14,7 @@ from compare.basins.stripes import crossings
 from compare.output.progress import Progress
 from compare.output.style import BLUE, VERMILION
 from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.estimates import share
 from compare.reproduction.paper.fig2 import FASTEST, HIGHEST
 from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.planar_maps import case
@@ -56,7 +57,7 @@ def make(progress: Progress, points: int = 90, line: int = 2500, tosses_mujoco: 
     }
     same = [int(np.sum(mujoco[body].outcome == data[body].ravel()[few])) for body in BODIES]
     progress(2 * len(BODIES) + 1, 2 * len(BODIES) + 1)
-    other = float(np.mean(data["bar"] != data["disc"]))
+    other = share(data["bar"] != data["disc"], "pixels")
     claims = (
         Claim(
             claim="near zero the regions of a bouncing bar resemble Keller's (section 1)",
@@ -90,7 +91,7 @@ def make(progress: Progress, points: int = 90, line: int = 2500, tosses_mujoco: 
         ),
         Claim(
             claim="a bar with J = m l²/12 is no model of a coin with J = m r²/4 (section 4.1)",
-            analytic=f"{other:.0%} of the pixels show the other face; its stripes are about as wide",
+            analytic=f"{other.value:.0%} of the pixels show the other face; its stripes are about as wide",
             criteria=[Criterion("share of other faces", other, ">", 0.25, "half of what chance would give")],
         ),
     )

@@ -14,6 +14,7 @@ from coin_mj.toss import impacts_of
 from compare.output.progress import Progress
 from compare.output.style import BLUE, GREY, VERMILION
 from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.estimates import share
 from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, faces_after, releases
 from compare.reproduction.setups.release_arrays import chosen, moved, states_of
@@ -54,7 +55,7 @@ def make(progress: Progress, count: int = 2000, tosses_mujoco: int = 200) -> Res
     for done, spin in enumerate(ASIDE, start=2):
         turned = moved(flat, angular_velocity=np.array([0, 0, spin]))
         ended = analytic.toss_many(scenario, turned).outcome
-        changed.append(np.mean(ended != outcome))
+        changed.append(share(ended != outcome))
         changed_first.append(np.mean(faces_after(scenario, turned, 0) != first))
         heads.append(np.mean(ended == Outcome.HEADS))
         progress(done, whole)
@@ -65,9 +66,8 @@ def make(progress: Progress, count: int = 2000, tosses_mujoco: int = 200) -> Res
             analytic.toss_many(scenario, releases(np.full(count, height + step), spins)).outcome
             for step in (0.0, ACCURACY)
         )
-        uncertain.append(np.mean(one != other))
+        uncertain.append(share(one != other))
         progress(done, whole)
-    error = 1 / (2 * np.sqrt(count))
     claims = (
         Claim(
             claim="two degrees of freedom, height and tilt, are enough for a coin that turns about ξ",
@@ -85,8 +85,8 @@ def make(progress: Progress, count: int = 2000, tosses_mujoco: int = 200) -> Res
             claim="the results hold for two degrees of freedom only",
             analytic=(
                 f"{ASIDE[SHOWN]:g} rad/s about the normal change {changed_first[SHOWN]:.0%} of the first "
-                f"touches and {changed[SHOWN]:.0%} of the outcomes, heads from {heads[0]:.0%} to "
-                f"{heads[SHOWN]:.0%} (± {error:.0%}); {ASIDE[1]:g} rad/s change {changed[1]:.0%}"
+                f"touches and {changed[SHOWN].value:.0%} of the outcomes, heads from {heads[0]:.0%} to "
+                f"{heads[SHOWN]:.0%}; {ASIDE[1]:g} rad/s change {changed[1].value:.0%}"
             ),
             mujoco=f"heads {heads_mujoco:.0%} of {tosses_mujoco} tosses with {ASIDE[SHOWN]:g} rad/s",
             criteria=[
@@ -102,9 +102,9 @@ def make(progress: Progress, count: int = 2000, tosses_mujoco: int = 200) -> Res
         Claim(
             claim="from apparently deterministic the toss becomes random (the title of that study)",
             analytic=(
-                f"1 µm of height changes {uncertain[0]:.1%} of the outcomes from "
-                f"{HEIGHTS_OF_DROP[0]:g} m, {uncertain[3]:.1%} from {HEIGHTS_OF_DROP[3]:g} m, "
-                f"{uncertain[-1]:.0%} from {HEIGHTS_OF_DROP[-1]:g} m"
+                f"1 µm of height changes {uncertain[0].value:.1%} of the outcomes from "
+                f"{HEIGHTS_OF_DROP[0]:g} m, {uncertain[3].value:.1%} from {HEIGHTS_OF_DROP[3]:g} m, "
+                f"{uncertain[-1].value:.0%} from {HEIGHTS_OF_DROP[-1]:g} m"
             ),
             criteria=[
                 Criterion(
@@ -120,11 +120,11 @@ def make(progress: Progress, count: int = 2000, tosses_mujoco: int = 200) -> Res
     )
     data: dict[str, NDArray[Any]] = {
         "aside": ASIDE,
-        "changed": np.array(changed),
+        "changed": np.array([one.value for one in changed]),
         "changed first": np.array(changed_first),
         "heads": np.array(heads),
         "height": HEIGHTS_OF_DROP,
-        "uncertain": np.array(uncertain),
+        "uncertain": np.array([one.value for one in uncertain]),
     }
     return Result(claims=claims, data=data)
 

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 import analytic
 from compare.output.progress import Progress
 from compare.output.style import GREY, SHARE_OF_HEADS
-from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.claim import Claim, Criterion, Estimate
+from compare.reproduction.estimates import jackknife
 from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.planar_maps import HEIGHTS, LANDINGS, SPINS, case, faces_after, releases
 from models.records import Array, Face
@@ -48,7 +49,20 @@ def make(progress: Progress, tosses: int = 200_000) -> Result:
         landing: np.array([np.average(up, weights=weights) for weights in densities])
         for landing, up in heads.items()
     }
-    off = {landing: float(np.abs(values - 1 / 2).max()) for landing, values in shares.items()}
+
+    def spread_at(landing: str, cells: int = SHOWN) -> Estimate:
+        up = heads[landing]
+        return jackknife(lambda kept: spread_over_cells(z[kept], w[kept], up[kept], cells), tosses)
+
+    def off_half(landing: str) -> Estimate:
+        up = heads[landing]
+        return jackknife(
+            lambda kept: max(
+                abs(np.average(up[kept], weights=weights[kept]) - 1 / 2) for weights in densities
+            ),
+            tosses,
+        )
+
     at = int(np.flatnonzero(CELLS == SHOWN)[0])
     claims = (
         Claim(
@@ -58,8 +72,8 @@ def make(progress: Progress, tosses: int = 200_000) -> Result:
                 f"{spread['bouncing'][at]:.3f}; at the first touch by {spread['soft floor'][at]:.2f}"
             ),
             criteria=[
-                Criterion("spread, bouncing", spread["bouncing"][at], "<", UNIFORM, "the largest is 1/2"),
-                Criterion("at the first touch", spread["soft floor"][at], ">", UNIFORM, "the largest is 1/2"),
+                Criterion("spread, bouncing", spread_at("bouncing"), "<", UNIFORM, "the largest is 1/2"),
+                Criterion("at the first touch", spread_at("soft floor"), ">", UNIFORM, "the largest is 1/2"),
             ],
         ),
         Claim(
@@ -70,9 +84,9 @@ def make(progress: Progress, tosses: int = 200_000) -> Result:
             ),
             criteria=[
                 Criterion(
-                    "largest difference from 1/2, bouncing", off["bouncing"], "<", LEAN, "a few percent"
+                    "largest difference from 1/2, bouncing", off_half("bouncing"), "<", LEAN, "a few percent"
                 ),
-                Criterion("at the first touch", off["soft floor"], ">", LEAN, "more than a few percent"),
+                Criterion("at the first touch", off_half("soft floor"), ">", LEAN, "more than a few percent"),
             ],
         ),
         Claim(
@@ -86,7 +100,7 @@ def make(progress: Progress, tosses: int = 200_000) -> Result:
             criteria=[
                 Criterion(
                     f"spread over {CELLS[-1]}² cells",
-                    spread["bouncing"][-1],
+                    spread_at("bouncing", int(CELLS[-1])),
                     "<",
                     0.05,
                     "that over a few cells",

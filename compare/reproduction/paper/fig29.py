@@ -13,22 +13,32 @@ from compare.basins.picture import draw_panel
 from compare.basins.stripes import crossings
 from compare.output.progress import Progress
 from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.estimates import share
 from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.planar_maps import (
     HEIGHT,
+    HEIGHTS,
     SPIN,
+    SPINS,
     Grid,
     case,
     faces_after,
     final_faces,
+    releases,
     whole_grid,
 )
 from models.records import Face, Outcome
 from models.scenario import Scenario
 
+SEED = 29
+SAME_STRIPES = 0.05
+"""Part by which numbers of stripes may differ and a picture look the same."""
+NEGLIGIBLE = 0.01
+"""A share of the tosses that can be neglected."""
 
-def make(progress: Progress, points: int = 400, points_mujoco: int = 16) -> Result:
-    """Make the four maps; MuJoCo tosses a coarser grid to its first touch."""
+
+def make(progress: Progress, points: int = 400, points_mujoco: int = 16, tosses: int = 100_000) -> Result:
+    """Make the four maps, and toss at random in them; MuJoCo tosses a coarser grid to its first touch."""
     grid = whole_grid(points)
     landed, settled = {}, {}
     for done, medium in enumerate(("air", "vacuum")):
@@ -45,7 +55,12 @@ def make(progress: Progress, points: int = 400, points_mujoco: int = 16) -> Resu
     progress(5, 5)
     lines = {name: crossings(maps[::20]).mean() for name, maps in settled.items()}
     lines_landed = {name: crossings(maps[::20]).mean() for name, maps in landed.items()}
-    changed = np.mean(landed["air"] != landed["vacuum"])
+    stripes = {name: crossings(maps).mean() for name, maps in landed.items()}
+    rng = np.random.default_rng(SEED)
+    random = releases(rng.uniform(*HEIGHTS, tosses), rng.uniform(*SPINS, tosses))
+    changed = share(
+        faces_after(case(air=True), random, 0) != faces_after(case(air=False), random, 0), "tosses"
+    )
     undecided = sum(fractions(maps)[Outcome.UNDECIDED] for maps in settled.values())
     claims = (
         Claim(
@@ -59,11 +74,34 @@ def make(progress: Progress, points: int = 400, points_mujoco: int = 16) -> Resu
             ],
         ),
         Claim(
-            claim="without bouncing the air can be neglected",
-            analytic=f"it changes {changed:.1%} of the pixels",
+            claim="without bouncing the air can be neglected (the structure of the basins)",
+            analytic=(
+                f"a line through the map crosses {stripes['air']:.2f} boundaries with air, "
+                f"{stripes['vacuum']:.2f} without"
+            ),
             criteria=[
-                Criterion("share of the pixels that air changes", changed, "<", 0.1, "nine tenths stay")
+                Criterion(
+                    "boundaries on a line in air over those in vacuum, less 1",
+                    stripes["air"] / stripes["vacuum"] - 1,
+                    "within ±",
+                    SAME_STRIPES,
+                    "a picture shows no fewer stripes",
+                )
             ],
+        ),
+        Claim(
+            claim="without bouncing the air can be neglected (the face of a toss)",
+            analytic=f"the air moves the stripes, and changes the face in {changed.value:.1%} of the tosses",
+            criteria=[
+                Criterion(
+                    "share of the tosses whose face the air changes",
+                    changed,
+                    "<",
+                    NEGLIGIBLE,
+                    "one toss in 100",
+                )
+            ],
+            expected=False,
         ),
         Claim(
             claim="bouncing makes the basins more complicated",
@@ -139,5 +177,5 @@ REPRODUCTION = Reproduction(
     make=make,
     draw={"figure": _draw},
     quick_seconds=15,
-    quick=partial(make, points=150, points_mujoco=6),
+    quick=partial(make, points=150, points_mujoco=6, tosses=20_000),
 )
