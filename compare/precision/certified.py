@@ -1,0 +1,451 @@
+"""A planar toss in interval arithmetic of any length: its face is proved, or the toss is undecided.
+
+python-flint's `arb` encloses every number. The first touch of a flight is proved to be the first: a bound on
+the gap's second derivative keeps the gap positive from each point to the next. A toss is undecided where
+an enclosure holds both signs of what decides; more bits then decide, but for tosses on a boundary.
+"""
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from flint import acb, arb, ctx, fmpq
+
+from compare.precision.double_double import exact
+from compare.precision.planar_coin import PlanarCoin, Units, square_root
+from models.records import Outcome
+
+MOST_IMPACTS = 5000
+MOST_STEPS = 20_000
+"""Of the search for a touch."""
+TURN = 2.0
+"""At most this angle is flown on one series in air [rad]."""
+NEAR = 1e-9
+"""Below this gap a zero is enclosed by the gap's falling."""
+
+
+class _UndecidedError(Exception):
+    """An enclosure is too wide."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Enclosed:
+    """An impact as it is known."""
+
+    corner: int
+    heads: bool
+    height: Any
+    fall: Any
+    spin: Any
+    """After it; enclosures in units of radius and sqrt(r/g)."""
+    impulse: Any
+    """Upward [m sqrt(g r)]."""
+    energy: Any
+
+
+@dataclass(frozen=True, kw_only=True)
+class Certified:
+    """What is proved of a toss."""
+
+    outcome: Outcome
+    """Heads or tails, proved; else undecided."""
+    impacts: tuple[Enclosed, ...]
+    """Those that are proved to happen, in this order."""
+    energy: Any
+    """An enclosure of the energy with which it was settled [m g r]; see `planar_toss.PlanarOutcomes`."""
+    bits: int
+
+
+@dataclass
+class _State:
+    z: Any
+    v: Any
+    tilt: Any
+    w: Any
+    u: Any
+    heads: bool = True
+
+
+def certified_toss(
+    coin: PlanarCoin,
+    units: Units,
+    *,
+    height: Fraction | float,
+    spin: Fraction | float,
+    tilt: Fraction | float = 0.0,
+    bits: int = 200,
+    most_bits: int = 1600,
+) -> Certified:
+    """Toss a planar coin with more and more bits until its face is proved.
+
+    Args:
+        coin: the coin.
+        units: of it.
+        height: of C at the release [m].
+        spin: there [rad/s].
+        tilt: there, within ±π/2 [rad].
+        bits: to begin with; doubled while the toss is undecided.
+        most_bits: where that ends.
+    """
+    while True:
+        with _precision(bits):
+            found = _toss(coin, units, Fraction(height), Fraction(spin), Fraction(tilt), bits)
+        if found.outcome != Outcome.UNDECIDED or 2 * bits > most_bits:
+            return found
+        bits *= 2
+
+
+@contextmanager
+def _precision(bits: int) -> Iterator[None]:
+    before = ctx.prec
+    ctx.prec = bits
+    try:
+        yield
+    finally:
+        ctx.prec = before
+
+
+def _ball(number: Fraction) -> Any:
+    return arb(fmpq(number.numerator, number.denominator))
+
+
+def _toss(
+    coin: PlanarCoin, units: Units, height: Fraction, spin: Fraction, tilt: Fraction, bits: int
+) -> Certified:
+    time = square_root(units.length / units.gravity, 2 * bits)
+    state = _State(z=_ball(height / units.length), v=arb(0), tilt=_ball(tilt), w=_ball(spin * time), u=arb(0))
+    impacts: list[Enclosed] = []
+    toss = _Toss(coin, bits)
+    outcome = Outcome.UNDECIDED
+    with suppress(_UndecidedError):
+        outcome = toss.run(state, impacts)
+    return Certified(outcome=outcome, impacts=tuple(impacts), energy=toss.last_energy, bits=bits)
+
+
+def _sign(x: Any) -> int:
+    if x > 0:
+        return 1
+    if x < 0:
+        return -1
+    raise _UndecidedError
+
+
+class _Toss:
+    """The coin's numbers as enclosures, and its motion."""
+
+    def __init__(self, coin: PlanarCoin, bits: int) -> None:
+        self.coin, self.bits = coin, bits
+        self.J, self.chi, self.k, self.a, self.b = (
+            _ball(exact(pair))
+            for pair in (
+                coin.inertia,
+                coin.restitution,
+                coin.slowing,
+                coin.drag_mean,
+                coin.drag_difference,
+            )
+        )
+        self.share = arb(1.0 if coin.rough else (coin.sliding_share if coin.in_air else 0.0))
+        self.last_energy: Any = None
+
+    def run(self, state: _State, impacts: list[Enclosed]) -> Outcome:
+        """Toss until the face is proved."""
+        corners: tuple[int, ...] = ()
+        start = None
+        while len(impacts) < MOST_IMPACTS:
+            corner = self.fly(state, corners, start)
+            start = None
+            corner = corner * self.turn_within(state)
+            impulse = self.hit(state, corner)
+            impacts.append(
+                Enclosed(
+                    corner=corner,
+                    heads=state.heads,
+                    height=state.z,
+                    fall=state.v,
+                    spin=state.w,
+                    impulse=impulse,
+                    energy=self.energy(state),
+                )
+            )
+            corners = (corner,)
+            if self.is_settled(state):
+                self.last_energy = self.energy(state)
+                return Outcome.HEADS if state.heads else Outcome.TAILS
+            loss = self.chatter(state, corner)
+            if loss is None and self.coin.restitution[0] == 0 and not self.coin.in_air:
+                start = self.lift_off(state)
+            elif loss is not None:
+                corners, start = self.contact(state, corner, loss)
+                if not corners:
+                    return Outcome.HEADS if state.heads else Outcome.TAILS
+        raise _UndecidedError
+
+    def energy(self, state: _State) -> Any:
+        """Return the energy that counts against the barrier 1."""
+        return state.z + (state.v**2 + self.J * state.w**2 + self.share * state.u**2) / 2
+
+    def is_settled(self, state: _State) -> bool:
+        return self.energy(state) < 1
+
+    def turn_within(self, state: _State) -> int:
+        """Reduce the tilt to ±π/2; return -1 where the other face is up and the corners change names."""
+        pi = arb.pi()
+        halves = round(float((state.tilt / pi).mid()))
+        state.tilt = state.tilt - halves * pi
+        if not abs(state.tilt) < pi / 2:
+            raise _UndecidedError
+        if halves % 2:
+            state.heads = not state.heads
+            return -1
+        return 1
+
+    def rim_velocity(self, state: _State, corner: int) -> Any:
+        return state.v + corner * state.tilt.cos() * state.w
+
+    def hit(self, state: _State, corner: int) -> Any:
+        """Newton's law at a rim point, on a rough floor it stops aside; return the upward impulse."""
+        sine, cosine = state.tilt.sin_cos()
+        y, z = corner * cosine, corner * sine
+        down = state.v + y * state.w
+        if not down < 0:
+            raise _UndecidedError
+        wanted, K_zz = -(1 + self.chi) * down, 1 + y**2 / self.J
+        if self.coin.rough:
+            K_yy, K_yz = 1 + z**2 / self.J, -y * z / self.J
+            aside = -(state.u - z * state.w)
+            determinant = K_yy * K_zz - K_yz**2
+            S_y = (K_zz * aside - K_yz * wanted) / determinant
+            S_z = (K_yy * wanted - K_yz * aside) / determinant
+            state.u, moment = state.u + S_y, y * S_z - z * S_y
+        else:
+            S_z = wanted / K_zz
+            moment = y * S_z
+        state.v, state.w = state.v + S_z, state.w + moment / self.J
+        return S_z
+
+    def series(self, state: _State, length: float) -> tuple[list[Any], list[Any], Any]:
+        """Return coefficients of height and drift in the clock s, and a bound on what they leave out."""
+        if not self.coin.in_air:
+            return [state.z, state.v, arb(-0.5)], [state.u], arb(0)
+        k, a, b, w = self.k, self.a, self.b, state.w
+        u = acb(state.u, state.v)
+        E = (acb(0, 2) * state.tilt).exp()
+        p, before = E * acb(state.u, -state.v), acb(0)
+        z, turn = state.z, acb(0, 2) * w
+        heights, drifts, rho = [z], [state.u], 1 / (2 * arb(length))
+        size = arb(1)
+        n = 0
+        while True:
+            z, u, p, before, E = (
+                (k * n * z + u.imag) / (n + 1),
+                ((k * n - a) * u - b * p - (acb(0, 1) if n == 0 else 0)) / (n + 1),
+                ((k * n - a) * p + turn * (p - k * before) - b * u + acb(0, 1) * E) / (n + 1),
+                p,
+                E * turn / (n + 1),
+            )
+            n += 1
+            heights.append(z)
+            drifts.append(u.real)
+            # From here on every coefficient is at most C rho^n: the recursion grows by less than rho.
+            grows = k + (a + abs(b) + abs(turn) * (1 + k / rho) + 1) / (n + 1)
+            size_before, size = size, arb.max(abs(z), arb.max(abs(u), arb.max(abs(p), abs(E))))
+            tail = 2 * arb.max(size * rho ** (-n), size_before * rho ** (1 - n)) * arb(2) ** (-n)
+            if grows < rho and tail < arb(2) ** (-self.bits - 20):
+                return heights, drifts, tail.upper() * arb(0, 1)
+            if n > 4 * self.bits:
+                raise _UndecidedError
+
+    def fly(self, state: _State, corners: tuple[int, ...], start: Any) -> int:
+        """Fly to the first touch; return the rim point that touches."""
+        while True:
+            v, z, w = (float(x.mid()) for x in (state.v, state.z, state.w))
+            length = v + math.sqrt(v * v + 2 * max(z, 0.0)) + 1e-3
+            if self.coin.in_air:
+                length = min(1.1 * length, TURN / abs(w) if w else 10.0, 10.0)
+            heights, drifts, tail = self.series(state, length)
+            best, who = None, 0
+            limit = arb(length)
+            gaps = []
+            for side in (-1, 1):
+                gap = _Gap(heights, tail, state, side, side in corners, start if side in corners else None)
+                gaps.append(gap)
+                root = gap.first_zero(float(length) if best is None else float(best.upper()) * (1 + 1e-15))
+                if root is not None:
+                    if best is not None and not (root < best or root > best):
+                        raise _UndecidedError
+                    if best is None or root < best:
+                        best, who = root, side
+            at = limit if best is None else best
+            self.move(state, heights, drifts, tail, at)
+            if best is not None:
+                return who
+            if not self.coin.in_air:
+                raise _UndecidedError
+            corners, start = (), None
+
+    def move(self, state: _State, heights: list[Any], drifts: list[Any], tail: Any, s: Any) -> None:
+        left = 1 - self.k * s
+        state.z = _value(heights, s) + tail
+        state.v = left * (_value([n * c for n, c in enumerate(heights)][1:], s) + tail * len(heights) * 4)
+        state.u = _value(drifts, s) + tail
+        state.tilt, state.w = state.tilt + state.w * s, left * state.w
+
+    def chatter(self, state: _State, corner: int) -> Any:
+        """Bound the energy that the bounces still to come lose from above, once they are proved to end.
+
+        While the rim point stays in a small neighbourhood its acceleration lies in [-fastest, -slowest], so
+        each bounce starts with at most the part χ sqrt(fastest/slowest) of the speed of the one before.
+
+        Returns:
+            None where that is not proved.
+        """
+        if self.coin.in_air or self.coin.rough:
+            v = self.rim_velocity(state, corner)
+            if v < 2.0**-60 and not state.z * state.w**2 > 1:
+                raise _UndecidedError
+            return None
+        v = self.rim_velocity(state, corner).upper()
+        if not v < 1e-8 or not state.z * state.w**2 < 1:
+            return None
+        # Within `reach` of time and all speeds' changes.
+        reach = arb(float(v.upper()) * 1e3) * arb(0, 1)
+        tilt, w = state.tilt + reach, state.w + reach
+        sinking = 1 - abs(tilt.sin()) * w**2
+        if not sinking > 0:
+            return None
+        fastest, slowest = sinking.upper(), sinking.lower()
+        part = self.chi * (fastest / slowest).sqrt()
+        lasting = 2 * v / (slowest * (1 - part))
+        changed = (1 + self.chi) * v / (1 - part) / self.J
+        turned = lasting * (abs(state.w) + changed)
+        rad = v * 1e3
+        if not (part < 1 and turned < rad and changed < rad):
+            return None
+        loss = (v**2 / (1 - part**2)).upper()
+        e = self.energy(state)
+        near = loss < arb(2) ** (-self.bits // 2)
+        return loss if near or (e - loss > 1 and e < 1 + self.J / 2) else None
+
+    def lift_off(self, state: _State) -> Any:
+        """Return the clock up to which a rim point at rest on the floor, but drawn up, does not touch."""
+        drawn = state.z * state.w**2 - 1
+        if _sign(drawn) < 0:
+            raise _UndecidedError
+        return 1.5 * drawn / abs(state.w) ** 3
+
+    def contact(self, state: _State, corner: int, loss: Any) -> tuple[tuple[int, ...], Any]:
+        """Follow contact as `planar_contact.keep_contact` does; return the rim points that leave the floor.
+
+        They are none where the coin lies, and its face is that of the state.
+        """
+        e = self.energy(state)
+        e = e - loss / 2 + (loss / 2) * arb(0, 1)
+        self.last_energy = e
+        # The rates change by no more than the speed that is lost, over the least moment.
+        slack = 10 * self.rim_velocity(state, corner) * arb(0, 1)
+        rises = _sign(state.v + slack) > 0
+        if rises and e < 1:
+            rises = False
+        if rises and _sign(e - 1 - self.J / 2) > 0:
+            s = e - (e**2 - 1 - self.J).sqrt()
+            state.z, state.tilt = s, (-corner * s).asin()
+            state.w = -corner * (2 * (e - s) / (self.J + 1 - s**2)).sqrt()
+            state.v = -corner * state.tilt.cos() * state.w
+            return (corner,), 2 * state.v / state.w**2
+        if rises and _sign(e - 1) > 0:
+            state.heads, corner = not state.heads, -corner
+        state.z, state.tilt = arb(0), arb(0)
+        state.v = -(2 * e / (1 + self.J)).sqrt()
+        state.w = -corner * state.v
+        for turn in range(1000):
+            if self.is_settled(state):
+                return (), None
+            side = -corner if turn % 2 == 0 else corner
+            if turn > 0 and _sign(self.rim_velocity(state, side)) > 0:
+                return (-1, 1), None
+            self.hit(state, side)
+        raise _UndecidedError
+
+
+def _value(coefficients: list[Any], s: Any) -> Any:
+    total = arb(0)
+    for c in reversed(coefficients):
+        total = total * s + c
+    return total
+
+
+class _Gap:
+    """The gap of a rim point over the clock of a flight."""
+
+    def __init__(
+        self, heights: list[Any], tail: Any, state: _State, side: int, on_floor: bool, start: Any
+    ) -> None:
+        sine, cosine = state.tilt.sin_cos()
+        self.sn, self.cs, self.w = side * sine, side * cosine, state.w
+        self.f0 = arb(0) if on_floor else heights[0] + self.sn
+        self.f1 = heights[1] + self.cs * self.w
+        self.start = 0.0
+        if on_floor and start is not None:
+            self.f1, self.start = arb(0), float(start.mid()) * (1 - 1e-9)
+        self.rest, self.tail = [arb(0), arb(0), *heights[2:]], tail
+        self.slopes = [n * c for n, c in enumerate(self.rest)][1:]
+
+    def at(self, s: Any) -> tuple[Any, Any]:
+        """Return the gap and its rate."""
+        angle = self.w * s
+        half = (angle / 2).sin()
+        less, sine = 2 * half**2, angle.sin()
+        f = self.f0 + self.f1 * s + _value(self.rest, s) + self.tail
+        f = f + self.cs * (sine - angle) - self.sn * less
+        rate = self.f1 + _value(self.slopes, s) + self.tail * len(self.rest) * 4
+        return f, rate - self.w * (self.sn * sine + self.cs * less)
+
+    def bound(self, length: float) -> float:
+        """Bound how fast the rate falls, up to a clock."""
+        total, power = -2 * self.rest[2], arb(1)
+        for n in range(3, len(self.rest)):
+            power = power * length
+            total = total + n * (n - 1) * abs(self.rest[n]) * power
+        tail = abs(self.tail) * len(self.rest) ** 2 * 16 / min(length, 1.0) ** 2
+        return float((total + self.w**2 + tail).upper()) * (1 + 1e-12)
+
+    def first_zero(self, limit: float) -> Any:
+        """Return an enclosure of the first zero up to the limit; None where there is proved to be none."""
+        bound = self.bound(limit)
+        s = arb(self.start)
+        for _ in range(MOST_STEPS):
+            if s > limit:
+                return None
+            f, rate = self.at(s)
+            low, slope = float(f.lower()), float(rate.lower())
+            if s > 0 and f < NEAR and rate < 0 and (root := self.enclosed(s)) is not None:
+                return root
+            if s == 0 and self.f0 == 0:
+                low = 0.0
+            elif not f > 0:
+                raise _UndecidedError
+            root = math.sqrt(slope * slope + 2 * bound * low)
+            step = (2 * low / (root - slope) if slope < 0 else (slope + root) / bound) * (1 - 1e-12)
+            if not step > 0:
+                raise _UndecidedError
+            s = (s + arb(step)).mid()
+        raise _UndecidedError
+
+    def enclosed(self, s: Any) -> Any:
+        """Enclose a zero after s, up to which the gap falls; None where that is not proved."""
+        x = s
+        for _ in range(12):
+            f, rate = self.at(x)
+            x = (x - f.mid() / rate.mid()).mid()
+        f, rate = self.at(x)
+        wide = 4 * abs(f).upper() / abs(rate).lower() + arb(2) ** (-2 * ctx.prec)
+        low, high = (x - wide).lower(), (x + wide).upper()
+        whole = s.union(high)
+        f_low, f_high = self.at(low)[0], self.at(high)[0]
+        if self.at(whole)[1] < 0 and f_low > 0 and f_high < 0:
+            return low.union(high)
+        return None

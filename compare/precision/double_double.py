@@ -1,0 +1,174 @@
+"""Arithmetic of 106 bits in compiled code: a number is the unevaluated sum of two doubles, (high, low).
+
+T. J. Dekker, Numer. Math. 18, 224 (1971); Y. Hida, X. S. Li, D. H. Bailey, ARITH-15 (2001). Products split
+their factors, so none may exceed 1e300. An operation errs by a few parts in 2**104.
+"""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+
+from models.kernel.compiled import compiled
+
+Pair = tuple[float, float]
+_SPLITTER = 134217729.0  # 2**27 + 1
+_TERMS = 14
+_HALVINGS = 3
+"""Sine and cosine are summed for an eighth of the angle."""
+_HALF_PI = (1.5707963267948966, 6.123233995736766e-17, -1.4973849048591833e-33)
+
+
+def pair_of(number: Fraction | float) -> Pair:
+    """Return the pair nearest to an exact number."""
+    high = float(number)
+    return high, float(Fraction(number) - Fraction(high))
+
+
+def exact(pair: Pair) -> Fraction:
+    """Return the exact number that a pair is."""
+    return Fraction(pair[0]) + Fraction(pair[1])
+
+
+_INVERSE_FACTORIALS = np.array([pair_of(Fraction(1, math.factorial(n))) for n in range(2 * _TERMS + 2)])
+
+
+@compiled
+def _two_sum(a, b):
+    s = a + b
+    t = s - a
+    return s, (a - (s - t)) + (b - t)
+
+
+@compiled
+def _quick_two_sum(a, b):
+    s = a + b
+    return s, b - (s - a)
+
+
+@compiled
+def _two_product(a, b):
+    p = a * b
+    t = _SPLITTER * a
+    a_high = t - (t - a)
+    a_low = a - a_high
+    t = _SPLITTER * b
+    b_high = t - (t - b)
+    b_low = b - b_high
+    return p, ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low
+
+
+@compiled
+def add(a, b):
+    """Return a + b."""
+    s, e = _two_sum(a[0], b[0])
+    t, f = _two_sum(a[1], b[1])
+    s, e = _quick_two_sum(s, e + t)
+    return _quick_two_sum(s, e + f)
+
+
+@compiled
+def subtract(a, b):
+    """Return a - b."""
+    return add(a, (-b[0], -b[1]))
+
+
+@compiled
+def multiply(a, b):
+    """Return a b."""
+    p, e = _two_product(a[0], b[0])
+    return _quick_two_sum(p, e + (a[0] * b[1] + a[1] * b[0]))
+
+
+@compiled
+def scale(a, x):
+    """Return a x, x a double."""
+    p, e = _two_product(a[0], x)
+    return _quick_two_sum(p, e + a[1] * x)
+
+
+@compiled
+def negative(a):
+    """Return -a."""
+    return -a[0], -a[1]
+
+
+@compiled
+def divide(a, b):
+    """Return a/b."""
+    q = a[0] / b[0]
+    rest = subtract(a, scale(b, q))
+    q2 = rest[0] / b[0]
+    rest = subtract(rest, scale(b, q2))
+    high, low = _quick_two_sum(q, q2)
+    return add((high, low), (rest[0] / b[0], 0.0))
+
+
+@compiled
+def square_root(a):
+    """Return the square root of a, a >= 0."""
+    if a[0] <= 0:
+        return 0.0, 0.0
+    x = math.sqrt(a[0])
+    rest = subtract(a, _two_product(x, x))
+    y = _quick_two_sum(x, rest[0] / (2 * x))
+    rest = subtract(a, multiply(y, y))
+    return add(y, (rest[0] / (2 * x), 0.0))
+
+
+@compiled
+def sine_cosine(a):
+    """Return sine and cosine of an angle of moderate size, both within a few parts in 2**104 of 1."""
+    quarter = np.round(a[0] / _HALF_PI[0])
+    x = subtract(a, _two_product(quarter, _HALF_PI[0]))
+    x = subtract(x, _two_product(quarter, _HALF_PI[1]))
+    x = subtract(x, (quarter * _HALF_PI[2], 0.0))
+    sine, less = _summed(scale(x, 0.5**_HALVINGS))
+    for _ in range(_HALVINGS):
+        # With less = 1 - cos: sin 2x = 2 sin x - 2 sin x less, 1 - cos 2x = 2 sin² x.
+        less, sine = (
+            scale(multiply(sine, sine), 2.0),
+            scale(subtract(sine, multiply(sine, less)), 2.0),
+        )
+    cosine = subtract((1.0, 0.0), less)
+    turn = int(quarter) & 3
+    if turn == 0:
+        return sine, cosine
+    if turn == 1:
+        return cosine, negative(sine)
+    if turn == 2:
+        return negative(sine), negative(cosine)
+    return negative(cosine), sine
+
+
+@compiled
+def _summed(x):
+    """Return sin x and 1 - cos x of a small angle by their series."""
+    square = multiply(x, x)
+    n = _TERMS
+    sine = (_INVERSE_FACTORIALS[2 * n + 1, 0], _INVERSE_FACTORIALS[2 * n + 1, 1])
+    less = (_INVERSE_FACTORIALS[2 * n, 0], _INVERSE_FACTORIALS[2 * n, 1])
+    for i in range(n - 1, 0, -1):
+        sine = subtract(
+            (_INVERSE_FACTORIALS[2 * i + 1, 0], _INVERSE_FACTORIALS[2 * i + 1, 1]), multiply(square, sine)
+        )
+        less = subtract(
+            (_INVERSE_FACTORIALS[2 * i, 0], _INVERSE_FACTORIALS[2 * i, 1]), multiply(square, less)
+        )
+    sine = subtract(x, multiply(multiply(x, square), sine))
+    return sine, multiply(square, less)
+
+
+@compiled
+def sine_minus_angle(x, sine):
+    """Return sin x - x without cancellation; `sine` is sin x."""
+    if abs(x[0]) > 0.5:
+        return subtract(sine, x)
+    square = multiply(x, x)
+    n = _TERMS
+    total = (_INVERSE_FACTORIALS[2 * n + 1, 0], _INVERSE_FACTORIALS[2 * n + 1, 1])
+    for i in range(n - 1, 0, -1):
+        total = subtract(
+            (_INVERSE_FACTORIALS[2 * i + 1, 0], _INVERSE_FACTORIALS[2 * i + 1, 1]), multiply(square, total)
+        )
+    return negative(multiply(multiply(x, square), total))

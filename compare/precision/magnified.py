@@ -1,0 +1,65 @@
+"""One boundary between heads and tails, magnified tenfold time and again."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.precision.double_double import exact, pair_of
+from compare.precision.planar_coin import PlanarCoin
+from compare.precision.planar_toss import toss_many
+from compare.precision.splitting import spread
+from models.records import Array
+
+MAGNIFICATION = 10
+
+
+@dataclass(frozen=True, kw_only=True)
+class Magnified:
+    """What windows about a boundary show, each a tenth as long as the one before."""
+
+    counts: NDArray[np.int64]
+    """Boundaries in each, (n,)."""
+    energies: Array
+    """With which the tosses at its two sides were settled, (n, 2) [m g r]."""
+    impacts: NDArray[np.int64]
+    """Of these, (n, 2)."""
+
+    @property
+    def isolated_from(self) -> int | None:
+        """The first window from which on the boundary is alone in it; None where in the last it is not."""
+        crowded = np.flatnonzero(self.counts > 1)
+        first = int(crowded[-1]) + 1 if len(crowded) else 0
+        return first if first < len(self.counts) else None
+
+
+def magnify(
+    coin: PlanarCoin, start: Array, *, row: int, length: Fraction, windows: int, points: int
+) -> Magnified:
+    """Follow the middle one of the boundaries in a window.
+
+    Args:
+        coin: the coin.
+        start: release at the lower end of the first window, (5, 2).
+        row: of the state: what varies.
+        length: of the first window [its unit in the state].
+        windows: how many.
+        points: releases in each.
+    """
+    counts, energies, impacts = [], [], []
+    for _ in range(windows):
+        step = length / (points - 1)
+        states = spread(start[None], row, pair_of(step), points)
+        found = toss_many(coin, states)
+        changes = np.flatnonzero(found.outcome[1:] != found.outcome[:-1])
+        if len(changes) == 0:
+            raise ValueError("no boundary: accepted: a window whose tosses differ")
+        counts.append(len(changes))
+        at = changes[len(changes) // 2]
+        energies.append(found.energy[at : at + 2])
+        impacts.append(found.impacts[at : at + 2])
+        length /= MAGNIFICATION
+        start = states[at].copy()
+        start[row] = pair_of(exact(tuple(start[row])) + step / 2 - length / 2)
+    return Magnified(counts=np.array(counts), energies=np.array(energies), impacts=np.array(impacts))

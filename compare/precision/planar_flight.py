@@ -1,0 +1,248 @@
+"""The flight of a planar coin to the first touch, in 106 bits.
+
+Drawn up in the clock s of the slowing spin, dt = ds/(1 - k s), the angle is linear in s, and height and
+velocity have power series whose terms follow from three before; in vacuum they end with the second.
+The gap of a rim point is height ± sin of the angle. It is searched by steps that cannot pass over a zero,
+for its second derivative has a bound: in doubles, and near a zero in 106 bits.
+"""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+
+from compare.precision.double_double import (
+    add,
+    multiply,
+    negative,
+    pair_of,
+    scale,
+    sine_cosine,
+    sine_minus_angle,
+    subtract,
+)
+from compare.precision.planar_state import DRIFT, FALL, HEIGHT, SPIN, TILT, part, put
+from models.kernel.compiled import compiled
+
+ORDER = 60
+"""Of the series in air, at most; it ends with terms below `LAST_TERM`."""
+LAST_TERM = 1e-34
+TURN = 3.0
+"""At most this angle is flown on one series in air [rad]."""
+NEAR = 1e-11
+"""A gap below this part of its terms is computed in 106 bits, until it is ten times that."""
+ZERO = 1e-30
+"""A gap below this part of its terms is a touch."""
+_INVERSES = np.array([pair_of(Fraction(1, n + 1)) for n in range(ORDER + 1)])
+MOST_STEPS = 100_000
+"""Of a search."""
+CAREFUL = 1 - 1e-14
+"""A step computed in doubles, times it, is no longer than an exact one."""
+
+
+@compiled
+def fly(coin, state, corner, start, heights, drifts):
+    """Fly to the first touch; the state becomes that at the touch, its tilt not reduced.
+
+    Args:
+        coin: the coin.
+        state: (5, 2).
+        corner: rim point that leaves the floor now, 1 or -1; 0 for none, 2 for both.
+        start: before this clock nothing touches.
+        heights: room for a series, (ORDER + 2, 2).
+        drifts: room for a series, (ORDER + 2, 2).
+
+    Returns:
+        Rim point that touches, 1 or -1; 0 if none does.
+    """
+    for _ in range(100_000):
+        length, order = expand(coin, state, heights, drifts)
+        w = part(state, SPIN)
+        sine, cosine = sine_cosine(part(state, TILT))
+        bound = _second_derivative_bound(heights, order, w[0], length)
+        found, best, who = False, (length, 0.0), 0
+        for side in (-1, 1):
+            sn, cs = scale(sine, float(side)), scale(cosine, float(side))
+            on_floor = corner in (side, 2)
+            f0 = (0.0, 0.0) if on_floor else add(part(state, HEIGHT), sn)
+            f1 = add((heights[1, 0], heights[1, 1]), multiply(cs, w))
+            if on_floor and start > 0:
+                f1 = (0.0, 0.0)
+            touches, s = _first_zero(
+                heights, order, w, sn, cs, f0, f1, bound, start if on_floor else 0.0, best[0]
+            )
+            if touches:
+                found, best, who = True, s, side
+        _move(coin, state, heights, drifts, order, best)
+        if found:
+            return who
+        corner, start = 0, 0.0
+        if not coin.in_air:
+            return 0
+    return 0
+
+
+@compiled
+def expand(coin, state, heights, drifts):
+    """Write the series of height and of velocity aside.
+
+    Returns:
+        The clock up to which they are good, and the order of the height's.
+    """
+    heights[0], heights[1] = state[HEIGHT], state[FALL]
+    drifts[0] = state[DRIFT]
+    w = part(state, SPIN)
+    # By then the rim is below the floor, were the air not to hold it up.
+    v, z = state[FALL, 0], state[HEIGHT, 0]
+    longest = v + math.sqrt(v * v + 2 * max(z, 0.0)) + 1e-3
+    if not coin.in_air:
+        heights[2, 0], heights[2, 1] = -0.5, 0.0
+        drifts[1] = 0.0
+        return longest, 2
+    length = min(TURN / abs(w[0]), 1.1 * longest) if w[0] != 0 else longest
+    length = min(length, 1.0 / (4 * coin.slowing[0] + 1e-9))
+    k, a, b = coin.slowing, coin.drag_mean, coin.drag_difference
+    sine, cosine = sine_cosine(part(state, TILT))
+    # e^(2iθ) and the velocity u = x + i y, and p = e^(2iθ) u*.
+    c2 = subtract(multiply(cosine, cosine), multiply(sine, sine))
+    s2 = scale(multiply(sine, cosine), 2.0)
+    x, y = part(state, DRIFT), part(state, FALL)
+    px, py = add(multiply(c2, x), multiply(s2, y)), subtract(multiply(s2, x), multiply(c2, y))
+    before_x, before_y = (0.0, 0.0), (0.0, 0.0)
+    ex, ey = c2, s2
+    z, power = part(state, HEIGHT), 1.0
+    w2 = scale(w, 2.0)
+    for n in range(ORDER + 1):
+        kn = scale(k, float(n))
+        z_next = add(multiply(kn, z), y)
+        x_next = subtract(multiply(subtract(kn, a), x), multiply(b, px))
+        y_next = subtract(multiply(subtract(kn, a), y), multiply(b, py))
+        if n == 0:
+            y_next = subtract(y_next, (1.0, 0.0))
+        gx, gy = subtract(px, multiply(k, before_x)), subtract(py, multiply(k, before_y))
+        px_next = subtract(multiply(subtract(kn, a), px), multiply(b, x))
+        py_next = subtract(multiply(subtract(kn, a), py), multiply(b, y))
+        px_next = subtract(subtract(px_next, multiply(w2, gy)), ey)
+        py_next = add(add(py_next, multiply(w2, gx)), ex)
+        before_x, before_y = px, py
+        over = (_INVERSES[n, 0], _INVERSES[n, 1])
+        x, y, z = multiply(x_next, over), multiply(y_next, over), multiply(z_next, over)
+        px, py = multiply(px_next, over), multiply(py_next, over)
+        ex, ey = negative(multiply(multiply(w2, ey), over)), multiply(multiply(w2, ex), over)
+        heights[n + 1, 0], heights[n + 1, 1] = z[0], z[1]
+        drifts[n + 1, 0], drifts[n + 1, 1] = x[0], x[1]
+        power *= length
+        size = (abs(x[0]) + abs(y[0]) + abs(px[0]) + abs(py[0]) + abs(ex[0]) + abs(ey[0])) * power
+        if size < LAST_TERM and n > 2:
+            return length, n + 1
+    return length, ORDER + 1
+
+
+@compiled
+def _second_derivative_bound(heights, order, w, length):
+    """Bound how fast a gap's rate can fall."""
+    total, power = -2 * heights[2, 0], 1.0
+    for n in range(3, order + 1):
+        power *= length
+        total += n * (n - 1) * abs(heights[n, 0]) * power
+    return (total + w * w) * (1 + 1e-12)
+
+
+@compiled
+def _first_zero(heights, order, w, sn, cs, f0, f1, bound, start, limit):
+    """Return whether the gap f0 + f1 s + ... has a zero up to the limit, and the first, a pair."""
+    s = start
+    for _ in range(MOST_STEPS):
+        if s >= limit:
+            break
+        f, rate, terms = _gap(heights, order, w[0], sn[0], cs[0], f0[0], f1[0], s)
+        if s > 0 and f <= NEAR * terms:
+            exact = (s, 0.0)
+            for _ in range(MOST_STEPS):
+                if exact[0] >= limit:
+                    break
+                f, rate, terms = _gap_in_full(heights, order, w, sn, cs, f0, f1, exact)
+                if f < -ZERO * terms and rate < 0:
+                    # Doubles went beyond the zero by their rounding.
+                    exact = add(exact, (-f / rate, 0.0))
+                    continue
+                if f <= ZERO * terms:
+                    return True, exact
+                if f > 10 * NEAR * terms and rate > 0:
+                    break
+                exact = add(exact, (safe_step(f, rate, bound) * CAREFUL, 0.0))
+            s = exact[0]
+        else:
+            s += safe_step(f, rate, bound) * CAREFUL
+    return False, (limit, 0.0)
+
+
+@compiled
+def safe_step(f, rate, bound):
+    """Return a step before whose end f + rate h - bound h²/2, f >= 0, is not negative."""
+    root = math.sqrt(rate * rate + 2 * bound * f)
+    return 2 * f / (root - rate) if rate < 0 else (rate + root) / bound
+
+
+@compiled
+def _gap(heights, order, w, sn, cs, f0, f1, s):
+    """Return a rim point's gap, its rate, and the size of its terms; relatively exact for small s too."""
+    p, dp = 0.0, 0.0
+    for n in range(order, 1, -1):
+        dp = dp * s + n * heights[n, 0]
+        p = p * s + heights[n, 0]
+    p, dp = p * s * s, dp * s
+    angle = w * s
+    half = math.sin(angle / 2)
+    less, sine = 2 * half * half, math.sin(angle)
+    q = cs * _sine_minus(angle, sine) - sn * less
+    rate = f1 + dp - w * (sn * sine + cs * less)
+    return f0 + f1 * s + p + q, rate, abs(f0) + abs(f1 * s) + abs(p) + abs(q)
+
+
+@compiled
+def _sine_minus(angle, sine):
+    if abs(angle) > 0.5:
+        return sine - angle
+    square, total = angle * angle, 1.0
+    for n in range(8, 1, -1):
+        total = 1 - total * square / (2 * n * (2 * n + 1))
+    return -angle * square / 6 * total
+
+
+@compiled
+def _gap_in_full(heights, order, w, sn, cs, f0, f1, s):
+    """Return the same in 106 bits, rounded at the end."""
+    p, dp = (0.0, 0.0), 0.0
+    for n in range(order, 1, -1):
+        dp = dp * s[0] + n * heights[n, 0]
+        p = add(multiply(p, s), (heights[n, 0], heights[n, 1]))
+    p, dp = multiply(multiply(p, s), s), dp * s[0]
+    angle = multiply(w, s)
+    half_sine, half_cosine = sine_cosine(scale(angle, 0.5))
+    less = scale(multiply(half_sine, half_sine), 2.0)
+    sine = scale(multiply(half_sine, half_cosine), 2.0)
+    q = subtract(multiply(cs, sine_minus_angle(angle, sine)), multiply(sn, less))
+    linear = multiply(f1, s)
+    f = add(add(f0, linear), add(p, q))
+    rate = f1[0] + dp - w[0] * (sn[0] * sine[0] + cs[0] * less[0])
+    return f[0], rate, abs(f0[0]) + abs(linear[0]) + abs(p[0]) + abs(q[0])
+
+
+@compiled
+def _move(coin, state, heights, drifts, order, s):
+    """Change the state to that at the clock s of its series."""
+    z, y, x = (0.0, 0.0), (0.0, 0.0), (0.0, 0.0)
+    for n in range(order, -1, -1):
+        if n > 0:
+            y = add(multiply(y, s), scale((heights[n, 0], heights[n, 1]), float(n)))
+        z = add(multiply(z, s), (heights[n, 0], heights[n, 1]))
+    for n in range(order - 1, -1, -1):
+        x = add(multiply(x, s), (drifts[n, 0], drifts[n, 1]))
+    left = subtract((1.0, 0.0), multiply(coin.slowing, s))
+    w = part(state, SPIN)
+    put(state, HEIGHT, z)
+    put(state, FALL, multiply(left, y))  # dz/dt = (1 - k s) dz/ds
+    put(state, DRIFT, x)
+    put(state, TILT, add(part(state, TILT), multiply(w, s)))
+    put(state, SPIN, multiply(left, w))

@@ -1,0 +1,131 @@
+"""Contact that lasts of a planar coin on a smooth floor in linear air, in 106 bits.
+
+Tilt, spin and drift follow an ordinary differential equation, solved by fixed steps of Dormand and
+Prince's method of order 8. A step errs by 1e-12 or so, as a smooth function of where it starts: that moves
+the boundaries between heads and tails, and leaves what they look like at any scale.
+"""
+
+import math
+
+import numpy as np
+
+from analytic.numerics.tableau import STAGES, A, B
+from compare.precision.double_double import (
+    add,
+    divide,
+    multiply,
+    negative,
+    scale,
+    sine_cosine,
+    subtract,
+)
+from compare.precision.planar_state import DRIFT, FALL, HEIGHT, SPIN, TILT, flat, part, put, turned_within
+from models.kernel.compiled import compiled
+
+STEP = 0.05
+"""Of time [sqrt(r/g)]."""
+_MOST_STEPS = 4000
+_SECANTS = 60
+_PART = (TILT, SPIN, DRIFT)
+ONE = (1.0, 0.0)
+
+
+@compiled
+def slide(coin, state, corner):
+    """Follow a coin whose rim point slides on a smooth floor in air until it lies flat or lifts off.
+
+    Returns:
+        Whether it lifts off, whether the coin has gone over its rim, the rim point on the floor, and whether
+        the contact has ended at all.
+    """
+    passes, slopes = False, np.empty((STAGES, 3, 2))
+    trial = state.copy()
+    for _ in range(_MOST_STEPS):
+        trial[:] = state
+        force = _step(coin, trial, corner, (STEP, 0.0), slopes)
+        lies, lifts = -corner * math.sin(trial[TILT, 0]) <= 0, force[0] <= 0
+        if lies or lifts:
+            _end(coin, state, corner, lifts, slopes)
+            if lifts:
+                return True, passes, corner, True
+            flat(state, part(state, FALL), corner)
+            return False, passes, corner, True
+        state[:] = trial
+        if turned_within(state):
+            passes, corner = not passes, -corner
+    return False, passes, corner, False
+
+
+@compiled
+def _end(coin, state, corner, lifts, slopes):
+    """Change the state to that where the floor's force, or the height, first is zero, by the secant rule."""
+    low, high = (0.0, 0.0), (STEP, 0.0)
+    trial = state.copy()
+    f_low = _value(coin, trial, state, corner, lifts, low, slopes)
+    f_high = _value(coin, trial, state, corner, lifts, high, slopes)
+    for _ in range(_SECANTS):
+        difference = subtract(f_high, f_low)
+        if difference[0] == 0:
+            break
+        change = divide(multiply(f_high, subtract(high, low)), difference)
+        low, f_low = high, f_high
+        high = subtract(high, change)
+        f_high = _value(coin, trial, state, corner, lifts, high, slopes)
+        if abs(change[0]) < 1e-31:
+            break
+    state[:] = trial
+
+
+@compiled
+def _value(coin, trial, state, corner, lifts, duration, slopes):
+    """Write the state after a step into `trial`; return the floor's force, or the height, there."""
+    trial[:] = state
+    force = _step(coin, trial, corner, duration, slopes)
+    return force if lifts else part(trial, HEIGHT)
+
+
+@compiled
+def _step(coin, state, corner, duration, slopes):
+    """Change the state by one step; return the floor's force at its end."""
+    start = state.copy()
+    for stage in range(STAGES + 1):
+        for i in range(3):
+            total = (0.0, 0.0)
+            for j in range(stage):
+                weight = B[j] if stage == STAGES else A[stage, j]
+                if weight != 0:
+                    total = add(total, scale((slopes[j, i, 0], slopes[j, i, 1]), weight))
+            row = _PART[i]
+            put(state, row, add(part(start, row), multiply(duration, total)))
+        if stage < STAGES:
+            _rates(coin, state, corner, slopes[stage])
+    last = np.empty((3, 2))
+    return _rates(coin, state, corner, last)
+
+
+@compiled
+def _rates(coin, state, corner, rates):
+    """Write the rates of tilt, spin and drift; set height and fall as contact has them.
+
+    Returns:
+        The floor's force [m g].
+    """
+    sine, cosine = sine_cosine(part(state, TILT))
+    w, u = part(state, SPIN), part(state, DRIFT)
+    v = scale(multiply(cosine, w), -corner)
+    put(state, HEIGHT, scale(sine, -corner))
+    put(state, FALL, v)
+    c2 = subtract(multiply(cosine, cosine), multiply(sine, sine))
+    s2 = scale(multiply(sine, cosine), 2.0)
+    a, b = coin.drag_mean, coin.drag_difference
+    F_y = negative(add(multiply(a, u), multiply(b, add(multiply(c2, u), multiply(s2, v)))))
+    F_z = negative(add(multiply(a, v), multiply(b, subtract(multiply(s2, u), multiply(c2, v)))))
+    turning = multiply(multiply(coin.slowing, coin.inertia), w)
+    # N = 1 - F_z + dv/dt, J dw/dt = σ cos θ N - d w, dv/dt = -σ cos θ dw/dt + σ sin θ w².
+    free = add(subtract(ONE, F_z), scale(multiply(sine, multiply(w, w)), corner))
+    wide = add(coin.inertia, multiply(cosine, cosine))
+    spinning = divide(subtract(scale(multiply(cosine, free), corner), turning), wide)
+    rates[0, 0], rates[0, 1] = w[0], w[1]
+    rates[1, 0], rates[1, 1] = spinning[0], spinning[1]
+    rates[2, 0], rates[2, 1] = F_y[0], F_y[1]
+    return subtract(free, scale(multiply(cosine, spinning), corner))

@@ -1,0 +1,110 @@
+"""The state of a planar coin, its release, and its energy, in 106 bits."""
+
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.precision.double_double import add, multiply, negative, pair_of, scale, sine_cosine, subtract
+from compare.precision.planar_coin import Units, square_root
+from models.kernel.compiled import compiled
+
+HEIGHT, FALL, TILT, SPIN, DRIFT, SIZE = 0, 1, 2, 3, 4, 5
+"""Rows of a state, (5, 2): height and velocity of C, the angle of the coin's plane, its rate, velocity aside.
+
+The tilt lies within ±π/2 of the flat coin; the face up is kept apart.
+"""
+_PI = (3.141592653589793, 1.2246467991473532e-16)
+
+
+def release(
+    units: Units, *, height: Fraction | float, spin: Fraction | float, tilt: Fraction | float = 0.0
+) -> NDArray[np.float64]:
+    """Return the state of a coin released at rest but for its spin, (5, 2).
+
+    Args:
+        units: of the coin.
+        height: of C [m].
+        spin: ω [rad/s].
+        tilt: θ, within ±π/2 [rad].
+    """
+    time = square_root(units.length / units.gravity)
+    state = np.zeros((SIZE, 2))
+    state[HEIGHT] = pair_of(Fraction(height) / units.length)
+    state[TILT] = pair_of(Fraction(tilt))
+    state[SPIN] = pair_of(Fraction(spin) * time)
+    return state
+
+
+@compiled
+def part(state, row):
+    """Return one number of a state, a pair."""
+    return state[row, 0], state[row, 1]
+
+
+@compiled
+def put(state, row, pair):
+    """Set one number of a state."""
+    state[row, 0], state[row, 1] = pair[0], pair[1]
+
+
+@compiled
+def energy(coin, state):
+    """Return the energy that counts against the barrier 1, in m g r.
+
+    On a smooth floor that of drift cannot lift the coin; in air no more than a share of it can.
+    """
+    v, w, u = part(state, FALL), part(state, SPIN), part(state, DRIFT)
+    e = add(part(state, HEIGHT), scale(multiply(v, v), 0.5))
+    e = add(e, scale(multiply(coin.inertia, multiply(w, w)), 0.5))
+    share = 1.0 if coin.rough else (coin.sliding_share if coin.in_air else 0.0)
+    return add(e, scale(multiply(u, u), 0.5 * share))
+
+
+@compiled
+def is_settled(coin, state):
+    """Return whether the coin has too little energy to go over its rim."""
+    return subtract(energy(coin, state), (1.0, 0.0))[0] < 0
+
+
+@compiled
+def turned_within(state):
+    """Reduce the tilt to ±π/2.
+
+    Returns:
+        Whether the other face is up and the rim's two points have changed names.
+    """
+    tilt = part(state, TILT)
+    halves = np.round(tilt[0] / _PI[0])
+    if halves == 0:
+        return False
+    put(state, TILT, subtract(tilt, scale(_PI, halves)))
+    return int(halves) % 2 != 0
+
+
+@compiled
+def rim_velocity(state, corner):
+    """Return the velocity of a rim point across and along the vertical, pairs.
+
+    Args:
+        state: (5, 2).
+        corner: which, 1 or -1: it lies at `corner` (cos θ, sin θ) from C.
+    """
+    sine, cosine = sine_cosine(part(state, TILT))
+    w = part(state, SPIN)
+    across = subtract(part(state, DRIFT), scale(multiply(sine, w), corner))
+    return across, add(part(state, FALL), scale(multiply(cosine, w), corner))
+
+
+@compiled
+def lowest(state):
+    """Return the rim point that is lower, 1 or -1."""
+    return -1.0 if state[TILT, 0] > 0 else 1.0
+
+
+@compiled
+def flat(state, fall, corner):
+    """Lay the coin down on the floor, one rim point at rest there; (5, 2), changed."""
+    state[HEIGHT], state[TILT] = 0.0, 0.0
+    put(state, FALL, fall)
+    put(state, SPIN, scale(negative(fall), corner))

@@ -1,0 +1,146 @@
+"""Whole tosses of a planar coin in 106 bits, one and many."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.precision.planar_coin import PlanarCoin
+from compare.precision.planar_contact import LIES, LIFTS, hit, keep_contact, lift_off, slap, stop
+from compare.precision.planar_flight import ORDER, fly
+from compare.precision.planar_slide import slide
+from compare.precision.planar_state import (
+    FALL,
+    HEIGHT,
+    SIZE,
+    SPIN,
+    energy,
+    is_settled,
+    rim_velocity,
+    turned_within,
+)
+from models.kernel.compiled import compiled
+from models.records import Array, Outcome
+
+MOST_IMPACTS = 20_000
+CHATTERING, CHATTERING_ROUGH = 1e-10, 1e-15
+"""The coin stays on the floor when all bounces to come last so short against what else changes. Contact errs
+by the third power of it on a smooth floor, by the second on a rough one."""
+_SLOW = 1e-25
+"""What rounding leaves of a rim point that was stopped."""
+_FLYING, _LIFTING, _CHATTERING = 0, 1, 2
+_HEADS, _TAILS, _UNDECIDED = int(Outcome.HEADS), int(Outcome.TAILS), int(Outcome.UNDECIDED)
+
+
+class PlanarOutcomes(NamedTuple):
+    """How tosses end, a number each."""
+
+    outcome: NDArray[np.int8]
+    """`Outcome`: heads, tails, or undecided where a limit was met."""
+    impacts: NDArray[np.int64]
+    """In all, those of bounces that die away included."""
+    itinerary: NDArray[np.int64]
+    """A hash of the rim points that touch and of how contacts end, up to the end."""
+    contacts: NDArray[np.int64]
+    """Contacts that lasted."""
+    energy: Array
+    """With which it was settled [m g r]: after its last impact, or in the contact that came before lying."""
+
+
+def toss_many(coin: PlanarCoin, starts: Array, most_impacts: int = MOST_IMPACTS) -> PlanarOutcomes:
+    """Toss coins.
+
+    Args:
+        coin: the coin.
+        starts: as of `planar_state.release`, (n, 5, 2).
+        most_impacts: a toss that makes more is undecided.
+    """
+    n = len(starts)
+    found = PlanarOutcomes(
+        outcome=np.empty(n, dtype=np.int8),
+        impacts=np.empty(n, dtype=np.int64),
+        itinerary=np.empty(n, dtype=np.int64),
+        contacts=np.empty(n, dtype=np.int64),
+        energy=np.empty(n),
+    )
+    _toss_all(coin, np.ascontiguousarray(starts), most_impacts, *found)
+    return found
+
+
+@compiled
+def _toss_all(coin, starts, most_impacts, outcome, impacts, itinerary, contacts, last_energy):
+    heights, drifts = np.empty((ORDER + 2, 2)), np.empty((ORDER + 2, 2))
+    state, touches = np.empty((SIZE, 2)), np.empty((0, 5))
+    for i in range(len(starts)):
+        state[:] = starts[i]
+        outcome[i], impacts[i], itinerary[i], contacts[i], last_energy[i] = toss(
+            coin, state, most_impacts, heights, drifts, touches
+        )
+
+
+@compiled
+def toss(coin, state, most_impacts, heights, drifts, touches):
+    """Toss a coin; the state becomes the last.
+
+    Args:
+        coin: the coin.
+        state: at the release, heads up, (5, 2).
+        most_impacts: when to stop.
+        heights: room for `fly`.
+        drifts: room for `fly`.
+        touches: room for states after the first impacts, (n, 5): height, fall, spin, face, energy.
+
+    Returns:
+        Outcome, impacts, itinerary, contacts and energy; see `PlanarOutcomes`.
+    """
+    heads, corner, start = True, 0, 0.0
+    itinerary, contacts, last = 0, 0, np.nan
+    for n in range(most_impacts):
+        corner = fly(coin, state, corner, start, heights, drifts)
+        start = 0.0
+        if corner == 0:
+            return _UNDECIDED, n, itinerary, contacts, last
+        if turned_within(state):
+            heads, corner = not heads, -corner
+        itinerary = itinerary * 31 + (3 if heads else 5) + corner
+        hit(coin, state, float(corner), coin.restitution)
+        if n < len(touches):
+            touches[n, 0], touches[n, 1], touches[n, 2] = state[HEIGHT, 0], state[FALL, 0], state[SPIN, 0]
+            touches[n, 3], touches[n, 4] = (1.0 if heads else 0.0), energy(coin, state)[0]
+        if is_settled(coin, state):
+            last = energy(coin, state)[0]
+            return _HEADS if heads else _TAILS, n + 1, itinerary, contacts, last
+        ending = _bounces(coin, state, corner)
+        if ending == _LIFTING:
+            start = lift_off(state)
+        elif ending == _CHATTERING:
+            stop(coin, state, float(corner))
+            contacts, last = contacts + 1, energy(coin, state)[0]
+            if coin.in_air:
+                lifts, passes, side, ended = slide(coin, state, float(corner))
+                if not ended:
+                    return _UNDECIDED, n + 1, itinerary, contacts, last
+                ends = LIFTS if lifts else LIES
+                start = state[FALL, 0] / state[SPIN, 0] ** 2 if lifts else 0.0
+            else:
+                ends, passes, side, start = keep_contact(coin, state, float(corner))
+            itinerary = itinerary * 31 + 11 + 2 * ends + passes
+            corner, heads = int(side), heads != passes
+            if ends == LIES:
+                if not slap(coin, state):
+                    return _HEADS if heads else _TAILS, n + 1, itinerary, contacts, last
+                corner = 2
+    return _UNDECIDED, most_impacts, itinerary, contacts, last
+
+
+@compiled
+def _bounces(coin, state, corner):
+    """Return whether a rim point that was just hit flies, lifts off without speed, or ends its bounces."""
+    z, w = state[HEIGHT, 0], abs(state[SPIN, 0])
+    _, v = rim_velocity(state, float(corner))
+    sinking = 1 - z * w * w
+    if sinking <= 0:
+        return _LIFTING if v[0] < _SLOW else _FLYING
+    lasting = 2 * v[0] / sinking / (1 - coin.restitution[0])
+    limit = CHATTERING_ROUGH if coin.rough else CHATTERING
+    return _CHATTERING if lasting * (1 + w**3) < limit * sinking else _FLYING

@@ -1,0 +1,279 @@
+"""Planar tosses in 106 bits and in intervals: against exact arithmetic, the engine, heyoka, each other."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from flint import arb, ctx
+
+import analytic
+from compare.precision import double_double, planar_state, planar_toss
+from compare.precision.certified import certified_toss
+from compare.precision.double_double import pair_of
+from compare.precision.magnified import magnify
+from compare.precision.planar_coin import planar_coin, units
+from compare.precision.planar_contact import keep_contact
+from compare.precision.planar_flight import ORDER, fly
+from compare.precision.planar_slide import slide
+from compare.precision.planar_state import FALL, HEIGHT, SPIN, TILT, release
+from compare.precision.planar_toss import toss_many
+from compare.precision.splitting import chances, replica, spread
+from compare.reproduction.setups.planar_maps import case, releases
+from models.records import Outcome
+
+COINS = [
+    (chi, air, law)
+    for chi, air, law in (
+        (0.6, False, "smooth"),
+        (0.6, True, "smooth"),
+        (0.3, False, "smooth"),
+        (0.0, False, "smooth"),
+        (0.3, True, "smooth"),
+        (0.6, False, "perfectly_rough"),
+        (0.2, False, "perfectly_rough"),
+    )
+]
+
+
+def scenario_of(chi, air=False, law="smooth"):
+    return case(air=air, restitution=chi).replace("floor.contact", law)
+
+
+def coin_of(chi, air=False, law="smooth"):
+    scenario = scenario_of(chi, air, law)
+    return planar_coin(scenario), units(scenario)
+
+
+def drawn(units, number, seed=1):
+    rng = np.random.default_rng(seed)
+    z, w = rng.uniform(0.2, 0.6, number), rng.uniform(20, 60, number)
+    return z, w, np.array([release(units, height=a, spin=b) for a, b in zip(z, w, strict=True)])
+
+
+def error(pair, truth, size=None):
+    """Return an error in parts of 2**104 of the size."""
+    with_size = abs(truth) if size is None else arb(size)
+    return float(abs(arb(pair[0]) + arb(pair[1]) - truth) / with_size) * 2.0**104
+
+
+@pytest.fixture
+def long_arithmetic(monkeypatch):
+    monkeypatch.setattr(ctx, "prec", 300)
+
+
+@pytest.mark.usefixtures("long_arithmetic")
+def test_pairs_are_exact_to_104_bits():
+    rng, worst = np.random.default_rng(1), 0.0
+    for _ in range(200):
+        a, b = (pair_of(Fraction(rng.normal() * 10) + Fraction(rng.normal() * 1e-17)) for _ in range(2))
+        A, B = (arb(x[0]) + arb(x[1]) for x in (a, b))
+        positive = a if a[0] > 0 else (-a[0], -a[1])
+        sine, cosine = double_double.sine_cosine(a)
+        small = (b[0] * 1e-5, 0.0)
+        worst = max(
+            worst,
+            error(double_double.add(a, b), A + B),
+            error(double_double.multiply(a, b), A * B),
+            error(double_double.divide(a, b), A / B),
+            error(double_double.square_root(positive), abs(A).sqrt()),
+            error(sine, A.sin(), 1.0),
+            error(cosine, A.cos(), 1.0),
+            error(
+                double_double.sine_minus_angle(small, double_double.sine_cosine(small)[0]),
+                arb(small[0]).sin() - arb(small[0]),
+            ),
+        )
+    assert 0 < worst < 8
+
+
+@pytest.mark.parametrize(("chi", "air", "law"), COINS)
+def test_outcomes_are_the_engines(chi, air, law):
+    """Its own horizon ends some tosses before they are decided: of those that bounce little, none."""
+    coin, own = coin_of(chi, air, law)
+    z, w, starts = drawn(own, 300)
+    found = toss_many(coin, starts)
+    engine = analytic.toss_many(scenario_of(chi, air, law), releases(z, w)).outcome
+    assert np.mean(found.outcome == engine) > 0.99
+    assert 0.4 < np.mean(found.outcome == Outcome.HEADS) < 0.6
+    assert found.contacts.sum() > 0
+
+
+@pytest.mark.parametrize(("chi", "air", "law"), COINS)
+def test_faces_are_proved_and_the_same(chi, air, law):
+    coin, own = coin_of(chi, air, law)
+    z, w, starts = drawn(own, 8 if air else 25, seed=2)
+    found = toss_many(coin, starts).outcome
+    proved = [
+        certified_toss(coin, own, height=a, spin=b, most_bits=200).outcome for a, b in zip(z, w, strict=True)
+    ]
+    decided = [outcome != Outcome.UNDECIDED for outcome in proved]
+    # Contact that lasts is proved to end for a smooth floor in vacuum only.
+    assert sum(decided) >= (len(z) if law == "smooth" and not air else len(z) // 4)
+    assert all(a == b for a, b, is_so in zip(proved, found, decided, strict=True) if is_so)
+
+
+@pytest.mark.parametrize("air", [False, True])
+def test_impacts_are_heyokas_to_the_last_digit_of_a_double(air):
+    pytest.importorskip("heyoka", reason="heyoka has wheels for Linux on x86-64 only")
+    from tests.helpers.extended import Extended
+
+    scenario = scenario_of(0.6, air).replace("release.position.z", 0.43, "release.angular_velocity.xi", 37.0)
+    coin, own = coin_of(0.6, air)
+    known = certified_toss(coin, own, height=0.43, spin=37.0).impacts
+    unit = scenario.coin.mass * np.sqrt(scenario.gravity * scenario.coin.radius)
+    compared = 0
+    for mine, theirs in zip(known, Extended(scenario).toss(), strict=False):
+        assert mine.heads == theirs.heads
+        assert float(mine.impulse) * unit == pytest.approx(theirs.impulse[2], rel=1e-13)
+        compared += 1
+    assert compared >= 6
+
+
+def boundary(coin, own, digits):
+    """Bisect the heights between two faces; return both ends, exact."""
+
+    def face(height):
+        return toss_many(coin, release(own, height=height, spin=41.0)[None]).outcome[0]
+
+    low = Fraction(0.41)
+    at_low = face(low)
+    high = next(low + Fraction(k, 1000) for k in range(1, 30) if face(low + Fraction(k, 1000)) != at_low)
+    while high - low > Fraction(10) ** -digits:
+        middle = (low + high) / 2
+        low, high = (middle, high) if face(middle) == at_low else (low, middle)
+    return low, high
+
+
+def test_both_sides_of_a_boundary_are_proved_at_1e_27_m():
+    coin, own = coin_of(0.6)
+    ends = boundary(coin, own, 27)
+    tosses = [certified_toss(coin, own, height=height, spin=41.0) for height in ends]
+    assert sorted(toss.outcome for toss in tosses) == [Outcome.HEADS, Outcome.TAILS]
+    # One passes, the other does not reach, the upright coin's energy by little.
+    for toss, height in zip(tosses, ends, strict=True):
+        assert abs(float(toss.energy) - 1) < 1e-6
+        pairs = toss_many(coin, release(own, height=height, spin=41.0)[None])
+        assert pairs.energy[0] == pytest.approx(float(toss.energy), rel=1e-12)
+
+
+def test_contact_without_drag_in_air_is_that_in_vacuum():
+    vacuum, own = coin_of(0.3)
+    airless = vacuum._replace(in_air=True)
+    _, _, starts = drawn(own, 300, seed=3)
+    one, other = toss_many(vacuum, starts), toss_many(airless, starts)
+    lasting = one.contacts > 0
+    assert 2 <= lasting.sum() < 30
+    assert (one.outcome == other.outcome).all()
+    assert other.energy[lasting] == pytest.approx(one.energy[lasting], rel=1e-12)
+
+
+@pytest.mark.parametrize("rises", [True, False])
+@pytest.mark.parametrize("e", [1.05, 1.3])
+def test_contact_keeps_its_energy_and_ends_where_the_force_does(e, rises):
+    coin, _ = coin_of(0.5)
+    s = 0.2
+    w = -np.sqrt(2 * (e - s) / (coin.inertia[0] + 1 - s * s)) * (1 if rises else -1)
+    state = np.zeros((5, 2))
+    tilt = float(np.arcsin(-s))
+    state[:, 0] = [-np.sin(tilt), -np.cos(tilt) * w, tilt, w, 0]
+    slid = state.copy()
+    lifts, passes, corner, start = keep_contact(coin, state, 1.0)
+    assert passes == (rises and e < 1 + coin.inertia[0] / 2)
+    assert lifts == (rises and not passes)
+    assert planar_state.energy(coin, state)[0] == pytest.approx(e, rel=1e-14)
+    assert (start > 0) == lifts
+    if lifts:
+        # Free flight would neither press nor lift the point.
+        assert state[HEIGHT, 0] * state[SPIN, 0] ** 2 == pytest.approx(1, rel=1e-12)
+    airless = coin._replace(in_air=True)
+    found = slide(airless, slid, 1.0)
+    assert (found[0], found[1], found[2]) == (bool(lifts), passes, corner)
+    assert slid[[HEIGHT, FALL, TILT, SPIN], 0] == pytest.approx(
+        state[[HEIGHT, FALL, TILT, SPIN], 0], abs=1e-9
+    )
+
+
+def test_a_flight_in_air_follows_its_equations():
+    """Energy falls by the drag's work; with no difference of the drags the height has a closed form."""
+    coin, own = coin_of(0.6, air=True)
+    alike = coin._replace(drag_difference=(0.0, 0.0))
+    state = release(own, height=0.4, spin=40.0)
+    height, spin = state[HEIGHT, 0], state[SPIN, 0]
+    room = np.empty((ORDER + 2, 2)), np.empty((ORDER + 2, 2))
+    assert fly(alike, state, 0, 0.0, *room) in (-1, 1)
+    k, a = alike.slowing[0], alike.drag_mean[0]
+    t = -np.log(state[SPIN, 0] / spin) / k
+    fallen = (t - (1 - np.exp(-a * t)) / a) / a
+    assert state[HEIGHT, 0] == pytest.approx(height - fallen, abs=1e-10)
+    assert state[TILT, 0] == pytest.approx(spin * (1 - np.exp(-k * t)) / k, rel=1e-11)
+    assert state[HEIGHT, 0] == pytest.approx(abs(np.sin(state[TILT, 0])), abs=1e-13)
+
+
+def test_a_coin_of_no_plane_is_refused():
+    for field, value in (("coin.thickness", 1e-3), ("air.exponent", 0.5), ("floor.contact", "coulomb")):
+        scenario = case(air=True).replace(field, value)
+        with pytest.raises(ValueError, match=f"{field}: .*, accepted: "):
+            planar_coin(scenario)
+
+
+def test_an_impact_limit_leaves_a_toss_undecided():
+    coin, own = coin_of(0.6)
+    _, _, starts = drawn(own, 20)
+    found = planar_toss.toss_many(coin, starts, most_impacts=2)
+    assert (found.outcome == Outcome.UNDECIDED).all()
+    assert (found.impacts == 2).all()
+
+
+@pytest.mark.parametrize(
+    ("scores", "population"),
+    [
+        ([1.0, 1.0, 1.0, 1.0], 2),
+        ([9.0, 1.0, 1.0, 1.0], 2),
+        ([1.0, 2.0], 5),
+        ([5.0, 4.0, 1e-9, 1e-9, 1e-9], 3),
+    ],
+)
+def test_chances_sum_to_the_population_and_follow_the_scores(scores, population):
+    found = chances(np.array(scores), population)
+    assert found.sum() == pytest.approx(min(population, len(scores)))
+    assert (found <= 1).all()
+    below = found < 1
+    assert np.ptp(found[below] / np.array(scores)[below]) == pytest.approx(0) if below.any() else True
+
+
+def test_splitting_finds_the_shares_that_pairs_of_tosses_show():
+    coin, own = coin_of(0.6)
+    rng = np.random.default_rng(11)
+    runs = []
+    for _ in range(12):
+        z, w = rng.uniform(0.2, 0.6, 60), rng.uniform(20, 60, 60)
+        starts = np.array([release(own, height=a, spin=b) for a, b in zip(z, w, strict=True)])
+        largest = Fraction(1, 1000) / own.length
+        runs.append(
+            replica(coin, starts, row=HEIGHT, largest=largest, levels=4, population=60, rng=rng).shares
+        )
+    shares, errors = np.mean(runs, axis=0), np.std(runs, axis=0) / np.sqrt(11)
+    _, _, starts = drawn(own, 3000, seed=12)
+    for level in (0, 1, 3):
+        step = pair_of(Fraction(1, 1000 * 10**level) / own.length)
+        outcome = toss_many(coin, spread(starts, HEIGHT, step, 3)).outcome.reshape(-1, 3)
+        uncertain = (outcome[:, 1] != outcome[:, 0]) | (outcome[:, 1] != outcome[:, 2])
+        p = uncertain.mean()
+        assert p * len(uncertain) > 20
+        sigma = np.hypot(errors[level], np.sqrt(p / len(uncertain)))
+        assert shares[level] == pytest.approx(p, abs=4 * sigma)
+        assert sigma < 0.3 * p
+
+
+def test_a_boundary_is_magnified_until_it_is_alone_and_its_coin_stands():
+    coin, own = coin_of(0.3)
+    start = release(own, height=0.2, spin=41.0)
+    seen = magnify(coin, start, row=HEIGHT, length=Fraction(2, 5) / own.length, windows=20, points=100)
+    assert seen.counts[0] > 1
+    assert seen.isolated_from is not None
+    assert seen.isolated_from < 18
+    off = np.abs(seen.energies - 1).max(axis=1)
+    assert off[-1] < 1e-6
+    assert off[-1] < 1e-3 * off[seen.isolated_from]
+    with pytest.raises(ValueError, match="no boundary"):
+        magnify(coin, start, row=HEIGHT, length=Fraction(1, 10**9), windows=1, points=3)
