@@ -160,6 +160,9 @@ _contact = click.option(
 )
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
 @click.option("--trajectory", type=click.Path(path_type=Path), help="Also write the path to this .csv file.")
+@click.option(
+    "--margin", is_flag=True, help="Also find the least changes of the release that change the outcome."
+)
 def toss(
     scenario: str,
     engine: str,
@@ -168,8 +171,11 @@ def toss(
     contact_steps: int | None,
     as_json: bool,
     trajectory: Path | None,
+    margin: bool,
 ) -> None:
     """Toss one coin and print its impacts."""
+    if margin and engine != "analytic":
+        raise click.UsageError(f"--margin --engine {engine}: accepted: only by the analytic engine")
     if contact is not None and engine != "mujoco":
         raise click.UsageError(f"--contact {contact}: accepted: only beside --engine mujoco")
     with _plain_errors(scenario):
@@ -193,11 +199,17 @@ def toss(
         if trajectory is not None:
             times = answer.path_times(result)
             write_text(trajectory, answer.path_csv(result.sample(times)))
-        click.echo(
-            json.dumps(answer.as_json(result), indent=1, allow_nan=False)
-            if as_json
-            else answer.as_lines(result)
-        )
+        extra = []
+        if margin:
+            from compare.metrics.margin import margins
+
+            extra = margins(described)
+        if as_json:
+            told = {item.quantity.name: {"change": item.finite, "unit": item.quantity.unit} for item in extra}
+            whole = {**answer.as_json(result), **({"margin": told} if margin else {})}
+            click.echo(json.dumps(whole, indent=1, allow_nan=False))
+        else:
+            click.echo("\n".join([answer.as_lines(result), *(item.line for item in extra)]))
 
 
 @main.command(epilog=_SCENARIO_HELP)
