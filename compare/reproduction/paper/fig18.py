@@ -27,6 +27,13 @@ SAME = 1e-9
 """Paths nearer to each other than this part of r are the same, but for rounding."""
 
 
+REFERENCE = "3D ideal"
+"""The coin that the others are compared with in the picture."""
+STYLES = {"vacuum": ":", "air": "-"}
+ROUNDING = 1e-13
+"""The least distance that is drawn [mm]."""
+
+
 def make(progress: Progress) -> Result:
     """Toss the four coins in vacuum and in air, by both engines, until the first of them lands."""
     data: dict[str, Array] = {}
@@ -87,18 +94,30 @@ def make(progress: Progress) -> Result:
 
 
 def _draw(data: dict[str, Array]) -> Figure:
-    picture = Figure(figsize=(9, 4.2))
-    for column, medium in enumerate(MEDIA):
-        axes = picture.add_subplot(1, 3, 1 + column)
-        for width, (name, (_, color)) in zip((5, 3.5, 2, 1), MODELS.items(), strict=True):
-            x, _, z = data[f"{medium}, {name}, position"].T
-            axes.plot(x, z, color=color, linewidth=width, label=name)
-        axes.set(title=f"in {medium}", xlabel="x [m]", ylabel="z [m]")
-    picture.axes[1].legend()
-    space = picture.add_subplot(1, 3, 3)
+    picture = Figure(figsize=(10, 3.8))
+    paths, apart, tilts = picture.subplots(1, 3)
+    for medium, style in STYLES.items():
+        x, _, z = data[f"{medium}, {REFERENCE}, position"].T
+        paths.plot(100 * x, z, style, color=MODELS[REFERENCE][1], label=f"in {medium}")
+    paths.set(title=f"path of the {REFERENCE} coin", xlabel="x [cm]", ylabel="z [m]")
+    paths.legend()
     for name, (_, color) in MODELS.items():
-        space.plot(data["vacuum, time"], data[f"vacuum, {name}, normal"][:, 2], color=color)
-    space.set(title="tilt in vacuum", xlabel="time [s]", ylabel="cosine of the tilt")
+        if name == REFERENCE:
+            continue
+        for medium, style in STYLES.items():
+            off, leaning = (
+                data[f"{medium}, {name}, {part}"] - data[f"{medium}, {REFERENCE}, {part}"]
+                for part in ("position", "normal")
+            )
+            t, distance = data[f"{medium}, time"], np.linalg.norm(off, axis=1)
+            apart.semilogy(t, np.maximum(1e3 * distance, ROUNDING), style, color=color)
+            # Between unit vectors, of the chord between them.
+            angle = 2 * np.arcsin(np.minimum(np.linalg.norm(leaning, axis=1) / 2, 1))
+            if medium == "air":
+                tilts.plot(t, np.degrees(angle), color=color, label=name)
+    apart.set(title=f"distance from the {REFERENCE} coin", xlabel="time [s]", ylabel="mass centres [mm]")
+    tilts.set(title=f"angle to the {REFERENCE} coin, in air", xlabel="time [s]", ylabel="normals [°]")
+    tilts.legend()
     return picture
 
 

@@ -8,7 +8,7 @@ import coin_mj
 from analytic.air.force import force_and_moment
 from compare.metrics.trajectories import distance
 from compare.output.progress import Progress
-from compare.output.style import BLUE, PALE
+from compare.output.style import BLUE, GREY
 from compare.reproduction.claim import Claim, Criterion
 from compare.reproduction.runner import Reproduction, Result
 from models.attitude import rotation_matrix
@@ -18,6 +18,7 @@ from models.scenario import Air, Scenario
 
 SHOWN = 6.0
 """How long the picture follows the fall [s]."""
+FIGURES = ("21(a)", "21(b)", "22(a)", "22(b)")
 COLUMNS = ("speed [m/s]", "acceleration [m/s²]", "cos θ", "f_rz [N]")
 
 
@@ -94,11 +95,16 @@ def _columns(scenario: Scenario, path: States) -> Array:
 def _draw(data: dict[str, Array]) -> Figure:
     picture = Figure(figsize=(8, 4.6))
     for number, (axes, name) in enumerate(zip(picture.subplots(2, 2).flat, COLUMNS, strict=True)):
-        without = data["columns without air"][:, number]
-        axes.plot(data["time without air"], without, ":", color=PALE, linewidth=1, label="without")
-        axes.plot(data["time"], data["columns"][:, number], color=BLUE, label="in air")
+        for media, style, color, label in (
+            (" without air", ":", GREY, "without air"),
+            ("", "-", BLUE, "in air"),
+        ):
+            t = data[f"time{media}"]
+            shown = t <= SHOWN
+            axes.plot(t[shown], data[f"columns{media}"][shown, number], style, color=color, label=label)
         axes.set(xlabel="time [s]", ylabel=name, xlim=(0, SHOWN))
-    picture.axes[0].legend()
+        axes.set_title(f"Fig. {FIGURES[number]}", loc="left")
+    picture.axes[0].legend(loc="upper left")
     return picture
 
 
