@@ -4,10 +4,11 @@ import importlib
 import pkgutil
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from compare.output.files import require_folder, written_together
+from compare.output.files import remove, require_folder, written_together
 from compare.output.progress import Progress
 from compare.reproduction import claims, paper, studies
 from compare.reproduction.claim import Claim, table_of
@@ -18,6 +19,8 @@ if TYPE_CHECKING:  # names are listed without it
 ROOMS = (paper, claims, studies)
 FOLDER = "reproduction"
 """Holds the folders of all that was reproduced."""
+PARTS = "parts"
+"""Holds what an interrupted run had done."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,16 +47,18 @@ class Reproduction:
     """What it shows, in a few words."""
     seconds: float
     """Roughly how long it takes on two cores [s]."""
-    make: Callable[[Progress], Result]
-    """Computes it."""
+    make: Callable[..., Result]
+    """Computes it, from a `Progress`; one that `resumes` from a folder `parts` too."""
     draw: "Mapping[str, Callable[[Any], Figure]]"
     """Its pictures, by name, each drawn from the data."""
-    quick: Callable[[Progress], Result] | None = None
+    quick: Callable[..., Result] | None = None
     """Computes a smaller size, where there is one."""
     quick_seconds: float | None = None
     """Roughly how long that takes on two cores [s]."""
     paper: str = ""
     """Its place in the paper, as in "Fig. 3"; empty for a study of this project."""
+    resumes: bool = False
+    """Whether it keeps what it has done in its folder, so that an interrupted run goes on."""
     assumed: str = ""
     """What the paper leaves unsaid, and what is assumed instead."""
 
@@ -111,7 +116,12 @@ def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) 
 
     found = find(name)
     require_writable(name, out)
-    with written_together(folder_of(name, out), found.files) as aside:
-        result = (found.quick or found.make)(progress) if quick else found.make(progress)
+    folder = folder_of(name, out)
+    make = (found.quick if quick else None) or found.make
+    if found.resumes:
+        make = partial(make, parts=folder / PARTS)
+    with written_together(folder, found.files) as aside:
+        result = make(progress)
         save(aside, result, found.draw)
+    remove(folder / PARTS)
     return result
