@@ -122,6 +122,8 @@ class Claim:
     """What the analytic engine finds; "-" where the criteria say all."""
     mujoco: str = "-"
     """What MuJoCo finds, or how far it is from the analytic engine; "-" where it has no part in the claim."""
+    headline: str = ""
+    """What was found, in a sentence for the opening of the page; empty for most."""
     expected: bool | None = True
     """The known verdict, as `holds` has it."""
 
@@ -143,10 +145,10 @@ class Claim:
     @property
     def verdict(self) -> str:
         """The verdict in words, with what would make it one where there is none."""
-        wanted = [self.missing, *(criterion.wanted for criterion in self.criteria)]
         if self.holds is not None:
             return VERDICTS[self.holds]
-        return f"{VERDICTS[None]}: {'; '.join(filter(None, wanted))}"
+        wanted = "; ".join(filter(None, (criterion.wanted for criterion in self.criteria)))
+        return f"{VERDICTS[None]}: {self.missing or wanted}"
 
 
 def unexpected(claims: Sequence[Claim], *, quick: bool = False) -> tuple[str, ...]:

@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 
-from compare.reproduction.estimates import LEVEL, difference, jackknife, mean, ratio_of_medians, share
+from compare.reproduction.estimates import (
+    LEVEL,
+    difference,
+    jackknife,
+    mean,
+    ratio_of_medians,
+    ratio_of_shares,
+    share,
+)
 
 RUNS = 400
 KINDS = {
@@ -11,8 +19,13 @@ KINDS = {
     "mean": (2.0, lambda rng: mean(rng.exponential(2.0, 400))),
     "difference": (1.0, lambda rng: difference(rng.normal(3, 1, 60), rng.normal(2, 3, 200))),
     "jackknife": (2.0, lambda rng: _spread(rng.normal(0, 2, 400))),
+    "ratio of shares": (4.0, lambda rng: _nested(rng.random(3000))),
     "ratio": (2.0, lambda rng: ratio_of_medians(rng.exponential(2, 150), rng.exponential(1, 150), rng)),
 }
+
+
+def _nested(drawn):
+    return ratio_of_shares(drawn < 0.08, (drawn > 0.03) & (drawn < 0.23), 10.0)
 
 
 def _spread(drawn):

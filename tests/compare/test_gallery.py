@@ -52,6 +52,8 @@ def made(tmp_path, monkeypatch):
     }
     monkeypatch.setattr(runner, "names", lambda: sorted(figures))
     monkeypatch.setattr(runner, "find", figures.__getitem__)
+    sources = (("missing", "figure.png"), ("first", "figure.png"))
+    monkeypatch.setattr(gallery, "MAIN", (gallery.MainClaim(says="two is more", sources=sources),))
     answered = cointoss("reproduce", "all", "--quick", "--out", tmp_path)
     assert answered.exit_code == 0
     return tmp_path
@@ -61,25 +63,39 @@ def result(progress, holds):
     progress(1, 1)
     criterion = Criterion("one", 1, "<", 2 if holds else 0, "it <is> so")
     missing = "the paper has no two" if holds is None else ""
-    claim = Claim(claim="1 < 2", analytic="so it is", criteria=[criterion], missing=missing, expected=holds)
+    claim = Claim(
+        claim="1 < 2",
+        headline="So it is.",
+        analytic="so it is",
+        criteria=[criterion],
+        missing=missing,
+        expected=holds,
+    )
     return Result(claims=(claim,), data={"one": np.ones(1)})
 
 
 def test_all_makes_both_pages(made):
     page = (made / "REPRODUCTION.md").read_text(encoding="utf-8")
-    assert page.index("| [Fig. 9](#first) | 1 < 2 | one: 1 (< 2) | holds |") < page.index(
-        "| [Fig. 10](#second) | 1 < 2 | one: 1 (< 0) | does not hold |"
-    )
+    rows = [
+        "| the paper | what it shows | holds | does not hold | cannot be tested |",
+        "| Fig. 1 | Keller's coin and its axis: a sketch |  |  |  |",
+        "| Fig. 9 | [a <sum> of Fig. 9](#first) | 1 |  |  |",
+        "| Fig. 10 | [a <sum> of Fig. 10](#second) |  | 1 |  |",
+        "| Fig. 11 | [a <sum> of Fig. 11](#third) |  |  | 1 |",
+    ]
+    assert sorted(rows, key=page.index) == rows
+    assert page.count("(< 2: it <is> so)") == 1
     assert "| 1 < 2 | so it is | one: 1 (< 2: it <is> so) | holds |" in page
     assert "it cites, 1 hold, 1 do not, and 1 cannot be tested: the paper" in " ".join(page.split())
-    assert "Sketches make no claim: Fig. 1 (" in page
+    says = "two is more"
+    assert f"| **{says}** |\n| --- |\n| ![{says}](reproduction/first/figure.png) |\n| So it is. |\n" in page
     assert "cointoss reproduce all --quick --out docs" in page
     assert "![a <sum> of Fig. 9](reproduction/first/figure.png)" in page
     assert "Assumed: that it rains" in page
     shown = (made / "gallery.html").read_text(encoding="utf-8")
     assert "a &lt;sum&gt; of Fig. 9" in shown
     assert "(&lt; 2: it &lt;is&gt; so)" in shown
-    assert shown.count("data:image/png;base64,") == 3
+    assert shown.count("data:image/png;base64,") == 4
     for kind, verdict in (("holds", "holds"), ("fails", "does not hold"), ("open", "cannot be tested: the")):
         assert f'class="{kind}">{verdict}' in shown
 
@@ -94,7 +110,9 @@ def test_a_page_in_the_way_is_refused_before_any_work(made, tmp_path):
 
 def test_the_page_in_docs_shows_the_saved_findings():
     shown = gallery.entries(DOCS, gallery.of_paper())
-    assert (DOCS / "REPRODUCTION.md").read_text(encoding="utf-8") == gallery.markdown(shown, quick=False)
+    assert (DOCS / "REPRODUCTION.md").read_text(encoding="utf-8") == gallery.markdown(
+        DOCS, shown, quick=False
+    )
     for entry in shown:
         assert entry.picture.stat().st_size < 150_000
         assert unexpected(entry.claims) == ()

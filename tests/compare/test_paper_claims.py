@@ -1,5 +1,7 @@
 """How the paper's claims are measured, on cases whose answer is known."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -9,11 +11,15 @@ from compare.reproduction.claims import (
     air_in_a_fall,
     fair_landing,
     heads_in_a_ball,
+    stop_test,
     uniform_starts,
 )
+from compare.reproduction.paper import fig27, fig31
 from compare.reproduction.paper.fig30 import ACCURACIES, FINE, exponent
+from compare.reproduction.setups import fig24_readings
 from compare.reproduction.setups.hands import HEIGHTS, SPINS, releases_of_hands
 from compare.reproduction.setups.planar_maps import case, faces_after, releases, touched_faces
+from models.records import IMPACT_ROW, Outcome
 from models.scenario import Release
 
 
@@ -118,3 +124,73 @@ def test_a_stripe_on_a_soft_floor_is_as_wide_as_its_map_shows():
     # A ladder of ten steps in a decade finds each end at most a quarter too far.
     width = accuracy_and_stripes.stripe_width("soft floor", middle, 55.0)
     assert high - low - 2e-4 < width < 1.3 * (high - low)
+
+
+def test_the_printed_sequences_of_fig_24_have_94_faces_and_begin_alike():
+    assert sum(len(text.replace(fig24_readings.MARK, "")) for text in fig24_readings.PRINTED.values()) == 94
+    assert fig24_readings.clusters_as_printed(list(fig24_readings.PRINTED.values()))
+    assert sum(fig24_readings.shared(list(fig24_readings.PRINTED.values()))) == 94
+    assert fig24_readings.shared(["T"] * 6) == [0] * 6
+    assert len({reading.name for reading in fig24_readings.READINGS}) == len(fig24_readings.READINGS) == 90
+
+
+def test_impacts_are_marked_where_a_flight_is_seen():
+    faces = np.array([1, 1, 2, 2], dtype=np.int8)
+    assert fig24_readings.marked(np.array([0.3, 0.7, 0.71, 1.1]), faces) == "H∘HT∘T"
+
+
+def test_stripes_are_counted_by_twins_as_far_as_they_are_wide():
+    z = np.random.default_rng(5).uniform(size=40_000)
+    steps = fig31.RESOLUTIONS / fig31.LENGTH
+
+    def differing(stripes):
+        return np.array([np.floor(stripes * (z + step)) != np.floor(stripes * z) for step in steps])
+
+    found = fig31._boundaries(differing(3000))
+    assert found.count.low < 3000 < found.count.high
+    assert found.is_converged
+    # Of stripes narrower than any step a step shows all that it can.
+    hidden = fig31._boundaries(np.random.default_rng(6).uniform(size=(len(steps), 40_000)) < 0.5)
+    assert hidden.growth.low > 9
+    assert not hidden.is_converged
+
+
+def test_the_slope_of_a_curve_that_jumps_once_falls_with_the_steps_fitted():
+    curve = np.append(0.0, np.full(40, 2.0))
+    steps = np.arange(1, 41)
+    assert fig27._slopes(curve) == pytest.approx(6 * 2.0 / ((steps + 1) * (steps + 2)))
+    assert fig27._steps_of(fig27._slopes(curve)[None], 12 / (20 * 21)) == (19, 19, 19)
+
+
+def test_neighbours_on_a_circle_have_near_images_where_there_is_a_map():
+    angles = [1.0]
+    for _ in range(2000):
+        angles.append((angles[-1] + 1.2345 + 0.3 * np.sin(angles[-1])) % (2 * np.pi) - np.pi)
+    apart, images = fig27._neighbours(np.array(angles))
+    assert np.all(images < 1.3 * apart + 1e-9)
+    random = np.random.default_rng(7).uniform(-np.pi, np.pi, 2000)
+    assert np.median(fig27._neighbours(random)[1]) == pytest.approx(np.pi / 2, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("energies", "faces", "outcome", "counted"),
+    [
+        ([2.0, 0.9, 0.5], [1, 1, 1], Outcome.HEADS, [1, 0, 0]),
+        ([2.0, 0.9, 0.5], [1, 1, 2], Outcome.HEADS, [1, 1, 0]),
+        ([2.0, 2.0, 0.5], [2, 1, 1], Outcome.HEADS, [1, 0, 0]),
+        ([2.0, 0.9, 0.5], [1, 1, 1], Outcome.EDGE, [1, 1, 0]),
+        ([2.0, 0.9, 0.5], [1, 1, 1], Outcome.PERPETUAL, [1, 0, 1]),
+        ([2.0, 2.0, 1.1], [1, 2, 1], Outcome.TAILS, [0, 0, 0]),
+    ],
+)
+def test_a_named_face_is_left_where_another_comes_up_later(monkeypatch, energies, faces, outcome, counted):
+    kind = stop_test.CLASSES[0]
+    body = kind.scenario.body
+    rows = np.zeros(3, IMPACT_ROW)
+    rows["energy"], rows["face"] = np.array(energies) * body.mass * body.gravity * body.radius, faces
+    # Only eq. (20) leaves out the spin about the normal.
+    rows["angular_velocity_after"][:, 2] = np.sqrt(20 * body.gravity / body.radius)
+    monkeypatch.setattr(stop_test, "run", lambda *_: SimpleNamespace(rows=rows, outcome=outcome))
+    found = stop_test.stops(body, kind.scenario.rules, np.zeros(13))
+    assert found[0].tolist() == counted
+    assert found[1, stop_test.NAMED] == 1

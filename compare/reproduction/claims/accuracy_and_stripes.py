@@ -1,10 +1,12 @@
 """Section 5.3: the accuracy ε of a release against the width W of the stripes of the basins."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -57,9 +59,16 @@ def make(progress: Progress, centers: int = 200, count: int = 60) -> Result:
         progress(2 * len(at_hand), 2 * len(LANDINGS))
     soft, bouncing = (data[f"{landing}, width"] for landing in LANDINGS)
     bounced = alike["bouncing"]
+    ten = int(np.flatnonzero(RATIOS == 10)[0])
     claims = (
         Claim(
             claim="if ε ≪ W the outcome is predictable",
+            headline=(
+                f"So it is: released within W/100 of the aim, {bounced[0].value:.1%} of the bouncing tosses "
+                f"end as meant. But half of the releases lie in stripes below "
+                f"{1e3 * np.median(bouncing):.1g} mm, a tenth below "
+                f"{1e6 * np.quantile(bouncing, 0.1):.1g} µm."
+            ),
             analytic=f"with ε = W/100 {bounced[0].value:.1%} of the bouncing tosses end as the one aimed at",
             criteria=[
                 Criterion(
@@ -69,6 +78,11 @@ def make(progress: Progress, centers: int = 200, count: int = 60) -> Result:
         ),
         Claim(
             claim="if ε ≫ W heads and tails are as likely",
+            headline=(
+                f"So it is for a coin that bounces: released within 10 W, {bounced[ten].value:.0%} end as "
+                f"meant, and with a hand's {1e3 * HAND:g} mm {at_hand['bouncing'].value:.0%}. On a "
+                f"soft floor {at_hand['soft floor'].value:.0%} do: there a toss is no chance."
+            ),
             analytic=f"with ε = {_listed(data['bouncing, alike'])} end as the one aimed at",
             criteria=[
                 Criterion(
@@ -154,19 +168,38 @@ def _alike(
 def _draw(data: dict[str, NDArray[Any]]) -> Figure:
     picture = Figure(figsize=(9, 3.4))
     alike, widths = picture.subplots(1, 2)
-    for landing, color in LANDINGS.items():
-        alike.semilogx(data["ratio"], data[f"{landing}, alike"], "o-", color=color, label=landing)
-        width = np.sort(data[f"{landing}, width"])
-        widths.semilogx(width, np.arange(1, len(width) + 1) / len(width), color=color, label=landing)
-    alike.axhline(0.5, color=GREY, linewidth=0.8)
-    alike.set(xlabel="accuracy over width, ε/W", ylabel="part that ends as meant", ylim=(0, 1.03))
-    widths.axvline(HAND, color=GREY, linewidth=0.8)
-    widths.set(
-        xlabel="width W of a release's stripe [m]", ylabel="part of the releases below", ylim=(0, 1.03)
-    )
-    alike.legend(loc="lower left")
-    widths.legend(loc="upper left")
+    _draw_alike(alike, data)
+    _draw_widths(widths, data)
     return picture
+
+
+def _draw_opening(draw: Callable[[Axes, dict[str, NDArray[Any]]], None]) -> Callable[[Any], Figure]:
+    """Return what draws one half of the picture for the opening of the page."""
+
+    def opening(data: dict[str, NDArray[Any]]) -> Figure:
+        picture = Figure(figsize=(4.4, 3.2))
+        draw(picture.subplots(), data)
+        return picture
+
+    return opening
+
+
+def _draw_alike(axes: Axes, data: dict[str, NDArray[Any]]) -> None:
+    for landing, color in LANDINGS.items():
+        axes.semilogx(data["ratio"], data[f"{landing}, alike"], "o-", color=color, label=landing)
+    axes.axhline(0.5, color=GREY, linewidth=0.8)
+    axes.set(xlabel="accuracy over width, ε/W", ylabel="part that ends as meant", ylim=(0, 1.03))
+    axes.legend(loc="lower left")
+
+
+def _draw_widths(axes: Axes, data: dict[str, NDArray[Any]]) -> None:
+    for landing, color in LANDINGS.items():
+        width = np.sort(data[f"{landing}, width"])
+        axes.semilogx(width, np.arange(1, len(width) + 1) / len(width), color=color, label=landing)
+    axes.axvline(HAND, color=GREY, linewidth=0.8)
+    axes.annotate("a hand's ε", (HAND, 0.02), (-3, 0), textcoords="offset points", ha="right")
+    axes.set(xlabel="width W of a release's stripe [m]", ylabel="part of the releases below", ylim=(0, 1.03))
+    axes.legend(loc="upper left")
 
 
 REPRODUCTION = Reproduction(
@@ -180,7 +213,11 @@ REPRODUCTION = Reproduction(
     ),
     seconds=15,
     make=make,
-    draw={"figure": _draw},
+    draw={
+        "figure": _draw,
+        "below-the-width": _draw_opening(_draw_widths),
+        "above-the-width": _draw_opening(_draw_alike),
+    },
     quick_seconds=8,
     quick=partial(make, centers=15, count=20),
 )
