@@ -16,6 +16,7 @@ from flint import acb, arb, ctx, fmpq
 
 from compare.precision.double_double import exact
 from compare.precision.planar_coin import PlanarCoin, Units, square_root
+from compare.precision.planar_flight import safe_step
 from models.records import Outcome
 
 MOST_IMPACTS = 5000
@@ -393,6 +394,7 @@ class _Gap:
             self.f1, self.start = arb(0), float(start.mid()) * (1 - 1e-9)
         self.rest, self.tail = [arb(0), arb(0), *heights[2:]], tail
         self.slopes = [n * c for n, c in enumerate(self.rest)][1:]
+        self.bends = [n * c for n, c in enumerate(self.slopes)][1:]
 
     def at(self, s: Any) -> tuple[Any, Any]:
         """Return the gap and its rate."""
@@ -404,18 +406,26 @@ class _Gap:
         rate = self.f1 + _value(self.slopes, s) + self.tail * len(self.rest) * 4
         return f, rate - self.w * (self.sn * sine + self.cs * less)
 
-    def bound(self, length: float) -> float:
-        """Bound how fast the rate falls, up to a clock."""
-        total, power = -2 * self.rest[2], arb(1)
+    def bend(self, s: Any) -> Any:
+        """Return the gap's second derivative."""
+        sine, cosine = (self.w * s).sin_cos()
+        tail = self.tail * len(self.rest) ** 2 * 16
+        return _value(self.bends, s) + tail - self.w**2 * (self.sn * cosine + self.cs * sine)
+
+    def bounds(self, length: float) -> tuple[float, float]:
+        """Bound how fast the rate and the second derivative fall, up to a clock."""
+        second, third, power = -2 * self.rest[2], arb(0), arb(1)
         for n in range(3, len(self.rest)):
+            third = third + n * (n - 1) * (n - 2) * abs(self.rest[n]) * power
             power = power * length
-            total = total + n * (n - 1) * abs(self.rest[n]) * power
-        tail = abs(self.tail) * len(self.rest) ** 2 * 16 / min(length, 1.0) ** 2
-        return float((total + self.w**2 + tail).upper()) * (1 + 1e-12)
+            second = second + n * (n - 1) * abs(self.rest[n]) * power
+        tail = abs(self.tail) * len(self.rest) ** 3 * 64 / min(length, 1.0) ** 3
+        second, third = second + self.w**2 + tail, third + abs(self.w) ** 3 + tail
+        return float(second.upper()) * (1 + 1e-12), float(third.upper()) * (1 + 1e-12)
 
     def first_zero(self, limit: float) -> Any:
         """Return an enclosure of the first zero up to the limit; None where there is proved to be none."""
-        bound = self.bound(limit)
+        bound, third = self.bounds(limit)
         s = arb(self.start)
         for _ in range(MOST_STEPS):
             if s > limit:
@@ -428,8 +438,7 @@ class _Gap:
                 low = 0.0
             elif not f > 0:
                 raise _UndecidedError
-            root = math.sqrt(slope * slope + 2 * bound * low)
-            step = (2 * low / (root - slope) if slope < 0 else (slope + root) / bound) * (1 - 1e-12)
+            step = safe_step.py_func(low, slope, float(self.bend(s).lower()), (bound, third)) * (1 - 1e-12)
             if not step > 0:
                 raise _UndecidedError
             s = (s + arb(step)).mid()

@@ -172,3 +172,18 @@ def sine_minus_angle(x, sine):
             (_INVERSE_FACTORIALS[2 * i + 1, 0], _INVERSE_FACTORIALS[2 * i + 1, 1]), multiply(square, total)
         )
     return negative(multiply(multiply(x, square), total))
+
+
+@compiled
+def cosine_minus_parabola(x, less):
+    """Return cos x - 1 + x²/2 without cancellation; `less` is 1 - cos x."""
+    square = multiply(x, x)
+    if abs(x[0]) > 0.5:
+        return subtract(scale(square, 0.5), less)
+    n = _TERMS
+    total = (_INVERSE_FACTORIALS[2 * n, 0], _INVERSE_FACTORIALS[2 * n, 1])
+    for i in range(n - 1, 1, -1):
+        total = subtract(
+            (_INVERSE_FACTORIALS[2 * i, 0], _INVERSE_FACTORIALS[2 * i, 1]), multiply(square, total)
+        )
+    return multiply(multiply(square, square), total)

@@ -94,7 +94,7 @@ def keep_contact(coin, state, corner):
         corner = -corner if passes else corner
         if lies:
             return LIES, passes, corner, 0.0
-    if state[HEIGHT, 0] * state[SPIN, 0] ** 2 > 1:
+    if drawn_up(state) > 0:
         return LIFTS, passes, corner, lift_off(state)
     u = part(state, DRIFT)
     e = energy(coin, state)
@@ -118,7 +118,14 @@ def keep_contact(coin, state, corner):
 def lift_off(state):
     """Return the clock up to which a rim point does not touch that is at rest on the floor and drawn up."""
     w = abs(state[SPIN, 0])
-    return 1.5 * (state[HEIGHT, 0] * w * w - 1) / w**3
+    return 1.5 * drawn_up(state) / w**3
+
+
+@compiled
+def drawn_up(state):
+    """Return the acceleration of a rim point on the floor in free flight, upward."""
+    w = part(state, SPIN)
+    return subtract(multiply(part(state, HEIGHT), multiply(w, w)), ONE)[0]
 
 
 @compiled

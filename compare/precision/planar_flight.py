@@ -13,6 +13,7 @@ import numpy as np
 
 from compare.precision.double_double import (
     add,
+    cosine_minus_parabola,
     multiply,
     negative,
     pair_of,
@@ -34,7 +35,8 @@ NEAR = 1e-11
 ZERO = 1e-30
 """A gap below this part of its terms is a touch."""
 _INVERSES = np.array([pair_of(Fraction(1, n + 1)) for n in range(ORDER + 1)])
-MOST_STEPS = 100_000
+_DOUBLINGS = 100
+MOST_STEPS = 20_000
 """Of a search."""
 CAREFUL = 1 - 1e-14
 """A step computed in doubles, times it, is no longer than an exact one."""
@@ -59,17 +61,18 @@ def fly(coin, state, corner, start, heights, drifts):
         length, order = expand(coin, state, heights, drifts)
         w = part(state, SPIN)
         sine, cosine = sine_cosine(part(state, TILT))
-        bound = _second_derivative_bound(heights, order, w[0], length)
+        bounds = _derivative_bounds(heights, order, w[0], length)
         found, best, who = False, (length, 0.0), 0
         for side in (-1, 1):
             sn, cs = scale(sine, float(side)), scale(cosine, float(side))
             on_floor = corner in (side, 2)
             f0 = (0.0, 0.0) if on_floor else add(part(state, HEIGHT), sn)
             f1 = add((heights[1, 0], heights[1, 1]), multiply(cs, w))
+            f2 = subtract(scale((heights[2, 0], heights[2, 1]), 2.0), multiply(sn, multiply(w, w)))
             if on_floor and start > 0:
                 f1 = (0.0, 0.0)
             touches, s = _first_zero(
-                heights, order, w, sn, cs, f0, f1, bound, start if on_floor else 0.0, best[0]
+                heights, order, w, sn, cs, (f0, f1, f2), bounds, start if on_floor else 0.0, best[0]
             )
             if touches:
                 found, best, who = True, s, side
@@ -139,69 +142,97 @@ def expand(coin, state, heights, drifts):
 
 
 @compiled
-def _second_derivative_bound(heights, order, w, length):
-    """Bound how fast a gap's rate can fall."""
-    total, power = -2 * heights[2, 0], 1.0
+def _derivative_bounds(heights, order, w, length):
+    """Bound how fast a gap's rate, and its second derivative, can fall."""
+    second, third, power = -2 * heights[2, 0], 0.0, 1.0
     for n in range(3, order + 1):
+        third += n * (n - 1) * (n - 2) * abs(heights[n, 0]) * power
         power *= length
-        total += n * (n - 1) * abs(heights[n, 0]) * power
-    return (total + w * w) * (1 + 1e-12)
+        second += n * (n - 1) * abs(heights[n, 0]) * power
+    return (second + w * w) * (1 + 1e-12), (third + abs(w) ** 3) * (1 + 1e-12) + 1e-30
 
 
 @compiled
-def _first_zero(heights, order, w, sn, cs, f0, f1, bound, start, limit):
-    """Return whether the gap f0 + f1 s + ... has a zero up to the limit, and the first, a pair."""
+def _first_zero(heights, order, w, sn, cs, f, bounds, start, limit):
+    """Return whether the gap f0 + f1 s + f2 s²/2 + ... has a zero up to the limit, and the first, a pair."""
     s = start
     for _ in range(MOST_STEPS):
         if s >= limit:
             break
-        f, rate, terms = _gap(heights, order, w[0], sn[0], cs[0], f0[0], f1[0], s)
-        if s > 0 and f <= NEAR * terms:
+        gap, rate, second, terms = _gap(heights, order, w[0], sn[0], cs[0], (f[0][0], f[1][0], f[2][0]), s)
+        if s > 0 and gap <= NEAR * terms:
             exact = (s, 0.0)
             for _ in range(MOST_STEPS):
                 if exact[0] >= limit:
                     break
-                f, rate, terms = _gap_in_full(heights, order, w, sn, cs, f0, f1, exact)
-                if f < -ZERO * terms and rate < 0:
+                gap, rate, second, terms = _gap_in_full(heights, order, w, sn, cs, f, exact)
+                if gap < -ZERO * terms and rate < 0:
                     # Doubles went beyond the zero by their rounding.
-                    exact = add(exact, (-f / rate, 0.0))
+                    exact = add(exact, (-gap / rate, 0.0))
                     continue
-                if f <= ZERO * terms:
+                if gap <= ZERO * terms:
                     return True, exact
-                if f > 10 * NEAR * terms and rate > 0:
+                if gap > 10 * NEAR * terms and rate > 0:
                     break
-                exact = add(exact, (safe_step(f, rate, bound) * CAREFUL, 0.0))
+                exact = add(exact, (safe_step(gap, rate, second, bounds) * CAREFUL, 0.0))
             s = exact[0]
         else:
-            s += safe_step(f, rate, bound) * CAREFUL
+            s += safe_step(gap, rate, second, bounds) * CAREFUL
     return False, (limit, 0.0)
 
 
 @compiled
-def safe_step(f, rate, bound):
-    """Return a step before whose end f + rate h - bound h²/2, f >= 0, is not negative."""
-    root = math.sqrt(rate * rate + 2 * bound * f)
-    return 2 * f / (root - rate) if rate < 0 else (rate + root) / bound
+def safe_step(gap, rate, second, bounds):
+    """Return a step within which a gap >= 0 cannot fall below 0.
+
+    Over a step h its second derivative is above -bounds[0], and above second - bounds[1] h.
+    """
+    best = _parabola_step(gap, rate, bounds[0])
+    reach = max(best, second / bounds[1])
+    for _ in range(_DOUBLINGS):
+        falls = bounds[1] * reach - second
+        step = min(_parabola_step(gap, rate, max(falls, 0.0)), reach)
+        if falls >= bounds[0] or step < best:
+            break
+        best, reach = step, 2 * reach
+    return best
 
 
 @compiled
-def _gap(heights, order, w, sn, cs, f0, f1, s):
-    """Return a rim point's gap, its rate, and the size of its terms; relatively exact for small s too."""
-    p, dp = 0.0, 0.0
-    for n in range(order, 1, -1):
+def _parabola_step(gap, rate, falls):
+    """Return the zero of gap + rate h - falls h²/2, infinite where it has none."""
+    root = math.sqrt(rate * rate + 2 * falls * gap)
+    if rate < 0:
+        return 2 * gap / (root - rate)
+    return (rate + root) / falls if falls > 0 else np.inf
+
+
+@compiled
+def _gap(heights, order, w, sn, cs, f, s):
+    """Return a rim point's gap, its first two derivatives, and the size of its terms.
+
+    Relatively exact for small s too: f are the first three coefficients, of 1, s and s²/2.
+    """
+    p, dp, ddp = 0.0, 0.0, 0.0
+    for n in range(order, 2, -1):
+        ddp = ddp * s + n * (n - 1) * heights[n, 0]
         dp = dp * s + n * heights[n, 0]
         p = p * s + heights[n, 0]
-    p, dp = p * s * s, dp * s
+    p, dp, ddp = p * s**3, dp * s**2, ddp * s
     angle = w * s
     half = math.sin(angle / 2)
     less, sine = 2 * half * half, math.sin(angle)
-    q = cs * _sine_minus(angle, sine) - sn * less
-    rate = f1 + dp - w * (sn * sine + cs * less)
-    return f0 + f1 * s + p + q, rate, abs(f0) + abs(f1 * s) + abs(p) + abs(q)
+    q, r = cs * _sine_minus(angle, sine), sn * _cosine_minus(angle, less)
+    rate = f[1] + f[2] * s + dp + w * (sn * (angle - sine) - cs * less)
+    second = f[2] + ddp + w * w * (sn * less - cs * sine)
+    linear, square = f[1] * s, f[2] * s * s / 2
+    terms = abs(f[0]) + abs(linear) + abs(square) + abs(p) + abs(q) + abs(r)
+    return f[0] + linear + square + p + q + r, rate, second, terms
 
 
 @compiled
 def _sine_minus(angle, sine):
+    """Return sin x - x."""
     if abs(angle) > 0.5:
         return sine - angle
     square, total = angle * angle, 1.0
@@ -211,22 +242,38 @@ def _sine_minus(angle, sine):
 
 
 @compiled
-def _gap_in_full(heights, order, w, sn, cs, f0, f1, s):
+def _cosine_minus(angle, less):
+    """Return cos x - 1 + x²/2; `less` is 1 - cos x."""
+    square = angle * angle
+    if abs(angle) > 0.5:
+        return square / 2 - less
+    total = 1.0
+    for n in range(8, 2, -1):
+        total = 1 - total * square / (2 * n * (2 * n - 1))
+    return square * square / 24 * total
+
+
+@compiled
+def _gap_in_full(heights, order, w, sn, cs, f, s):
     """Return the same in 106 bits, rounded at the end."""
-    p, dp = (0.0, 0.0), 0.0
-    for n in range(order, 1, -1):
+    p, dp, ddp = (0.0, 0.0), 0.0, 0.0
+    for n in range(order, 2, -1):
+        ddp = ddp * s[0] + n * (n - 1) * heights[n, 0]
         dp = dp * s[0] + n * heights[n, 0]
         p = add(multiply(p, s), (heights[n, 0], heights[n, 1]))
-    p, dp = multiply(multiply(p, s), s), dp * s[0]
+    p, dp, ddp = multiply(multiply(multiply(p, s), s), s), dp * s[0] ** 2, ddp * s[0]
     angle = multiply(w, s)
     half_sine, half_cosine = sine_cosine(scale(angle, 0.5))
     less = scale(multiply(half_sine, half_sine), 2.0)
     sine = scale(multiply(half_sine, half_cosine), 2.0)
-    q = subtract(multiply(cs, sine_minus_angle(angle, sine)), multiply(sn, less))
-    linear = multiply(f1, s)
-    f = add(add(f0, linear), add(p, q))
-    rate = f1[0] + dp - w[0] * (sn[0] * sine[0] + cs[0] * less[0])
-    return f[0], rate, abs(f0[0]) + abs(linear[0]) + abs(p[0]) + abs(q[0])
+    turned = sine_minus_angle(angle, sine)
+    q, r = multiply(cs, turned), multiply(sn, cosine_minus_parabola(angle, less))
+    linear, square = multiply(f[1], s), scale(multiply(f[2], multiply(s, s)), 0.5)
+    gap = add(add(f[0], linear), add(square, add(p, add(q, r))))
+    rate = f[1][0] + f[2][0] * s[0] + dp - w[0] * (sn[0] * turned[0] + cs[0] * less[0])
+    second = f[2][0] + ddp + w[0] * w[0] * (sn[0] * less[0] - cs[0] * sine[0])
+    terms = abs(f[0][0]) + abs(linear[0]) + abs(square[0]) + abs(p[0]) + abs(q[0]) + abs(r[0])
+    return gap[0], rate, second, terms
 
 
 @compiled

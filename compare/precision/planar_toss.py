@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.precision.planar_coin import PlanarCoin
-from compare.precision.planar_contact import LIES, LIFTS, hit, keep_contact, lift_off, slap, stop
+from compare.precision.planar_contact import LIES, LIFTS, drawn_up, hit, keep_contact, lift_off, slap, stop
 from compare.precision.planar_flight import ORDER, fly
 from compare.precision.planar_slide import slide
 from compare.precision.planar_state import (
@@ -136,9 +136,9 @@ def toss(coin, state, most_impacts, heights, drifts, touches):
 @compiled
 def _bounces(coin, state, corner):
     """Return whether a rim point that was just hit flies, lifts off without speed, or ends its bounces."""
-    z, w = state[HEIGHT, 0], abs(state[SPIN, 0])
+    w = abs(state[SPIN, 0])
     _, v = rim_velocity(state, float(corner))
-    sinking = 1 - z * w * w
+    sinking = -drawn_up(state)
     if sinking <= 0:
         return _LIFTING if v[0] < _SLOW else _FLYING
     lasting = 2 * v[0] / sinking / (1 - coin.restitution[0])

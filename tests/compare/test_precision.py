@@ -277,3 +277,22 @@ def test_a_boundary_is_magnified_until_it_is_alone_and_its_coin_stands():
     assert off[-1] < 1e-3 * off[seen.isolated_from]
     with pytest.raises(ValueError, match="no boundary"):
         magnify(coin, start, row=HEIGHT, length=Fraction(1, 10**9), windows=1, points=3)
+
+
+@pytest.mark.parametrize("excess", [1e-3, 5e-7, 1e-12])
+def test_a_coin_that_lifts_off_almost_upright_touches_again_soon(excess):
+    """There the gap is nearly zero with three derivatives."""
+    coin, _ = coin_of(0.0)
+    e, s = 1 + coin.inertia[0] / 2 + excess, 0.2
+    w = -np.sqrt(2 * (e - s) / (coin.inertia[0] + 1 - s * s))
+    tilt = float(np.arcsin(-s))
+    state = np.zeros((5, 2))
+    state[:, 0] = [-np.sin(tilt), -np.cos(tilt) * w, tilt, w, 0]
+    lifts, _, corner, start = keep_contact(coin, state, 1.0)
+    assert lifts
+    lifted = state.copy()
+    room = np.empty((ORDER + 2, 2)), np.empty((ORDER + 2, 2))
+    assert fly(coin, state, int(corner), start, *room) == corner
+    turned = state[TILT, 0] - lifted[TILT, 0]
+    # The gap is about v w² t³/6 - w⁴ t⁴/24, upright.
+    assert abs(turned) == pytest.approx(4 * lifted[FALL, 0] / abs(lifted[SPIN, 0]), rel=0.05)
