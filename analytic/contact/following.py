@@ -92,7 +92,7 @@ def accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new):
         mode: number of the `Mode`, in contact.
         rim: the lower one.
         y: state at the start, (13,).
-        dt: length to try first [s].
+        dt: length to try first [s]; infinite at the start of a contact.
         tolerance: error allowed in the step, relative to the scales of the coin.
         stages: see `start_following`.
         y_new: where the state at the end goes, (13,).
@@ -102,7 +102,8 @@ def accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new):
     """
     short = 8 * first_step(body, y)
     landing = _BEYOND * modes.time_to_landing(body, mode, rim, y, stages[0])
-    dt = min(_LONGEST * short, dt, max(landing, _NOT_SHORT * short))
+    longest = _LONGEST * short if dt < np.inf else short
+    dt = min(longest, dt, max(landing, _NOT_SHORT * short))
     while True:
         inside = contact_step(body, mu, mode, rim, y, dt, stages, y_new)
         error = step_error(body, y, dt, stages) / tolerance

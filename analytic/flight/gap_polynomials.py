@@ -1,21 +1,23 @@
 """How long a flight given by power series surely stays clear of the floor: the gap's sign as a polynomial.
 
 The rim of the face at ζ = ±h/2, whose centre is at height q, is clear while F = q² - r² (u_ξ² + u_η²) > 0. q
-and u are polynomials of time, and so is F. It is positive where all its Bernstein coefficients are: they
-enclose its graph.
+and u are polynomials of time, and so is F. By Descartes' rule it has no more zeros in a time than changes of
+sign among its Bernstein coefficients: none where all are positive, and one where they change once.
 """
 
 import numpy as np
 
 from analytic.flight.power_series import HEIGHT, ORDER, UP
-from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 
 DEGREE = 2 * ORDER
-# Rounding of F, against q² + r².
-_ROUNDING = 4e-16
+# Rounding of F, against q² + r², and terms of it that are left out.
+_ROUNDING, _SMALLEST = 4e-16, 1e-18
 # A time to be shown clear is tried, then a third of it, and so on.
 _SHORTER, _TRIES = 1 / 3, 8
+# A fall through zero is sought from this part of the time on, in so many steps, until one is this part of it;
+# the coin is clear to this part before it.
+_START, _MOST_STEPS, _STEP, _BEFORE = 0.8, 20, 1e-7, 1e-13
 
 
 @compiled
@@ -30,66 +32,87 @@ def gap_polynomials(body, series, order, length, polynomials):
         polynomials: where the coefficients go, (2, DEGREE + 1).
 
     Returns:
-        By how much rounding changes them at most [m²].
+        Their degree, and by how much rounding changes them at most [m²].
     """
-    q, c, largest = np.empty(order + 1), body.center, 0.0
-    for rim in range(2):
-        zeta = (rim - 0.5) * body.thickness - c[2]
-        reach, power = 0.0, 1.0
-        for k in range(order + 1):
-            q[k] = series[k, HEIGHT] - c[0] * series[k, UP] - c[1] * series[k, UP + 1]
-            q[k] += zeta * series[k, UP + 2]
-            reach += abs(q[k]) * power
-            power *= length
-        largest = max(largest, reach)
-        for k in range(2 * order + 1):
-            F = 0.0
-            for j in range(max(0, k - order), min(k, order) + 1):
-                tilt = series[j, UP] * series[k - j, UP] + series[j, UP + 1] * series[k - j, UP + 1]
-                F += q[j] * q[k - j] - body.radius * body.radius * tilt
-            polynomials[rim, k] = F
-    return _ROUNDING * (largest * largest + body.radius * body.radius)
+    # Of q, r u_ξ, r u_η and (h/2) u_ζ.
+    parts, c = np.empty((4, order + 1)), body.center
+    q, across, along, lift = parts[0], parts[1], parts[2], parts[3]
+    reach, power = 0.0, 1.0
+    for k in range(order + 1):
+        up = series[k, UP[0]], series[k, UP[1]], series[k, UP[2]]
+        q[k] = series[k, HEIGHT] - c[0] * up[0] - c[1] * up[1] - c[2] * up[2]
+        across[k], along[k] = body.radius * up[0], body.radius * up[1]
+        lift[k] = body.thickness / 2 * up[2]
+        reach += (abs(q[k]) + abs(lift[k])) * power
+        power *= length
+    size, degree, power = reach * reach + body.radius * body.radius, 0, 1.0
+    for k in range(2 * order + 1):
+        # The sum of the squares, and twice that of q times the lift.
+        squares, product = 0.0, 0.0
+        for j in range(max(0, k - order), min(k, order) + 1):
+            i = k - j
+            squares += q[j] * q[i] + lift[j] * lift[i] - across[j] * across[i] - along[j] * along[i]
+            product += q[j] * lift[i]
+        polynomials[0, k], polynomials[1, k] = squares - 2 * product, squares + 2 * product
+        if (abs(squares) + 2 * abs(product)) * power > _SMALLEST * size:
+            degree = k
+        elif k > max(degree + 2, order):
+            break
+        power *= length
+    return degree, _ROUNDING * size
 
 
 @compiled
-def time_surely_clear(body, polynomials, degree, above, inside, window, least):
+def time_surely_clear(body, polynomials, degree, rounding, sink, inside, window, least):
     """Return a time from `inside` on during which a coin above the floor surely stays there.
 
     Args:
         body: the coin.
         polynomials: see `gap_polynomials`.
         degree: of them.
-        above: what they must exceed: their error, or less by what the coin may sink [m²].
+        rounding: by how much it changes them at most [m²].
+        sink: how far below zero they may be before the touch: not at all, or what rounding hides [m²].
         inside: time since the start of the step [s].
         window: the longest time of interest [s].
         least: shorter times are of no use [s].
 
     Returns:
-        The time, 0 where none of use is found [s].
+        The time, all but that to the touch where it is found, 0 where none of use is [s].
     """
     shifted, bernstein = np.empty((2, degree + 1)), np.empty(degree + 1)
     rims = 2 if body.thickness > 0 else 1
     for rim in range(rims):
-        copy_into(shifted[rim], polynomials[rim])
-        for i in range(degree):
-            for k in range(degree - 1, i - 1, -1):
-                shifted[rim, k] += inside * shifted[rim, k + 1]
+        for k in range(degree + 1):
+            shifted[rim, k] = polynomials[rim, k]
+        shifted[rim, 0] += sink - rounding
+        if inside > 0:
+            for i in range(degree):
+                for k in range(degree - 1, i - 1, -1):
+                    shifted[rim, k] += inside * shifted[rim, k + 1]
     time = window
     for _ in range(_TRIES):
         if time < least:
             break
-        positive = True
+        clear = time
         for rim in range(rims):
-            positive = positive and _is_above(shifted[rim], time, above, bernstein)
-        if positive:
-            return time
+            if clear > 0:
+                clear = min(clear, _positive_until(shifted[rim], time, sink, bernstein))
+        if clear > least:
+            return clear
         time *= _SHORTER
     return 0.0
 
 
 @compiled
-def _is_above(polynomial, length, least, bernstein):
-    """Return whether a polynomial surely exceeds `least` from 0 to `length`; `bernstein` is work space."""
+def _positive_until(polynomial, length, sink, bernstein):
+    """Return a time up to which a polynomial is positive, at most `length`; 0 where none is known.
+
+    Args:
+        polynomial: its coefficients.
+        length: of the time of interest [s].
+        sink: where the polynomial falls through zero once, the time is one at which it still exceeds this.
+        bernstein: work space as large.
+    """
     degree, scale = len(polynomial) - 1, 1.0
     for k in range(degree + 1):
         bernstein[k] = polynomial[k] * scale
@@ -98,7 +121,48 @@ def _is_above(polynomial, length, least, bernstein):
     for i in range(1, degree + 1):
         for k in range(degree, i - 1, -1):
             bernstein[k] += bernstein[k - 1]
-    above = True
-    for k in range(degree + 1):
-        above = above and bernstein[k] > least
-    return above
+    if not bernstein[0] > 0:
+        return 0.0
+    changes = 0
+    for k in range(degree):
+        changes += (bernstein[k] > 0) != (bernstein[k + 1] > 0)
+    if changes == 0:
+        return length
+    return _before_fall(polynomial, length, sink) if changes == 1 else 0.0
+
+
+@compiled
+def _before_fall(polynomial, length, least):
+    """Return a time just before a polynomial falls through `least` for good, by Newton's method.
+
+    Args:
+        polynomial: its coefficients.
+        length: of the time in which it falls once below zero [s].
+        least: small, not negative.
+    """
+    low, high, t = 0.0, length, _START * length
+    for _ in range(_MOST_STEPS):
+        value, rate = _value_and_rate(polynomial, t)
+        value -= least
+        if value > 0:
+            low = t
+        else:
+            high = t
+        new = t - value / rate if rate < 0 else low
+        if not low < new < high:
+            new = (low + high) / 2
+        step, t = abs(new - t), new
+        if step <= _STEP * t:
+            break
+    before = t * (1 - _BEFORE)
+    return before if before > low and _value_and_rate(polynomial, before)[0] > least else low
+
+
+@compiled
+def _value_and_rate(polynomial, t):
+    """Return the value of a polynomial and its derivative."""
+    value, rate = 0.0, 0.0
+    for k in range(len(polynomial) - 1, -1, -1):
+        rate = rate * t + value
+        value = value * t + polynomial[k]
+    return value, rate

@@ -21,13 +21,18 @@ from analytic.flight.state_vector import (
 from analytic.numerics.rotation import attitude_near
 from models.body import in_vacuum
 from models.kernel.compiled import compiled
-from models.kernel.vectors import add, apply, apply_transposed, cross, dot, norm, scale, subtract
+from models.kernel.vectors import add, apply, apply_transposed, cross, norm, scale, subtract
 
 ORDER = 24
 # The last two terms of a step are at most this part of the coin's scales.
 _SMALLEST = 2e-17
-# Columns of the series: the rows of R, of which the last is u, then U, J ω, ω and the position of C.
-_ROWS, UP, _VELOCITY, _MOMENTUM, _SPIN, _POSITION, HEIGHT, COLUMNS = 0, 6, 9, 12, 15, 18, 20, 21
+# The columns of the series that hold each vector. The rows of R, of which the last is u, and U, which ω turns
+# alike, lie side by side, component by component: `_FOURS` are where the components start.
+_FOURS, _ROWS = (0, 4, 8), ((0, 4, 8), (1, 5, 9), (2, 6, 10))
+UP, _VELOCITY, _MOMENTUM, _SPIN, _POSITION = _ROWS[2], (3, 7, 11), (12, 13, 14), (15, 16, 17), (18, 19, 20)
+# The position of C is one of four columns too, of which the last is work space.
+HEIGHT, COLUMNS = _POSITION[2], 22
+_NONE = (0.0, 0.0, 0.0, 0.0)
 
 
 @compiled
@@ -47,8 +52,8 @@ def expand_flight(body, y, longest, series):
     state = state_of(y)
     U = apply_transposed(state.R, state.velocity)
     for i in range(3):
-        _write(series, 0, _ROWS + 3 * i, state.R[i])
-    _write(series, 0, _VELOCITY, U)
+        four = (state.R[0][i], state.R[1][i], state.R[2][i], U[i])
+        _write_four(series, 0, _FOURS[i], 1.0, four)
     _write(series, 0, _MOMENTUM, apply(body.inertia, state.spin))
     _write(series, 0, _SPIN, state.spin)
     _write(series, 0, _POSITION, state.position)
@@ -86,34 +91,35 @@ def _next_terms(body, k, series, speed, spin):
     Returns:
         The largest of the new coefficients, against the coin's scales [1/s^(k + 1)].
     """
-    a, b, u = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
-    turned, gyroscopic, moved = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    x, y, z, moved, gyroscopic = _NONE, _NONE, _NONE, _NONE, (0.0, 0.0, 0.0)
     for j in range(k + 1):
         w, U = _read(series, k - j, _SPIN), _read(series, k - j, _VELOCITY)
-        a_j, b_j, u_j = (
-            _read(series, j, _ROWS),
-            _read(series, j, _ROWS + 3),
-            _read(series, j, UP),
+        x_j, y_j, z_j = (
+            _read_four(series, j, _FOURS[0]),
+            _read_four(series, j, _FOURS[1]),
+            _read_four(series, j, _FOURS[2]),
         )
-        a, b, u = add(a, cross(a_j, w)), add(b, cross(b_j, w)), add(u, cross(u_j, w))
-        turned = add(turned, cross(_read(series, j, _VELOCITY), w))
+        # Each of the four vectors × ω, and · U.
+        x = _add_product(_add_product(x, y_j, w[2]), z_j, -w[1])
+        y = _add_product(_add_product(y, z_j, w[0]), x_j, -w[2])
+        z = _add_product(_add_product(z, x_j, w[1]), y_j, -w[0])
+        moved = _add_product(_add_product(_add_product(moved, x_j, U[0]), y_j, U[1]), z_j, U[2])
         gyroscopic = add(gyroscopic, cross(_read(series, j, _MOMENTUM), w))
-        moved = add(moved, (dot(a_j, U), dot(b_j, U), dot(u_j, U)))
     f, m_C = force_and_moment(body, _read(series, k, _VELOCITY), _read(series, k, _SPIN))
-    weight = scale(body.gravity, _read(series, k, UP))
+    a = subtract(scale(1 / body.mass, f), scale(body.gravity, _read(series, k, UP)))
     part = 1 / (k + 1)
-    U = scale(part, add(turned, subtract(scale(1 / body.mass, f), weight)))
+    _write_four(series, k + 1, _FOURS[0], part, _add_to_fourth(x, a[0]))
+    _write_four(series, k + 1, _FOURS[1], part, _add_to_fourth(y, a[1]))
+    _write_four(series, k + 1, _FOURS[2], part, _add_to_fourth(z, a[2]))
+    _write_four(series, k + 1, _POSITION[0], part, moved)
     w = scale(part, apply(body.inertia_inverse, add(m_C, gyroscopic)))
-    a, b, u, moved = scale(part, a), scale(part, b), scale(part, u), scale(part, moved)
-    _write(series, k + 1, _ROWS, a)
-    _write(series, k + 1, _ROWS + 3, b)
-    _write(series, k + 1, UP, u)
-    _write(series, k + 1, _VELOCITY, U)
     _write(series, k + 1, _MOMENTUM, apply(body.inertia, w))
     _write(series, k + 1, _SPIN, w)
-    _write(series, k + 1, _POSITION, moved)
-    turning = max(norm(a), norm(b), norm(u), norm(w) / spin)
-    return max(turning, norm(U) / speed, norm(moved) / body.radius)
+    turning = norm(w) / spin
+    for row in _ROWS:
+        turning = max(turning, norm(_read(series, k + 1, row)))
+    U, moved_by = _read(series, k + 1, _VELOCITY), _read(series, k + 1, _POSITION)
+    return max(turning, norm(U) / speed, norm(moved_by) / body.radius)
 
 
 @compiled
@@ -132,7 +138,7 @@ def state_in_flight(body, series, order, t, y, y_new):
     for k in range(order, -1, -1):
         for i in range(COLUMNS):
             values[i] = values[i] * t + series[k, i]
-    R = (_part(values, _ROWS), _part(values, _ROWS + 3), _part(values, UP))
+    R = (_part(values, _ROWS[0]), _part(values, _ROWS[1]), _part(values, UP))
     if in_vacuum(body):
         fall_freely(body, y, t, y_new)
     else:
@@ -150,18 +156,48 @@ def _fall_time(body, state):
 
 
 @compiled
-def _read(series, k, column):
-    """Return the coefficients of order k of the vector that starts in this column."""
-    return series[k, column], series[k, column + 1], series[k, column + 2]
+def _read(series, k, columns):
+    """Return the coefficients of order k of the vector in these columns."""
+    return series[k, columns[0]], series[k, columns[1]], series[k, columns[2]]
 
 
 @compiled
-def _write(series, k, column, a):
+def _write(series, k, columns, a):
     """Set what `_read` returns."""
-    series[k, column], series[k, column + 1], series[k, column + 2] = a
+    series[k, columns[0]], series[k, columns[1]], series[k, columns[2]] = a
 
 
 @compiled
-def _part(values, column):
-    """Return the vector that starts in this column."""
-    return values[column], values[column + 1], values[column + 2]
+def _read_four(series, k, column):
+    """Return the coefficients of order k in four columns from this one on."""
+    return series[k, column], series[k, column + 1], series[k, column + 2], series[k, column + 3]
+
+
+@compiled
+def _write_four(series, k, column, factor, a):
+    """Set what `_read_four` returns, to a product."""
+    series[k, column], series[k, column + 1] = factor * a[0], factor * a[1]
+    series[k, column + 2], series[k, column + 3] = factor * a[2], factor * a[3]
+
+
+@compiled
+def _add_product(total, a, factor):
+    """Return a sum, (4,), with the product of four numbers and a factor added."""
+    return (
+        total[0] + a[0] * factor,
+        total[1] + a[1] * factor,
+        total[2] + a[2] * factor,
+        total[3] + a[3] * factor,
+    )
+
+
+@compiled
+def _add_to_fourth(a, b):
+    """Return four numbers with b added to the last."""
+    return a[0], a[1], a[2], a[3] + b
+
+
+@compiled
+def _part(values, columns):
+    """Return the vector in these columns."""
+    return values[columns[0]], values[columns[1]], values[columns[2]]

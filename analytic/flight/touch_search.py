@@ -15,7 +15,7 @@ from models.kernel.compiled import compiled
 from models.kernel.vectors import add, cross, dot, norm
 
 # After so many gap evaluations in a step, and whenever their number has doubled, its polynomials are used.
-_MANY = 16
+_MANY = 4
 
 
 @compiled
@@ -82,7 +82,7 @@ def is_chattering(body, chi, y):
 
 @compiled
 def expected_flight(body, y):
-    """Return twice the time for which a coin that leaves the floor would fly if its gap were a parabola [s].
+    """Return how long a coin that leaves the floor may fly: a quarter more than by a parabola of its gap [s].
 
     Infinite where the gap does not turn down, or where the coin is not on the floor.
     """
@@ -91,7 +91,7 @@ def expected_flight(body, y):
     if height > TOUCH * body.radius or tilt_sine_of(up) <= FLAT_SINE:
         return np.inf
     falling = -gap_acceleration(body, y)
-    return 4 * speed / falling if falling > 0 and speed > 0 else np.inf
+    return 2.5 * speed / falling if falling > 0 and speed > 0 else np.inf
 
 
 @compiled
@@ -149,7 +149,7 @@ def fly_by_steps(body, y, longest, with_graze):
     graze, height_before, speed_before, evaluations = np.inf, np.inf, 0.0, 0
     while elapsed < longest:
         made, dt, order = flight_step(body, y, dt, min(longest - elapsed, expected), work)
-        hops, expected = expected == np.inf, np.inf
+        expected = np.inf
         copy_into(y_near, y)
         inside, in_step, patience = 0.0, 0, _MANY
         while inside < made:
@@ -167,15 +167,13 @@ def fly_by_steps(body, y, longest, with_graze):
                     copy_into(y, y_near)
                     return elapsed + inside, True, evaluations, graze
                 ahead = max(ahead, smallest_flight(body, y_near)[0], TIME_STEP * inside)
-            lifts_off = on_floor and hops and in_step == 1
+            lifts_off = on_floor and in_step == 1
             if body.air.exponent is None and not with_graze and (lifts_off or in_step == patience):
-                least = gap_polynomials(body, work, order, made, polynomials)
-                if lifts_off:
-                    least -= sink_of_squares(body, y)
-                else:
-                    patience *= 2
+                degree, rounding = gap_polynomials(body, work, order, made, polynomials)
+                sink = sink_of_squares(body, y) if lifts_off else 0.0
+                patience *= 1 if lifts_off else 2
                 left = made - inside
-                surely = time_surely_clear(body, polynomials, 2 * order, least, inside, left, 3 * ahead)
+                surely = time_surely_clear(body, polynomials, degree, rounding, sink, inside, left, ahead)
                 ahead = max(ahead, surely)
             touching_speed = 0.0
             inside += ahead

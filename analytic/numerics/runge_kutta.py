@@ -9,7 +9,7 @@ import numpy as np
 from analytic.numerics.tableau import E3, E5, STAGES, A, B
 from models.kernel.compiled import compiled
 
-_SAFETY, _SHRINK_MOST, _GROW_MOST = 0.9, 0.2, 6.0
+_SAFETY, _SHRINK_MOST, _GROW_MOST = 0.8, 0.2, 6.0
 
 
 @compiled

@@ -11,7 +11,7 @@ from typing import Any
 
 from llvmlite import binding
 from numba import _dynfunc
-from numba.core import types
+from numba.core import config, types
 from numba.core.compiler import Compiler, CompileResult, compile_result
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.dispatcher import _FunctionCompiler
@@ -22,6 +22,8 @@ from models.kernel.callee_code import Callee, CalleeCode, CalleeCompiler, spare_
 from models.kernel.code_cache import PACKAGES, CodeCache, LocatedImpl
 from models.kernel.compiling import compiling
 
+# LLVM makes one vector of numbers that the same is done to side by side.
+config.SLP_VECTORIZE = 1
 _OPTIONS = {"nopython": True, "nogil": True, "error_model": "numpy"}
 _WITHOUT_WRAPPERS = {**_OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 

@@ -73,7 +73,7 @@ def test_the_order_of_the_series_follows_the_length_of_the_step():
 
 @pytest.mark.parametrize("thickness", [0.0, 2e-3])
 def test_what_is_surely_clear_is_clear_and_a_touch_is_not(thickness):
-    """Over times before the first touch, and over times beyond it."""
+    """Over times before the first touch, up to it, and over times beyond it."""
     rng, proved = np.random.default_rng(9), 0
     for _ in range(30):
         body, start = coin_and_start(rng, thickness=thickness)
@@ -84,14 +84,18 @@ def test_what_is_surely_clear_is_clear_and_a_touch_is_not(thickness):
         y = flown(body, start, touch - 5e-3)
         series, polynomials = np.empty((ORDER + 1, COLUMNS)), np.empty((2, DEGREE + 1))
         length, order = expand_flight(body, y, 8e-3, series)
-        rounding = gap_polynomials(body, series, order, length, polynomials)
+        degree, rounding = gap_polynomials(body, series, order, length, polynomials)
+        assert degree <= 2 * order
         assert 0 < rounding < 1e-12 * closing_speed(body, y)[0]
-        clear = time_surely_clear(body, polynomials, 2 * order, rounding, 0.0, length, 0.0)
-        assert clear <= 5e-3
-        proved += clear > 2e-3
-        again = time_surely_clear(body, polynomials, 2 * order, rounding, 1e-3, 3e-3, 0.0)
-        assert again <= 4e-3
-        assert time_surely_clear(body, polynomials, 2 * order, rounding, 5e-3, 1e-3, 0.0) < 1e-4
+
+        def clear(inside: float, window: float, made=(body, polynomials, degree, rounding)) -> float:
+            return time_surely_clear(*made, 0.0, inside, window, 0.0)
+
+        assert clear(0.0, length) <= 5e-3 * (1 + 1e-11)
+        proved += clear(0.0, length) > 5e-3 * (1 - 1e-9)
+        assert clear(1e-3, 3e-3) == 3e-3
+        assert clear(1e-3, 5e-3) <= 4e-3 * (1 + 1e-11)
+        assert clear(5e-3, 1e-3) < 1e-4
     assert proved > 20
 
 
