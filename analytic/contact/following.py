@@ -19,6 +19,8 @@ _ROUGH = 1e4
 # The end of a contact is bracketed to this part of a step, or where its margin is no more than rounding, in
 # at most so many tries.
 _END, _ROUNDING, _MOST_TRIES = 0.5**50, 1e-16, 150
+# A state within this part of a step from one that is known is found by a step of order 2.
+_SHORT = 1e-4
 # A step goes on by this part beyond the time at which a landing is in sight, and is not short for it alone.
 _BEYOND, _NOT_SHORT = 1.1, 1e-6
 # A step shorter than this part of one that is short against the coin's motion is none.
@@ -80,6 +82,30 @@ def contact_step(body, mu, mode, rim, y, dt, stages, y_new):
 
 
 @compiled
+def short_contact_step(body, mu, mode, rim, y, slope, dt, y_new):
+    """Advance the state by a step in contact so short that one of order 2 does, and put it back on the floor.
+
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ.
+        mode: number of the `Mode`, in contact.
+        rim: the lower one.
+        y: state at the start, (13,).
+        slope: its rate of change, (13,).
+        dt: length of the step [s], which may be negative.
+        y_new: where the state at the end goes, (13,).
+    """
+    halfway = np.empty(STATE_SIZE)
+    for i in range(STATE_SIZE):
+        y_new[i] = y[i] + dt / 2 * slope[i]
+    modes.rate(body, mu, mode, rim, y_new, halfway)
+    for i in range(STATE_SIZE):
+        y_new[i] = y[i] + dt * halfway[i]
+    normalise(y_new)
+    modes.put_on_floor(body, mu, mode, rim, y_new)
+
+
+@compiled
 def accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new):
     """Advance the state by a contact step whose error is within the tolerance, at most dt long.
 
@@ -92,7 +118,7 @@ def accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new):
         mode: number of the `Mode`, in contact.
         rim: the lower one.
         y: state at the start, (13,).
-        dt: length to try first [s]; infinite at the start of a contact.
+        dt: length to try first [s].
         tolerance: error allowed in the step, relative to the scales of the coin.
         stages: see `start_following`.
         y_new: where the state at the end goes, (13,).
@@ -102,8 +128,7 @@ def accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new):
     """
     short = 8 * first_step(body, y)
     landing = _BEYOND * modes.time_to_landing(body, mode, rim, y, stages[0])
-    longest = _LONGEST * short if dt < np.inf else short
-    dt = min(longest, dt, max(landing, _NOT_SHORT * short))
+    dt = min(_LONGEST * short, dt, max(landing, _NOT_SHORT * short))
     while True:
         inside = contact_step(body, mu, mode, rim, y, dt, stages, y_new)
         error = step_error(body, y, dt, stages) / tolerance
@@ -139,38 +164,59 @@ def follow(body, mu, mode, y, dt, tolerance, stages):
         copy_into(y, y_new)
         copy_into(stages[0], stages[STAGES])
         return high, dt, False, Event.NONE
-    low, high = _bracket_end(body, mu, mode, rim, y, high, stages, y_new)
-    contact_step(body, mu, mode, rim, y, high, stages, y_new)
+    before = np.empty(STATE_SIZE)
+    low, high = _bracket_end(body, mu, mode, rim, y, high, stages, before, y_new)
     landing = modes.landing(body, mode, rim, y_new)
-    if landing != Event.NONE:
-        # The other rim point is still to land: its velocity is that before the crossing.
-        contact_step(body, mu, mode, rim, y, low, stages, y_new)
-        if landing == Event.FACE_LANDS and low == 0:
-            lay_flat(body, y_new)
-        high = low
-    copy_into(y, y_new)
-    return high, dt, True, landing
+    if landing == Event.NONE:
+        copy_into(y, y_new)
+        return high, dt, True, landing
+    # The other rim point is still to land: its velocity is that before the crossing.
+    copy_into(y, before)
+    if landing == Event.FACE_LANDS and low == 0:
+        lay_flat(body, y)
+    return low, dt, True, landing
 
 
 @compiled
-def _bracket_end(body, mu, mode, rim, y, longest, stages, y_new):
+def _bracket_end(body, mu, mode, rim, y, longest, stages, before, after):
     """Bracket the end of a contact in a step, to the part `_END` of it.
 
-    Args as `contact_step`'s, where at the end of the step, `longest` [s], the contact is over.
+    Args:
+        body: the coin.
+        mu: coefficient of friction μ.
+        mode: number of the `Mode`, in contact.
+        rim: the lower one.
+        y: state at the start of the step, (13,).
+        longest: its length [s].
+        stages: of the step, see `start_following`.
+        before: where the last state found in which the contact goes on goes, (13,).
+        after: state at the end of the step, where it does not, (13,); the first such state found.
 
     Returns:
-        A length of the step at whose end the contact goes on, and one at which it does not [s].
+        The lengths of steps to both states [s].
     """
-    at_end = modes.rate(body, mu, mode, rim, y_new, stages[STAGES])
+    at_end = modes.rate(body, mu, mode, rim, after, stages[STAGES])
     at_start = modes.rate(body, mu, mode, rim, y, stages[0])
+    copy_into(before, y)
     if not at_start > 0:
+        short_contact_step(body, mu, mode, rim, y, stages[0], longest * _END, after)
         return 0.0, longest * _END
     tolerance = longest * max(_END, min(_ROUNDING / (at_start - at_end), 1e-3))
     bracket = bracket_between(0.0, at_start, longest, at_end)
+    near, near_time, slope, y_new = after.copy(), longest, stages[STAGES].copy(), np.empty(STATE_SIZE)
     for _ in range(_MOST_TRIES):
         tried = next_try(bracket)
-        contact_step(body, mu, mode, rim, y, tried, stages, y_new)
+        is_short = abs(tried - near_time) <= _SHORT * longest
+        if is_short:
+            short_contact_step(body, mu, mode, rim, near, slope, tried - near_time, y_new)
+        else:
+            contact_step(body, mu, mode, rim, y, tried, stages, y_new)
         left = modes.rate(body, mu, mode, rim, y_new, stages[STAGES])
+        if not is_short:
+            near_time = tried
+            copy_into(near, y_new)
+            copy_into(slope, stages[STAGES])
+        copy_into(before if left > 0 else after, y_new)
         bracket = narrowed(bracket, tried, left, tolerance)
         if is_narrow(bracket, tolerance):
             break

@@ -11,8 +11,8 @@ from analytic.flight.power_series import HEIGHT, ORDER, UP
 from models.kernel.compiled import compiled
 
 DEGREE = 2 * ORDER
-# Rounding of F, against q² + r², and terms of it that are left out.
-_ROUNDING, _SMALLEST = 4e-16, 1e-18
+# Rounding of F, against the sum of all products in it, and terms of it that are left out.
+_ROUNDING, _SMALLEST = 1e-15, 1e-18
 # A time to be shown clear is tried, then a third of it, and so on.
 _SHORTER, _TRIES = 1 / 3, 8
 # A fall through zero is sought from this part of the time on, in so many steps, until one is this part of it;
@@ -37,15 +37,16 @@ def gap_polynomials(body, series, order, length, polynomials):
     # Of q, r u_ξ, r u_η and (h/2) u_ζ.
     parts, c = np.empty((4, order + 1)), body.center
     q, across, along, lift = parts[0], parts[1], parts[2], parts[3]
-    reach, power = 0.0, 1.0
+    height, level, power = 0.0, 0.0, 1.0
     for k in range(order + 1):
         up = series[k, UP[0]], series[k, UP[1]], series[k, UP[2]]
         q[k] = series[k, HEIGHT] - c[0] * up[0] - c[1] * up[1] - c[2] * up[2]
         across[k], along[k] = body.radius * up[0], body.radius * up[1]
         lift[k] = body.thickness / 2 * up[2]
-        reach += (abs(q[k]) + abs(lift[k])) * power
+        height += (abs(q[k]) + abs(lift[k])) * power
+        level += (abs(across[k]) + abs(along[k])) * power
         power *= length
-    size, degree, power = reach * reach + body.radius * body.radius, 0, 1.0
+    size, degree, power = height * height + level * level, 0, 1.0
     for k in range(2 * order + 1):
         # The sum of the squares, and twice that of q times the lift.
         squares, product = 0.0, 0.0

@@ -7,7 +7,12 @@ from scipy.integrate import solve_ivp
 from analytic.automaton import Event, Mode
 from analytic.contact.edge import held_on_edge, stands
 from analytic.contact.floor_force import friction_holds, holding_force, slip_direction, starting_slip
-from analytic.contact.following import sample_contact
+from analytic.contact.following import (
+    contact_step,
+    sample_contact,
+    short_contact_step,
+    start_following,
+)
 from analytic.contact.one_rim import (
     force,
     lower_rim_of,
@@ -80,6 +85,26 @@ def draw_wobble(rng, body, mode):
     """Draw a contact that goes on for a while: a tilted coin that turns moderately."""
     angles = rng.uniform(0, 6), rng.uniform(0.5, 1.2), rng.uniform(0, 6)
     return on_floor(body, mode, angles, rng.uniform(-12, 12, 3), rng.uniform(-0.1, 0.1, 2))
+
+
+@pytest.mark.parametrize("backward", [1, -1])
+def test_a_short_step_errs_by_the_third_power_of_its_length(backward):
+    """The end of a contact is bracketed by such steps, 1e-4 times as long as the step that passed it."""
+    rng, errors = np.random.default_rng(12), []
+    body = scenario(coin=UNBALANCED).body
+    for dt in (4e-4, 2e-4):
+        error = 0.0
+        for _ in range(10):
+            y = draw_wobble(rng, body, Mode.SLIDING)
+            stages, by_one, by_two = start_following(body, 0.0, Mode.SLIDING, y), y.copy(), y.copy()
+            made = (body, 0.0, Mode.SLIDING, lower_rim_of(y), y)
+            contact_step(*made, backward * dt, stages, by_one)
+            short_contact_step(*made, stages[0], backward * dt, by_two)
+            error += np.abs(by_one - by_two)[10:13].max() / 12
+        errors.append(error / 10)
+        rng = np.random.default_rng(12)
+    assert errors[0] == pytest.approx(8 * errors[1], rel=0.05)
+    assert errors[1] < 1e-5
 
 
 @pytest.mark.parametrize("seed", range(8))
