@@ -438,7 +438,7 @@ class _Gap:
                 low = 0.0
             elif not f > 0:
                 raise _UndecidedError
-            step = safe_step.py_func(low, slope, float(self.bend(s).lower()), (bound, third)) * (1 - 1e-12)
+            step = safe_step(low, slope, float(self.bend(s).lower()), (bound, third)) * (1 - 1e-12)
             if not step > 0:
                 raise _UndecidedError
             s = (s + arb(step)).mid()

@@ -1,0 +1,487 @@
+"""Is coin tossing predictable? The share of tosses left uncertain, by accuracy and restitution."""
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass
+from fractions import Fraction
+from math import log10, sqrt
+from os import cpu_count
+from pathlib import Path
+
+import numpy as np
+from matplotlib.colors import BoundaryNorm
+from matplotlib.figure import Figure
+from scipy.constants import hbar
+from scipy.stats import t as student
+
+from compare.output.progress import Progress
+from compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE
+from compare.output.tables import table
+from compare.precision.planar_coin import planar_coin, units
+from compare.precision.planar_state import HEIGHT, SPIN, TILT, release
+from compare.precision.splitting import replica
+from compare.reproduction.claim import Claim, Criterion, Estimate
+from compare.reproduction.estimates import LEVEL
+from compare.reproduction.parts import Part, kept
+from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case
+from models.records import Array
+
+SEED = 2014
+POPULATION = 30
+"""Intervals at each level."""
+ACCURACIES = 10.0 ** -np.arange(3, 25)
+"""ε, of the height of the release [m]; the same number is that of another quantity in its own unit."""
+SMOOTH, AIR, ROUGH = "smooth, vacuum", "smooth, air", "rough, vacuum"
+CHIS = {
+    SMOOTH: (0.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95),
+    AIR: (0.3, 0.6, 0.8),
+    ROUGH: (0.3, 0.6),
+}
+"""By floor and medium. A rough floor adds energy above χ = √5/3, and a face is then never settled."""
+QUICK_CHIS = {SMOOTH: (0.0, 0.3, 0.6), AIR: (0.3, 0.6), ROUGH: (0.6,)}
+RUNS = {SMOOTH: 8, AIR: 3, ROUGH: 4}
+"""Independent runs of the splitting for each case; in air a toss takes longest."""
+OTHERS = {"spin": SPIN, "tilt": TILT}
+"""Other quantities of the release, in rad/s and rad, and their rows in a state."""
+SHOWN = {0.0: GREY, 0.3: GREEN, 0.6: BLUE, 0.8: ORANGE, 0.9: PURPLE}
+"""Restitutions whose curves are drawn, and their colours."""
+CHI = 0.6
+"""At which these vary; the paper's."""
+BOUNCY = 0.9
+"""At this restitution a coin bounces long."""
+WINDOW = 3
+"""α is the slope over so many decades."""
+HAND, FINE, QUANTUM, LAST = 1e-3, 1e-9, 1e-16, 1e-24
+"""Of accuracies [m]: a hand's, an atom's size, about `quantum_width`, and the finest here."""
+PREDICTABLE = 0.01
+"""At most this share uncertain: 99 % of all tosses are predictable."""
+NEARLY_SMOOTH, FRACTAL = 0.9, 0.8
+"""α above the one is all but a smooth boundary's, below the other a fractal's."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """What one run of the splitting found."""
+
+    shares: list[float]
+    """f at each of `ACCURACIES`."""
+    hidden: float
+    """Largest part of any f that came of intervals whose ends were alike."""
+    tosses: int
+    undecided: int
+
+
+@dataclass(frozen=True)
+class Case:
+    """What was tossed, and the shares that each run of the splitting found."""
+
+    floor: str
+    chi: float
+    quantity: str
+    """What varies: height, spin or tilt."""
+    shares: list[list[float]]
+    """f at each of `ACCURACIES`, by run."""
+    hidden: float
+    """As of a `Run`, the largest."""
+    tosses: int
+    undecided: int
+
+    @property
+    def name(self) -> str:
+        """Floor, medium, restitution, and what varies."""
+        return f"{self.floor}, χ = {self.chi:g}, {self.quantity}"
+
+
+@dataclass(frozen=True)
+class Predictability:
+    """All cases."""
+
+    cases: list[Case]
+    quantum_width: float
+    """sqrt(ħ t/m) of the coin, t the time of its first fall from the middle height [m]."""
+
+
+def compute(
+    progress: Progress,
+    parts: Path,
+    *,
+    runs: dict[str, int],
+    population: int,
+    chis: dict[str, Sequence[float]],
+    levels: int,
+) -> Predictability:
+    """Run the splitting for every case; what an interrupted computation finished is not run again.
+
+    Args:
+        progress: called after each run.
+        parts: folder of what is done.
+        runs: independent runs of each case, by floor.
+        population: intervals at each level.
+        chis: restitutions by floor.
+        levels: how many of `ACCURACIES`.
+    """
+    asked = [(floor, chi, "height") for floor in chis for chi in chis[floor]]
+    asked += [(SMOOTH, CHI, quantity) for quantity in OTHERS]
+    jobs = [(one, number) for number in range(max(runs.values())) for one in asked if number < runs[one[0]]]
+    found: dict[tuple[str, float, str], list[Run]] = {one: [] for one in asked}
+    with ThreadPoolExecutor(cpu_count()) as pool:
+        running = [pool.submit(_kept_run, parts, *one, number, population, levels) for one, number in jobs]
+        for done, ((one, _), made) in enumerate(zip(jobs, running, strict=True), start=1):
+            found[one].append(made.result())
+            progress(done, len(jobs))
+    scenario = case(air=False)
+    fall = sqrt(2 * scenario.release.position[2] / scenario.gravity)
+    return Predictability(
+        cases=[_case(*one, found[one]) for one in asked],
+        quantum_width=sqrt(hbar * fall / scenario.coin.mass),
+    )
+
+
+def _case(floor: str, chi: float, quantity: str, runs: list[Run]) -> Case:
+    return Case(
+        floor,
+        chi,
+        quantity,
+        shares=[run.shares for run in runs],
+        hidden=max(run.hidden for run in runs),
+        tosses=sum(run.tosses for run in runs),
+        undecided=sum(run.undecided for run in runs),
+    )
+
+
+def _kept_run(
+    parts: Path, floor: str, chi: float, quantity: str, number: int, population: int, levels: int
+) -> Run:
+    """Return a run that an earlier computation kept, or make it and keep it."""
+
+    def compute_part() -> Part:
+        made = run_once(floor, chi, quantity, number, population=population, levels=levels)
+        return {name: np.array(value) for name, value in asdict(made).items()}
+
+    name = f"{floor}, {chi:g}, {quantity}, {number}, {population} x {levels}"
+    return Run(**{name: array.tolist() for name, array in kept(parts, name, compute_part).items()})
+
+
+def run_once(floor: str, chi: float, quantity: str, number: int, *, population: int, levels: int) -> Run:
+    """Run the splitting once for one case: releases uniform in height and spin, flat, at rest but for it."""
+    scenario = case(air=floor == AIR, restitution=chi)
+    if floor == ROUGH:
+        scenario = scenario.replace("floor.contact", "perfectly_rough")
+    coin, own = planar_coin(scenario), units(scenario)
+    row = OTHERS.get(quantity, HEIGHT)
+    # One unit of the quantity, in the state's.
+    unit = {
+        HEIGHT: 1 / own.length,
+        SPIN: Fraction(sqrt(scenario.coin.radius / scenario.gravity)),
+        TILT: Fraction(1),
+    }[row]
+    rng = np.random.default_rng([SEED, number, list(CHIS).index(floor), round(100 * chi), row])
+    heights, spins = rng.uniform(*HEIGHTS, population), rng.uniform(*SPINS, population)
+    made = replica(
+        coin,
+        np.array([release(own, height=z, spin=w) for z, w in zip(heights, spins, strict=True)]),
+        row=row,
+        largest=Fraction(1, 1000) * unit,
+        levels=levels,
+        population=population,
+        rng=rng,
+    )
+    seen = made.shares > 0
+    return Run(
+        shares=made.shares.tolist(),
+        hidden=float(np.max(made.hidden[seen] / made.shares[seen], initial=0.0)),
+        tosses=made.tosses,
+        undecided=made.undecided,
+    )
+
+
+def share_at(one: Case, accuracy: float) -> Estimate:
+    """Return f at one of `ACCURACIES`; the interval is one of its logarithm."""
+    level = _level(accuracy)
+    found = _pooled(one, lambda mean: log10(mean[level]))
+    return Estimate(10**found.value, 10**found.low, 10**found.high, found.count, found.counted)
+
+
+def slope_from(one: Case, accuracy: float) -> Estimate:
+    """Return α over `WINDOW` decades from one of `ACCURACIES` on."""
+    level = _level(accuracy)
+    return _pooled(one, lambda mean: log10(mean[level] / mean[level + WINDOW]) / WINDOW)
+
+
+def _pooled(one: Case, statistic: Callable[[Array], float]) -> Estimate:
+    """Return a statistic of the runs' mean, with a jackknife's interval over the runs."""
+    shares = np.array(one.shares)
+    without = np.array([statistic(np.delete(shares, i, axis=0).mean(axis=0)) for i in range(len(shares))])
+    error = sqrt((len(shares) - 1) * without.var())
+    value = statistic(shares.mean(axis=0))
+    half = float(student.ppf((1 + LEVEL) / 2, len(shares) - 1)) * error
+    return Estimate(value, value - half, value + half, len(shares), "runs")
+
+
+def _level(accuracy: float) -> int:
+    return int(np.argmin(np.abs(np.log10(ACCURACIES) - log10(accuracy))))
+
+
+def mean_shares(one: Case) -> Array:
+    """Return f at each of `ACCURACIES`, the mean of the runs."""
+    return np.array(one.shares).mean(axis=0)
+
+
+def accuracy_for(one: Case, share: float) -> float:
+    """Return the accuracy at which f falls to a share, interpolated; infinite or NaN beyond all [m]."""
+    f = mean_shares(one)
+    below = np.flatnonzero(f <= share)
+    if len(below) == 0 or below[0] == 0:
+        return float("nan" if len(below) == 0 else "inf")
+    x, y = np.log10(ACCURACIES), np.log10(f)
+    i = below[0]
+    return float(10 ** (x[i - 1] + (x[i] - x[i - 1]) * (log10(share) - y[i - 1]) / (y[i] - y[i - 1])))
+
+
+def smooth_from(one: Case) -> float:
+    """Return the accuracy from which on α over every `WINDOW` decades is nearly 1; NaN if none is [m]."""
+    y = np.log10(mean_shares(one))
+    slopes = (y[:-WINDOW] - y[WINDOW:]) / WINDOW
+    rough = np.flatnonzero(slopes < NEARLY_SMOOTH)
+    first = int(rough[-1]) + 1 if len(rough) else 0
+    return float(ACCURACIES[first]) if first < len(slopes) else float("nan")
+
+
+def of(found: Predictability, floor: str, quantity: str = "height") -> list[Case]:
+    """Return the cases of a floor and medium, by restitution."""
+    return [one for one in found.cases if (one.floor, one.quantity) == (floor, quantity)]
+
+
+def tables(found: Predictability) -> str:
+    """Return the tables, in Markdown."""
+    starts = ACCURACIES[: len(found.cases[0].shares[0]) - WINDOW : WINDOW]
+    shown = [x for x in (HAND, 1e-6, FINE, 1e-12, QUANTUM, 1e-20, LAST) if x >= _last(found) * 0.9]
+    head = "floor, restitution, what varies"
+    return "\n\n".join(
+        [
+            "The share f(ε) of tosses that ε leaves uncertain:",
+            table(
+                [f"{head}: f at ε =", *(f"{x:.0e}" for x in shown)],
+                [[one.name, *(_words(share_at(one, x)) for x in shown)] for one in found.cases],
+            ),
+            f"The exponent α over {WINDOW} decades:",
+            table(
+                [f"{head}: α from ε =", *(f"{x:.0e}" for x in starts)],
+                [[one.name, *(_words(slope_from(one, x)) for x in starts)] for one in found.cases],
+            ),
+            "Accuracies:",
+            table(
+                [
+                    head,
+                    f"ε for which {1 - PREDICTABLE:.0%} of the tosses are predictable",
+                    f"ε from which on α > {NEARLY_SMOOTH}",
+                    "largest hidden part of f",
+                    "tosses",
+                    "undecided",
+                ],
+                [
+                    [
+                        one.name,
+                        _power(accuracy_for(one, PREDICTABLE)),
+                        _power(smooth_from(one)),
+                        f"{one.hidden:.2f}",
+                        f"{one.tosses:,d}",
+                        str(one.undecided),
+                    ]
+                    for one in found.cases
+                ],
+            ),
+            f"The coin's quantum width √(ħ t/m) is {found.quantum_width:.1e} m.",
+        ]
+    )
+
+
+def _last(found: Predictability) -> float:
+    return float(ACCURACIES[len(found.cases[0].shares[0]) - 1])
+
+
+def _words(found: Estimate) -> str:
+    return f"{found.value:.2g} [{found.low:.2g}, {found.high:.2g}]"
+
+
+def _power(accuracy: float) -> str:
+    if np.isnan(accuracy):
+        return f"below {ACCURACIES[-1]:.0e}"
+    return f"{accuracy:.0e}" if accuracy < np.inf else f"above {ACCURACIES[0]:.0e}"
+
+
+def draw(found: Predictability) -> Figure:
+    """Draw f over accuracy and restitution, and its slope."""
+    cases = of(found, SMOOTH)
+    levels = len(cases[0].shares[0])
+    x = np.log10(ACCURACIES[:levels])
+    f = np.array([mean_shares(one) for one in cases])
+    chi = np.array([one.chi for one in cases])
+    picture = Figure(figsize=(11, 5.6))
+    grid = picture.add_gridspec(2, 5)
+    map_axes, share_axes, slope_axes = (
+        picture.add_subplot(part) for part in (grid[:, :3], grid[0, 3:], grid[1, 3:])
+    )
+    bands = [-30, -6, -5, -4, -3, -2, -1, log10(0.5), 0.2]
+    logs = np.log10(np.maximum(f, 1e-29))
+    shade = map_axes.contourf(x, chi, logs, levels=bands, cmap="YlOrBr", norm=BoundaryNorm(bands, 256))
+    lines = map_axes.contour(
+        x, chi, logs, levels=[log10(PREDICTABLE)], colors=INK, linewidths=2, linestyles="solid"
+    )
+    map_axes.clabel(lines, fmt={log10(PREDICTABLE): f"{1 - PREDICTABLE:.0%} predictable"}, fontsize=11)
+    for accuracy, name in (
+        (HAND, "a hand"),
+        (1e-6, "1 µm"),
+        (FINE, "1 nm"),
+        (found.quantum_width, "quantum width √(ħt/m)"),
+    ):
+        map_axes.axvline(log10(accuracy), color=GREY, linewidth=0.8)
+        map_axes.annotate(
+            name,
+            (log10(accuracy), 0),
+            xycoords=("data", "axes fraction"),
+            xytext=(4, 4),
+            textcoords="offset points",
+            rotation=90,
+            va="bottom",
+            color=INK,
+            bbox={"facecolor": "white", "alpha": 0.7, "edgecolor": "none", "pad": 1},
+        )
+    map_axes.set(
+        title="share of tosses that stay uncertain (smooth floor, vacuum)",
+        xlabel="accuracy of the release ε [m]",
+        ylabel="restitution χ",
+        xlim=(x[0], x[-1]),
+    )
+    map_axes.set_xticks(x[::3], [f"$10^{{{value:.0f}}}$" for value in x[::3]])
+    map_axes.grid(visible=False)
+    bar = picture.colorbar(shade, ax=map_axes, location="bottom", aspect=40, pad=0.02)
+    bar.set_ticks(bands[1:-1], labels=["1e-6", "1e-5", "1e-4", "0.1 %", "1 %", "10 %", "50 %"])
+    shown = [one for one in found.cases if one.quantity == "height" and one.chi in SHOWN]
+    for one in shown:
+        color, style = SHOWN[one.chi], {SMOOTH: "-", AIR: "--", ROUGH: ":"}[one.floor]
+        label = f"χ = {one.chi:g}" if one.floor == SMOOTH else None
+        mean = mean_shares(one)
+        share_axes.loglog(ACCURACIES[:levels], mean, style, color=color, label=label)
+        slopes = np.log10(mean[:-WINDOW] / mean[WINDOW:]) / WINDOW
+        slope_axes.semilogx(ACCURACIES[: levels - WINDOW], slopes, style, color=color, label=label)
+    share_axes.set(title="f(ε)", ylim=(1e-13, 2))
+    slope_axes.set(
+        title=f"its slope α over {WINDOW} decades",
+        xlabel="ε [m]; smooth —, air – –, rough ···",
+        ylim=(0, 1.15),
+    )
+    slope_axes.axhline(1, color=GREY, linewidth=0.8)
+    share_axes.legend(fontsize=8)
+    for axes in (share_axes, slope_axes):
+        axes.invert_xaxis()
+    return picture
+
+
+def claims(found: Predictability) -> list[Claim]:
+    """Return the claims of the shares."""
+    by_key = {(one.floor, one.chi): one for one in found.cases if one.quantity == "height"}
+    end, last = _last(found), _last(found) * 10**WINDOW
+    made = []
+    for floor in (SMOOTH, AIR, ROUGH):
+        one = by_key[floor, CHI]
+        made += [
+            Claim(
+                claim=f"at χ = {CHI:g} boundaries are smooth in the limit (Strzalko et al. 2008; {floor})",
+                headline=_headline(found, one) if floor == SMOOTH else "",
+                criteria=[
+                    Criterion(
+                        f"α from {last:.0e} to {end:.0e} m",
+                        slope_from(one, last),
+                        ">",
+                        NEARLY_SMOOTH,
+                        "a smooth boundary has 1",
+                    )
+                ],
+                expected=None if floor == ROUGH else True,
+            ),
+            Claim(
+                claim=f"at χ = {CHI:g} a release exact to its quantum width is predictable ({floor})",
+                criteria=[
+                    Criterion(
+                        f"share uncertain at {QUANTUM:.0e} m",
+                        share_at(one, QUANTUM),
+                        "<",
+                        PREDICTABLE,
+                        "99 % of the tosses are predictable",
+                    )
+                ],
+                expected=None if floor == AIR else True,
+            ),
+        ]
+    made.append(
+        Claim(
+            claim=f"at χ = {CHI:g} the outcome looks fractal down to 1 nm (Yue 2014, 2016; {SMOOTH})",
+            criteria=[
+                Criterion(
+                    "α from 1e-06 to 1e-09 m",
+                    slope_from(by_key[SMOOTH, CHI], 1e-6),
+                    "<",
+                    FRACTAL,
+                    "not smooth",
+                )
+            ],
+        )
+    )
+    if (SMOOTH, BOUNCY) in by_key:
+        made.append(
+            Claim(
+                claim=f"at χ = {BOUNCY:g} no release is exact enough (Yue 2014, 2016; {SMOOTH})",
+                criteria=[
+                    Criterion(
+                        f"share uncertain at the quantum width, {QUANTUM:.0e} m",
+                        share_at(by_key[SMOOTH, BOUNCY], QUANTUM),
+                        ">",
+                        PREDICTABLE,
+                        "more than one toss in a hundred is left to chance",
+                    )
+                ],
+            )
+        )
+    return made
+
+
+def _headline(found: Predictability, one: Case) -> str:
+    """Return what was found of the dispute, in a few sentences."""
+    f, alpha = mean_shares(one), slope_from(one, 1e-6).value
+    last = slope_from(one, _last(found) * 10**WINDOW).value
+    fine = accuracy_for(one, PREDICTABLE)
+    return (
+        f"In the limit they are: at χ = {one.chi:g} the share of uncertain tosses falls as ε^{last:.2f} at "
+        f"{_last(found):.0e} m. But at 1 µm it falls as ε^{alpha:.2f}, as a fractal's; released within 1 mm "
+        f"{f[_level(HAND)]:.0%} of the tosses are uncertain, within 1 nm {f[_level(FINE)]:.2g}, and that "
+        f"99 % be predictable takes {fine:.0e} m."
+    )
+
+
+def result(found: Predictability) -> Result:
+    """Return the study's tables and claims."""
+    return Result(claims=claims(found), data=found, tables=tables(found))
+
+
+def _make(progress: Progress, parts: Path) -> Result:
+    return result(
+        compute(progress, parts, runs=RUNS, population=POPULATION, chis=CHIS, levels=len(ACCURACIES))
+    )
+
+
+def _quick(progress: Progress, parts: Path) -> Result:
+    runs = dict.fromkeys(CHIS, 4)
+    return result(compute(progress, parts, runs=runs, population=10, chis=QUICK_CHIS, levels=18))
+
+
+REPRODUCTION = Reproduction(
+    title="the share of tosses that stay uncertain, down to 1e-24 m, by restitution, floor and air",
+    seconds=600,
+    make=_make,
+    draw={"predictability": draw},
+    quick_seconds=60,
+    quick=_quick,
+    resumes=True,
+)
