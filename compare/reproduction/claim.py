@@ -43,7 +43,7 @@ class Estimate:
         An interval shrinks as 1/√count; the value is taken to stay as found.
         """
         side = self.low if threshold < self.value else self.high
-        if self.value == threshold:
+        if self.value == threshold or not math.isfinite(side):
             return None
         exact = self.count * ((self.value - side) / (self.value - threshold)) ** 2
         if exact > _MOST:

@@ -11,6 +11,8 @@ from models.records import Array
 
 LEVEL = 0.99
 """Of all confidence intervals: of a hundred verdicts by chance alone one would be wrong."""
+FEWEST = 20
+"""Values of a sample whose median is compared by a bootstrap."""
 PARTS = 20
 """Of a sample, each left out in turn by `jackknife`."""
 
@@ -87,11 +89,18 @@ def jackknife(
 def ratio_of_medians(
     first: Array, second: Array, rng: np.random.Generator, counted: str = "tosses"
 ) -> Estimate:
-    """Return the median of one sample over that of another, with the interval of a bootstrap of both."""
+    """Return the median of one sample over that of another, with the interval of a bootstrap of both.
+
+    Of fewer than `FEWEST` values a bootstrap knows too little: the interval is all that a ratio can be.
+    """
+    count = min(len(first), len(second))
+    if count < FEWEST:
+        value = float(np.median(first) / np.median(second)) if count else np.nan
+        return Estimate(value, 0.0, np.inf, count, counted)
     drawn = [np.median(rng.choice(one, (1000, len(one))), axis=1) for one in (first, second)]
     low, high = np.quantile(drawn[0] / drawn[1], [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
     value = float(np.median(first) / np.median(second))
-    return Estimate(value, float(low), float(high), min(len(first), len(second)), counted)
+    return Estimate(value, float(low), float(high), count, counted)
 
 
 def ratio_of_shares(

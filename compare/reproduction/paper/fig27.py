@@ -45,7 +45,9 @@ FUNCTION = 0.1
 """Where φ(n + 1) is a function of φ(n), points that are so near have images nearer than this [rad]."""
 
 
-def make(progress: Progress, others: int = OTHERS, followed: int = FOLLOWED) -> Result:
+def make(
+    progress: Progress, others: int = OTHERS, followed: int = FOLLOWED, impacts_mujoco: int = 350
+) -> Result:
     """Follow the coin in air and in vacuum, with other spins too, and MuJoCo's coin."""
     with_air = load("fig27")
     cases = {"air": with_air, "vacuum": with_air.replace("air", Air())}
@@ -55,7 +57,7 @@ def make(progress: Progress, others: int = OTHERS, followed: int = FOLLOWED) -> 
     whole, done = len(cases) * (1 + followed) + 2, 0
     for medium, scenario in cases.items():
         data[f"{medium}, angle"] = angles = _angles(_points(scenario))
-        by_mujoco = _angles(impacts_of(_shorter(scenario)).point)
+        by_mujoco = _angles(impacts_of(scenario.replace("ending.max_impacts", impacts_mujoco)).point)
         mujoco[medium] = f"{len(by_mujoco)} impacts; a line through 13 points of its series rises by " + (
             f"{_slopes(divergence(by_mujoco, 1, 12))[-1]:.2f}"
         )
@@ -200,11 +202,6 @@ def _neighbours(angles: Array) -> tuple[Array, Array]:
     return apart, np.abs((after + np.pi) % (2 * np.pi) - np.pi)
 
 
-def _shorter(scenario: Scenario) -> Scenario:
-    """Return the scenario with half the impacts: MuJoCo's take longer, and show the same."""
-    return scenario.replace("ending.max_impacts", scenario.rules.max_impacts // 2)
-
-
 def _angles(points: Array) -> Array:
     return np.arctan2(points[:, 1], points[:, 0])
 
@@ -266,5 +263,5 @@ REPRODUCTION = Reproduction(
     make=make,
     draw={"figure": _draw},
     quick_seconds=12,
-    quick=partial(make, others=60, followed=2),
+    quick=partial(make, others=20, followed=2, impacts_mujoco=60),
 )

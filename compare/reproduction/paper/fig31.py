@@ -25,6 +25,7 @@ from compare.reproduction.setups.planar_maps import (
     SPIN,
     SPINS,
     case,
+    faces_after,
     releases,
     touched_faces,
     whole_grid,
@@ -37,7 +38,9 @@ TOUCHES = 10
 """Faces are compared after 0 to so many impacts, less one."""
 RESOLUTIONS = 10.0 ** -np.arange(2, 11)
 """ε, distances of nearby tosses [m]."""
-FEWEST = 200
+PARTS, PARTS_BEYOND = {0: 1 / 8, 1: 1 / 2, 2: 1.0}, 1 / 8
+"""Of the tosses that are made, by the number of impacts; two are the most at which all are counted."""
+FEWEST = 150
 """Twins that must differ for a number of boundaries to be taken."""
 CONVERGED = 0.5
 """Part by which ten times finer twins may count more boundaries where all of them are counted."""
@@ -70,39 +73,41 @@ class Boundaries:
 
 
 def make(
-    progress: Progress, points: int = 64, tosses: int = 16_000, elastic: int = 1000, tosses_mujoco: int = 100
+    progress: Progress, points: int = 64, tosses: int = 240_000, elastic: int = 1000, tosses_mujoco: int = 100
 ) -> Result:
     """Map the face after each number of impacts, and count twins, tosses ε apart, that differ."""
     grid = whole_grid(points)
-    z, w = (part.ravel() for part in np.meshgrid(grid.heights, grid.spins))
     rng = np.random.default_rng(SEED)
     heights, spins = rng.uniform(*HEIGHTS, tosses), rng.uniform(*SPINS, tosses)
     data: dict[str, NDArray[Any]] = {"resolution": RESOLUTIONS}
     found: dict[str, list[Boundaries]] = {}
-    narrow: dict[str, NDArray[np.bool_]] = {}
-    done, whole = 0, len(MEDIA) * (len(RESOLUTIONS) + 1) + 2
+    done, whole = 0, len(MEDIA) * (TOUCHES + 1) + 2
     same = _same_by_mujoco(case(air=True), heights[:tosses_mujoco], spins[:tosses_mujoco])
     progress(done := done + 1, whole)
     for medium in MEDIA:
         scenario = case(air=medium == "air")
-        maps = touched_faces(scenario, z, w, TOUCHES)
         for n in SHOWN:
-            data[f"{medium}, map {n}"] = maps[:, n].reshape(grid.shape)
+            data[f"{medium}, map {n}"] = faces_after(scenario, grid.releases, n).reshape(grid.shape)
         progress(done := done + 1, whole)
-        faces = touched_faces(scenario, heights, spins, TOUCHES)
         differ = []
-        for step in RESOLUTIONS:
-            differ.append(touched_faces(scenario, heights + step, spins, TOUCHES) != faces)
+        for n in range(TOUCHES):
+            few = slice(round(PARTS.get(n, PARTS_BEYOND) * tosses))
+            differ.append(_differing(scenario, heights[few], spins[few], n))
             progress(done := done + 1, whole)
-        found[medium] = [_boundaries(np.array(differ)[:, :, n]) for n in range(TOUCHES)]
+        found[medium] = [_boundaries(one) for one in differ]
         data |= {
-            f"{medium}, boundaries": np.array(differ).mean(axis=1) * (LENGTH / RESOLUTIONS)[:, None],
+            f"{medium}, boundaries": (LENGTH / RESOLUTIONS)[:, None]
+            * np.array([one.mean(axis=1) for one in differ]).T,
             f"{medium}, counted": np.array(
                 [(one.count.value, one.count.low, one.count.high) for one in found[medium]]
             ),
             f"{medium}, converged": np.array([one.is_converged for one in found[medium]]),
         }
-        narrow[medium] = differ[int(np.argmin(np.abs(np.log(RESOLUTIONS / NARROW))))][:, -1]
+    few = slice(round(PARTS_BEYOND * tosses))
+    last, narrow = (
+        faces_after(case(air=True), releases(heights[few] + step, spins[few]), TOUCHES - 1)
+        for step in (0.0, NARROW)
+    )
     lasting = analytic.toss_many(case(air=True), releases(heights, spins)).impacts
     data["elastic"] = shares = _elastic_shares(heights[:elastic], spins[:elastic])
     progress(whole, whole)
@@ -131,7 +136,7 @@ def make(
             criteria=[
                 Criterion(
                     "mean width at most [m]",
-                    _inverse(share(narrow["air"]), NARROW),
+                    _inverse(share(narrow != last), NARROW),
                     "<",
                     1e-6,
                     "a hand errs by more than 1 µm",
@@ -151,10 +156,24 @@ def _inverse(estimate: Estimate, factor: float) -> Estimate:
     """Return the estimate of a factor over what was estimated."""
     return replace(
         estimate,
-        value=factor / estimate.value,
+        value=factor / max(estimate.value, np.finfo(float).tiny),
         low=factor / estimate.high,
         high=factor / max(estimate.low, np.finfo(float).tiny),
     )
+
+
+def _differing(scenario: Scenario, heights: Array, spins: Array, n: int) -> NDArray[np.bool_]:
+    """Return which twins differ after n impacts at each of `RESOLUTIONS`, (ε, tosses).
+
+    Where fewer than `FEWEST` do, finer twins are not made: none of them is taken to differ.
+    """
+    faces = faces_after(scenario, releases(heights, spins), n)
+    differ = np.zeros((len(RESOLUTIONS), len(heights)), dtype=np.bool_)
+    for row, step in zip(differ, RESOLUTIONS, strict=True):
+        row[:] = faces_after(scenario, releases(heights + step, spins), n) != faces
+        if row.sum() < FEWEST:
+            break
+    return differ
 
 
 def _boundaries(differ: NDArray[np.bool_]) -> Boundaries:
@@ -184,6 +203,8 @@ def _claims(medium: str, found: Sequence[Boundaries], same: str) -> list[Claim]:
             analytic=(
                 f"a line through the map crosses {numbers} after 0 to {known - 1} impacts, where twins at "
                 f"two resolutions count alike{beyond}"
+                if steps
+                else "-"
             ),
             mujoco=same if medium == "air" else "-",
             criteria=[
@@ -196,6 +217,8 @@ def _claims(medium: str, found: Sequence[Boundaries], same: str) -> list[Claim]:
             analytic=(
                 f"seen as far as N({known - 1}); an exponential has the same growth at each impact, and "
                 "what is faster a larger one"
+                if steps
+                else "-"
             ),
             criteria=[
                 Criterion(
@@ -351,5 +374,5 @@ REPRODUCTION = Reproduction(
     make=make,
     draw={"figure": _draw},
     quick_seconds=9,
-    quick=partial(make, points=40, tosses=4000, elastic=200, tosses_mujoco=10),
+    quick=partial(make, points=40, tosses=20_000, elastic=200, tosses_mujoco=10),
 )
