@@ -183,6 +183,7 @@ def toss(
         from compare.film.back_end import require_mujoco
         from compare.output import answer
         from compare.output.files import is_stream, require_file, write_text
+        from compare.output.progress import elapsed_time
         from models.reading import load
 
         described = load(scenario)
@@ -195,7 +196,8 @@ def toss(
         package = Engine(engine).package
         given = {"contact": contact, "contact_steps": contact_steps}
         chosen = {name: value for name, value in given.items() if value is not None}
-        result = package.toss(described, settings=replace(package.FINE, **chosen))
+        with elapsed_time("still tossing; Ctrl-C ends it, --max-impacts N a toss sooner"):
+            result = package.toss(described, settings=replace(package.FINE, **chosen))
         if trajectory is not None:
             times = answer.path_times(result)
             write_text(trajectory, answer.path_csv(result.sample(times)))

@@ -1,6 +1,7 @@
 """Bars that show on the terminal how far a job is."""
 
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -43,6 +44,38 @@ def bar(name: str, unit: str, *, done: int = 0) -> Iterator[Progress]:
 
 
 @contextmanager
+def elapsed_time(name: str, after: float = 5.0) -> Iterator[None]:
+    """Show within, on standard error if that is a terminal, for how long a job has run.
+
+    Args:
+        name: of the job.
+        after: as soon as it takes longer than this [s].
+    """
+    if not _shows():
+        yield
+        return
+    over = threading.Event()
+
+    def show() -> None:
+        if over.wait(after):
+            return
+        from tqdm import tqdm
+
+        with tqdm(desc=name, bar_format="{desc}: {elapsed}", leave=False, delay=after) as shown:
+            shown.start_t -= after
+            while not over.wait(1.0):
+                shown.refresh()
+
+    shower = threading.Thread(target=show, daemon=True)
+    shower.start()
+    try:
+        yield
+    finally:
+        over.set()
+        shower.join()
+
+
+@contextmanager
 def compile_bar(after: float = 1.0) -> Iterator[None]:
     """Say within, on standard error if that is a terminal, that functions are compiled, and how many.
 
@@ -74,7 +107,7 @@ def compile_bar(after: float = 1.0) -> Iterator[None]:
                 leave=False,
             )
 
-    if sys.stderr is None or sys.stderr.closed or not sys.stderr.isatty():
+    if not _shows():
         yield
         return
     compiling.watchers.append(watch)
@@ -84,3 +117,8 @@ def compile_bar(after: float = 1.0) -> Iterator[None]:
         compiling.watchers.remove(watch)
         if shown is not None:
             shown.close()
+
+
+def _shows() -> bool:
+    """Return whether standard error is a terminal."""
+    return sys.stderr is not None and not sys.stderr.closed and sys.stderr.isatty()

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from compare.output.progress import bar, compile_bar
+from compare.output.progress import bar, compile_bar, elapsed_time
 from models.kernel.compiled import CompiledFunction
 from models.kernel.compiling import compiling
 
@@ -45,6 +45,24 @@ def test_nothing_is_said_of_what_is_quick_nor_but_to_a_terminal(monkeypatch, str
     monkeypatch.setattr(sys, "stderr", stream)
     with compile_bar(after=after):
         compile_two()
+    assert stream is None or stream.getvalue() == ""
+
+
+def test_the_terminal_says_for_how_long_a_job_has_run(monkeypatch):
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    with elapsed_time("still tossing", after=0.2):
+        time.sleep(2.5)
+    shown = terminal.getvalue().split("\r")
+    assert "still tossing: 00:02" in shown
+    assert shown[-1] == ""
+
+
+@pytest.mark.parametrize(("stream", "after"), [(Terminal(), 600.0), (io.StringIO(), 0.0), (None, 0.0)])
+def test_nothing_is_said_of_a_job_that_is_quick_nor_but_to_a_terminal(monkeypatch, stream, after):
+    monkeypatch.setattr(sys, "stderr", stream)
+    with elapsed_time("still tossing", after=after):
+        time.sleep(0.05)
     assert stream is None or stream.getvalue() == ""
 
 
