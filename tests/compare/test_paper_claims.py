@@ -15,7 +15,7 @@ from compare.reproduction.claims import (
     uniform_starts,
 )
 from compare.reproduction.paper import fig27, fig31
-from compare.reproduction.paper.fig30 import ACCURACIES, FINE, exponent
+from compare.reproduction.paper.fig30 import ACCURACIES, slope
 from compare.reproduction.setups import fig24_readings
 from compare.reproduction.setups.hands import HEIGHTS, SPINS, releases_of_hands
 from compare.reproduction.setups.planar_maps import case, faces_after, releases, touched_faces
@@ -70,12 +70,11 @@ def test_spread_over_cells_is_that_of_stripes_and_none_of_chance():
 
 
 @pytest.mark.parametrize("alpha", [1.0, 0.4])
-def test_the_exponent_of_uncertain_tosses_is_found_within_its_error(alpha):
-    distance = np.random.default_rng(3).uniform(size=200_000) ** (1 / alpha)
-    flags = distance < (ACCURACIES / ACCURACIES[FINE])[:, None] * 0.5
-    found, error = exponent(flags)
-    assert abs(found - alpha) < 4 * error
-    assert error < 0.3
+def test_the_exponent_of_uncertain_tosses_is_found_within_its_interval(alpha):
+    scatter = np.random.default_rng(3).lognormal(sigma=0.2, size=(10, len(ACCURACIES)))
+    found = slope(ACCURACIES**alpha * scatter, 3, 6)
+    assert found.low < alpha < found.high
+    assert 0.01 < found.high - found.low < 0.3
 
 
 def test_touched_faces_are_those_of_single_tosses():

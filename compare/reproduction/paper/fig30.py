@@ -1,5 +1,6 @@
-"""Fig. 30, section 5.2: boundaries under magnification, and how the share of uncertain tosses falls."""
+"""Fig. 30, section 5.2: boundaries magnified to 1e-25 m, and how the share of uncertain tosses falls."""
 
+from fractions import Fraction
 from functools import partial
 from typing import Any
 
@@ -10,28 +11,33 @@ from numpy.typing import NDArray
 import analytic
 import coin_mj
 from compare.basins.picture import MapAxis, draw_panel
-from compare.basins.stripes import crossings
 from compare.output.progress import Progress
 from compare.output.style import GREY
-from compare.reproduction.claim import Claim, Criterion
+from compare.precision.magnified import MAGNIFICATION, Magnified, magnify
+from compare.precision.planar_coin import planar_coin, units
+from compare.precision.planar_state import HEIGHT, release
+from compare.precision.splitting import replica
+from compare.reproduction.claim import Claim, Criterion, Estimate
+from compare.reproduction.estimates import jackknife
 from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.planar_maps import HEIGHTS, MEDIA, SPINS, Grid, case, final_faces, releases
 from models.records import Array
 from models.scenario import Scenario
 
-MAGNIFICATION = 10
-STAGES = 12
-"""A line through the map is magnified so many times, 1 included; the last is near rounding."""
-POINTS = 200
+WINDOWS_BELOW = 25
+"""A line through the map is magnified so many times, 1 included; the last is 4e-25 m long."""
+POINTS = 50
 """On a line."""
-ACCURACIES = 10.0 ** -np.arange(3, 11)
+ACCURACIES = 10.0 ** -np.arange(3, 25)
 """ε, the accuracy of the height at release [m]."""
-FINE = 3
-"""From so manieth on, 1e-6 m, the exponent is taken."""
-PARTS = 10
-"""Of the tosses, each left out in turn for the exponent's error."""
-FRACTAL = 0.8
-"""An exponent α below this is a fractal's."""
+DECADES = 3
+"""α is the slope over so many of them."""
+DOUBLES = (3, 4)
+"""Index of the first and number of those for which doubles would do: 1e-6 m to 1e-10 m."""
+SMOOTH, FRACTAL = 0.9, 0.8
+"""An exponent α above the one is all but a smooth boundary's, below the other a fractal's."""
+UPRIGHT = 1e-6
+"""A coin is about to stand when its energy is so near to that of the upright coin [m g r]."""
 SEED = 30
 WINDOWS = ((0.05, 5.0), (5e-4, 0.05))
 """Height and spin of the enlarged maps [m, rad/s]."""
@@ -44,16 +50,21 @@ ACCURACY_MUJOCO = 1e-4
 
 
 def make(
-    progress: Progress, points: int = 100, lines: int = 20, tosses: int = 15_000, tosses_mujoco: int = 200
+    progress: Progress,
+    points: int = 100,
+    lines: int = 20,
+    runs: int = 8,
+    population: int = 20,
+    tosses_mujoco: int = 200,
 ) -> Result:
-    """Enlarge the maps of Fig. 29(c, d) and lines through them, and toss at random within ε."""
-    whole = len(MEDIA) * (len(WINDOWS) + lines + 1) + 1
+    """Enlarge the maps of Fig. 29(c, d) and lines through them, and find the share of uncertain tosses."""
+    whole = len(MEDIA) * (len(WINDOWS) + lines + runs) + 1
     done = 0
     rng = np.random.default_rng(SEED)
-    heights, spins = rng.uniform(*HEIGHTS, tosses), rng.uniform(*SPINS, tosses)
     data: dict[str, NDArray[Any]] = {}
     claims: list[Claim] = []
-    mujoco = _by_mujoco(case(air=True), heights[:tosses_mujoco], spins[:tosses_mujoco])
+    heights, spins = rng.uniform(*HEIGHTS, tosses_mujoco), rng.uniform(*SPINS, tosses_mujoco)
+    mujoco = _by_mujoco(case(air=True), heights, spins)
     progress(done := done + 1, whole)
     for medium in MEDIA:
         scenario = case(air=medium == "air")
@@ -66,73 +77,118 @@ def make(
             )
             data[f"{medium}, enlargement {number}"] = final_faces(scenario, grid)
             progress(done := done + 1, whole)
-        stripes = []
+        followed = []
         for spin in np.linspace(*SPINS, lines + 2)[1:-1]:
-            stripes.append(_magnified(scenario, float(spin)))
+            followed.append(_magnified(scenario, float(spin)))
             progress(done := done + 1, whole)
-        data[f"{medium}, crossings"] = np.array(stripes)
-        flags = _uncertain(scenario, heights, spins)
-        progress(done := done + 1, whole)
-        data[f"{medium}, uncertain"] = uncertain = flags.mean(axis=1)
-        last = np.array(stripes)[:, -1]
-        isolated = np.array([np.flatnonzero(np.array(line) > 1)[-1] + 1 for line in stripes])
-        smooth = last == 1
-        widest = _window(isolated[smooth])
-        slope, error = exponent(flags)
-        coarse = float(np.diff(np.log(uncertain[:2]))[0] / np.log(ACCURACIES[1] / ACCURACIES[0]))
-        claims += [
-            Claim(
-                claim=f"under further magnification boundaries are smooth, no new structure (in {medium})",
-                analytic=(
-                    f"{smooth.sum()} of {lines} boundaries are isolated in the end, from windows of "
-                    f"{widest.min():.0e} to {widest.max():.0e} m on, half of them from "
-                    f"{np.median(widest):.0e} m; the others still have up to {last.max()} about them within "
-                    f"{_window(np.array(STAGES - 1)):.0e} m, of tosses with ever more impacts"
-                ),
-                criteria=[
-                    Criterion("isolated boundaries", smooth.sum(), "=", lines, "all that were magnified")
-                ],
-                expected=False,
-            ),
-            Claim(
-                claim=f"the share of uncertain tosses falls as ε¹, as for a smooth boundary (in {medium})",
-                analytic=(
-                    f"as ε^α with α = {slope:.2f} ± {error:.2f} from 1e-6 m to 1e-10 m: "
-                    + ", ".join(f"{share:.2g}" for share in uncertain[FINE:])
-                    + f"; from 1 mm to 0.1 mm with {coarse:.2f}"
-                ),
-                mujoco=mujoco if medium == "air" else "-",
-                criteria=[
-                    Criterion("α", slope, ">", FRACTAL, "a smooth boundary has 1, its error is below 0.1")
-                ],
-                expected=False,
-            ),
-            Claim(
-                claim=f"for any release an accuracy exists that makes it predictable (in {medium})",
-                analytic=(
-                    f"{1 - uncertain[-1]:.1%} of the tosses are, within 1e-10 m; within 1 µm "
-                    f"{1 - uncertain[FINE]:.0%}, within 1 mm {1 - uncertain[0]:.0%}"
-                ),
-                criteria=[
-                    Criterion("share still uncertain within 1e-10 m", uncertain[-1], "<", 0.02, "nearly none")
-                ],
-            ),
-        ]
-        if medium == "air":
-            claims.append(
-                Claim(
-                    claim="(against the paper, Yue 2014, 2016) the outcome is as sensitive as of a fractal",
-                    analytic=(
-                        f"at all accuracies down to 1e-10 m: to halve the share of uncertain tosses takes a "
-                        f"{2 ** (1 / slope):.0f} times finer one, on a smooth boundary twice; and "
-                        f"{np.sum(~smooth)} of {lines} boundaries are not isolated"
-                    ),
-                    criteria=[
-                        Criterion("α", slope, "<", FRACTAL, "a smooth boundary has 1, its error is below 0.1")
-                    ],
-                )
-            )
+        data[f"{medium}, crossings"] = np.array([line.counts for line in followed])
+        data[f"{medium}, off"] = off = np.array([np.abs(line.energies - 1).max(axis=1) for line in followed])
+        shares = []
+        for number in range(runs):
+            shares.append(_shares(scenario, np.random.default_rng([SEED, number]), population))
+            progress(done := done + 1, whole)
+        data[f"{medium}, shares"] = np.array(shares)
+        claims += _claims(medium, followed, off, np.array(shares), mujoco if medium == "air" else "-")
     return Result(claims=claims, data=data)
+
+
+def _claims(medium: str, followed: list[Magnified], off: Array, shares: Array, mujoco: str) -> list[Claim]:
+    lines = len(followed)
+    isolated = np.array([line.isolated_from for line in followed if line.isolated_from is not None])
+    left = [int(line.counts[-1]) for line in followed if line.isolated_from is None]
+    widest = _window(isolated)
+    last, coarse = slope(shares, len(ACCURACIES) - 1 - DECADES, DECADES), slope(shares, 0, 1)
+    doubles, f = slope(shares, *DOUBLES), shares.mean(axis=0)
+    impacts = [line.impacts[-1].max() for line in followed]
+    made = [
+        Claim(
+            claim=f"under further magnification boundaries are smooth, no new structure (in {medium})",
+            analytic=(
+                f"{len(isolated)} of {lines} boundaries are isolated in the end, from windows of "
+                f"{widest.min():.0e} to {widest.max():.0e} m on, half of them from {np.median(widest):.0e} m"
+                + (f"; about the others are up to {max(left)} in a window of 4e-25 m" if left else "")
+                + f"; their tosses make {min(impacts)} to {max(impacts)} impacts"
+            ),
+            criteria=[Criterion("isolated boundaries", len(isolated), "=", lines, "all that were magnified")],
+        ),
+        Claim(
+            claim=f"in the limit the share of uncertain tosses falls as ε¹ (in {medium})",
+            analytic=(
+                "α over three decades from "
+                + ", ".join(
+                    f"{ACCURACIES[i]:.0e} m: {slope(shares, i, DECADES).value:.2f}"
+                    for i in range(0, len(ACCURACIES) - DECADES, DECADES)
+                )
+                + "; the share itself "
+                + ", ".join(f"{f[i]:.1e}" for i in range(0, len(ACCURACIES), DECADES))
+            ),
+            mujoco=mujoco,
+            expected=None,
+            criteria=[Criterion("α from 1e-21 to 1e-24 m", last, ">", SMOOTH, "a smooth boundary has 1")],
+        ),
+        Claim(
+            claim=f"for any release an accuracy exists that makes it predictable (in {medium})",
+            criteria=[
+                Criterion("share uncertain within 1e-24 m", f[-1], "<", 1e-6, "one toss in a million"),
+            ],
+        ),
+        Claim(
+            claim=(
+                "(against the paper, Yue 2014, 2016) the outcome is as sensitive as of a fractal "
+                f"(in {medium})"
+            ),
+            analytic=(
+                f"at every accuracy that can be met: from 1e-6 to 1e-10 m α = {doubles.value:.2f}, so that "
+                f"to halve the share takes a {2 ** (1 / doubles.value):.0f} times finer one, on a smooth "
+                f"boundary twice; from 1 to 0.1 mm α = {coarse.value:.2f}"
+            ),
+            expected=True if medium == "air" else None,
+            criteria=[
+                Criterion("α from 1e-6 to 1e-10 m", doubles, "<", FRACTAL, "a smooth boundary has 1"),
+            ],
+        ),
+    ]
+    # In air the energy falls while the coin rises in contact, and that at the pass is not kept.
+    if medium == "vacuum":
+        made.insert(
+            1,
+            Claim(
+                claim="a boundary is the coin that comes to stand upright (in vacuum)",
+                analytic=(
+                    "at both sides of each boundary the energy with which the toss is settled tends to that "
+                    f"of the upright coin: in a window of {_window(np.array(WINDOWS_BELOW - 1)):.0e} m it is "
+                    f"off by {np.median(off[:, -1]):.1e} m g r in the median"
+                ),
+                criteria=[
+                    Criterion(
+                        "largest difference [m g r]",
+                        off[:, -1].max(),
+                        "<",
+                        UPRIGHT,
+                        "the last windows' length",
+                    )
+                ],
+            ),
+        )
+    return made
+
+
+def slope(shares: Array, first: int, decades: int) -> Estimate:
+    """Return α over some decades of `ACCURACIES`, with a jackknife's interval over the runs.
+
+    Args:
+        shares: f, by run and accuracy, (n, m).
+        first: where it starts.
+        decades: how many.
+    """
+    return jackknife(
+        lambda kept: float(
+            np.log10(shares[kept, first].mean() / shares[kept, first + decades].mean()) / decades
+        ),
+        len(shares),
+        "runs",
+        parts=len(shares),
+    )
 
 
 def _window(stage: NDArray[np.intp]) -> Array:
@@ -148,45 +204,34 @@ def _boundary_near(scenario: Scenario) -> float:
     return float(changes[np.argmin(np.abs(changes - NEAR[0]))])
 
 
-def _magnified(scenario: Scenario, spin: float) -> list[int]:
-    """Count the boundaries on a line of heights, magnified time and again about one of them."""
-    low, high = HEIGHTS
-    counts = []
-    for _ in range(STAGES):
-        z = np.linspace(low, high, POINTS)
-        faces = analytic.toss_many(scenario, releases(z, np.full_like(z, spin))).outcome
-        counts.append(int(crossings(faces)))
-        changes = np.flatnonzero(faces[1:] != faces[:-1])
-        middle = z[changes[len(changes) // 2] : changes[len(changes) // 2] + 2].mean()
-        half = (high - low) / MAGNIFICATION / 2
-        low, high = middle - half, middle + half
-    return counts
-
-
-def _uncertain(scenario: Scenario, heights: Array, spins: Array) -> NDArray[np.bool_]:
-    """Return which tosses have another outcome at a height ε above or below, (ε, n)."""
-    outcome, above, below = (
-        [analytic.toss_many(scenario, releases(heights + step, spins)).outcome for step in steps]
-        for steps in ([0.0], ACCURACIES, -ACCURACIES)
+def _magnified(scenario: Scenario, spin: float) -> Magnified:
+    """Magnify a line of heights time and again about one of its boundaries."""
+    own = units(scenario)
+    low, high = (Fraction(height) / own.length for height in HEIGHTS)
+    return magnify(
+        planar_coin(scenario),
+        release(own, height=HEIGHTS[0], spin=spin),
+        row=HEIGHT,
+        length=high - low,
+        windows=WINDOWS_BELOW,
+        points=POINTS,
     )
-    return np.array([(a != outcome[0]) | (b != outcome[0]) for a, b in zip(above, below, strict=True)])
 
 
-def exponent(flags: NDArray[np.bool_]) -> tuple[float, float]:
-    """Return α of the fine accuracies, and its standard error by a jackknife over the tosses.
-
-    Args:
-        flags: which tosses are uncertain at each of `ACCURACIES`, (ε, n).
-    """
-    parts = np.arange(flags.shape[1]) % PARTS
-    without = [_slope(flags[:, parts != part]) for part in range(PARTS)]
-    return _slope(flags), float(np.sqrt((PARTS - 1) * np.var(without)))
-
-
-def _slope(flags: NDArray[np.bool_]) -> float:
-    shares = flags.mean(axis=1)[FINE:]
-    seen = shares > 0
-    return float(np.polyfit(np.log(ACCURACIES[FINE:][seen]), np.log(shares[seen]), 1)[0])
+def _shares(scenario: Scenario, rng: np.random.Generator, population: int) -> Array:
+    """Return the share of tosses that each of `ACCURACIES` leaves uncertain, by one run of the splitting."""
+    own = units(scenario)
+    heights, spins = rng.uniform(*HEIGHTS, population), rng.uniform(*SPINS, population)
+    starts = np.array([release(own, height=z, spin=w) for z, w in zip(heights, spins, strict=True)])
+    return replica(
+        planar_coin(scenario),
+        starts,
+        row=HEIGHT,
+        largest=Fraction(1, 1000) / own.length,
+        levels=len(ACCURACIES),
+        population=population,
+        rng=rng,
+    ).shares
 
 
 def _by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
@@ -223,17 +268,24 @@ def _draw(data: dict[str, NDArray[Any]]) -> Figure:
             axes.locator_params(axis="x", nbins=4)
             axes.grid(visible=False)
     counts, share = grid[:, 2]
-    windows = _window(np.arange(STAGES))
+    windows = _window(np.arange(WINDOWS_BELOW))
     for medium, color in MEDIA.items():
-        counts.loglog(windows, data[f"{medium}, crossings"].T, "-", color=color, linewidth=0.3)
-        median = np.median(data[f"{medium}, crossings"], axis=0)
-        counts.loglog(windows, median, "o-", color=color, label=f"median, {medium}")
-        share.loglog(ACCURACIES, data[f"{medium}, uncertain"], "o-", color=color, label=medium)
+        crossings, shares = data[f"{medium}, crossings"], data[f"{medium}, shares"].mean(axis=0)
+        counts.loglog(windows, crossings.T, "-", color=color, linewidth=0.3)
+        counts.loglog(windows, np.median(crossings, axis=0), "o-", color=color, label=f"median, {medium}")
+        local = np.log10(shares[:-DECADES] / shares[DECADES:]) / DECADES
+        share.semilogx(ACCURACIES[:-DECADES], local, "o-", color=color, label=medium)
     counts.set(title="magnified lines", xlabel="length [m]", ylabel="boundaries on it")
-    share.loglog(ACCURACIES, ACCURACIES / ACCURACIES[-1] * 1e-3, ":", color=GREY, label="as ε")
-    share.set(title="random tosses", xlabel="ε [m]", ylabel="share of uncertain ones", ylim=(5e-4, 1.5))
-    counts.legend()
-    share.legend()
+    share.axhline(1, linestyle=":", color=GREY, label="a smooth boundary")
+    share.set(
+        title="local slope of the uncertain share",
+        xlabel="ε [m]",
+        ylabel=f"α over {DECADES} decades",
+        ylim=(0, 1.2),
+    )
+    for axes in (counts, share):
+        axes.legend()
+        axes.invert_xaxis()
     return picture
 
 
@@ -242,14 +294,12 @@ REPRODUCTION = Reproduction(
     title="boundaries under magnification, and the share of uncertain tosses",
     assumed=(
         "Where the paper enlarges is unsaid; here about 0.26 m and 39 rad/s, and lines through the whole "
-        "map, each magnified 10¹¹ times about one of its boundaries. Both sides of the later dispute are "
-        "right in part: most boundaries, magnified enough, are isolated smooth lines, but not all "
-        "within the digits of a double; and at all accuracies that can be met the share of uncertain tosses "
-        "falls as for a fractal, for stripes of all widths lie side by side."
+        "map, each magnified 10²⁴ times about one of its boundaries, in arithmetic of 106 bits. Both sides "
+        "of the later dispute are right, each at its own accuracy: PREDICTABILITY.md has the whole picture."
     ),
-    seconds=35,
+    seconds=300,
     make=make,
     draw={"figure": _draw},
-    quick_seconds=9,
-    quick=partial(make, points=25, tosses=1000, tosses_mujoco=10),
+    quick_seconds=30,
+    quick=partial(make, points=25, lines=4, runs=4, population=8, tosses_mujoco=10),
 )
