@@ -19,7 +19,18 @@ from compare.precision.double_double import (
     sine_cosine,
     subtract,
 )
-from compare.precision.planar_state import DRIFT, FALL, HEIGHT, SPIN, TILT, flat, part, put, turned_within
+from compare.precision.planar_state import (
+    DRIFT,
+    FALL,
+    HEIGHT,
+    SPIN,
+    TILT,
+    copy_state,
+    flat,
+    part,
+    put,
+    turned_within,
+)
 from models.kernel.compiled import compiled
 
 STEP = 0.05
@@ -41,7 +52,7 @@ def slide(coin, state, corner):
     passes, slopes = False, np.empty((STAGES, 3, 2))
     trial = state.copy()
     for _ in range(_MOST_STEPS):
-        trial[:] = state
+        copy_state(trial, state)
         force = _step(coin, trial, corner, (STEP, 0.0), slopes)
         lies, lifts = -corner * math.sin(trial[TILT, 0]) <= 0, force[0] <= 0
         if lies or lifts:
@@ -50,7 +61,7 @@ def slide(coin, state, corner):
                 return True, passes, corner, True
             flat(state, part(state, FALL), corner)
             return False, passes, corner, True
-        state[:] = trial
+        copy_state(state, trial)
         if turned_within(state):
             passes, corner = not passes, -corner
     return False, passes, corner, False
@@ -73,13 +84,13 @@ def _end(coin, state, corner, lifts, slopes):
         f_high = _value(coin, trial, state, corner, lifts, high, slopes)
         if abs(change[0]) < 1e-31:
             break
-    state[:] = trial
+    copy_state(state, trial)
 
 
 @compiled
 def _value(coin, trial, state, corner, lifts, duration, slopes):
     """Write the state after a step into `trial`; return the floor's force, or the height, there."""
-    trial[:] = state
+    copy_state(trial, state)
     force = _step(coin, trial, corner, duration, slopes)
     return force if lifts else part(trial, HEIGHT)
 

@@ -49,6 +49,13 @@ def put(state, row, pair):
 
 
 @compiled
+def copy_state(state, source):
+    """Make a state that of another, both (5, 2)."""
+    for i in range(SIZE):
+        put(state, i, part(source, i))
+
+
+@compiled
 def energy(coin, state):
     """Return the energy that counts against the barrier 1, in m g r.
 

@@ -14,6 +14,7 @@ from compare.precision.planar_state import (
     HEIGHT,
     SIZE,
     SPIN,
+    copy_state,
     energy,
     is_settled,
     rim_velocity,
@@ -72,7 +73,7 @@ def _toss_all(coin, starts, most_impacts, outcome, impacts, itinerary, contacts,
     heights, drifts = np.empty((ORDER + 2, 2)), np.empty((ORDER + 2, 2))
     state, touches = np.empty((SIZE, 2)), np.empty((0, 5))
     for i in range(len(starts)):
-        state[:] = starts[i]
+        copy_state(state, starts[i])
         outcome[i], impacts[i], itinerary[i], contacts[i], last_energy[i] = toss(
             coin, state, most_impacts, heights, drifts, touches
         )

@@ -128,7 +128,8 @@ class Claim:
     """The known verdict, as `holds` has it."""
 
     def __post_init__(self) -> None:
-        """Refuse a claim that nothing decides."""
+        """Keep the criteria as a tuple; refuse a claim that nothing decides."""
+        object.__setattr__(self, "criteria", tuple(self.criteria))
         if not self.criteria and not self.missing:
             raise ValueError(f"criteria of {self.claim!r}: none; accepted: one or more, or what is missing")
 
