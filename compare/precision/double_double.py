@@ -12,6 +12,7 @@ import numpy as np
 from models.kernel.compiled import compiled
 
 Pair = tuple[float, float]
+ONE: Pair = (1.0, 0.0)
 _SPLITTER = 134217729.0  # 2**27 + 1
 _TERMS = 14
 _HALVINGS = 3
@@ -130,7 +131,7 @@ def sine_cosine(a):
             scale(multiply(sine, sine), 2.0),
             scale(subtract(sine, multiply(sine, less)), 2.0),
         )
-    cosine = subtract((1.0, 0.0), less)
+    cosine = subtract(ONE, less)
     turn = int(quarter) & 3
     if turn == 0:
         return sine, cosine

@@ -3,6 +3,7 @@
 import math
 
 from compare.precision.double_double import (
+    ONE,
     add,
     divide,
     multiply,
@@ -27,7 +28,6 @@ from compare.precision.planar_state import (
 )
 from models.kernel.compiled import compiled
 
-ONE = (1.0, 0.0)
 SLAPS = 1000
 """Impacts of a flat coin on its two rim points in turn, at most."""
 LIES, LIFTS = 0, 1

@@ -12,6 +12,7 @@ from fractions import Fraction
 import numpy as np
 
 from compare.precision.double_double import (
+    ONE,
     add,
     cosine_minus_parabola,
     multiply,
@@ -121,7 +122,7 @@ def expand(coin, state, heights, drifts):
         x_next = subtract(multiply(subtract(kn, a), x), multiply(b, px))
         y_next = subtract(multiply(subtract(kn, a), y), multiply(b, py))
         if n == 0:
-            y_next = subtract(y_next, (1.0, 0.0))
+            y_next = subtract(y_next, ONE)
         gx, gy = subtract(px, multiply(k, before_x)), subtract(py, multiply(k, before_y))
         px_next = subtract(multiply(subtract(kn, a), px), multiply(b, x))
         py_next = subtract(multiply(subtract(kn, a), py), multiply(b, y))
@@ -286,7 +287,7 @@ def _move(coin, state, heights, drifts, order, s):
         z = add(multiply(z, s), (heights[n, 0], heights[n, 1]))
     for n in range(order - 1, -1, -1):
         x = add(multiply(x, s), (drifts[n, 0], drifts[n, 1]))
-    left = subtract((1.0, 0.0), multiply(coin.slowing, s))
+    left = subtract(ONE, multiply(coin.slowing, s))
     w = part(state, SPIN)
     put(state, HEIGHT, z)
     put(state, FALL, multiply(left, y))  # dz/dt = (1 - k s) dz/ds

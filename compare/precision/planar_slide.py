@@ -11,6 +11,7 @@ import numpy as np
 
 from analytic.numerics.tableau import STAGES, A, B
 from compare.precision.double_double import (
+    ONE,
     add,
     divide,
     multiply,
@@ -38,7 +39,6 @@ STEP = 0.05
 _MOST_STEPS = 4000
 _SECANTS = 60
 _PART = (TILT, SPIN, DRIFT)
-ONE = (1.0, 0.0)
 
 
 @compiled

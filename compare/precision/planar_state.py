@@ -5,7 +5,16 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.precision.double_double import add, multiply, negative, pair_of, scale, sine_cosine, subtract
+from compare.precision.double_double import (
+    ONE,
+    add,
+    multiply,
+    negative,
+    pair_of,
+    scale,
+    sine_cosine,
+    subtract,
+)
 from compare.precision.planar_coin import Units, square_root
 from models.kernel.compiled import compiled
 
@@ -71,7 +80,7 @@ def energy(coin, state):
 @compiled
 def is_settled(coin, state):
     """Return whether the coin has too little energy to go over its rim."""
-    return subtract(energy(coin, state), (1.0, 0.0))[0] < 0
+    return subtract(energy(coin, state), ONE)[0] < 0
 
 
 @compiled

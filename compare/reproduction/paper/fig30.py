@@ -16,11 +16,11 @@ from compare.output.style import GREY
 from compare.precision.magnified import MAGNIFICATION, Magnified, magnify
 from compare.precision.planar_coin import planar_coin, units
 from compare.precision.planar_state import HEIGHT, release
-from compare.precision.splitting import replica
 from compare.reproduction.claim import Claim, Criterion, Estimate
 from compare.reproduction.estimates import jackknife
 from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.planar_maps import HEIGHTS, MEDIA, SPINS, Grid, case, final_faces, releases
+from compare.reproduction.setups.uncertain_shares import uncertain_shares
 from models.records import Array
 from models.scenario import Scenario
 
@@ -85,7 +85,9 @@ def make(
         data[f"{medium}, off"] = off = np.array([np.abs(line.energies - 1).max(axis=1) for line in followed])
         shares = []
         for number in range(runs):
-            shares.append(_shares(scenario, np.random.default_rng([SEED, number]), population))
+            rng_of_run = np.random.default_rng([SEED, number])
+            run = uncertain_shares(scenario, rng_of_run, levels=len(ACCURACIES), population=population)
+            shares.append(run.shares)
             progress(done := done + 1, whole)
         data[f"{medium}, shares"] = np.array(shares)
         claims += _claims(medium, followed, off, np.array(shares), mujoco if medium == "air" else "-")
@@ -216,22 +218,6 @@ def _magnified(scenario: Scenario, spin: float) -> Magnified:
         windows=WINDOWS_BELOW,
         points=POINTS,
     )
-
-
-def _shares(scenario: Scenario, rng: np.random.Generator, population: int) -> Array:
-    """Return the share of tosses that each of `ACCURACIES` leaves uncertain, by one run of the splitting."""
-    own = units(scenario)
-    heights, spins = rng.uniform(*HEIGHTS, population), rng.uniform(*SPINS, population)
-    starts = np.array([release(own, height=z, spin=w) for z, w in zip(heights, spins, strict=True)])
-    return replica(
-        planar_coin(scenario),
-        starts,
-        row=HEIGHT,
-        largest=Fraction(1, 1000) / own.length,
-        levels=len(ACCURACIES),
-        population=population,
-        rng=rng,
-    ).shares
 
 
 def _by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
