@@ -139,14 +139,25 @@ def _exported(module: binding.ModuleRef) -> set[str]:
     }
 
 
-class CalleeCodegen(JITCPUCodegen):
-    """Makes code for callers, for the processor and by the settings of numba's own `JITCPUCodegen`."""
+class Codegen(JITCPUCodegen):
+    """numba's own, but that LLVM makes one vector of numbers that the same is done to side by side."""
+
+    def __init__(self) -> None:
+        """Share the processor and the settings with numba's own."""
+        vars(self).update(vars(cpu_target.target_context.codegen()))
+
+    def _pass_builder(self, **settings: Any) -> Any:
+        return super()._pass_builder(**{"slp_vectorize": True, **settings})
+
+
+class CalleeCodegen(Codegen):
+    """Makes code for callers."""
 
     _library_class = CalleeCode
 
     def __init__(self) -> None:
-        """Share all but the kind of code with numba's own."""
-        vars(self).update(vars(cpu_target.target_context.codegen()))
+        """Start without functions of numba's own."""
+        super().__init__()
         self.own_functions: dict[Any, Any] = {}
         """numba's own functions as code for callers."""
         self.typing = _Typing(cpu_target.typing_context)

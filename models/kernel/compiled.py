@@ -11,19 +11,17 @@ from typing import Any
 
 from llvmlite import binding
 from numba import _dynfunc
-from numba.core import config, types
+from numba.core import types
 from numba.core.compiler import Compiler, CompileResult, compile_result
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.dispatcher import _FunctionCompiler
 from numba.core.environment import Environment, lookup_environment
 from numba.core.registry import CPUDispatcher, cpu_target
 
-from models.kernel.callee_code import Callee, CalleeCode, CalleeCompiler, spare_references
+from models.kernel.callee_code import Callee, CalleeCode, CalleeCompiler, Codegen, spare_references
 from models.kernel.code_cache import PACKAGES, CodeCache, LocatedImpl
 from models.kernel.compiling import compiling
 
-# LLVM makes one vector of numbers that the same is done to side by side.
-config.SLP_VECTORIZE = 1
 _OPTIONS = {"nopython": True, "nogil": True, "error_model": "numpy"}
 _WITHOUT_WRAPPERS = {**_OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
@@ -205,7 +203,7 @@ class _Linker(_FunctionCompiler):
         environment = Environment.from_fndesc(description)
         # The code may all have been read from disk: see `CodeCache.load_overload`.
         cpu_target.target_context.refresh()
-        context = cpu_target.target_context.subtarget(enable_nrt=True)
+        context = cpu_target.target_context.subtarget(enable_nrt=True, _internal_codegen=Codegen())
         library = context.codegen().create_library(callee.library.name)
         library.enable_object_caching()
         context.create_cpython_wrapper(library, description, environment, None, release_gil=True)
