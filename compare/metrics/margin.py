@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 import analytic
 from models.records import Array
-from models.releases import Releases
+from models.releases import Releases, check_releases
 from models.scenario import Scenario
 
 Rows = tuple[Sequence[float], ...]
@@ -121,13 +121,15 @@ def _smallest(scenario: Scenario, start: Rows, quantity: Quantity) -> float:
 
 
 def _outcomes(scenario: Scenario, start: Rows, quantity: Quantity, by: Array) -> NDArray[np.int8]:
-    """Return the outcomes after ever larger changes, as far as the release is one above the floor."""
-    while len(by):
-        rows = (np.tile(np.array(row, dtype=float), (len(by), 1)) for row in start)
+    """Return the outcomes after ever larger changes, as far as a scenario would accept the release."""
+    for accepted in range(len(by), 0, -1):
+        rows = (np.tile(np.array(row, dtype=float), (accepted, 1)) for row in start)
         position, velocity, quaternion, spin = rows
         whole = Releases(position=position, velocity=velocity, quaternion=quaternion, angular_velocity=spin)
+        changed = quantity.change(whole, by[:accepted])
         try:
-            return analytic.toss_many(scenario, quantity.change(whole, by)).outcome
+            check_releases(scenario, changed)
         except ValueError:
-            by = by[:-1]
+            continue
+        return analytic.toss_many(scenario, changed).outcome
     return np.empty(0, dtype=np.int8)

@@ -41,6 +41,14 @@ def test_a_change_of_the_margin_changes_the_outcome_and_half_of_it_does_not(name
     assert faces[0] == faces[1] == faces[2] != faces[3]
 
 
+def test_a_boundary_that_was_passed_lies_behind():
+    scenario = load("fig29").replace("floor.restitution", 0.3)
+    ahead = by_name(scenario)["height"].change
+    height = 0.4 + 1.1 * ahead / 1e3
+    behind = by_name(scenario.replace("release.position.z", height))["height"].change
+    assert behind == pytest.approx(-0.1 * ahead, rel=1e-6)
+
+
 def test_the_command_prints_margins():
     answered = cointoss("toss", "fig29", "--margin")
     assert answered.exit_code == 0
