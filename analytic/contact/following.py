@@ -85,15 +85,7 @@ def contact_step(body, mu, mode, rim, y, dt, stages, y_new):
 def short_contact_step(body, mu, mode, rim, y, slope, dt, y_new):
     """Advance the state by a step in contact so short that one of order 2 does, and put it back on the floor.
 
-    Args:
-        body: the coin.
-        mu: coefficient of friction μ.
-        mode: number of the `Mode`, in contact.
-        rim: the lower one.
-        y: state at the start, (13,).
-        slope: its rate of change, (13,).
-        dt: length of the step [s], which may be negative.
-        y_new: where the state at the end goes, (13,).
+    Args as `contact_step`'s, but that `slope`, (13,), is the rate of change at y, and dt may be negative.
     """
     halfway = np.empty(STATE_SIZE)
     for i in range(STATE_SIZE):

@@ -7,6 +7,7 @@ import pytest
 from flint import arb, ctx
 
 import analytic
+from analytic.automaton import Event, Mode
 from compare.precision import double_double, planar_state, planar_toss
 from compare.precision.certified import certified_toss
 from compare.precision.double_double import pair_of
@@ -15,11 +16,12 @@ from compare.precision.planar_coin import planar_coin, units
 from compare.precision.planar_contact import keep_contact
 from compare.precision.planar_flight import ORDER, fly
 from compare.precision.planar_slide import slide
-from compare.precision.planar_state import FALL, HEIGHT, SPIN, TILT, release
+from compare.precision.planar_state import DRIFT, FALL, HEIGHT, SPIN, TILT, release
 from compare.precision.planar_toss import toss_many
 from compare.precision.splitting import chances, replica, spread
 from compare.reproduction.setups.planar_maps import case, releases
 from models.records import Outcome
+from tests.helpers.contacts import follow_step as contact_step
 
 COINS = [
     (chi, air, law)
@@ -191,6 +193,28 @@ def test_contact_keeps_its_energy_and_ends_where_the_force_does(e, rises):
     assert slid[[HEIGHT, FALL, TILT, SPIN], 0] == pytest.approx(
         state[[HEIGHT, FALL, TILT, SPIN], 0], abs=1e-9
     )
+
+
+def test_contact_in_air_is_the_engines():
+    """A tilted coin that drifts falls flat."""
+    scenario = scenario_of(0.3, air=True).replace("air.normal", 8.0).replace("air.tangential", 2.0)
+    coin, own = planar_coin(scenario), units(scenario)
+    tilt, spin, drift = -0.5, 0.3, 0.7
+    length, second = float(own.length), np.sqrt(float(own.length / own.gravity))
+    y = np.zeros(13)
+    y[2], y[4], y[5] = np.array([-np.sin(tilt), drift / second, -np.cos(tilt) * spin / second]) * length
+    y[6], y[7], y[10] = np.cos(tilt / 2), np.sin(tilt / 2), spin / second
+    over, step = False, np.inf
+    while not over:
+        _, step, over, lands = contact_step(scenario.body, 0.0, Mode.SLIDING, y, step)
+    assert lands == Event.FACE_LANDS
+    state = np.zeros((5, 2))
+    state[:, 0] = [-np.sin(tilt), -np.cos(tilt) * spin, tilt, spin, drift]
+    assert slide(coin, state, 1.0) == (False, False, 1.0, True)
+    assert state[SPIN, 0] / second == pytest.approx(y[10], rel=1e-6)
+    assert state[DRIFT, 0] * length / second == pytest.approx(y[4], rel=1e-6)
+    unhindered = np.sqrt(spin**2 + 2 * -np.sin(tilt) / (coin.inertia[0] + 1))
+    assert state[SPIN, 0] < 0.99 * unhindered
 
 
 def test_a_flight_in_air_follows_its_equations():

@@ -177,8 +177,8 @@ class Referee:
             (0, duration),
             y,
             method="DOP853",
-            rtol=1e-13 if linear else 1e-9,
-            atol=1e-15 if linear else 1e-11,
+            rtol=1e-13 if linear else 1e-10,
+            atol=1e-15 if linear else 1e-12,
             max_step=2e-3 if until_touch else np.inf,
             events=event if until_touch else None,
         )
