@@ -204,7 +204,7 @@ def test_contact_in_air_is_the_engines():
     y = np.zeros(13)
     y[2], y[4], y[5] = np.array([-np.sin(tilt), drift / second, -np.cos(tilt) * spin / second]) * length
     y[6], y[7], y[10] = np.cos(tilt / 2), np.sin(tilt / 2), spin / second
-    over, step = False, np.inf
+    over, step, lands = False, np.inf, Event.NONE
     while not over:
         _, step, over, lands = contact_step(scenario.body, 0.0, Mode.SLIDING, y, step)
     assert lands == Event.FACE_LANDS
