@@ -317,6 +317,12 @@ def video(scenario: str, out: Path, engine: str, camera: str) -> None:
     type=_Count(0, 999_999),
     help="Map the face at the touch after this number of impacts; 0: at the first touch.",
 )
+@click.option(
+    "--margin",
+    metavar="QUANTITY",
+    help="Also map the smallest change of this quantity of the release that changes a pixel's outcome: "
+    "height, velocity x (y, z), attitude about xi (eta, zeta) or spin about xi (eta, zeta).",
+)
 @click.option("--resume", is_flag=True, help="Continue an existing map.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing map.")
 @click.option("--scheduler", metavar="ADDRESS", help="Address of a Dask scheduler on whose workers to toss.")
@@ -343,6 +349,7 @@ def basin(
     both: bool,
     contact: str | None,
     after: int | None,
+    margin: str | None,
     resume: bool,
     overwrite: bool,
     scheduler: str | None,
@@ -365,6 +372,9 @@ def basin(
         raise click.UsageError("--engine and --compare: accepted: one of them")
     if contact is not None and not (both or engine == "mujoco"):
         raise click.UsageError(f"--contact {contact}: accepted: only beside --engine mujoco or --compare")
+    if margin is not None and (both or engine == "mujoco"):
+        beside = "--compare" if both else f"--engine {engine}"
+        raise click.UsageError(f"--margin {margin} {beside}: accepted: only by the analytic engine alone")
     if report is not None and not both:
         raise click.UsageError(f"--report {report}: accepted: only beside --compare")
     if png is None and report is None and (palette or boundaries or size or dpi):
@@ -387,6 +397,7 @@ def basin(
             engine=None if both else Engine(engine or "analytic"),
             contact=contact or "spring",
             after=after,
+            margin=margin,
             resume=resume,
             overwrite=overwrite,
             scheduler=scheduler,

@@ -71,7 +71,7 @@ def runs_here(words: list[str]) -> bool:
     """Tell whether a command takes but a few seconds and needs nothing but a folder."""
     tosses = [int(count) for count in re.findall(r"=[^ ]*:(\d+)\b", " ".join(words))]
     few = len(tosses) == 2 and tosses[0] * tosses[1] <= MOST_TOSSES
-    slow = {"--engine", "--compare", "--scheduler", "--resume"}
+    slow = {"--engine", "--compare", "--scheduler", "--resume", "--margin"}
     return words[0] == "toss" or (words[0] == "basin" and few and not slow & set(words))
 
 

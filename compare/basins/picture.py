@@ -4,8 +4,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.colors import to_rgb
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import LogNorm, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import ArrayLike, NDArray
@@ -14,14 +16,19 @@ from compare.basins.boundary import boundary_pixels
 from compare.basins.maps import OutcomeCodes, outcome_map
 from compare.basins.picture_style import DPI, Palette
 from compare.output.files import written_whole
-from compare.output.style import GREEN, GREY, OUTCOMES, PURPLE, SKY, VERMILION
+from compare.output.style import GREEN, GREY, GRID, OUTCOMES, PURPLE, SKY, VERMILION
 from models.records import Outcome
 
 PANEL_SIZE = (5.0, 4.5)
 """Of one map, width and height [inches]."""
 COMPARISON_SIZE = (3 * PANEL_SIZE[0], PANEL_SIZE[1])
 """Of three maps side by side, width and height [inches]."""
+MARGINS_SIZE = (2 * PANEL_SIZE[0] + 0.8, PANEL_SIZE[1])
+"""Of a map and its margins, width and height [inches]."""
 _ENTRY_WIDTH = 1.2  # of the legend [inches]
+_MARGINS, _NO_MARGIN = "cividis", GRID
+_TAIL = 0.005
+"""Of the margins at either end, so many share the last colour."""
 _SAME, _DIFFERENT = "#e6e9ed", VERMILION
 
 
@@ -137,6 +144,52 @@ def draw_comparison(
     panels[0].set_ylabel(_label(y))
     patches = [_patch(_SAME, "both alike"), _patch(_DIFFERENT, "different")]
     _legend(figure, [*_outcome_patches([a, b], palette, boundaries), *patches])
+    return figure
+
+
+def draw_margins(
+    outcomes: ArrayLike,
+    margins: ArrayLike,
+    *,
+    x: MapAxis,
+    y: MapAxis,
+    palette: Palette = Palette.SAFE,
+    boundaries: bool = False,
+    size: tuple[float, float] = MARGINS_SIZE,
+    quantity: str,
+    unit: str,
+    most: float,
+) -> Figure:
+    """Draw a map, and beside it the sizes of its margins on a logarithmic scale.
+
+    Args:
+        outcomes: the map, (y, x).
+        margins: the smallest change of each pixel that changes its outcome, infinite where none does, (y, x).
+        x: of the columns.
+        y: of the rows.
+        palette: the outcomes' colours.
+        boundaries: whether pixels at a boundary are coloured as such in the map.
+        size: width and height of the whole [inches].
+        quantity: what changes.
+        unit: of it.
+        most: the largest change that was tried [unit].
+    """
+    codes, sizes = outcome_map(outcomes), np.abs(np.asarray(margins, dtype=float))
+    found = sizes[np.isfinite(sizes)]
+    ends = np.quantile(found, [_TAIL, 1 - _TAIL]) if found.size else np.array([most / 10, most])
+    norm = LogNorm(*10.0 ** np.array([np.floor(np.log10(ends[0])), np.ceil(np.log10(ends[1]) + 1e-9)]))
+    shades = np.round(255 * colormaps[_MARGINS](norm(np.minimum(sizes, most)))[..., :3]).astype(np.uint8)
+    shades[np.isinf(sizes)] = _rgb(_NO_MARGIN)
+    figure = Figure(figsize=size, layout="constrained")
+    panels = figure.subplots(1, 2, sharex=True, sharey=True)
+    draw_panel(panels[0], codes, x=x, y=y, palette=palette, boundaries=boundaries)
+    _show(panels[1], shades, x, y)
+    for axes, title in zip(panels, ("outcome", f"change of {quantity} that changes it"), strict=True):
+        axes.set_title(title)
+    shown = ScalarMappable(norm, colormaps[_MARGINS])
+    figure.colorbar(shown, ax=panels[1], extend="both", label=f"smallest change of {quantity} [{unit}]")
+    none = [_patch(_NO_MARGIN, f"none found up to {most:g} {unit}")] if found.size < sizes.size else []
+    _legend(figure, [*_outcome_patches([codes], palette, boundaries), *none])
     return figure
 
 

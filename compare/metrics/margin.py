@@ -1,8 +1,8 @@
 """The margin of a toss: the smallest change of its release that changes its outcome, by quantity."""
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,12 +12,35 @@ from models.records import Array
 from models.releases import Releases, check_releases
 from models.scenario import Scenario
 
-Rows = tuple[Sequence[float], ...]
-FINEST, PER_DECADE, DECADES = 1e-13, 4, 13
+Codes = NDArray[np.int8]
+"""Codes of `Outcome`."""
+FINEST, DECADES = 1e-13, 13
 """Changes are tried from the finest on, in SI units; the last is 1."""
-BISECTIONS = 8
-"""The change that is found is cut down so many times by `CUTS`."""
 CUTS = 8
+"""Parts into which a bisection cuts the change that was found."""
+TOGETHER = 2048
+"""Tosses that are made together, about: they keep all cores busy."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Search:
+    """How closely changes are searched."""
+
+    per_decade: int
+    """Changes that are tried."""
+    bisections: int
+    """The change that is found is cut down so many times by `CUTS`."""
+
+    @property
+    def ladder(self) -> Array:
+        """The changes that are tried, in SI units."""
+        return FINEST * 10 ** (np.arange(DECADES * self.per_decade + 1) / self.per_decade)
+
+
+FINE = Search(per_decade=4, bisections=8)
+"""For one toss."""
+MANY = Search(per_decade=2, bisections=2)
+"""For many: a third of the tosses."""
 
 
 @dataclass(frozen=True)
@@ -90,6 +113,27 @@ QUANTITIES = (
 """Horizontal position is left out: it changes nothing."""
 
 
+def names() -> tuple[str, ...]:
+    """Return the names of `QUANTITIES` in Latin letters."""
+    return tuple(_latin(quantity.name) for quantity in QUANTITIES)
+
+
+def quantity_of(name: str) -> Quantity:
+    """Return the quantity of a name, its axis in Greek or Latin letters.
+
+    Raises:
+        ValueError: naming what is accepted.
+    """
+    for quantity in QUANTITIES:
+        if _latin(name) == _latin(quantity.name):
+            return quantity
+    raise ValueError(f"{name}: accepted: {', '.join(names())}")
+
+
+def _latin(name: str) -> str:
+    return name.replace("ξ", "xi").replace("η", "eta").replace("ζ", "zeta")
+
+
 def margins(scenario: Scenario) -> tuple[Margin, ...]:
     """Return the margin of a scenario's toss along each of `QUANTITIES`.
 
@@ -97,39 +141,94 @@ def margins(scenario: Scenario) -> tuple[Margin, ...]:
     A stripe between two rungs goes unseen, so the margin is an upper bound.
     """
     release = scenario.release
-    start = (release.position, release.velocity, release.attitude, release.angular_velocity)
-    return tuple(Margin(quantity, _smallest(scenario, start, quantity)) for quantity in QUANTITIES)
+    rows = (release.position, release.velocity, release.attitude, release.angular_velocity)
+    position, velocity, quaternion, spin = (np.array([row], dtype=float) for row in rows)
+    start = Releases(position=position, velocity=velocity, quaternion=quaternion, angular_velocity=spin)
+
+    def outcomes(releases: Releases) -> Codes:
+        return analytic.toss_many(scenario, releases).outcome
+
+    return tuple(
+        Margin(quantity, float(change * quantity.factor))
+        for quantity in QUANTITIES
+        for change in smallest_changes(scenario, start, quantity, outcomes=outcomes, search=FINE)
+    )
 
 
-def _smallest(scenario: Scenario, start: Rows, quantity: Quantity) -> float:
-    outcome = _outcomes(scenario, start, quantity, np.zeros(1))[0]
-    ladder = FINEST * 10 ** (np.arange(DECADES * PER_DECADE + 1) / PER_DECADE)
-    best = np.inf
-    for sign in (1.0, -1.0):
-        differs = _outcomes(scenario, start, quantity, sign * ladder) != outcome
-        if not differs.any():  # all that a scenario would accept
-            continue
-        at = int(np.argmax(differs))
-        low, high = (ladder[at - 1] if at else 0.0), ladder[at]
-        for _ in range(BISECTIONS):
-            rungs = np.linspace(low, high, CUTS + 1)[1:]
-            at = int(np.argmax(_outcomes(scenario, start, quantity, sign * rungs) != outcome))
-            low, high = (rungs[at - 1] if at else low), rungs[at]
-        if high < abs(best):
-            best = sign * high
-    return float(best * quantity.factor)
+def smallest_changes(
+    scenario: Scenario,
+    start: Releases,
+    quantity: Quantity,
+    *,
+    outcomes: Callable[[Releases], Codes],
+    search: Search,
+) -> Array:
+    """Return the margin of each of many tosses along a quantity, with its sign, in SI units, (n,).
+
+    It is infinite where no change up to 1 does, or none before one that the scenario would refuse.
+
+    Args:
+        scenario: whose coin is tossed.
+        start: the releases.
+        quantity: what changes.
+        outcomes: tosses the coin.
+        search: how closely.
+    """
+    own, signs, ladder = outcomes(start), np.array([1.0, -1.0]), search.ladder
+
+    def differ(rows: NDArray[np.intp], by: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+        """Return which changes, (rows, rungs), change the outcome, and which the scenario accepts."""
+        changed = quantity.change(_rows(start, np.repeat(rows, by.shape[1])), by.ravel())
+        kept = accepted(scenario, changed)
+        codes = np.repeat(own[rows], by.shape[1])
+        if kept.any():
+            codes[kept] = outcomes(_rows(changed, np.flatnonzero(kept)))
+        return (codes != np.repeat(own[rows], by.shape[1])).reshape(by.shape), kept.reshape(by.shape)
+
+    n = len(start)
+    low, high, is_open = np.zeros((2, n)), np.full((2, n), np.inf), np.ones((2, n), dtype=bool)
+    done = 0
+    while done < len(ladder):
+        left = np.flatnonzero(np.isinf(high).all(axis=0))
+        if not len(left):
+            break
+        rungs = ladder[done : done + max(1, TOGETHER // (2 * len(left)))]
+        for side, sign in enumerate(signs):
+            rows = left[is_open[side, left]]
+            differs, kept = differ(rows, np.tile(sign * rungs, (len(rows), 1)))
+            kept = np.logical_and.accumulate(kept, axis=1)  # all that a scenario would accept
+            differs &= kept
+            is_open[side, rows] = kept[:, -1]
+            first = np.argmax(differs, axis=1)
+            found = differs.any(axis=1)
+            before = np.concatenate([[ladder[done - 1] if done else 0.0], rungs])
+            high[side, rows[found]], low[side, rows[found]] = rungs[first[found]], before[first[found]]
+        done += len(rungs)
+    for side, sign in enumerate(signs):
+        rows = np.flatnonzero(np.isfinite(high[side]))
+        ends = low[side, rows], high[side, rows]
+        for _ in range(search.bisections):
+            cuts = np.linspace(*ends, CUTS + 1, axis=1)
+            differs, _ = differ(rows, sign * cuts[:, 1:-1])
+            # The last is known to differ.
+            first = np.argmax(np.column_stack([differs, np.ones(len(rows), dtype=bool)]), axis=1)
+            each = np.arange(len(rows))
+            ends = cuts[each, first], cuts[each, first + 1]
+        high[side, rows] = ends[1]
+    return np.where(high[1] < high[0], -high[1], high[0])
 
 
-def _outcomes(scenario: Scenario, start: Rows, quantity: Quantity, by: Array) -> NDArray[np.int8]:
-    """Return the outcomes after ever larger changes, as far as a scenario would accept the release."""
-    for accepted in range(len(by), 0, -1):
-        rows = (np.tile(np.array(row, dtype=float), (accepted, 1)) for row in start)
-        position, velocity, quaternion, spin = rows
-        whole = Releases(position=position, velocity=velocity, quaternion=quaternion, angular_velocity=spin)
-        changed = quantity.change(whole, by[:accepted])
-        try:
-            check_releases(scenario, changed)
-        except ValueError:
-            continue
-        return analytic.toss_many(scenario, changed).outcome
-    return np.empty(0, dtype=np.int8)
+def accepted(scenario: Scenario, releases: Releases) -> NDArray[np.bool_]:
+    """Return which releases a scenario with this coin, air and gravity would accept, (n,)."""
+    try:
+        check_releases(scenario, releases)
+    except ValueError:
+        if len(releases) == 1:
+            return np.zeros(1, dtype=bool)
+        halves = np.array_split(np.arange(len(releases)), 2)
+        return np.concatenate([accepted(scenario, _rows(releases, half)) for half in halves])
+    return np.ones(len(releases), dtype=bool)
+
+
+def _rows(releases: Releases, which: NDArray[np.intp]) -> Releases:
+    return Releases(**{item.name: getattr(releases, item.name)[which] for item in fields(Releases)})

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.stats import binomtest, norm, t
+from scipy.stats import binom, binomtest, norm, t
 
 from compare.reproduction.claim import Estimate
 from models.records import Array
@@ -84,6 +84,29 @@ def jackknife(
     error = ((parts - 1) * without.var()) ** 0.5
     value = statistic(np.ones(count, dtype=bool))
     return _about(value, t.ppf((1 + LEVEL) / 2, parts - 1) * error, count, counted)
+
+
+def quantile(values: ArrayLike, part: float, counted: str = "tosses") -> Estimate:
+    """Return the number below which a part of all values lies, with the interval of order statistics.
+
+    The interval needs no assumption on their distribution; it is open, to infinity, where the sample is too
+    small for an end.
+
+    Args:
+        values: of the sample, (n,); some may be infinite.
+        part: of all values, in (0, 1).
+        counted: what the sample is of.
+    """
+    ordered = np.sort(np.asarray(values, dtype=float))
+    count = len(ordered)
+    padded = np.concatenate([[-np.inf], ordered, [np.inf]])
+    outside = (1 - LEVEL) / 2
+    # The number below the quantile is binomial.
+    numbers = np.arange(count + 1)
+    low = int(np.sum(binom.cdf(numbers, count, part) <= outside))
+    high = count + 1 - int(np.sum(binom.sf(numbers - 1, count, part) <= outside))
+    value = float(ordered[min(int(np.ceil(part * count)), count) - 1])
+    return Estimate(value, float(padded[low]), float(padded[high]), count, counted)
 
 
 def ratio_of_medians(

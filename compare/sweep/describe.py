@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from compare.basins.agreement import Agreement, Share, agreement
 from compare.sweep.grid import Sweep
-from models.records import Outcome
+from models.records import Array, Outcome
 
 AWAY = 2.0
 """A pixel is away from the boundaries where all within this distance have its outcome [pixels]."""
@@ -28,6 +28,24 @@ def describe_map(path: Path, sweep: Sweep, fractions: dict[Outcome, float]) -> s
         ),
     ]
     return "\n".join(lines)
+
+
+def describe_margins(name: str, unit: str, most: float, sizes: Array) -> str:
+    """Return the margins of a map as text.
+
+    Args:
+        name: of the quantity that changes.
+        unit: of it.
+        most: the largest change that was tried [unit].
+        sizes: of the margins, (n,) [unit].
+    """
+    few, middle = np.quantile(sizes, [0.1, 0.5], method="lower")
+    return "\n".join(
+        [
+            f"margin     along {name}: median {middle:.3g} {unit}, a tenth below {few:.3g} {unit}",
+            f"           {100 * np.isinf(sizes).mean():.3f} % without one up to {most:g} {unit}",
+        ]
+    )
 
 
 def describe_agreement(measured: Agreement) -> str:

@@ -14,6 +14,8 @@ TILE_TOSSES = {Engine.ANALYTIC: 1 << 14, Engine.MUJOCO: 1 << 10}
 """Most tosses in a tile: seconds of work, so that little is lost with one and many workers have some."""
 SLOW_TILE_TOSSES = 1 << 6
 """Where the air is not linear, each toss is thousands of times slower."""
+MARGIN_TOSSES = 64
+"""Tosses that the margin of a pixel takes, about."""
 
 
 class Tile(NamedTuple):
@@ -35,6 +37,8 @@ class Sweep:
     """Of its engine."""
     after: int | None = None
     """The map shows the face at the touch after so many impacts; None for the final outcome."""
+    margin: str | None = None
+    """Name of the quantity of the release, one of `QUANTITIES`, along which each pixel has its margin."""
 
     def __post_init__(self) -> None:
         """Check that the axes and `after` go together.
@@ -64,6 +68,8 @@ def tile_shape(sweep: Sweep) -> tuple[int, int]:
     most = TILE_TOSSES[sweep.engine]
     if sweep.scenario.air.exponent > 0 or "air.exponent" in (sweep.x.field, sweep.y.field):
         most = min(most, SLOW_TILE_TOSSES)
+    if sweep.margin is not None:
+        most //= MARGIN_TOSSES
     x_of_release, y_of_release = sweep.x.is_of_release, sweep.y.is_of_release
     if x_of_release and not y_of_release:
         columns = min(nx, most)

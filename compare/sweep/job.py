@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from compare.basins.picture_style import PictureStyle
 from compare.engines import Engine
@@ -14,10 +15,14 @@ from compare.output.files import UnwritableError, require_file
 from compare.report.contents import require_folder
 from compare.sweep import describe, run, store
 from compare.sweep.axes import Axis, parse_axis
+from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep
 from compare.sweep.pixels import check
 from models.reading import parse
 from models.scenario import Scenario
+
+if TYPE_CHECKING:
+    from compare.metrics.margin import Quantity
 
 Watch = Callable[[str, int, int], AbstractContextManager[run.Tossed]]
 """Called with a map's name, the pixels that it has, and how many it will have; gives what to tell of more."""
@@ -47,6 +52,8 @@ class Job:
     """Of MuJoCo, "spring" or "one_step"."""
     after: int | None
     """As of a `Sweep`."""
+    margin: str | None
+    """Name of the quantity along which margins are mapped."""
     resume: bool
     """Whether to go on with maps that are there."""
     overwrite: bool
@@ -76,9 +83,19 @@ def sweeps_of(job: Job, scenario: Scenario, x: Axis, y: Axis) -> dict[Path, Swee
             y=y,
             settings=replace(engine.package.MANY, **chosen.get(engine, {})),
             after=job.after,
+            margin=job.margin and _margin(job.margin).name,
         )
         for path, engine in _engines_of(job).items()
     }
+
+
+def _margin(name: str) -> "Quantity":
+    from compare.metrics.margin import quantity_of
+
+    try:
+        return quantity_of(name)
+    except ValueError as error:
+        raise SweepError(f"--margin {error}") from None
 
 
 def _engines_of(job: Job) -> dict[Path, Engine]:
@@ -98,6 +115,7 @@ def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
     """
     scenario, engines = parse(job.text, job.source), _engines_of(job)
     x, y = parse_axis(job.x, scenario), parse_axis(job.y, scenario)
+    margin = None if job.margin is None else _margin(job.margin)
     for path in engines:
         store.require_place(path, resume=job.resume, overwrite=job.overwrite)
     if job.png is not None:
@@ -124,6 +142,9 @@ def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
                 with watch(path.name, whole - run.size(left), whole) as tossed:
                     run.fill(map_, sweep, left, tosser, tossed)
                 yield describe.describe_map(path, sweep, run.fractions_of(map_))
+                if margin is not None:
+                    sizes = run.margins_of(map_)
+                    yield describe.describe_margins(margin.name, margin.unit, margin.factor, sizes)
     if len(sweeps) == 1 and job.png is None:
         return
     from compare.sweep import show
@@ -132,7 +153,7 @@ def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
     if len(maps) > 1:
         yield describe.describe_agreement(describe.measure(*maps))
     if job.png is not None:
-        show.write(job.png, maps, first, job.style)
+        show.write(job.png, maps, first, job.style, margins=margin and show.margins_of(job.out))
         yield f"picture    {job.png}"
     if job.report is not None:
         from compare.report.folder import write_report

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from itertools import product
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from compare.sweep.grid import Sweep, Tile
 from models.attitude import quaternion_from_angles
 from models.errors import ScenarioError
 from models.fields import split
+from models.outcomes import Outcomes
 from models.records import Array
 from models.releases import Releases, check_releases
 from models.scenario import Scenario
@@ -38,6 +39,8 @@ class Pixels(NamedTuple):
     """`Outcome`, (y, x)."""
     impacts: NDArray[np.int32]
     """Number of impacts, (y, x)."""
+    margin: Array | None
+    """As of a `Margin`, (y, x); None where none is asked for."""
 
 
 class Group(NamedTuple):
@@ -60,13 +63,39 @@ def toss_pixels(sweep: Sweep, tile: Tile) -> Pixels:
     """
     y, x = sweep.y.values[tile.rows], sweep.x.values[tile.columns]
     outcome, impacts = np.empty((len(y), len(x)), dtype=np.int8), np.empty((len(y), len(x)), dtype=np.int32)
+    margin = None if sweep.margin is None else np.empty((len(y), len(x)))
     for group in groups(sweep, y, x):
-        tossed = sweep.engine.package.toss_many(group.scenario, group.releases, settings=sweep.settings)
-        shown = tossed.outcome if sweep.after is None else tossed.after(sweep.after)
-        for whole, part in ((outcome, shown), (impacts, tossed.impacts)):
+        tossed = _toss(sweep, group.scenario, group.releases)
+        parts: list[tuple[NDArray[Any], NDArray[Any]]] = [
+            (outcome, _shown(sweep, tossed)),
+            (impacts, tossed.impacts),
+        ]
+        if margin is not None:
+            parts.append((margin, _margins(sweep, group)))
+        for whole, part in parts:
             block = whole[group.rows, group.columns]
             block[:] = part.reshape(block.shape)
-    return Pixels(outcome, impacts)
+    return Pixels(outcome, impacts, margin)
+
+
+def _toss(sweep: Sweep, scenario: Scenario, releases: Releases) -> Outcomes:
+    return sweep.engine.package.toss_many(scenario, releases, settings=sweep.settings)
+
+
+def _shown(sweep: Sweep, tossed: Outcomes) -> NDArray[np.int8]:
+    """Return the outcomes, or the faces at a touch, that the map shows."""
+    return tossed.outcome if sweep.after is None else tossed.after(sweep.after)
+
+
+def _margins(sweep: Sweep, group: Group) -> Array:
+    from compare.metrics.margin import MANY, quantity_of, smallest_changes
+
+    def outcomes(releases: Releases) -> NDArray[np.int8]:
+        return _shown(sweep, _toss(sweep, group.scenario, releases))
+
+    quantity = quantity_of(sweep.margin or "")
+    found = smallest_changes(group.scenario, group.releases, quantity, outcomes=outcomes, search=MANY)
+    return found * quantity.factor
 
 
 def pixel_scenario(sweep: Sweep, y: float, x: float) -> Scenario:

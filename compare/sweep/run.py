@@ -11,8 +11,8 @@ from compare.output.files import UnwritableError
 from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile
 from compare.sweep.pixels import Pixels, toss_pixels
-from compare.sweep.store import BYTES_PER_PIXEL, Map
-from models.records import Outcome
+from compare.sweep.store import Map, bytes_per_pixel
+from models.records import Array, Outcome
 
 Tosser = Callable[[Sweep, Iterable[Tile]], Iterator[tuple[Tile, Pixels]]]
 """Tosses all pixels of tiles and gives the tiles, in any order."""
@@ -54,6 +54,11 @@ def fractions_of(map_: Map) -> dict[Outcome, float]:
     return {outcome: float(counts[outcome] / counts.sum()) for outcome in Outcome}
 
 
+def margins_of(map_: Map) -> Array:
+    """Return the sizes of a map's margins, tile by tile, (n,)."""
+    return np.concatenate([np.abs(map_.read(tile, "margin")).ravel() for tile in map_.tiles])
+
+
 def size(tiles: Iterable[Tile]) -> int:
     """Give the number of pixels of tiles."""
     return sum((rows.stop - rows.start) * (columns.stop - columns.start) for rows, columns in tiles)
@@ -74,13 +79,15 @@ def require_room(sweep: Sweep, folder: Path, *, maps: int, drawn: bool) -> None:
     """
     pixels = sweep.shape[0] * sweep.shape[1]
     grid = f"{sweep.shape[1]} by {sweep.shape[0]} tosses"
-    needed, free = maps * pixels * BYTES_PER_PIXEL, shutil.disk_usage(folder).free
+    needed, free = maps * pixels * bytes_per_pixel(sweep), shutil.disk_usage(folder).free
     if needed > free:
         raise UnwritableError(
             f"{folder}: {grid} need up to {_gigabytes(needed)} of disk; accepted: a grid for the "
             f"{_gigabytes(free)} that are free"
         )
-    needed, there = pixels * DRAWING_BYTES_PER_PIXEL, os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    pictures = 1 if sweep.margin is None else 2
+    needed = pictures * pixels * DRAWING_BYTES_PER_PIXEL
+    there = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     if drawn and needed > there:
         raise SweepError(
             f"{grid}: to draw or compare them needs up to {_gigabytes(needed)} of memory; accepted: "

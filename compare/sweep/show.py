@@ -14,10 +14,12 @@ from numpy.typing import NDArray
 from compare.basins import picture
 from compare.basins.fractions import fractions
 from compare.basins.picture_style import PictureStyle
+from compare.metrics.margin import quantity_of
 from compare.report.map_section import MapSection
 from compare.sweep.axes import Axis
 from compare.sweep.describe import AWAY, measure, percent
 from compare.sweep.grid import Sweep
+from models.records import Array
 
 
 def outcomes_of(path: Path) -> NDArray[np.int8]:
@@ -26,7 +28,20 @@ def outcomes_of(path: Path) -> NDArray[np.int8]:
         return dataset["outcome"].to_numpy()
 
 
-def write(png: Path, maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle) -> None:
+def margins_of(path: Path) -> Array:
+    """Read the margins of a map, (y, x)."""
+    with xarray.open_dataset(path, engine="zarr", consolidated=True) as dataset:
+        return dataset["margin"].to_numpy()
+
+
+def write(
+    png: Path,
+    maps: list[NDArray[np.int8]],
+    sweep: Sweep,
+    style: PictureStyle,
+    *,
+    margins: Array | None = None,
+) -> None:
     """Draw one map, or those of both engines and where they differ, with the numbers of their agreement.
 
     Args:
@@ -34,11 +49,12 @@ def write(png: Path, maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureS
         maps: (y, x) each, the first by the analytic engine if there are two.
         sweep: what the first was made of.
         style: how to draw.
+        margins: of the first map, (y, x), to be drawn beside it.
 
     Raises:
         UnwritableError: naming the file and why.
     """
-    picture.write_png(_figure(maps, sweep, style), png, dpi=style.dpi)
+    picture.write_png(_figure(maps, sweep, style, margins), png, dpi=style.dpi)
 
 
 def section(
@@ -71,7 +87,9 @@ def section(
     )
 
 
-def _figure(maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle) -> Figure:
+def _figure(
+    maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle, margins: Array | None = None
+) -> Figure:
     x, y = _drawn(sweep.x), _drawn(sweep.y)
     common: Any = {"x": x, "y": y, "palette": style.palette, "boundaries": style.boundaries}
     if len(maps) > 1:
@@ -81,6 +99,17 @@ def _figure(maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle) -> 
             **common,
             size=style.size or picture.COMPARISON_SIZE,
             note=f"agree: {percent(measured.away)} away from boundaries,\n{percent(measured.near)} near them",
+        )
+    if margins is not None:
+        quantity = quantity_of(sweep.margin or "")
+        return picture.draw_margins(
+            maps[0],
+            margins,
+            **common,
+            size=style.size or picture.MARGINS_SIZE,
+            quantity=quantity.name,
+            unit=quantity.unit,
+            most=quantity.factor,
         )
     return picture.draw_map(maps[0], **common, size=style.size or picture.PANEL_SIZE)
 

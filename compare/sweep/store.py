@@ -9,7 +9,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import zarr
@@ -30,7 +30,8 @@ FORMAT = 1
 """Of a map, under the attribute `cointoss_map`."""
 NOT_TOSSED = -1
 """What `outcome` and `impacts` hold where no toss was made yet."""
-_ARRAYS = {"outcome": np.int8, "impacts": np.int32}
+NO_MARGIN = float("nan")
+"""What `margin` holds there."""
 _ATTRIBUTES = {
     "scenario": str,
     "engine": str,
@@ -38,9 +39,39 @@ _ATTRIBUTES = {
     "after": int | None,
     "versions": dict,
 }
+_MARGIN = "margin_along"
+"""Attribute of a map with margins: their quantity."""
 _WAYS_OUT = "accepted: a new name, or --overwrite"
-BYTES_PER_PIXEL = sum(np.dtype(kind).itemsize for kind in _ARRAYS.values())
-"""On disk, before compression."""
+
+
+class _Layer(NamedTuple):
+    """An array of a map."""
+
+    kind: type[np.number]
+    fill_value: float
+    attributes: dict[str, str]
+
+
+def _layers(sweep: Sweep) -> dict[str, _Layer]:
+    """Return the arrays of a sweep's map, by name."""
+    meanings = ", ".join(f"{int(outcome)} {outcome.label}" for outcome in Outcome)
+    layers = {
+        "outcome": _Layer(np.int8, NOT_TOSSED, {"long_name": meanings}),
+        "impacts": _Layer(np.int32, NOT_TOSSED, {"long_name": "number of impacts"}),
+    }
+    if sweep.margin is None:
+        return layers
+    from compare.metrics.margin import quantity_of
+
+    found = f"smallest change of the release's {sweep.margin} that was found to change the outcome"
+    attributes = {"long_name": f"{found}; infinite: none up to 1 SI unit"}
+    units = quantity_of(sweep.margin).unit
+    return {**layers, "margin": _Layer(np.float64, NO_MARGIN, {**attributes, "units": units})}
+
+
+def bytes_per_pixel(sweep: Sweep) -> int:
+    """Return what a pixel of a sweep's map takes on disk, before compression."""
+    return sum(np.dtype(layer.kind).itemsize for layer in _layers(sweep).values())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,16 +90,22 @@ class Map:
     def is_tossed(self, tile: Tile) -> bool:
         """Tell whether a tile is on disk, whole."""
         try:
-            outcome, impacts = (self._array(name)[tile.rows, tile.columns] for name in ("outcome", "impacts"))
+            outcome, impacts = (self.read(tile, name) for name in ("outcome", "impacts"))
+            margin_found = not self.has_margin or not np.isnan(self.read(tile, "margin")).any()
         except OSError:
             raise
         except Exception:  # its checksum is wrong, or it breaks off; each codec fails in its own way
             return False
-        return bool(np.isin(outcome, list(Outcome)).all() and (impacts >= 0).all())
+        return bool(np.isin(outcome, list(Outcome)).all() and (impacts >= 0).all() and margin_found)
 
-    def read(self, tile: Tile) -> NDArray[np.int8]:
-        """Give the outcomes of a tile, (y, x)."""
-        return self._array("outcome")[tile.rows, tile.columns]
+    @property
+    def has_margin(self) -> bool:
+        """Whether it holds margins too."""
+        return "margin" in self.group
+
+    def read(self, tile: Tile, name: str = "outcome") -> NDArray[Any]:
+        """Return a tile of an array, (y, x)."""
+        return self._array(name)[tile.rows, tile.columns]
 
     def write(self, tile: Tile, pixels: Pixels) -> None:
         """Keep what is known of a tile.
@@ -77,6 +114,8 @@ class Map:
             UnwritableError: naming the map and why, for every error of the system.
         """
         with naming(self.path):
+            if pixels.margin is not None:
+                self._array("margin")[tile.rows, tile.columns] = pixels.margin
             self._array("impacts")[tile.rows, tile.columns] = pixels.impacts
             self._array("outcome")[tile.rows, tile.columns] = pixels.outcome
 
@@ -169,21 +208,17 @@ def _create(target: Path, sweep: Sweep, scenario_text: str) -> None:
 
 def _write_empty(folder: Path, sweep: Sweep, scenario_text: str) -> None:
     group = zarr.create_group(folder, zarr_format=3, attributes=_attributes(sweep, scenario_text))
-    meanings = {int(outcome): outcome.label for outcome in Outcome}
-    for name, long_name in (
-        ("outcome", ", ".join(f"{code} {label}" for code, label in meanings.items())),
-        ("impacts", "number of impacts"),
-    ):
+    for name, layer in _layers(sweep).items():
         group.create_array(
             name,
             shape=sweep.shape,
             chunks=tile_shape(sweep),
-            dtype=_ARRAYS[name],
-            fill_value=NOT_TOSSED,
+            dtype=layer.kind,
+            fill_value=layer.fill_value,
             dimension_names=("y", "x"),
             # A tile that breaks off must not pass for one.
             compressors=ZstdCodec(checksum=True),
-            attributes={"long_name": long_name, "coordinates": f"{sweep.y.field} {sweep.x.field}"},
+            attributes={**layer.attributes, "coordinates": f"{sweep.y.field} {sweep.x.field}"},
         )
     for axis, dimension in ((sweep.y, "y"), (sweep.x, "x")):
         group.create_array(
@@ -202,6 +237,7 @@ def _attributes(sweep: Sweep, scenario_text: str) -> dict[str, Any]:
         "engine": sweep.engine.value,
         "engine_settings": sweep.settings.as_dict(),
         "after": sweep.after,
+        **({} if sweep.margin is None else {_MARGIN: sweep.margin}),
         "versions": {**sweep.engine.versions, "zarr": version("zarr")},
     }
 
@@ -226,6 +262,7 @@ def _require_same(path: Path, group: zarr.Group, sweep: Sweep) -> None:
             found["engine_settings"] == sweep.settings.as_dict(),
         ),
         ("number of impacts (--after)", found["after"] == sweep.after),
+        ("quantity of its margins (--margin)", found.get(_MARGIN) == sweep.margin),
         ("grid in x", _is_axis(group, "x", sweep.x)),
         ("grid in y", _is_axis(group, "y", sweep.y)),
         (f"versions, {json.dumps(made_by)}", made_by == sweep.engine.versions),
@@ -234,25 +271,25 @@ def _require_same(path: Path, group: zarr.Group, sweep: Sweep) -> None:
             raise UnwritableError(f"{path}: is a map with another {what}; {_WAYS_OUT}")
     consolidated = zarr.open_group(group.store, mode="r", use_consolidated=True)
     for read in (group, consolidated):
-        for name, kind in _ARRAYS.items():
-            _require_array(path, read, name, kind, sweep)
+        for name, layer in _layers(sweep).items():
+            _require_array(path, read, name, layer, sweep)
     for name, axis in (("x", sweep.x), ("y", sweep.y)):
         if not _is_axis(consolidated, name, axis):
             raise _damaged(path, f"array {axis.field}: not in the consolidated metadata")
 
 
-def _require_array(path: Path, group: zarr.Group, name: str, kind: type[np.integer], sweep: Sweep) -> None:
+def _require_array(path: Path, group: zarr.Group, name: str, layer: _Layer, sweep: Sweep) -> None:
     """Refuse an array that is none of a map of a sweep."""
     array: Any = group.get(name)
     if not isinstance(array, zarr.Array):
         raise _damaged(path, f"array {name} missing")
     for what, there, due in (
-        ("type", array.dtype.name, np.dtype(kind).name),
+        ("type", array.dtype.name, np.dtype(layer.kind).name),
         ("shape", array.shape, sweep.shape),
         ("tile", array.chunks, tile_shape(sweep)),
-        ("fill value", array.fill_value, NOT_TOSSED),
+        ("fill value", array.fill_value, layer.fill_value),
     ):
-        if there != due:
+        if there != due and not (there != there and due != due):  # two NaN are alike
             raise _damaged(path, f"array {name}: {what} {there}, not {due}")
 
 

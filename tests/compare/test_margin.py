@@ -4,9 +4,14 @@ import json
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import analytic
-from compare.metrics.margin import QUANTITIES, margins
+from compare.basins.picture import MapAxis, draw_margins, write_png
+from compare.engines import Engine
+from compare.metrics.margin import MANY, QUANTITIES, accepted, margins, quantity_of, smallest_changes
+from compare.reproduction.setups.planar_maps import releases
+from compare.sweep import grid
 from models.reading import load
 from tests.helpers.command_line import cointoss
 
@@ -61,3 +66,124 @@ def test_the_command_prints_margins():
     refused = cointoss("toss", "fig29", "--margin", "--engine", "mujoco")
     assert refused.exit_code == 2
     assert "--margin" in refused.stderr
+
+
+SIDES = ("--x", "release.angular_velocity.xi=20:60:8", "--y", "release.position.z=0.2:0.6:6")
+
+
+@pytest.fixture
+def small_tiles(monkeypatch):
+    monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, 16 * grid.MARGIN_TOSSES)
+
+
+def margins_in(path):
+    with xr.open_dataset(path, engine="zarr") as found:
+        assert found["margin"].attrs["units"] == "rad/s"
+        assert "spin about ξ" in found["margin"].attrs["long_name"]
+        return found["outcome"].to_numpy(), found["margin"].to_numpy()
+
+
+@pytest.mark.usefixtures("small_tiles")
+def test_a_map_of_margins_is_that_of_its_pixels_and_goes_on_where_it_was(tmp_path):
+    out = tmp_path / "map.zarr"
+    command = ("basin", "fig29", *SIDES, "--margin", "spin about xi", "--out", out)
+    answered = cointoss(*command)
+    assert answered.exit_code == 0, answered.stderr
+    assert "margin     along spin about ξ: median " in answered.stdout
+    outcome, margin = margins_in(out)
+    scenario, spins, heights = load("fig29"), np.linspace(20, 60, 8), np.linspace(0.2, 0.6, 6)
+    z, w = (part.ravel() for part in np.meshgrid(heights, spins, indexing="ij"))
+    found = np.isfinite(margin.ravel())
+    assert found.mean() > 0.8
+    for part, differs in ((0.0, False), (0.97, False), (1.0, True)):
+        changed = releases(z[found], w[found] + part * margin.ravel()[found])
+        there = np.mean(analytic.toss_many(scenario, changed).outcome != outcome.ravel()[found])
+        assert (there == 1) if differs else (there < 0.1)
+    tile = next((out / "margin" / "c").glob("0/*"))
+    tile.unlink()
+    assert np.isnan(margins_in(out)[1]).sum() == 16
+    assert cointoss(*command, "--resume").exit_code == 0
+    assert np.array_equal(margins_in(out)[1], margin)
+
+
+def test_margins_of_a_map_after_impacts_are_of_the_face_there(tmp_path):
+    out = tmp_path / "map.zarr"
+    answered = cointoss("basin", "fig29", *SIDES, "--margin", "spin about ξ", "--after", "0", "--out", out)
+    assert answered.exit_code == 0, answered.stderr
+    face, margin = margins_in(out)
+    # Half a turn at the first touch, which comes about at the time of a fall.
+    assert 0.5 < np.median(np.abs(margin[np.isfinite(margin)])) <= 1
+    assert np.isinf(margin).any()
+    assert set(np.unique(face)) == {1, 2}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--margin", "weight"], "--margin weight: accepted: height, velocity x,"),
+        (["--margin", "height", "--engine", "mujoco"], "--margin height --engine mujoco: accepted: only by"),
+        (["--margin", "height", "--compare"], "--margin height --compare: accepted: only by"),
+    ],
+)
+def test_a_margin_that_cannot_be_mapped_is_refused(tmp_path, arguments, said):
+    answered = cointoss("basin", "fig29", *SIDES, *arguments, "--out", tmp_path / "map.zarr")
+    assert answered.exit_code == 2
+    assert len(answered.stderr.splitlines()) == 1
+    assert said in answered.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_map_of_other_margins_is_not_gone_on_with(tmp_path):
+    out = tmp_path / "map.zarr"
+    command = ("basin", "fig29", *SIDES, "--after", "0", "--out", out)
+    assert cointoss(*command).exit_code == 0
+    refused = cointoss(*command, "--margin", "height", "--resume")
+    assert refused.exit_code == 2
+    assert "is a map with another quantity of its margins (--margin)" in refused.stderr
+
+
+def test_margins_are_drawn_in_colours_of_their_size(tmp_path):
+    sizes = np.array([[1e-6, -1e-3, 1.0], [np.inf, 1e-6, -1e-3]])
+    axis = MapAxis(name="a", unit="m", start=0.0, stop=1.0)
+    figure = draw_margins(
+        np.array([[1, 2, 1], [2, 1, 2]]), sizes, x=axis, y=axis, quantity="height", unit="mm", most=1e3
+    )
+    drawn = np.asarray(figure.axes[1].images[0].get_array())
+    assert np.array_equal(drawn[0, 1], drawn[1, 2])
+    assert drawn[0, 0].sum() < drawn[0, 1].sum() < drawn[0, 2].sum()
+    assert drawn[1, 0].tolist() == [217, 222, 229]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == [
+        "heads",
+        "tails",
+        "none found up to 1000 mm",
+    ]
+    assert figure.axes[2].get_ylabel() == "smallest change of height [mm]"
+    everywhere = draw_margins(
+        np.ones((2, 2), dtype=int),
+        np.full((2, 2), np.inf),
+        x=axis,
+        y=axis,
+        quantity="height",
+        unit="mm",
+        most=1e3,
+    )
+    write_png(everywhere, tmp_path / "none.png")
+
+
+def test_a_change_that_a_scenario_would_refuse_ends_the_search():
+    """A coin 1 mm above the floor, flat, cannot be let go lower, nor 1000 mm deeper."""
+    scenario = load("fig29").replace("release.position.z", 1e-3)
+    start = releases(np.array([1e-3, 0.4]), np.array([0.0, 0.0]))
+    assert accepted(scenario, quantity_of("height").change(start, np.array([-2e-3, -2e-3]))).tolist() == [
+        False,
+        True,
+    ]
+    tried = []
+
+    def outcomes(changed):
+        tried.append(changed.position[:, 2])
+        return analytic.toss_many(scenario, changed).outcome
+
+    found = smallest_changes(scenario, start, quantity_of("height"), outcomes=outcomes, search=MANY)
+    assert np.isinf(found).all()
+    assert min(heights.min() for heights in tried) >= 0

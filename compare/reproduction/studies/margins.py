@@ -1,0 +1,263 @@
+"""How far is a toss from the boundary? The smallest change of its release that changes its outcome."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+import analytic
+from compare.metrics.margin import MANY, QUANTITIES, Codes, Quantity, smallest_changes
+from compare.output.progress import Progress
+from compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
+from compare.output.tables import table
+from compare.reproduction.claim import Claim, Criterion, Estimate
+from compare.reproduction.estimates import quantile, share
+from compare.reproduction.parts import Part, kept
+from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.setups.general_coins import CoinClass
+from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
+from models.kernel.code_cache import source_hash
+from models.reading import load
+from models.records import Array
+from models.releases import Releases
+from models.scenario import Scenario
+
+SEED = 316
+COUNT, QUICK = 120, 12
+"""Tosses of the general coin."""
+PLANAR, QUICK_PLANAR = 1000, 100
+"""Tosses of the planar coin."""
+FAMILY = CoinClass(thick=True, imperfect=True, air=True, coulomb=False)
+"""Whose releases the general coin has."""
+HEIGHT = QUANTITIES[0]
+HAND = 1.0
+"""An ordinary hand's accuracy in height [mm]."""
+ACCURACIES = (1.0, 1e-3, 1e-6)
+"""At which P(margin < ε) is compared with f(ε) [mm]."""
+PARTS = (0.01, 0.1, 0.5, 0.9)
+"""Of the tosses, whose largest margins are given."""
+KINDS = {"height": INK, "velocity": BLUE, "attitude": ORANGE, "spin": GREEN}
+"""Of quantities, and their colours."""
+STYLES = ("-", "--", ":")
+"""Of the axes."""
+
+
+@dataclass(frozen=True)
+class Margins:
+    """The margins of random tosses, without their signs; -1 where none up to 1 SI unit was found."""
+
+    general: dict[str, list[float]]
+    """Of the general coin, by quantity, in its unit."""
+    planar: list[float]
+    """Of the planar coin, in height [mm]."""
+    uncertain: dict[str, list[bool]]
+    """Whether a release ε higher, or ε lower, of those tosses has another outcome, by ε in mm."""
+
+
+def compute(progress: Progress, parts: Path, *, count: int, planar: int) -> Margins:
+    """Find the margins of random tosses; what an interrupted computation found is not searched again.
+
+    Args:
+        progress: called after each quantity.
+        parts: folder of what is done.
+        count: tosses of the general coin.
+        planar: tosses of the planar coin.
+    """
+    zloty, flat = load("zloty"), case(air=False)
+    general: dict[str, list[float]] = {}
+    for done, quantity in enumerate(QUANTITIES):
+        drawn = FAMILY.releases(count)
+        general[quantity.name] = _kept_margins(parts, zloty, drawn, quantity, "zloty")
+        progress(done + 1, len(QUANTITIES) + 1)
+    drawn = planar_releases(planar)
+    found = _kept_margins(parts, flat, drawn, HEIGHT, "planar")
+    uncertain = {
+        f"{one:g}": uncertain_within(flat, drawn, one / HEIGHT.factor).tolist() for one in ACCURACIES
+    }
+    progress(len(QUANTITIES) + 1, len(QUANTITIES) + 1)
+    return Margins(general=general, planar=found, uncertain=uncertain)
+
+
+def planar_releases(count: int) -> Releases:
+    """Return releases uniform in height and spin, flat, at rest but for the spin."""
+    rng = np.random.default_rng(SEED)
+    return releases(rng.uniform(*HEIGHTS, count), rng.uniform(*SPINS, count))
+
+
+def found_margins(scenario: Scenario, start: Releases, quantity: Quantity) -> Array:
+    """Return the margins of tosses along a quantity, in its unit, without their signs, (n,)."""
+
+    def outcomes(changed: Releases) -> Codes:
+        return analytic.toss_many(scenario, changed).outcome
+
+    found = smallest_changes(scenario, start, quantity, outcomes=outcomes, search=MANY)
+    return np.abs(found) * quantity.factor
+
+
+def _kept_margins(
+    parts: Path, scenario: Scenario, start: Releases, quantity: Quantity, name: str
+) -> list[float]:
+    """Return the margins that an earlier computation kept, or find them and keep them."""
+
+    def compute_part() -> Part:
+        return {"margins": found_margins(scenario, start, quantity)}
+
+    made_by = source_hash("compare.metrics.margin")
+    part = kept(parts, f"{made_by}, {name}, {quantity.name}, {len(start)}", compute_part)
+    margins = part["margins"]
+    return np.where(np.isfinite(margins), margins, -1.0).tolist()
+
+
+def uncertain_within(scenario: Scenario, start: Releases, accuracy: float) -> NDArray[np.bool_]:
+    """Return whether a release that much higher, or lower, has another outcome, (n,).
+
+    Args:
+        scenario: what is tossed.
+        start: the releases.
+        accuracy: ε [m].
+    """
+    own = analytic.toss_many(scenario, start).outcome
+    by = np.full(len(start), accuracy)
+    ends = [analytic.toss_many(scenario, HEIGHT.change(start, sign * by)).outcome for sign in (1, -1)]
+    return (ends[0] != own) | (ends[1] != own)
+
+
+def sizes_of(margins: Sequence[float]) -> Array:
+    """Return margins with infinity where none was found, (n,)."""
+    sizes = np.array(margins)
+    return np.where(sizes < 0, np.inf, sizes)
+
+
+def below(margins: Sequence[float], accuracy: float) -> Estimate:
+    """Return P(margin < ε), or as a margin that was found is an upper bound, what it is at least."""
+    return share(sizes_of(margins) <= accuracy)
+
+
+def tables(found: Margins) -> str:
+    """Return the tables, in Markdown."""
+    units = {quantity.name: quantity.unit for quantity in QUANTITIES}
+    head = ["what varies", *(f"{part:.0%}" for part in PARTS), "none found"]
+    rows = [
+        [
+            f"{name} [{units[name]}]",
+            *(_words(quantile(sizes_of(margins), part)) for part in PARTS),
+            f"{np.mean(np.isinf(sizes_of(margins))):.1%}",
+        ]
+        for name, margins in found.general.items()
+    ]
+    count = len(next(iter(found.general.values())))
+    return "\n\n".join(
+        [
+            f"The margins of {count} random tosses of the paper's zloty in air, χ = 0.8: this part of all "
+            "tosses has a smaller one than",
+            table(head, rows),
+            f"{len(found.planar)} random planar tosses in vacuum, χ = 0.6, along height:",
+            table(
+                ["ε [mm]", "P(margin ≤ ε)", "f(ε)"],
+                [
+                    [f"{one:g}", _share(below(found.planar, one)), _share(share(found.uncertain[f"{one:g}"]))]
+                    for one in ACCURACIES
+                ],
+            ),
+        ]
+    )
+
+
+def _words(found: Estimate) -> str:
+    value, low, high = ("none" if np.isinf(x) else f"{x:.2g}" for x in (found.value, found.low, found.high))
+    return f"{value} [{'0' if np.isneginf(found.low) else low}, {high}]"
+
+
+def _share(found: Estimate) -> str:
+    return f"{found.value:.3f} [{found.low:.3f}, {found.high:.3f}]"
+
+
+def draw(found: Margins) -> Figure:
+    """Draw the distribution functions of both coins."""
+    picture = Figure(figsize=(11, 4.6))
+    left, right = picture.subplots(1, 2, sharey=True)
+    for quantity in QUANTITIES:
+        kind = quantity.name.split(" ")[0]
+        number = [other.name for other in QUANTITIES if other.name.startswith(kind)].index(quantity.name)
+        _steps(
+            right,
+            sizes_of(found.general[quantity.name]) / quantity.factor,
+            color=KINDS[kind],
+            linestyle=STYLES[number],
+            label=quantity.name,
+        )
+    si = 1 / HEIGHT.factor
+    _steps(left, sizes_of(found.planar) * si, color=INK, label="P(margin < ε)")
+    points = [share(found.uncertain[f"{one:g}"]) for one in ACCURACIES]
+    left.errorbar(
+        [one * si for one in ACCURACIES],
+        [point.value for point in points],
+        yerr=np.transpose([(point.value - point.low, point.high - point.value) for point in points]),
+        fmt="o",
+        color=VERMILION,
+        label="f(ε), at both ends only",
+    )
+    left.set(
+        title="planar coin in vacuum, χ = 0.6",
+        xlabel="margin in height [m]",
+        ylabel="part of the tosses with a smaller margin",
+    )
+    right.set(
+        title="the paper's zloty in air, χ = 0.8", xlabel="margin [m, m/s, rad or rad/s]", ylim=(0, 1.02)
+    )
+    for axes in (left, right):
+        axes.set_xscale("log")
+        axes.set_xlim(1e-14, 1)
+        axes.axvline(HAND * si, color=GREY, linewidth=0.8)
+        axes.annotate(
+            "a hand's 1 mm", (HAND * si, 0.03), rotation=90, ha="right", va="bottom", color=GREY, fontsize=9
+        )
+        axes.legend(loc="upper left", fontsize=8)
+    return picture
+
+
+def _steps(axes, sizes: Array, **style) -> None:
+    x = np.sort(sizes)
+    axes.step(x[np.isfinite(x)], (np.arange(len(x)) + 1)[np.isfinite(x)] / len(x), where="post", **style)
+
+
+def claims(found: Margins) -> list[Claim]:
+    """Return the claims of the margins."""
+    tossed = {
+        "the paper's zloty in air, χ = 0.8": found.general["height"],
+        "the planar coin in vacuum, χ = 0.6": found.planar,
+    }
+    return [
+        Claim(
+            claim=f"a hand's {HAND:g} mm of height exceeds the margin of most tosses ({name})",
+            criteria=[
+                Criterion(
+                    f"share with a margin of at most {HAND:g} mm",
+                    below(margins, HAND),
+                    ">",
+                    0.5,
+                    "most",
+                )
+            ],
+        )
+        for name, margins in tossed.items()
+    ]
+
+
+def result(found: Margins) -> Result:
+    """Return the study's tables and claims."""
+    return Result(claims=claims(found), data=found, tables=tables(found))
+
+
+REPRODUCTION = Reproduction(
+    title="the smallest change of a release that changes its outcome, over random tosses",
+    seconds=240,
+    make=lambda progress, parts: result(compute(progress, parts, count=COUNT, planar=PLANAR)),
+    draw={"margins": draw},
+    quick=lambda progress, parts: result(compute(progress, parts, count=QUICK, planar=QUICK_PLANAR)),
+    quick_seconds=30,
+    resumes=True,
+)

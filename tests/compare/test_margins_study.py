@@ -1,0 +1,47 @@
+"""The study of margins: its page, its measures on made margins, and that it resumes."""
+
+import numpy as np
+import pytest
+
+from compare.reproduction.claim import unexpected
+from compare.reproduction.estimates import quantile
+from compare.reproduction.saving import read_numbers
+from compare.reproduction.studies import margins
+from compare.reproduction.studies.margins import Margins, below, claims, compute, result
+from tests.helpers.pages import pictures, printed, saved
+
+SAVED = read_numbers(saved("margins"), Margins)
+
+
+def test_the_page_shows_the_saved_numbers():
+    assert printed("PREDICTABILITY.md", "margins") == result(SAVED).text
+    assert pictures("PREDICTABILITY.md", "margins") == {"margins.png"}
+    assert unexpected(claims(SAVED)) == ()
+    for accuracy, flags in SAVED.uncertain.items():
+        # A change by ε is one of those that are tried.
+        assert np.mean(flags) <= below(SAVED.planar, float(accuracy)).value
+
+
+def test_the_interval_of_a_quantile_contains_it_as_often_as_it_says():
+    rng, part = np.random.default_rng(3), 0.1
+    found = [quantile(rng.uniform(size=120), part) for _ in range(2000)]
+    assert np.mean([one.low <= part <= one.high for one in found]) > 0.985
+    assert np.mean([one.high - one.low for one in found]) < 0.17
+    few = quantile([1.0, 2.0, np.inf], 0.5)
+    assert (few.low, few.value, few.high) == (-np.inf, 2.0, np.inf)
+
+
+def test_a_toss_without_a_margin_is_below_none():
+    assert below([0.5, -1.0, 2.0, 0.1], 1.0).value == 0.5
+
+
+def test_a_computation_goes_on_where_it_was(tmp_path, monkeypatch):
+    monkeypatch.setattr(margins, "QUANTITIES", margins.QUANTITIES[:1])
+    told = []
+    first = compute(lambda *done: told.append(done), tmp_path, count=1, planar=20)
+    assert told == [(1, 2), (2, 2)]
+    monkeypatch.setattr(margins, "found_margins", None)
+    assert compute(lambda *_: None, tmp_path, count=1, planar=20) == first
+    assert 0 < np.median(first.planar) < 10
+    with pytest.raises(TypeError):
+        compute(lambda *_: None, tmp_path, count=2, planar=20)
