@@ -310,7 +310,7 @@ def _cone_parts(found: ImpactErrors) -> list[str]:
 
 def draw_convergence(found: ImpactErrors) -> Figure:
     """Draw errors over the stiffness, over the steps, and over restitution, friction, spin and tilt."""
-    picture = Figure(figsize=(12, 6.6))
+    picture = Figure(figsize=(12, 7.4))
     axes = picture.subplots(2, 3)
     for place, (name, part) in zip(axes[0], found.stiffness.items(), strict=False):
         for label, column, style in (
@@ -325,7 +325,7 @@ def draw_convergence(found: ImpactErrors) -> Figure:
         place.set_title(f"{name}: order {part.order:.2f}")
         place.set_xlabel("stiffness k [1/s²]")
         place.set_ylabel("median error")
-    axes[0][0].legend(fontsize=7, loc="upper right")
+    picture.legend(*axes[0][0].get_legend_handles_labels(), loc="outside upper left", ncols=6, fontsize=8)
     for name, part in found.steps.items():
         axes[0][2].loglog(part.steps, part.impulse, "o-", label=f"{name}: order {part.order:.2f}")
     axes[0][2].set_title(f"against {MOST_STEPS} steps")
@@ -349,7 +349,7 @@ def draw_convergence(found: ImpactErrors) -> Figure:
         place.set_xlabel(label)
         place.set_ylabel("error of the impulse")
         place.set_title("default settings")
-    axes[1][0].legend()
+    picture.legend(*axes[1][0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return picture
 
 
