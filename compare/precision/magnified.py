@@ -21,8 +21,8 @@ class Magnified:
 
     counts: NDArray[np.int64]
     """Boundaries in each, (n,)."""
-    energies: Array
-    """With which the tosses at its two sides were settled, (n, 2) [m g r]."""
+    from_upright: Array
+    """How near to standing the tosses at its two sides came in their last contact, (n, 2) [m g r]."""
     impacts: NDArray[np.int64]
     """Of these, (n, 2)."""
 
@@ -47,7 +47,7 @@ def magnify(
         windows: how many.
         points: releases in each.
     """
-    counts, energies, impacts = [], [], []
+    counts, nearest, impacts = [], [], []
     for _ in range(windows):
         step = length / (points - 1)
         states = spread(start[None], row, pair_of(step), points)
@@ -57,9 +57,9 @@ def magnify(
             raise ValueError("no boundary: accepted: a window whose tosses differ")
         counts.append(len(changes))
         at = changes[len(changes) // 2]
-        energies.append(found.energy[at : at + 2])
+        nearest.append(toss_many(coin, states[at : at + 2], to_contact=True).from_upright)
         impacts.append(found.impacts[at : at + 2])
         length /= MAGNIFICATION
         start = states[at].copy()
         start[row] = pair_of(exact(tuple(start[row])) + step / 2 - length / 2)
-    return Magnified(counts=np.array(counts), energies=np.array(energies), impacts=np.array(impacts))
+    return Magnified(counts=np.array(counts), from_upright=np.array(nearest), impacts=np.array(impacts))

@@ -115,6 +115,30 @@ def keep_contact(coin, state, corner):
 
 
 @compiled
+def nearest_upright(coin, before, after, ends, passes):
+    """Return how near a coin comes to standing in a contact in vacuum; see `planar_state.from_upright`.
+
+    On a rough floor the energy of rolling counts as motion.
+
+    Args:
+        coin: the coin.
+        before: state at the start of the contact, (5, 2).
+        after: state at its end, (5, 2).
+        ends: how it ends.
+        passes: whether the coin has gone over its rim.
+    """
+    e, top = energy(coin, before), part(before, HEIGHT)
+    if passes:
+        top = ONE
+    elif ends == LIFTS:
+        top = part(after, HEIGHT) if after[HEIGHT, 0] > top[0] else top
+    elif before[FALL, 0] > 0:
+        # It turns back where all its energy is height.
+        top = e
+    return abs(subtract(add(e, ONE), scale(top, 2.0))[0])
+
+
+@compiled
 def lift_off(state):
     """Return the clock up to which a rim point does not touch that is at rest on the floor and drawn up."""
     w = abs(state[SPIN, 0])

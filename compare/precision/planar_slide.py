@@ -28,6 +28,7 @@ from compare.precision.planar_state import (
     TILT,
     copy_state,
     flat,
+    from_upright,
     part,
     put,
     turned_within,
@@ -46,10 +47,11 @@ def slide(coin, state, corner):
     """Follow a coin whose rim point slides on a smooth floor in air until it lies flat or lifts off.
 
     Returns:
-        Whether it lifts off, whether the coin has gone over its rim, the rim point on the floor, and whether
-        the contact has ended at all.
+        Whether it lifts off, whether the coin has gone over its rim, the rim point on the floor, whether the
+        contact has ended at all, and how near the coin came to standing; see `from_upright`.
     """
     passes, slopes = False, np.empty((STAGES, 3, 2))
+    nearest = from_upright(coin, state)
     trial = state.copy()
     for _ in range(_MOST_STEPS):
         copy_state(trial, state)
@@ -58,13 +60,14 @@ def slide(coin, state, corner):
         if lies or lifts:
             _end(coin, state, corner, lifts, slopes)
             if lifts:
-                return True, passes, corner, True
+                return True, passes, corner, True, nearest
             flat(state, part(state, FALL), corner)
-            return False, passes, corner, True
+            return False, passes, corner, True, nearest
         copy_state(state, trial)
+        nearest = min(nearest, from_upright(coin, state))
         if turned_within(state):
             passes, corner = not passes, -corner
-    return False, passes, corner, False
+    return False, passes, corner, False, nearest
 
 
 @compiled

@@ -78,6 +78,18 @@ def energy(coin, state):
 
 
 @compiled
+def from_upright(coin, state):
+    """Return how far a coin in contact is from standing upright at rest, but for its drift, in m g r.
+
+    The energy of its motion and that which its height lacks: by so much its energy differs from that of the
+    coin that stands when it turns back below the upright, or passes it.
+    """
+    v, w = part(state, FALL), part(state, SPIN)
+    of_motion = add(multiply(v, v), multiply(coin.inertia, multiply(w, w)))
+    return add(scale(of_motion, 0.5), subtract(ONE, part(state, HEIGHT)))[0]
+
+
+@compiled
 def is_settled(coin, state):
     """Return whether the coin has too little energy to go over its rim."""
     return subtract(energy(coin, state), ONE)[0] < 0

@@ -6,7 +6,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.precision.planar_coin import PlanarCoin
-from compare.precision.planar_contact import LIES, LIFTS, drawn_up, hit, keep_contact, lift_off, slap, stop
+from compare.precision.planar_contact import (
+    LIES,
+    LIFTS,
+    drawn_up,
+    hit,
+    keep_contact,
+    lift_off,
+    nearest_upright,
+    slap,
+    stop,
+)
 from compare.precision.planar_flight import ORDER, fly
 from compare.precision.planar_slide import slide
 from compare.precision.planar_state import (
@@ -46,15 +56,21 @@ class PlanarOutcomes(NamedTuple):
     """Contacts that lasted."""
     energy: Array
     """With which it was settled [m g r]: after its last impact, or in the contact that came before lying."""
+    from_upright: Array
+    """How near it came to standing in its last contact [m g r]; see `planar_state.from_upright`. NaN where
+    none lasted before it was settled."""
 
 
-def toss_many(coin: PlanarCoin, starts: Array, most_impacts: int = MOST_IMPACTS) -> PlanarOutcomes:
+def toss_many(
+    coin: PlanarCoin, starts: Array, most_impacts: int = MOST_IMPACTS, *, to_contact: bool = False
+) -> PlanarOutcomes:
     """Toss coins.
 
     Args:
         coin: the coin.
         starts: as of `planar_state.release`, (n, 5, 2).
         most_impacts: a toss that makes more is undecided.
+        to_contact: whether a settled coin is followed until it lies.
     """
     n = len(starts)
     found = PlanarOutcomes(
@@ -63,44 +79,48 @@ def toss_many(coin: PlanarCoin, starts: Array, most_impacts: int = MOST_IMPACTS)
         itinerary=np.empty(n, dtype=np.int64),
         contacts=np.empty(n, dtype=np.int64),
         energy=np.empty(n),
+        from_upright=np.empty(n),
     )
-    _toss_all(coin, np.ascontiguousarray(starts), most_impacts, *found)
+    _toss_all(coin, np.ascontiguousarray(starts), most_impacts, to_contact, *found)
     return found
 
 
 @compiled
-def _toss_all(coin, starts, most_impacts, outcome, impacts, itinerary, contacts, last_energy):
+def _toss_all(
+    coin, starts, most_impacts, to_contact, outcome, impacts, itinerary, contacts, last_energy, nearest
+):
     heights, drifts = np.empty((ORDER + 2, 2)), np.empty((ORDER + 2, 2))
     state, touches = np.empty((SIZE, 2)), np.empty((0, 5))
     for i in range(len(starts)):
         copy_state(state, starts[i])
-        outcome[i], impacts[i], itinerary[i], contacts[i], last_energy[i] = toss(
-            coin, state, most_impacts, heights, drifts, touches
+        outcome[i], impacts[i], itinerary[i], contacts[i], last_energy[i], nearest[i] = toss(
+            coin, state, most_impacts, to_contact, heights, drifts, touches
         )
 
 
 @compiled
-def toss(coin, state, most_impacts, heights, drifts, touches):
+def toss(coin, state, most_impacts, to_contact, heights, drifts, touches):
     """Toss a coin; the state becomes the last.
 
     Args:
         coin: the coin.
         state: at the release, heads up, (5, 2).
         most_impacts: when to stop.
+        to_contact: whether a settled coin is followed until it lies.
         heights: room for `fly`.
         drifts: room for `fly`.
         touches: room for states after the first impacts, (n, 5): height, fall, spin, face, energy.
 
     Returns:
-        Outcome, impacts, itinerary, contacts and energy; see `PlanarOutcomes`.
+        Outcome, impacts, itinerary, contacts, energy and nearness to standing; see `PlanarOutcomes`.
     """
-    heads, corner, start = True, 0, 0.0
-    itinerary, contacts, last = 0, 0, np.nan
+    heads, corner, start, before = True, 0, 0.0, state.copy()
+    itinerary, contacts, last, nearest = 0, 0, np.nan, np.nan
     for n in range(most_impacts):
         corner = fly(coin, state, corner, start, heights, drifts)
         start = 0.0
         if corner == 0:
-            return _UNDECIDED, n, itinerary, contacts, last
+            return _UNDECIDED, n, itinerary, contacts, last, nearest
         if turned_within(state):
             heads, corner = not heads, -corner
         itinerary = itinerary * 31 + (3 if heads else 5) + corner
@@ -108,9 +128,9 @@ def toss(coin, state, most_impacts, heights, drifts, touches):
         if n < len(touches):
             touches[n, 0], touches[n, 1], touches[n, 2] = state[HEIGHT, 0], state[FALL, 0], state[SPIN, 0]
             touches[n, 3], touches[n, 4] = (1.0 if heads else 0.0), energy(coin, state)[0]
-        if is_settled(coin, state):
+        if is_settled(coin, state) and not to_contact:
             last = energy(coin, state)[0]
-            return _HEADS if heads else _TAILS, n + 1, itinerary, contacts, last
+            return _HEADS if heads else _TAILS, n + 1, itinerary, contacts, last, nearest
         ending = _bounces(coin, state, corner)
         if ending == _LIFTING:
             start = lift_off(state)
@@ -118,20 +138,22 @@ def toss(coin, state, most_impacts, heights, drifts, touches):
             stop(coin, state, float(corner))
             contacts, last = contacts + 1, energy(coin, state)[0]
             if coin.in_air:
-                lifts, passes, side, ended = slide(coin, state, float(corner))
+                lifts, passes, side, ended, nearest = slide(coin, state, float(corner))
                 if not ended:
-                    return _UNDECIDED, n + 1, itinerary, contacts, last
+                    return _UNDECIDED, n + 1, itinerary, contacts, last, nearest
                 ends = LIFTS if lifts else LIES
                 start = state[FALL, 0] / state[SPIN, 0] ** 2 if lifts else 0.0
             else:
+                copy_state(before, state)
                 ends, passes, side, start = keep_contact(coin, state, float(corner))
+                nearest = nearest_upright(coin, before, state, ends, passes)
             itinerary = itinerary * 31 + 11 + 2 * ends + passes
             corner, heads = int(side), heads != passes
             if ends == LIES:
                 if not slap(coin, state):
-                    return _HEADS if heads else _TAILS, n + 1, itinerary, contacts, last
+                    return _HEADS if heads else _TAILS, n + 1, itinerary, contacts, last, nearest
                 corner = 2
-    return _UNDECIDED, most_impacts, itinerary, contacts, last
+    return _UNDECIDED, most_impacts, itinerary, contacts, last, nearest
 
 
 @compiled

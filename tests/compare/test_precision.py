@@ -13,7 +13,7 @@ from compare.precision.certified import certified_toss
 from compare.precision.double_double import pair_of
 from compare.precision.magnified import magnify
 from compare.precision.planar_coin import planar_coin, units
-from compare.precision.planar_contact import keep_contact
+from compare.precision.planar_contact import keep_contact, nearest_upright
 from compare.precision.planar_flight import ORDER, fly
 from compare.precision.planar_slide import slide
 from compare.precision.planar_state import DRIFT, FALL, HEIGHT, SPIN, TILT, release
@@ -210,7 +210,7 @@ def test_contact_in_air_is_the_engines():
     assert lands == Event.FACE_LANDS
     state = np.zeros((5, 2))
     state[:, 0] = [-np.sin(tilt), -np.cos(tilt) * spin, tilt, spin, drift]
-    assert slide(coin, state, 1.0) == (False, False, 1.0, True)
+    assert slide(coin, state, 1.0)[:4] == (False, False, 1.0, True)
     assert state[SPIN, 0] / second == pytest.approx(y[10], rel=1e-6)
     assert state[DRIFT, 0] * length / second == pytest.approx(y[4], rel=1e-6)
     unhindered = np.sqrt(spin**2 + 2 * -np.sin(tilt) / (coin.inertia[0] + 1))
@@ -289,18 +289,43 @@ def test_splitting_finds_the_shares_that_pairs_of_tosses_show():
         assert sigma < 0.3 * p
 
 
-def test_a_boundary_is_magnified_until_it_is_alone_and_its_coin_stands():
-    coin, own = coin_of(0.3)
+@pytest.mark.parametrize(("air", "points"), [(False, 100), (True, 20)])
+def test_a_boundary_is_magnified_until_it_is_alone_and_its_coin_stands(air, points):
+    coin, own = coin_of(0.3, air)
     start = release(own, height=0.2, spin=41.0)
-    seen = magnify(coin, start, row=HEIGHT, length=Fraction(2, 5) / own.length, windows=20, points=100)
+    seen = magnify(coin, start, row=HEIGHT, length=Fraction(2, 5) / own.length, windows=20, points=points)
     assert seen.counts[0] > 1
     assert seen.isolated_from is not None
     assert seen.isolated_from < 18
-    off = np.abs(seen.energies - 1).max(axis=1)
+    off = seen.from_upright.max(axis=1)
     assert off[-1] < 1e-6
     assert off[-1] < 1e-3 * off[seen.isolated_from]
     with pytest.raises(ValueError, match="no boundary"):
         magnify(coin, start, row=HEIGHT, length=Fraction(1, 10**9), windows=1, points=3)
+
+
+@pytest.mark.parametrize("excess", [0.1, 1e-3, 1e-12, -1e-12, -1e-3, -0.1])
+@pytest.mark.parametrize("rises", [True, False])
+def test_a_contact_is_as_near_to_standing_as_its_energy_and_its_course_say(excess, rises):
+    """A coin that rises comes to its energy's difference from the upright; one that falls is as it was."""
+    coin, _ = coin_of(0.3)
+    s = 0.7
+    w = -np.sqrt(2 * (1 + excess - s) / (coin.inertia[0] + 1 - s * s)) * (1 if rises else -1)
+    tilt = float(np.arcsin(-s))
+    state = np.zeros((5, 2))
+    state[:, 0] = [s, -np.cos(tilt) * w, tilt, w, 0.5]
+    at_start = planar_state.from_upright(coin, state)
+    assert at_start == pytest.approx(1 + excess - s + 1 - s)
+    start, slid = state.copy(), state.copy()
+    ends, passes, _, _ = keep_contact(coin, state, 1.0)
+    assert passes == (rises and excess > 0)
+    nearest = nearest_upright(coin, start, state, ends, passes)
+    assert nearest == pytest.approx(abs(excess) if rises else at_start, rel=1e-3)
+    airless = coin._replace(in_air=True)
+    lifts, over, _, ended, near = slide(airless, slid, 1.0)
+    assert (lifts, over, ended) == (False, passes, True)
+    # Between steps of 0.05 the coin moves by e^(0.1) or less.
+    assert nearest * 0.999 < near < 1.3 * nearest + 1e-15
 
 
 @pytest.mark.parametrize("excess", [1e-3, 5e-7, 1e-12])
