@@ -1,5 +1,6 @@
 """Many tosses in MuJoCo, on all cores."""
 
+import threading
 from typing import Any
 
 import numpy as np
@@ -7,6 +8,7 @@ from numpy.typing import NDArray
 
 from coin_mj.events import toss_coin
 from coin_mj.model.air_callback import air_of
+from coin_mj.model.clock import clock_stopped
 from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
 from coin_mj.model.settings import MANY, Settings
@@ -19,8 +21,8 @@ from models.releases import Releases, check_releases
 from models.scenario import Scenario
 from models.tiles import toss_in_tiles
 
-TILE = 32
-"""Tosses that a thread makes at a time, with one model."""
+TILE = 8
+"""Tosses that a thread makes at a time."""
 
 
 def toss_many(scenario: Scenario, releases: Releases, *, settings: Settings = MANY) -> Outcomes:
@@ -49,10 +51,13 @@ def toss_many(scenario: Scenario, releases: Releases, *, settings: Settings = MA
     check_releases(scenario, releases)
     thickness, rules = shape_thickness(scenario), scenario.rules
 
+    of_thread = threading.local()
+
     def toss_tile(*columns: NDArray[Any]) -> None:
-        machine = machine_of(scenario, settings, thickness)
-        with air_of(machine.model):
-            _toss_each(machine.coin, rules, settings.contact_steps, *columns)
+        if not hasattr(of_thread, "machine"):
+            of_thread.machine = machine_of(scenario, settings, thickness)
+        with air_of(of_thread.machine.model), clock_stopped():
+            _toss_each(of_thread.machine.coin, rules, settings.contact_steps, *columns)
 
     return toss_in_tiles(releases, TILE, toss_tile)
 

@@ -12,6 +12,7 @@ import numpy as np
 from coin_mj.events import toss_coin
 from coin_mj.model.air import air_force
 from coin_mj.model.air_callback import air_of
+from coin_mj.model.clock import clock_stopped
 from coin_mj.model.machine import Machine, machine_of
 from coin_mj.model.scene import shape_thickness
 from coin_mj.model.settings import FINE, ROUGH, Friction, Realisation, Settings
@@ -61,7 +62,7 @@ class MujocoRun(NamedTuple):
 def run(machine: Machine, rules: Rules) -> MujocoRun:
     """Toss the coin from its present state until the toss is decided."""
     room = np.zeros(FIRST_ROOM, IMPACT_ROW)
-    with air_of(machine.model):
+    with air_of(machine.model), clock_stopped():
         n, rows, knots, contacts, outcome, ending, end_time = toss_coin(
             machine.coin, rules, machine.settings.contact_steps, room, True
         )

@@ -12,7 +12,8 @@ from numba import types
 from numba.extending import intrinsic
 
 # The library that the bindings have loaded already: compiled code finds its functions by their names.
-llvmlite.binding.load_library_permanently(str(next(Path(mujoco.__file__).parent.glob("*mujoco.*"))))
+PATH = str(next(Path(mujoco.__file__).parent.glob("*mujoco.*")))
+llvmlite.binding.load_library_permanently(PATH)
 
 _model_and_data = (types.intp, types.intp)
 mj_forward: Any = types.ExternalFunction("mj_forward", types.void(*_model_and_data))

@@ -44,6 +44,7 @@ def build(scenario: Scenario, rebound: Rebound, friction: float, thickness: floa
         thickness: of the coin's shape [m].
     """
     spec = described(scenario, thickness)
+    _undress(spec)
     spec.geom("floor").pos = (0.0, 0.0, floor_height(scenario, thickness))
     coin = spec.geom("coin")
     coin.solref = (-rebound.stiffness, -rebound.damping)
@@ -59,6 +60,14 @@ def build(scenario: Scenario, rebound: Rebound, friction: float, thickness: floa
             solimp=coin.solimp,
         )
     return compile_coin(spec, scenario)
+
+
+def _undress(spec: mujoco.MjSpec) -> None:
+    """Take away what is only drawn; textures take most of the time in which a model is compiled."""
+    for geom in spec.geoms:
+        geom.material = ""
+    for drawn in (*spec.textures, *spec.materials, *spec.lights):
+        spec.delete(drawn)
 
 
 def compile_coin(spec: mujoco.MjSpec, scenario: Scenario) -> mujoco.MjModel:
