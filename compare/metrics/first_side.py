@@ -1,0 +1,41 @@
+"""How often the side up at the release is up at each touch, and at rest."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.engines import Engine
+from models.records import Outcome
+from models.releases import Releases
+from models.scenario import Scenario
+
+
+@dataclass(frozen=True)
+class FirstSide:
+    """Which tosses show the side that was up at their release."""
+
+    touches: tuple[NDArray[np.bool_], ...]
+    """At each touch that was asked for, or in the end where a toss ended before, (n,)."""
+    at_rest: NDArray[np.bool_]
+    """Of those that end on a face, (m,)."""
+
+
+def first_side(scenario: Scenario, start: Releases, engine: Engine, touches: Sequence[int]) -> FirstSide:
+    """Toss coins released heads up, and see where heads are up.
+
+    Args:
+        scenario: coin, air and floor.
+        start: the releases.
+        engine: that tosses.
+        touches: number of impacts before each touch that is counted.
+    """
+    toss_many = engine.package.toss_many
+    faces = [
+        toss_many(scenario.replace("ending.max_impacts", impacts + 1), start).after(impacts)
+        for impacts in touches
+    ]
+    outcome = toss_many(scenario, start).outcome
+    ended = outcome[(outcome == Outcome.HEADS) | (outcome == Outcome.TAILS)]
+    return FirstSide(tuple(face == Outcome.HEADS for face in faces), ended == Outcome.HEADS)
