@@ -37,8 +37,10 @@ ZERO = 1e-30
 """A gap below this part of its terms is a touch."""
 _INVERSES = np.array([pair_of(Fraction(1, n + 1)) for n in range(ORDER + 1)])
 _DOUBLINGS = 100
-MOST_STEPS = 20_000
-"""Of a search."""
+MOST_STEPS, MOST_IN_FULL = 20_000, 1000
+"""Of a search in doubles, and in 106 bits; where it takes more the touch is missed, the toss undecided."""
+BELOW = -1.0
+"""A coin whose centre is below this height has missed its touch: it is all below the floor."""
 CAREFUL = 1 - 1e-14
 """A step computed in doubles, times it, is no longer than an exact one."""
 
@@ -73,7 +75,7 @@ def fly(coin, state, corner, start, heights, drifts):
             if on_floor and start > 0:
                 f1 = (0.0, 0.0)
             touches, s = _first_zero(
-                heights, order, w, sn, cs, (f0, f1, f2), bounds, start if on_floor else 0.0, best[0]
+                heights, order, w, sn, cs, (f0, f1, f2), bounds, start if on_floor else 0.0, best
             )
             if touches:
                 found, best, who = True, s, side
@@ -81,7 +83,7 @@ def fly(coin, state, corner, start, heights, drifts):
         if found:
             return who
         corner, start = 0, 0.0
-        if not coin.in_air:
+        if not coin.in_air or state[HEIGHT, 0] < BELOW:
             return 0
     return 0
 
@@ -155,17 +157,18 @@ def _derivative_bounds(heights, order, w, length):
 
 @compiled
 def _first_zero(heights, order, w, sn, cs, f, bounds, start, limit):
-    """Return whether the gap f0 + f1 s + f2 s²/2 + ... has a zero up to the limit, and the first, a pair."""
-    s = start
+    """Return whether the gap f0 + f1 s + f2 s²/2 + ... has a zero up to the limit, and the first, pairs."""
+    # Both rim points of a coin that lands flat touch within less than a double tells apart: up to there the
+    # search goes in doubles, and on in full.
+    s, in_full, edge = start, 0, limit[0] * CAREFUL
     for _ in range(MOST_STEPS):
-        if s >= limit:
-            break
         gap, rate, second, terms = _gap(heights, order, w[0], sn[0], cs[0], (f[0][0], f[1][0], f[2][0]), s)
         if s > 0 and gap <= NEAR * terms:
             exact = (s, 0.0)
-            for _ in range(MOST_STEPS):
-                if exact[0] >= limit:
-                    break
+            while True:
+                in_full += 1
+                if in_full > MOST_IN_FULL or subtract(exact, limit)[0] >= 0:
+                    return False, limit
                 gap, rate, second, terms = _gap_in_full(heights, order, w, sn, cs, f, exact)
                 if gap < -ZERO * terms and rate < 0:
                     # Doubles went beyond the zero by their rounding.
@@ -177,9 +180,11 @@ def _first_zero(heights, order, w, sn, cs, f, bounds, start, limit):
                     break
                 exact = add(exact, (safe_step(gap, rate, second, bounds) * CAREFUL, 0.0))
             s = exact[0]
+        elif s >= edge:
+            break
         else:
-            s += safe_step(gap, rate, second, bounds) * CAREFUL
-    return False, (limit, 0.0)
+            s = min(s + safe_step(gap, rate, second, bounds) * CAREFUL, edge)
+    return False, limit
 
 
 @compiled

@@ -10,13 +10,14 @@ import analytic
 from analytic.automaton import Event, Mode
 from compare.precision import double_double, planar_state, planar_toss
 from compare.precision.certified import certified_toss
-from compare.precision.double_double import pair_of
+from compare.precision.divergence import toss_lines
+from compare.precision.double_double import add, pair_of, scale
 from compare.precision.magnified import magnify
 from compare.precision.planar_coin import planar_coin, units
 from compare.precision.planar_contact import keep_contact, nearest_upright
 from compare.precision.planar_flight import ORDER, fly
 from compare.precision.planar_slide import slide
-from compare.precision.planar_state import DRIFT, FALL, HEIGHT, SPIN, TILT, release
+from compare.precision.planar_state import DRIFT, FALL, HEIGHT, SPIN, TILT, release, turned_within
 from compare.precision.planar_toss import toss_many
 from compare.precision.splitting import chances, replica, spread
 from compare.reproduction.setups.planar_maps import case, releases
@@ -233,6 +234,30 @@ def test_a_flight_in_air_follows_its_equations():
     assert state[HEIGHT, 0] == pytest.approx(abs(np.sin(state[TILT, 0])), abs=1e-13)
 
 
+def test_a_coin_that_lands_flat_touches_first_with_the_rim_point_that_is_lower():
+    """The other one follows sooner than doubles of the time tell apart."""
+    coin, own = coin_of(0.3, air=True)
+    room = np.empty((ORDER + 2, 2)), np.empty((ORDER + 2, 2))
+
+    def touch(height):
+        state = release(own, height=0.4, spin=40.0)
+        state[HEIGHT] = height
+        side = fly(coin, state, 0, 0.0, *room)
+        turned_within(state)
+        return side, state
+
+    low, high = pair_of(Fraction(18)), pair_of(Fraction(27))
+    first, state = touch(low)
+    assert touch(high)[0] != first
+    for _ in range(90):
+        middle = scale(add(low, high), 0.5)
+        side, state = touch(middle)
+        low, high = (middle, high) if side == first else (low, middle)
+        gaps = state[HEIGHT, 0] + np.array([-1, 1]) * np.sin(state[TILT, 0])
+        assert gaps.min() > -1e-28 - 1e-15 * abs(state[HEIGHT, 0])
+    assert abs(state[TILT, 0]) < 1e-20
+
+
 def test_a_coin_of_no_plane_is_refused():
     for field, value in (("coin.thickness", 1e-3), ("air.exponent", 0.5), ("floor.contact", "coulomb")):
         scenario = case(air=True).replace(field, value)
@@ -265,6 +290,33 @@ def test_chances_sum_to_the_population_and_follow_the_scores(scores, population)
     assert np.ptp(found[below] / np.array(scores)[below]) == pytest.approx(0) if below.any() else True
 
 
+def test_neighbours_diverge_with_the_energy_that_the_engine_finds():
+    """Where the faces of the first touch differ already; else with that of the last impact."""
+    coin, own = coin_of(0.6)
+    scenario = scenario_of(0.6)
+    mgr = scenario.body.mass * scenario.gravity * scenario.coin.radius
+    heights = np.linspace(0.2, 0.6, 24)
+    starts = np.array([release(own, height=z, spin=41.0) for z in heights])
+    many, found = toss_many(coin, starts), toss_lines(coin, starts, len(starts))
+    assert (found.outcome[0] == many.outcome).all()
+    assert (found.itinerary[0] == many.itinerary).all()
+    tosses = [
+        analytic.toss(
+            scenario.replace("release.position.z", z).replace("release.angular_velocity.xi", 41.0)
+        ).impacts
+        for z in heights
+    ]
+    energies = np.array([impacts.energy[0] / mgr for impacts in tosses])
+    other_face = np.diff([impacts.face[0] for impacts in tosses]) != 0
+    larger = np.maximum(energies[1:], energies[:-1])
+    assert other_face.sum() == 2
+    assert found.energy[0, other_face] == pytest.approx(larger[other_face], rel=1e-9)
+    twice = toss_lines(coin, np.repeat(starts, 2, axis=0), 2)
+    by_impact = many.contacts == 0
+    assert by_impact.sum() > 5
+    assert twice.energy[by_impact, 0] == pytest.approx(many.energy[by_impact], rel=1e-15)
+
+
 def test_splitting_finds_the_shares_that_pairs_of_tosses_show():
     coin, own = coin_of(0.6)
     rng = np.random.default_rng(11)
@@ -274,11 +326,11 @@ def test_splitting_finds_the_shares_that_pairs_of_tosses_show():
         starts = np.array([release(own, height=a, spin=b) for a, b in zip(z, w, strict=True)])
         largest = Fraction(1, 1000) / own.length
         runs.append(
-            replica(coin, starts, row=HEIGHT, largest=largest, levels=4, population=60, rng=rng).shares
+            replica(coin, starts, row=HEIGHT, largest=largest, levels=7, population=60, rng=rng).shares
         )
     shares, errors = np.mean(runs, axis=0), np.std(runs, axis=0) / np.sqrt(11)
     _, _, starts = drawn(own, 3000, seed=12)
-    for level in (0, 1, 3):
+    for level in (0, 3, 6):
         step = pair_of(Fraction(1, 1000 * 10**level) / own.length)
         outcome = toss_many(coin, spread(starts, HEIGHT, step, 3)).outcome.reshape(-1, 3)
         uncertain = (outcome[:, 1] != outcome[:, 0]) | (outcome[:, 1] != outcome[:, 2])

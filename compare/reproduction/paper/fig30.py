@@ -21,7 +21,7 @@ from compare.precision.magnified import MAGNIFICATION, Magnified, magnify
 from compare.precision.planar_coin import planar_coin, units
 from compare.precision.planar_state import HEIGHT, release
 from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import jackknife
+from compare.reproduction.estimates import jackknife, share
 from compare.reproduction.parts import Part, kept
 from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.planar_maps import HEIGHTS, MEDIA, SPINS, Grid, case, final_faces, releases
@@ -62,8 +62,8 @@ def make(
     parts: Path,
     points: int = 100,
     lines: int = 20,
-    runs: int = 48,
-    population: int = 20,
+    runs: int = 24,
+    population: int = 60,
     tosses_mujoco: int = 200,
 ) -> Result:
     """Enlarge the maps of Fig. 29(c, d) and lines through them, and find the share of uncertain tosses."""
@@ -141,28 +141,9 @@ def _claims(medium: str, followed: list[Magnified], off: Array, shares: Array, m
             ),
             criteria=[Criterion("isolated boundaries", len(isolated), "=", lines, "all that were magnified")],
         ),
+        standing(medium, off),
         Claim(
-            claim=f"a boundary is the coin that comes to stand upright (in {medium})",
-            analytic=(
-                "at both sides of each boundary the energy that the toss lacks, or has too much, to stand "
-                "upright at rest falls as the window's length: in the last, "
-                f"{_window(np.array(WINDOWS_BELOW - 1)):.0e} m, it is {np.median(off[:, -1]):.0e} m g r in "
-                f"the median, in one {10**TENFOLDS} times as long "
-                f"{np.median(off[:, -1 - TENFOLDS]):.0e} m g r"
-            ),
-            criteria=[
-                Criterion("largest of these energies [m g r]", off[:, -1].max(), "<", UPRIGHT, "nearly none"),
-                Criterion(
-                    f"largest part of it that is left after {TENFOLDS} more tenfold magnifications",
-                    (off[:, -1] / off[:, -1 - TENFOLDS]).max(),
-                    "<",
-                    10 ** (0.5 - TENFOLDS),
-                    "it falls as the length",
-                ),
-            ],
-        ),
-        Claim(
-            claim=f"in the limit the share of uncertain tosses falls as ε¹ (in {medium})",
+            claim=f"by 1e-24 m the share of uncertain tosses falls as ε¹, a smooth boundary (in {medium})",
             analytic=(
                 "α over three decades from "
                 + ", ".join(
@@ -173,7 +154,7 @@ def _claims(medium: str, followed: list[Magnified], off: Array, shares: Array, m
                 + ", ".join(f"{f[i]:.1e}" for i in range(0, len(ACCURACIES), DECADES))
             ),
             mujoco=mujoco,
-            expected=None,
+            expected=False,
             criteria=[Criterion("α from 1e-21 to 1e-24 m", last, ">", SMOOTH, "a smooth boundary has 1")],
         ),
         Claim(
@@ -192,12 +173,36 @@ def _claims(medium: str, followed: list[Magnified], off: Array, shares: Array, m
                 f"to halve the share takes a {2 ** (1 / doubles.value):.0f} times finer one, on a smooth "
                 f"boundary twice; from 1 to 0.1 mm α = {coarse.value:.2f}"
             ),
-            expected=True if medium == "air" else None,
             criteria=[
                 Criterion("α from 1e-6 to 1e-10 m", doubles, "<", FRACTAL, "a smooth boundary has 1"),
             ],
         ),
     ]
+
+
+def standing(medium: str, off: Array) -> Claim:
+    """Return the claim that a boundary is the coin that comes to stand upright.
+
+    Args:
+        medium: air or vacuum.
+        off: energy that the coin lacks, or has too much, to stand, by boundary and window, (n, m) [m g r].
+    """
+    stands = off[:, -1] < UPRIGHT
+    last, before = (np.median(off[:, -1 - tenfolds]) for tenfolds in (0, TENFOLDS))
+    return Claim(
+        claim=f"most boundaries are the coin that comes to stand upright (in {medium})",
+        analytic=(
+            f"{stands.sum()} of {len(off)} are: the energy that the coin lacks, or has too much, to stand "
+            f"upright at rest falls as the window's length; in the last, "
+            f"{_window(np.array(WINDOWS_BELOW - 1)):.0e} m, it is {last:.0e} m g r in the median, in one "
+            f"{10**TENFOLDS} times as long {before:.0e} m g r"
+        ),
+        criteria=[
+            Criterion(
+                f"share of those with less than {UPRIGHT:.0e} m g r", share(stands, "lines"), ">", 0.5, "most"
+            )
+        ],
+    )
 
 
 def slope(shares: Array, first: int, decades: int) -> Estimate:
@@ -278,23 +283,23 @@ def _draw(data: dict[str, NDArray[Any]]) -> Figure:
             axes.ticklabel_format(useOffset=False)
             axes.locator_params(axis="x", nbins=4)
             axes.grid(visible=False)
-    counts, share = grid[:, 2]
+    counts, slopes = grid[:, 2]
     windows = _window(np.arange(WINDOWS_BELOW))
     for medium, color in MEDIA.items():
         crossings, shares = data[f"{medium}, crossings"], data[f"{medium}, shares"].mean(axis=0)
         counts.loglog(windows, crossings.T, "-", color=color, linewidth=0.3)
         counts.loglog(windows, np.median(crossings, axis=0), "o-", color=color, label=f"median, {medium}")
         local = np.log10(shares[:-DECADES] / shares[DECADES:]) / DECADES
-        share.semilogx(ACCURACIES[:-DECADES], local, "o-", color=color, label=medium)
+        slopes.semilogx(ACCURACIES[:-DECADES], local, "o-", color=color, label=medium)
     counts.set(title="magnified lines", xlabel="length [m]", ylabel="boundaries on it")
-    share.axhline(1, linestyle=":", color=GREY, label="a smooth boundary")
-    share.set(
+    slopes.axhline(1, linestyle=":", color=GREY, label="a smooth boundary")
+    slopes.set(
         title="local slope of the uncertain share",
         xlabel="ε [m]",
         ylabel=f"α over {DECADES} decades",
         ylim=(0, 1.2),
     )
-    for axes in (counts, share):
+    for axes in (counts, slopes):
         axes.legend()
         axes.invert_xaxis()
     return picture
@@ -307,13 +312,14 @@ REPRODUCTION = Reproduction(
         "Where the paper enlarges is unsaid; here about 0.26 m and 39 rad/s, and lines through the whole "
         "map, each magnified 10²⁴ times about one of its boundaries, in arithmetic of 106 bits. How near a "
         "coin comes to standing is the least sum, over its last contact, of the energy of its motion, "
-        "sliding aside, and that which its height lacks. Both sides of the later dispute are right, each at "
-        "its own accuracy: PREDICTABILITY.md has the whole picture. An interrupted run goes on where it was."
+        "sliding aside, and that which its height lacks. A boundary that is followed is isolated in the end, "
+        "but most are not by 1e-24 m, as the share shows: see PREDICTABILITY.md. An interrupted run goes on "
+        "where it was."
     ),
-    seconds=700,
+    seconds=400,
     make=make,
     resumes=True,
     draw={"figure": _draw},
     quick_seconds=30,
-    quick=partial(make, points=25, lines=4, runs=4, population=8, tosses_mujoco=10),
+    quick=partial(make, points=25, lines=4, runs=4, population=20, tosses_mujoco=10),
 )
