@@ -22,10 +22,6 @@ _SCENARIO_HELP = (
 )
 
 
-_TOUCHES = (0, 1, 2, 3)
-"""Impacts before the touches that `hands` counts."""
-
-
 class _Commands(click.Group):
     """The commands, each of whose failures is one line."""
 
@@ -490,7 +486,7 @@ def hands(
 
         from compare.engines import Engine
         from compare.film.back_end import require_mujoco
-        from compare.metrics.first_side import first_side
+        from compare.metrics.first_side import TOUCHES, first_side
         from compare.output.progress import elapsed_time
         from compare.reproduction.estimates import share
         from models.hand import Hand
@@ -506,8 +502,8 @@ def hands(
         except ValueError as error:
             _refuse(f"{scenario}: {error}")
         with elapsed_time("still tossing; fewer --tosses are sooner"):
-            found = first_side(described, start, Engine(engine), _TOUCHES)
-        shares = {f"touch {n + 1}": share(up) for n, up in zip(_TOUCHES, found.touches, strict=True)}
+            found = first_side(described, start, Engine(engine))
+        shares = {f"touch {n + 1}": share(up) for n, up in zip(TOUCHES, found.touches, strict=True)}
         if len(found.at_rest):
             shares["at rest"] = share(found.at_rest)
         if as_json:

@@ -1,6 +1,5 @@
 """How often the side up at the release is up at each touch, and at rest."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,30 +10,32 @@ from models.records import Outcome
 from models.releases import Releases
 from models.scenario import Scenario
 
+TOUCHES = (0, 1, 2, 3)
+"""Impacts before each touch that is counted."""
+
 
 @dataclass(frozen=True)
 class FirstSide:
     """Which tosses show the side that was up at their release."""
 
     touches: tuple[NDArray[np.bool_], ...]
-    """At each touch that was asked for, or in the end where a toss ended before, (n,)."""
+    """At each of `TOUCHES`, or in the end where a toss ended before, (n,)."""
     at_rest: NDArray[np.bool_]
     """Of those that end on a face, (m,)."""
 
 
-def first_side(scenario: Scenario, start: Releases, engine: Engine, touches: Sequence[int]) -> FirstSide:
+def first_side(scenario: Scenario, start: Releases, engine: Engine) -> FirstSide:
     """Toss coins released heads up, and see where heads are up.
 
     Args:
         scenario: coin, air and floor.
         start: the releases.
         engine: that tosses.
-        touches: number of impacts before each touch that is counted.
     """
     toss_many = engine.package.toss_many
     faces = [
         toss_many(scenario.replace("ending.max_impacts", impacts + 1), start).after(impacts)
-        for impacts in touches
+        for impacts in TOUCHES
     ]
     outcome = toss_many(scenario, start).outcome
     ended = outcome[(outcome == Outcome.HEADS) | (outcome == Outcome.TAILS)]

@@ -1,6 +1,7 @@
 """The margin of a toss: its change changes the outcome, and a smaller one does not."""
 
 import json
+from dataclasses import fields
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from compare.metrics.margin import MANY, QUANTITIES, accepted, margins, quantity
 from compare.reproduction.setups.planar_maps import releases
 from compare.sweep import grid
 from models.reading import load
+from models.releases import Releases
 from tests.helpers.command_line import cointoss
 
 
@@ -187,3 +189,26 @@ def test_a_change_that_a_scenario_would_refuse_ends_the_search():
     found = smallest_changes(scenario, start, quantity_of("height"), outcomes=outcomes, search=MANY)
     assert np.isinf(found).all()
     assert min(heights.min() for heights in tried) >= 0
+
+
+def test_no_change_is_found_beyond_one_that_is_refused():
+    """A coin tilted by 60° cannot turn about ξ past the upright, for which it is too low."""
+    scenario, tilt = load("fig29"), np.pi / 3
+    height = scenario.coin.radius * np.sin(np.radians(75))
+    start = Releases(
+        position=np.array([[0, 0, height]]),
+        velocity=np.zeros((1, 3)),
+        quaternion=np.array([[np.cos(tilt / 2), np.sin(tilt / 2), 0, 0]]),
+        angular_velocity=np.zeros((1, 3)),
+    )
+    turning = quantity_of("attitude about xi")
+    by = np.array([0.1, 0.5, 1.0])
+    many = Releases(**{field.name: getattr(start, field.name)[[0, 0, 0]] for field in fields(Releases)})
+    assert accepted(scenario, turning.change(many, by)).tolist() == [True, False, True]
+
+    def outcomes(changed):
+        """Tails beyond the upright."""
+        turned = 2 * np.arctan2(changed.quaternion[:, 1], changed.quaternion[:, 0])
+        return np.where(turned > np.pi / 2, 2, 1).astype(np.int8)
+
+    assert np.isinf(smallest_changes(scenario, start, turning, outcomes=outcomes, search=MANY)).all()

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from compare.engines import Engine
-from compare.metrics.first_side import first_side
+from compare.metrics.first_side import TOUCHES, first_side
 from compare.output.progress import Progress
 from compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
 from compare.output.tables import table
@@ -32,8 +32,6 @@ from models.hand import Hand
 from models.records import Array
 
 SEED = 2025
-TOUCHES = (0, 1, 2, 3)
-"""Impacts before the touch whose face is counted."""
 TOUCH_NAMES = ("first touch", *(f"touch {n + 1}" for n in TOUCHES[1:]))
 CHIS, HEIGHTS = (0.2, 0.5, 0.8), (0.3, 1.0)
 COLORS = dict(zip(CHIS, (GREEN, BLUE, ORANGE), strict=True))
@@ -152,7 +150,7 @@ def _bounced(
     kind = CoinClass(thick=True, imperfect=False, air=True, coulomb=floor == ROUGH)
     scenario = kind.scenario.replace("floor.restitution", chi)
     start = hand.releases(scenario.body, rng, count)
-    found = first_side(scenario, start, engine, TOUCHES)
+    found = first_side(scenario, start, engine)
     return Bounced(
         floor=floor,
         chi=chi,
