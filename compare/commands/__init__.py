@@ -1,0 +1,1 @@
+"""The commands of `cointoss`, a module each; imports the rest of compare only as a command runs."""

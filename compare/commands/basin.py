@@ -1,0 +1,171 @@
+"""`cointoss basin`: a map of outcomes."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import click
+
+from compare.commands.common import SCENARIO_HELP, Count, contact_option, plain_errors, say
+from compare.output.interruption import Interruption
+
+
+class _Size(click.ParamType):
+    """Width and height in inches, as in 6x4.5."""
+
+    name = "size"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, float]:
+        try:
+            width, height = (float(part) for part in value.split("x"))
+        except ValueError:
+            width = height = 0.0
+        if not (1 <= width <= 100 and 1 <= height <= 100):
+            self.fail(
+                f"{value}; accepted: WIDTHxHEIGHT in inches, each from 1 to 100, as in 6x4.5", param, ctx
+            )
+        return width, height
+
+
+@click.command(epilog=SCENARIO_HELP)
+@click.argument("scenario")
+@click.option(
+    "--x",
+    required=True,
+    metavar="FIELD=START:STOP:N",
+    help="The field that varies along x, and its N values.",
+)
+@click.option("--y", required=True, metavar="FIELD=START:STOP:N", help="The field that varies along y.")
+@click.option(
+    "--out", type=click.Path(path_type=Path), required=True, help="The Zarr store to write, MAP.zarr."
+)
+@click.option("--engine", type=click.Choice(["analytic", "mujoco"]), help="The engine; by default analytic.")
+@click.option(
+    "--compare",
+    "both",
+    is_flag=True,
+    help="Make the map by both engines, MuJoCo's as MAP-mujoco.zarr, and compare the two.",
+)
+@contact_option
+@click.option(
+    "--after",
+    type=Count(0, 999_999),
+    help="Map the face at the touch after this number of impacts; 0: at the first touch.",
+)
+@click.option(
+    "--margin",
+    metavar="QUANTITY",
+    help="Also map the smallest change of this quantity of the release that changes a pixel's outcome: "
+    "height, velocity x (y, z), attitude about xi (eta, zeta) or spin about xi (eta, zeta).",
+)
+@click.option("--resume", is_flag=True, help="Continue an existing map.")
+@click.option("--overwrite", is_flag=True, help="Replace an existing map.")
+@click.option("--scheduler", metavar="ADDRESS", help="Address of a Dask scheduler on whose workers to toss.")
+@click.option("--png", type=click.Path(path_type=Path), help="Also draw the map to this .png file.")
+@click.option(
+    "--palette",
+    type=click.Choice(["safe", "paper"]),
+    help="safe (the default): gold and blue, for the colour-blind too; paper: black and white.",
+)
+@click.option("--boundaries", is_flag=True, help="Colour the pixels at a boundary.")
+@click.option("--size", type=_Size(), metavar="WIDTHxHEIGHT", help="Size of the picture in inches.")
+@click.option("--dpi", type=Count(10, 2400), help="Pixels per inch of the picture.")
+@click.option(
+    "--report",
+    type=click.Path(path_type=Path),
+    help="Folder of a report as by `cointoss compare`, with both maps; requires --compare.",
+)
+def basin(
+    scenario: str,
+    x: str,
+    y: str,
+    out: Path,
+    engine: str | None,
+    both: bool,
+    contact: str | None,
+    after: int | None,
+    margin: str | None,
+    resume: bool,
+    overwrite: bool,
+    scheduler: str | None,
+    png: Path | None,
+    palette: str | None,
+    boundaries: bool,
+    size: tuple[float, float] | None,
+    dpi: int | None,
+    report: Path | None,
+) -> None:
+    """Map the outcome over two fields of a scenario.
+
+    Each pixel is one toss. FIELD is a dotted path into the scenario, with components by name:
+    release.position.z, release.angular_velocity.xi, floor.restitution. START and STOP are in SI or carry
+    a unit; both are included.
+    """
+    if resume and overwrite:
+        raise click.UsageError("--resume and --overwrite: accepted: one of them")
+    if both and engine is not None:
+        raise click.UsageError("--engine and --compare: accepted: one of them")
+    if contact is not None and not (both or engine == "mujoco"):
+        raise click.UsageError(f"--contact {contact}: accepted: only beside --engine mujoco or --compare")
+    if margin is not None and (both or engine == "mujoco"):
+        beside = "--compare" if both else f"--engine {engine}"
+        raise click.UsageError(f"--margin {margin} {beside}: accepted: only by the analytic engine alone")
+    if report is not None and not both:
+        raise click.UsageError(f"--report {report}: accepted: only beside --compare")
+    if png is None and report is None and (palette or boundaries or size or dpi):
+        raise click.UsageError(
+            "--palette, --boundaries, --size and --dpi: accepted: only beside --png or --report"
+        )
+    with plain_errors(scenario):
+        from compare.basins.picture_style import DPI, Palette, PictureStyle
+        from compare.engines import Engine
+        from compare.output.progress import bar
+        from compare.sweep.job import Job, make
+        from models.reading import scenario_text
+
+        job = Job(
+            source=scenario,
+            text=scenario_text(scenario),
+            x=x,
+            y=y,
+            out=out,
+            engine=None if both else Engine(engine or "analytic"),
+            contact=contact or "spring",
+            after=after,
+            margin=margin,
+            resume=resume,
+            overwrite=overwrite,
+            scheduler=scheduler,
+            png=png,
+            style=PictureStyle(
+                palette=Palette(palette or "safe"), boundaries=boundaries, size=size, dpi=dpi or DPI
+            ),
+            report=report,
+        )
+        with bar("video", "frames") as progress:
+            for result in make(job, _watched, progress, say):
+                click.echo(result)
+
+
+@contextmanager
+def _watched(name: str, done: int, count: int) -> Iterator[Callable[[int], None]]:
+    """Yield a function to report tosses to; show their number, rate and time left on the terminal."""
+    from compare.output.progress import bar
+
+    kept = done
+
+    def more(tosses: int) -> None:
+        nonlocal kept
+        kept += tosses
+        progress(kept, count)
+
+    try:
+        with bar(name, "tosses", done=done) as progress:
+            progress(kept, count)
+            yield more
+    except Interruption as interruption:
+        interruption.message = f"{name}: {kept} of {count} tosses are saved; --resume continues"
+        raise

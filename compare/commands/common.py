@@ -1,0 +1,85 @@
+"""What several commands share: options, kinds of values, and failures of one line."""
+
+import sys
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, NoReturn
+
+import click
+
+SCENARIO_HELP = (
+    "SCENARIO is a TOML file, or the name of a scenario that comes with the package, such as fig24a. "
+    "An unknown name prints the names that exist."
+)
+
+
+class Count(click.IntRange):
+    """A whole number within bounds, with one message for what is out of them and what is no number."""
+
+    name = "count"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """Return the number, or refuse the value with what is accepted."""
+        try:
+            return super().convert(value, param, ctx)
+        except click.BadParameter:
+            self.fail(f"{value}; accepted: an integer >= {self.min} and <= {self.max}", param, ctx)
+
+
+@contextmanager
+def plain_errors(source: str) -> Iterator[None]:
+    """Turn the errors of bad input into one line and exit status 2, and warnings into one line each."""
+    from compare.film.back_end import BackEndError
+    from compare.output.files import UnwritableError
+    from compare.output.progress import compile_bar
+    from compare.sweep.errors import SweepError
+    from models.errors import ScenarioError
+    from models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
+
+    reported = set()
+
+    def report(message: Warning | str, category: type[Warning], *where: Any, **extra: Any) -> None:
+        if issubclass(category, ApproximationWarning):
+            if str(message) not in reported:
+                say(f"{source}: {message}")
+            reported.add(str(message))
+        else:
+            show(message, category, *where, **extra)
+
+    with compile_bar(), warnings.catch_warnings():
+        warnings.simplefilter("always", ApproximationWarning)
+        show, warnings.showwarning = warnings.showwarning, report
+        try:
+            yield
+        except (ScenarioError, UnwritableError, BackEndError, UnusableEngineError) as error:
+            refuse(str(error))
+        except (SweepError, UnsupportedError, FloatingPointError) as error:
+            refuse(f"{source}: {error}")
+
+
+def refuse(message: str, status: int = 2) -> NoReturn:
+    """Say why in one line, and end with an exit status."""
+    say(message)
+    sys.exit(status)
+
+
+def say(message: str) -> None:
+    """Print a line to standard error, with what would split it escaped."""
+    shown = "".join(char if char.isprintable() else repr(char)[1:-1] for char in message)
+    click.echo(f"cointoss: {shown}", err=True)
+
+
+contact_option = click.option(
+    "--contact",
+    type=click.Choice(["spring", "one_step"]),
+    help="How MuJoCo realises the restitution; by default by a spring.",
+)
+
+engine_option = click.option(
+    "--engine",
+    type=click.Choice(["analytic", "mujoco"]),
+    default="analytic",
+    show_default=True,
+    help="The engine.",
+)

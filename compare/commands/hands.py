@@ -1,0 +1,105 @@
+"""`cointoss hands`: a coin tossed many times as a hand does."""
+
+import json
+from dataclasses import asdict
+from typing import Any
+
+import click
+
+from compare.commands.common import SCENARIO_HELP, Count, engine_option, plain_errors, refuse
+
+
+class _Quantity(click.ParamType):
+    """A number in SI, or with its unit."""
+
+    name = "quantity"
+
+    def __init__(self, unit: str) -> None:
+        self.unit = unit
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        from models.units import in_si
+
+        try:
+            return float(value)
+        except ValueError:
+            pass
+        try:
+            return in_si(value, self.unit)
+        except ValueError as error:
+            self.fail(f"{value}; accepted: {error}", param, ctx)
+
+
+@click.command(epilog=SCENARIO_HELP)
+@click.argument("scenario")
+@click.option("--height", type=_Quantity("m"), default="1 m", show_default=True, help="Of the release.")
+@click.option("--speed", type=_Quantity("m/s"), default="2 m/s", show_default=True, help="Upwards.")
+@click.option(
+    "--spin",
+    type=_Quantity("rad/s"),
+    default="120 rad/s",
+    show_default=True,
+    help="Rate at which the coin's normal goes round the angular momentum.",
+)
+@click.option(
+    "--psi",
+    type=_Quantity("rad"),
+    default="90 deg",
+    show_default=True,
+    help="Angle between normal and angular momentum; less than 90 deg: the coin wobbles.",
+)
+@click.option("--psi-scatter", type=_Quantity("rad"), default="0 deg", show_default=True, help="Its scatter.")
+@click.option(
+    "--scatter",
+    type=_Quantity(""),
+    default="10 %",
+    show_default=True,
+    help="Standard deviation of height, speed and spin.",
+)
+@click.option("--tosses", type=Count(1, 10_000_000), default=1000, show_default=True, help="How many.")
+@click.option("--seed", type=Count(0, 2**32), default=0, show_default=True, help="Of the releases.")
+@engine_option
+@click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
+def hands(
+    scenario: str,
+    tosses: int,
+    seed: int,
+    engine: str,
+    as_json: bool,
+    **hand: float,
+) -> None:
+    """Toss a scenario's coin many times as a hand does, and count the side that was up at first.
+
+    The coin is released flat; the scenario's own release is not used. Intervals are of 99 %.
+    """
+    with plain_errors(scenario):
+        import numpy as np
+
+        from compare.engines import Engine
+        from compare.film.back_end import require_mujoco
+        from compare.metrics.first_side import TOUCHES, first_side
+        from compare.output.progress import elapsed_time
+        from compare.reproduction.estimates import share
+        from models.hand import Hand
+        from models.reading import load
+        from models.releases import check_releases
+
+        described = load(scenario)
+        if engine == Engine.MUJOCO:
+            require_mujoco()
+        try:
+            start = Hand(**hand).releases(described.body, np.random.default_rng(seed), tosses)
+            check_releases(described, start)
+        except ValueError as error:
+            refuse(f"{scenario}: {error}")
+        with elapsed_time("still tossing; fewer --tosses are sooner"):
+            found = first_side(described, start, Engine(engine))
+        shares = {f"touch {n + 1}": share(up) for n, up in zip(TOUCHES, found.touches, strict=True)}
+        if len(found.at_rest):
+            shares["at rest"] = share(found.at_rest)
+        if as_json:
+            told = {"hand": hand, "tosses": tosses, "seed": seed, "engine": engine}
+            click.echo(json.dumps({**told, "same_side": {k: asdict(v) for k, v in shares.items()}}, indent=1))
+            return
+        for name, one in shares.items():
+            click.echo(f"{name:9} {one.value:7.2%} [{one.low:.2%}, {one.high:.2%}] of {one.count:,d} tosses")

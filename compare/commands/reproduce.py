@@ -1,0 +1,71 @@
+"""`cointoss reproduce`: the paper's figures and the studies."""
+
+import os
+import sys
+from pathlib import Path
+
+import click
+
+from compare.commands.common import plain_errors
+
+
+@click.command()
+@click.argument("names", nargs=-1, metavar="[NAME ...]")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    help="Folder of the results, each in its reproduction/NAME/; made if missing.",
+)
+@click.option("--quick", is_flag=True, help="Compute the smaller version of each that has one.")
+@click.pass_context
+def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quick: bool) -> None:
+    """Compute the paper's figures and the studies anew.
+
+    Each NAME writes its data and pictures and checks its claims; `all` computes all figures of the paper and
+    writes REPRODUCTION.md and gallery.html. Without NAME, list the names. Exit status 1: a claim comes out
+    otherwise than known.
+    """
+    from compare.film.back_end import drawing_problem, require_mujoco
+    from compare.output.files import require_folder
+    from compare.output.progress import bar
+    from compare.reproduction import gallery, runner
+    from compare.reproduction.claim import unexpected
+
+    with plain_errors("reproduce"):
+        # Figures may hold stills: the back end is chosen before MuJoCo is imported.
+        if names and not os.environ.get("MUJOCO_GL"):
+            drawing_problem()
+        require_mujoco()
+    known = runner.names()
+    pages = names == ("all",)
+    if pages:
+        names = tuple(gallery.of_paper())
+    for name in names:
+        if name not in known:
+            ctx.fail(f"{name}: no such name; accepted: {', '.join(known)}")
+    if not names and out is None:
+        width = max(map(len, known)) + 2
+        for name in known:
+            found = runner.find(name)
+            place = f"{found.paper}: " if found.paper else ""
+            click.echo(f"{name:{width}}{place}{found.title} ({found.seconds:g} s)")
+        return
+    if not names or out is None:
+        ctx.fail(
+            f"accepted: NAME ... --out DIR, NAME one of: {', '.join(known)}, or all; or neither, for a list"
+        )
+    with plain_errors(str(out)):
+        require_folder(out, gallery.PAGES if pages else ())
+        for name in names:
+            runner.require_writable(name, out)
+        failed = []
+        for name in names:
+            with bar(name, "parts") as progress:
+                result = runner.reproduce(name, out, progress, quick=quick)
+            click.echo(result.text)
+            failed += [f"{name}: {claim}" for claim in unexpected(result.claims, quick=quick)]
+        if pages:
+            gallery.write(out, names, quick=quick)
+    for claim in failed:
+        click.echo(f"cointoss: {claim}: another verdict than the known one", err=True)
+    sys.exit(1 if failed else 0)

@@ -1,0 +1,75 @@
+"""`cointoss toss`: one toss, printed."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import click
+
+from compare.commands.common import SCENARIO_HELP, Count, contact_option, engine_option, plain_errors
+
+
+@click.command(epilog=SCENARIO_HELP)
+@click.argument("scenario")
+@engine_option
+@contact_option
+@click.option("--max-impacts", type=Count(1, 30_000_000), help="Stop after this number of impacts.")
+@click.option(
+    "--contact-steps",
+    type=Count(1, 1_000_000_000),
+    help="Stop after this number of steps of sustained contact; by default an engine's own.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
+@click.option("--trajectory", type=click.Path(path_type=Path), help="Also write the path to this .csv file.")
+@click.option(
+    "--margin", is_flag=True, help="Also find the least changes of the release that change the outcome."
+)
+def toss(
+    scenario: str,
+    engine: str,
+    contact: str | None,
+    max_impacts: int | None,
+    contact_steps: int | None,
+    as_json: bool,
+    trajectory: Path | None,
+    margin: bool,
+) -> None:
+    """Toss one coin and print its impacts."""
+    if margin and engine != "analytic":
+        raise click.UsageError(f"--margin --engine {engine}: accepted: only by the analytic engine")
+    if contact is not None and engine != "mujoco":
+        raise click.UsageError(f"--contact {contact}: accepted: only beside --engine mujoco")
+    with plain_errors(scenario):
+        from compare.engines import Engine
+        from compare.film.back_end import require_mujoco
+        from compare.output import answer
+        from compare.output.files import is_stream, require_file, write_text
+        from compare.output.progress import elapsed_time
+        from models.reading import load
+
+        described = load(scenario)
+        if engine == Engine.MUJOCO:
+            require_mujoco()
+        if trajectory is not None and not is_stream(trajectory):
+            require_file(trajectory, ".csv", scenario)
+        if max_impacts is not None:
+            described = described.replace("ending.max_impacts", max_impacts)
+        package = Engine(engine).package
+        given = {"contact": contact, "contact_steps": contact_steps}
+        chosen = {name: value for name, value in given.items() if value is not None}
+        with elapsed_time("still tossing; Ctrl-C ends it, --max-impacts N a toss sooner"):
+            result = package.toss(described, settings=replace(package.FINE, **chosen))
+        if trajectory is not None:
+            times = answer.path_times(result)
+            write_text(trajectory, answer.path_csv(result.sample(times)))
+        extra = []
+        if margin:
+            from compare.metrics.margin import margins
+
+            extra = margins(described)
+        if as_json:
+            told = {item.quantity.name: {"change": item.finite, "unit": item.quantity.unit} for item in extra}
+            whole = {**answer.as_json(result), **({"margin": told} if margin else {})}
+            click.echo(json.dumps(whole, indent=1, allow_nan=False))
+        else:
+            click.echo("\n".join([answer.as_lines(result), *(item.line for item in extra)]))
