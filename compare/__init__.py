@@ -2,14 +2,14 @@
 
 import signal
 import sys
+from pathlib import Path
 
-# The command `cointoss` comes here before any code of its own.
-_is_command = sys.argv[0].endswith("cointoss")
+# The command, `cointoss` or `python -m cointoss`, comes here before any code of its own.
+_is_command = sys.argv[0].endswith(("cointoss", str(Path("cointoss", "__main__.py"))))
 if _is_command and signal.getsignal(signal.SIGINT) == signal.default_int_handler:
     # No traceback, until compare.output.interruption has its own handler.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
-from pathlib import Path
 from runpy import run_path
 
 try:

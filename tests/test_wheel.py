@@ -10,7 +10,7 @@ from zipfile import ZipFile
 import pytest
 
 TOP = Path(__file__).parents[1]
-PACKAGES = ("models", "analytic", "coin_mj", "compare")
+PACKAGES = ("cointoss", "models", "analytic", "coin_mj", "compare")
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,81 @@
+"""The public names of this project, each brought from its home when it is first used; nothing lives here."""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import analytic as analytic
+    import coin_mj as coin_mj
+    from compare.engines import Engine as Engine
+    from compare.metrics.comparison import Comparison as Comparison
+    from compare.metrics.comparison import compare as compare
+    from models.errors import ScenarioError as ScenarioError
+    from models.hand import Hand as Hand
+    from models.laws import ContactLaw as ContactLaw
+    from models.laws import EndingTest as EndingTest
+    from models.laws import RestitutionKind as RestitutionKind
+    from models.outcomes import Outcomes as Outcomes
+    from models.reading import load as load
+    from models.reading import named_scenarios as named_scenarios
+    from models.reading import parse as parse
+    from models.records import ApproximationWarning as ApproximationWarning
+    from models.records import Ending as Ending
+    from models.records import Face as Face
+    from models.records import Flag as Flag
+    from models.records import Impacts as Impacts
+    from models.records import Outcome as Outcome
+    from models.records import Setting as Setting
+    from models.records import States as States
+    from models.records import Toss as Toss
+    from models.records import UnsupportedError as UnsupportedError
+    from models.records import UnusableEngineError as UnusableEngineError
+    from models.releases import Releases as Releases
+    from models.scenario import Air as Air
+    from models.scenario import Coin as Coin
+    from models.scenario import EndingCriteria as EndingCriteria
+    from models.scenario import Floor as Floor
+    from models.scenario import Release as Release
+    from models.scenario import Scenario as Scenario
+
+    __version__: str
+
+_PACKAGES = ("analytic", "coin_mj")
+_NAMES = {
+    "compare.engines": ("Engine",),
+    "compare.metrics.comparison": ("Comparison", "compare"),
+    "models.errors": ("ScenarioError",),
+    "models.hand": ("Hand",),
+    "models.laws": ("ContactLaw", "EndingTest", "RestitutionKind"),
+    "models.outcomes": ("Outcomes",),
+    "models.reading": ("load", "named_scenarios", "parse"),
+    "models.records": (
+        "ApproximationWarning",
+        "Ending",
+        "Face",
+        "Flag",
+        "Impacts",
+        "Outcome",
+        "Setting",
+        "States",
+        "Toss",
+        "UnsupportedError",
+        "UnusableEngineError",
+    ),
+    "models.releases": ("Releases",),
+    "models.scenario": ("Air", "Coin", "EndingCriteria", "Floor", "Release", "Scenario"),
+}
+_HOMES = {name: home for home, names in _NAMES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        return import_module("importlib.metadata").version("cointoss")
+    if name in _PACKAGES:
+        return import_module(name)
+    if name in _HOMES:
+        return getattr(import_module(_HOMES[name]), name)
+    raise AttributeError(f"cointoss has no {name}; accepted: {', '.join(__dir__())}")
+
+
+def __dir__() -> list[str]:
+    return sorted([*_PACKAGES, *_HOMES, "__version__"])

@@ -1,0 +1,82 @@
+"""`import cointoss` and `python -m cointoss`: the public names, brought when first used, and the command."""
+
+import ast
+import subprocess
+import sys
+from importlib import import_module
+from importlib.metadata import version
+from pathlib import Path
+
+import pytest
+
+import cointoss
+from tests.helpers.command_line import HERE
+
+TOP = Path(__file__).parents[1]
+PACKAGES = ("analytic", "coin_mj")
+
+
+def described():
+    """Return the home of each name that a type checker is told of."""
+    body = ast.parse((TOP / "cointoss" / "__init__.py").read_text(encoding="utf-8")).body
+    told = next(node for node in body if isinstance(node, ast.If))
+    return {
+        alias.asname or "": node.module or ""
+        for node in told.body
+        if isinstance(node, ast.ImportFrom)
+        for alias in node.names
+    }
+
+
+def test_each_name_is_that_of_its_home_and_a_type_checker_knows_it():
+    homes = described()
+    assert sorted([*homes, *PACKAGES, "__version__"]) == dir(cointoss)
+    for name, home in homes.items():
+        assert getattr(cointoss, name) is getattr(import_module(home), name)
+    assert [getattr(cointoss, name) for name in PACKAGES] == [sys.modules[name] for name in PACKAGES]
+    assert cointoss.__version__ == version("cointoss")
+
+
+def test_each_public_name_says_what_it_is():
+    public = [getattr(cointoss, name) for name in dir(cointoss) if name != "__version__"]
+    assert len(public) > 25
+    assert [item for item in public if len((item.__doc__ or "").split()) < 3] == []
+
+
+def test_an_unknown_name_is_answered_with_the_names_there_are():
+    with pytest.raises(AttributeError, match=r"no Coins; accepted: Air, .* Coin, .*, load,"):
+        _ = cointoss.Coins
+
+
+def test_import_cointoss_imports_next_to_nothing():
+    script = "import sys; before = set(sys.modules); import cointoss; print(*set(sys.modules) - before)"
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True, env=HERE
+    )
+    imported = set(done.stdout.split())
+    assert {name.partition(".")[0] for name in imported} - sys.stdlib_module_names == {"cointoss"}
+    assert "importlib.metadata" not in imported
+
+
+def run(folder, *words):
+    command = [sys.executable, "-m", "cointoss", *words]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, env=HERE)
+
+
+def test_the_package_runs_the_command(tmp_path):
+    done = run(tmp_path, "--version")
+    assert (done.returncode, done.stdout) == (0, f"cointoss, version {version('cointoss')}\n")
+    done = run(tmp_path, "toss", "no_such_scenario")
+    assert (done.returncode, len(done.stderr.splitlines())) == (2, 1)
+    assert done.stderr.startswith("cointoss: no_such_scenario: no such file")
+
+
+def test_beside_a_foreign_package_it_says_so_in_one_line(tmp_path):
+    (tmp_path / "models.py").touch()
+    done = run(tmp_path, "--version")
+    assert (done.returncode, done.stdout, len(done.stderr.splitlines())) == (2, "", 1)
+    assert done.stderr.startswith(f"cointoss: {tmp_path / 'models.py'} shadows cointoss's package models, ")
+
+
+def test_the_packages_are_typed():
+    assert all((TOP / name / "py.typed").is_file() for name in ("cointoss", "models", "compare", *PACKAGES))
