@@ -11,14 +11,18 @@ from compare.reproduction.claims import (
     air_in_a_fall,
     fair_landing,
     heads_in_a_ball,
+    standing_coins,
     stop_test,
     uniform_starts,
 )
 from compare.reproduction.paper import fig27, fig31
 from compare.reproduction.paper.fig30 import ACCURACIES, slope
 from compare.reproduction.setups import fig24_readings
+from compare.reproduction.setups.general_coins import CoinClass
 from compare.reproduction.setups.hands import HEIGHTS, SPINS, releases_of_hands
 from compare.reproduction.setups.planar_maps import case, faces_after, releases, touched_faces
+from compare.reproduction.setups.standing import standing
+from models.attitude import rotation_matrix
 from models.records import IMPACT_ROW, Outcome
 from models.scenario import Release
 
@@ -193,3 +197,87 @@ def test_a_named_face_is_left_where_another_comes_up_later(monkeypatch, energies
     found = stop_test.stops(body, kind.scenario.rules, np.zeros(13))
     assert found[0].tolist() == counted
     assert found[1, stop_test.NAMED] == 1
+
+
+def general_coin(*, thick):
+    kind = CoinClass(thick=thick, imperfect=False, air=True, coulomb=False)
+    return kind, kind.scenario.replace("floor.restitution", standing_coins.CHI)
+
+
+@pytest.mark.parametrize("thick", [False, True])
+@pytest.mark.parametrize("L", [(0.0, 0.0), (0.3, 0.0), (0.2, -0.1)])
+def test_a_coin_stands_at_the_top_of_its_potential(thick, L):
+    """At rest at the lean found its floor holds it there; L is in √(m² g r³)."""
+    body = general_coin(thick=thick)[1].body
+    m, g, r, h = body.mass, body.gravity, body.radius, body.thickness
+    J, J_normal = body.inertia[0][0], body.inertia[2][2]
+    L_z, L_normal = (part * np.sqrt(m**2 * g * r**3) for part in L)
+
+    def upright(x):
+        """Return the state that turns steadily at the angle x."""
+        y = np.zeros(13)
+        tilt = np.pi / 2 - x
+        y[6:10] = np.cos(tilt / 2), np.sin(tilt / 2), 0, 0
+        up = rotation_matrix(y[6:10])[2]
+        y[2] = r * np.cos(x) + h / 2 * abs(np.sin(x))
+        y[10:13] = 0, (L_z - L_normal * up[2]) / (J * up[1]), L_normal / J_normal
+        return y
+
+    x = np.linspace(1e-3, 0.7, 7000)
+    states = np.array([upright(angle) for angle in x])
+    near = standing(body, states)
+    spinning = (L_z - L_normal * np.sin(x)) ** 2 / (2 * J * np.cos(x) ** 2)
+    energy = m * g * states[:, 2] + spinning + L_normal**2 / (2 * J_normal)
+    top = int(np.argmax(energy))
+    # Of the thin coin without spin about its normal the top is upright, at an end of these angles.
+    assert near.lean[0] == pytest.approx(x[top], abs=1.1e-3)
+    assert near.energy[0] == pytest.approx(energy[top] / (m * g * r), rel=1e-6)
+    assert near.lack[top] < 1e-6
+    assert near.lack[-1] == pytest.approx((energy[top] - energy[-1]) / (m * g * r), rel=1e-5)
+    if not any(L):
+        assert near.rate[0] == pytest.approx(np.sqrt(m * g * np.hypot(r, h / 2) / J))
+
+
+def test_a_coin_spun_too_fast_about_the_vertical_has_no_top():
+    body = general_coin(thick=False)[1].body
+    y = np.zeros(13)
+    y[2], y[6:10], y[11] = body.radius, (np.sqrt(0.5), np.sqrt(0.5), 0, 0), 1.01 * 2 * np.sqrt(9.81 / 0.0125)
+    assert standing(body, y[None]).lack == np.inf
+    y[11] *= 0.9
+    assert standing(body, y[None]).lack < 1e-9
+
+
+@pytest.mark.parametrize("quantity", list(standing_coins.SPANS))
+def test_a_general_coin_on_a_boundary_in_air_comes_to_stand(quantity):
+    kind, scenario = general_coin(thick=False)
+    found = None
+    for start in kind.starts(20)[10:]:
+        found = found or standing_coins.boundary_on(scenario, start, quantity)
+    assert found is not None
+    assert set(found.outcomes) == {Outcome.HEADS, Outcome.TAILS}
+    low, high = found.places
+    assert high == np.nextafter(low, np.inf)
+    for place in found.places:
+        assert standing_coins.nearest(*standing_coins.followed(found, place))[0] < standing_coins.STANDS
+    away = standing_coins.nearest(*standing_coins.followed(found, low - standing_coins.SPANS[quantity] / 40))
+    assert away[0] > standing_coins.STANDS
+
+
+def test_a_quantity_of_a_release_varies_alone():
+    start = CoinClass(thick=False, imperfect=False, air=True, coulomb=False).starts(1)[0]
+    assert np.flatnonzero(standing_coins.at(start, "height", 0.5) - start).tolist() == [2]
+    assert np.flatnonzero(standing_coins.at(start, "spin", 50.0) - start).tolist() == [11]
+    turned, before = (
+        np.array(rotation_matrix(y[6:10])) for y in (standing_coins.at(start, "tilt", 0.1), start)
+    )
+    assert turned @ before.T == pytest.approx(
+        np.array([[1, 0, 0], [0, np.cos(0.1), -np.sin(0.1)], [0, np.sin(0.1), np.cos(0.1)]])
+    )
+
+
+def test_the_side_on_which_a_flat_coin_lands_first_may_decide_its_face():
+    found = standing_coins.flat_landings(60)
+    assert len(found) == 60
+    differs = found[:, 0] == 1
+    assert 0.1 < differs.mean() < 0.6
+    assert np.median(found[differs, 1]) > 0.1
