@@ -11,6 +11,7 @@ from compare.commands.common import refuse
 from compare.commands.compare import compare
 from compare.commands.hands import hands
 from compare.commands.reproduce import reproduce
+from compare.commands.scenarios import scenarios
 from compare.commands.toss import toss
 from compare.commands.video import video
 from compare.output.interruption import run_to_exit
@@ -39,20 +40,25 @@ class _Commands(click.Group):
             refuse(f"{error.filename or 'standard output'}: can't be written ({error.strerror})", status=1)
         sys.exit(status)
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         known = super().get_command(ctx, cmd_name)
-        return known or ctx.fail(f"{cmd_name}: no such command; accepted: {', '.join(self.commands)}")
+        if known is None and not ctx.resilient_parsing:  # as where a shell completes
+            ctx.fail(f"{cmd_name}: no such command; accepted: {', '.join(self.commands)}")
+        return known
 
 
 @click.group(
     cls=_Commands,
-    commands=[basin, compare, hands, reproduce, toss, video],
+    commands=[basin, compare, hands, reproduce, scenarios, toss, video],
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
-    no_args_is_help=False,
+    invoke_without_command=True,
 )
 @click.version_option(package_name="cointoss", prog_name="cointoss")
-def main() -> None:
+@click.pass_context
+def main(ctx: click.Context) -> None:
     """Toss a coin by two engines, the analytic one of Strzalko et al. (2008) and MuJoCo, and compare."""
+    if ctx.invoked_subcommand is None:
+        click.echo(ctx.get_help())
 
 
 def _lose_stdout() -> None:

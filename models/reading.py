@@ -18,6 +18,16 @@ def named_scenarios() -> list[str]:
     )
 
 
+def title_of(name: str) -> str:
+    """Return what a scenario of the package is, from its first line.
+
+    Args:
+        name: one of `named_scenarios`.
+    """
+    first, _, _ = scenario_text(name).partition("\n")
+    return first.removeprefix("# ").removesuffix(".").replace(" of Strzalko et al. 2008", "").rstrip(",")
+
+
 def scenario_text(source: str) -> str:
     """Give the text of a scenario file, or of a scenario of the package by its name.
 

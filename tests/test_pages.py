@@ -96,7 +96,7 @@ def test_the_code_of_a_page_runs_from_top_to_bottom(page, tmp_path, monkeypatch)
                 assert_shown(block.text, command, answered.stdout)
             else:
                 main.make_context("cointoss", words[:1])
-                assert subcommand(words[0]).make_context(words[0], words[1:]).params
+                assert subcommand(words[0]).make_context(words[0], words[1:]).command.name == words[0]
         if block.language == "python":
             exec(compile(block.text, page.name, "exec"), names)
         if "[coin]" in block.text and "[release]" in block.text and block.language in ("", "toml"):
@@ -181,5 +181,5 @@ def test_an_answer_that_is_not_the_one_shown_is_seen():
 def test_every_command_has_a_help_that_names_all_its_options(name):
     answered = cointoss(name, "--help")
     assert answered.exit_code == 0
-    assert len(options(subcommand(name))) > 1
+    assert (len(options(subcommand(name))) > 1) == (name != "scenarios")
     assert all(option in answered.stdout for option in options(subcommand(name)))

@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from compare.commands.common import SCENARIO_HELP, Count, contact_option, plain_errors, say
+from compare.commands.names import axis_option, scenario_argument
 from compare.output.interruption import Interruption
 
 
@@ -31,14 +32,9 @@ class _Size(click.ParamType):
 
 
 @click.command(epilog=SCENARIO_HELP)
-@click.argument("scenario")
-@click.option(
-    "--x",
-    required=True,
-    metavar="FIELD=START:STOP:N",
-    help="The field that varies along x, and its N values.",
-)
-@click.option("--y", required=True, metavar="FIELD=START:STOP:N", help="The field that varies along y.")
+@scenario_argument
+@axis_option("--x", "The field that varies along x, and its N values.")
+@axis_option("--y", "The field that varies along y.")
 @click.option(
     "--out", type=click.Path(path_type=Path), required=True, help="The Zarr store to write, MAP.zarr."
 )

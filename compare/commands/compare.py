@@ -5,10 +5,11 @@ from pathlib import Path
 import click
 
 from compare.commands.common import SCENARIO_HELP, plain_errors
+from compare.commands.names import scenario_argument
 
 
 @click.command(epilog=SCENARIO_HELP)
-@click.argument("scenario")
+@scenario_argument
 @click.option(
     "--out", type=click.Path(path_type=Path), required=True, help="Folder of the report; made if missing."
 )

@@ -7,6 +7,7 @@ from typing import Any
 import click
 
 from compare.commands.common import SCENARIO_HELP, Count, engine_option, plain_errors, refuse
+from compare.commands.names import scenario_argument
 
 
 class _Quantity(click.ParamType):
@@ -31,7 +32,7 @@ class _Quantity(click.ParamType):
 
 
 @click.command(epilog=SCENARIO_HELP)
-@click.argument("scenario")
+@scenario_argument
 @click.option("--height", type=_Quantity("m"), default="1 m", show_default=True, help="Of the release.")
 @click.option("--speed", type=_Quantity("m/s"), default="2 m/s", show_default=True, help="Upwards.")
 @click.option(

@@ -7,10 +7,11 @@ from pathlib import Path
 import click
 
 from compare.commands.common import plain_errors
+from compare.commands.names import reproductions_argument
 
 
 @click.command()
-@click.argument("names", nargs=-1, metavar="[NAME ...]")
+@reproductions_argument
 @click.option(
     "--out",
     type=click.Path(path_type=Path),

@@ -7,10 +7,11 @@ from pathlib import Path
 import click
 
 from compare.commands.common import SCENARIO_HELP, Count, contact_option, engine_option, plain_errors
+from compare.commands.names import scenario_argument
 
 
 @click.command(epilog=SCENARIO_HELP)
-@click.argument("scenario")
+@scenario_argument
 @engine_option
 @contact_option
 @click.option("--max-impacts", type=Count(1, 30_000_000), help="Stop after this number of impacts.")

@@ -15,8 +15,10 @@ from unittest.mock import patch
 
 import imageio_ffmpeg
 import pytest
+from click.testing import CliRunner
 
 import analytic
+from compare.cli import main
 from compare.film.back_end import drawing_problem
 from compare.film.drawing import Drawer
 from compare.film.video import Format
@@ -24,7 +26,7 @@ from compare.output.answer import as_lines
 from compare.output.files import UnwritableError, require_file, write_text
 from compare.output.progress import bar
 from compare.report.contents import FILES
-from models.reading import load, scenario_text
+from models.reading import load, named_scenarios, scenario_text
 from tests.helpers.command_line import HERE, cointoss
 
 WRONG = {
@@ -174,7 +176,6 @@ def test_a_contact_may_take_one_step(tmp_path):
         ["toss", "fig24a", "--contact-steps", "0"],
         ["toss", "fig24a", "--max-impact", "3", "--jsn"],
         ["toss"],
-        [],
         ["compare", "fig24a"],
         ["throw", "fig24a"],
         ["toss", "no_such_scenario"],
@@ -188,6 +189,46 @@ def test_wrong_arguments_are_exit_status_2(arguments):
     assert answered.stdout == ""
     assert answered.stderr.startswith("cointoss: ")
     assert len(answered.stderr.splitlines()) == 1
+
+
+def test_without_a_command_it_prints_its_help():
+    bare, helped = cointoss(), cointoss("--help")
+    assert (bare.exit_code, bare.stdout, bare.stderr) == (0, helped.stdout, "")
+    assert "Commands:" in bare.stdout
+
+
+def test_the_scenarios_that_come_along_are_listed_with_what_they_are():
+    lines = cointoss("scenarios").stdout.splitlines()
+    assert [line.split()[0] for line in lines] == named_scenarios()
+    assert "fig24a                    Fig. 24(a): one of six tosses released 0.01 mm apart" in lines
+    titles = [line[26:] for line in lines]
+    assert all(
+        20 < len(title) <= 90 and "Strzalko" not in title and title[-1] not in ",." for title in titles
+    )
+    assert max(map(len, lines)) <= 120
+
+
+def completed(line, number):
+    """Return what bash is told where it completes a word of a line."""
+    asking = {"_COINTOSS_COMPLETE": "bash_complete", "COMP_WORDS": line, "COMP_CWORD": str(number)}
+    return CliRunner().invoke(main, [], env=asking, prog_name="cointoss").stdout.split()
+
+
+@pytest.mark.parametrize(
+    ("line", "number", "names"),
+    [
+        ("cointoss sc", 1, ["scenarios"]),
+        ("cointoss toss fig18", 2, [f"fig18_{n}d_{kind}" for n in (2, 3) for kind in ("ideal", "imperfect")]),
+        ("cointoss basin fig29 --x release.po", 4, [f"release.position.{axis}=" for axis in "xyz"]),
+        ("cointoss reproduce mujoco-l", 2, ["mujoco-laws", "mujoco-limit"]),
+        ("cointoss throw fig", 2, []),
+    ],
+)
+def test_a_shell_completes_names(line, number, names):
+    assert [item for item in completed(line, number) if not item.startswith("file,")] == [
+        f"plain,{name}" for name in names
+    ]
+    assert ("file,fig18" in completed(line, number)) == ("toss fig18" in line)
 
 
 def test_places_that_cannot_be_written_are_refused_before_the_work(tmp_path):

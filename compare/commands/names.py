@@ -1,0 +1,47 @@
+"""Arguments and options that a shell can complete with names."""
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+import click
+
+
+def _completing(known: Callable[[], Iterable[str]], *, files: bool = False) -> dict[str, Any]:
+    """Return what makes a parameter be completed with names, and where none begins so perhaps with files."""
+
+    def complete(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[Any]:
+        from click.shell_completion import CompletionItem
+
+        items = [CompletionItem(incomplete, type="file")] if files else []
+        return [*items, *(CompletionItem(name) for name in known() if name.startswith(incomplete))]
+
+    return {"shell_complete": complete}
+
+
+def _scenarios() -> list[str]:
+    from models.reading import named_scenarios
+
+    return named_scenarios()
+
+
+def _axes() -> list[str]:
+    from models.fields import UNITS
+
+    return [f"{field}=" for field in UNITS]
+
+
+def _reproductions() -> list[str]:
+    from compare.reproduction.runner import names
+
+    return [*names(), "all"]
+
+
+scenario_argument = click.argument("scenario", **_completing(_scenarios, files=True))
+reproductions_argument = click.argument(
+    "names", nargs=-1, metavar="[NAME ...]", **_completing(_reproductions)
+)
+
+
+def axis_option(name: str, about: str) -> Callable[..., Any]:
+    """Return the option of an axis of a map."""
+    return click.option(name, required=True, metavar="FIELD=START:STOP:N", help=about, **_completing(_axes))
