@@ -1,8 +1,10 @@
 """`import cointoss` and `python -m cointoss`: the public names, brought when first used, and the command."""
 
 import ast
+import re
 import subprocess
 import sys
+import tomllib
 from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
@@ -80,3 +82,13 @@ def test_beside_a_foreign_package_it_says_so_in_one_line(tmp_path):
 
 def test_the_packages_are_typed():
     assert all((TOP / name / "py.typed").is_file() for name in ("cointoss", "models", "compare", *PACKAGES))
+
+
+def test_the_version_is_that_of_pyproject_wherever_it_is_written():
+    written = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+    assert version("cointoss") == written
+    assert f"\nversion: {written}\n" in (TOP / "CITATION.cff").read_text(encoding="utf-8")
+    headings = re.findall(
+        r"^## (\S+?),? ", (TOP / "docs/CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE
+    )
+    assert headings[0] == written
