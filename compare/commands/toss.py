@@ -69,7 +69,10 @@ def toss(
 
             extra = margins(described)
         if as_json:
-            told = {item.quantity.name: {"change": item.finite, "unit": item.quantity.unit} for item in extra}
+            told = {
+                item.quantity.name: {"change": item.finite, "proved": item.proved, "unit": item.quantity.unit}
+                for item in extra
+            }
             whole = {**answer.as_json(result), **({"margin": told} if margin else {})}
             click.echo(json.dumps(whole, indent=1, allow_nan=False))
         else:

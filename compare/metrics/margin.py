@@ -3,11 +3,14 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
 
 import analytic
+from compare.precision.certified import PlanarRelease, proved_part
+from compare.precision.planar_coin import planar_coin, units
 from models.records import Array
 from models.releases import Releases, check_releases
 from models.scenario import Scenario
@@ -62,6 +65,8 @@ class Margin:
     quantity: Quantity
     change: float
     """With its sign, in the quantity's unit; infinite where none up to 1 SI unit does."""
+    proved: float = 0.0
+    """No smaller change to either side does, in the quantity's unit; 0 where that is not proved."""
 
     @property
     def finite(self) -> float | None:
@@ -72,7 +77,8 @@ class Margin:
     def line(self) -> str:
         """The margin for a person."""
         found = f"{self.change:+.3g} {self.quantity.unit}" if self.finite is not None else "none found"
-        return f"margin    {self.quantity.name:18}  {found}"
+        proved = f", proved to be above {self.proved:.2g} {self.quantity.unit}" if self.proved else ""
+        return f"margin    {self.quantity.name:18}  {found}{proved}"
 
 
 def _moved(field: str, axis: int) -> Callable[[Releases, Array], Releases]:
@@ -138,7 +144,8 @@ def margins(scenario: Scenario) -> tuple[Margin, ...]:
     """Return the margin of a scenario's toss along each of `QUANTITIES`.
 
     Changes are tried on a ladder, up and down; the first that changes the outcome is cut down by bisection.
-    A stripe between two rungs goes unseen, so the margin is an upper bound.
+    A stripe between two rungs goes unseen, so the margin is an upper bound. That of a planar coin released
+    flat in vacuum is proved to be above a lower one, in height, and in attitude and spin about ξ.
     """
     release = scenario.release
     rows = (release.position, release.velocity, release.attitude, release.angular_velocity)
@@ -148,11 +155,45 @@ def margins(scenario: Scenario) -> tuple[Margin, ...]:
     def outcomes(releases: Releases) -> Codes:
         return analytic.toss_many(scenario, releases).outcome
 
-    return tuple(
-        Margin(quantity, float(change * quantity.factor))
+    changes = [
+        float(smallest_changes(scenario, start, quantity, outcomes=outcomes, search=FINE)[0])
         for quantity in QUANTITIES
-        for change in smallest_changes(scenario, start, quantity, outcomes=outcomes, search=FINE)
+    ]
+    return tuple(
+        Margin(
+            quantity, change * quantity.factor, proved_change(scenario, quantity, change) * quantity.factor
+        )
+        for quantity, change in zip(QUANTITIES, changes, strict=True)
     )
+
+
+PROVED = {"height": "height", "attitude about ξ": "tilt", "spin about ξ": "spin"}
+"""Quantities with a proof, and their names in a `PlanarRelease`."""
+
+
+def proved_change(scenario: Scenario, quantity: Quantity, change: float) -> float:
+    """Return a change of a release, to both sides, within which the outcome is proved to be the same.
+
+    Args:
+        scenario: whose coin is tossed.
+        quantity: what changes.
+        change: one that changes the outcome [SI].
+
+    Returns:
+        The change [SI]; 0 where none is proved. A proof needs a thin ideal coin released flat in vacuum, at
+        rest but for its spin about ξ, on a smooth or perfectly rough floor.
+    """
+    release, drag = scenario.release, scenario.body.drag
+    others = (*release.velocity, *release.attitude[1:], *release.angular_velocity[1:])
+    if quantity.name not in PROVED or not math.isfinite(change) or any(others) or any(drag):
+        return 0.0
+    try:
+        coin = planar_coin(scenario)
+    except ValueError:
+        return 0.0
+    start = PlanarRelease(height=Fraction(release.position[2]), spin=Fraction(release.angular_velocity[0]))
+    whole = PlanarRelease(**{PROVED[quantity.name]: Fraction(abs(change))})
+    return abs(change) * float(proved_part(coin, units(scenario), release=start, change=whole))
 
 
 def smallest_changes(

@@ -6,17 +6,19 @@ an enclosure holds both signs of what decides; more bits then decide, but for to
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from functools import partial
+from typing import Any, NamedTuple
 
 from flint import acb, arb, ctx, fmpq
 
 from compare.precision.double_double import exact
 from compare.precision.planar_coin import PlanarCoin, Units, square_root
 from compare.precision.planar_flight import safe_step
+from compare.precision.taylor_models import ORDER, TaylorModel, UndecidedError, middle, varying, whole, zero
 from models.records import Outcome
 
 MOST_IMPACTS = 5000
@@ -25,11 +27,20 @@ MOST_STEPS = 20_000
 TURN = 2.0
 """At most this angle is flown on one series in air [rad]."""
 NEAR = 1e-9
-"""Below this gap a zero is enclosed by the gap's falling."""
+"""Below this gap, and what it is uncertain by, a zero is enclosed by the gap's falling."""
+LEAST = Fraction(1, 2**40)
+"""Part of a change that is still tried."""
 
 
-class _UndecidedError(Exception):
-    """An enclosure is too wide."""
+class PlanarRelease(NamedTuple):
+    """A release, or how far one is from another."""
+
+    height: Fraction = Fraction(0)
+    """[m]."""
+    spin: Fraction = Fraction(0)
+    """[rad/s]."""
+    tilt: Fraction = Fraction(0)
+    """[rad]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,6 +80,12 @@ class _State:
     u: Any
     heads: bool = True
 
+    def tighten(self) -> None:
+        """Let numbers that vary forget what is no longer true of their enclosures."""
+        for name in ("z", "v", "tilt", "w", "u"):
+            if isinstance(x := getattr(self, name), TaylorModel):
+                setattr(self, name, x.tightened())
+
 
 def certified_toss(
     coin: PlanarCoin,
@@ -93,35 +110,98 @@ def certified_toss(
     """
     while True:
         with _precision(bits):
-            found = _toss(coin, units, Fraction(height), Fraction(spin), Fraction(tilt), bits)
+            release = _in_own_units(
+                units, PlanarRelease(Fraction(height), Fraction(spin), Fraction(tilt)), bits
+            )
+            found = _toss(coin, release, bits)
         if found.outcome != Outcome.UNDECIDED or 2 * bits > most_bits:
             return found
         bits *= 2
 
 
+def outcome_within(
+    coin: PlanarCoin, units: Units, *, release: PlanarRelease, change: PlanarRelease, bits: int = 200
+) -> Outcome:
+    """Return the outcome that all releases up to a change away, to both sides, are proved to have.
+
+    Args:
+        coin: in vacuum.
+        units: of it.
+        release: the one in their middle.
+        change: those are meant that are this one times -1 to 1 away.
+        bits: of the proof.
+
+    Returns:
+        Heads or tails; undecided where they differ, or where that is not proved.
+
+    Raises:
+        ValueError: of a coin in air.
+    """
+    _require_vacuum(coin)
+    with _precision(bits):
+        middles, changes = (_in_own_units(units, numbers, bits) for numbers in (release, change))
+        return _toss(coin, [*map(varying, middles, changes)], bits).outcome
+
+
+def proved_part(coin: PlanarCoin, units: Units, *, release: PlanarRelease, change: PlanarRelease) -> Fraction:
+    """Return the largest 1, 1/2, 1/4, ... of a change within which the outcome is proved to be the same.
+
+    Args:
+        coin: in vacuum.
+        units: of it.
+        release: of the toss.
+        change: to both sides of it.
+
+    Returns:
+        The part; 0 where the outcome of the toss is not proved, or that of its neighbours within `LEAST`.
+
+    Raises:
+        ValueError: of a coin in air.
+    """
+    _require_vacuum(coin)
+    toss = certified_toss(coin, units, height=release.height, spin=release.spin, tilt=release.tilt)
+    part = Fraction(1)
+    while toss.outcome != Outcome.UNDECIDED and part >= LEAST:
+        within = PlanarRelease(*(part * x for x in change))
+        if outcome_within(coin, units, release=release, change=within, bits=toss.bits) == toss.outcome:
+            return part
+        part /= 2
+    return Fraction(0)
+
+
+def _require_vacuum(coin: PlanarCoin) -> None:
+    if coin.in_air:
+        raise ValueError("air: releases about another one are enclosed in vacuum only")
+
+
 @contextmanager
 def _precision(bits: int) -> Iterator[None]:
-    before = ctx.prec
-    ctx.prec = bits
+    before = ctx.prec, ctx.cap
+    ctx.prec, ctx.cap = bits, ORDER + 1
     try:
         yield
     finally:
-        ctx.prec = before
+        ctx.prec, ctx.cap = before
 
 
 def _ball(number: Fraction) -> Any:
     return arb(fmpq(number.numerator, number.denominator))
 
 
-def _toss(
-    coin: PlanarCoin, units: Units, height: Fraction, spin: Fraction, tilt: Fraction, bits: int
-) -> Certified:
+def _in_own_units(units: Units, release: PlanarRelease, bits: int) -> tuple[Any, Any, Any]:
+    """Return height, spin and tilt."""
     time = square_root(units.length / units.gravity, 2 * bits)
-    state = _State(z=_ball(height / units.length), v=arb(0), tilt=_ball(tilt), w=_ball(spin * time), u=arb(0))
+    return _ball(release.height / units.length), _ball(release.spin * time), _ball(release.tilt)
+
+
+def _toss(coin: PlanarCoin, release: Sequence[Any], bits: int) -> Certified:
+    """Toss a coin whose height, spin and tilt are enclosures, or vary."""
+    z, w, tilt = release
+    state = _State(z=z, v=arb(0), tilt=tilt, w=w, u=arb(0))
     impacts: list[Enclosed] = []
     toss = _Toss(coin, bits)
     outcome = Outcome.UNDECIDED
-    with suppress(_UndecidedError):
+    with suppress(UndecidedError):
         outcome = toss.run(state, impacts)
     return Certified(outcome=outcome, impacts=tuple(impacts), energy=toss.last_energy, bits=bits)
 
@@ -131,7 +211,7 @@ def _sign(x: Any) -> int:
         return 1
     if x < 0:
         return -1
-    raise _UndecidedError
+    raise UndecidedError
 
 
 class _Toss:
@@ -183,7 +263,7 @@ class _Toss:
                 corners, start = self.contact(state, corner, loss)
                 if not corners:
                     return Outcome.HEADS if state.heads else Outcome.TAILS
-        raise _UndecidedError
+        raise UndecidedError
 
     def energy(self, state: _State) -> Any:
         """Return the energy that counts against the barrier 1."""
@@ -195,10 +275,12 @@ class _Toss:
     def turn_within(self, state: _State) -> int:
         """Reduce the tilt to ±π/2; return -1 where the other face is up and the corners change names."""
         pi = arb.pi()
+        if not abs(state.tilt).upper() < MOST_IMPACTS:
+            raise UndecidedError
         halves = round(float((state.tilt / pi).mid()))
         state.tilt = state.tilt - halves * pi
         if not abs(state.tilt) < pi / 2:
-            raise _UndecidedError
+            raise UndecidedError
         if halves % 2:
             state.heads = not state.heads
             return -1
@@ -213,7 +295,7 @@ class _Toss:
         y, z = corner * cosine, corner * sine
         down = state.v + y * state.w
         if not down < 0:
-            raise _UndecidedError
+            raise UndecidedError
         wanted, K_zz = -(1 + self.chi) * down, 1 + y**2 / self.J
         if self.coin.rough:
             K_yy, K_yz = 1 + z**2 / self.J, -y * z / self.J
@@ -226,6 +308,7 @@ class _Toss:
             S_z = wanted / K_zz
             moment = y * S_z
         state.v, state.w = state.v + S_z, state.w + moment / self.J
+        state.tighten()
         return S_z
 
     def series(self, state: _State, length: float) -> tuple[list[Any], list[Any], Any]:
@@ -258,7 +341,7 @@ class _Toss:
             if grows < rho and tail < arb(2) ** (-self.bits - 20):
                 return heights, drifts, tail.upper() * arb(0, 1)
             if n > 4 * self.bits:
-                raise _UndecidedError
+                raise UndecidedError
 
     def fly(self, state: _State, corners: tuple[int, ...], start: Any) -> int:
         """Fly to the first touch; return the rim point that touches."""
@@ -270,23 +353,33 @@ class _Toss:
             heights, drifts, tail = self.series(state, length)
             best, who = None, 0
             limit = arb(length)
-            gaps = []
+            gap_of = partial(_Gap, heights, tail, state, corners, start)
             for side in (-1, 1):
-                gap = _Gap(heights, tail, state, side, side in corners, start if side in corners else None)
-                gaps.append(gap)
-                root = gap.first_zero(float(length) if best is None else float(best.upper()) * (1 + 1e-15))
+                root = gap_of(side, whole).first_zero(
+                    float(length) if best is None else float(best.upper()) * (1 + 1e-15)
+                )
                 if root is not None:
                     if best is not None and not (root < best or root > best):
-                        raise _UndecidedError
+                        raise UndecidedError
                     if best is None or root < best:
                         best, who = root, side
-            at = limit if best is None else best
+            at = limit if best is None else self.touch(partial(gap_of, who), best)
             self.move(state, heights, drifts, tail, at)
             if best is not None:
                 return who
             if not self.coin.in_air:
-                raise _UndecidedError
+                raise UndecidedError
             corners, start = (), None
+
+    def touch(self, gap_of: Callable[[Callable[[Any], Any]], "_Gap"], root: Any) -> Any:
+        """Return the clock of a touch that is enclosed for all releases; where they vary, as they do."""
+        gap = gap_of(_itself)
+        if not isinstance(gap.w, TaylorModel):
+            return root
+        of_middle = gap_of(middle).enclosed(root.lower())
+        if of_middle is None:
+            raise UndecidedError
+        return zero(gap.at, of_middle, root)
 
     def move(self, state: _State, heights: list[Any], drifts: list[Any], tail: Any, s: Any) -> None:
         left = 1 - self.k * s
@@ -294,6 +387,7 @@ class _Toss:
         state.v = left * (_value([n * c for n, c in enumerate(heights)][1:], s) + tail * len(heights) * 4)
         state.u = _value(drifts, s) + tail
         state.tilt, state.w = state.tilt + state.w * s, left * state.w
+        state.tighten()
 
     def chatter(self, state: _State, corner: int) -> Any:
         """Bound the energy that the bounces still to come lose from above, once they are proved to end.
@@ -307,7 +401,7 @@ class _Toss:
         if self.coin.in_air or self.coin.rough:
             v = self.rim_velocity(state, corner)
             if v < 2.0**-60 and not state.z * state.w**2 > 1:
-                raise _UndecidedError
+                raise UndecidedError
             return None
         v = self.rim_velocity(state, corner).upper()
         if not v < 1e-8 or not state.z * state.w**2 < 1:
@@ -335,7 +429,7 @@ class _Toss:
         """Return the clock up to which a rim point at rest on the floor, but drawn up, does not touch."""
         drawn = state.z * state.w**2 - 1
         if _sign(drawn) < 0:
-            raise _UndecidedError
+            raise UndecidedError
         return 1.5 * drawn / abs(state.w) ** 3
 
     def contact(self, state: _State, corner: int, loss: Any) -> tuple[tuple[int, ...], Any]:
@@ -369,7 +463,7 @@ class _Toss:
             if turn > 0 and _sign(self.rim_velocity(state, side)) > 0:
                 return (-1, 1), None
             self.hit(state, side)
-        raise _UndecidedError
+        raise UndecidedError
 
 
 def _value(coefficients: list[Any], s: Any) -> Any:
@@ -379,19 +473,31 @@ def _value(coefficients: list[Any], s: Any) -> Any:
     return total
 
 
+def _itself(x: Any) -> Any:
+    return x
+
+
 class _Gap:
     """The gap of a rim point over the clock of a flight."""
 
     def __init__(
-        self, heights: list[Any], tail: Any, state: _State, side: int, on_floor: bool, start: Any
+        self,
+        heights: list[Any],
+        tail: Any,
+        state: _State,
+        corners: tuple[int, ...],
+        start: Any,
+        side: int,
+        part: Callable[[Any], Any],
     ) -> None:
-        sine, cosine = state.tilt.sin_cos()
-        self.sn, self.cs, self.w = side * sine, side * cosine, state.w
-        self.f0 = arb(0) if on_floor else heights[0] + self.sn
+        heights = [part(c) for c in heights]
+        sine, cosine = part(state.tilt).sin_cos()
+        self.sn, self.cs, self.w = side * sine, side * cosine, part(state.w)
+        self.f0 = arb(0) if side in corners else heights[0] + self.sn
         self.f1 = heights[1] + self.cs * self.w
         self.start = 0.0
-        if on_floor and start is not None:
-            self.f1, self.start = arb(0), float(start.mid()) * (1 - 1e-9)
+        if side in corners and start is not None:
+            self.f1, self.start = arb(0), float(start.lower()) * (1 - 1e-9)
         self.rest, self.tail = [arb(0), arb(0), *heights[2:]], tail
         self.slopes = [n * c for n, c in enumerate(self.rest)][1:]
         self.bends = [n * c for n, c in enumerate(self.slopes)][1:]
@@ -432,17 +538,17 @@ class _Gap:
                 return None
             f, rate = self.at(s)
             low, slope = float(f.lower()), float(rate.lower())
-            if s > 0 and f < NEAR and rate < 0 and (root := self.enclosed(s)) is not None:
+            if s > 0 and f.mid() < NEAR + 2 * f.rad() and rate < 0 and (root := self.enclosed(s)) is not None:
                 return root
             if s == 0 and self.f0 == 0:
                 low = 0.0
             elif not f > 0:
-                raise _UndecidedError
+                raise UndecidedError
             step = safe_step(low, slope, float(self.bend(s).lower()), (bound, third)) * (1 - 1e-12)
             if not step > 0:
-                raise _UndecidedError
+                raise UndecidedError
             s = (s + arb(step)).mid()
-        raise _UndecidedError
+        raise UndecidedError
 
     def enclosed(self, s: Any) -> Any:
         """Enclose a zero after s, up to which the gap falls; None where that is not proved."""

@@ -10,7 +10,7 @@ import xarray as xr
 import analytic
 from compare.basins.picture import MapAxis, draw_margins, write_png
 from compare.engines import Engine
-from compare.metrics.margin import MANY, QUANTITIES, accepted, margins, quantity_of, smallest_changes
+from compare.metrics.margin import MANY, PROVED, QUANTITIES, accepted, margins, quantity_of, smallest_changes
 from compare.reproduction.setups.planar_maps import releases
 from compare.sweep import grid
 from models.reading import load
@@ -46,6 +46,19 @@ def test_a_change_of_the_margin_changes_the_outcome_and_half_of_it_does_not(name
         changed = scenario.replace(release[0], value)
         faces.append(analytic.toss(changed).outcome)
     assert faces[0] == faces[1] == faces[2] != faces[3]
+
+
+@pytest.mark.parametrize("law", ["smooth", "perfectly_rough"])
+def test_the_margin_of_a_planar_coin_in_vacuum_is_proved_from_below(law):
+    vacuum = load("fig29").replace("air.normal", 0.0, "air.tangential", 0.0, "floor.restitution", 0.3)
+    found = by_name(vacuum.replace("floor.contact", law))
+    assert {name for name, margin in found.items() if margin.proved} == set(PROVED)
+    for name in PROVED:
+        assert 2**-14 * abs(found[name].change) < found[name].proved < abs(found[name].change)
+        assert f"proved to be above {found[name].proved:.2g} {found[name].quantity.unit}" in found[name].line
+    assert not any(margin.proved for margin in margins(vacuum.replace("release.velocity", [0.0, 0.0, 1e-3])))
+    assert not any(margin.proved for margin in margins(vacuum.replace("coin.thickness", 1e-3)))
+    assert not any(margin.proved for margin in margins(load("fig29")))
 
 
 def test_a_boundary_that_was_passed_lies_behind():

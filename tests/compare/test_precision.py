@@ -9,7 +9,7 @@ from flint import arb, ctx
 import analytic
 from analytic.automaton import Event, Mode
 from compare.precision import double_double, planar_state, planar_toss
-from compare.precision.certified import certified_toss
+from compare.precision.certified import PlanarRelease, certified_toss, outcome_within, proved_part
 from compare.precision.divergence import toss_lines
 from compare.precision.double_double import add, pair_of, scale
 from compare.precision.magnified import magnify
@@ -158,6 +158,47 @@ def test_both_sides_of_a_boundary_are_proved_at_1e_27_m():
         assert abs(float(toss.energy) - 1) < 1e-6
         pairs = toss_many(coin, release(own, height=height, spin=41.0)[None])
         assert pairs.energy[0] == pytest.approx(float(toss.energy), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("chi", "law"), [(0.0, "smooth"), (0.3, "smooth"), (0.6, "smooth"), (0.3, "perfectly_rough")]
+)
+def test_releases_within_a_proved_change_have_the_outcome_of_the_middle_one(chi, law):
+    coin, own = coin_of(chi, law=law)
+    rng, parts = np.random.default_rng(7), []
+    for _ in range(6):
+        middle = PlanarRelease(height=Fraction(rng.uniform(0.2, 0.6)), spin=Fraction(rng.uniform(20, 60)))
+        change = PlanarRelease(height=Fraction(1, 1000), spin=Fraction(-1, 10), tilt=Fraction(1, 1000))
+        parts.append(proved_part(coin, own, release=middle, change=change))
+        at = [parts[-1] * Fraction(p) for p in (0, *rng.uniform(-1, 1, 40), 1, -1)]
+        starts = [
+            release(
+                own, **{name: a + p * b for name, a, b in zip(middle._fields, middle, change, strict=True)}
+            )
+            for p in at
+        ]
+        assert len({*toss_many(coin, np.array(starts)).outcome}) == 1
+    # Without restitution a rim point stays on the floor, which is proved of single releases only.
+    assert sum(part > 0 for part in parts) >= (6 if chi else 1)
+
+
+def test_no_outcome_is_proved_across_a_boundary():
+    coin, own = coin_of(0.6)
+    low, high = boundary(coin, own, 9)
+    middle, half = PlanarRelease(height=(low + high) / 2, spin=Fraction(41)), (high - low) / 2
+    for size in (1, 2, 10, 1000):
+        change = PlanarRelease(height=size * half)
+        assert outcome_within(coin, own, release=middle, change=change) == Outcome.UNDECIDED
+    beside = PlanarRelease(height=low - 5000 * half, spin=Fraction(41))
+    change = PlanarRelease(height=half)
+    found = outcome_within(coin, own, release=beside, change=change)
+    assert found == certified_toss(coin, own, height=beside.height, spin=41.0).outcome != Outcome.UNDECIDED
+
+
+def test_releases_about_another_one_are_not_enclosed_in_air():
+    coin, own = coin_of(0.6, air=True)
+    with pytest.raises(ValueError, match="in vacuum only"):
+        proved_part(coin, own, release=PlanarRelease(Fraction(1)), change=PlanarRelease(Fraction(1, 100)))
 
 
 def test_contact_without_drag_in_air_is_that_in_vacuum():
