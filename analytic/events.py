@@ -9,6 +9,8 @@ from analytic.automaton import Event, Mode, mode_after
 from analytic.contact import edge, modes, one_rim
 from analytic.contact.following import follow, friction_in_contact, is_followed, start_following
 from analytic.contact.periodic import repeats, start_tilting
+from analytic.contact.resistance import has_resistance
+from analytic.contact.rest import rests, rolls_upright
 from analytic.flight.flying import fly
 from analytic.flight.state_vector import STATE_SIZE, position_of, set_height, set_spin, set_velocity, state_of
 from analytic.flight.touch_search import closing_speed, is_chattering
@@ -123,11 +125,8 @@ def toss_coin(body, rules, limits, y, rows, keep_all):
     """
     pieces = np.empty((FIRST_ROOM if keep_all else 0, 2 + STATE_SIZE))
     time, n, k, steps = 0.0, 0, 0, 0
-    mode, history, mu = (
-        Mode.FLIGHT.value,
-        energy_history(NO_LOSS + limits.tolerance),
-        friction_in_contact(rules),
-    )
+    mode, history = Mode.FLIGHT.value, energy_history(NO_LOSS + limits.tolerance)
+    friction = friction_in_contact(rules)
     outcome, ending = Outcome.UNDECIDED, Ending.NONE
     while True:
         if keep_all:
@@ -142,11 +141,11 @@ def toss_coin(body, rules, limits, y, rows, keep_all):
             if keep_all:
                 rows = with_room(rows, n)
             row = rows[n % len(rows)]
-            event, time, n, outcome, ending = fly_to_event(body, rules, mu, y, time, n, row, history)
+            event, time, n, outcome, ending = fly_to_event(body, rules, friction, y, time, n, row, history)
             steps += event != Event.IMPACT
         else:
             event, time, steps, outcome, ending = follow_to_event(
-                body, rules, mu, mode, y, time, steps, limits, history
+                body, rules, friction, mode, y, time, steps, limits, history
             )
         if event != Event.ENDS and steps >= limits.steps:
             event, ending = Event.ENDS, Ending.CONTACT_STEPS
@@ -164,13 +163,13 @@ def doubled(table):
 
 
 @compiled
-def fly_to_event(body, rules, mu, y, time, n, row, history):
+def fly_to_event(body, rules, friction, y, time, n, row, history):
     """Fly to the next touch, and let the floor act: an impact, or where impacts chatter a sustained contact.
 
     Args:
         body: the coin.
         rules: floor and ending.
-        mu: coefficient of friction μ in sustained contact.
+        friction: `FloorFriction` in sustained contact.
         y: state, (13,); advanced.
         time: now [s].
         n: number of impacts so far.
@@ -187,7 +186,7 @@ def fly_to_event(body, rules, mu, y, time, n, row, history):
     if not touches:
         return Event.ENDS, time, n, Outcome.UNDECIDED, Ending.MAX_TIME
     if is_chattering(body, rules.restitution, y):
-        event, outcome, ending = come_to_stay(body, rules, mu, y, time, row, history)
+        event, outcome, ending = come_to_stay(body, rules, friction, y, time, row, history)
         return event, time, n, outcome, ending
     ending = hit(body, rules, rules.restitution, y, row)
     if ending != Ending.NONE:
@@ -200,7 +199,7 @@ def fly_to_event(body, rules, mu, y, time, n, row, history):
 
 
 @compiled
-def come_to_stay(body, rules, mu, y, time, row, history):
+def come_to_stay(body, rules, friction, y, time, row, history):
     """Let the floor stop the approach of a coin whose impacts chatter, `row` being work space.
 
     Returns:
@@ -216,17 +215,17 @@ def come_to_stay(body, rules, mu, y, time, row, history):
         return Event.ENDS, outcome, ending
     start_history(body, history, time)
     edge.lean(body, y)
-    return one_rim.next_event(body, mu, Mode.FLIGHT.value, y), outcome, ending
+    return one_rim.next_event(body, friction, Mode.FLIGHT.value, y), outcome, ending
 
 
 @compiled
-def follow_to_event(body, rules, mu, mode, y, time, steps, limits, history):
+def follow_to_event(body, rules, friction, mode, y, time, steps, limits, history):
     """Follow a sustained contact to the end of its mode, or of the toss.
 
     Args:
         body: the coin.
         rules: floor and ending.
-        mu: coefficient of friction μ, 0 on a smooth floor.
+        friction: `FloorFriction`.
         mode: number of the `Mode`, in contact.
         y: state, (13,); advanced.
         time: now [s].
@@ -238,10 +237,10 @@ def follow_to_event(body, rules, mu, mode, y, time, steps, limits, history):
         The event, the time [s], the steps, the outcome and the ending.
     """
     undecided, dt, in_mode = Outcome.UNDECIDED, np.inf, 0
-    stages, tilting = start_following(body, mu, mode, y), start_tilting(body, mu, mode)
+    stages, tilting = start_following(body, friction, mode, y), start_tilting(body, friction, mode)
     while time < rules.max_time:
         longest = min(dt, rules.max_time - time)
-        made, dt, over, event = follow(body, mu, mode, y, longest, limits.tolerance, stages)
+        made, dt, over, event = follow(body, friction, mode, y, longest, limits.tolerance, stages)
         time += made
         in_mode += 1
         if event == Event.ENDS:
@@ -251,17 +250,35 @@ def follow_to_event(body, rules, mu, mode, y, time, steps, limits, history):
         outcome, ending = classify_ending(body, rules, state_of(y), time, history)
         if ending != Ending.NONE:
             return Event.ENDS, time, steps, outcome, ending
+        if has_resistance(friction) and rests(body, friction, mode, y):
+            return Event.ENDS, time, steps, Outcome.EDGE, Ending.AT_REST
         if not over and repeats(tilting, y):
             return Event.ENDS, time, steps, *endless(body, rules, state_of(y))
-        on_edge = modes.edge_event(body, mu, mode, in_mode, y)
+        on_edge = modes.edge_event(body, friction, mode, in_mode, y)
         if on_edge == Event.ENDS:
             return Event.ENDS, time, steps, Outcome.EDGE, Ending.STANDING
         if on_edge == Event.COMES_UPRIGHT:
             return on_edge, time, steps, undecided, Ending.NONE
         if steps >= limits.steps:
-            return Event.ENDS, time, steps, undecided, Ending.CONTACT_STEPS
+            return Event.ENDS, time, steps, *out_of_budget(body, friction, mode, y, Ending.CONTACT_STEPS)
         if over:
             if event == Event.NONE:
-                event = modes.next_event(body, mu, mode, y)
+                event = modes.next_event(body, friction, mode, y)
             return event, time, steps, undecided, Ending.NONE
-    return Event.ENDS, time, steps, undecided, Ending.MAX_TIME
+    return Event.ENDS, time, steps, *out_of_budget(body, friction, mode, y, Ending.MAX_TIME)
+
+
+@compiled
+def out_of_budget(body, friction, mode, y, ending):
+    """Return the outcome and ending of a toss that ends in contact as a budget is spent.
+
+    Args:
+        body: the coin.
+        friction: `FloorFriction`.
+        mode: number of the `Mode`, in contact.
+        y: state, (13,).
+        ending: named after the budget.
+    """
+    if rolls_upright(body, friction, mode, y):
+        return Outcome.EDGE, Ending.ROLLING
+    return Outcome.UNDECIDED, ending

@@ -42,4 +42,14 @@ def _strike_each(body, rules, chi, mu, states, rows, solved):
 @compiled
 def rules_at(rules, chi, mu):
     """Return the same rules with another restitution χ and friction μ."""
-    return Rules(rules.law, chi, rules.restitution_kind, mu, rules.test, rules.max_impacts, rules.max_time)
+    return Rules(
+        rules.law,
+        chi,
+        rules.restitution_kind,
+        mu,
+        rules.rolling_friction,
+        rules.pivoting_friction,
+        rules.test,
+        rules.max_impacts,
+        rules.max_time,
+    )

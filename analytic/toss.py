@@ -9,6 +9,7 @@ from analytic.air.force import force_and_moment
 from analytic.automaton import Mode
 from analytic.contact.following import friction_in_contact, sample_contact
 from analytic.contact.modes import floor_force
+from analytic.contact.resistance import FloorFriction
 from analytic.events import EventLog, run
 from analytic.flight.flying import sample
 from analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
@@ -30,8 +31,8 @@ class Pieces:
     """The path of a toss: where flights and contacts start; each is integrated again when asked for."""
 
     body: Body
-    friction: float
-    """μ of a contact, 0 on a smooth floor."""
+    friction: FloorFriction
+    """Of the floor, in contact."""
     contact_tolerance: float
     """Error allowed in a step of contact, relative."""
     start_times: Array

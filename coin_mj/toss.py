@@ -34,7 +34,7 @@ from models.records import (
     Toss,
     UnsupportedError,
 )
-from models.scenario import Scenario
+from models.scenario import RESISTANCES, Scenario
 
 REALISABLE = (ContactLaw.SMOOTH, ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH)
 SOFTER = (10.0, 30.0)
@@ -86,6 +86,11 @@ def require_supported(scenario: Scenario, *, settings: Settings) -> None:
             f'floor.restitution_kind = "{floor.restitution_kind.label}": accepted by the MuJoCo engine: '
             '"kinematic" (its contacts prescribe how the normal speed changes, whatever the work)'
         )
+    for name in RESISTANCES:
+        if getattr(floor, name) > 0:
+            raise UnsupportedError(
+                f"floor.{name} = {getattr(floor, name):g}: accepted by the MuJoCo engine: 0"
+            )
     if floor.restitution == 0 and settings.contact == Realisation.SPRING:
         raise UnsupportedError(
             "floor.restitution = 0: accepted by the MuJoCo engine: a number > 0 (a damped spring rebounds), "
@@ -110,7 +115,7 @@ def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
 
     Raises:
         UnsupportedError: for contact laws other than "smooth", "coulomb" and "perfectly_rough"; energetic
-            restitution; restitution 0 of a spring.
+            restitution; resistance to rolling or pivoting; restitution 0 of a spring.
 
     Warns:
         ApproximationWarning: for a perfectly rough floor, which is one of friction `ROUGH`.

@@ -48,9 +48,17 @@ class Rules(NamedTuple):
     restitution: float
     restitution_kind: RestitutionKind
     friction: float
+    rolling_friction: float
+    pivoting_friction: float
     test: EndingTest
     max_impacts: int
     max_time: float
+
+
+@compiled
+def resists(rules):
+    """Return whether the floor resists rolling or pivoting."""
+    return rules.rolling_friction > 0 or rules.pivoting_friction > 0
 
 
 @compiled

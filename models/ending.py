@@ -10,7 +10,7 @@ from models.barriers import (
     spin_barrier,
     spin_barrier_bound,
 )
-from models.body import in_vacuum, is_ideal
+from models.body import in_vacuum, is_ideal, resists
 from models.clearance import drag_bound
 from models.geometry import tilt_sine_of
 from models.kernel.compiled import compiled
@@ -126,33 +126,35 @@ def settled_face(body, rules, state):
             return face, ending
         if E < barrier(body, -up[2]) and _beyond_the_pass(body, up, tilt_sine):
             return Outcome.EDGE, ending
-    if smooth and in_vacuum(body):
+    if smooth and in_vacuum(body) and not resists(rules):
         E_turning = E - body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
         # Off the face's side of the pass a coin may be just upright, within rounding of what it needs.
         E_turning += 0.0 if on_face else WOBBLE * body.mass * body.gravity * body.radius
         if not E_turning > spin_barrier_bound(body, up, w) and E_turning < spin_barrier(body, up, w):
             return face, Ending.SETTLED
-    elif smooth and on_face and E - idle_energy(body, v, w) < barrier(body, up[2]):
+    elif smooth and on_face and E - idle_energy(body, rules, v, w) < barrier(body, up[2]):
         return face, Ending.SETTLED
     return Outcome.UNDECIDED, Ending.NONE
 
 
 @compiled
-def idle_energy(body, v, w):
+def idle_energy(body, rules, v, w):
     """Return energy that a coin in air on a smooth floor never turns into height [J].
 
     (1 - a) m v_h²/2, a the `sliding_share`, and of a balanced coin J_ζ ω_ζ²/2: without them its energy
-    never grows, in linear air; in other air none is known.
+    never grows, in linear air; in other air none is known. Where the floor resists rolling or pivoting, its
+    moment turns spin about ζ into other spin, and only the first is left out.
 
     Args:
         body: the coin.
+        rules: floor and ending.
         v: velocity of C, space frame, (3,) [m/s].
         w: angular velocity, body frame, (3,) [rad/s].
     """
     if body.air.exponent is not None:
         return 0.0
     idle = (1 - body.sliding_share) * body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
-    return idle + body.inertia[2][2] * w[2] * w[2] / 2 if is_ideal(body) else idle
+    return idle + body.inertia[2][2] * w[2] * w[2] / 2 if is_ideal(body) and not resists(rules) else idle
 
 
 @compiled
@@ -190,11 +192,12 @@ def _lies(body, rules, state):
         or rules.law == ContactLaw.PERFECTLY_ROUGH
     ):
         return False
-    # On a face no law but Coulomb's acts on the slip.
+    # On a face no law but Coulomb's acts on the slip, and resistance to pivoting on the spin.
     mu = rules.friction if rules.law == ContactLaw.COULOMB else 0.0
     k, arm, turn_drag = drag_bound(body, body.air.exponent, v, w, 0.0)
     drag = k * (norm(v) + arm * norm(w))
-    slowing = (mu * weight * body.radius + turn_drag * abs(w[2]) + drag * arm) / J[2][2]
+    rubbing = mu * weight * body.radius + rules.pivoting_friction * weight
+    slowing = (rubbing + turn_drag * abs(w[2]) + drag * arm) / J[2][2]
     moment = math.hypot(J[0][2], J[1][2]) * (w[2] * w[2] + slowing)
     moment += mu * weight * flat_z + drag * arm
     return moment < weight * (body.radius - math.hypot(c[0], c[1]))

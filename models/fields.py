@@ -51,6 +51,8 @@ UNITS = {
     "air.tangential": lambda_unit(0),
     "floor.restitution": "",
     "floor.friction": "",
+    "floor.rolling_friction": "m",
+    "floor.pivoting_friction": "m",
     **_components("release.position", "m"),
     **_components("release.velocity", "m/s"),
     **_components("release.angles", "rad"),

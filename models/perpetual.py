@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from models.barriers import barrier, energy, energy_without_spin, spin_barrier
-from models.body import in_vacuum
+from models.body import in_vacuum, resists
 from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.laws import ContactLaw, EndingTest
@@ -54,6 +54,8 @@ def start_history(body, history, time):
 def energy_loss_converges(body, rules, state, time, history):
     """Return whether a coin in vacuum keeps enough energy to turn over for ever, as its losses suggest.
 
+    Where the floor resists rolling or pivoting it never does: a small loss there goes on.
+
     The energy is checked whenever the time since the first sustained contact has doubled, and `loss_to_come`
     must leave enough; on a smooth floor, where horizontal velocity and angular momentum about the vertical
     never change, without the energy of the one and with what the other needs.
@@ -65,7 +67,7 @@ def energy_loss_converges(body, rules, state, time, history):
         time: now [s].
         history: kept up.
     """
-    if time < history.next_check[0] or not in_vacuum(body):
+    if time < history.next_check[0] or not in_vacuum(body) or resists(rules):
         return False
     E, needed = _energy_and_need(body, rules, state)
     start, energies = history.start[0], history.energies

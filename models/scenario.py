@@ -90,6 +90,9 @@ _Row = Annotated[tuple[Inertia, Inertia, Inertia], _Sequence]
 _ZERO = (0.0, 0.0, 0.0)
 # Up to this kinematic restitution `coulomb` and its limit add energy in hardly an impact.
 _ROUTHS, _TAKING = (ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH), 0.7
+_IN_CONTACT = (ContactLaw.SMOOTH, *_ROUTHS)
+RESISTANCES = ("rolling_friction", "pivoting_friction")
+"""The fields of a floor that resist the motion of a coin in sustained contact."""
 
 
 class _Part(BaseModel):
@@ -210,6 +213,10 @@ class Floor(_Part):
     """The contact law."""
     friction: Annotated[Number, _not_negative] = 0.0
     """μ, for the laws that slide with friction."""
+    rolling_friction: Annotated[float, _quantity("m"), _not_negative] = 0.0
+    """δ: the moment against rolling in sustained contact, over the normal force [m]."""
+    pivoting_friction: Annotated[float, _quantity("m"), _not_negative] = 0.0
+    """p: likewise against pivoting about the vertical [m]."""
     restitution_kind: Annotated[RestitutionKind, BeforeValidator(_named(RestitutionKind))] = (
         RestitutionKind.KINEMATIC
     )
@@ -223,6 +230,19 @@ class Floor(_Part):
                 self.restitution_kind.label,
                 f'"kinematic" with contact = "{self.contact.label}"; "energetic" only with "coulomb"',
             )
+        return self
+
+    @model_validator(mode="after")
+    def _resistance_of_a_law_in_contact(self) -> Self:
+        for name in RESISTANCES:
+            if getattr(self, name) > 0 and self.contact not in _IN_CONTACT:
+                accepted = ", ".join(f'"{law.label}"' for law in _IN_CONTACT)
+                raise FieldError(
+                    name,
+                    getattr(self, name),
+                    f'0 with contact = "{self.contact.label}", which is not followed into sustained contact; '
+                    f"a length with {accepted}",
+                )
         return self
 
     @property
@@ -321,6 +341,22 @@ class Scenario(_Part):
             raise FieldError("air", self.air, accepted)
         return self
 
+    @model_validator(mode="after")
+    def _pressed_in_one_way(self) -> Self:
+        sizes = [getattr(self.floor, name) for name in RESISTANCES]
+        if not any(sizes):
+            return self
+        # Up to there K + q ẑᵀ is positive definite: see analytic/contact/resistance.py.
+        most = 2 * (self.body.inertia_smallest / self.coin.mass) ** 0.5
+        if not math.hypot(*sizes) < most:
+            name, size = max(zip(RESISTANCES, sizes, strict=True), key=lambda pair: pair[1])
+            accepted = (
+                "lengths with sqrt(rolling_friction^2 + pivoting_friction^2) < 2 sqrt(J/m) "
+                f"= {most:.6g} m, J the least moment of inertia: beyond, the floor's force has no solution"
+            )
+            raise FieldError(f"floor.{name}", size, accepted)
+        return self
+
     def replace(self, field: str, value: Any, /, *more: Any) -> "Scenario":
         """Return a scenario with other values of some fields, checked as a scenario file is.
 
@@ -384,6 +420,8 @@ class Scenario(_Part):
             restitution=floor.restitution,
             restitution_kind=floor.restitution_kind,
             friction=floor.friction,
+            rolling_friction=floor.rolling_friction,
+            pivoting_friction=floor.pivoting_friction,
             test=ending.test,
             max_impacts=most,
             max_time=ending.max_time,

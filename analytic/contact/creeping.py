@@ -21,9 +21,9 @@ def force(A, mu):
 
 
 @compiled
-def stopping_impulse(A, mu):
-    """Return the impulse that leaves A slip only in the direction in which it grows, (3,) [N s]."""
-    s, v_A = starting_slip(A.mobility, A.free_acceleration, mu), A.velocity
+def stopping_impulse(A, s):
+    """Return the impulse that leaves A slip only in the direction s in which it grows, (3,) [N s]."""
+    v_A = A.velocity
     speed = math.hypot(v_A[0], v_A[1]) if v_A[0] * s[0] + v_A[1] * s[1] > 0 else 0.0
     return holding_force(A.mobility, subtract(v_A, (speed * s[0], speed * s[1], 0.0)))
 

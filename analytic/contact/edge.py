@@ -9,6 +9,7 @@ from analytic.contact import one_rim, upright
 from analytic.contact.floor_force import friction_holds, holding_force
 from analytic.contact.one_rim import lower_rim_of
 from analytic.contact.periodic import tilt_rate
+from analytic.contact.resistance import has_resistance, slow_spin
 from analytic.contact.rim_contact import both_rims
 from analytic.flight.state_vector import (
     STATE_SIZE,
@@ -37,43 +38,57 @@ _BETWEEN_TRIALS = 64
 
 
 @compiled
-def event_at_one_rim(body, mu, mode, y):
+def event_at_one_rim(body, friction, mode, y):
     """Return whether a coin in contact at one rim comes upright, or stands for good: `Event.ENDS`.
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ, 0 on a smooth floor.
+        friction: `FloorFriction`.
         mode: number of the `Mode`.
         y: state, (13,); put upright where the coin comes so.
     """
-    if not (on_edge(body, y) and held_on_edge(body, mu, mode, y)):
+    if not (on_edge(body, y) and held_on_edge(body, friction, mode, y)):
         return Event.NONE
-    if stands(body, mu, mode, y):
+    if not slows(body, friction, y) and stands(body, friction, mode, y):
         return Event.ENDS
     both = y.copy()
     upright.put_on_floor(body, both)
     if mode == Mode.STICKING:
-        upright.start_creep(body, mu, lower_rim_of(y), both)
-    if not upright.margin(body, mu, both) > 0:
+        upright.start_creep(body, friction, lower_rim_of(y), both)
+    if not upright.margin(body, friction, both) > 0:
         return Event.NONE
     copy_into(y, both)
     return Event.COMES_UPRIGHT
 
 
 @compiled
-def event_of_upright_coin(body, mu, steps, y):
+def event_of_upright_coin(body, friction, steps, y):
     """Return whether an upright coin stands for good: `Event.ENDS`.
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ, 0 on a smooth floor.
+        friction: `FloorFriction`.
         steps: made upright so far; the trial is costly, and made only in some of them.
         y: state, (13,).
     """
     at_one_rim = Mode.SLIDING.value
-    if steps % _BETWEEN_TRIALS != 0 or not held_on_edge(body, mu, at_one_rim, y):
+    if steps % _BETWEEN_TRIALS != 0 or slows(body, friction, y):
         return Event.NONE
-    return Event.ENDS if stands(body, mu, at_one_rim, y) else Event.NONE
+    if not held_on_edge(body, friction, at_one_rim, y):
+        return Event.NONE
+    return Event.ENDS if stands(body, friction, at_one_rim, y) else Event.NONE
+
+
+@compiled
+def slows(body, friction, y):
+    """Return whether resistance will bring a coin that stands to rest, or is still to stop its roll.
+
+    Without resistance to rolling it may roll on for ever; without that to pivoting, spin.
+    """
+    if not friction.rolling > 0:
+        return False
+    w = apply(rotation_matrix(attitude_of(y)), spin_of(y))
+    return friction.pivoting > 0 or math.hypot(w[0], w[1]) > slow_spin(body)
 
 
 @compiled
@@ -99,17 +114,17 @@ def on_edge(body, y):
 
 
 @compiled
-def rolls(body, mu, y):
+def rolls(body, friction, y):
     """Return whether a coin on its edge rolls straight on: neither rim slips on a rough floor.
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ, 0 on a smooth floor.
+        friction: `FloorFriction`.
         y: state of a coin on its edge, (13,).
     """
-    if mu == 0:
+    if friction.sliding == 0:
         return False
-    tails, heads = both_rims(body, y)
+    tails, heads = both_rims(body, friction, y)
     slip = max(
         math.hypot(tails.velocity[0], tails.velocity[1]), math.hypot(heads.velocity[0], heads.velocity[1])
     )
@@ -117,7 +132,7 @@ def rolls(body, mu, y):
 
 
 @compiled
-def stands(body, mu, mode, y):
+def stands(body, friction, mode, y):
     """Return whether a coin on its edge is held there however it rolls on.
 
     Rolling brings C up and down, and so changes the roll rate: the floor must hold the coin in every phase
@@ -127,20 +142,20 @@ def stands(body, mu, mode, y):
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ, 0 on a smooth floor.
+        friction: `FloorFriction`.
         mode: number of the `Mode`, at one rim.
         y: state of a coin on its edge, (13,).
     """
-    straight = rolls(body, mu, y)
+    straight = rolls(body, friction, y)
     if straight:
         mode = Mode.STICKING.value
-    if not held_on_edge(body, mu, mode, y):
+    if not held_on_edge(body, friction, mode, y):
         return False
-    lossless = (mu == 0 or straight) and in_vacuum(body)
+    lossless = (friction.sliding == 0 or straight) and in_vacuum(body) and not has_resistance(friction)
     one_way = lossless
     phases, roll_rates = np.empty((_PHASES, STATE_SIZE)), np.empty(_PHASES)
     for i in range(_PHASES):
-        roll_rates[i] = rolled_on(body, mu, mode, straight, y, math.pi * i / _PHASES, phases[i])
+        roll_rates[i] = rolled_on(body, friction, mode, straight, y, math.pi * i / _PHASES, phases[i])
         one_way = one_way and roll_rates[i] > 0
     L_z = dot(rotation_matrix(attitude_of(y))[2], apply(body.inertia, spin_of(y)))
     for i in range(_PHASES):
@@ -148,27 +163,29 @@ def stands(body, mu, mode, y):
             if roll_rates[i] < 0 or (one_way and share * spin_of(y)[2] < 0) or (lossless and share == 0):
                 continue
             set_rolling(body, L_z, straight, share * roll_rates[i], phases[i])
-            if not held_on_edge(body, mu, mode, phases[i]) or (straight and not _sticks(body, mu, phases[i])):
+            if not held_on_edge(body, friction, mode, phases[i]) or (
+                straight and not _sticks(body, friction, phases[i])
+            ):
                 return False
     return True
 
 
 @compiled
-def _sticks(body, mu, y):
+def _sticks(body, friction, y):
     """Return whether friction can hold a coin on its edge by either rim; y: state, (13,)."""
-    tails, heads = both_rims(body, y)
-    return friction_holds(mu, holding_force(tails.mobility, tails.free_acceleration)) and friction_holds(
-        mu, holding_force(heads.mobility, heads.free_acceleration)
-    )
+    tails, heads = both_rims(body, friction, y)
+    return friction_holds(
+        friction.sliding, holding_force(tails.mobility, tails.free_acceleration)
+    ) and friction_holds(friction.sliding, holding_force(heads.mobility, heads.free_acceleration))
 
 
 @compiled
-def rolled_on(body, mu, mode, straight, y, half_angle, phase):
+def rolled_on(body, friction, mode, straight, y, half_angle, phase):
     """Roll a coin on its edge on by an angle.
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ, 0 on a smooth floor.
+        friction: `FloorFriction`.
         mode: number of the `Mode`, at one rim.
         straight: whether it does not turn about the vertical.
         y: state of a coin on its edge, (13,).
@@ -184,7 +201,7 @@ def rolled_on(body, mu, mode, straight, y, half_angle, phase):
     up, w, v = state.R[2], state.spin, state.velocity
     L_z = dot(up, apply(J, w))
     energy = (dot(w, apply(J, w)) + m * v[2] * v[2]) / 2 + weight * state.position[2]
-    if mu > 0:
+    if friction.sliding > 0:
         energy += m * (v[0] * v[0] + v[1] * v[1]) / 2
     c, s = math.cos(half_angle), math.sin(half_angle)
     copy_into(phase, y)
@@ -224,12 +241,12 @@ def set_rolling(body, L_z, straight, roll_rate, y):
 
 
 @compiled
-def held_on_edge(body, mu, mode, y):
+def held_on_edge(body, friction, mode, y):
     """Return whether the floor's force on either rim turns a coin on its edge back to the other now.
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ, 0 on a smooth floor.
+        friction: `FloorFriction`.
         mode: number of the `Mode`, at one rim.
         y: state of a coin on its edge, (13,).
     """
@@ -242,7 +259,7 @@ def held_on_edge(body, mu, mode, y):
     for side in (-1.0, 1.0):
         turn = quaternion_rate(e, scale(side * 2 * _TRIAL, axis))
         set_attitude(tipped, (e[0] + turn[0], e[1] + turn[1], e[2] + turn[2], e[3] + turn[3]))
-        one_rim.rate(body, mu, mode, lower_rim_of(tipped), tipped, dy)
+        one_rim.rate(body, friction, mode, lower_rim_of(tipped), tipped, dy)
         up = rotation_matrix(attitude_of(tipped))[2]
         n_z_acceleration = cross(cross(up, w), w)[2] + cross(up, spin_of(dy))[2]
         if n_z_acceleration * up[2] >= 0:

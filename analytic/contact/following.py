@@ -5,6 +5,7 @@ import numpy as np
 from analytic.automaton import Event
 from analytic.contact import modes
 from analytic.contact.one_rim import lay_flat, lower_rim_of
+from analytic.contact.resistance import FloorFriction
 from analytic.flight.integrated_flight import first_step, step_error
 from analytic.flight.state_vector import STATE_SIZE, normalise
 from analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
@@ -37,30 +38,31 @@ def is_followed(law):
 
 @compiled
 def friction_in_contact(rules):
-    """Return the coefficient of friction μ of sustained contact: 0 smooth, large perfectly rough."""
+    """Return the `FloorFriction` of sustained contact: none on slip if smooth, large if perfectly rough."""
+    mu = rules.friction if rules.law == ContactLaw.COULOMB else 0.0
     if rules.law == ContactLaw.PERFECTLY_ROUGH:
-        return _ROUGH
-    return rules.friction if rules.law == ContactLaw.COULOMB else 0.0
+        mu = _ROUGH
+    return FloorFriction(mu, rules.rolling_friction, rules.pivoting_friction)
 
 
 @compiled
-def start_following(body, mu, mode, y):
+def start_following(body, friction, mode, y):
     """Return the work space of a contact that starts in the state y, (13,); for the others see `modes.rate`.
 
     Its first row holds the rate of change at y, its last one that at the end of a step, (13, 13).
     """
     stages = np.empty((STAGES + 1, STATE_SIZE))
-    modes.rate(body, mu, mode, lower_rim_of(y), y, stages[0])
+    modes.rate(body, friction, mode, lower_rim_of(y), y, stages[0])
     return stages
 
 
 @compiled
-def contact_step(body, mu, mode, rim, y, dt, stages, y_new):
+def contact_step(body, friction, mode, rim, y, dt, stages, y_new):
     """Advance the state by one step in contact, and put it back on the floor.
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ.
+        friction: `FloorFriction`.
         mode: number of the `Mode`, in contact.
         rim: the lower one.
         y: state at the start, (13,).
@@ -74,15 +76,15 @@ def contact_step(body, mu, mode, rim, y, dt, stages, y_new):
     inside = np.inf
     for stage in range(1, STAGES):
         stage_point(y, dt, stages, stage, y_new)
-        inside = min(inside, modes.rate(body, mu, mode, rim, y_new, stages[stage]))
+        inside = min(inside, modes.rate(body, friction, mode, rim, y_new, stages[stage]))
     end_point(y, dt, stages, y_new)
     normalise(y_new)
-    modes.put_on_floor(body, mu, mode, rim, y_new)
+    modes.put_on_floor(body, friction, mode, rim, y_new)
     return inside
 
 
 @compiled
-def short_contact_step(body, mu, mode, rim, y, slope, dt, y_new):
+def short_contact_step(body, friction, mode, rim, y, slope, dt, y_new):
     """Advance the state by a step in contact so short that one of order 2 does, and put it back on the floor.
 
     Args as `contact_step`'s, but that `slope`, (13,), is the rate of change at y, and dt may be negative.
@@ -90,15 +92,15 @@ def short_contact_step(body, mu, mode, rim, y, slope, dt, y_new):
     halfway = np.empty(STATE_SIZE)
     for i in range(STATE_SIZE):
         y_new[i] = y[i] + dt / 2 * slope[i]
-    modes.rate(body, mu, mode, rim, y_new, halfway)
+    modes.rate(body, friction, mode, rim, y_new, halfway)
     for i in range(STATE_SIZE):
         y_new[i] = y[i] + dt * halfway[i]
     normalise(y_new)
-    modes.put_on_floor(body, mu, mode, rim, y_new)
+    modes.put_on_floor(body, friction, mode, rim, y_new)
 
 
 @compiled
-def accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new):
+def accepted_contact_step(body, friction, mode, rim, y, dt, tolerance, stages, y_new):
     """Advance the state by a contact step whose error is within the tolerance, at most dt long.
 
     Lest an end of the contact is passed by, a step is short against the coin's motion, or at all its stages
@@ -106,7 +108,7 @@ def accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new):
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ.
+        friction: `FloorFriction`.
         mode: number of the `Mode`, in contact.
         rim: the lower one.
         y: state at the start, (13,).
@@ -122,7 +124,7 @@ def accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new):
     landing = _BEYOND * modes.time_to_landing(body, mode, rim, y, stages[0])
     dt = min(_LONGEST * short, dt, max(landing, _NOT_SHORT * short))
     while True:
-        inside = contact_step(body, mu, mode, rim, y, dt, stages, y_new)
+        inside = contact_step(body, friction, mode, rim, y, dt, stages, y_new)
         error = step_error(body, y, dt, stages) / tolerance
         if error <= 1 and (dt <= short or inside > 0):
             return dt, dt * step_factor(error)
@@ -132,12 +134,12 @@ def accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new):
 
 
 @compiled
-def follow(body, mu, mode, y, dt, tolerance, stages):
+def follow(body, friction, mode, y, dt, tolerance, stages):
     """Follow a contact for one step of the integrator, or to its end.
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ.
+        friction: `FloorFriction`.
         mode: number of the `Mode`, in contact.
         y: state, (13,); advanced.
         dt: length of the step to try first [s]; infinite at the start of a contact.
@@ -149,15 +151,15 @@ def follow(body, mu, mode, y, dt, tolerance, stages):
         of a landing, `Event.NONE` without one, `Event.ENDS` where the motion has no solution.
     """
     y_new, rim = np.empty(STATE_SIZE), lower_rim_of(y)
-    high, dt = accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new)
+    high, dt = accepted_contact_step(body, friction, mode, rim, y, dt, tolerance, stages, y_new)
     if high == 0:
         return high, dt, True, Event.ENDS
-    if modes.rate(body, mu, mode, rim, y_new, stages[STAGES]) > 0:
+    if modes.rate(body, friction, mode, rim, y_new, stages[STAGES]) > 0:
         copy_into(y, y_new)
         copy_into(stages[0], stages[STAGES])
         return high, dt, False, Event.NONE
     before = np.empty(STATE_SIZE)
-    low, high = _bracket_end(body, mu, mode, rim, y, high, stages, before, y_new)
+    low, high = _bracket_end(body, friction, mode, rim, y, high, stages, before, y_new)
     landing = modes.landing(body, mode, rim, y_new)
     if landing == Event.NONE:
         copy_into(y, y_new)
@@ -170,12 +172,12 @@ def follow(body, mu, mode, y, dt, tolerance, stages):
 
 
 @compiled
-def _bracket_end(body, mu, mode, rim, y, longest, stages, before, after):
+def _bracket_end(body, friction, mode, rim, y, longest, stages, before, after):
     """Bracket the end of a contact in a step, to the part `_END` of it.
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ.
+        friction: `FloorFriction`.
         mode: number of the `Mode`, in contact.
         rim: the lower one.
         y: state at the start of the step, (13,).
@@ -187,11 +189,11 @@ def _bracket_end(body, mu, mode, rim, y, longest, stages, before, after):
     Returns:
         The lengths of steps to both states [s].
     """
-    at_end = modes.rate(body, mu, mode, rim, after, stages[STAGES])
-    at_start = modes.rate(body, mu, mode, rim, y, stages[0])
+    at_end = modes.rate(body, friction, mode, rim, after, stages[STAGES])
+    at_start = modes.rate(body, friction, mode, rim, y, stages[0])
     copy_into(before, y)
     if not at_start > 0:
-        short_contact_step(body, mu, mode, rim, y, stages[0], longest * _END, after)
+        short_contact_step(body, friction, mode, rim, y, stages[0], longest * _END, after)
         return 0.0, longest * _END
     tolerance = longest * max(_END, min(_ROUNDING / (at_start - at_end), 1e-3))
     bracket = bracket_between(0.0, at_start, longest, at_end)
@@ -200,10 +202,10 @@ def _bracket_end(body, mu, mode, rim, y, longest, stages, before, after):
         tried = next_try(bracket)
         is_short = abs(tried - near_time) <= _SHORT * longest
         if is_short:
-            short_contact_step(body, mu, mode, rim, near, slope, tried - near_time, y_new)
+            short_contact_step(body, friction, mode, rim, near, slope, tried - near_time, y_new)
         else:
-            contact_step(body, mu, mode, rim, y, tried, stages, y_new)
-        left = modes.rate(body, mu, mode, rim, y_new, stages[STAGES])
+            contact_step(body, friction, mode, rim, y, tried, stages, y_new)
+        left = modes.rate(body, friction, mode, rim, y_new, stages[STAGES])
         if not is_short:
             near_time = tried
             copy_into(near, y_new)
@@ -216,12 +218,12 @@ def _bracket_end(body, mu, mode, rim, y, longest, stages, before, after):
 
 
 @compiled
-def sample_contact(body, mu, mode, start, start_time, times, tolerance, states):
+def sample_contact(body, friction, mode, start, start_time, times, tolerance, states):
     """Write the states of one contact at `times` into `states`.
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ.
+        friction: `FloorFriction`.
         mode: number of the `Mode`, in contact.
         start: state at the start of the contact, (13,).
         start_time: its time [s].
@@ -229,14 +231,14 @@ def sample_contact(body, mu, mode, start, start_time, times, tolerance, states):
         tolerance: error allowed in a step, relative to the scales of the coin.
         states: where they go, (n, 13).
     """
-    stages, y, y_new = start_following(body, mu, mode, start), start.copy(), np.empty(STATE_SIZE)
+    stages, y, y_new = start_following(body, friction, mode, start), start.copy(), np.empty(STATE_SIZE)
     elapsed, rim = 0.0, lower_rim_of(start)
-    made, dt = accepted_contact_step(body, mu, mode, rim, y, np.inf, tolerance, stages, y_new)
+    made, dt = accepted_contact_step(body, friction, mode, rim, y, np.inf, tolerance, stages, y_new)
     for i in range(len(times)):
         # The steps are those of `follow`: a time between them changes none.
         while made > 0 and times[i] - start_time > elapsed + made:
             elapsed += made
             copy_into(y, y_new)
-            modes.rate(body, mu, mode, rim, y, stages[0])
-            made, dt = accepted_contact_step(body, mu, mode, rim, y, dt, tolerance, stages, y_new)
-        contact_step(body, mu, mode, rim, y, times[i] - start_time - elapsed, stages, states[i])
+            modes.rate(body, friction, mode, rim, y, stages[0])
+            made, dt = accepted_contact_step(body, friction, mode, rim, y, dt, tolerance, stages, y_new)
+        contact_step(body, friction, mode, rim, y, times[i] - start_time - elapsed, stages, states[i])

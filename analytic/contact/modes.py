@@ -11,12 +11,12 @@ from models.kernel.vectors import scale, subtract
 
 
 @compiled
-def rate(body, mu, mode, rim, y, dy):
+def rate(body, friction, mode, rim, y, dy):
     """Write the rate of change of the state y of a coin in contact into dy; both (13,).
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ.
+        friction: `FloorFriction`.
         mode: number of the `Mode`, in contact.
         rim: the lower one, where the coin is in contact at one rim.
         y: state, (13,).
@@ -26,35 +26,35 @@ def rate(body, mu, mode, rim, y, dy):
         How far the mode is from its end: positive in it, 0 or below past it.
     """
     if mode == Mode.UPRIGHT:
-        return upright.rate(body, mu, y, dy)
-    return one_rim.rate(body, mu, mode, rim, y, dy)
+        return upright.rate(body, friction, y, dy)
+    return one_rim.rate(body, friction, mode, rim, y, dy)
 
 
 @compiled
-def floor_force(body, mu, mode, y):
+def floor_force(body, friction, mode, y):
     """Return the floor's force, of both rims where a coin is upright, space frame, (3,) [N].
 
     It is what the rate of change in contact has more than that of free flight.
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ, 0 on a smooth floor.
+        friction: `FloorFriction`.
         mode: number of the `Mode`, in contact.
         y: state, (13,).
     """
     free, held = np.empty(STATE_SIZE), np.empty(STATE_SIZE)
     derivative(body, y, free)
-    rate(body, mu, mode, one_rim.lower_rim_of(y), y, held)
+    rate(body, friction, mode, one_rim.lower_rim_of(y), y, held)
     return scale(body.mass, subtract(velocity_of(held), velocity_of(free)))
 
 
 @compiled
-def put_on_floor(body, mu, mode, rim, y):
+def put_on_floor(body, friction, mode, rim, y):
     """Bring the points in contact to the floor, and their velocities to what the mode allows; see `rate`."""
     if mode == Mode.UPRIGHT:
         upright.put_on_floor(body, y)
     else:
-        one_rim.put_on_floor(body, mu, mode, rim, y)
+        one_rim.put_on_floor(body, friction, mode, rim, y)
 
 
 @compiled
@@ -70,24 +70,24 @@ def time_to_landing(body, mode, rim, y, dy):
 
 
 @compiled
-def next_event(body, mu, mode, y):
+def next_event(body, friction, mode, y):
     """Return the event by which a mode that came to its end without a landing gives way; see `rate`."""
     if mode == Mode.UPRIGHT:
-        upright.tip_over(body, mu, y)
-    return one_rim.next_event(body, mu, mode, y)
+        upright.tip_over(body, friction, y)
+    return one_rim.next_event(body, friction, mode, y)
 
 
 @compiled
-def edge_event(body, mu, mode, steps, y):
+def edge_event(body, friction, mode, steps, y):
     """Return whether a coin on its edge comes upright, or stands for good: `Event.ENDS`.
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ.
+        friction: `FloorFriction`.
         mode: number of the `Mode`, in contact.
         steps: made in the mode so far.
         y: state, (13,); put upright where the coin comes so.
     """
     if mode == Mode.UPRIGHT:
-        return edge.event_of_upright_coin(body, mu, steps, y)
-    return edge.event_at_one_rim(body, mu, mode, y)
+        return edge.event_of_upright_coin(body, friction, steps, y)
+    return edge.event_at_one_rim(body, friction, mode, y)

@@ -6,7 +6,7 @@ import numpy as np
 
 from analytic.automaton import Event, Mode
 from analytic.contact import creeping, sliding, sticking
-from analytic.contact.floor_force import friction_holds, holding_force, slip_direction
+from analytic.contact.floor_force import friction_holds, holding_force, slip_direction, starting_slip
 from analytic.contact.rim_contact import accelerate, rim_contact, rim_contact_in_flight
 from analytic.flight.equations_of_motion import flight_of, write_rate
 from analytic.flight.state_vector import attitude_of, normalise, set_attitude, set_height, spin_of
@@ -40,7 +40,7 @@ def force(A, mu, mode):
 
 
 @compiled
-def rate(body, mu, mode, rim, y, dy):
+def rate(body, friction, mode, rim, y, dy):
     """Write the rate of change of the state y of a coin in contact at one rim into dy; both (13,).
 
     Returns:
@@ -48,25 +48,26 @@ def rate(body, mu, mode, rim, y, dy):
     """
     flight = flight_of(body, y)
     write_rate(body, flight, dy)
-    A = rim_contact_in_flight(body, flight, rim)
-    F = force(A, mu, mode)
+    A = rim_contact_in_flight(body, friction, flight, rim)
+    F = force(A, friction.sliding, mode)
     accelerate(body, A, F, dy)
-    return margin(body, A, F, mu, mode, rim)
+    return margin(body, A, F, friction.sliding, mode, rim)
 
 
 @compiled
-def put_on_floor(body, mu, mode, rim, y):
+def put_on_floor(body, friction, mode, rim, y):
     """Bring A to the floor, and by an impulse there its velocity to what the mode allows.
 
     A point that sticks has none; one that slides has v_Az = 0; one that creeps slips in the direction in
-    which its slip grows.
+    which its slip grows. The impulse is without resistance.
     """
-    A = rim_contact(body, y, rim)
+    A, mu = rim_contact(body, y, rim), friction.sliding
     set_height(y, -A.arm[2])
     if mode == Mode.STICKING:
         S = sticking.stopping_impulse(A)
     elif mode == Mode.CREEPING:
-        S = creeping.stopping_impulse(A, mu)
+        B = rim_contact_in_flight(body, friction, flight_of(body, y), rim)
+        S = creeping.stopping_impulse(A, starting_slip(B.mobility, B.free_acceleration, mu))
     else:
         S = sliding.stopping_impulse(A, mu)
     accelerate(body, A, S, y)
@@ -146,17 +147,17 @@ def lay_flat(body, y):
 
 
 @compiled
-def next_event(body, mu, mode, y):
+def next_event(body, friction, mode, y):
     """Return how a coin goes on whose lowest point is on the floor with v_Az = 0; stop slip where A sticks.
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ, 0 on a smooth floor.
+        friction: `FloorFriction`.
         mode: number of the `Mode` up to here.
         y: state, (13,).
     """
-    rim = lower_rim_of(y)
-    A = rim_contact(body, y, rim)
+    rim, mu = lower_rim_of(y), friction.sliding
+    A = rim_contact_in_flight(body, friction, flight_of(body, y), rim)
     K, b, v_A = A.mobility, A.free_acceleration, A.velocity
     if b[2] >= 0:
         return Event.LIFTS_OFF
@@ -173,5 +174,5 @@ def next_event(body, mu, mode, y):
         S = coulomb(K, (v_A[0], v_A[1], -1e-6 * slow), 0.0, mu, RestitutionKind.KINEMATIC)
         accelerate(body, A, S, y)
     holds = friction_holds(mu, holding_force(K, b))
-    put_on_floor(body, mu, Mode.STICKING.value if holds else Mode.CREEPING.value, rim, y)
+    put_on_floor(body, friction, Mode.STICKING.value if holds else Mode.CREEPING.value, rim, y)
     return Event.SLIP_STOPS if holds else Event.SLIP_STARTS

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from analytic.automaton import Mode
+from analytic.contact.resistance import has_resistance
 from analytic.flight.state_vector import attitude_of, spin_of
 from models.attitude import rotation_matrix
 from models.body import in_vacuum, is_ideal
@@ -29,7 +30,7 @@ class Tilting(NamedTuple):
 
 
 @compiled
-def start_tilting(body, mu, mode):
+def start_tilting(body, friction, mode):
     """Return the `Tilting` of a contact that starts.
 
     An ideal coin in vacuum that slides without friction, or rolls without slip, has one degree of freedom,
@@ -39,10 +40,11 @@ def start_tilting(body, mu, mode):
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ, 0 on a smooth floor.
+        friction: `FloorFriction`.
         mode: number of the `Mode`, in contact.
     """
-    lossless = mode == Mode.STICKING or (mode == Mode.SLIDING and mu == 0)
+    lossless = mode == Mode.STICKING or (mode == Mode.SLIDING and friction.sliding == 0)
+    lossless = lossless and not has_resistance(friction)
     periodic = lossless and is_ideal(body) and in_vacuum(body)
     slowest = _NOTICEABLE * (body.gravity / body.radius) ** 0.5
     return Tilting(periodic, slowest, np.zeros(1), np.zeros(1))

@@ -6,6 +6,7 @@ force F at A, dv_A/dt = b + K F, K the mobility of A as in an impact and b what 
 
 from typing import NamedTuple
 
+from analytic.contact.resistance import WITHOUT, has_resistance, moment_per_force
 from analytic.flight.equations_of_motion import flight_of
 from analytic.flight.state_vector import set_spin, set_velocity, spin_of, velocity_of
 from models.geometry import tilt_sine_of
@@ -31,9 +32,10 @@ class RimContact(NamedTuple):
     arm: Vector
     """From C to A [m]."""
     spins: Matrix
-    """Changes of ω by unit impulses at A along x, y and z, body frame, row by row [rad/(N s²)]."""
+    """Changes of ω by unit impulses at A along x, y and z, body frame, row by row [rad/(N s²)]; the last one
+    with the resistance that comes with it."""
     mobility: Matrix
-    """K [1/kg]."""
+    """K [1/kg], with resistance K + q ẑᵀ; see `analytic.contact.resistance`."""
     free_acceleration: Vector
     """b [m/s²]."""
     velocity: Vector
@@ -42,26 +44,36 @@ class RimContact(NamedTuple):
 
 @compiled
 def rim_contact(body, y, rim):
-    """Return the `RimContact` of a coin in the state y.
+    """Return the `RimContact` of a coin in the state y, without resistance.
 
     Args:
         body: the coin.
         y: state, (13,), not flat.
         rim: -1 for tails' rim, 1 for heads'; see `models.geometry.lower_rim`.
     """
-    return rim_contact_in_flight(body, flight_of(body, y), rim)
+    return rim_contact_in_flight(body, WITHOUT, flight_of(body, y), rim)
 
 
 @compiled
-def both_rims(body, y):
-    """Return the `RimContact` of tails' rim and that of heads', in the state y, (13,)."""
+def both_rims(body, friction, y):
+    """Return the `RimContact` of tails' rim and that of heads', in the state y, (13,); see `rim_contact`."""
     flight = flight_of(body, y)
-    return rim_contact_in_flight(body, flight, -1.0), rim_contact_in_flight(body, flight, 1.0)
+    return (
+        rim_contact_in_flight(body, friction, flight, -1.0),
+        rim_contact_in_flight(body, friction, flight, 1.0),
+    )
 
 
 @compiled
-def rim_contact_in_flight(body, flight, rim):
-    """Return what `rim_contact` does, where the `Flight` is known."""
+def rim_contact_in_flight(body, friction, flight, rim):
+    """Return the `RimContact` of a rim, with the resistance of the floor.
+
+    Args:
+        body: the coin.
+        friction: `FloorFriction`.
+        flight: the `Flight` of its state, not flat.
+        rim: -1 for tails' rim, 1 for heads'.
+    """
     R, w, up = flight.state.R, flight.state.spin, flight.state.R[2]
     sine = tilt_sine_of(up)
     # Outward to the rim point, and the rate at which that direction turns about ζ.
@@ -84,9 +96,20 @@ def rim_contact_in_flight(body, flight, rim):
         (xy, by_mass + dot(levers[1], spins[1]), yz),
         (xz, yz, by_mass + dot(levers[2], spins[2])),
     )
+    arm = apply(R, a)
+    if has_resistance(friction):
+        moment = moment_per_force(body, friction, apply(R, w))
+        turned = apply(J_inverse, apply_transposed(R, moment))
+        q = cross(apply(R, turned), arm)
+        spins = (spins[0], spins[1], add(spins[2], turned))
+        K = (
+            (K[0][0], K[0][1], K[0][2] + q[0]),
+            (K[1][0], K[1][1], K[1][2] + q[1]),
+            (K[2][0], K[2][1], K[2][2] + q[2]),
+        )
     return RimContact(
         R=R,
-        arm=apply(R, a),
+        arm=arm,
         spins=spins,
         mobility=K,
         free_acceleration=(b[0], b[1], b[2] - body.gravity),

@@ -7,6 +7,7 @@ friction on slow slip grows in proportion to it.
 import math
 
 from analytic.contact.floor_force import friction_holds, holding_force
+from analytic.contact.resistance import WITHOUT, has_resistance
 from analytic.contact.rim_contact import (
     accelerate,
     add_quotient,
@@ -25,40 +26,40 @@ from analytic.flight.state_vector import (
     spin_of,
     velocity_of,
 )
-from analytic.impact.laws import spin_gained, velocity_gained
+from analytic.impact.laws import spin_gained
 from analytic.numerics.rotation import quaternion_rate
 from analytic.numerics.tolerances import SLOW
 from models.attitude import rotation_matrix
 from models.kernel.compiled import compiled
-from models.kernel.vectors import add, apply, cross, dot, scale, subtract
+from models.kernel.vectors import add, apply, apply_transposed, cross, dot, scale, subtract
 
 # The angle by which a coin is tipped off the rim that lifts.
 _TIP = 1e-12
 
 
 @compiled
-def rim_forces(body, mu, y):
+def rim_forces(body, friction, y):
     """Return the floor's vertical forces on the lowest points of tails' and of heads' rim, (2,) [N].
 
     They hold both points on the floor; a negative one would have to pull.
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ, 0 on a smooth floor.
+        friction: `FloorFriction`.
         y: state of an upright coin, (13,).
     """
-    tails, heads = both_rims(body, y)
-    N, _, _ = _holding(body, mu, tails, heads, (tails.free_acceleration[2], heads.free_acceleration[2]))
+    tails, heads = both_rims(body, friction, y)
+    N, _, _ = _holding(body, friction, tails, heads, (tails.free_acceleration[2], heads.free_acceleration[2]))
     return N
 
 
 @compiled
-def rate(body, mu, y, dy):
+def rate(body, friction, y, dy):
     """Write the rate of change of the state y of an upright coin into dy; both (13,).
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ, 0 on a smooth floor; it acts on each rim against that rim's slip.
+        friction: `FloorFriction`; it acts on each rim against that rim's slip.
         y: state, (13,).
         dy: where its rate of change goes, (13,).
 
@@ -67,10 +68,10 @@ def rate(body, mu, y, dy):
     """
     flight = flight_of(body, y)
     write_rate(body, flight, dy)
-    tails = rim_contact_in_flight(body, flight, -1.0)
-    heads = rim_contact_in_flight(body, flight, 1.0)
+    tails = rim_contact_in_flight(body, friction, flight, -1.0)
+    heads = rim_contact_in_flight(body, friction, flight, 1.0)
     fall = (tails.free_acceleration[2], heads.free_acceleration[2])
-    N, F, turned = _holding(body, mu, tails, heads, fall)
+    N, F, turned = _holding(body, friction, tails, heads, fall)
     set_velocity(dy, add_quotient(velocity_of(dy), F, body.mass))
     set_spin(dy, add(spin_of(dy), turned))
     return min(N) / (body.mass * body.gravity)
@@ -85,8 +86,8 @@ def put_on_floor(body, y):
         y: state, (13,).
     """
     tilt(y, rotation_matrix(attitude_of(y))[2][2])
-    tails, heads = both_rims(body, y)
-    _, S, turned = _holding(body, 0.0, tails, heads, (tails.velocity[2], heads.velocity[2]))
+    tails, heads = both_rims(body, WITHOUT, y)
+    _, S, turned = _holding(body, WITHOUT, tails, heads, (tails.velocity[2], heads.velocity[2]))
     v = velocity_of(y)
     set_height(y, -tails.arm[2])
     set_velocity(y, (v[0], v[1], v[2] + S[2] / body.mass))
@@ -94,21 +95,21 @@ def put_on_floor(body, y):
 
 
 @compiled
-def margin(body, mu, y):
+def margin(body, friction, y):
     """Return how far an upright contact is from its end, > 0 in it: there the floor would have to pull."""
-    return min(rim_forces(body, mu, y)) / (body.mass * body.gravity)
+    return min(rim_forces(body, friction, y)) / (body.mass * body.gravity)
 
 
 @compiled
-def tip_over(body, mu, y):
+def tip_over(body, friction, y):
     """Tip an upright coin a little onto the rim that is pressed harder, which stays on the floor.
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ, 0 on a smooth floor.
+        friction: `FloorFriction`.
         y: state, (13,).
     """
-    on_tails, on_heads = rim_forces(body, mu, y)
+    on_tails, on_heads = rim_forces(body, friction, y)
     # Tails' rim is the lower one of a coin with heads up.
     rim = -1.0 if on_tails > on_heads else 1.0
     tilt(y, rim * _TIP)
@@ -116,7 +117,7 @@ def tip_over(body, mu, y):
 
 
 @compiled
-def start_creep(body, mu, rim, y):
+def start_creep(body, friction, rim, y):
     """Set the rim that stuck before the other landed into the slow slip whose friction holds it there.
 
     Without it that rim would have no friction at first, and the other might lift at once. Where no friction
@@ -124,14 +125,16 @@ def start_creep(body, mu, rim, y):
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ.
+        friction: `FloorFriction`.
         rim: that stuck.
         y: state of an upright coin, (13,).
     """
-    tails, heads = both_rims(body, y)
+    mu = friction.sliding
+    tails, heads = both_rims(body, friction, y)
     held, other = (tails, heads) if rim < 0 else (heads, tails)
     F, N = _gripping(
         body,
+        friction,
         held,
         other,
         _with_friction(body, mu, other.velocity),
@@ -141,18 +144,21 @@ def start_creep(body, mu, rim, y):
     if N < 0 or not friction_holds(mu, F):
         return
     slip = -_slow_slip(body, mu) / (mu * F[2])
+    tails, heads = both_rims(body, WITHOUT, y)
+    held, other = (tails, heads) if rim < 0 else (heads, tails)
     change = subtract(held.velocity, (slip * F[0], slip * F[1], 0.0))
-    S, S_other = _gripping(body, held, other, (0.0, 0.0, 1.0), change, other.velocity[2])
+    S, S_other = _gripping(body, friction, held, other, (0.0, 0.0, 1.0), change, other.velocity[2])
     accelerate(body, held, S, y)
     accelerate(body, other, (0.0, 0.0, S_other), y)
 
 
 @compiled
-def _gripping(body, held, other, along, motion, fall):
+def _gripping(body, friction, held, other, along, motion, fall):
     """Return what takes all motion from one rim's lowest point, and the vertical one from the other's.
 
     Args:
         body: the coin.
+        friction: `FloorFriction`.
         held: `RimContact` of the one rim.
         other: that of the other.
         along: a force at the other with the vertical part 1, (3,).
@@ -162,21 +168,22 @@ def _gripping(body, held, other, along, motion, fall):
     Returns:
         The force, or impulse, on the one, space frame, (3,), and the vertical one on the other.
     """
-    K, R = held.mobility, held.R
+    K = held.mobility
     # The force on the one for its own motion, and for each unit of the other's.
-    F, more = holding_force(K, motion), holding_force(K, velocity_gained(body, R, other.arm, along, held.arm))
-    rise = dot(other.mobility[2], along) + velocity_gained(body, R, held.arm, more, other.arm)[2]
-    N = -(fall + velocity_gained(body, R, held.arm, F, other.arm)[2]) / rise
+    by_other = _velocity_gained(body, friction, other, along, held.arm)
+    F, more = holding_force(K, motion), holding_force(K, by_other)
+    rise = dot(other.mobility[2], along) + _velocity_gained(body, friction, held, more, other.arm)[2]
+    N = -(fall + _velocity_gained(body, friction, held, F, other.arm)[2]) / rise
     return add(F, scale(N, more)), N
 
 
 @compiled
-def _holding(body, mu, tails, heads, fall):
+def _holding(body, friction, tails, heads, fall):
     """Return what takes the vertical motion `fall` of both points from them.
 
     Args:
         body: the coin.
-        mu: coefficient of friction μ.
+        friction: `FloorFriction`.
         tails: `RimContact` of tails' rim.
         heads: that of heads'.
         fall: accelerations, or velocities, (2,).
@@ -185,13 +192,13 @@ def _holding(body, mu, tails, heads, fall):
         The vertical forces, or impulses, (2,), both with their friction, space frame, (3,), and the change of
         the angular velocity, body frame, (3,).
     """
-    R = tails.R
+    R, mu = tails.R, friction.sliding
     along_tails, along_heads = (
         _with_friction(body, mu, tails.velocity),
         _with_friction(body, mu, heads.velocity),
     )
-    by_tails = spin_gained(body, R, tails.arm, along_tails)
-    by_heads = spin_gained(body, R, heads.arm, along_heads)
+    by_tails = _spin_gained(body, friction, tails, along_tails)
+    by_heads = _spin_gained(body, friction, heads, along_heads)
     # The vertical motion of the first point by a unit force at the second.
     tails_tails, heads_heads = dot(tails.mobility[2], along_tails), dot(heads.mobility[2], along_heads)
     tails_heads = 1 / body.mass + cross(apply(R, by_heads), tails.arm)[2]
@@ -201,6 +208,20 @@ def _holding(body, mu, tails, heads, fall):
     N_heads = (heads_tails * fall[0] - tails_tails * fall[1]) / determinant
     F = add(scale(N_tails, along_tails), scale(N_heads, along_heads))
     return (N_tails, N_heads), F, add(scale(N_tails, by_tails), scale(N_heads, by_heads))
+
+
+@compiled
+def _spin_gained(body, friction, A, S):
+    """Return the change of ω by an impulse S at the `RimContact` A and its resistance, body frame, (3,)."""
+    if has_resistance(friction):
+        return apply_transposed(A.spins, S)
+    return spin_gained(body, A.R, A.arm, S)
+
+
+@compiled
+def _velocity_gained(body, friction, A, S, at):
+    """Return the velocity that S at A, as above, gives to the coin's point `at` from C, space frame, (3,)."""
+    return add(scale(1 / body.mass, S), cross(apply(A.R, _spin_gained(body, friction, A, S)), at))
 
 
 @compiled

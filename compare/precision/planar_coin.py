@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from compare.precision.double_double import Pair, pair_of
 from models.laws import ContactLaw
-from models.scenario import Scenario
+from models.scenario import RESISTANCES, Scenario
 
 LAWS = (ContactLaw.SMOOTH, ContactLaw.PERFECTLY_ROUGH)
 
@@ -54,6 +54,10 @@ def planar_coin(scenario: Scenario) -> PlanarCoin:
         f"floor.contact: {scenario.floor.contact.label}, accepted: {', '.join(law.label for law in LAWS)}": (
             scenario.floor.contact not in LAWS
         ),
+        **{
+            f"floor.{name}: {getattr(scenario.floor, name)}, accepted: 0": getattr(scenario.floor, name) > 0
+            for name in RESISTANCES
+        },
     }
     for message, is_so in refused.items():
         if is_so:

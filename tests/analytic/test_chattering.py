@@ -6,6 +6,7 @@ import pytest
 from analytic.automaton import Mode
 from analytic.contact.following import sample_contact
 from analytic.contact.one_rim import next_event
+from analytic.contact.resistance import FloorFriction
 from analytic.events import hit
 from analytic.flight.flying import fly
 from analytic.flight.touch_search import closing_speed, gap_acceleration
@@ -34,9 +35,18 @@ def at_the_end(case, speed, duration, *, bouncing):
         hit(body, rules, rules.restitution, y, rows[0])
         elapsed += fly(body, y, 1.0)[0]
     hit(body, rules, 0.0, y, rows[0])
-    next_event(body, rules.friction, Mode.FLIGHT.value, y)
+    next_event(body, FloorFriction(rules.friction), Mode.FLIGHT.value, y)
     state = np.empty((1, 13))
-    sample_contact(body, rules.friction, Mode.SLIDING.value, y, elapsed, np.array([duration]), 1e-12, state)
+    sample_contact(
+        body,
+        FloorFriction(rules.friction),
+        Mode.SLIDING.value,
+        y,
+        elapsed,
+        np.array([duration]),
+        1e-12,
+        state,
+    )
     return state[0]
 
 

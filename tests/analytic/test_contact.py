@@ -21,14 +21,16 @@ from analytic.contact.one_rim import (
     rate,
     time_to_landing,
 )
+from analytic.contact.resistance import FloorFriction
 from analytic.contact.rim_contact import rim_contact
 from analytic.numerics.tolerances import STEP_ERROR
 from models.attitude import quaternion_from_angles, rotation_matrix
 from models.barriers import energy
 from models.geometry import contact_velocity, gap, lowest_point
-from tests.helpers.contacts import follow_step
+from tests.helpers.contacts import follow_for, follow_step
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, scenario
 
+SMOOTH = FloorFriction(0.0)
 G, R_COIN, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
 THIN = {**ZLOTY, "thickness": 0.0}
 UNBALANCED = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
@@ -52,30 +54,19 @@ def velocity_of_lowest(body, y):
 def on_floor(body, mode, angles, w, v=(0.0, 0.0)):
     """Give a coin in contact, of this attitude and spin; `mode` says what its lowest point may do."""
     y = np.array([0, 0, 0, *v, 0, *quaternion_from_angles(angles), *w], dtype=float)
-    put_on_floor(body, 0.0, mode, lower_rim_of(y), y)
+    put_on_floor(body, FloorFriction(0.0), mode, lower_rim_of(y), y)
     return y
 
 
-def floor_force(body, mu, mode, y):
-    return np.array(force(rim_contact(body, y, lower_rim_of(y)), mu, mode))
+def floor_force(body, friction, mode, y):
+    return np.array(force(rim_contact(body, y, lower_rim_of(y)), friction.sliding, mode))
 
 
-def follow(body, mu, mode, y, time):
-    """Give the states and times after every step of a contact that goes on for `time`."""
-    y, states, times, dt = y.copy(), [y.copy()], [0.0], np.inf
-    while times[-1] < time:
-        made, dt, over, _ = follow_step(body, mu, mode, y, min(dt, time - times[-1]))
-        assert not over
-        states.append(y.copy())
-        times.append(times[-1] + made)
-    return np.array(states), np.array(times)
-
-
-def follow_to_its_end(body, mu, mode, y):
+def follow_to_its_end(body, friction, mode, y):
     """Advance y to the end of a contact that ends within a second; return what lands and the time."""
     time, dt, over, landing = 0.0, np.inf, False, Event.NONE
     while not over:
-        made, dt, over, landing = follow_step(body, mu, mode, y, dt)
+        made, dt, over, landing = follow_step(body, friction, mode, y, dt)
         time += made
         assert time < 1
     return landing, time
@@ -96,8 +87,8 @@ def test_a_short_step_errs_by_the_third_power_of_its_length(backward):
         error = 0.0
         for _ in range(10):
             y = draw_wobble(rng, body, Mode.SLIDING)
-            stages, by_one, by_two = start_following(body, 0.0, Mode.SLIDING, y), y.copy(), y.copy()
-            made = (body, 0.0, Mode.SLIDING, lower_rim_of(y), y)
+            stages, by_one, by_two = start_following(body, SMOOTH, Mode.SLIDING, y), y.copy(), y.copy()
+            made = (body, SMOOTH, Mode.SLIDING, lower_rim_of(y), y)
             contact_step(*made, backward * dt, stages, by_one)
             short_contact_step(*made, stages[0], backward * dt, by_two)
             error += np.abs(by_one - by_two)[10:13].max() / 12
@@ -114,7 +105,7 @@ def test_a_coin_on_a_smooth_floor_keeps_energy_and_momentum_and_does_not_leave_i
     start = draw_wobble(rng, body, Mode.SLIDING)
     y, time, turned = start.copy(), 0.0, 0.0
     while time < 0.2:
-        made, _, over, _ = follow_step(body, 0.0, Mode.SLIDING, y, 0.2 - time)
+        made, _, over, _ = follow_step(body, SMOOTH, Mode.SLIDING, y, 0.2 - time)
         time += made
         turned += made * np.linalg.norm(y[10:13])
         assert abs(gap(body, y[2], tuple(up_of(y)))) < 1e-14
@@ -138,8 +129,8 @@ def test_eulers_disk_precesses_at_its_rate(mode, tilt):
     y = on_floor(body, mode, (0.2, tilt, 0.0), (0.0, rate * np.sin(tilt), 0.0))
     assert y[3:6] == pytest.approx(0, abs=1e-15)
     mu = 0.0 if mode == Mode.SLIDING else 0.5
-    assert floor_force(body, mu, mode, y) == pytest.approx([0, 0, M * G], abs=1e-14)
-    states, times = follow(body, mu, mode, y, 30 / rate)
+    assert floor_force(body, FloorFriction(mu), mode, y) == pytest.approx([0, 0, M * G], abs=1e-14)
+    states, times = follow_for(body, FloorFriction(mu), mode, y, 30 / rate)
     heights = [up_of(s)[2] for s in states]
     assert np.array(heights) == pytest.approx(np.cos(tilt), abs=1e-9)
     R = np.array(rotation_matrix(tuple(states[-1][6:10])))
@@ -169,7 +160,7 @@ def test_a_rolling_disk_moves_as_its_own_equations_say(seed):
     tilt, w = rng.uniform(0.6, 1.3), rng.uniform(-15, 15, 3)
     y = on_floor(body, Mode.STICKING, (0.0, tilt, 0.0), w)
     time = 0.05
-    states, _ = follow(body, 50.0, Mode.STICKING, y, time)
+    states, _ = follow_for(body, FloorFriction(50.0), Mode.STICKING, y, time)
     # With ψ = φ = 0 the axes ξ, η, ζ are those of the frame at the start.
     expected = solve_ivp(
         rolling_rates, (0, time), [tilt, *y[10:13]], args=(body,), rtol=1e-11, atol=1e-11, method="DOP853"
@@ -190,7 +181,7 @@ def test_a_coin_that_rolls_keeps_its_energy(seed):
     start = draw_wobble(rng, body, Mode.STICKING)
     y, time = start.copy(), 0.0
     while time < 0.1:
-        made, _, over, _ = follow_step(body, 100.0, Mode.STICKING, y, 0.1 - time)
+        made, _, over, _ = follow_step(body, FloorFriction(100.0), Mode.STICKING, y, 0.1 - time)
         time += made
         assert np.abs(velocity_of_lowest(body, y)).max() < 1e-12
         if over:
@@ -209,7 +200,7 @@ def test_a_coin_that_slides_loses_what_friction_takes(seed):
     time, n = 0.01, 401
     times = np.linspace(0, time, n)
     states = np.empty((n, 13))
-    sample_contact(body, mu, Mode.SLIDING, y, 0.0, times, STEP_ERROR, states)
+    sample_contact(body, FloorFriction(mu), Mode.SLIDING, y, 0.0, times, STEP_ERROR, states)
     v_A = np.array([velocity_of_lowest(body, s) for s in states])
     slip = np.linalg.norm(v_A[:, :2], axis=1)
     assert slip.min() > 0.05
@@ -253,13 +244,13 @@ def test_slip_that_starts_keeps_the_direction_to_which_friction_turns_all_slip(s
 def test_friction_holds_just_within_the_cone():
     body = scenario(coin=THIN).body
     y = on_floor(body, Mode.STICKING, (0.0, 1.0, 0.0), (1.0, 2.0, 3.0))
-    F = floor_force(body, 0.0, Mode.STICKING, y)
+    F = floor_force(body, SMOOTH, Mode.STICKING, y)
     needed = np.hypot(F[0], F[1]) / F[2]
     assert 0.1 < needed < 2
-    assert next_event(body, 1.001 * needed, Mode.FLIGHT, y.copy()) == Event.SLIP_STOPS
+    assert next_event(body, FloorFriction(1.001 * needed), Mode.FLIGHT, y.copy()) == Event.SLIP_STOPS
     creeping = y.copy()
-    assert next_event(body, 0.999 * needed, Mode.FLIGHT, creeping) == Event.SLIP_STARTS
-    made, _, over, _ = follow_step(body, 0.999 * needed, Mode.CREEPING, creeping, 1e-3)
+    assert next_event(body, FloorFriction(0.999 * needed), Mode.FLIGHT, creeping) == Event.SLIP_STARTS
+    made, _, over, _ = follow_step(body, FloorFriction(0.999 * needed), Mode.CREEPING, creeping, 1e-3)
     assert (made, over) == (1e-3, False)
     slip = velocity_of_lowest(body, creeping)
     assert 0 < np.hypot(slip[0], slip[1])
@@ -270,10 +261,10 @@ def test_slip_stops_where_friction_can_hold_it():
     """A disk put down upright with a slip along its plane: μ m g stops the slip and lets it roll."""
     mu, body = 0.2, scenario(coin=THIN).body
     y = on_floor(body, Mode.SLIDING, (0.0, np.pi / 2, 0.0), (0.0, 0.0, 0.0), (0.3, 0.0))
-    _, time = follow_to_its_end(body, mu, Mode.SLIDING, y)
+    _, time = follow_to_its_end(body, FloorFriction(mu), Mode.SLIDING, y)
     # v falls by μ g t, and ω r rises by 2 μ g t: the slip v - ω r ends after v/(3 μ g), up to creep.
     assert time == pytest.approx(0.3 / (3 * mu * G), rel=2e-3)
-    assert next_event(body, mu, Mode.SLIDING, y) == Event.SLIP_STOPS
+    assert next_event(body, FloorFriction(mu), Mode.SLIDING, y) == Event.SLIP_STOPS
     assert y[3] == pytest.approx(0.2, rel=2e-3)
     assert abs(y[12]) == pytest.approx(0.2 / R_COIN, rel=2e-3)
     assert velocity_of_lowest(body, y) == pytest.approx(0, abs=1e-13)
@@ -294,18 +285,18 @@ def test_a_mode_that_ends_at_its_bound_of_slip_does_not_go_on_for_rounding(mode,
     body = scenario(coin=THIN).body
     speed = slip * (1 + rounding) * 1e-3 * np.sqrt(G * R_COIN)
     y = on_floor(body, Mode.SLIDING, (0.0, np.pi / 2, 0.0), (0.0, 0.0, 0.0), (speed, 0.0))
-    assert next_event(body, 0.2, mode, y) == expected
+    assert next_event(body, FloorFriction(0.2), mode, y) == expected
 
 
 def test_a_coin_leaves_the_floor_when_it_would_have_to_be_held_back():
     """It rises fast from a small tilt: the force falls to zero, and the gap opens from there."""
     body = scenario(coin=THIN).body
     y = on_floor(body, Mode.SLIDING, (0.0, 3.067, 2.019), (-100.5, 39.9, -9.4))
-    assert floor_force(body, 0.0, Mode.SLIDING, y)[2] > 0
-    landing, _ = follow_to_its_end(body, 0.0, Mode.SLIDING, y)
+    assert floor_force(body, SMOOTH, Mode.SLIDING, y)[2] > 0
+    landing, _ = follow_to_its_end(body, SMOOTH, Mode.SLIDING, y)
     assert landing == Event.NONE
-    assert floor_force(body, 0.0, Mode.SLIDING, y)[2] == pytest.approx(0, abs=1e-9 * M * G)
-    assert next_event(body, 0.0, Mode.SLIDING, y) == Event.LIFTS_OFF
+    assert floor_force(body, SMOOTH, Mode.SLIDING, y)[2] == pytest.approx(0, abs=1e-9 * M * G)
+    assert next_event(body, SMOOTH, Mode.SLIDING, y) == Event.LIFTS_OFF
 
 
 def test_friction_does_not_press_down_a_point_that_free_flight_lifts():
@@ -317,9 +308,9 @@ def test_friction_does_not_press_down_a_point_that_free_flight_lifts():
         y = on_floor(body, Mode.STICKING, angles, rng.uniform(-1, 1, 3) * [20, 20, 300])
         if rim_contact(body, y, lower_rim_of(y)).free_acceleration[2] > 0:
             lifted += 1
-            pressed += floor_force(body, mu, Mode.CREEPING, y)[2] > 0
-            assert rate(body, mu, Mode.CREEPING, lower_rim_of(y), y, np.empty(13)) <= 0
-            assert next_event(body, mu, Mode.CREEPING, y) == Event.LIFTS_OFF
+            pressed += floor_force(body, FloorFriction(mu), Mode.CREEPING, y)[2] > 0
+            assert rate(body, FloorFriction(mu), Mode.CREEPING, lower_rim_of(y), y, np.empty(13)) <= 0
+            assert next_event(body, FloorFriction(mu), Mode.CREEPING, y) == Event.LIFTS_OFF
     assert lifted > 100
     assert pressed > 10
 
@@ -327,7 +318,7 @@ def test_friction_does_not_press_down_a_point_that_free_flight_lifts():
 def test_a_coin_that_tips_over_its_edge_lands_on_the_other_rim():
     body = scenario().body
     y = on_floor(body, Mode.SLIDING, (0.0, 1.45, 0.0), (6.0, 0.0, 0.0))
-    landing, _ = follow_to_its_end(body, 0.0, Mode.SLIDING, y)
+    landing, _ = follow_to_its_end(body, SMOOTH, Mode.SLIDING, y)
     assert landing == Event.RIM_LANDS
     assert 0 <= up_of(y)[2] < 1e-9
     other = y.copy()
@@ -340,7 +331,7 @@ def test_a_coin_that_falls_over_lands_on_its_face():
     y = on_floor(body, Mode.SLIDING, (0.0, 0.4, 0.0), (0.0, 0.0, 30.0))
     y[10] = y[11] = 0.0
     y[12] = 0.0
-    landing, _ = follow_to_its_end(body, 0.0, Mode.SLIDING, y)
+    landing, _ = follow_to_its_end(body, SMOOTH, Mode.SLIDING, y)
     assert landing == Event.FACE_LANDS
     up = up_of(y)
     assert np.hypot(up[0], up[1]) == pytest.approx(1e-7, rel=1e-3)
@@ -353,7 +344,7 @@ def test_a_coin_stands_on_its_edge_while_it_does_not_turn_and_roll_too_fast(spin
     spin, roll = spins
     y = on_floor(body, Mode.SLIDING, (0.0, np.pi / 2, 0.0), (0.0, spin, roll))
     assert (body.inertia[2][2] * spin * roll < M * G * body.thickness / 2) == steady
-    assert stands(body, 0.0, Mode.SLIDING, y) == steady
+    assert stands(body, SMOOTH, Mode.SLIDING, y) == steady
 
 
 def test_an_unbalanced_coin_that_spins_upright_is_not_said_to_stand():
@@ -363,9 +354,9 @@ def test_an_unbalanced_coin_that_spins_upright_is_not_said_to_stand():
     spinning, still = (
         on_floor(body, Mode.SLIDING, (0.0, np.pi / 2, 3 * np.pi / 4), (s, -s, 0.0)) for s in (42.0, 0.0)
     )
-    assert held_on_edge(body, 0.0, Mode.SLIDING, spinning)
-    assert not stands(body, 0.0, Mode.SLIDING, spinning)
-    assert stands(body, 0.0, Mode.SLIDING, still)
+    assert held_on_edge(body, SMOOTH, Mode.SLIDING, spinning)
+    assert not stands(body, SMOOTH, Mode.SLIDING, spinning)
+    assert stands(body, SMOOTH, Mode.SLIDING, still)
 
 
 @pytest.mark.parametrize("mode", [Mode.SLIDING, Mode.STICKING])
@@ -373,12 +364,19 @@ def test_a_sampled_state_does_not_hang_on_the_other_times_asked_for(mode):
     body = scenario(coin=THIN).body
     y = on_floor(body, mode, (0.0, 1.0, 0.0), (3.0, 20.0, 3.0))
     mu, end = 0.0 if mode == Mode.SLIDING else 50.0, 2.0
-    states, times = follow(body, mu, mode, y, end)
+    states, times = follow_for(body, FloorFriction(mu), mode, y, end)
     alone, among = np.empty((1, 13)), np.empty((301, 13))
-    sample_contact(body, mu, mode, y, 0.0, times[-2:-1], STEP_ERROR, alone)
+    sample_contact(body, FloorFriction(mu), mode, y, 0.0, times[-2:-1], STEP_ERROR, alone)
     assert alone[0] == pytest.approx(states[-2], abs=1e-10)
     sample_contact(
-        body, mu, mode, y, 0.0, np.append(np.linspace(0, times[-2], 301)[:-1], times[-2]), STEP_ERROR, among
+        body,
+        FloorFriction(mu),
+        mode,
+        y,
+        0.0,
+        np.append(np.linspace(0, times[-2], 301)[:-1], times[-2]),
+        STEP_ERROR,
+        among,
     )
     assert np.array_equal(among[-1], alone[0])
 
@@ -386,7 +384,7 @@ def test_a_sampled_state_does_not_hang_on_the_other_times_asked_for(mode):
 def test_air_slows_a_wobbling_coin():
     body = scenario(coin=THIN, air=AIR).body
     y = on_floor(body, Mode.SLIDING, (0.0, 1.0, 0.0), (3.0, 20.0, 3.0))
-    states, _ = follow(body, 0.0, Mode.SLIDING, y, 0.1)
+    states, _ = follow_for(body, SMOOTH, Mode.SLIDING, y, 0.1)
     energies = np.array([energy_of(body, s) for s in states])
     assert np.all(np.diff(energies) < 0)
 
@@ -402,9 +400,9 @@ def test_the_landing_ahead_is_where_the_other_rim_lands(turning):
     body, angle = scenario(coin=UNBALANCED).body, 0.01
     y = on_floor(body, Mode.SLIDING.value, (0.0, np.pi / 2 - angle, 0.0), (turning, 0.0, 0.0))
     rim, dy, at_landing = lower_rim_of(y), np.empty(13), np.empty((1, 13))
-    rate(body, 0.0, Mode.SLIDING.value, rim, y, dy)
+    rate(body, SMOOTH, Mode.SLIDING.value, rim, y, dy)
     ahead = time_to_landing(body, rim, y, dy)
-    sample_contact(body, 0.0, Mode.SLIDING.value, y, 0.0, np.array([ahead]), 1e-12, at_landing)
+    sample_contact(body, SMOOTH, Mode.SLIDING.value, y, 0.0, np.array([ahead]), 1e-12, at_landing)
     assert abs(up_of(at_landing[0])[2]) < angle / 20
     assert abs(up_of(y)[2]) > 0.99 * angle
     assert time_to_landing(scenario(coin=THIN).body, rim, y, dy) == np.inf

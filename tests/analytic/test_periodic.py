@@ -6,16 +6,18 @@ import pytest
 from analytic.automaton import Mode
 from analytic.contact.one_rim import lower_rim_of, put_on_floor
 from analytic.contact.periodic import repeats, start_tilting, tilt_rate
+from analytic.contact.resistance import FloorFriction
 from models.attitude import quaternion_from_angles, rotation_matrix
 from tests.helpers.contacts import follow_step
 from tests.helpers.draws import AIR, ZLOTY, scenario
 
+SMOOTH = FloorFriction(0.0)
 THIN = {**ZLOTY, "thickness": 0.0}
 
 
 def wobbling(body, mode):
     y = np.array([0, 0, 0, 0, 0, 0, *quaternion_from_angles((0.0, 0.9, 0.0)), 2.0, 9.0, 4.0])
-    put_on_floor(body, 0.0, mode, lower_rim_of(y), y)
+    put_on_floor(body, FloorFriction(0.0), mode, lower_rim_of(y), y)
     return y
 
 
@@ -23,9 +25,9 @@ def wobbling(body, mode):
 def test_after_a_period_the_tilt_and_its_rate_are_those_before(mode, mu):
     body = scenario(coin=THIN).body
     y = wobbling(body, mode)
-    tilting, at_turns, rates, time = start_tilting(body, mu, mode), [], [tilt_rate(y)], 0.0
+    tilting, at_turns, rates, time = start_tilting(body, FloorFriction(mu), mode), [], [tilt_rate(y)], 0.0
     while not repeats(tilting, y):
-        made, _, over, _ = follow_step(body, mu, mode, y, 1e-4)
+        made, _, over, _ = follow_step(body, FloorFriction(mu), mode, y, 1e-4)
         assert not over
         time += made
         rates.append(tilt_rate(y))
@@ -49,7 +51,7 @@ def test_after_a_period_the_tilt_and_its_rate_are_those_before(mode, mu):
 def test_an_unbalanced_coin_air_and_friction_on_slip_repeat_nothing(coin, air, mode, mu):
     body = scenario(coin=coin, air=air).body
     y = wobbling(body, Mode.SLIDING)
-    tilting = start_tilting(body, mu, mode)
+    tilting = start_tilting(body, FloorFriction(mu), mode)
     for k in range(10):
         y[11] = 9.0 * (-1) ** k
         assert not repeats(tilting, y)
@@ -63,7 +65,7 @@ def test_a_tilt_that_only_rounding_changes_repeats_nothing(rates, told):
     """An upright thin coin that stands still, or spins on the spot, would fall in the end."""
     body = scenario(coin=THIN).body
     y = wobbling(body, Mode.SLIDING)
-    tilting = start_tilting(body, 0.0, Mode.SLIDING)
+    tilting = start_tilting(body, SMOOTH, Mode.SLIDING)
     up = np.array(rotation_matrix(tuple(y[6:10]))[2])
     across = np.array([-up[1], up[0], 0.0]) / np.hypot(up[0], up[1]) ** 2
     found = []

@@ -6,6 +6,7 @@ import pytest
 from analytic.automaton import Event, Mode
 from analytic.contact import modes, upright
 from analytic.contact.edge import held_on_edge, rolls, stands
+from analytic.contact.resistance import FloorFriction
 from analytic.contact.rim_contact import both_rims
 from analytic.contact.upright import rim_forces, start_creep
 from analytic.events import run
@@ -19,6 +20,7 @@ from models.records import Ending, Outcome
 from tests.helpers.contacts import follow_step
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
+SMOOTH = FloorFriction(0.0)
 G, R_COIN, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
 UNBALANCED = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 
@@ -37,11 +39,11 @@ def momenta(body, y):
     return M * y[3:6], np.array(rotation_matrix(tuple(y[6:10]))) @ np.array(body.inertia) @ y[10:13]
 
 
-def follow(body, y, time, longest, mu=0.0):
+def follow(body, y, time, longest, friction=SMOOTH):
     """Give the states and times of a coin that stays upright for `time`."""
     y, states, times = y.copy(), [y.copy()], [0.0]
     while times[-1] < time:
-        made, _, over, _ = follow_step(body, mu, Mode.UPRIGHT, y, min(longest, time - times[-1]))
+        made, _, over, _ = follow_step(body, friction, Mode.UPRIGHT, y, min(longest, time - times[-1]))
         assert not over
         states.append(y.copy())
         times.append(times[-1] + made)
@@ -71,7 +73,7 @@ def test_the_rims_forces_are_what_changes_momentum_and_angular_momentum():
     states, times = follow(body, y, 2 * dt, dt)
     assert times == pytest.approx([0.0, dt, 2 * dt], rel=1e-12)
     (p_0, L_0), (p_1, L_1) = momenta(body, states[0]), momenta(body, states[2])
-    N_tails, N_heads = rim_forces(body, 0.0, states[1])
+    N_tails, N_heads = rim_forces(body, SMOOTH, states[1])
     R = np.array(rotation_matrix(tuple(states[1, 6:10])))
     below = -R_COIN * R[2] / np.hypot(R[2, 0], R[2, 1]) - np.array(body.center)
     half = np.array([0, 0, ZLOTY["thickness"] / 2])
@@ -83,7 +85,7 @@ def test_the_rims_forces_are_what_changes_momentum_and_angular_momentum():
 
 def test_a_still_coin_presses_its_rims_as_the_lever_says():
     body = scenario(coin={**ZLOTY, "center_of_mass": (0.0, 0.0, 2e-4)}).body
-    N_tails, N_heads = rim_forces(body, 0.0, upright_coin(body, 0.4, 0.0, 0.0))
+    N_tails, N_heads = rim_forces(body, SMOOTH, upright_coin(body, 0.4, 0.0, 0.0))
     # Heads' face is at ζ = h/2 = 1 mm.
     assert N_heads == pytest.approx(0.6 * M * G, rel=1e-12)
     assert N_tails == pytest.approx(0.4 * M * G, rel=1e-12)
@@ -92,19 +94,19 @@ def test_a_still_coin_presses_its_rims_as_the_lever_says():
 def test_a_coin_that_its_roll_tips_leaves_one_rim_and_falls_to_that_side():
     body = scenario(coin=UNBALANCED).body
     y = upright_coin(body, 3 * np.pi / 4, 59.4, 0.0)
-    assert min(rim_forces(body, 0.0, y)) > 0
+    assert min(rim_forces(body, SMOOTH, y)) > 0
     over, landing, time = False, Event.NONE, 0.0
     while not over:
-        made, _, over, landing = follow_step(body, 0.0, Mode.UPRIGHT, y, 0.01)
+        made, _, over, landing = follow_step(body, SMOOTH, Mode.UPRIGHT, y, 0.01)
         time += made
         assert time < 0.2
     assert landing == Event.NONE
-    N_tails, N_heads = rim_forces(body, 0.0, y)
+    N_tails, N_heads = rim_forces(body, SMOOTH, y)
     assert min(N_tails, N_heads) == pytest.approx(0, abs=1e-9 * M * G)
-    assert modes.next_event(body, 0.0, Mode.UPRIGHT, y) == Event.SLIPS
+    assert modes.next_event(body, SMOOTH, Mode.UPRIGHT, y) == Event.SLIPS
     side = 1 if N_tails > N_heads else -1
     for _ in range(20):
-        _, _, over, _ = follow_step(body, 0.0, Mode.SLIDING, y, 1e-3)
+        _, _, over, _ = follow_step(body, SMOOTH, Mode.SLIDING, y, 1e-3)
         assert not over
     assert side * rotation_matrix(tuple(y[6:10]))[2][2] > 1e-4
 
@@ -113,7 +115,7 @@ def test_a_coin_that_tips_over_keeps_the_pressed_rim_on_the_floor():
     body = scenario(coin=UNBALANCED).body
     for phase in np.linspace(0.1, 6.0, 12):
         y = upright_coin(body, phase, 5.0, 20.0)
-        upright.tip_over(body, 0.0, y)
+        upright.tip_over(body, SMOOTH, y)
         up = rotation_matrix(tuple(y[6:10]))[2]
         assert 0 < abs(up[2]) < 2e-12
         assert abs(gap(body, y[2], tuple(up))) < 1e-17
@@ -124,12 +126,12 @@ def test_a_coin_is_tried_on_either_rim_however_it_leans():
     body, found = scenario(coin=UNBALANCED).body, set()
     for turn in np.linspace(-70.0, 70.0, 29):
         level = upright_coin(body, 0.4, turn, 20.0)
-        held = held_on_edge(body, 0.0, Mode.SLIDING, level)
+        held = held_on_edge(body, SMOOTH, Mode.SLIDING, level)
         found.add(held)
         for lean in (-5e-7, 5e-7):
             leaning = level.copy()
             upright.tilt(leaning, lean)
-            assert held_on_edge(body, 0.0, Mode.SLIDING, leaning) == held
+            assert held_on_edge(body, SMOOTH, Mode.SLIDING, leaning) == held
     assert found == {True, False}
 
 
@@ -140,7 +142,7 @@ def test_without_loss_a_coin_stands_if_it_is_held_in_the_course_of_its_own_roll(
     # Ω makes up for the lever of C beside B, so the coin would not be held at rest in the other sense.
     roll = 0.8 * M * G * ZLOTY["thickness"] / 2 / (body.inertia[2][2] * 20.0)
     found = {
-        (turn, air): stands(b, 0.0, Mode.SLIDING, upright_coin(b, 0.4, turn, roll))
+        (turn, air): stands(b, SMOOTH, Mode.SLIDING, upright_coin(b, 0.4, turn, roll))
         for turn in (20.0, -20.0)
         for air, b in (("vacuum", body), ("air", in_air))
     }
@@ -187,7 +189,7 @@ def test_friction_at_both_rims_stops_a_coin_that_turns_upright_on_the_spot():
     time = 0.15 * turn / slowing
     start = upright_coin(body, 0.4, turn, 0.0)
     start[3:5] = 0.0
-    states, times = follow(body, start, time, np.inf, mu)
+    states, times = follow(body, start, time, np.inf, FloorFriction(mu))
     left = [rotation_matrix(tuple(y[6:10]))[2] @ y[10:13] for y in states]
     assert left == pytest.approx(turn - slowing * times, rel=1e-9)
 
@@ -199,25 +201,25 @@ def test_a_coin_that_slides_upright_ends_rolling_at_two_thirds_of_its_speed():
     n = np.array(rotation_matrix(tuple(y[6:10])))[:, 2]
     along = np.cross([0, 0, 1], n)
     y[3:6] = 0.5 * along
-    assert not rolls(body, mu, y)
-    states, _ = follow(body, y, 2 * 0.5 / (mu * G), np.inf, mu)
+    assert not rolls(body, FloorFriction(mu), y)
+    states, _ = follow(body, y, 2 * 0.5 / (mu * G), np.inf, FloorFriction(mu))
     assert states[-1][3:6] == pytest.approx(0.5 * 2 / 3 * along, abs=1e-6)
-    assert rolls(body, mu, states[-1])
-    assert stands(body, mu, Mode.STICKING, states[-1])
+    assert rolls(body, FloorFriction(mu), states[-1])
+    assert stands(body, FloorFriction(mu), Mode.STICKING, states[-1])
 
 
 def test_an_unbalanced_coin_that_rolls_upright_keeps_its_energy_but_for_a_creep():
     """The friction that it needs, f of μ N, makes it slip at f/(μ N) 1e-3 √(g r): so much power is lost."""
     body, mu = scenario(coin=UNBALANCED).body, 0.5
     start = rolling(body, 20.0)
-    states, times = follow(body, start, 1.0, np.inf, mu)
+    states, times = follow(body, start, 1.0, np.inf, FloorFriction(mu))
     energies = np.array([energy(body, y[2], tuple(y[3:6]), tuple(y[10:13])) for y in states])
     ups = np.array([rotation_matrix(tuple(y[6:10]))[2] for y in states])
     assert np.ptp(np.unwrap(np.arctan2(ups[:, 1], ups[:, 0]))) > 2 * np.pi, "it rolls round"
     most = mu * M * G * 1e-3 * (G * R_COIN) ** 0.5 * times[-1]
     assert -most < energies[-1] - energies[0] < 0
     assert np.all(np.diff(energies) < 1e-14)
-    assert all(rolls(body, mu, y) for y in states)
+    assert all(rolls(body, FloorFriction(mu), y) for y in states)
 
 
 @pytest.mark.parametrize(
@@ -225,7 +227,7 @@ def test_an_unbalanced_coin_that_rolls_upright_keeps_its_energy_but_for_a_creep(
 )
 def test_a_rolling_coin_stands_unless_it_skids_or_its_roll_tips_it(roll_rate, mu, held):
     body = scenario(coin=UNBALANCED).body
-    assert stands(body, mu, Mode.STICKING, rolling(body, roll_rate)) == held
+    assert stands(body, FloorFriction(mu), Mode.STICKING, rolling(body, roll_rate)) == held
 
 
 @pytest.mark.parametrize("number", [5496, 4614, 7739])
@@ -246,7 +248,7 @@ def pivoting(body, turn_rate, rim):
 
 def rims_of(body, y, rim):
     """Give the `RimContact` of a rim and that of the other."""
-    tails, heads = both_rims(body, y)
+    tails, heads = both_rims(body, SMOOTH, y)
     return (tails, heads) if rim < 0 else (heads, tails)
 
 
@@ -281,7 +283,7 @@ def test_a_rim_that_stuck_takes_the_slow_slip_at_which_friction_holds_it(rim, mu
     body, dt = scenario(coin=UNBALANCED).body, 1e-8
     y = pivoting(body, turn_rate, rim)
     start = y.copy()
-    start_creep(body, mu, rim, y)
+    start_creep(body, FloorFriction(mu), rim, y)
     F = holding_force_of_the_rim_that_stuck(body, mu, rim, start)
     slip = -F[:2] / (mu * F[2]) * SLOW * max(mu, 1) * (G * R_COIN) ** 0.5
     assert np.hypot(*F[:2]) > 1e-2 * F[2]
@@ -292,7 +294,7 @@ def test_a_rim_that_stuck_takes_the_slow_slip_at_which_friction_holds_it(rim, mu
     gained = []
     for begun in (start, y):
         after = begun.copy()
-        follow_step(body, mu, Mode.UPRIGHT, after, dt)
+        follow_step(body, FloorFriction(mu), Mode.UPRIGHT, after, dt)
         gained.append(np.hypot(*(rim_velocity(body, after, rim) - rim_velocity(body, begun, rim))[:2]))
     # The slow slip turns the coin a little, and so changes what must be held.
     assert gained[1] < 0.15 * gained[0]
@@ -302,7 +304,7 @@ def test_a_rim_that_friction_cannot_hold_takes_no_slip():
     body = scenario(coin=UNBALANCED).body
     y = pivoting(body, 30.0, -1.0)
     before = y.copy()
-    start_creep(body, 1e-3, -1.0, y)
+    start_creep(body, FloorFriction(1e-3), -1.0, y)
     assert np.all(y == before)
 
 

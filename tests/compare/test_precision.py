@@ -8,6 +8,7 @@ from flint import arb, ctx
 
 import analytic
 from analytic.automaton import Event, Mode
+from analytic.contact.resistance import FloorFriction
 from compare.precision import double_double, planar_state, planar_toss
 from compare.precision.certified import PlanarRelease, certified_toss, outcome_within, proved_part
 from compare.precision.divergence import toss_lines
@@ -249,7 +250,7 @@ def test_contact_in_air_is_the_engines():
     y[6], y[7], y[10] = np.cos(tilt / 2), np.sin(tilt / 2), spin / second
     over, step, lands = False, np.inf, Event.NONE
     while not over:
-        _, step, over, lands = contact_step(scenario.body, 0.0, Mode.SLIDING, y, step)
+        _, step, over, lands = contact_step(scenario.body, FloorFriction(0.0), Mode.SLIDING, y, step)
     assert lands == Event.FACE_LANDS
     state = np.zeros((5, 2))
     state[:, 0] = [-np.sin(tilt), -np.cos(tilt) * spin, tilt, spin, drift]

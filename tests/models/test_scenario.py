@@ -45,7 +45,7 @@ def test_numbers_are_si_and_strings_carry_units():
 def test_what_is_left_out_has_its_documented_default():
     read = parse(GOOD.replace("[air]\nnormal = 0.8", ""), "good.toml")
     assert (read.air.normal, read.air.tangential, read.air.exponent) == (0, 0, 0)
-    assert read.floor.friction == 0
+    assert (read.floor.friction, read.floor.rolling_friction, read.floor.pivoting_friction) == (0, 0, 0)
     assert read.release.velocity == (0, 0, 0)
     assert read.coin.center_of_mass == (0, 0, 0)
     assert read.ending.max_time == 1_000_000
@@ -130,6 +130,31 @@ WRONG = {
         "restitution = 0.8",
         "restitution = 0.8\nfriction = -1",
         ["floor.friction", "-1", ">= 0"],
+    ),
+    "negative resistance": (
+        "restitution = 0.8",
+        'restitution = 0.8\nrolling_friction = "-1 mm"',
+        ["floor.rolling_friction", '"-1 mm"', ">= 0"],
+    ),
+    "resistance without bound": (
+        "restitution = 0.8",
+        "restitution = 0.8\npivoting_friction = inf",
+        ["floor.pivoting_friction", "inf", "a finite number"],
+    ),
+    "resistance that is no length": (
+        "restitution = 0.8",
+        'restitution = 0.8\nrolling_friction = "1 s"',
+        ["floor.rolling_friction", '"1 s"', "a number in m"],
+    ),
+    "resistance of a law that is not followed into contact": (
+        'contact = "smooth"',
+        'contact = "knurled"\npivoting_friction = "0.1 mm"',
+        ["floor.pivoting_friction", "0.0001", '0 with contact = "knurled"', '"perfectly_rough"'],
+    ),
+    "resistance that leaves no solution": (
+        "restitution = 0.8",
+        'restitution = 0.8\nrolling_friction = "9 mm"\npivoting_friction = "9 mm"',
+        ["floor.rolling_friction", "0.009", "2 sqrt(J/m) = 0.012"],
     ),
     "kind without its law": (
         'contact = "smooth"',

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from analytic.contact.resistance import FloorFriction
 from analytic.events import run
 from analytic.settings import Settings
 from analytic.toss import Pieces
@@ -192,7 +193,7 @@ def followed(found: Boundary, place: float) -> tuple[Array, Standing]:
     body, log = later.body, run(later.body, later.rules, y, SETTINGS)
     path = Pieces(
         body=body,
-        friction=0.0,
+        friction=FloorFriction(0.0),
         contact_tolerance=SETTINGS.contact_tolerance,
         start_times=log.start_times,
         start_states=log.start_states,

@@ -251,12 +251,14 @@ def replay_contacts(body, rules, tolerance, start_times, modes, states, end_time
         states: at the start, (n, 13); become those at the end.
         end_times: (n,) [s].
     """
-    mu = friction_in_contact(rules)
+    friction = friction_in_contact(rules)
     for i in range(len(states)):
         y, mode, time, dt, over = states[i], modes[i], start_times[i], np.inf, False
-        stages = start_following(body, mu, mode, y)
+        stages = start_following(body, friction, mode, y)
         while not over:
-            made, dt, over, _ = follow(body, mu, mode, y, min(dt, rules.max_time - time), tolerance, stages)
+            made, dt, over, _ = follow(
+                body, friction, mode, y, min(dt, rules.max_time - time), tolerance, stages
+            )
             time += made
             over = over or not time < end_times[i]
 

@@ -1,0 +1,54 @@
+"""Resistance to rolling and pivoting: moments about a rim point in proportion to the normal force there.
+
+With a unit normal force at A comes the moment -δ ω_h/|ω_h| - p ω_z/|ω_z| ẑ, ω_h the part of ω along the
+floor, so that the force F at A gives dv_A/dt = b + (K + q ẑᵀ) F, q the acceleration of A by that moment. What
+holds for K without resistance holds with K + q ẑᵀ: N and the moments are found together. They oppose ω, and
+take energy at the rate N (δ |ω_h| + p |ω_z|). Below `SLOW` √(g/r) either grows in proportion to ω.
+"""
+
+import math
+from typing import NamedTuple
+
+from analytic.numerics.tolerances import SLOW
+from models.kernel.compiled import compiled
+
+
+class FloorFriction(NamedTuple):
+    """What the floor has against the motion of a coin in sustained contact."""
+
+    sliding: float
+    """μ; 0 on a smooth floor."""
+    rolling: float = 0.0
+    """δ [m]."""
+    pivoting: float = 0.0
+    """p [m]."""
+
+
+WITHOUT = FloorFriction(0.0)
+"""Of a floor that acts on a coin in contact by its normal force alone."""
+
+
+@compiled
+def has_resistance(friction):
+    """Return whether the floor resists rolling or pivoting."""
+    return friction.rolling > 0 or friction.pivoting > 0
+
+
+@compiled
+def slow_spin(body):
+    """Return the spin below which resistance grows in proportion to it [rad/s]."""
+    return SLOW * (body.gravity / body.radius) ** 0.5
+
+
+@compiled
+def moment_per_force(body, friction, w):
+    """Return the floor's moment on a coin for a unit normal force, space frame, (3,) [m].
+
+    Args:
+        body: the coin.
+        friction: `FloorFriction`.
+        w: angular velocity, space frame, (3,) [rad/s].
+    """
+    slow = slow_spin(body)
+    rolling = -friction.rolling / max(math.hypot(w[0], w[1]), slow)
+    return rolling * w[0], rolling * w[1], -friction.pivoting / max(abs(w[2]), slow) * w[2]
