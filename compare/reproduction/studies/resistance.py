@@ -1,0 +1,360 @@
+"""What resistance to rolling and pivoting does: stopping distances, Euler's disk, and a nickel's edge."""
+
+from collections import Counter
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure
+
+import analytic
+from analytic.automaton import Mode
+from analytic.contact.following import sample_contact
+from analytic.contact.resistance import FloorFriction
+from compare.output.progress import Progress
+from compare.output.style import BLUE, GREY, ORANGE
+from compare.output.tables import table
+from compare.reproduction.claim import Claim, Criterion, Estimate
+from compare.reproduction.estimates import share
+from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.setups.hands import releases_of_hands
+from models.attitude import quaternion_from_angles
+from models.certificate import energies, turned
+from models.records import Ending, Outcome, States
+from models.scenario import Scenario
+
+COUNT, SEED = 1000, 1993
+"""Hand tosses of a nickel for each size of the resistance, and the seed."""
+SIZES = (0.0, 1e-4, 1e-3)
+"""δ = p on a nickel's floor [m]."""
+SPEED, ROLLING = 0.3, 1e-3
+"""Of the disc and the hoop that roll upright [m/s], and their δ [m]."""
+SPIN, PIVOTING = 80.0, 1e-3
+"""Of the disc that pivots upright [rad/s], and its p [m]."""
+TILT, SAMPLES, SMALL = 0.3, 300, (2e-4, 1e-2)
+"""Euler's disk starts from this tilt [rad]; its fall is sampled so often, and fitted between these tilts."""
+DISKS = {"rolling": (2e-5, 17.8), "pivoting": (1e-4, 3.0)}
+"""δ, or p, on the floor of Euler's disk [m], and how long it is followed [s]."""
+LONGEST = 60.0
+"""Of a nickel's toss [s]."""
+_DISC = {"mass": 2e-3, "radius": 1.25e-2, "thickness": 0.0}
+_NICKEL = {"mass": 5e-3, "radius": 10.605e-3, "thickness": 1.95e-3}
+_UPRIGHT = [0.0, np.pi / 2, 0.0]
+
+
+@dataclass(frozen=True)
+class Stop:
+    """How long a coin took to stop, and how far it came, beside the closed forms."""
+
+    time: float
+    expected_time: float
+    distance: float
+    expected_distance: float
+
+
+@dataclass(frozen=True)
+class EulersDisk:
+    """The fall of Euler's disk under one resistance, in samples over time."""
+
+    times: list[float]
+    """[s]."""
+    tilts: list[float]
+    """[rad]."""
+    energies: list[float]
+    """Over m g r."""
+    pivots: list[float]
+    """ω_z [rad/s]."""
+
+
+@dataclass(frozen=True)
+class ResistanceRecord:
+    """What the study found."""
+
+    stops: dict[str, Stop]
+    disks: dict[str, EulersDisk]
+    nickel: dict[str, dict[str, int]]
+    """Numbers of tosses by δ and by outcome and ending."""
+
+
+def result(found: ResistanceRecord) -> Result:
+    """Return the study's tables and claims."""
+    return Result(claims=claims(found), data=found, tables=tables(found))
+
+
+def on_floor(coin: dict, release: dict, floor: dict, ending: dict | None = None) -> Scenario:
+    """Return a scenario on a perfectly rough floor without rebound, in vacuum, with such a resistance."""
+    rough = {"contact": "perfectly_rough", "restitution": 0.0, **floor}
+    parts = {"coin": coin, "floor": rough, "release": release, "ending": ending or {}}
+    return Scenario.model_validate(parts)
+
+
+def rolling_stop(share_of_inertia: float) -> Stop:
+    """Return how a disc, or a hoop, that rolls upright stops.
+
+    Args:
+        share_of_inertia: J_ζ/(m r²).
+    """
+    m, r = _DISC["mass"], _DISC["radius"]
+    inertia = np.diag([share_of_inertia / 2, share_of_inertia / 2, share_of_inertia]) * m * r * r
+    case = on_floor(
+        {**_DISC, "inertia": inertia.tolist()},
+        {
+            "position": [0, 0, r],
+            "velocity": [SPEED, 0, 0],
+            "angles": _UPRIGHT,
+            "angular_velocity": [0, 0, -SPEED / r],
+        },
+        {"rolling_friction": ROLLING, "pivoting_friction": ROLLING},
+    )
+    tossed = analytic.toss(case)
+    if tossed.ending != Ending.AT_REST:
+        raise RuntimeError(f"a coin that rolls upright ended {tossed.ending.label}; expected: at_rest")
+    slowing = ROLLING * case.gravity / (r * (1 + share_of_inertia))
+    end = tossed.path.sample(np.array([tossed.end_time])).position[0]
+    return Stop(tossed.end_time, SPEED / slowing, float(end[0]), SPEED**2 / (2 * slowing))
+
+
+def pivoting_stop() -> Stop:
+    """Return how a disc that pivots upright stops."""
+    m, r = _DISC["mass"], _DISC["radius"]
+    case = on_floor(
+        _DISC,
+        {"position": [0, 0, r], "angles": _UPRIGHT, "angular_velocity": [0, SPIN, 0]},
+        {"rolling_friction": PIVOTING, "pivoting_friction": PIVOTING},
+    )
+    tossed = analytic.toss(case)
+    if tossed.ending != Ending.AT_REST:
+        raise RuntimeError(f"a coin that pivots upright ended {tossed.ending.label}; expected: at_rest")
+    slowing = PIVOTING * m * case.gravity / case.body.inertia[1][1]
+    return Stop(tossed.end_time, SPIN / slowing, 0.0, 0.0)
+
+
+def eulers_disk(resistance: str) -> EulersDisk:
+    """Return how Euler's disk falls, from a tilt at which it rolls round its mass centre.
+
+    Args:
+        resistance: "rolling" or "pivoting".
+    """
+    r, g = _DISC["radius"], 9.81
+    size, longest = DISKS[resistance]
+    friction = FloorFriction(1e4, *((size, 0.0) if resistance == "rolling" else (0.0, size)))
+    body = on_floor(_DISC, {"position": [0, 0, r]}, {}).body
+    turning = 2 * (g * np.sin(TILT) / r) ** 0.5
+    start = np.array(
+        [0, 0, r * np.sin(TILT), 0, 0, 0, *quaternion_from_angles((0.0, TILT, 0.0)), 0, turning, 0]
+    )
+    times, rows = np.linspace(0.0, longest, SAMPLES), np.empty((SAMPLES, len(start)))
+    sample_contact(
+        body, friction, Mode.STICKING.value, start, 0.0, times, analytic.Settings().contact_tolerance, rows
+    )
+    states = States(
+        time=times,
+        position=rows[:, 0:3],
+        velocity=rows[:, 3:6],
+        quaternion=rows[:, 6:10],
+        angular_velocity=rows[:, 10:13],
+    )
+    tilts = np.arcsin(np.minimum(np.hypot(states.normal[:, 0], states.normal[:, 1]), 1.0))
+    return EulersDisk(
+        times=times.tolist(),
+        tilts=tilts.tolist(),
+        energies=(energies(body, states) / (body.mass * g * r)).tolist(),
+        pivots=turned(states.quaternion, states.angular_velocity)[:, 2].tolist(),
+    )
+
+
+def power_law(disk: EulersDisk) -> tuple[float, float]:
+    """Return n of α ~ (t₀ - t)ⁿ, and -dα/dt over (4/3) √(g/r) (δ/r) √α, at small tilts."""
+    times, tilts = np.array(disk.times), np.array(disk.tilts)
+    falls = -np.gradient(tilts, times)
+    chosen = (tilts > SMALL[0]) & (tilts < SMALL[1])
+    slope = np.polyfit(np.log(tilts[chosen]), np.log(falls[chosen]), 1)[0]
+    r = _DISC["radius"]
+    closed = 4 / 3 * (9.81 / r) ** 0.5 * DISKS["rolling"][0] / r * tilts[chosen] ** 0.5
+    return float(1 / (1 - slope)), float(np.median(falls[chosen] / closed))
+
+
+def nickel_ends(size: float, count: int, seed: int) -> dict[str, int]:
+    """Count the ends of hand tosses of a nickel, in air, where δ = p = `size`."""
+    case = Scenario.model_validate(
+        {
+            "coin": _NICKEL,
+            "air": {"normal": 0.8, "tangential": 0.2},
+            "floor": {
+                "contact": "coulomb",
+                "friction": 0.3,
+                "restitution": 0.5,
+                "rolling_friction": size,
+                "pivoting_friction": size,
+            },
+            "release": {"position": [0, 0, 1]},
+            "ending": {"max_time": LONGEST},
+        }
+    )
+    ended = analytic.toss_many(case, releases_of_hands(np.random.default_rng(seed), count, aside=10.0))
+    names = Counter(
+        f"{Outcome(outcome).label}, {Ending(ending).label}"
+        for outcome, ending in zip(ended.outcome, ended.ending, strict=True)
+    )
+    return dict(sorted(names.items()))
+
+
+def compute(count: int, seed: int, progress: Progress) -> ResistanceRecord:
+    """Roll, pivot, and toss `count` nickels for each of `SIZES`."""
+    stops = {"disc rolls": rolling_stop(0.5), "hoop rolls": rolling_stop(1.0), "disc pivots": pivoting_stop()}
+    disks = {resistance: eulers_disk(resistance) for resistance in DISKS}
+    nickel = {}
+    for done, size in enumerate(SIZES, start=1):
+        nickel[f"{size:g}"] = nickel_ends(size, count, seed)
+        progress(done, len(SIZES))
+    return ResistanceRecord(stops, disks, nickel)
+
+
+def edge_share(ends: dict[str, int]) -> Estimate:
+    """Return the share of tosses that end on edge."""
+    on_edge = sum(number for end, number in ends.items() if end.startswith("edge"))
+    return share(np.arange(sum(ends.values())) < on_edge)
+
+
+def claims(found: ResistanceRecord) -> tuple[Claim, ...]:
+    """Return the claims of the study."""
+    errors = [
+        abs(stop.time / stop.expected_time - 1)
+        + (abs(stop.distance / stop.expected_distance - 1) if stop.expected_distance else 0.0)
+        for stop in found.stops.values()
+    ]
+    undecided = sum(
+        n for ends in found.nickel.values() for end, n in ends.items() if end.startswith(("und", "per"))
+    )
+    rolling = sum(
+        n
+        for size, ends in found.nickel.items()
+        for end, n in ends.items()
+        if size != "0" and end == f"edge, {Ending.ROLLING.label}"
+    )
+    exponent, rate = power_law(found.disks["rolling"])
+    pivots = found.disks["pivoting"]
+    tenth = len(pivots.energies) // 10
+    early, late = (part[0] - part[-1] for part in (pivots.energies[:tenth], pivots.energies[-tenth:]))
+    return (
+        Claim(
+            claim="a disc and a hoop that roll upright, and a disc that pivots, stop as the closed forms say",
+            criteria=[
+                Criterion("largest relative error", max(errors), "<", 5e-3, "rest is found at 1e-3 √(g/r)")
+            ],
+        ),
+        Claim(
+            claim="Euler's disk under resistance to rolling: α ~ (t₀ - t)², by the closed form of its rate",
+            criteria=[
+                Criterion("fitted exponent, less 2", exponent - 2, "within ±", 0.05, "corrections of √α"),
+                Criterion("rate over its closed form, less 1", rate - 1, "within ±", 0.05, "likewise"),
+            ],
+        ),
+        Claim(
+            claim="Euler's disk under resistance to pivoting alone does not fall flat: its pivoting stops",
+            criteria=[
+                Criterion("energy left [m g r]", pivots.energies[-1], ">", 0.3, "two thirds and more"),
+                Criterion(
+                    "rate of the last tenth's loss over that of the first",
+                    late / early,
+                    "<",
+                    0.01,
+                    "its pivoting is slow",
+                ),
+            ],
+        ),
+        Claim(
+            claim="every nickel comes to rest",
+            criteria=[
+                Criterion("tosses that stay undecided", undecided, "=", 0, "none"),
+                Criterion("tosses that still roll where δ > 0 after a minute", rolling, "=", 0, "none"),
+            ],
+        ),
+        Claim(
+            claim="resistance in contact does not keep a nickel off its edge",
+            criteria=[
+                Criterion(
+                    "least share of tosses on edge",
+                    min(map(edge_share, found.nickel.values()), key=lambda part: part.value),
+                    ">",
+                    1 / 6000,
+                    "as Murray and Teare (1993) have it",
+                )
+            ],
+        ),
+    )
+
+
+def tables(found: ResistanceRecord) -> str:
+    """Return the tables, in Markdown."""
+    stops = [
+        [
+            name,
+            f"{stop.time:.5f}",
+            f"{stop.expected_time:.5f}",
+            f"{stop.distance:.6f}" if stop.expected_distance else "-",
+            f"{stop.expected_distance:.6f}" if stop.expected_distance else "-",
+        ]
+        for name, stop in found.stops.items()
+    ]
+    exponent, rate = power_law(found.disks["rolling"])
+    disks = [
+        [
+            resistance,
+            f"{disk.energies[0]:.4f}",
+            f"{disk.energies[-1]:.4f}",
+            f"{disk.pivots[0]:.3f}",
+            f"{disk.pivots[-1]:.3f}",
+            f"{disk.times[-1]:.3f}",
+        ]
+        for resistance, disk in found.disks.items()
+    ]
+    endings = sorted({end for ends in found.nickel.values() for end in ends})
+    rows = []
+    for size, ends in found.nickel.items():
+        part = edge_share(ends)
+        shown = f"{100 * part.value:.2f} [{100 * part.low:.2f}, {100 * part.high:.2f}]"
+        rows.append([f"{1e3 * float(size):g}", *(str(ends.get(end, 0)) for end in endings), shown])
+    return "\n\n".join(
+        [
+            table(["a coin upright", "stops after [s]", "closed form", "comes [m]", "closed form"], stops),
+            table(
+                [
+                    "Euler's disk, resistance to",
+                    "energy at first [m g r]",
+                    "at last",
+                    "ω_z at first [rad/s]",
+                    "at last",
+                    "after [s]",
+                ],
+                disks,
+            ),
+            f"Under resistance to rolling α ~ (t₀ - t)ⁿ with n = {exponent:.4f} between {SMALL[0]:g} and "
+            f"{SMALL[1]:g} rad; -dα/dt is {rate:.4f} of its closed form there.",
+            table(["nickel, δ = p [mm]", *endings, "on edge [%]"], rows),
+        ]
+    )
+
+
+def draw(found: ResistanceRecord) -> Figure:
+    """Draw the tilt of Euler's disk under either resistance, and the power law."""
+    picture = Figure(figsize=(7, 3.4))
+    axes = picture.subplots()
+    for (resistance, disk), color in zip(found.disks.items(), (BLUE, ORANGE), strict=True):
+        axes.plot(disk.times, np.degrees(disk.tilts), color=color, label=resistance)
+    disk = found.disks["rolling"]
+    times, tilts = np.array(disk.times), np.array(disk.tilts)
+    chosen = tilts > SMALL[0]
+    line = np.polyval(np.polyfit(times[chosen], tilts[chosen] ** 0.5, 1), times)
+    axes.plot(times, np.degrees(np.maximum(line, 0) ** 2), color=GREY, linestyle="--", label="(t₀ - t)²")
+    axes.set_xlabel("t [s]")
+    axes.set_ylabel("tilt [deg]")
+    axes.legend(title="resistance to")
+    return picture
+
+
+REPRODUCTION = Reproduction(
+    title="what resistance to rolling and pivoting does: where a coin stops, how Euler's disk falls",
+    seconds=300,
+    make=lambda progress: result(compute(COUNT, SEED, progress)),
+    draw={"disk": draw},
+)
