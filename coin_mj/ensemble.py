@@ -57,16 +57,16 @@ def toss_many(scenario: Scenario, releases: Releases, *, settings: Settings = MA
         if not hasattr(of_thread, "machine"):
             of_thread.machine = machine_of(scenario, settings, thickness)
         with air_of(of_thread.machine.model), clock_stopped():
-            _toss_each(of_thread.machine.coin, rules, settings.contact_steps, *columns)
+            _toss_each(of_thread.machine.coin, rules, settings.budgets, *columns)
 
     return toss_in_tiles(releases, TILE, toss_tile)
 
 
 @compiled
-def _toss_each(coin, rules, contact_steps, states, outcomes, endings, faces, impacts, end_times):
+def _toss_each(coin, rules, budgets, states, outcomes, endings, faces, impacts, end_times):
     rows = np.zeros(1, IMPACT_ROW)
     for i in range(len(states)):
         put_at(coin, states[i])
-        n, _, _, _, outcome, ending, end_time = toss_coin(coin, rules, contact_steps, rows, False)
+        n, _, _, _, outcome, ending, end_time = toss_coin(coin, rules, budgets, rows, False)
         outcomes[i], endings[i], impacts[i], end_times[i] = outcome.value, ending.value, n, end_time
         faces[i] = rows[0].face if n > 0 else 0

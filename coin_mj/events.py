@@ -3,9 +3,9 @@
 import numpy as np
 
 from coin_mj.model.state import state_of
-from coin_mj.steps.free_step import free_step
+from coin_mj.steps.flight import fly
 from coin_mj.steps.gap_evaluation import evaluate_gap
-from coin_mj.steps.impact import TOUCH_STEP, TouchResult, resolve_impact
+from coin_mj.steps.impact import TouchResult, resolve_impact
 from coin_mj.steps.knots import Step, add_knot, knot_of
 from coin_mj.steps.sustained_contact import NO_LOSS, ContactExit, follow_contact, slow_speed
 from models.attitude import rotation_matrix
@@ -19,13 +19,13 @@ from models.state import state
 
 
 @compiled
-def toss_coin(coin, rules, contact_steps, rows, keep_all):
+def toss_coin(coin, rules, budgets, rows, keep_all):
     """Toss the coin from its present state until the toss is decided.
 
     Args:
         coin: MuJoCo's, at its release.
         rules: floor and ending.
-        contact_steps: the most steps in sustained contact.
+        budgets: the most steps in flight and in sustained contact.
         rows: where the impacts are recorded, (m,) of `IMPACT_ROW`.
         keep_all: whether all impacts are recorded, in as many rows as they need, and the path; else impact
             number n is recorded in row n modulo m.
@@ -34,7 +34,8 @@ def toss_coin(coin, rules, contact_steps, rows, keep_all):
         Number of impacts; the rows; knots of the path, see `path.Knots`, (k, 15), or none; start and end of
         every sustained contact, (c, 2) [s]; outcome; ending; and the time of the end [s].
     """
-    time, n, steps_left, history = 0.0, 0, contact_steps, energy_history(NO_LOSS)
+    time, n, history = 0.0, 0, energy_history(NO_LOSS)
+    steps_left, flight_steps_left = budgets.contact_steps, budgets.flight_steps
     knots, contacts = [knot_of(coin, time, Step.FLIGHT)], [(time, time)]
     contacts.clear()
     if not keep_all:
@@ -46,9 +47,9 @@ def toss_coin(coin, rules, contact_steps, rows, keep_all):
             ending = Ending.MAX_IMPACTS
             break
         if not lands:
-            time, touches = fly(coin, time, rules.max_time, knots)
+            time, touches, flight_steps_left = fly(coin, time, rules.max_time, flight_steps_left, knots)
             if not touches:
-                ending = Ending.MAX_TIME
+                ending = Ending.MAX_TIME if time >= rules.max_time else Ending.FLIGHT_STEPS
                 break
         start, touch = time, state_of(coin)
         sustained = not lands and -evaluate_gap(coin).speed < slow_speed(coin, rules.restitution, touch[3])
@@ -74,33 +75,6 @@ def toss_coin(coin, rules, contact_steps, rows, keep_all):
             steps_left -= 1
     add_knot(coin, time, Step.FLIGHT, knots)
     return n, rows, _table(knots), _pairs(contacts), outcome, ending, time
-
-
-@compiled
-def fly(coin, time, max_time, knots):
-    """Fly until the coin touches the floor.
-
-    Args:
-        coin: MuJoCo's.
-        time: now [s].
-        max_time: when to stop [s].
-        knots: of the path, kept up; see `knots.add_knot`.
-
-    Returns:
-        The time [s], and whether the coin touches before max_time.
-    """
-    smallest = TOUCH_STEP * coin.rebound.step
-    # The steps end before the touch, and `free_step` detects no contacts: of a coin that is flat within
-    # rounding MuJoCo's plane-cylinder routine may take the radius for the height.
-    while time < max_time:
-        below = evaluate_gap(coin)
-        if below.step_bound < smallest and below.speed < 0:
-            return time, True
-        add_knot(coin, time, Step.FLIGHT, knots)
-        dt = min(max(below.step_bound, smallest), max_time - time)
-        free_step(coin, dt)
-        time += dt
-    return time, False
 
 
 @compiled

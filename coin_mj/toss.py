@@ -41,6 +41,7 @@ SOFTER = (10.0, 30.0)
 """How many times softer the contacts are that tell how far a toss can be trusted."""
 IMPULSE_CHANGE = 0.03
 """Within the horizon no softer contact changes an impulse by more than this part."""
+_INTEGRATORS = "Tsitouras 5, in sustained contact RK4"
 CONTACTS_MEASURED, PARTS_MEASURED = 32, 16
 """The energy is measured in so many contacts, the longest, at the ends of so many parts of each."""
 
@@ -64,7 +65,7 @@ def run(machine: Machine, rules: Rules) -> MujocoRun:
     room = np.zeros(FIRST_ROOM, IMPACT_ROW)
     with air_of(machine.model), clock_stopped():
         n, rows, knots, contacts, outcome, ending, end_time = toss_coin(
-            machine.coin, rules, machine.settings.contact_steps, room, True
+            machine.coin, rules, machine.settings.budgets, room, True
         )
     return MujocoRun(rows[:n].copy(), knots, contacts, Outcome(outcome), Ending(ending), end_time)
 
@@ -190,14 +191,14 @@ def _contact_certificate(machine: Machine) -> tuple[Setting, ...]:
     settings, rebound, friction = machine.settings, machine.coin.rebound, machine.coin.friction
     if settings.contact == Realisation.ONE_STEP:
         made = (
-            Setting(name="integrator", value="RK4, in a contact semi-implicit Euler"),
+            Setting(name="integrator", value=f"{_INTEGRATORS}, in an impact semi-implicit Euler"),
             Setting(name="contact", value="one step"),
             Setting(name="contact damping", value=rebound.damping, unit="1/s"),
             Setting(name="length of the step", value=rebound.step, unit="s"),
         )
     else:
         made = (
-            Setting(name="integrator", value="RK4"),
+            Setting(name="integrator", value=_INTEGRATORS),
             Setting(name="contact", value="spring"),
             Setting(name="contact stiffness", value=rebound.stiffness, unit="1/s²"),
             Setting(name="contact damping", value=rebound.damping, unit="1/s"),

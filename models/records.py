@@ -56,6 +56,7 @@ class Ending(IntEnum):
     STANDING = 9
     PERPETUAL = 10
     CONTACT_STEPS = 11
+    FLIGHT_STEPS = 12
     AT_REST = 13
     ROLLING = 14
 
@@ -83,6 +84,7 @@ _SENTENCES = {
     Ending.STANDING: "The coin stands on its edge: tipped onto either rim, it is turned back by the floor.",
     Ending.PERPETUAL: "The energy loss converges: the coin keeps enough energy to turn over for ever.",
     Ending.CONTACT_STEPS: "Contact took as many steps as contact_steps allows; raise it: --contact-steps N.",
+    Ending.FLIGHT_STEPS: "Flights took as many steps as flight_steps allows; raise it: --flight-steps N.",
     Ending.AT_REST: "The coin rests on its edge, where the floor's resistance to rolling holds it.",
     Ending.ROLLING: "The coin rolls upright, held on its edge; to go on raise max_time or contact_steps.",
 }

@@ -16,12 +16,8 @@ PATH = str(next(Path(mujoco.__file__).parent.glob("*mujoco.*")))
 llvmlite.binding.load_library_permanently(PATH)
 
 _model_and_data = (types.intp, types.intp)
-mj_forward: Any = types.ExternalFunction("mj_forward", types.void(*_model_and_data))
-"""Takes the addresses of an mjModel and an mjData."""
 mj_reset: Any = types.ExternalFunction("mj_resetData", types.void(*_model_and_data))
 """Takes the addresses of an mjModel and an mjData."""
-mj_runge_kutta: Any = types.ExternalFunction("mj_RungeKutta", types.void(*_model_and_data, types.intc))
-"""Takes the addresses of an mjModel and an mjData, and the order."""
 mj_euler: Any = types.ExternalFunction("mj_Euler", types.void(*_model_and_data))
 """Takes the addresses of an mjModel and an mjData."""
 mj_kinematics: Any = types.ExternalFunction("mj_kinematics", types.void(*_model_and_data))

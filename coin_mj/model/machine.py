@@ -62,6 +62,8 @@ class MujocoCoin(NamedTuple):
     rebound: Rebound
     friction: float
     """Coefficient of friction μ of the floor."""
+    is_balanced: bool
+    """Whether C is B: then the free joint's mass matrix never changes."""
     has_explicit_friction: bool
     """Whether the friction is Coulomb's force."""
     has_one_step: bool
@@ -104,6 +106,7 @@ def machine_of(scenario: Scenario, settings: Settings, thickness: float) -> Mach
         floor_height=floor_height(scenario, thickness),
         rebound=rebound,
         friction=mu,
+        is_balanced=not any(scenario.coin.center_of_mass),
         has_explicit_friction=settings.friction == Friction.EXPLICIT and mu > 0,
         has_one_step=settings.contact == Realisation.ONE_STEP,
         flight_angle=settings.flight_angle,

@@ -38,6 +38,13 @@ def _require(name: str, value: object, holds: bool, accepted: str) -> None:
         raise ValueError(f"coin_mj.Settings.{name} = {value}: accepted: {accepted}")
 
 
+class Budgets(NamedTuple):
+    """The most steps that a toss may take."""
+
+    contact_steps: int
+    flight_steps: int
+
+
 @dataclass(frozen=True, kw_only=True)
 class Settings:
     """How MuJoCo realises a floor, and how finely it steps."""
@@ -48,16 +55,18 @@ class Settings:
     """Who makes the friction of a floor that has one."""
     stiffness: float = 1e14
     """k of the spring, per unit of effective mass [1/s²]."""
-    steps: int = 160
+    steps: int = 64
     """Steps in half a period of the spring."""
     step: float = 1e-7
     """Length of the one step [s]."""
     slip_damping: float | None = None
     """With which MuJoCo's own friction damps the slip, by default that of the normal motion [1/s]."""
-    flight_angle: float = 0.02
+    flight_angle: float = 0.05
     """Largest turn of the coin in a step of free flight [rad]."""
     contact_steps: int = 1_000_000
     """The most steps in the sustained contacts of a toss."""
+    flight_steps: int = 1_000_000
+    """The most steps in the flights of a toss."""
 
     def __post_init__(self) -> None:
         """Check each setting; `contact` and `friction` may be given by their values.
@@ -72,7 +81,12 @@ class Settings:
         for name in ("stiffness", "step", "flight_angle"):
             value = getattr(self, name)
             _require(name, value, 0 < value < math.inf, "a finite number > 0")
-        for name, count in (("steps", self.steps), ("contact_steps", self.contact_steps)):
+        counts = {
+            "steps": self.steps,
+            "contact_steps": self.contact_steps,
+            "flight_steps": self.flight_steps,
+        }
+        for name, count in counts.items():
             _require(name, count, isinstance(count, Integral) and count >= 1, "a whole number >= 1")
         damping = self.slip_damping
         _require("slip_damping", damping, damping is None or 0 <= damping < math.inf, "a finite number >= 0")
@@ -80,6 +94,11 @@ class Settings:
     def softened(self, part: float) -> "Settings":
         """Return settings with a spring softer by `part`, or with one step longer by `part`."""
         return replace(self, stiffness=self.stiffness / part, step=self.step * part)
+
+    @property
+    def budgets(self) -> Budgets:
+        """The most steps of a toss."""
+        return Budgets(self.contact_steps, self.flight_steps)
 
     def as_dict(self) -> dict[str, str | float]:
         """Return the settings on which a toss depends, by name; without those of another contact."""
@@ -93,12 +112,13 @@ class Settings:
             **slip,
             "flight_angle": self.flight_angle,
             "contact_steps": self.contact_steps,
+            "flight_steps": self.flight_steps,
         }
 
 
 FINE = Settings()
 """Of one toss."""
-MANY = Settings(stiffness=1e10, steps=12, flight_angle=0.25)
+MANY = Settings(stiffness=1e11, steps=3, flight_angle=0.5)
 """Of many tosses: a softer spring, fewer and larger steps."""
 
 

@@ -2,8 +2,8 @@
 
 MuJoCo's contact prescribes the acceleration of the contact point, J q̈ = -k x - d ẋ, and leaves out J̇ q̇, by
 which that point, on its way round the rim, leaves the floor: x would become J̇ q̇/k, and the coin gain and
-lose energy by it. So the reference acceleration gets that term, in every stage of RK4: x'' = -k x - d ẋ. Once
-x has died away the point is held, however soft the spring, and a soft one allows large steps.
+lose energy by it. So the reference acceleration gets that term, in every stage: x'' = -k x - d ẋ. Once x has
+died away the point is held, however soft the spring, and a soft one allows large steps.
 """
 
 import math
@@ -22,10 +22,10 @@ from coin_mj.model.library import (
 )
 from coin_mj.model.memory import address_at, integer_at, numbers_at
 from coin_mj.model.state import motion_of, set_motion
-from coin_mj.steps.free_step import place_body
-from coin_mj.steps.runge_kutta import add_rate, end_motion, stage_motion
+from coin_mj.steps.free_step import place_body, place_body_again
+from coin_mj.steps.mujoco_step import euler_step
+from coin_mj.steps.runge_kutta import CLASSICAL, TSITOURAS, end_motion, stage_motion, write_rate
 from models.attitude import rotation_matrix
-from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import cross
 
@@ -48,6 +48,10 @@ class Constraint(NamedTuple):
     """Height above the lowest point up to which others, that land slowly, are held too [m]."""
 
 
+IMPACT = Constraint(0.0, 0.0)
+"""In an impact the contact's own spring acts alone."""
+
+
 @compiled
 def constrained_forward(coin, constraint):
     """Return the floor's force along z [N], with all accelerations of the constrained state computed.
@@ -57,11 +61,17 @@ def constrained_forward(coin, constraint):
         constraint: how the floor holds it.
     """
     place_body(coin)
+    return _constrained_force(coin, constraint)
+
+
+@compiled
+def _constrained_force(coin, constraint):
     mj_collision(coin.address.model, coin.address.data)
     mj_make_constraint(coin.address.model, coin.address.data)
     mj_project_constraint(coin.address.model, coin.address.data)
     mj_velocity(coin.address.model, coin.address.data)
-    _set_rows(coin, constraint)
+    if constraint.frequency > 0:
+        _set_rows(coin, constraint)
     mj_actuation(coin.address.model, coin.address.data)
     mj_acceleration(coin.address.model, coin.address.data)
     mj_constraint(coin.address.model, coin.address.data)
@@ -69,18 +79,35 @@ def constrained_forward(coin, constraint):
 
 
 @compiled
+def forward(coin):
+    """Return the floor's force along z in an impact [N], with all accelerations of the state computed."""
+    return constrained_forward(coin, IMPACT)
+
+
+@compiled
+def contact_step(coin, constraint, dt):
+    """Advance by dt [s], after `constrained_forward`: a one-step impact by Euler's method."""
+    if coin.has_one_step and constraint.frequency == 0:
+        euler_step(coin, dt)
+    else:
+        constrained_step(coin, constraint, dt)
+
+
+@compiled
 def constrained_step(coin, constraint, dt):
-    """Advance by dt [s] with RK4, after `constrained_forward`; see there for the arguments."""
-    start = motion_of(coin)
-    rate, total, motion = np.empty(13), np.zeros(13), np.empty(13)
-    copy_into(motion, start)
-    for stage in range(4):
-        if stage > 0:
-            stage_motion(start, rate, stage, dt, motion)
-            set_motion(coin, motion)
-            constrained_forward(coin, constraint)
-        add_rate(motion, coin.joint.qacc, stage, rate, total)
-    set_motion(coin, end_motion(start, total, dt, motion))
+    """Advance by dt [s], after `constrained_forward`; see there for the arguments."""
+    # A spring is resolved in time by few steps; what limits those of a sustained contact is the constraint.
+    weights = CLASSICAL if constraint.frequency > 0 else TSITOURAS
+    stages = len(weights) - 1
+    start, rates, motion = motion_of(coin), np.empty((stages, 13)), np.empty(13)
+    write_rate(motion_of(coin), coin.joint.qacc, rates[0])
+    for stage in range(1, stages):
+        stage_motion(start, rates, weights, stage, dt, motion)
+        set_motion(coin, motion)
+        place_body_again(coin)
+        _constrained_force(coin, constraint)
+        write_rate(motion_of(coin), coin.joint.qacc, rates[stage])
+    set_motion(coin, end_motion(start, rates, weights, dt, motion))
 
 
 @compiled

@@ -13,36 +13,59 @@ from coin_mj.model.library import (
     mj_velocity,
 )
 from coin_mj.model.state import motion_of, set_motion
-from coin_mj.steps.runge_kutta import add_rate, end_motion, stage_motion
-from models.kernel.arrays import copy_into
+from coin_mj.steps.runge_kutta import TSITOURAS, end_motion, stage_motion, write_rate
 from models.kernel.compiled import compiled
 
 
 @compiled
 def free_step(coin, dt):
-    """Advance by dt [s] of free flight with RK4.
+    """Advance by dt [s] of free flight.
 
     A stage leaves out those parts of `mj_forward` that concern contacts and joints: it takes half the time.
     """
-    start = motion_of(coin)
-    rate, total, motion = np.empty(13), np.zeros(13), np.empty(13)
-    copy_into(motion, start)
-    for stage in range(4):
-        if stage > 0:
-            stage_motion(start, rate, stage, dt, motion)
-            set_motion(coin, motion)
-        _free_forward(coin)
-        add_rate(motion, coin.joint.qacc_smooth, stage, rate, total)
-    set_motion(coin, end_motion(start, total, dt, motion))
+    rates = rates_of_step()
+    free_rate(coin, rates[0])
+    free_step_from(coin, motion_of(coin), rates, dt)
 
 
 @compiled
-def _free_forward(coin):
-    """Compute the accelerations without the floor."""
+def rates_of_step():
+    """Return room for the rates of the stages of a step, (6, 13)."""
+    return np.empty((len(TSITOURAS) - 1, 13))
+
+
+@compiled
+def free_step_from(coin, start, rates, dt):
+    """Put the coin dt [s] after a state, in free flight.
+
+    Args:
+        coin: MuJoCo's, in any state.
+        start: qpos and qvel, (13,).
+        rates: their rate in its first row; the others are written, see `rates_of_step`.
+        dt: length of the step, of either sign [s].
+    """
+    motion = np.empty(13)
+    for stage in range(1, len(TSITOURAS) - 1):
+        stage_motion(start, rates, TSITOURAS, stage, dt, motion)
+        set_motion(coin, motion)
+        place_body_again(coin)
+        _write_rate(coin, rates[stage])
+    set_motion(coin, end_motion(start, rates, TSITOURAS, dt, motion))
+
+
+@compiled
+def free_rate(coin, rate):
+    """Write the rate of change of the present state without the floor, (13,)."""
     place_body(coin)
+    _write_rate(coin, rate)
+
+
+@compiled
+def _write_rate(coin, rate):
     mj_velocity(coin.address.model, coin.address.data)
     mj_actuation(coin.address.model, coin.address.data)
     mj_acceleration(coin.address.model, coin.address.data)
+    write_rate(motion_of(coin), coin.joint.qacc_smooth, rate)
 
 
 @compiled
@@ -52,4 +75,15 @@ def place_body(coin):
     mj_center(coin.address.model, coin.address.data)
     mj_make_mass(coin.address.model, coin.address.data)
     mj_factor_mass(coin.address.model, coin.address.data)
+    mj_transmission(coin.address.model, coin.address.data)
+
+
+@compiled
+def place_body_again(coin):
+    """Compute the same once more after a motion; the mass matrix of a balanced coin is what it was."""
+    if not coin.is_balanced:
+        place_body(coin)
+        return
+    mj_kinematics(coin.address.model, coin.address.data)
+    mj_center(coin.address.model, coin.address.data)
     mj_transmission(coin.address.model, coin.address.data)

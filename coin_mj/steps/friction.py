@@ -6,8 +6,8 @@ import numpy as np
 
 from coin_mj.model.library import mj_solve_mass
 from coin_mj.model.state import momentum_of, motion_of, set_motion
-from coin_mj.steps.constrained_step import constrained_forward, constrained_step
-from coin_mj.steps.mujoco_step import forward, impact_step, other_force
+from coin_mj.steps.constrained_step import constrained_forward, contact_step
+from coin_mj.steps.mujoco_step import other_force
 from models.attitude import rotation_matrix
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, apply, apply_transposed, cross
@@ -26,7 +26,7 @@ SAME = 1e-13
 def friction_step(coin, constraint, dt):
     """Advance by dt [s] with Coulomb's force in a frictionless contact; see `apply_friction`."""
     apply_friction(coin, constraint, dt)
-    _make_step(coin, constraint, dt)
+    contact_step(coin, constraint, dt)
     coin.joint.qfrc_applied[:] = 0
 
 
@@ -38,18 +38,18 @@ def apply_friction(coin, constraint, dt):
     between the contact points at the start and at the end of the step.
 
     Args:
-        coin: MuJoCo's, on the floor, after `forward`, or `constrained_forward` in a sustained contact.
+        coin: MuJoCo's, on the floor, after `constrained_forward`.
         constraint: how the floor holds it then.
         dt: length of the step [s].
     """
     start, momentum, other = motion_of(coin), momentum_of(coin)[2], other_force(coin)[2]
     R, point = rotation_matrix(start[3:7]), contact_point(coin)
     K = mobility(coin, R, point)
-    _make_step(coin, constraint, dt)
+    contact_step(coin, constraint, dt)
     normal = max((momentum_of(coin)[2] - momentum) / dt - other, 0.0)
     end = motion_of(coin)
     R_end, point_end = rotation_matrix(end[3:7]), point
-    if _normal_force(coin, constraint) > 0:
+    if constrained_forward(coin, constraint) > 0:
         point_end = contact_point(coin)
     slip, slip_free = _velocity(start, R, point), _velocity(end, R_end, point_end)
     x, y = coulomb_force(K, coin.friction, normal, slip[:2], slip_free[:2], dt)
@@ -61,27 +61,14 @@ def apply_friction(coin, constraint, dt):
         coin.joint.qfrc_applied[i] = F[i]
         coin.joint.qfrc_applied[3 + i] = (at_start[i] + at_end[i]) / 2
     set_motion(coin, start)
-    _normal_force(coin, constraint)
-
-
-@compiled
-def _normal_force(coin, constraint):
-    return constrained_forward(coin, constraint) if constraint.frequency > 0 else forward(coin)
-
-
-@compiled
-def _make_step(coin, constraint, dt):
-    if constraint.frequency > 0:
-        constrained_step(coin, constraint, dt)
-    else:
-        impact_step(coin, dt)
+    constrained_forward(coin, constraint)
 
 
 @compiled
 def contact_point(coin):
     """Return the centre of the floor's pressure from B, space frame, (3,) [m].
 
-    It follows from the moment of the normal forces about B, after `forward` or `constrained_forward`.
+    It follows from the moment of the normal forces about B, after `constrained_forward`.
     """
     f, qpos = coin.joint.qfrc_constraint, coin.joint.qpos
     moment = apply(rotation_matrix(qpos[3:]), (f[3], f[4], f[5]))
@@ -99,7 +86,7 @@ def mobility(coin, R, point):
     """Return K, the change of the velocity of the coin's point at `point` from B by an impulse there.
 
     Args:
-        coin: MuJoCo's, after `forward`.
+        coin: MuJoCo's, after `constrained_forward`.
         R: rotation matrix, body to space.
         point: space frame, (3,) [m].
 

@@ -1,14 +1,17 @@
-"""The gap below MuJoCo's coin, how fast it closes, and how long the next step may be."""
+"""The gap below MuJoCo's coin, how fast it closes, and how long the next step of flight may be."""
 
 from typing import NamedTuple
 
 from coin_mj.model.state import state_of
 from models.attitude import rotation_matrix
 from models.body import Body
-from models.clearance import clear_time
+from models.clearance import clear_time, damping_rate
 from models.geometry import contact_velocity, gap, lowest_point
 from models.kernel.compiled import compiled
 from models.kernel.vectors import norm
+
+DAMPED = 0.5
+"""A step of flight is at most this part of the time in which drag may change velocities."""
 
 
 class GapEvaluation(NamedTuple):
@@ -18,24 +21,36 @@ class GapEvaluation(NamedTuple):
     """Of the coin's shape, negative in contact [m]."""
     speed: float
     """Vertical velocity of the lowest point [m/s]."""
-    step_bound: float
-    """A step of free flight that surely ends before the coin touches [s]."""
 
 
 @compiled
 def evaluate_gap(coin):
     """Return the `GapEvaluation` of the present state."""
-    shape, (x, v, e, w) = _shape_of(coin), state_of(coin)
+    shape, (x, v, e, w) = shape_of(coin), state_of(coin)
     R = rotation_matrix(e)
-    z = x[2] - coin.floor_height
     point, flat = lowest_point(shape, R[2], w)
     speed = v[2] if flat else contact_velocity(shape, R, v, w, point)[2]
-    longest = coin.flight_angle / turning_rate(shape, w)
-    return GapEvaluation(gap(shape, z, R[2]), speed, clear_time(shape, z, v, R[2], w, longest))
+    return GapEvaluation(gap(shape, x[2] - coin.floor_height, R[2]), speed)
 
 
 @compiled
-def _shape_of(coin):
+def longest_step(coin):
+    """Return the length of a step of free flight in which the coin turns by at most the angle set [s]."""
+    _, v, _, w = state_of(coin)
+    longest = coin.flight_angle / turning_rate(coin.body, w)
+    return min(longest, DAMPED / damping_rate(coin.body, v, w, longest))
+
+
+@compiled
+def clear_flight(coin, window):
+    """Return a time in which the coin surely does not touch, at most `window` [s]."""
+    x, v, e, w = state_of(coin)
+    z, up = x[2] - coin.floor_height, rotation_matrix(e)[2]
+    return clear_time(shape_of(coin), z, v, up, w, window)
+
+
+@compiled
+def shape_of(coin):
     """Return the body with the thickness of its shape."""
     body = coin.body
     return Body(

@@ -4,17 +4,22 @@ import math
 from enum import IntEnum
 
 from coin_mj.model.state import momentum_of, motion_of, set_motion
-from coin_mj.steps.constrained_step import Constraint
+from coin_mj.steps.constrained_step import IMPACT, contact_step, forward
+from coin_mj.steps.flight import TOUCH_STEP
 from coin_mj.steps.friction import friction_step
 from coin_mj.steps.gap_evaluation import evaluate_gap
 from coin_mj.steps.knots import Step, add_knot
-from coin_mj.steps.mujoco_step import forward, impact_step, other_force, set_margin, set_spring
+from coin_mj.steps.mujoco_step import other_force, set_margin, set_spring
 from models.attitude import quaternion_product, rotation_matrix
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, apply, apply_transposed, scale, subtract
 
-TOUCH_STEP = 1e-3
-"""A touch is located to within this part of a contact step."""
+PAST = 1.0005
+"""Factor on a step that should end with the contact: past the release there is no force."""
+SHORT = 0.02
+"""Shortest step, as a part of the longest; another point of the rim may push when the lowest is released."""
+DAMPED_STEP = 1.0
+"""A step of an impact is at most this part of the time in which the damping stops a point."""
 SUSTAINED = 20
 """A contact of more than SUSTAINED times the duration of an impact is none."""
 FLAT = 1e-8
@@ -110,17 +115,58 @@ def _resolve(coin, has_friction, time, knots):
                 result = TouchResult.MISSED
                 break
         # Tiny steps up to the onset, so that it falls between two steps, not into one.
-        dt = coin.rebound.step * (1.0 if force > 0 else TOUCH_STEP)
+        dt = _step_length(coin) if force > 0 else TOUCH_STEP * coin.rebound.step
         acted = acted or force > 0
         other = add(other, scale(dt, other_force(coin)))
         add_knot(coin, time, Step.IMPACT, knots)
         if force > 0 and has_friction:
-            friction_step(coin, Constraint(0.0, 0.0), dt)
+            friction_step(coin, IMPACT, dt)
         else:
-            impact_step(coin, dt)
+            contact_step(coin, IMPACT, dt)
         time += dt
         if acted and coin.has_one_step:
             coin.joint.qpos[2] -= min(evaluate_gap(coin).gap, 0.0)
             result = TouchResult.IMPACT
             break
     return result, time, subtract(subtract(momentum_of(coin), momentum), other)
+
+
+@compiled
+def _step_length(coin):
+    """Return the length of the next step of an impact [s]; the last ends as the lowest point is released."""
+    rebound = coin.rebound
+    if coin.has_one_step:
+        return rebound.step
+    longest = min(rebound.step, DAMPED_STEP / rebound.damping)
+    below = evaluate_gap(coin)
+    left = time_to_release(rebound.stiffness, rebound.damping, below.gap, below.speed)
+    if left > SUSTAINED * rebound.duration:
+        return longest
+    return max(PAST * left / max(math.ceil(left / longest), 1), SHORT * longest)
+
+
+@compiled
+def time_to_release(stiffness, damping, x, speed):
+    """Return the time until a damped spring lets go [s]: 0 where it would pull, infinite where it never does.
+
+    The force per mass f = -k x - d x' obeys the equation of the spring, f" = -k f - d f'.
+
+    Args:
+        stiffness: k [1/s²].
+        damping: d [1/s].
+        x: length of the spring, negative where it is compressed [m].
+        speed: x' [m/s].
+    """
+    force = -stiffness * x - damping * speed
+    if force < 0:
+        return 0.0
+    decay = damping / 2
+    # f = exp(-d t/2) (force cos(ω t) + slope sin(ω t)/ω), or with cosh and sinh.
+    slope = -stiffness * speed - decay * force
+    square = stiffness - decay * decay
+    rate = abs(square) ** 0.5
+    if square > 0:
+        return math.atan2(force * rate, -slope) / rate
+    if slope >= -force * rate:
+        return math.inf
+    return math.atanh(-force * rate / slope) / rate if rate > 0 else -force / slope

@@ -1,16 +1,9 @@
-"""MuJoCo's own forces and integrators, as a coin in contact needs them."""
+"""MuJoCo's own forces, its Euler step and the settings of its contact."""
 
-from coin_mj.model.library import mj_euler, mj_forward, mj_runge_kutta
+from coin_mj.model.library import mj_euler
 from coin_mj.model.memory import numbers_at
 from coin_mj.model.scene import NO_DAMPING
 from models.kernel.compiled import compiled
-
-
-@compiled
-def forward(coin):
-    """Return the floor's force along z [N], with all accelerations of the present state computed."""
-    mj_forward(coin.address.model, coin.address.data)
-    return coin.joint.qfrc_constraint[2]
 
 
 @compiled
@@ -21,21 +14,10 @@ def other_force(coin):
 
 
 @compiled
-def rk4_step(coin, dt):
-    """Advance by dt [s] with MuJoCo's RK4, after `forward`."""
+def euler_step(coin, dt):
+    """Advance by dt [s] with MuJoCo's semi-implicit Euler, by the accelerations that `forward` found."""
     numbers_at(coin.address.timestep, (1,))[0] = dt
-    mj_runge_kutta(coin.address.model, coin.address.data, 4)
-
-
-@compiled
-def impact_step(coin, dt):
-    """Advance by dt [s] in an impact with the integrator of the realisation, after `forward`."""
-    if coin.has_one_step:
-        numbers_at(coin.address.timestep, (1,))[0] = dt
-        # It takes the forces that `forward` found.
-        mj_euler(coin.address.model, coin.address.data)
-    else:
-        rk4_step(coin, dt)
+    mj_euler(coin.address.model, coin.address.data)
 
 
 @compiled

@@ -1,39 +1,52 @@
-"""The classical Runge-Kutta method for qpos and qvel of a free joint, Euler parameters and all."""
+"""Two explicit Runge-Kutta methods for qpos and qvel of a free joint, Euler parameters and all."""
 
 import math
 
+import numpy as np
+
 from models.kernel.compiled import compiled
 
+# Row s has the weights of the rates before for the state of stage s; the last row those for the step's end.
+CLASSICAL = np.array(
+    [[0, 0, 0, 0], [1 / 2, 0, 0, 0], [0, 1 / 2, 0, 0], [0, 0, 1, 0], [1 / 6, 1 / 3, 1 / 3, 1 / 6]]
+)
+"""RK4: of fourth order, in 4 stages."""
+TSITOURAS = np.array(
+    [
+        [0, 0, 0, 0, 0, 0],
+        [0.161, 0, 0, 0, 0, 0],
+        [-0.008480655492356989, 0.335480655492357, 0, 0, 0, 0],
+        [2.8971530571054935, -6.359448489975075, 4.3622954328695815, 0, 0, 0],
+        [5.325864828439257, -11.748883564062828, 7.4955393428898365, -0.09249506636175525, 0, 0],
+        [
+            5.86145544294642,
+            -12.92096931784711,
+            8.159367898576159,
+            -0.071584973281401,
+            -0.028269050394068383,
+            0,
+        ],
+        [
+            0.09646076681806523,
+            0.01,
+            0.4798896504144996,
+            1.379008574103742,
+            -3.290069515436081,
+            2.324710524099774,
+        ],
+    ]
+)
+"""Tsitouras 2011: of fifth order, in 6 stages."""
+
 
 @compiled
-def stage_motion(start, rate, stage, dt, motion):
-    """Write the state at which the rate of stage 1, 2 or 3 is wanted.
-
-    Its Euler parameters have not quite the norm 1: their own rate is linear in them, and MuJoCo's
-    accelerations do not depend on the norm.
+def write_rate(motion, acceleration, rate):
+    """Write the rate of change of a state.
 
     Args:
-        start: qpos and qvel at the start of the step, (13,).
-        rate: of the stage before, (13,).
-        stage: its number.
-        dt: length of the step [s].
-        motion: where the state goes, (13,).
-    """
-    part = dt if stage == 3 else dt / 2
-    for i in range(13):
-        motion[i] = start[i] + part * rate[i]
-
-
-@compiled
-def add_rate(motion, acceleration, stage, rate, total):
-    """Write the rate of change of a stage, and add it to their weighted sum.
-
-    Args:
-        motion: qpos and qvel of the stage, (13,).
+        motion: qpos and qvel, (13,).
         acceleration: rate of qvel there, (6,).
-        stage: its number, from 0.
-        rate: where its rate goes, (13,).
-        total: the sum, (13,).
+        rate: where it goes, (13,).
     """
     e0, e1, e2, e3 = motion[3], motion[4], motion[5], motion[6]
     a, b, c = motion[10], motion[11], motion[12]
@@ -45,16 +58,34 @@ def add_rate(motion, acceleration, stage, rate, total):
     rate[6] = (e0 * c + e1 * b - e2 * a) / 2
     for i in range(6):
         rate[7 + i] = acceleration[i]
-    weight = 1.0 if stage in (0, 3) else 2.0
-    for i in range(13):
-        total[i] += weight * rate[i]
 
 
 @compiled
-def end_motion(start, total, dt, motion):
-    """Write the state at the end of the step, its Euler parameters of norm 1, and give it; see above."""
+def stage_motion(start, rates, weights, stage, dt, motion):
+    """Write the state at which the rate of a stage but the first is wanted.
+
+    Its Euler parameters have not quite the norm 1: their own rate is linear in them, and MuJoCo's
+    accelerations do not depend on the norm.
+
+    Args:
+        start: qpos and qvel at the start of the step, (13,).
+        rates: of the stages before, (>= stage, 13).
+        weights: of the method.
+        stage: its number.
+        dt: length of the step [s].
+        motion: where the state goes, (13,).
+    """
     for i in range(13):
-        motion[i] = start[i] + dt / 6 * total[i]
+        change = 0.0
+        for before in range(stage):
+            change += weights[stage, before] * rates[before, i]
+        motion[i] = start[i] + dt * change
+
+
+@compiled
+def end_motion(start, rates, weights, dt, motion):
+    """Write the state at the end of the step, its Euler parameters of norm 1, and give it; see above."""
+    stage_motion(start, rates, weights, len(weights) - 1, dt, motion)
     size = math.sqrt(motion[3] ** 2 + motion[4] ** 2 + motion[5] ** 2 + motion[6] ** 2)
     for i in range(3, 7):
         motion[i] /= size

@@ -4,7 +4,7 @@ import math
 from enum import IntEnum
 
 from coin_mj.model.state import state_of
-from coin_mj.steps.constrained_step import Constraint, constrained_forward, constrained_step
+from coin_mj.steps.constrained_step import Constraint, constrained_forward, contact_step
 from coin_mj.steps.free_step import free_step
 from coin_mj.steps.friction import apply_friction, friction_step
 from coin_mj.steps.gap_evaluation import evaluate_gap, turning_rate
@@ -109,7 +109,7 @@ def follow_contact(coin, rules, time, steps_left, history, knots):
         if force > 0 and coin.has_explicit_friction:
             friction_step(coin, constraint, dt)
         else:
-            constrained_step(coin, constraint, dt)
+            contact_step(coin, constraint, dt)
         time += dt
         steps_left -= 1
         on_edge = body.thickness > 0 and abs(up[2]) < UPRIGHT and abs(up_rate[2]) < UPRIGHT * rate

@@ -20,6 +20,11 @@ from compare.commands.names import scenario_argument
     type=Count(1, 1_000_000_000),
     help="Stop after this number of steps of sustained contact; by default an engine's own.",
 )
+@click.option(
+    "--flight-steps",
+    type=Count(1, 1_000_000_000),
+    help="Stop after this number of steps of flight, in MuJoCo; by default 1,000,000.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
 @click.option("--trajectory", type=click.Path(path_type=Path), help="Also write the path to this .csv file.")
 @click.option(
@@ -31,6 +36,7 @@ def toss(
     contact: str | None,
     max_impacts: int | None,
     contact_steps: int | None,
+    flight_steps: int | None,
     as_json: bool,
     trajectory: Path | None,
     margin: bool,
@@ -40,6 +46,8 @@ def toss(
         raise click.UsageError(f"--margin --engine {engine}: accepted: only by the analytic engine")
     if contact is not None and engine != "mujoco":
         raise click.UsageError(f"--contact {contact}: accepted: only beside --engine mujoco")
+    if flight_steps is not None and engine != "mujoco":
+        raise click.UsageError(f"--flight-steps {flight_steps}: accepted: only beside --engine mujoco")
     with plain_errors(scenario):
         from compare.engines import Engine
         from compare.film.back_end import require_mujoco
@@ -56,7 +64,7 @@ def toss(
         if max_impacts is not None:
             described = described.replace("ending.max_impacts", max_impacts)
         package = Engine(engine).package
-        given = {"contact": contact, "contact_steps": contact_steps}
+        given = {"contact": contact, "contact_steps": contact_steps, "flight_steps": flight_steps}
         chosen = {name: value for name, value in given.items() if value is not None}
         with elapsed_time("still tossing; Ctrl-C ends it, --max-impacts N a toss sooner"):
             result = package.toss(described, settings=replace(package.FINE, **chosen))

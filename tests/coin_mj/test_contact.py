@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from coin_mj.model.settings import Realisation, Settings, damping_ratio_of, rebound_of, restitution_of
+from coin_mj.steps.impact import time_to_release
 
 
 @pytest.mark.parametrize("zeta", [0.0, 0.05, 0.3, 0.99, 1.0, 1.01, 2.0, 5.0])
@@ -31,6 +32,10 @@ def test_the_spring_lets_go_when_its_force_vanishes(zeta):
         atol=1e-14,
     )
     assert path.status == 1
+    assert time_to_release(1.0, 2 * zeta, 0.0, -1.0) == pytest.approx(path.t[-1], rel=1e-9)
+    middle = path.t.size // 2
+    x, speed = path.y[:, middle]
+    assert time_to_release(1.0, 2 * zeta, x, speed) == pytest.approx(path.t[-1] - path.t[middle], rel=1e-8)
     assert restitution_of(zeta) == pytest.approx(path.y[1, -1], rel=1e-9)
 
 
@@ -71,3 +76,12 @@ def test_softer_contacts_last_longer():
         settings = Settings(contact=realisation)
         hard, soft = rebound_of(0.5, settings), rebound_of(0.5, settings.softened(10))
         assert soft.duration / hard.duration == pytest.approx(longer, rel=1e-12)
+
+
+def test_a_stretched_spring_that_returns_slowly_never_lets_go():
+    assert time_to_release(1.0, 4.0, 0.1, -0.1) == math.inf
+
+
+@pytest.mark.parametrize(("damping", "x", "speed"), [(0.0, 0.1, 1.0), (2.0, -0.5, 2.0), (4.0, -1.0, 0.5)])
+def test_a_spring_that_would_pull_has_let_go(damping, x, speed):
+    assert time_to_release(1.0, damping, x, speed) == 0

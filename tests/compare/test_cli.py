@@ -84,6 +84,16 @@ def test_a_number_of_contact_steps_ends_a_toss_that_rolls_on(tmp_path, engine):
     assert "--contact-steps N" in answered.stdout
 
 
+def test_a_number_of_flight_steps_ends_a_toss_in_mujoco_that_flies_on():
+    answered = cointoss("toss", "fig24a", "--engine", "mujoco", "--flight-steps", 7)
+    assert answered.exit_code == 0
+    assert "outcome   undecided" in answered.stdout
+    assert "--flight-steps N" in answered.stdout
+    refused = cointoss("toss", "fig24a", "--flight-steps", 7)
+    assert refused.exit_code == 2
+    assert "--flight-steps 7: accepted: only beside --engine mujoco" in refused.stderr
+
+
 def test_text_shows_sequence_outcome_and_horizon():
     text = cointoss("toss", "fig24a").stdout
     assert "outcome   heads" in text

@@ -42,10 +42,11 @@ def test_settings_of_a_contact_are_those_on_which_it_depends():
     assert coin_mj.MANY.as_dict() == {
         "contact": "spring",
         "friction": "explicit",
-        "stiffness": 1e10,
-        "steps": 12,
-        "flight_angle": 0.25,
+        "stiffness": 1e11,
+        "steps": 3,
+        "flight_angle": 0.5,
         "contact_steps": 1_000_000,
+        "flight_steps": 1_000_000,
     }
     one_step = replace(coin_mj.MANY, contact=Realisation.ONE_STEP, slip_damping=2.0)
     assert one_step.as_dict() == {
@@ -53,8 +54,9 @@ def test_settings_of_a_contact_are_those_on_which_it_depends():
         "friction": "explicit",
         "step": 1e-7,
         "slip_damping": 2.0,
-        "flight_angle": 0.25,
+        "flight_angle": 0.5,
         "contact_steps": 1_000_000,
+        "flight_steps": 1_000_000,
     }
     recorded: dict[str, Any] = one_step.as_dict()
     assert coin_mj.Settings(**recorded).as_dict() == recorded
@@ -69,6 +71,7 @@ def test_settings_of_a_contact_are_those_on_which_it_depends():
         ({"stiffness": float("nan")}, "a finite number > 0"),
         ({"step": float("inf")}, "a finite number > 0"),
         ({"flight_angle": -1.0}, "a finite number > 0"),
+        ({"flight_steps": 0}, "a whole number >= 1"),
         ({"steps": 0}, "a whole number >= 1"),
         ({"steps": 1.5}, "a whole number >= 1"),
         ({"slip_damping": -1.0}, "a finite number >= 0"),

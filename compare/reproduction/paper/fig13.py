@@ -11,7 +11,7 @@ from analytic.air.velocity_field import SurfaceFields, velocity_fields
 from coin_mj import Settings
 from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
-from coin_mj.steps.mujoco_step import forward
+from coin_mj.steps.constrained_step import forward
 from compare.output.progress import Progress
 from compare.output.style import BLUE, GREEN, ORANGE, PALE
 from compare.reproduction.claim import Claim, Criterion

@@ -155,17 +155,15 @@ class StepErrors:
 
     steps: list[int]
     impulse: list[float]
-    order: float
-    """p of changes like steps^-p."""
 
 
 def over_steps(cases: Sequence[Scenario], steps: Sequence[int], most: int) -> StepErrors:
-    """Compute how impulses converge as a contact is resolved by more steps."""
+    """Return how little impulses change as a contact is resolved by more steps."""
     S = first(by_mujoco(cases, Settings(steps=most)), "impulse")
     errors = [
         _median(relative_errors(S, first(by_mujoco(cases, Settings(steps=n)), "impulse"))) for n in steps
     ]
-    return StepErrors(steps=list(steps), impulse=errors, order=order(steps, errors))
+    return StepErrors(steps=list(steps), impulse=errors)
 
 
 def over_kinds(count: int, rng: np.random.Generator) -> dict[str, dict[str, Spread]]:

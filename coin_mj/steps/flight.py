@@ -1,0 +1,101 @@
+"""A free flight of MuJoCo's coin, from step to step, until it touches the floor."""
+
+import numpy as np
+
+from coin_mj.model.state import motion_of
+from coin_mj.steps.free_step import free_rate, free_step_from, rates_of_step
+from coin_mj.steps.gap_evaluation import clear_flight, evaluate_gap, longest_step
+from coin_mj.steps.knots import Step, add_knot
+from coin_mj.steps.touch_search import arc_of, first_touch
+from models.kernel.arrays import copy_into
+from models.kernel.compiled import compiled
+
+TOUCH_STEP = 1e-4
+"""A touch is located to within this part of a contact step."""
+ROUNDS = 8
+"""Steps of one flight step that are made to locate it, each nearer than the last."""
+
+
+@compiled
+def fly(coin, time, max_time, steps_left, knots):
+    """Fly until the coin touches the floor.
+
+    Args:
+        coin: MuJoCo's.
+        time: now [s].
+        max_time: when to stop [s].
+        steps_left: the most steps wanted.
+        knots: of the path, kept up; see `knots.add_knot`.
+
+    Returns:
+        The time [s], whether the coin touches before max_time and within its steps, and the steps left.
+    """
+    # No step of flight detects contacts: of a coin that is flat within rounding MuJoCo's plane-cylinder
+    # routine may take the radius for the height.
+    shortest = TOUCH_STEP * coin.rebound.step
+    rates, end_rate = rates_of_step(), np.empty(13)
+    free_rate(coin, rates[0])
+    while time < max_time and steps_left > 0:
+        steps_left -= 1
+        start, dt = motion_of(coin), min(longest_step(coin), max_time - time)
+        clear = clear_flight(coin, dt) >= dt
+        add_knot(coin, time, Step.FLIGHT, knots)
+        free_step_from(coin, start, rates, dt)
+        free_rate(coin, end_rate)
+        if not clear:
+            touch = first_touch(coin, arc_of(start, rates[0], motion_of(coin), end_rate, dt), shortest)
+            if touch < dt:
+                dt, touches = _land(coin, start, rates, touch, dt, shortest)
+                if touches:
+                    return time + dt, True, steps_left
+                free_rate(coin, end_rate)
+        copy_into(rates[0], end_rate)
+        time += dt
+    return time, False, steps_left
+
+
+@compiled
+def _land(coin, start, rates, touch, longest, shortest):
+    """Step from a state to where the coin has just touched, or until it is clear that it does not.
+
+    Args:
+        coin: MuJoCo's.
+        start: the state, (13,).
+        rates: its rate in the first row, see `rates_of_step`.
+        touch: about when the coin touches [s].
+        longest: the longest step [s].
+        shortest: the coin has touched for at most this time then [s].
+
+    Returns:
+        The length of the step [s], and whether the coin touches after it, moving down.
+    """
+    dt, late = touch, np.inf
+    for _ in range(ROUNDS):
+        free_step_from(coin, start, rates, dt)
+        below = evaluate_gap(coin)
+        if below.speed >= 0:
+            if late < np.inf:
+                # It was below the floor all along: it touches where it moves down again.
+                break
+            # It was near the floor, but passed above it.
+            if dt < shortest:
+                dt = shortest
+                free_step_from(coin, start, rates, dt)
+            return dt, False
+        if below.gap > 0:
+            # Newton's step towards the touch, from before; it passes none.
+            clear = clear_flight(coin, longest - dt)
+            if dt + clear >= longest:
+                free_step_from(coin, start, rates, longest)
+                return longest, False
+            dt = min(dt + clear + shortest / 2, longest)
+        else:
+            late, since = dt, below.gap / below.speed
+            if since <= shortest or dt == 0:
+                return dt, True
+            dt = max(dt - since + shortest / 2, 0.0)
+    if late < np.inf:
+        dt = late
+    # Without a touch it flies on, and its next step lands.
+    free_step_from(coin, start, rates, dt)
+    return dt, late < np.inf

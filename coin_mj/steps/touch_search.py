@@ -1,0 +1,124 @@
+"""The first touch within a step of free flight, searched on polynomials between its two ends."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from coin_mj.steps.gap_evaluation import shape_of
+from models.attitude import rotation_matrix
+from models.clearance import clear_time
+from models.geometry import lowest_point
+from models.kernel.compiled import compiled
+from models.kernel.vectors import add, cross, dot, norm, subtract
+from models.records import Array
+
+_HEIGHT, _UP, _SPIN, _ROWS = 0, 1, 4, 7
+_FINEST = 1e-7
+"""The search locates a touch within this part of the step, which is about what its polynomials err."""
+
+
+class Arc(NamedTuple):
+    """A step of free flight between its ends.
+
+    Height of B and the upward unit vector in the body frame are of fifth order in the part of the step, and
+    have both ends' values, rates and accelerations; the spin is of third order.
+    """
+
+    coefficients: Array
+    """Of height, upward vector and spin, (7, 6)."""
+    duration: float
+    """Of the step [s]."""
+    fastest: float
+    """Largest horizontal speed of B at either end [m/s]."""
+
+
+@compiled
+def arc_of(start, start_rate, end, end_rate, duration):
+    """Return the `Arc` of a step.
+
+    Args:
+        start: qpos and qvel, (13,).
+        start_rate: its rate of change, (13,).
+        end: as start.
+        end_rate: as start_rate.
+        duration: of the step [s].
+    """
+    ends = np.empty((6, _ROWS))
+    _write_end(start, start_rate, duration, ends[:3])
+    _write_end(end, end_rate, duration, ends[3:])
+    table = np.zeros((_ROWS, 6))
+    for i in range(_ROWS):
+        table[i, 0], table[i, 1] = ends[0, i], ends[1, i]
+        change, rate_change = ends[3, i] - ends[0, i] - ends[1, i], ends[4, i] - ends[1, i]
+        if i < _SPIN:
+            table[i, 2] = ends[2, i] / 2
+            change, rate_change = change - ends[2, i] / 2, rate_change - ends[2, i]
+            bend = ends[5, i] - ends[2, i]
+            table[i, 3] = 10 * change - 4 * rate_change + bend / 2
+            table[i, 4] = -15 * change + 7 * rate_change - bend
+            table[i, 5] = 6 * change - 3 * rate_change + bend / 2
+        else:
+            table[i, 2], table[i, 3] = 3 * change - rate_change, rate_change - 2 * change
+    fastest = max(math.hypot(start[7], start[8]), math.hypot(end[7], end[8]))
+    return Arc(table, duration, fastest)
+
+
+@compiled
+def _write_end(motion, rate, duration, end):
+    """Write values, rates and accelerations at an end, in units of the step, (3, 7)."""
+    up = rotation_matrix((motion[3], motion[4], motion[5], motion[6]))[2]
+    w, w_rate = (motion[10], motion[11], motion[12]), (rate[10], rate[11], rate[12])
+    up_rate = cross(up, w)
+    up_acceleration = add(cross(up_rate, w), cross(up, w_rate))
+    end[0, _HEIGHT], end[1, _HEIGHT], end[2, _HEIGHT] = motion[2], rate[2], rate[9]
+    for i in range(3):
+        end[0, _UP + i], end[1, _UP + i], end[2, _UP + i] = up[i], up_rate[i], up_acceleration[i]
+        end[0, _SPIN + i], end[1, _SPIN + i], end[2, _SPIN + i] = w[i], w_rate[i], 0.0
+    for i in range(_ROWS):
+        end[1, i] *= duration
+        end[2, i] *= duration * duration
+
+
+@compiled
+def first_touch(coin, arc, shortest):
+    """Return the time from the start of a step to the first touch in it [s]; infinite where there is none.
+
+    Steps of `clear_time` on the polynomials lead there from before.
+
+    Args:
+        coin: MuJoCo's.
+        arc: of the step.
+        shortest: a time in which no touch is looked for [s].
+    """
+    shape, c, table = shape_of(coin), coin.body.center, arc.coefficients
+    time, shortest = 0.0, max(shortest, _FINEST * arc.duration)
+    while time < arc.duration:
+        part = time / arc.duration
+        up = (_value(table[_UP], part), _value(table[_UP + 1], part), _value(table[_UP + 2], part))
+        size = norm(up)
+        up = (up[0] / size, up[1] / size, up[2] / size)
+        w = (_value(table[_SPIN], part), _value(table[_SPIN + 1], part), _value(table[_SPIN + 2], part))
+        z = _value(table[_HEIGHT], part) + dot(up, c) - coin.floor_height
+        z_rate = _slope(table[_HEIGHT], part) / arc.duration + dot(up, cross(w, c))
+        v = (arc.fastest + norm(w) * norm(c), 0.0, z_rate)
+        clear = clear_time(shape, z, v, up, w, arc.duration - time)
+        if clear >= arc.duration - time:
+            break
+        point, _ = lowest_point(shape, up, w)
+        if clear < shortest and z_rate + dot(up, cross(w, subtract(point, c))) < 0:
+            return time
+        time += max(clear, shortest)
+    return np.inf
+
+
+@compiled
+def _value(row, part):
+    """Return a polynomial's value."""
+    return row[0] + part * (row[1] + part * (row[2] + part * (row[3] + part * (row[4] + part * row[5]))))
+
+
+@compiled
+def _slope(row, part):
+    """Return a polynomial's derivative."""
+    return row[1] + part * (2 * row[2] + part * (3 * row[3] + part * (4 * row[4] + part * 5 * row[5])))
