@@ -6,20 +6,20 @@ from analytic.events import toss_coin
 from analytic.settings import MANY, Settings, contact_limits
 from models.kernel.compiled import compiled
 from models.outcomes import Outcomes
+from models.reading import ScenarioSource, scenario_of
 from models.records import IMPACT_ROW
 from models.releases import Releases, check_releases
-from models.scenario import Scenario
 from models.tiles import toss_in_tiles
 
 TILE, SLOW_TILE = 512, 8
 """Tosses that a thread makes at a time, in air with b > 0 the second."""
 
 
-def toss_many(scenario: Scenario, releases: Releases, *, settings: Settings = MANY) -> Outcomes:
+def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Settings = MANY) -> Outcomes:
     """Toss the coin once from each release, by the event loop of `toss`: each toss is the same to the bit.
 
     Args:
-        scenario: what to toss; its own release is not used.
+        scenario: what to toss, or its path or name; its own release is not used.
         releases: the states at time 0.
         settings: of the engine.
 
@@ -29,8 +29,9 @@ def toss_many(scenario: Scenario, releases: Releases, *, settings: Settings = MA
     Raises:
         ValueError: for a release that a scenario with this coin and air would refuse.
     """
-    check_releases(scenario, releases)
-    body, rules = scenario.body, scenario.rules
+    described = scenario_of(scenario)
+    check_releases(described, releases)
+    body, rules = described.body, described.rules
     limits = contact_limits(settings)
     tile = TILE if body.air.exponent is None else SLOW_TILE
     return toss_in_tiles(releases, tile, lambda *columns: _toss_each(body, rules, limits, *columns))

@@ -20,6 +20,7 @@ from models.barriers import barrier, energy
 from models.body import Body, in_vacuum, is_ideal
 from models.certificate import energies, measurements
 from models.interruptible import interruptible
+from models.reading import ScenarioSource, scenario_of
 from models.records import Array, Impacts, Setting, States, Toss
 from models.scenario import Release, Scenario
 
@@ -87,7 +88,7 @@ def require_supported(scenario: Scenario, *, settings: Settings) -> None:
     """Refuse nothing: this engine tosses every scenario."""
 
 
-def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
+def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     """Toss a coin by the analytic engine.
 
     Free flight by eqs (21)-(22) of Strzalko et al. 2008 in Euler parameters, air drag by eqs (49)-(74),
@@ -99,10 +100,14 @@ def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
     `horizon.IMPULSE_ERROR`.
 
     Args:
-        scenario: what to toss.
+        scenario: what to toss; or a file's path, or a name such as "fig24a".
         settings: of the engine.
+
+    Raises:
+        ScenarioError: for a file or a name that can't be used.
     """
-    return interruptible(lambda: _toss(scenario, settings))
+    described = scenario_of(scenario)
+    return interruptible(lambda: _toss(described, settings))
 
 
 def _toss(scenario: Scenario, settings: Settings) -> Toss:

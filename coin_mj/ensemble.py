@@ -16,23 +16,23 @@ from coin_mj.model.state import put_at
 from coin_mj.toss import require_supported, warn_of_approximation
 from models.kernel.compiled import compiled
 from models.outcomes import Outcomes
+from models.reading import ScenarioSource, scenario_of
 from models.records import IMPACT_ROW
 from models.releases import Releases, check_releases
-from models.scenario import Scenario
 from models.tiles import toss_in_tiles
 
 TILE = 8
 """Tosses that a thread makes at a time."""
 
 
-def toss_many(scenario: Scenario, releases: Releases, *, settings: Settings = MANY) -> Outcomes:
+def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Settings = MANY) -> Outcomes:
     """Toss the coin once from each release, by the event loop of `toss`.
 
     Each toss is that of `toss` with the same settings, to the bit. By default they are coarser than those of
     one toss: docs/MUJOCO.md says what error they give.
 
     Args:
-        scenario: what to toss; its own release is not used.
+        scenario: what to toss, or its path or name; its own release is not used.
         releases: the states at time 0.
         settings: how MuJoCo realises the floor, and how finely it steps.
 
@@ -46,16 +46,17 @@ def toss_many(scenario: Scenario, releases: Releases, *, settings: Settings = MA
     Warns:
         ApproximationWarning: as `toss`.
     """
-    require_supported(scenario, settings=settings)
-    warn_of_approximation(scenario)
-    check_releases(scenario, releases)
-    thickness, rules = shape_thickness(scenario), scenario.rules
+    described = scenario_of(scenario)
+    require_supported(described, settings=settings)
+    warn_of_approximation(described)
+    check_releases(described, releases)
+    thickness, rules = shape_thickness(described), described.rules
 
     of_thread = threading.local()
 
     def toss_tile(*columns: NDArray[Any]) -> None:
         if not hasattr(of_thread, "machine"):
-            of_thread.machine = machine_of(scenario, settings, thickness)
+            of_thread.machine = machine_of(described, settings, thickness)
         with air_of(of_thread.machine.model), clock_stopped():
             _toss_each(of_thread.machine.coin, rules, settings.budgets, *columns)
 

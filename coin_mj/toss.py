@@ -23,6 +23,7 @@ from models.impact_row import FIRST_ROOM
 from models.interruptible import interruptible
 from models.kernel.vectors import Vector, cross, subtract
 from models.laws import ContactLaw, RestitutionKind
+from models.reading import ScenarioSource, scenario_of
 from models.records import (
     IMPACT_ROW,
     ApproximationWarning,
@@ -99,7 +100,7 @@ def require_supported(scenario: Scenario, *, settings: Settings) -> None:
         )
 
 
-def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
+def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     """Toss a coin in MuJoCo.
 
     A spring's contact lasts about π/√stiffness, in which the coin turns a little: the impulse differs from
@@ -111,19 +112,21 @@ def toss(scenario: Scenario, *, settings: Settings = FINE) -> Toss:
     spring's error three and five times larger. It is an estimate, no bound.
 
     Args:
-        scenario: what to toss.
+        scenario: what to toss; or a file's path, or a name such as "fig24a".
         settings: how MuJoCo realises the floor, and how finely it steps.
 
     Raises:
+        ScenarioError: for a file or a name that can't be used.
         UnsupportedError: for contact laws other than "smooth", "coulomb" and "perfectly_rough"; energetic
             restitution; resistance to rolling or pivoting; restitution 0 of a spring.
 
     Warns:
         ApproximationWarning: for a perfectly rough floor, which is one of friction `ROUGH`.
     """
-    require_supported(scenario, settings=settings)
-    warn_of_approximation(scenario)
-    return interruptible(lambda: _toss(scenario, settings))
+    described = scenario_of(scenario)
+    require_supported(described, settings=settings)
+    warn_of_approximation(described)
+    return interruptible(lambda: _toss(described, settings))
 
 
 def _toss(scenario: Scenario, settings: Settings) -> Toss:

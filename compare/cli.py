@@ -12,6 +12,7 @@ from compare.commands.compare import compare
 from compare.commands.hands import hands
 from compare.commands.reproduce import reproduce
 from compare.commands.scenarios import scenarios
+from compare.commands.solref import solref
 from compare.commands.toss import toss
 from compare.commands.video import video
 from compare.output.interruption import run_to_exit
@@ -49,7 +50,7 @@ class _Commands(click.Group):
 
 @click.group(
     cls=_Commands,
-    commands=[basin, compare, hands, reproduce, scenarios, toss, video],
+    commands=[basin, compare, hands, reproduce, scenarios, solref, toss, video],
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     invoke_without_command=True,
 )

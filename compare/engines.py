@@ -6,6 +6,7 @@ from importlib.metadata import version
 from typing import Any, Protocol, cast
 
 from models.outcomes import Outcomes
+from models.reading import ScenarioSource
 from models.records import Toss
 from models.releases import Releases
 from models.scenario import Scenario
@@ -27,11 +28,11 @@ class Package(Protocol):
     MANY: Any
     """Settings of many tosses."""
 
-    def toss(self, scenario: Scenario, *, settings: Any = ...) -> Toss:
+    def toss(self, scenario: ScenarioSource, *, settings: Any = ...) -> Toss:
         """Toss a coin; raise `UnsupportedError` for what the engine doesn't model."""
         ...
 
-    def toss_many(self, scenario: Scenario, releases: Releases, *, settings: Any = ...) -> Outcomes:
+    def toss_many(self, scenario: ScenarioSource, releases: Releases, *, settings: Any = ...) -> Outcomes:
         """Toss a coin once from each release; raise `ValueError` for a release that can't be."""
         ...
 

@@ -1,11 +1,18 @@
 """How many tosses ended."""
 
 from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from models.records import Array
+from models import notebook
+from models.labelled import Column, dataset, meanings_of, table
+from models.records import Array, Ending, Face, Outcome
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -53,3 +60,58 @@ class Outcomes:
                 f"so set ending.max_impacts = {impacts + 1}"
             )
         return np.where(self.impacts == impacts + 1, self.last_face, self.outcome)
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many tosses had each outcome that there was."""
+        numbers = np.bincount(self.outcome, minlength=len(Outcome)).tolist()
+        return {outcome.label: numbers[outcome] for outcome in Outcome if numbers[outcome]}
+
+    def __repr__(self) -> str:
+        """Return how many tosses there are, and how many of each outcome."""
+        told = ", ".join(f"{count} {name}" for name, count in self.counts.items())
+        return f"<Outcomes of {len(self)} tosses{': ' if told else ''}{told}>"
+
+    def _repr_html_(self) -> str:
+        """Return what `repr` says, with a picture."""
+        shares = {name: count / len(self) for name, count in self.counts.items()}
+        facts = {name: f"{count} ({shares[name]:.2%})" for name, count in self.counts.items()}
+        return notebook.block(f"{len(self)} tosses", notebook.shares_picture(shares), facts)
+
+    def to_xarray(self) -> "xr.Dataset":
+        """Return the outcomes as a dataset of xarray over `toss`, which counts from 0 as the releases do."""
+        return dataset("toss", self._columns(), {})
+
+    def to_dataframe(self) -> "pd.DataFrame":
+        """Return the outcomes as a table of pandas, a row each, in words."""
+        return table("toss", self._columns())
+
+    def plot(self, **options: Any) -> Any:
+        """Plot how many tosses had each outcome.
+
+        Args:
+            options: of the bar plot of pandas, such as `ax`, `figsize` or `color`.
+
+        Returns:
+            Matplotlib's axes.
+        """
+        colors = [notebook.COLORS.get(name, "grey") for name in self.counts]
+        counts = self.to_dataframe()["outcome"].value_counts().reindex(list(self.counts))
+        return counts.plot.bar(
+            **{"color": colors, "rot": 0, "xlabel": "outcome", "ylabel": "tosses", **options}
+        )
+
+    def _columns(self) -> dict[str, Column]:
+        words = {
+            "outcome": {item.value: item.label for item in Outcome},
+            "ending": {item.value: item.label for item in Ending},
+            "last_face": {0: "none", **{item.value: item.label for item in Face}},
+        }
+        units = {"end_time": {"units": "s"}}
+        columns = {"toss": Column(np.arange(len(self)), {"long_name": "toss"})}
+        for item in fields(self):
+            about = {"long_name": item.name.replace("_", " "), **units.get(item.name, {})}
+            if item.name in words:
+                about |= meanings_of(words[item.name])
+            columns[item.name] = Column(getattr(self, item.name), about)
+        return columns

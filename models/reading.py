@@ -2,12 +2,16 @@
 
 import tomllib
 from importlib import resources
+from os import PathLike
 from pathlib import Path
 
 from pydantic import ValidationError
 
 from models.errors import ScenarioError, describe
 from models.scenario import Scenario
+
+ScenarioSource = Scenario | str | PathLike[str]
+"""A scenario, the path of its file, or the name of one that comes with the package."""
 
 
 def named_scenarios() -> list[str]:
@@ -28,14 +32,14 @@ def title_of(name: str) -> str:
     return first.removeprefix("# ").removesuffix(".").replace(" of Strzalko et al. 2008", "").rstrip(",")
 
 
-def scenario_text(source: str) -> str:
+def scenario_text(source: str | PathLike[str]) -> str:
     """Give the text of a scenario file, or of a scenario of the package by its name.
 
     Raises:
         ScenarioError: if there is no such file or it can't be read as text.
     """
     names = named_scenarios()
-    path = Path(source)
+    path, source = Path(source), str(source)
     try:
         if source in names and (not path.exists() or path.is_dir()):
             return (resources.files("models") / "scenarios" / f"{source}.toml").read_text(encoding="utf-8")
@@ -53,8 +57,17 @@ def scenario_text(source: str) -> str:
         ) from None
 
 
-def load(source: str) -> Scenario:
-    """Read a scenario from a file, or one of the package by its name.
+def scenario_of(source: ScenarioSource) -> Scenario:
+    """Return a scenario as it is, or that of a file or a name.
+
+    Raises:
+        ScenarioError: as `load`.
+    """
+    return source if isinstance(source, Scenario) else load(source)
+
+
+def load(source: str | PathLike[str]) -> Scenario:
+    """Return the scenario of a file, or one of the package by its name.
 
     Args:
         source: path of a TOML file, or a name from `named_scenarios`.
@@ -62,7 +75,7 @@ def load(source: str) -> Scenario:
     Raises:
         ScenarioError: naming file, field, value and what is accepted.
     """
-    return parse(scenario_text(source), source)
+    return parse(scenario_text(source), str(source))
 
 
 def parse(text: str, source: str) -> Scenario:

@@ -3,15 +3,25 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
 from enum import IntEnum, StrEnum
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from models import notebook
 from models.interruptible import interruptible
+from models.labelled import AXES, Column, dataset, meanings_of, table
 from models.scenario import Scenario
 
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
 Array = NDArray[np.float64]
+
+
+_DRAWN = 600
+"""Times at which a path is drawn."""
 
 
 class Face(IntEnum):
@@ -24,6 +34,11 @@ class Face(IntEnum):
     def symbol(self) -> str:
         """H or T."""
         return self.name[0]
+
+    @property
+    def label(self) -> str:
+        """The face's name in answers."""
+        return self.name.lower()
 
 
 class Outcome(IntEnum):
@@ -90,52 +105,67 @@ _SENTENCES = {
 }
 
 
-def _column(*shape: int, kind: type = np.float64) -> Any:
-    return field(metadata={"shape": shape, "kind": kind})
+def _column(axes: str = "", unit: str = "", kind: type = np.float64) -> Any:
+    shape = (len(AXES[axes][1]),) if axes else ()
+    return field(metadata={"shape": shape, "kind": kind, "axes": axes, "unit": unit})
+
+
+def _freeze(record: "Impacts | States") -> None:
+    """Check the shape of every column and make it read-only."""
+    n, name = len(record.time), type(record).__name__
+    for item in fields(record):
+        array = getattr(record, item.name)
+        expected = (n, *item.metadata["shape"])
+        if array.shape != expected:
+            raise ValueError(f"{name}.{item.name}: shape {array.shape}, expected {expected}")
+        array.setflags(write=False)
+
+
+def _columns(record: "Impacts | States") -> dict[str, Column]:
+    """Return the columns of a record with what they are."""
+    columns = {}
+    for item in fields(record):
+        about = {"long_name": item.name.replace("_", " "), "units": item.metadata["unit"]}
+        columns[item.name] = Column(getattr(record, item.name), about, item.metadata["axes"])
+    return columns
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Impacts:
     """The impacts of a toss, one row each, in order of time; arrays are read-only."""
 
-    time: Array = _column()
+    time: Array = _column(unit="s")
     """Of first touch, (n,) [s]."""
     face: NDArray[np.int8] = _column(kind=np.int8)
     """The `Face` up at the touch, (n,)."""
-    impulse: Array = _column(3)
+    impulse: Array = _column("space", "N s")
     """S, of the floor on the coin, space frame, (n, 3) [N s]."""
-    point: Array = _column(3)
+    point: Array = _column("body", "m")
     """A from B, body frame, (n, 3) [m]."""
-    position: Array = _column(3)
+    position: Array = _column("space", "m")
     """Of C at the touch, space frame, (n, 3) [m]."""
-    quaternion: Array = _column(4)
+    quaternion: Array = _column("attitude")
     """Euler parameters at the touch, body to space, (n, 4)."""
-    velocity_before: Array = _column(3)
+    velocity_before: Array = _column("space", "m/s")
     """Of C, space frame, (n, 3) [m/s]."""
-    velocity_after: Array = _column(3)
+    velocity_after: Array = _column("space", "m/s")
     """Of C, space frame, (n, 3) [m/s]."""
-    angular_velocity_before: Array = _column(3)
+    angular_velocity_before: Array = _column("body", "rad/s")
     """ω, body frame, (n, 3) [rad/s]."""
-    angular_velocity_after: Array = _column(3)
+    angular_velocity_after: Array = _column("body", "rad/s")
     """ω, body frame, (n, 3) [rad/s]."""
-    contact_velocity_before: Array = _column(3)
+    contact_velocity_before: Array = _column("space", "m/s")
     """v_A, space frame, (n, 3) [m/s]."""
-    contact_velocity_after: Array = _column(3)
+    contact_velocity_after: Array = _column("space", "m/s")
     """v_A, space frame, (n, 3) [m/s]."""
-    energy: Array = _column()
+    energy: Array = _column(unit="J")
     """After the impact: kinetic and m g z_C, (n,) [J]."""
-    energy_change: Array = _column()
+    energy_change: Array = _column(unit="J")
     """Of the impact, (n,) [J]; positive where the law feeds the coin."""
 
     def __post_init__(self) -> None:
         """Check every array's shape and make it read-only."""
-        n = len(self.time)
-        for item in fields(self):
-            array = getattr(self, item.name)
-            expected = (n, *item.metadata["shape"])
-            if array.shape != expected:
-                raise ValueError(f"Impacts.{item.name}: shape {array.shape}, expected {expected}")
-            array.setflags(write=False)
+        _freeze(self)
         if np.any(np.diff(self.time) < 0):
             raise ValueError("Impacts.time: must not decrease")
 
@@ -153,6 +183,27 @@ class Impacts:
         """The faces up at the touches, as in "HHT"."""
         return "".join(Face(face).symbol for face in self.face)
 
+    def __repr__(self) -> str:
+        """Return how many there are, and the faces."""
+        return f"<Impacts: {len(self)}, {notebook.shortened(self.sequence)}>"
+
+    def to_xarray(self) -> "xr.Dataset":
+        """Return the impacts as a dataset of xarray over `impact`, which counts from 1."""
+        return dataset("impact", self._columns(), {})
+
+    def to_dataframe(self) -> "pd.DataFrame":
+        """Return the impacts as a table of pandas, a row each."""
+        return table("impact", self._columns())
+
+    def _columns(self) -> dict[str, Column]:
+        faces = meanings_of({face.value: face.label for face in Face})
+        number = Column(np.arange(1, len(self) + 1), {"long_name": "impact"})
+        return {
+            "impact": number,
+            **_columns(self),
+            "face": Column(self.face, {"long_name": "face up", **faces}),
+        }
+
 
 IMPACT_ROW = np.dtype(
     [(item.name, item.metadata["kind"], item.metadata["shape"]) for item in fields(Impacts)], align=True
@@ -164,25 +215,33 @@ IMPACT_ROW = np.dtype(
 class States:
     """States of the coin at several times; arrays are read-only."""
 
-    time: Array
+    time: Array = _column(unit="s")
     """(n,) [s]."""
-    position: Array
+    position: Array = _column("space", "m")
     """Of C, space frame, (n, 3) [m]."""
-    velocity: Array
+    velocity: Array = _column("space", "m/s")
     """Of C, space frame, (n, 3) [m/s]."""
-    quaternion: Array
+    quaternion: Array = _column("attitude")
     """Euler parameters, body to space, (n, 4)."""
-    angular_velocity: Array
+    angular_velocity: Array = _column("body", "rad/s")
     """ω, body frame, (n, 3) [rad/s]."""
 
     def __post_init__(self) -> None:
         """Check every array's shape and make it read-only."""
-        n = len(self.time)
-        for item, expected in zip(fields(self), ((n,), (n, 3), (n, 3), (n, 4), (n, 3)), strict=True):
-            array = getattr(self, item.name)
-            if array.shape != expected:
-                raise ValueError(f"States.{item.name}: shape {array.shape}, expected {expected}")
-            array.setflags(write=False)
+        _freeze(self)
+
+    def __repr__(self) -> str:
+        """Return how many there are, and from when to when."""
+        span = f" from {self.time.min():.6g} to {self.time.max():.6g} s" if len(self.time) else ""
+        return f"<States: {len(self.time)}{span}>"
+
+    def to_xarray(self) -> "xr.Dataset":
+        """Return the states as a dataset of xarray over `time`."""
+        return dataset("time", _columns(self), {})
+
+    def to_dataframe(self) -> "pd.DataFrame":
+        """Return the states as a table of pandas, a row for each time."""
+        return table("time", _columns(self))
 
     @property
     def normal(self) -> Array:
@@ -280,6 +339,80 @@ class Toss:
         """What each impact does that no passive floor could do."""
         raised = raised_flags(self.impacts, self.scenario.floor.friction)
         return tuple(frozenset(flag for flag in Flag if raised[flag][i]) for i in range(len(self.impacts)))
+
+    def __repr__(self) -> str:
+        """Return how the toss ended, and the faces up at its touches."""
+        sequence = notebook.shortened(notebook.with_bar(self.sequence, self.trusted_impacts))
+        return (
+            f"<Toss by {self.engine}: {self.outcome.label}, {self.ending.label} at {self.end_time:.6g} s; "
+            f"{len(self.impacts)} impacts: {sequence}>"
+        )
+
+    def _repr_html_(self) -> str:
+        """Return what `repr` says, with a picture of the path."""
+        times = np.linspace(0, self.end_time, _DRAWN)
+        heights = self.sample(times).position[:, 2]
+        impacts, trusted = self.impacts, self.trusted_impacts
+        labels = [Face(face).label for face in impacts.face]
+        touches = list(zip(impacts.time.tolist(), impacts.position[:, 2].tolist(), labels, strict=True))
+        sequence = notebook.with_bar(self.sequence, trusted)
+        return notebook.block(
+            f"{self.outcome.label}, by the engine {self.engine}",
+            notebook.path_picture(
+                zip(times.tolist(), heights.tolist(), strict=True),
+                touches,
+                float(impacts.time[trusted]) if trusted < len(impacts) else None,
+            ),
+            {
+                "ending": f"{self.ending.label}: {self.ending.sentence}",
+                "end": f"{self.end_time:.6g} s, after {len(impacts)} impacts",
+                "sequence": notebook.shortened(sequence),
+                "trusted": f"{trusted} impacts" + ("" if trusted >= len(impacts) else ", before the bar"),
+            },
+        )
+
+    def to_xarray(self) -> "xr.Dataset":
+        """Return the impacts as a dataset of xarray over `impact`, with how the toss ended as attributes.
+
+        The path is that of `sample(times).to_xarray()`.
+        """
+        about = {
+            "engine": self.engine,
+            "outcome": self.outcome.label,
+            "ending": self.ending.label,
+            "end_time": self.end_time,
+            "trusted_impacts": self.trusted_impacts,
+            "sequence": self.sequence,
+        }
+        return self.impacts.to_xarray().assign_attrs(about)
+
+    def to_dataframe(self) -> "pd.DataFrame":
+        """Return the impacts as a table of pandas, a row each."""
+        return self.impacts.to_dataframe()
+
+    def plot(self, **options: Any) -> Any:
+        """Plot the height of the mass centre over time, marked where the coin touches the floor.
+
+        Args:
+            options: of xarray's line plot, such as `ax`, `figsize` or `color`.
+
+        Returns:
+            Matplotlib's axes.
+        """
+        states = self.sample(np.linspace(0, self.end_time, _DRAWN)).to_xarray()
+        height = (
+            states["position"].sel(axis="z", drop=True).assign_attrs(long_name="height of the mass centre")
+        )
+        (line, *_) = height.plot.line(**options)
+        impacts, axes = self.impacts, line.axes
+        for face in Face:
+            up = impacts.face == face
+            color = notebook.COLORS[face.label]
+            label = f"{face.label} up at the touch"
+            axes.plot(impacts.time[up], impacts.position[up, 2], "o", color=color, label=label)
+        axes.set_title(f"{self.outcome.label}, by the engine {self.engine}")
+        axes.legend()
+        return axes
 
     def sample(self, times: ArrayLike) -> States:
         """Return the coin's states at `times`.

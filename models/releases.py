@@ -53,6 +53,10 @@ class Releases:
         """Return the number of releases."""
         return len(self.position)
 
+    def __repr__(self) -> str:
+        """Return how many there are."""
+        return f"<Releases: {len(self)}>"
+
 
 def check_releases(scenario: Scenario, releases: Releases) -> None:
     """Refuse releases that a `Scenario` with this coin, air and gravity would refuse.

@@ -98,6 +98,20 @@ RESISTANCES = ("rolling_friction", "pivoting_friction")
 class _Part(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", strict=True, allow_inf_nan=False)
 
+    def __init__(self, **fields: Any) -> None:
+        """Make it of its fields, checked as those of a scenario file are.
+
+        Raises:
+            ScenarioError: naming field, value and what is accepted.
+        """
+        try:
+            super().__init__(**fields)
+        except ValidationError as error:
+            raise ScenarioError(describe(error, type(self))) from None
+
+    # Parts of a scenario are checked with it, and not made one by one.
+    __init__.__dict__["__pydantic_base_init__"] = True
+
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """Return a copy.
 
@@ -386,6 +400,10 @@ class Scenario(_Part):
         except ValidationError as error:
             raise ScenarioError(describe(error, Scenario)) from None
 
+    def as_tables(self) -> dict[str, Any]:
+        """Return the scenario as a file has it: numbers in SI, lists, words for what has a name."""
+        return _as_in_a_file(self.model_dump(exclude_none=True))
+
     @property
     def body(self) -> Body:
         """The coin in its air and gravity, for compiled code."""
@@ -426,6 +444,14 @@ class Scenario(_Part):
             max_impacts=most,
             max_time=ending.max_time,
         )
+
+
+def _as_in_a_file(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: _as_in_a_file(entry) for name, entry in value.items()}
+    if isinstance(value, tuple):
+        return [_as_in_a_file(entry) for entry in value]
+    return value.label if isinstance(value, ContactLaw | EndingTest | RestitutionKind) else value
 
 
 def _rows(M: NDArray[np.floating]) -> Matrix:

@@ -58,7 +58,9 @@ def is_synopsis(command: str) -> bool:
 
 
 def subcommand(word: str) -> click.Command:
-    return main.get_command(click.Context(main), word)
+    found = main.get_command(click.Context(main), word)
+    assert found is not None
+    return found
 
 
 def options(command: click.Command) -> set[str]:

@@ -66,8 +66,9 @@ def toss(
         package = Engine(engine).package
         given = {"contact": contact, "contact_steps": contact_steps, "flight_steps": flight_steps}
         chosen = {name: value for name, value in given.items() if value is not None}
+        settings = replace(package.FINE, **chosen)
         with elapsed_time("still tossing; Ctrl-C ends it, --max-impacts N a toss sooner"):
-            result = package.toss(described, settings=replace(package.FINE, **chosen))
+            result = package.toss(described, settings=settings)
         if trajectory is not None:
             times = answer.path_times(result)
             write_text(trajectory, answer.path_csv(result.sample(times)))
@@ -81,7 +82,12 @@ def toss(
                 item.quantity.name: {"change": item.finite, "proved": item.proved, "unit": item.quantity.unit}
                 for item in extra
             }
-            whole = {**answer.as_json(result), **({"margin": told} if margin else {})}
+            made = {
+                "scenario": described.as_tables(),
+                "settings": settings.as_dict(),
+                "versions": Engine(engine).versions,
+            }
+            whole = {**answer.as_json(result), **made, **({"margin": told} if margin else {})}
             click.echo(json.dumps(whole, indent=1, allow_nan=False))
         else:
             click.echo("\n".join([answer.as_lines(result), *(item.line for item in extra)]))

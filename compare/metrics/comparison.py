@@ -8,6 +8,7 @@ from compare.engines import Engine, EngineSettings
 from compare.metrics.impulses import Differences, errors_of_impacts, match
 from compare.metrics.sequences import agreement_horizon, common_prefix
 from compare.metrics.trajectories import attitude_angle, distance, parting_time
+from models.reading import ScenarioSource, scenario_of
 from models.records import Array, Toss, UnsupportedError
 from models.scenario import Scenario
 
@@ -58,11 +59,11 @@ class Comparison:
         self.errors.setflags(write=False)
 
 
-def compare(scenario: Scenario, mujoco: EngineSettings | None = None) -> Comparison | tuple[Toss, str]:
+def compare(scenario: ScenarioSource, mujoco: EngineSettings | None = None) -> Comparison | tuple[Toss, str]:
     """Toss a scenario by both engines and compare the answers.
 
     Args:
-        scenario: what to toss.
+        scenario: what to toss, or its path or name.
         mujoco: MuJoCo's settings, by default those of one toss.
 
     Returns:
@@ -71,15 +72,16 @@ def compare(scenario: Scenario, mujoco: EngineSettings | None = None) -> Compari
     Raises:
         UnsupportedError: for what the analytic engine doesn't model.
     """
-    a = Engine.ANALYTIC.package.toss(scenario)
+    described = scenario_of(scenario)
+    a = Engine.ANALYTIC.package.toss(described)
     engine = Engine.MUJOCO.package
     try:
-        b = engine.toss(scenario, settings=mujoco or engine.FINE)
+        b = engine.toss(described, settings=mujoco or engine.FINE)
     except UnsupportedError as error:
         return a, str(error)
     errors = errors_of_impacts(b)
     return Comparison(
-        scenario=scenario,
+        scenario=described,
         analytic=a,
         mujoco=b,
         differences=match(a.impacts, b.impacts),

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from models import certificate
+from models.notebook import shortened, with_bar
 from models.records import Face, Impacts, Outcome, States, Toss, UnsupportedError
 
 _JSON_FIELDS = (
@@ -38,12 +39,13 @@ MOST_ROWS = 1_000_000
 
 
 def as_json(toss: Toss) -> dict[str, Any]:
-    """Return a toss in the form of `cointoss toss --json`, in full precision."""
+    """Return a toss in the form of `cointoss toss --json`, but for what made it, in full precision."""
     return {
         "engine": toss.engine,
         "sequence": toss.sequence,
         "outcome": toss.outcome.label,
         "ending": toss.ending.label,
+        "end_time": toss.end_time,
         "trusted_impacts": toss.trusted_impacts,
         "impacts": [
             {**_impact(toss.impacts, i), "flags": sorted(flags)} for i, flags in enumerate(toss.flags)
@@ -87,16 +89,10 @@ def counted(number: int, thing: str) -> str:
     return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
 
 
-def shortened(sequence: str) -> str:
-    """Return a sequence for a person: its first `MOST_SHOWN` symbols and how many are left out."""
-    left_out = len(sequence) - MOST_SHOWN
-    return sequence if left_out <= 0 else f"{sequence[:MOST_SHOWN]} ... and {left_out} more"
-
-
 def as_lines(toss: Toss) -> str:
     """Return a toss as text for a person."""
     sequence, trusted = toss.sequence, toss.trusted_impacts
-    shown = shortened(sequence if trusted >= len(sequence) else f"{sequence[:trusted]}|{sequence[trusted:]}")
+    shown = shortened(with_bar(sequence, trusted), MOST_SHOWN)
     lines = [
         f"engine    {toss.engine}",
         f"outcome   {toss.outcome.label}",

@@ -12,12 +12,13 @@ from pydantic import BaseModel
 
 from compare.metrics.comparison import Comparison
 from compare.metrics.sequences import SAFETY, aligned
-from compare.output.answer import MOST_SHOWN, shortened
+from compare.output.answer import MOST_SHOWN
 from compare.output.style import HEADS, TAILS
 from compare.report.map_section import MapSection
 from models import certificate
 from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.meanings import meanings
+from models.notebook import shortened
 from models.records import Face, Toss
 from models.scenario import Scenario
 
@@ -60,7 +61,7 @@ def render(page: Page) -> str:
         tails=TAILS,
         pairs=aligned(page.analytic.sequence, comparison.mujoco.sequence) if comparison else [],
         most_shown=MOST_SHOWN,
-        sequence=shortened(page.analytic.sequence),
+        sequence=shortened(page.analytic.sequence, MOST_SHOWN),
         impacts=_impact_rows(page.analytic, comparison),
         video=b64encode(page.video).decode("ascii") if page.video else None,
         map_picture=b64encode(page.maps.picture).decode("ascii") if page.maps else None,

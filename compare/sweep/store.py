@@ -23,6 +23,7 @@ from compare.sweep.axes import Axis
 from compare.sweep.grid import Sweep, Tile, tile_shape, tiles
 from compare.sweep.pixels import Pixels
 from models.errors import ScenarioError, shown
+from models.labelled import meanings_of
 from models.reading import parse
 from models.records import Outcome
 
@@ -49,14 +50,14 @@ class _Layer(NamedTuple):
 
     kind: type[np.number]
     fill_value: float
-    attributes: dict[str, str]
+    attributes: dict[str, Any]
 
 
 def _layers(sweep: Sweep) -> dict[str, _Layer]:
     """Return the arrays of a sweep's map, by name."""
-    meanings = ", ".join(f"{int(outcome)} {outcome.label}" for outcome in Outcome)
+    meanings = meanings_of({NOT_TOSSED: "not_tossed", **{int(item): item.label for item in Outcome}})
     layers = {
-        "outcome": _Layer(np.int8, NOT_TOSSED, {"long_name": meanings}),
+        "outcome": _Layer(np.int8, NOT_TOSSED, {"long_name": "outcome", **meanings}),
         "impacts": _Layer(np.int32, NOT_TOSSED, {"long_name": "number of impacts"}),
     }
     if sweep.margin is None:
@@ -222,7 +223,10 @@ def _write_empty(folder: Path, sweep: Sweep, scenario_text: str) -> None:
         )
     for axis, dimension in ((sweep.y, "y"), (sweep.x, "x")):
         group.create_array(
-            axis.field, data=axis.values, dimension_names=(dimension,), attributes={"units": axis.unit}
+            axis.field,
+            data=axis.values,
+            dimension_names=(dimension,),
+            attributes={"long_name": axis.field.replace(".", " ").replace("_", " "), "units": axis.unit},
         )
     with warnings.catch_warnings():
         # Not yet in the specification of Zarr 3, but xarray asks for it.

@@ -2,12 +2,14 @@
 
 import csv
 import json
+import math
 import os
 import re
 import signal
 import subprocess
 import sys
 import time
+from importlib.metadata import version
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -27,6 +29,7 @@ from compare.output.files import UnwritableError, require_file, write_text
 from compare.output.progress import bar
 from compare.report.contents import FILES
 from models.reading import load, named_scenarios, scenario_text
+from models.scenario import Scenario
 from tests.helpers.command_line import HERE, cointoss
 
 WRONG = {
@@ -40,7 +43,23 @@ def test_json_has_the_agreed_form():
     answered = cointoss("toss", "fig24a", "--json", "--max-impacts", 3)
     assert answered.exit_code == 0
     toss = json.loads(answered.stdout)
-    assert list(toss) == ["engine", "sequence", "outcome", "ending", "trusted_impacts", "impacts", "contacts"]
+    of_toss = [
+        "engine",
+        "sequence",
+        "outcome",
+        "ending",
+        "end_time",
+        "trusted_impacts",
+        "impacts",
+        "contacts",
+    ]
+    assert list(toss) == [*of_toss, "scenario", "settings", "versions"]
+    limited = load("fig24a").replace("ending.max_impacts", 3)
+    assert Scenario.model_validate(toss["scenario"]) == limited
+    assert toss["scenario"]["floor"]["restitution_kind"] == "kinematic"
+    assert toss["end_time"] == toss["impacts"][-1]["time"]
+    assert toss["settings"] == analytic.FINE.as_dict()
+    assert toss["versions"]["cointoss"] == version("cointoss")
     assert (toss["engine"], toss["sequence"], toss["ending"]) == ("analytic", "HHH", "max_impacts")
     assert len(toss["impacts"]) == 3
     sizes = {name: len(value) for name, value in toss["impacts"][0].items() if isinstance(value, list)}
@@ -187,6 +206,11 @@ def test_a_contact_may_take_one_step(tmp_path):
         ["toss", "fig24a", "--max-impact", "3", "--jsn"],
         ["toss"],
         ["compare", "fig24a"],
+        ["solref", "--restitution", "1.5", "--dt", "0.001"],
+        ["solref", "--restitution", "0", "--dt", "0.001", "--spring"],
+        ["solref", "--restitution", "0.5", "--dt", "0"],
+        ["solref", "--restitution", "0.5", "--dt", "0.001", "--steps", "40"],
+        ["solref", "--restitution", "0.5"],
         ["throw", "fig24a"],
         ["toss", "no_such_scenario"],
         ["video", "fig24a", "--out", "film.gif"],
@@ -216,6 +240,20 @@ def test_the_scenarios_that_come_along_are_listed_with_what_they_are():
         20 < len(title) <= 90 and "Strzalko" not in title and title[-1] not in ",." for title in titles
     )
     assert max(map(len, lines)) <= 120
+
+
+def test_settings_for_a_bounce_are_printed_with_their_error():
+    shown = cointoss("solref", "--restitution", 0.8, "--dt", 0.002).stdout
+    assert '<option timestep="0.002" integrator="implicitfast"><flag diagexact="enable"/></option>' in shown
+    assert 'solref="0 -900.0" solimp="0.9999 0.9999 0.001 0.5 2" priority="1"' in shown
+    assert re.search(r"^error +\de-1\d at worst", shown, re.MULTILINE)
+    spring = cointoss("solref", "--restitution", 0.8, "--dt", 0.002, "--spring", "--json")
+    found = json.loads(spring.stdout)
+    assert (found["integrator"], found["solref"][0]) == ("RK4", pytest.approx(-((math.pi / 0.08) ** 2)))
+    assert 1e-4 < found["error"] < 1e-2
+    whole = cointoss("solref", "--restitution", 0.5, "--dt", 0.001, "--model").stdout
+    assert whole.startswith("<mujoco>")
+    assert whole.endswith("</mujoco>\n")
 
 
 def completed(line, number):

@@ -8,14 +8,10 @@ import numpy as np
 import pytest
 
 from coin_mj import Realisation, Settings
+from coin_mj.bounce import one_step_solref, restitutions_of_a_ball, spring_solref
 from compare.reproduction import runner
 from compare.reproduction.claim import unexpected
-from compare.reproduction.setups.mujoco_fixed_steps import (
-    one_step_solref,
-    restitutions_of_a_ball,
-    restitutions_of_coins,
-    spring_solref,
-)
+from compare.reproduction.setups.mujoco_fixed_steps import restitutions_of_coins
 from compare.reproduction.setups.mujoco_impacts import (
     by_law,
     draw_touches,

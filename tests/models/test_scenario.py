@@ -1,6 +1,7 @@
 """Scenarios: what is read, in which units, and every way to get one wrong."""
 
 import math
+import tomllib
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from models.errors import ScenarioError
 from models.laws import ContactLaw, EndingTest
 from models.reading import load, named_scenarios, parse, scenario_text
-from models.scenario import MOST_IMPACTS, MOST_LOSSLESS, Scenario
+from models.scenario import MOST_IMPACTS, MOST_LOSSLESS, Coin, Release, Scenario
 from tests.helpers.draws import scenario
 
 GOOD = """
@@ -326,3 +327,16 @@ def test_a_shipped_scenario_is_shadowed_by_a_file_of_its_name_but_by_no_folder(t
 def test_several_wrong_fields_are_all_named():
     with pytest.raises(ScenarioError, match=r"coin\.mass.*also wrong: floor\.restitution"):
         parse(GOOD.replace('"2 g"', "-1").replace("restitution = 0.8", "restitution = 2"), "wrong.toml")
+
+
+def test_a_scenario_made_in_python_is_refused_as_its_file_is():
+    tables = tomllib.loads(scenario_text("fig24a"))
+    assert Scenario(**tables) == load("fig24a")
+    assert Scenario.model_validate(load("zloty").as_tables()) == load("zloty")
+    tables["floor"]["restitution"] = 2
+    with pytest.raises(ScenarioError, match=r"^floor\.restitution = 2: accepted: a number >= 0 and <= 1$"):
+        Scenario(**tables)
+    with pytest.raises(ScenarioError, match=r'^radius = "-1 cm": accepted: a number >= 1e-09'):
+        Coin(mass=0.002, radius="-1 cm", thickness=0.002)
+    with pytest.raises(ScenarioError, match="did you mean angles"):
+        Release(position=(0, 0, 1), angels=(0, 0, 0))

@@ -1,4 +1,4 @@
-"""What restitution a MuJoCo user gets from `mj_step` with a fixed step, without this project's machinery."""
+"""What restitution a MuJoCo user's coins get from `mj_step` with a fixed step."""
 
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
@@ -10,85 +10,17 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 
+from coin_mj.bounce import LONGEST, PHASES
 from coin_mj.model.scene import build, shape_thickness
-from coin_mj.model.settings import Realisation, Settings, damping_ratio_of, rebound_of
+from coin_mj.model.settings import Realisation, Settings, rebound_of
 from coin_mj.model.state import of_release, to_mass_center
 from models.attitude import rotation_matrix
 from models.geometry import contact_velocity, gap, lowest_point
 from models.records import Array
 from models.scenario import Scenario
 
-_BALL = """
-<mujoco>
-  <option timestep="{dt!r}" integrator="{integrator}">
-    <flag diagexact="enable"/>
-  </option>
-  <worldbody>
-    <geom type="plane" size="0 0 1" condim="1"/>
-    <body pos="0 0 {height!r}">
-      <freejoint/>
-      <geom type="sphere" size="0.01" mass="0.01" condim="1" priority="1"
-            solref="{solref}" solimp="{solimp}"/>
-    </body>
-  </worldbody>
-</mujoco>
-"""
-HARDEST, DEFAULT = "0.9999 0.9999 0.001 0.5 2", "0.9 0.95 0.001 0.5 2"
-"""The largest impedance MuJoCo takes, and its own default, as solimp."""
-LONGEST = 2000
-"""A contact that goes on for more steps is no rebound."""
-PHASES = 16
-"""Heights of release, spread over the way of one step: a touch falls anywhere between two steps."""
-
-
-def one_step_solref(restitution: float, dt: float) -> tuple[float, float]:
-    """Return the solref that makes an impact within one step: "0 -(1 + e)/dt"."""
-    return 0.0, -(1 + restitution) / dt
-
-
-def spring_solref(restitution: float, dt: float, steps: int) -> tuple[float, float]:
-    """Return the solref of a damped spring that is resolved by so many steps: k = (π/(n dt))², d = 2 ζ √k."""
-    root = math.pi / (steps * dt)
-    return -root * root, -2 * damping_ratio_of(restitution) * root
-
-
-def restitutions_of_a_ball(
-    solref: tuple[float, float], dt: float, integrator: str, solimp: str = HARDEST
-) -> Array:
-    """Drop a ball on a plane and step it with `mj_step`; give its speed after over that before.
-
-    Args:
-        solref: of the contact, direct form.
-        dt: length of a step [s].
-        integrator: "Euler", "implicitfast" or "RK4".
-        solimp: of the contact.
-
-    Returns:
-        For each of the `PHASES` of the touch between two steps, (PHASES,).
-    """
-    found, speed = np.empty(PHASES), 2.0
-    for number in range(PHASES):
-        height = 0.01 + speed * dt * (2 + (number + 0.5) / PHASES)
-        described = _BALL.format(
-            dt=dt,
-            integrator=integrator,
-            height=height,
-            solref=f"{solref[0]!r} {solref[1]!r}",
-            solimp=solimp,
-        )
-        model = mujoco.MjModel.from_xml_string(described)
-        data = mujoco.MjData(model)
-        # Without weight the speed before and after is the same whenever it is read.
-        model.opt.gravity[:] = 0
-        data.qvel[2] = -speed
-        touched = False
-        for _ in range(LONGEST):
-            mujoco.mj_step(model, data)
-            touched = touched or data.ncon > 0
-            if touched and data.ncon == 0 and data.qvel[2] > 0:
-                break
-        found[number] = data.qvel[2] / speed
-    return found
+DEFAULT = "0.9 0.95 0.001 0.5 2"
+"""MuJoCo's own solimp."""
 
 
 def restitutions_of_coins(cases: Sequence[Scenario], settings: Settings, dt: float) -> Array:

@@ -7,17 +7,12 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from coin_mj.bounce import HARDEST, one_step_solref, restitutions_of_a_ball, spring_solref
 from compare.output.progress import Progress
 from compare.output.tables import table
 from compare.reproduction.claim import Claim, Criterion
 from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.mujoco_fixed_steps import (
-    DEFAULT,
-    HARDEST,
-    one_step_solref,
-    restitutions_of_a_ball,
-    spring_solref,
-)
+from compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
 from compare.reproduction.setups.mujoco_impacts import draw_touches
 from compare.reproduction.setups.mujoco_study import (
     FINE,

@@ -1,0 +1,124 @@
+"""What Python and a notebook show of a toss and of outcomes: short texts, HTML, labelled arrays, plots."""
+
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import analytic
+from models.notebook import shares_picture, shortened, with_bar
+from models.outcomes import Outcomes
+from models.reading import load
+from models.records import Ending, Face, Outcome
+from models.releases import Releases
+
+
+@pytest.fixture(scope="module")
+def tossed():
+    return analytic.toss("fig24a")
+
+
+@pytest.fixture
+def outcomes():
+    return Outcomes(
+        outcome=np.array([Outcome.HEADS, Outcome.TAILS, Outcome.HEADS], np.int8),
+        ending=np.full(3, Ending.SETTLED, np.int8),
+        impacts=np.array([3, 1, 0], np.int32),
+        last_face=np.array([Face.HEADS, Face.TAILS, 0], np.int8),
+        end_time=np.array([0.5, 0.25, 0.125]),
+    )
+
+
+def test_a_name_or_a_path_is_tossed_as_its_scenario(tossed, tmp_path):
+    assert tossed.scenario == load("fig24a")
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        '[coin]\nmass = 1\nradius = 1\nthickness = 0\n[floor]\nrestitution = 0\ncontact = "smooth"\n'
+        "[release]\nposition = [0, 0, 2]\n"
+    )
+    assert analytic.toss(path).scenario == load(path)
+
+
+def test_one_line_says_how_it_ended(tossed, outcomes):
+    assert repr(tossed) == (
+        f"<Toss by analytic: heads, settled at {tossed.end_time:.6g} s; "
+        f"{len(tossed.impacts)} impacts: {with_bar(tossed.sequence, tossed.trusted_impacts)}>"
+    )
+    assert repr(tossed.impacts) == f"<Impacts: {len(tossed.impacts)}, {tossed.sequence}>"
+    assert repr(tossed.sample([0, 0.25])) == "<States: 2 from 0 to 0.25 s>"
+    assert repr(outcomes) == "<Outcomes of 3 tosses: 2 heads, 1 tails>"
+    one = {"position": np.zeros((1, 3)), "velocity": np.zeros((1, 3)), "angular_velocity": np.zeros((1, 3))}
+    assert repr(Releases(**one, quaternion=np.array([[1.0, 0, 0, 0]]))) == "<Releases: 1>"
+
+
+def test_sequences_are_shortened_and_have_their_bar():
+    assert with_bar("HHT", 2) == "HH|T"
+    assert with_bar("HHT", 3) == "HHT"
+    assert shortened("HHTT", 3) == "HHT ... and 1 more"
+    assert shortened("HHT", 3) == "HHT"
+
+
+def test_a_notebook_shows_the_path_with_its_touches_and_the_ending(tossed):
+    page = ET.fromstring(tossed._repr_html_().replace("<br>", ""))
+    (picture,) = page.iter("svg")
+    assert picture.attrib["aria-label"] == "height of the mass centre over time"
+    marks = list(picture.iter("circle"))
+    assert len(marks) == len(tossed.impacts)
+    assert "".join((mark.findtext("title") or "")[0].upper() for mark in marks) == tossed.sequence
+    facts = {row.findtext("th"): row.findtext("td") for row in page.iter("tr")}
+    assert facts["sequence"] == with_bar(tossed.sequence, tossed.trusted_impacts)
+    assert facts["ending"] == f"settled: {Ending.SETTLED.sentence}"
+    assert "heads" in (page.findtext("strong") or "")
+
+
+def test_a_notebook_shows_the_shares(outcomes):
+    page = ET.fromstring(outcomes._repr_html_().replace("<br>", ""))
+    widths = [float(bar.attrib["width"]) for bar in page.iter("rect")]
+    assert widths[0] / widths[1] == pytest.approx(2, rel=1e-3)
+    assert [row.findtext("td") for row in page.iter("tr")] == ["2 (66.67%)", "1 (33.33%)"]
+    assert "<script>" not in shares_picture({"<script>": 1.0})
+
+
+def test_impacts_become_labelled_arrays(tossed):
+    found = tossed.to_xarray()
+    impacts = tossed.impacts
+    assert found.sizes["impact"] == len(impacts)
+    assert (found.impulse.sel(axis="z") == impacts.impulse[:, 2]).all()
+    assert (found.point.sel(body_axis="eta") == impacts.point[:, 1]).all()
+    assert (found.impulse.attrs, found.time.attrs["units"]) == ({"long_name": "impulse", "units": "N s"}, "s")
+    assert (found.face.attrs["flag_values"], found.face.attrs["flag_meanings"]) == ([1, 2], "heads tails")
+    assert (found.attrs["outcome"], found.attrs["sequence"]) == ("heads", tossed.sequence)
+    path = tossed.sample([0.0, 0.1]).to_xarray()
+    assert path.position.sel(axis="z").values[0] == 0.40001
+    assert path.indexes["time"].tolist() == [0.0, 0.1]
+
+
+def test_impacts_become_a_table(tossed):
+    found = tossed.to_dataframe()
+    assert found.index.tolist() == list(range(1, len(tossed.impacts) + 1))
+    assert (found["impulse_z"] == tossed.impacts.impulse[:, 2]).all()
+    assert "".join(face[0].upper() for face in found["face"]) == tossed.sequence
+    assert tossed.sample([0, 0.1]).to_dataframe().loc[0.0, "position_z"] == 0.40001
+
+
+def test_outcomes_become_labelled_arrays_and_a_table(outcomes):
+    found = outcomes.to_xarray()
+    assert found.outcome.attrs["flag_meanings"] == "undecided heads tails edge perpetual"
+    assert (found.end_time.attrs["units"], found.sizes["toss"]) == ("s", 3)
+    table = outcomes.to_dataframe()
+    assert table["outcome"].tolist() == ["heads", "tails", "heads"]
+    assert table["last_face"].tolist() == ["heads", "tails", "none"]
+    assert table["impacts"].tolist() == [3, 1, 0]
+
+
+def test_plots_are_labelled(tossed, outcomes):
+    axes = tossed.plot(ax=Figure().add_subplot())
+    assert axes.get_ylabel() == "height of the mass centre [m]"
+    assert axes.get_xlabel() == "time [s]"
+    drawn = sum(len(line.get_xdata()) for line in axes.get_lines()[1:])
+    assert drawn == len(tossed.impacts)
+    axes = outcomes.plot(ax=Figure().add_subplot())
+    assert [label.get_text() for label in axes.get_xticklabels()] == ["heads", "tails"]
+    assert [bar.get_height() for bar in axes.patches] == [2, 1]
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("outcome", "tosses")
