@@ -1,5 +1,6 @@
 """How the paper's claims are measured, on cases whose answer is known."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,6 +11,7 @@ from compare.reproduction.claims import (
     accuracy_and_stripes,
     air_in_a_fall,
     fair_landing,
+    fig24_settings,
     heads_in_a_ball,
     standing_coins,
     stop_test,
@@ -23,6 +25,7 @@ from compare.reproduction.setups.hands import HEIGHTS, SPINS, releases_of_hands
 from compare.reproduction.setups.planar_maps import case, faces_after, releases, touched_faces
 from compare.reproduction.setups.standing import standing
 from models.attitude import rotation_matrix
+from models.laws import ContactLaw
 from models.records import IMPACT_ROW, Outcome
 from models.scenario import Release
 
@@ -281,3 +284,33 @@ def test_the_side_on_which_a_flat_coin_lands_first_may_decide_its_face():
     differs = found[:, 0] == 1
     assert 0.1 < differs.mean() < 0.6
     assert np.median(found[differs, 1]) > 0.1
+
+
+def test_a_score_of_fig24_counts_faces_while_their_clusters_agree():
+    printed = list(fig24_readings.PRINTED.values())
+    assert fig24_readings.shared_with_marks(printed) == fig24_settings.PRINTED_FACES == 94
+    early = ["HH∘HH", "H∘HHH∘HH∘T", "T∘H", "", "H∘HHH∘HHH∘TTT", "H∘HH"]
+    assert fig24_readings.shared_with_marks(early) == 1 + 7 + 0 + 0 + 10 + 3
+
+
+def test_settings_of_fig24_are_often_as_printed_and_tossed_from_its_heights():
+    rng = np.random.default_rng(1)
+    settings = [fig24_settings.drawn(rng) for _ in range(400)]
+    assert np.mean([one.restitution == 0.8 for one in settings]) == pytest.approx(0.5, abs=0.1)
+    assert np.mean([abs(one.tilt) == 7 for one in settings]) == pytest.approx(0.5, abs=0.1)
+    assert {one.law for one in settings} == set(ContactLaw)
+    assert all((one.friction > 0) == (one.law in fig24_settings._WITH_FRICTION) for one in settings)
+    like = fig24_readings.READINGS[0]
+    own = replace(settings[0], thickness=2e-3, offset=0.0, law=like.law, friction=0.0, restitution=0.8)
+    scenario = replace(own, gravity=9.81, tilt=7.0).scenario
+    assert scenario.body == like.scenario.body
+    heights = fig24_readings.printed_heights()
+    assert fig24_readings.sequences(scenario, heights) == fig24_readings.sequences(like.scenario, heights)
+
+
+def test_the_best_by_chance_takes_one_height_of_each_setting():
+    scores = np.array([[1.0, 9.0], [2.0, 2.0], [0.0, 3.0]])
+    best = fig24_settings.best_by_chance(scores, np.random.default_rng(2))
+    values, counts = np.unique(best, return_counts=True)
+    assert values.tolist() == [2, 3, 9]
+    assert counts / len(best) == pytest.approx([0.25, 0.25, 0.5], abs=0.03)

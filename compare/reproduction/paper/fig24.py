@@ -68,12 +68,12 @@ def make(progress: Progress, random: int = 16) -> Result:
     rng = np.random.default_rng(SEED)
     scores, by_chance, clustering = {}, [], []
     for done, reading in enumerate(READINGS, start=len(PRINTED) + 1):
-        found = sequences(reading, printed_heights())
+        found = sequences(reading.scenario, printed_heights())
         scores[reading.name] = sum(shared(found))
         if clusters_as_printed(found):
             clustering.append(reading.name)
         by_chance.append(
-            [sum(shared(sequences(reading, low + APART))) for low in rng.uniform(*NEARBY, random)]
+            [sum(shared(sequences(reading.scenario, low + APART))) for low in rng.uniform(*NEARBY, random)]
         )
         progress(done, whole)
     growth = _growth(by_analytic)

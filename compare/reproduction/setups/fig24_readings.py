@@ -91,13 +91,13 @@ def marked(times: Array, faces: NDArray[np.int8]) -> str:
     return "".join(symbol + gap for symbol, gap in zip(symbols, [*gaps, ""], strict=True))
 
 
-def sequences(reading: Reading, heights: Iterable[float]) -> list[str]:
-    """Return the marked sequences of the toss of Fig. 24 from other heights [m]."""
-    scenario = reading.scenario.replace("ending.max_impacts", IMPACTS)
-    found = []
+def sequences(scenario: Scenario, heights: Iterable[float]) -> list[str]:
+    """Return the marked sequences of a toss from other heights [m]."""
+    scenario = scenario.replace("ending.max_impacts", IMPACTS)
+    body, rules, start, found = scenario.body, scenario.rules, state_of(scenario.release), []
     for height in heights:
-        released = scenario.replace("release.position.z", float(height))
-        rows = run(released.body, released.rules, state_of(released.release)).rows
+        start[2] = height
+        rows = run(body, rules, start).rows
         found.append(marked(rows["time"], rows["face"]))
     return found
 
@@ -110,6 +110,14 @@ def printed_heights() -> list[float]:
 def clusters_as_printed(found: Sequence[str]) -> bool:
     """Return whether all sequences begin as all printed ones do, `BEGINNING`."""
     return all(sequence.startswith(BEGINNING) for sequence in found)
+
+
+def shared_with_marks(found: Sequence[str]) -> int:
+    """Count the leading faces, of all six, that sequences share with the printed ones, marks included."""
+    common = (
+        one[: common_prefix(one, printed)] for one, printed in zip(found, PRINTED.values(), strict=True)
+    )
+    return sum(len(part.replace(MARK, "")) for part in common)
 
 
 def shared(found: Sequence[str]) -> list[int]:

@@ -1,0 +1,232 @@
+"""Fig. 24: a search for the coin, floor, restitution, g and tilt that give the printed sequences."""
+
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from os import cpu_count
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.random import Generator
+from numpy.typing import NDArray
+
+from compare.output.progress import Progress
+from compare.output.style import INK, PALE, SKY, VERMILION
+from compare.output.tables import table
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.estimates import share
+from compare.reproduction.paper.fig24 import APART, NEARBY
+from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.setups.fig24_readings import (
+    MARK,
+    PRINTED,
+    clusters_as_printed,
+    printed_heights,
+    sequences,
+    shared_with_marks,
+)
+from models.laws import ContactLaw
+from models.reading import load
+from models.records import Array
+from models.scenario import Scenario
+
+SEED = 2008
+COUNT, HEIGHTS = 4000, 5
+"""Settings that are drawn, and random heights at which each is tossed for what chance gives."""
+SEARCHES = 4000
+"""Searches by chance."""
+BEYOND_CHANCE = 0.01
+"""A match that fewer searches by chance attain is one."""
+PRINTED_FACES = sum(len(text.replace(MARK, "")) for text in PRINTED.values())
+RESTITUTIONS, FRICTIONS, TILTS = (0.6, 0.9), (0.02, 0.6), (-10.0, 10.0)
+"""Ranges of χ, of μ where the law has it, and of θ about the printed 7 or -7 [deg]."""
+THICKNESSES, GRAVITIES = (0.0, 1e-3, 2e-3), (9.8, 9.80665, 9.81, 10.0)
+_OFFSET = np.array([-1e-3, -1e-3, -2e-4])
+_WITH_FRICTION = (ContactLaw.SLIDING_FRICTION, ContactLaw.COULOMB)
+SHOWN = 5
+"""Of the best settings."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """What Fig. 24 may have been computed with; each is as printed, where it is, in half of the draws."""
+
+    thickness: float
+    """[m]."""
+    offset: float
+    """Part of the printed offset of the mass centre."""
+    law: ContactLaw
+    friction: float
+    restitution: float
+    gravity: float
+    """[m/s²]."""
+    tilt: float
+    """θ [deg]."""
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """The settings as a row of a table."""
+        law = self.law.label.replace("_", " ") + (f" {self.friction:.2f}" if self.friction else "")
+        return (
+            f"{1e3 * self.thickness:g}",
+            f"{self.offset:.2f}",
+            law,
+            f"{self.restitution:.3f}",
+            f"{self.gravity:g}",
+            f"{self.tilt:.2f}",
+        )
+
+    @property
+    def scenario(self) -> Scenario:
+        """The toss of Fig. 24(a)."""
+        x, y, z = self.offset * _OFFSET
+        return load("fig24a").replace(
+            "gravity",
+            self.gravity,
+            "coin.thickness",
+            self.thickness,
+            "coin.center_of_mass",
+            (x, y, z if self.thickness else 0.0),
+            "floor.contact",
+            self.law,
+            "floor.friction",
+            self.friction,
+            "floor.restitution",
+            self.restitution,
+            "release.angles",
+            (0.0, np.radians(self.tilt), 0.0),
+        )
+
+
+def drawn(rng: Generator) -> Settings:
+    """Draw settings: each quantity as printed in half of the draws, else at random."""
+    law = ContactLaw(rng.choice(list(ContactLaw)))
+    free_tilt = rng.random() < 0.5
+    return Settings(
+        thickness=float(rng.choice(THICKNESSES)),
+        offset=float(rng.choice([0.0, 1.0]) if rng.random() < 0.5 else rng.random()),
+        law=law,
+        friction=float(rng.uniform(*FRICTIONS)) if law in _WITH_FRICTION else 0.0,
+        restitution=0.8 if rng.random() < 0.5 else float(rng.uniform(*RESTITUTIONS)),
+        gravity=float(rng.choice(GRAVITIES)),
+        tilt=float(rng.choice([7.0, -7.0]) if not free_tilt else rng.uniform(*TILTS)),
+    )
+
+
+def make(progress: Progress, count: int = COUNT, heights: int = HEIGHTS) -> Result:
+    """Toss coins of random settings from the printed heights, and from random ones near them."""
+    rng = np.random.default_rng(SEED)
+    settings = [drawn(rng) for _ in range(count)]
+    lows = rng.uniform(*NEARBY, (count, heights))
+    pool = ThreadPoolExecutor(cpu_count())
+    rows = []
+    try:
+        for done, row in enumerate(pool.map(_scores, settings, lows)):
+            rows.append(row)
+            progress(done + 1, count)
+    finally:
+        # An interruption does not wait for the settings not yet begun.
+        pool.shutdown(cancel_futures=True)
+    found = np.array(rows)
+    data = {"scores": found[:, 0], "begins as printed": found[:, 1], "by chance": found[:, 2:]}
+    chance = best_by_chance(data["by chance"], rng)
+    order = np.argsort(-data["scores"], kind="stable")[:SHOWN]
+    head = ["thickness [mm]", "part of the offset", "law, μ", "χ", "g [m/s²]", "θ [deg]", "faces shared"]
+    best = table(head, [[*settings[i].words, f"{data['scores'][i]:.0f}"] for i in order])
+    return Result(
+        claims=_claims(data, chance),
+        data=data | {"best by chance": chance},
+        tables=f"The best of {count:,d} settings, of {PRINTED_FACES} printed faces:\n\n{best}",
+    )
+
+
+def _scores(settings: Settings, lows: Array) -> list[float]:
+    """Return the faces shared, whether all six begin as printed, and the faces shared from random heights."""
+    scenario = settings.scenario
+    found = sequences(scenario, printed_heights())
+    by_chance = [float(shared_with_marks(sequences(scenario, low + APART))) for low in lows]
+    return [float(shared_with_marks(found)), float(clusters_as_printed(found)), *by_chance]
+
+
+def best_by_chance(scores: Array, rng: Generator) -> Array:
+    """Return the best score of searches that take one random height of each setting, (n,).
+
+    Args:
+        scores: at random heights, (settings, heights).
+        rng: which height is taken.
+    """
+    rows = np.arange(len(scores))
+    return np.array(
+        [scores[rows, rng.integers(scores.shape[1], size=len(rows))].max() for _ in range(SEARCHES)]
+    )
+
+
+def _claims(data: Mapping[str, NDArray[Any]], chance: Array) -> tuple[Claim, ...]:
+    scores, begins = data["scores"], data["begins as printed"]
+    return (
+        Claim(
+            claim="a search over coin, floor, χ, μ, g and θ finds what Fig. 24 was computed with",
+            analytic=(
+                f"of {len(scores):,d} random settings the best shares {scores.max():.0f} of {PRINTED_FACES} "
+                f"leading faces, marks included; the best of as many at random heights near 0.4 m shares "
+                f"{np.median(chance):.0f} in the median; {np.sum(begins):.0f} settings begin all six as "
+                "printed, H∘HHH∘"
+            ),
+            criteria=[
+                Criterion(
+                    "share of searches by chance with so good a best",
+                    share(chance >= scores.max(), "searches"),
+                    "<",
+                    BEYOND_CHANCE,
+                    "beyond chance",
+                ),
+            ],
+            expected=False,
+        ),
+    )
+
+
+def _draw(data: Mapping[str, NDArray[Any]]) -> Figure:
+    picture = Figure(figsize=(8, 3.6))
+    axes = picture.subplots()
+    scores, begins, chance = data["scores"], data["begins as printed"] == 1, data["by chance"]
+    bins = (np.arange(0, PRINTED_FACES + 2, 2) - 0.5).tolist()
+    axes.hist(
+        [scores[begins], scores[~begins]],
+        bins,
+        stacked=True,
+        color=[VERMILION, SKY],
+        label=["all six begin H∘HHH∘", "other settings"],
+    )
+    weights = np.full(chance.size, len(scores) / chance.size)
+    axes.hist(chance.ravel(), bins, weights=weights, histtype="step", color=INK, label="at random heights")
+    low, high = np.quantile(data["best by chance"], (0.05, 0.95))
+    axes.axvspan(low, high, color=PALE, alpha=0.4, linewidth=0, label="best by chance, 90 %")
+    axes.axvline(PRINTED_FACES, color=INK, linestyle=":")
+    axes.annotate("all printed ", (PRINTED_FACES, 1.5), ha="right", fontsize=9)
+    axes.set_yscale("log")
+    axes.set(
+        xlabel=f"leading faces shared with the printed {PRINTED_FACES}, marks included", ylabel="settings"
+    )
+    axes.legend(loc="upper center")
+    return picture
+
+
+REPRODUCTION = Reproduction(
+    paper="Section 5.1, the settings of Fig. 24",
+    title="a search for the coin, floor, χ, μ, g and θ of the printed sequences",
+    assumed=(
+        "Thickness 0, 1 or 2 mm; none, all or a random part of the printed offset of the mass centre; one of "
+        "seven laws with μ from 0.02 to 0.6; χ = 0.8 as printed or from 0.6 to 0.9; g = 9.8, 9.80665, 9.81 "
+        "or 10 m/s²; θ = ±7° or within ±10°. A score counts the leading faces that six tosses share with "
+        "the printed ones while the marks of clusters agree too. A search by chance tosses the same settings "
+        "from other heights near 0.4 m."
+    ),
+    seconds=300,
+    make=make,
+    draw={"figure": _draw},
+    quick_seconds=15,
+    quick=partial(make, count=60, heights=2),
+)
