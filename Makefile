@@ -7,15 +7,15 @@ SCENARIOS := fig24a zloty
 
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
-.PHONY: report test test-all bench lint opengl compiled clean
+.PHONY: report test test-all bench lint opengl chromium compiled clean
 
 report: $(READY) opengl compiled
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
 
-test: $(READY) opengl lint compiled
+test: $(READY) opengl chromium lint compiled
 	$(BIN)/pytest -n 2 --dist loadfile
 
-test-all: $(READY) opengl lint compiled
+test-all: $(READY) opengl chromium lint compiled
 	$(BIN)/pytest -n 2 --dist loadfile -m "slow or not slow"
 
 # The tests there run the same tosses once; only here are they timed.
@@ -42,6 +42,14 @@ opengl:
 	  && [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
 	  apt-get update -q && apt-get install -y -q --no-install-recommends libegl1 libgl1-mesa-dri libopengl0 \
 	  || echo "The OpenGL libraries could not be installed; the report will have no video." >&2; \
+	fi
+
+# The tests of the explorer's page drive a headless Chromium.
+chromium:
+	@if [ "$$(uname)" = Linux ] && ! command -v chromium >/dev/null \
+	  && [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
+	  apt-get update -q && apt-get install -y -q --no-install-recommends chromium \
+	  || echo "Chromium could not be installed; the tests of the explorer's page will fail." >&2; \
 	fi
 
 # Both engines are compiled once, side by side.

@@ -9,6 +9,7 @@ import click
 from compare.commands.basin import basin
 from compare.commands.common import refuse
 from compare.commands.compare import compare
+from compare.commands.explore import explore
 from compare.commands.hands import hands
 from compare.commands.reproduce import reproduce
 from compare.commands.scenarios import scenarios
@@ -50,7 +51,7 @@ class _Commands(click.Group):
 
 @click.group(
     cls=_Commands,
-    commands=[basin, compare, hands, reproduce, scenarios, solref, toss, video],
+    commands=[basin, compare, explore, hands, reproduce, scenarios, solref, toss, video],
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     invoke_without_command=True,
 )

@@ -1,0 +1,1 @@
+"""The explorer: a map in a browser, each pixel tossed at a click; imports sweep and below."""

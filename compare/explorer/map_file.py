@@ -1,0 +1,161 @@
+"""Read a map for the explorer: what it is of, and the pixels that are tossed."""
+
+from base64 import b64encode
+from dataclasses import asdict, dataclass, fields, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import zarr
+from numpy.typing import NDArray
+
+from compare.engines import Engine, EngineSettings
+from compare.film.back_end import require_mujoco
+from compare.metrics.margin import quantity_of
+from compare.output.style import OUTCOMES
+from compare.sweep.axes import Axis
+from compare.sweep.errors import SweepError
+from compare.sweep.grid import Sweep
+from compare.sweep.store import FORMAT, NOT_TOSSED, Map
+from models.errors import ScenarioError, shown
+from models.fields import UNITS, lambda_unit
+from models.reading import parse
+
+MOST_READ, MOST_SHOWN = 100_000_000, 4_000_000
+"""Pixels of a map that is read, and of what is shown of it: of a larger one every second, third, ..."""
+_ACCEPTED = "accepted: a map that cointoss basin made"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MapFile:
+    """A map as far as it is tossed."""
+
+    name: str
+    sweep: Sweep
+    stride: int
+    """Every so many-th pixel is here, along both axes."""
+    arrays: dict[str, NDArray[Any]]
+    """`outcome` and `impacts`, and `margin` where the map has one, (ny, nx)."""
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the map as its page reads it; arrays row by row in base64, little-endian."""
+        kinds = {"outcome": "<i1", "impacts": "<i4", "margin": "<f4"}
+        margin = quantity_of(self.sweep.margin) if self.sweep.margin else None
+        return {
+            "name": self.name,
+            "engine": self.sweep.engine.value,
+            "after": self.sweep.after,
+            "stride": self.stride,
+            "tossed": float(np.mean(self.arrays["outcome"] != NOT_TOSSED)),
+            "axes": {name: asdict(axis) for name, axis in (("x", self.sweep.x), ("y", self.sweep.y))},
+            "outcomes": {
+                int(outcome): {"label": outcome.label, "color": color} for outcome, color in OUTCOMES.items()
+            },
+            "margin": margin and {"along": margin.name, "unit": margin.unit},
+            "arrays": {
+                name: b64encode(array.astype(kinds[name]).tobytes()).decode("ascii")
+                for name, array in self.arrays.items()
+            },
+        }
+
+
+def read_map(path: Path, *, most: int = MOST_SHOWN) -> MapFile:
+    """Return a map; one that is not finished, or has damaged tiles, as far as it is.
+
+    Args:
+        path: of the map.
+        most: pixels that are kept.
+
+    Raises:
+        SweepError: saying why this is no map that can be shown.
+        ScenarioError: for a scenario that this version does not accept.
+    """
+    if not path.is_dir():
+        raise SweepError(f"no such folder; {_ACCEPTED}")
+    try:
+        group = zarr.open_group(path, mode="r", use_consolidated=False)
+        attributes: dict[str, Any] = dict(group.attrs)
+    except Exception as error:  # zarr raises errors of any kind
+        raise SweepError(f"can't be read as a map ({type(error).__name__}); {_ACCEPTED}") from None
+    if attributes.get("cointoss_map") != FORMAT:
+        raise SweepError(f"is no map of this version of cointoss; {_ACCEPTED}")
+    try:
+        sweep = _sweep(path, group, attributes)
+        layers: dict[str, Any] = {name: group[name] for name in ("outcome", "impacts")}
+        if sweep.margin is not None:
+            layers["margin"] = group["margin"]
+        if any(layer.shape != sweep.shape for layer in layers.values()):
+            raise ValueError("arrays whose shapes are not that of the axes")
+    except (ScenarioError, SweepError):
+        raise
+    except Exception as error:
+        raise SweepError(f"is a damaged map ({type(error).__name__}: {error}); {_ACCEPTED}") from None
+    ny, nx = sweep.shape
+    if ny * nx > MOST_READ:
+        raise SweepError(f"has {nx} by {ny} pixels; accepted: a map of at most {MOST_READ:g} pixels")
+    stride = 1
+    while -(-ny // stride) * -(-nx // stride) > most:
+        stride += 1
+    return MapFile(
+        name=path.name,
+        sweep=sweep,
+        stride=stride,
+        arrays=_read(Map(path=path, group=group), tuple(layers), stride, sweep.shape),
+    )
+
+
+def _sweep(path: Path, group: zarr.Group, attributes: dict[str, Any]) -> Sweep:
+    scenario = parse(attributes["scenario"], str(path))
+    engine = Engine(attributes["engine"])
+    if engine == Engine.MUJOCO:
+        require_mujoco()
+    axes: dict[str, Axis] = {}
+    for name, array in group.arrays():
+        if name in UNITS:
+            is_lambda = name in ("air.normal", "air.tangential")
+            values: Any = array[:]
+            metadata: Any = array.metadata
+            (dimension,) = metadata.dimension_names
+            axes[dimension] = Axis(
+                field=name,
+                unit=lambda_unit(scenario.air.exponent) if is_lambda else UNITS[name],
+                start=float(values[0]),
+                stop=float(values[-1]),
+                count=len(values),
+            )
+            if not np.array_equal(axes[dimension].values, values):
+                raise ValueError(f"values of {name} that are not evenly spaced")
+    after = attributes["after"]
+    if not (after is None or (isinstance(after, int) and after >= 0)):
+        raise ValueError(f"after = {shown(after)}")
+    return Sweep(
+        scenario=scenario,
+        engine=engine,
+        x=axes["x"],
+        y=axes["y"],
+        settings=_settings(engine, attributes["engine_settings"]),
+        after=after,
+        margin=attributes.get("margin_along"),
+    )
+
+
+def _settings(engine: Engine, found: dict[str, Any]) -> EngineSettings:
+    """Return the settings with which a map was tossed, but for those that are compiled in."""
+    settings: Any = engine.package.MANY
+    chosen = {item.name for item in fields(settings) if item.init}
+    return replace(settings, **{name: value for name, value in found.items() if name in chosen})
+
+
+def _read(map_: Map, names: tuple[str, ...], stride: int, shape: tuple[int, int]) -> dict[str, NDArray[Any]]:
+    ny, nx = (-(-count // stride) for count in shape)
+    fills = {"outcome": NOT_TOSSED, "impacts": NOT_TOSSED, "margin": np.nan}
+    kinds = {"outcome": np.int8, "impacts": np.int32, "margin": np.float64}
+    arrays = {name: np.full((ny, nx), fills[name], kinds[name]) for name in names}
+    for tile in map_.tiles:
+        if not map_.is_tossed(tile):
+            continue
+        kept = tuple(slice(-(-part.start // stride), -(-part.stop // stride)) for part in tile)
+        first = tuple(slice(-part.start % stride, None, stride) for part in tile)
+        for name, array in arrays.items():
+            array[kept] = map_.read(tile, name)[first]
+    return arrays

@@ -1,0 +1,179 @@
+// The explorer's page: the map, the pixel that is chosen, and its toss by both engines.
+
+import { grid, isStatic, loadMap, tile, toss } from "./source.js";
+import { indexOf, shown, unitOf, valueAt } from "./axes.js";
+import { clamp, makeMap } from "./map.js";
+import { makePlayer } from "./player.js";
+import { makeScene } from "./scene.js";
+import { horizonText, markTouch, showSequences } from "./sequences.js";
+import { showEnergy } from "./energy.js";
+
+const ENGINES = ["analytic", "mujoco"], LABELS = { analytic: "analytic", mujoco: "MuJoCo" };
+const KEPT = 40; // pixels whose tosses are kept
+const byId = (id) => document.getElementById(id);
+
+let map, view, scene = null, player, moveEnergy = () => {};
+let tosses = [null, null], chosen = null, before = null, wanted = null, busy = false;
+const kept = new Map();
+
+async function begin() {
+  map = await loadMap();
+  map.impacts = new Int32Array(bytes(map.arrays.impacts));
+  map.margins = map.arrays.margin ? new Float32Array(bytes(map.arrays.margin)) : null;
+  describe();
+  try {
+    scene = makeScene(byId("coins"));
+  } catch {
+    byId("hint").textContent = "The coins are not shown: this browser has no WebGL. The map, the sequences and the energies work without it.";
+    byId("coins").hidden = true;
+    byId("stage").classList.add("empty");
+    byId("camera").disabled = true;
+  }
+  player = makePlayer((time) => {
+    scene?.draw(time);
+    markTouch(byId("sequences"), tosses, time);
+    moveEnergy(time);
+  });
+  const whole = map.axes.x.field !== "ending.max_impacts" && map.axes.y.field !== "ending.max_impacts";
+  view = makeMap({
+    canvas: byId("map"), map, grid, tile: isStatic || !whole ? null : tile,
+    onHover: (place) => (byId("readout").textContent = placeText(place)),
+    onChoose: choose,
+    onProblem: (message) => (byId("readout").textContent = message),
+  });
+  byId("zoom-in").addEventListener("click", () => view.zoom(0.5));
+  byId("zoom-out").addEventListener("click", () => view.zoom(2));
+  byId("whole").addEventListener("click", () => view.showWhole());
+  byId("camera").addEventListener("change", (event) => {
+    scene?.look(event.target.value);
+    player.redraw();
+  });
+  byId("coins").addEventListener("pointermove", () => player.redraw());
+  new ResizeObserver(() => player.redraw()).observe(byId("stage"));
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => requestAnimationFrame(() => player.redraw()));
+  fromAddress();
+  document.body.dataset.ready = "true";
+}
+
+function describe() {
+  byId("name").textContent = map.name;
+  document.title = `${map.name}: cointoss explore`;
+  const parts = [
+    `${map.axes.x.count} by ${map.axes.y.count} tosses by the ${LABELS[map.engine]} engine: ` +
+      (map.after === null ? "the final outcome." : `the face at touch ${map.after + 1}, or the outcome of a toss that ended before.`)];
+  if (map.stride > 1) parts.push(`Each ${map.stride}th pixel is shown.`);
+  if (map.tossed < 1) parts.push(`The map is not finished: ${(100 * map.tossed).toFixed(1)} % is tossed${isStatic ? "" : "; reload to see more"}.`);
+  if (isStatic) parts.push("Dots mark the pixels whose tosses are in this page.");
+  byId("about").textContent = parts.join(" ");
+  const present = new Set(Int8Array.from(bytesOf(map.arrays.outcome)));
+  const entries = Object.entries(map.outcomes).filter(([code]) => present.has(Number(code))).map(([, one]) => [one.label, one.color]);
+  if (present.has(-1)) entries.push(["not tossed", "var(--untossed)"]);
+  byId("legend").replaceChildren(...entries.map(([label, color]) => {
+    const item = document.createElement("li"), patch = document.createElement("i");
+    patch.style.background = color;
+    item.append(patch, label);
+    return item;
+  }));
+}
+
+const valueText = (axis, value, step) => `${axis.field} = ${shown(value, step)} ${unitOf(axis)}`.trim().replaceAll(" ", "\u00a0");
+
+function releaseText(place) {
+  const { x, y } = map.axes, step = (axis) => ((axis.stop - axis.start) / (axis.count - 1)) * Math.min(place.step, 1);
+  return `${valueText(x, place.x, step(x))}, ${valueText(y, place.y, step(y))}`;
+}
+
+function placeText(place) {
+  const parts = [releaseText(place)];
+  if (place.code !== null) parts.push(place.code < 0 ? "not tossed" : map.outcomes[place.code].label);
+  if (place.index !== null && map.impacts[place.index] >= 0) parts.push(counted(map.impacts[place.index], "impact"));
+  return `${parts.join("; ")}${marginText(place)}`;
+}
+
+function marginText(place) {
+  if (!map.margins || place.index === null || Number.isNaN(map.margins[place.index])) return "";
+  const margin = map.margins[place.index], { along, unit } = map.margin;
+  if (!Number.isFinite(margin)) return `; no change of ${along} up to 1 SI unit was found to change it`;
+  return `; margin along ${along} ${margin > 0 ? "+" : "−"}${Number(Math.abs(margin).toPrecision(3))} ${unit}`;
+}
+
+const counted = (number, thing) => `${number} ${thing}${number === 1 ? "" : "s"}`;
+
+function choose(place) {
+  byId("readout").textContent = placeText(place);
+  if (chosen && place.x === chosen.x && place.y === chosen.y) return;
+  before = tosses[0]?.path ? tosses[0] : null;
+  chosen = place;
+  history.replaceState(null, "", `#x=${place.x}&y=${place.y}`);
+  byId("pixel").textContent = place.code === null || place.code < 0 ? "The toss of this pixel" : `The toss of this pixel: ${map.outcomes[place.code].label} on the map`;
+  byId("release").textContent = `${releaseText(place)}${marginText(place)}`;
+  byId("hint").hidden = scene !== null;
+  byId("outcome").textContent = "Tossing …";
+  wanted = place;
+  if (!busy) answer();
+}
+
+// Tosses the pixel that was chosen last; those between are passed over.
+async function answer() {
+  busy = true;
+  while (wanted) {
+    const place = wanted, key = `${place.x},${place.y}`, found = kept.get(key) ?? [null, null];
+    wanted = null;
+    let fresh = true;
+    for (const [i, engine] of ENGINES.entries()) {
+      if (wanted) break;
+      try {
+        found[i] ??= await toss(engine, place);
+      } catch (error) {
+        found[i] = { engine, problem: error.message, passing: true };
+      }
+      if (!wanted) show(found, fresh);
+      fresh = false;
+    }
+    if (found.every((one) => one && !one.passing)) kept.set(key, found);
+    if (kept.size > KEPT) kept.delete(kept.keys().next().value);
+  }
+  busy = false;
+}
+
+function show(found, fresh) {
+  tosses = [...found];
+  const there = tosses.filter((one) => one?.path);
+  for (const part of document.querySelectorAll(".of-toss")) part.hidden = there.length === 0;
+  scene?.show(tosses);
+  showSequences(byId("sequences"), tosses, before, map.after);
+  byId("horizon").textContent = horizonText(tosses, before, map.after);
+  moveEnergy = showEnergy(byId("energy"), tosses);
+  byId("outcome").replaceChildren(...ENGINES.map((engine, i) => outcome(engine, tosses[i])));
+  ENGINES.forEach((engine, i) => (byId(`state-${engine}`).textContent = tosses[i]?.outcome ?? (tosses[i] ? "no toss" : "…")));
+  player.load(Math.max(0, ...there.map((one) => one.end_time)), fresh);
+}
+
+function outcome(engine, one) {
+  const line = document.createElement("p"), name = document.createElement("b");
+  name.className = engine;
+  name.textContent = `${LABELS[engine]}: `;
+  const text = !one ? "tossing …" : one.problem ? one.problem
+    : [`${one.outcome} after ${counted(one.count, "impact")} in ${one.end_time.toFixed(4)} s. ${one.ending}`, ...one.notes].join(" ");
+  line.append(name, text);
+  return line;
+}
+
+// The pixel that the address names after its #.
+function fromAddress() {
+  const given = new URLSearchParams(location.hash.slice(1)), x = Number(given.get("x") ?? NaN), y = Number(given.get("y") ?? NaN);
+  if (!Number.isFinite(x) || !Number.isFinite(y)) return;
+  const near = (axis, value) => {
+    const at = clamp(indexOf(axis, value), 0, axis.count - 1), whole = Math.round(at);
+    return valueAt(axis, whole) === value || Math.abs(at - whole) < 1e-6 ? whole : at;
+  };
+  view.choose(near(map.axes.x, x), near(map.axes.y, y), true);
+}
+
+function bytesOf(text) {
+  return Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0));
+}
+
+const bytes = (text) => bytesOf(text).buffer;
+
+begin().catch((error) => (byId("about").textContent = error.message));

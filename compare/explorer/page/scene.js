@@ -1,0 +1,193 @@
+// Both tosses in 3D, side by side: gold with an H is heads, blue with a T is tails, as in the films.
+
+import * as THREE from "./three.module.min.js";
+
+const TRAIL = "#7d8894";
+
+export function makeScene(canvas) {
+  const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+  renderer.setScissorTest(true);
+  const style = (name) => new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(name).trim());
+  let panels = [], looks = "follow", turn = -0.5, drag = null;
+
+  function show(tosses) {
+    for (const panel of panels) dispose(panel?.scene);
+    panels = tosses.map((toss) => (toss?.path ? makePanel(toss, tosses) : null));
+    recolor();
+  }
+
+  function makePanel(toss, tosses) {
+    const scene = new THREE.Scene(), r = toss.coin.radius, half = toss.coin.thickness / 2;
+    scene.add(new THREE.HemisphereLight("#ffffff", "#cfd6dd", 2.6));
+    const lamp = new THREE.DirectionalLight("#ffffff", 1.4);
+    lamp.position.set(0.4, -1, 1.6);
+    scene.add(lamp);
+
+    const coin = new THREE.Group(), body = new THREE.Group();
+    const side = new THREE.MeshStandardMaterial({ color: "#9aa1ab", roughness: 0.45, metalness: 0.3, fog: false });
+    const shape = new THREE.CylinderGeometry(r, r, 2 * half, 72).rotateX(Math.PI / 2);
+    body.add(new THREE.Mesh(shape, [side, faceMaterial("#f5ab1f", "#2a1a00", "H"), faceMaterial("#0d5ca8", "#ffffff", "T")]));
+    body.position.set(...toss.coin.center.map((part) => -part));
+    coin.add(body);
+    scene.add(coin);
+
+    // Light from straight above: the shadow is the coin, pressed flat.
+    const shadow = new THREE.Mesh(shape, new THREE.MeshBasicMaterial({ depthWrite: false, side: THREE.DoubleSide }));
+    shadow.matrixAutoUpdate = shadow.frustumCulled = false;
+    scene.add(shadow);
+
+    const box = boxOf(tosses.filter((one) => one?.path), r);
+    const reach = 60 * Math.max(r, box.size / 12);
+    const tile = Math.max(2 * r, box.size / 12);
+    const checks = new THREE.CanvasTexture(document.createElement("canvas"));
+    checks.wrapS = checks.wrapT = THREE.RepeatWrapping;
+    checks.repeat.set(reach / tile / 2, reach / tile / 2);
+    checks.magFilter = THREE.NearestFilter;
+    checks.colorSpace = THREE.SRGBColorSpace;
+    checks.anisotropy = 4;
+    const floor = new THREE.Mesh(new THREE.PlaneGeometry(reach, reach), new THREE.MeshBasicMaterial({ map: checks }));
+    floor.position.z = -0.03 * r;
+    scene.add(floor);
+
+    const points = new Float32Array(toss.path.position), line = new THREE.BufferGeometry();
+    line.setAttribute("position", new THREE.BufferAttribute(points, 3));
+    const trail = new THREE.Line(line, new THREE.LineBasicMaterial({ color: TRAIL, fog: false }));
+    trail.frustumCulled = false;
+    scene.add(trail);
+    return { scene, coin, body, shadow, floor, checks, trail, tile, reach, toss, box, r, camera: new THREE.PerspectiveCamera(35, 1, r / 2, 3 * reach) };
+  }
+
+  function recolor() {
+    const colors = ["--floor-light", "--floor-dark", "--shadow"].map(style);
+    for (const panel of panels.filter(Boolean)) {
+      const image = panel.checks.image, pen = image.getContext("2d");
+      image.width = image.height = 2;
+      for (const [i, j] of [[0, 0], [0, 1], [1, 0], [1, 1]]) {
+        pen.fillStyle = `#${colors[(i + j) % 2].getHexString()}`;
+        pen.fillRect(i, j, 1, 1);
+      }
+      panel.checks.needsUpdate = true;
+      panel.shadow.material.color = colors[2];
+      panel.scene.fog = new THREE.Fog(style("--sky"));
+    }
+  }
+
+  function draw(time) {
+    const { width, height } = canvas.getBoundingClientRect();
+    if (!width || !height) return;
+    renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    renderer.setSize(width, height, false);
+    panels.forEach((panel, i) => {
+      const left = i * (width / 2);
+      renderer.setViewport(left, 0, width / 2, height);
+      renderer.setScissor(left, 0, width / 2 - (i === 0 ? 1 : 0), height);
+      renderer.setClearColor(style("--sky"), 1);
+      renderer.clear();
+      if (!panel) return;
+      pose(panel, time);
+      aim(panel, width / 2 / height);
+      renderer.render(panel.scene, panel.camera);
+    });
+  }
+
+  function pose(panel, time) {
+    const { path } = panel.toss, { at, part } = placeIn(path.time, time), next = Math.min(at + 1, path.time.length - 1);
+    const vector = (k) => new THREE.Vector3().fromArray(path.position, 3 * k);
+    // Scalar first, as everywhere in cointoss; three.js has it last.
+    const attitude = (k) => new THREE.Quaternion(...[1, 2, 3, 0].map((each) => path.quaternion[4 * k + each])).normalize();
+    panel.coin.position.copy(vector(at).lerp(vector(next), part));
+    panel.coin.quaternion.copy(attitude(at).slerp(attitude(next), part));
+    panel.coin.updateMatrixWorld(true);
+    panel.shadow.matrix.makeScale(1, 1, 0).multiply(panel.body.matrixWorld);
+    panel.trail.geometry.setDrawRange(0, at + 1);
+    panel.trail.visible = looks === "whole";
+    // The floor follows by whole tiles.
+    const tiles = 2 * panel.tile;
+    panel.floor.position.x = Math.round(panel.coin.position.x / tiles) * tiles;
+    panel.floor.position.y = Math.round(panel.coin.position.y / tiles) * tiles;
+  }
+
+  function aim(panel, aspect) {
+    const { camera, box, r } = panel, narrow = Math.max(1, 1 / aspect);
+    const follows = looks === "follow", target = follows ? panel.coin.position : box.middle;
+    const far = follows ? 6.5 * r * narrow : 1.75 * Math.max(box.high + r, box.wide / aspect) + box.wide / 2;
+    const up = follows ? 0.6 : 0.16;
+    camera.aspect = aspect;
+    camera.up.set(0, 0, 1);
+    camera.position.set(
+      target.x + far * Math.cos(up) * Math.sin(turn), target.y - far * Math.cos(up) * Math.cos(turn), target.z + far * Math.sin(up));
+    camera.lookAt(target);
+    // It hides the floor's end.
+    panel.scene.fog.near = far;
+    panel.scene.fog.far = far + 0.4 * panel.reach;
+    camera.updateProjectionMatrix();
+  }
+
+  canvas.addEventListener("pointerdown", (event) => {
+    drag = { x: event.clientX, turn };
+    canvas.setPointerCapture(event.pointerId);
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    if (drag) turn = drag.turn - (event.clientX - drag.x) / 120;
+  });
+  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => (drag = null));
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", recolor);
+  return { show, draw, look: (how) => (looks = how) };
+}
+
+// The last sample before a time, and which part of the way to the next has gone.
+export function placeIn(times, time) {
+  let low = 0, high = times.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (times[middle] <= time) low = middle;
+    else high = middle - 1;
+  }
+  const span = (times[low + 1] ?? times[low]) - times[low];
+  return { at: low, part: span > 0 ? Math.min(Math.max((time - times[low]) / span, 0), 1) : 0 };
+}
+
+// What both paths need together.
+function boxOf(tosses, r) {
+  const low = [Infinity, Infinity, 0], high = [-Infinity, -Infinity, 0];
+  for (const { path } of tosses) {
+    path.position.forEach((value, k) => {
+      low[k % 3] = Math.min(low[k % 3], value);
+      high[k % 3] = Math.max(high[k % 3], value);
+    });
+  }
+  const wide = Math.hypot(high[0] - low[0], high[1] - low[1]) + 4 * r, tall = high[2] - low[2] + 2 * r;
+  const middle = new THREE.Vector3(...low.map((value, k) => (value + high[k]) / 2));
+  return { middle, wide, high: tall, size: Math.max(wide, tall) };
+}
+
+function faceMaterial(color, ink, letter) {
+  const image = document.createElement("canvas"), size = 256;
+  image.width = image.height = size;
+  const pen = image.getContext("2d");
+  pen.fillStyle = color;
+  pen.fillRect(0, 0, size, size);
+  pen.strokeStyle = pen.fillStyle = ink;
+  pen.globalAlpha = 0.35;
+  pen.lineWidth = 5;
+  pen.beginPath();
+  pen.arc(size / 2, size / 2, 0.46 * size, 0, 2 * Math.PI);
+  pen.stroke();
+  pen.globalAlpha = 1;
+  const bar = 0.1 * size;
+  const bars = letter === "H" ? [[-0.22, -0.25, 1, 5], [0.12, -0.25, 1, 5], [-0.22, -0.05, 4, 1]] : [[-0.22, -0.25, 4.4, 1], [-0.05, -0.25, 1, 5]];
+  for (const [x, y, wide, high] of bars) pen.fillRect((0.5 + x) * size, (0.5 + y) * size, wide * bar, high * bar);
+  const texture = new THREE.CanvasTexture(image);
+  texture.colorSpace = THREE.SRGBColorSpace;
+  return new THREE.MeshStandardMaterial({ map: texture, roughness: 0.5, metalness: 0.1, fog: false });
+}
+
+function dispose(scene) {
+  scene?.traverse((part) => {
+    part.geometry?.dispose();
+    for (const material of [part.material].flat().filter(Boolean)) {
+      material.map?.dispose();
+      material.dispose();
+    }
+  });
+}

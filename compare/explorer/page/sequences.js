@@ -1,0 +1,76 @@
+// The faces up at the touches of both tosses, each up to its horizon, and those of the pixel before.
+
+const LABELS = { analytic: "analytic", mujoco: "MuJoCo" };
+
+export function commonPrefix(a, b) {
+  let n = 0;
+  while (n < Math.min(a.length, b.length) && a[n] === b[n]) n++;
+  return n;
+}
+
+export function showSequences(box, tosses, before, after) {
+  const rows = tosses.filter((toss) => toss?.path).map((toss) => row(LABELS[toss.engine], toss.engine, toss, after));
+  if (before) rows.push(row("before", "", before, null));
+  const longest = Math.max(0, ...tosses.filter((toss) => toss?.path).map((toss) => toss.sequence.length));
+  const numbers = element("div", "row numbers");
+  numbers.setAttribute("aria-hidden", "true");
+  numbers.append(element("b"), ...Array.from({ length: longest }, (_, i) => element("span", "", String(i + 1))));
+  box.replaceChildren(...rows, ...(longest ? [numbers] : []));
+}
+
+function row(label, kind, toss, after) {
+  const found = element("div", "row"), { sequence, trusted, count } = toss;
+  found.setAttribute("role", "img");
+  found.setAttribute("aria-label", `${label}: ${[...sequence].join(" ")}; horizon of trust after touch ${Math.min(trusted, count)} of ${count}`);
+  found.append(element("b", `${kind}${trusted === 0 && count ? " horizon" : ""}`, label));
+  [...sequence].forEach((face, i) => {
+    // The bar stands in the gap, so that columns stay below each other.
+    const kinds = [face, ...(i >= trusted ? ["beyond"] : []), ...(i === trusted - 1 && trusted < count ? ["horizon"] : [])];
+    const cell = element("span", [...kinds, ...(i === after ? ["mapped"] : [])].join(" "), face);
+    cell.dataset.touch = String(i);
+    if (kind) cell.dataset.engine = toss.engine;
+    found.append(cell);
+  });
+  if (count > sequence.length) found.append(element("em", "", `and ${count - sequence.length} more`));
+  return found;
+}
+
+// Marks the last touch before a time.
+export function markTouch(box, tosses, time) {
+  for (const marked of box.querySelectorAll(".now")) marked.classList.remove("now");
+  for (const toss of tosses) {
+    if (!toss?.path) continue;
+    const touched = toss.times.filter((each) => each <= time).length;
+    box.querySelector(`[data-engine="${toss.engine}"][data-touch="${touched - 1}"]`)?.classList.add("now");
+  }
+}
+
+// What the horizons say, in sentences.
+export function horizonText(tosses, before, after) {
+  const [a, b] = tosses.map((toss) => (toss?.path ? toss : null)), parts = [];
+  const own = (toss) => (toss.trusted >= toss.count ? `all ${toss.count}` : `the first ${toss.trusted}`);
+  if (a || b) {
+    const horizons = [a, b].filter(Boolean).map((toss) => `${LABELS[toss.engine]}: ${own(toss)}`).join(", ");
+    parts.push(`Horizon of trust, the bar: ${horizons}. Up to it the errors of the engine itself change no face; ` +
+      "after it each impact amplifies small errors.");
+  }
+  if (a && b) {
+    const shared = commonPrefix(a.sequence, b.sequence);
+    const all = shared === Math.max(a.sequence.length, b.sequence.length);
+    parts.push(all ? "Both engines give the same sequence." : `The engines agree up to touch ${shared}.`);
+  }
+  if (before && a) {
+    const shared = commonPrefix(before.sequence, a.sequence);
+    const same = shared === Math.max(before.sequence.length, a.sequence.length);
+    parts.push(same ? "The pixel before has the same sequence." : `The pixel before parts from it at touch ${shared + 1}.`);
+  }
+  if (after !== null) parts.push(`The map shows touch ${after + 1}, framed.`);
+  return parts.join(" ");
+}
+
+function element(tag, kind = "", text = "") {
+  const made = document.createElement(tag);
+  if (kind) made.className = kind;
+  made.textContent = text;
+  return made;
+}

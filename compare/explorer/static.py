@@ -1,0 +1,90 @@
+"""The explorer as one file: the page, its map, and the tosses of some pixels; it needs no server."""
+
+import json
+import re
+from base64 import b64encode
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from compare.engines import Engine
+from compare.explorer.map_file import MapFile, read_map
+from compare.explorer.page_files import page_files
+from compare.explorer.tosses import toss_pixel
+from compare.output.files import write_text
+
+MOST_BYTES = 10_000_000
+"""Of the file."""
+MOST_PIXELS = 300_000
+"""Of the map in it."""
+COLUMNS, ROWS = 12, 9
+"""Pixels that are tossed, at most."""
+SAMPLES = 300
+"""Of the path of each toss."""
+_POLICY = (
+    "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; img-src data: blob:"
+)
+_IMPORTED = re.compile(r"""(from\s*["'])\./([\w.]+\.js)(["'])""")
+
+
+def write_static(map_path: Path, out: Path, progress: Callable[[int, int], None]) -> None:
+    """Write a page with a map and the tosses of a grid of its pixels, by both engines.
+
+    Args:
+        map_path: of the map.
+        out: the .html file.
+        progress: called after each pixel with their number so far and in all.
+
+    Raises:
+        SweepError, ScenarioError: for what is no map.
+        UnwritableError: naming the file and why.
+    """
+    found = read_map(map_path, most=MOST_PIXELS)
+    sweep = found.sweep
+    columns, rows = _spread(sweep.x.count, COLUMNS), _spread(sweep.y.count, ROWS)
+    pixels = [(column, row) for row in rows for column in columns]
+    x, y, tosses = sweep.x.values, sweep.y.values, {}
+    for done, (column, row) in enumerate(pixels, start=1):
+        at = float(x[column]), float(y[row])
+        tosses[f"{column},{row}"] = [
+            toss_pixel(sweep, *at, engine, samples=SAMPLES, most_symbols=SAMPLES // 4) for engine in Engine
+        ]
+        progress(done, len(pixels))
+    write_text(out, _page(found, {"columns": columns, "rows": rows, "tosses": tosses}))
+
+
+def _spread(count: int, most: int) -> list[int]:
+    """Return the indices of at most so many pixels of an axis, evenly spread, none of them twice."""
+    number = min(count, most)
+    return ((np.arange(number) + 0.5) * count / number).astype(int).tolist()
+
+
+def _page(found: MapFile, grid: dict[str, object]) -> str:
+    """Return the page as one text: its modules in an import map, as data."""
+    files = {name: content.decode("utf-8") for name, content in page_files().items()}
+    data = json.dumps({"map": found.as_json(), **grid}, allow_nan=False, separators=(",", ":"))
+    modules = {
+        name: "data:text/javascript;base64," + b64encode(_by_name(text).encode()).decode("ascii")
+        for name, text in files.items()
+        if name.endswith(".js")
+    }
+    parts = {
+        '<meta charset="utf-8">': f'<meta charset="utf-8">\n'
+        f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">',
+        '<link rel="stylesheet" href="style.css">': f"<style>\n{files['style.css']}</style>",
+        '<script type="module" src="main.js"></script>': f"<!-- three.js:\n{files['LICENSE']}-->\n"
+        f'<script type="importmap">{json.dumps({"imports": modules})}</script>\n'
+        # A "</script>" in the data must not end it.
+        f'<script type="application/json" id="data">{data.replace("<", chr(92) + "u003c")}</script>\n'
+        '<script type="module">import "main.js";</script>',
+    }
+    page = files["index.html"]
+    for mark, part in parts.items():
+        page = page.replace(mark, part)
+    return page
+
+
+def _by_name(module: str) -> str:
+    """Return a module's text with what it imports named as in the import map."""
+    return _IMPORTED.sub(r"\1\2\3", module)

@@ -1,0 +1,133 @@
+"""The toss of a pixel by one engine, as the explorer's page reads it."""
+
+import math
+import warnings
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from coin_mj.model.scene import shape_thickness
+from compare.engines import Engine
+from compare.film.back_end import BackEndError, require_mujoco
+from compare.report.plots import energies
+from compare.sweep.errors import SweepError
+from compare.sweep.grid import Sweep
+from compare.sweep.pixels import pixel_scenario
+from models.barriers import barrier
+from models.records import ApproximationWarning, Array, Toss, UnsupportedError, UnusableEngineError
+from models.scenario import Scenario
+
+SAMPLES = 1200
+"""Of the path that is played."""
+MOST_SYMBOLS = 200
+"""Of the sequence that is shown."""
+MOST_IMPACTS = {Engine.ANALYTIC: 20_000, Engine.MUJOCO: 500}
+"""A toss is followed up to so many impacts: some seconds of work."""
+
+
+def toss_pixel(
+    sweep: Sweep,
+    x: float,
+    y: float,
+    engine: Engine,
+    *,
+    samples: int = SAMPLES,
+    most_symbols: int = MOST_SYMBOLS,
+) -> dict[str, Any]:
+    """Return the toss at a point of a map, to its end also where the map shows an earlier touch.
+
+    Args:
+        sweep: of the map.
+        x: value of the field of the columns.
+        y: value of the field of the rows.
+        engine: that tosses, with its settings of one toss.
+        samples: of the path.
+        most_symbols: of the sequence.
+
+    Raises:
+        SweepError: for values that make no valid scenario.
+    """
+    scenario = pixel_scenario(replace(sweep, after=None), y, x)
+    most = MOST_IMPACTS[engine]
+    followed = scenario.replace("ending.max_impacts", min(most, scenario.rules.max_impacts))
+    with warnings.catch_warnings(record=True) as raised:
+        warnings.simplefilter("always", ApproximationWarning)
+        try:
+            if engine == Engine.MUJOCO:
+                require_mujoco()
+            toss = engine.package.toss(followed, settings=_settings(sweep, engine))
+            path = _path(toss, samples)
+        except (UnsupportedError, UnusableEngineError, BackEndError, FloatingPointError) as error:
+            return {"engine": engine.value, "problem": str(error)}
+    notes = [str(one.message) for one in raised if issubclass(one.category, ApproximationWarning)]
+    cut = len(toss.impacts) == most < scenario.rules.max_impacts
+    return {
+        "engine": engine.value,
+        "outcome": toss.outcome.label,
+        "ending": f"It is shown up to impact {most}." if cut else toss.ending.sentence,
+        "end_time": toss.end_time,
+        "count": len(toss.impacts),
+        "sequence": toss.sequence[:most_symbols],
+        "times": _rounded(toss.impacts.time[:most_symbols], 7),
+        "trusted": toss.trusted_impacts,
+        "notes": notes,
+        "coin": _coin(scenario),
+        "path": path,
+    }
+
+
+def _settings(sweep: Sweep, engine: Engine) -> Any:
+    """Return an engine's settings of one toss, MuJoCo's with the contact of the map where it made that."""
+    fine = engine.package.FINE
+    if sweep.engine == engine == Engine.MUJOCO:
+        return replace(fine, contact=sweep.settings.as_dict()["contact"])
+    return fine
+
+
+def _coin(scenario: Scenario) -> dict[str, Any]:
+    """Return what the coin looks like [m], and the least energy with which it turns over [J]."""
+    body = scenario.body
+    return {
+        "radius": scenario.coin.radius,
+        "thickness": shape_thickness(scenario),
+        "center": list(scenario.coin.center_of_mass),
+        "barrier": min(barrier(body, side) for side in (1.0, -1.0)),
+    }
+
+
+def _path(toss: Toss, samples: int) -> dict[str, Any]:
+    """Return times [s], positions of C [m], Euler parameters and energies [J], number after number."""
+    hits = toss.impacts.time[: samples // 4]
+    times = np.unique(
+        np.concatenate(
+            [np.linspace(0, toss.end_time, samples - 2 * len(hits)), hits, np.nextafter(hits, 0)]
+        ).clip(0, toss.end_time)
+    )
+    states = toss.sample(times)
+    # Finer than the eye sees: a ten-thousandth of a radius.
+    decimals = 4 - math.floor(math.log10(toss.scenario.coin.radius))
+    return {
+        "time": _rounded(times, 7),
+        "position": np.round(states.position, decimals).ravel().tolist(),
+        "quaternion": np.round(states.quaternion, 5).ravel().tolist(),
+        "energy": _rounded(energies(toss.scenario, states), 5),
+    }
+
+
+def _rounded(numbers: Array, digits: int) -> list[float]:
+    return [float(f"{number:.{digits}g}") for number in numbers.tolist()]
+
+
+def require_inside(sweep: Sweep, x: float, y: float) -> None:
+    """Refuse a point outside of a map.
+
+    Raises:
+        SweepError: naming the field, its value and what is accepted.
+    """
+    for axis, value in ((sweep.x, x), (sweep.y, y)):
+        low, high = sorted((axis.start, axis.stop))
+        if not low <= value <= high:
+            raise SweepError(f"{axis.field} = {value:g}: accepted: a number from {low!r} to {high!r}")
+        if axis.field == "ending.max_impacts" and value != int(value):
+            raise SweepError(f"{axis.field} = {value:g}: accepted: a whole number")

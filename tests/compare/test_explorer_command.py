@@ -1,0 +1,176 @@
+"""`cointoss explore`: what it refuses, where it listens, and how it ends."""
+
+import json
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+import webbrowser
+
+import numpy as np
+import pytest
+import zarr
+
+from compare.explorer import map_file
+from compare.explorer.map_file import read_map
+from compare.explorer.server import Explorer
+from tests.helpers.command_line import HERE, cointoss
+from tests.helpers.explored import AXES, SCENARIO, got, small_map
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    return small_map(tmp_path_factory.mktemp("map"))
+
+
+@pytest.fixture
+def copy(whole, tmp_path):
+    """A copy of the map to be damaged."""
+    return shutil.copytree(whole, tmp_path / "map.zarr")
+
+
+def refused(*arguments):
+    answered = cointoss("explore", *arguments)
+    assert answered.exit_code == 2
+    assert answered.stdout == ""
+    assert len(answered.stderr.splitlines()) == 1
+    return answered.stderr
+
+
+def test_a_map_that_is_gone_or_foreign_is_refused(tmp_path):
+    (tmp_path / "file.zarr").write_text("a file")
+    (tmp_path / "empty.zarr").mkdir()
+    zarr.create_group(tmp_path / "foreign.zarr", attributes={"title": "rain"})
+    for name, reason in (
+        ("gone.zarr", "no such folder"),
+        ("file.zarr", "no such folder"),
+        ("empty.zarr", "can't be read as a map"),
+        ("foreign.zarr", "is no map of this version"),
+    ):
+        said = refused(tmp_path / name)
+        assert said.startswith(f"cointoss: {tmp_path / name}: {reason}")
+        assert "accepted: a map that cointoss basin made" in said
+
+
+def changed(path, **attributes):
+    description = json.loads((path / "zarr.json").read_text())
+    description["attributes"].update(attributes)
+    (path / "zarr.json").write_text(json.dumps(description))
+
+
+@pytest.mark.parametrize(
+    ("attributes", "reason"),
+    [
+        ({"engine": "abacus"}, "is a damaged map (ValueError: 'abacus' is not a valid Engine)"),
+        ({"after": "two"}, 'is a damaged map (ValueError: after = "two")'),
+        ({"scenario": "gravity = -1"}, "gravity = -1: accepted: a number"),
+        ({"scenario": 7}, "is a damaged map"),
+        ({"engine_settings": {"contact_steps": -1}}, "is a damaged map (ValueError: contact_steps"),
+        ({"margin_along": "height"}, "is a damaged map (KeyError: 'margin')"),
+        ({"cointoss_map": 2}, "is no map of this version"),
+    ],
+)
+def test_a_damaged_map_is_refused(copy, attributes, reason):
+    changed(copy, **attributes)
+    said = refused(copy)
+    assert str(copy) in said
+    assert reason in said
+
+
+def test_a_map_without_an_axis_or_of_another_shape_is_refused(copy):
+    shutil.rmtree(copy / "release.position.z")
+    assert "is a damaged map (KeyError: 'y')" in refused(copy)
+
+
+def test_a_map_of_too_many_pixels_is_refused(whole, monkeypatch):
+    monkeypatch.setattr(map_file, "MOST_READ", 400)
+    assert "has 24 by 18 pixels; accepted: a map of at most 400 pixels" in refused(whole)
+
+
+def test_of_a_large_map_every_so_many_th_pixel_is_shown(whole):
+    full, part = read_map(whole), read_map(whole, most=100)
+    assert (full.stride, part.stride) == (1, 3)
+    assert part.arrays["outcome"].shape == (6, 8)
+    for name, array in part.arrays.items():
+        assert np.array_equal(array, full.arrays[name][::3, ::3])
+
+
+def test_an_unfinished_map_is_shown_as_far_as_it_is(copy, monkeypatch):
+    monkeypatch.setattr("compare.sweep.grid.TILE_TOSSES", dict.fromkeys(("analytic", "mujoco"), 64))
+    made = cointoss("basin", copy.parent / "coin.toml", *AXES, "--out", copy, "--overwrite")
+    assert made.exit_code == 2  # there is no such scenario here
+    (copy.parent / "coin.toml").write_text(SCENARIO)
+    made = cointoss("basin", copy.parent / "coin.toml", *AXES, "--out", copy, "--overwrite")
+    assert made.exit_code == 0, made.stderr
+    before = read_map(copy).arrays["outcome"]
+    chunks = sorted(path for path in (copy / "outcome" / "c").rglob("*") if path.is_file())
+    assert len(chunks) > 3
+    chunks[0].unlink()
+    chunks[1].write_bytes(b"broken")
+    found = read_map(copy)
+    outcome = found.arrays["outcome"]
+    assert 0 < (outcome == -1).mean() < 0.8
+    assert np.array_equal(outcome[outcome != -1], before[outcome != -1])
+    assert found.as_json()["tossed"] == pytest.approx(np.mean(outcome != -1))
+
+
+def test_margins_are_read(whole, tmp_path):
+    (tmp_path / "coin.toml").write_text(SCENARIO)
+    axes = ("--x", "release.angular_velocity.eta=20:60:3", "--y", "release.position.z=0.2:0.6:2")
+    made = cointoss(
+        "basin", tmp_path / "coin.toml", *axes, "--margin", "height", "--out", tmp_path / "m.zarr"
+    )
+    assert made.exit_code == 0, made.stderr
+    told = read_map(tmp_path / "m.zarr").as_json()
+    assert told["margin"] == {"along": "height", "unit": "mm"}
+    assert len(told["arrays"]["margin"]) == 4 * (3 * 2 * 4) // 3
+    assert read_map(whole).as_json()["margin"] is None
+
+
+def test_a_port_in_use_is_refused(whole):
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = other.getsockname()[1]
+        said = refused(whole, "--port", port)
+    assert f"--port {port}: another program listens there; accepted: another port" in said
+    assert "accepted: an integer >= 1 and <= 65535" in refused(whole, "--port", 70000)
+
+
+def test_the_static_page_takes_no_port(whole, tmp_path):
+    assert "--static: accepted" in refused(whole, "--static", tmp_path / "page.html", "--no-browser")
+    assert "ends in .html" in refused(whole, "--static", tmp_path / "page.txt")
+    assert "in a folder that exists" in refused(whole, "--static", tmp_path / "nowhere" / "page.html")
+
+
+@pytest.mark.parametrize(
+    ("opens", "options", "asked"), [(True, [], 1), (False, [], 1), (True, ["--no-browser"], 0)]
+)
+def test_the_address_is_printed_and_opened(whole, monkeypatch, opens, options, asked):
+    opened = []
+    monkeypatch.setattr(webbrowser, "open", lambda url: opened.append(url) or opens)
+    monkeypatch.setattr(Explorer, "serve_forever", lambda _: None)
+    answered = cointoss("explore", whole, *options)
+    assert answered.exit_code == 0
+    assert answered.stdout.startswith("http://127.0.0.1:")
+    assert len(opened) == asked
+    assert ("no browser was found" in answered.stderr) == (not opens)
+
+
+def test_ctrl_c_ends_it_within_a_second(whole):
+    """A second on a machine of one's own; ten on one that is busy."""
+    process = subprocess.Popen(
+        [sys.executable, "-c", "from compare.cli import main; main()", "explore", whole, "--no-browser"],
+        env=HERE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout
+    port = int(process.stdout.readline().rstrip("/\n").rpartition(":")[2])
+    assert got(port, "/")[0] == 200
+    started = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=60)
+    assert time.monotonic() - started < 10
+    assert (process.returncode, said) == (130, "cointoss: interrupted by SIGINT\n")

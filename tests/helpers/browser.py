@@ -1,0 +1,209 @@
+"""A headless Chromium, driven over its DevTools pipe."""
+
+import fcntl
+import json
+import os
+import select
+import shutil
+import subprocess
+import sys
+import time
+from base64 import b64decode
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Self
+
+OPTIONS = (
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+    "--remote-debugging-pipe",
+)
+# Chromium reads its orders from descriptor 3, and answers to 4.
+LAUNCH = "import os, sys; r, w, *c = sys.argv[1:]; os.dup2(int(r), 3); os.dup2(int(w), 4); os.execv(c[0], c)"
+PATIENCE = 60.0
+"""For an answer, on a machine that other work keeps busy [s]."""
+
+
+def chromium() -> str:
+    """Return the path of Chromium; `make test` installs it."""
+    found = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    assert found, "the tests of the explorer need Chromium; on Debian or Ubuntu: apt-get install chromium"
+    return found
+
+
+@contextmanager
+def browser(profile: Path) -> Iterator["Browser"]:
+    """Start Chromium with a profile of its own."""
+    orders, ordered = os.pipe()
+    answered, answers = os.pipe()
+    theirs = [fcntl.fcntl(each, fcntl.F_DUPFD, 10) for each in (orders, answers)]
+    command = [chromium(), *OPTIONS, f"--user-data-dir={profile}", "about:blank"]
+    process = subprocess.Popen(
+        [sys.executable, "-S", "-E", "-c", LAUNCH, *map(str, theirs), *command],
+        pass_fds=theirs,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    for each in (orders, answers, *theirs):
+        os.close(each)
+    try:
+        yield Browser(ordered, answered)
+    finally:
+        os.close(ordered)  # its end ends the browser
+        try:
+            process.wait(timeout=20)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+        os.close(answered)
+
+
+class Browser:
+    """Speaks the DevTools protocol over a pipe: messages of JSON, each ended by a zero byte."""
+
+    def __init__(self, ordered: int, answered: int) -> None:
+        self._ordered, self._answered = ordered, answered
+        self._number, self._read = 0, b""
+        self.events: list[dict[str, Any]] = []
+
+    def call(self, method: str, session: str | None = None, **arguments: Any) -> dict[str, Any]:
+        """Return the result of a method."""
+        self._number += 1
+        message = {"id": self._number, "method": method, "params": arguments}
+        if session:
+            message["sessionId"] = session
+        data = json.dumps(message).encode() + b"\0"
+        while data:
+            data = data[os.write(self._ordered, data) :]
+        while True:
+            answer = self._next()
+            if answer.get("id") == self._number:
+                assert "error" not in answer, (method, answer["error"])
+                return answer["result"]
+            self.events.append(answer)
+
+    def _next(self) -> dict[str, Any]:
+        deadline = time.monotonic() + PATIENCE
+        while b"\0" not in self._read:
+            assert select.select([self._answered], [], [], max(deadline - time.monotonic(), 0))[0], (
+                "no answer"
+            )
+            part = os.read(self._answered, 1 << 20)
+            assert part, "Chromium has ended"
+            self._read += part
+        message, _, self._read = self._read.partition(b"\0")
+        return json.loads(message)
+
+
+class Page:
+    """A tab."""
+
+    def __init__(self, browser: Browser) -> None:
+        self._browser = browser
+        target = browser.call("Target.createTarget", url="about:blank")["targetId"]
+        self._target = target
+        self._session = browser.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        for domain in ("Page", "Runtime", "Log", "Network"):
+            self.call(f"{domain}.enable")
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._browser.call("Target.closeTarget", targetId=self._target)
+
+    def call(self, method: str, **arguments: Any) -> dict[str, Any]:
+        """Return the result of a method of this tab."""
+        return self._browser.call(method, self._session, **arguments)
+
+    def open(
+        self, url: str, *, width: int = 1280, height: int = 900, scheme: str = "light", moving: bool = False
+    ) -> None:
+        """Load an address in a window of a size, in light or dark, with motion or the least of it."""
+        self.call(
+            "Emulation.setDeviceMetricsOverride",
+            width=width,
+            height=height,
+            deviceScaleFactor=1,
+            mobile=False,
+        )
+        motion = "no-preference" if moving else "reduce"
+        media = {"prefers-color-scheme": scheme, "prefers-reduced-motion": motion}
+        features = [{"name": name, "value": value} for name, value in media.items()]
+        self.call("Emulation.setEmulatedMedia", features=features)
+        # A new fragment alone would not load the page again.
+        self.call("Page.navigate", url="about:blank")
+        self.call("Page.navigate", url=url)
+        self.wait_for("document.body?.dataset.ready === 'true'")
+
+    def value(self, expression: str) -> Any:
+        """Return the value of an expression of JavaScript, a promise's when it is kept."""
+        answer = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        assert "exceptionDetails" not in answer, answer["exceptionDetails"]
+        return answer["result"].get("value")
+
+    def wait_for(self, expression: str) -> None:
+        """Wait until an expression is true."""
+        deadline = time.monotonic() + PATIENCE
+        while not self.value(expression):
+            assert time.monotonic() < deadline, f"never: {expression}; {self.complaints()}"
+            time.sleep(0.05)
+
+    def text(self, id_: str) -> str:
+        """Return the text of an element."""
+        return self.value(f"document.getElementById({json.dumps(id_)}).textContent")
+
+    def press(self, key: str, *, shift: bool = False) -> None:
+        """Press a key."""
+        shown = {"text": key} if len(key) == 1 else {}
+        for kind in ("keyDown", "keyUp"):
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, modifiers=8 * shift, **shown)
+
+    def mouse(self, kind: str, x: float, y: float, **more: Any) -> None:
+        """Move the mouse, press or release its button, or turn its wheel."""
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)
+
+    def click(self, x: float, y: float) -> None:
+        """Click at a place."""
+        for kind in ("mousePressed", "mouseReleased"):
+            self.mouse(kind, x, y, button="left", buttons=1, clickCount=1)
+
+    def complaints(self) -> list[str]:
+        """Return what the browser has complained of in this tab: errors and warnings."""
+        found = []
+        for event in self._browser.events:
+            told = event.get("params", {})
+            if event.get("sessionId") != self._session:
+                continue
+            if event["method"] == "Runtime.exceptionThrown":
+                details = told["exceptionDetails"]
+                found.append(details.get("exception", {}).get("description", details["text"]))
+            elif event["method"] == "Log.entryAdded" and told["entry"]["level"] in ("error", "warning"):
+                found.append(told["entry"]["text"])
+            elif event["method"] == "Runtime.consoleAPICalled" and told["type"] in ("error", "warning"):
+                found.append(
+                    " ".join(str(part.get("value", part.get("description"))) for part in told["args"])
+                )
+        # Of the software renderer, where a picture is taken.
+        return [text for text in found if "GL Driver Message" not in text]
+
+    def asked(self) -> list[str]:
+        """Return the addresses that this tab has asked the network for."""
+        return [
+            event["params"]["request"]["url"]
+            for event in self._browser.events
+            if event.get("sessionId") == self._session and event["method"] == "Network.requestWillBeSent"
+        ]
+
+    def screenshot(self, path: Path, *, whole: bool = False) -> None:
+        """Write a picture of the window, or of the whole page."""
+        shot = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
+        path.write_bytes(b64decode(shot["data"]))

@@ -1,0 +1,65 @@
+"""A small map to explore, and its server."""
+
+import socket
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from compare.explorer.server import Explorer
+from tests.helpers.command_line import cointoss
+
+SCENARIO = """
+[coin]
+mass = "2 g"
+radius = "1.25 cm"
+thickness = "2 mm"
+[floor]
+restitution = 0.6
+contact = "smooth"
+[release]
+position = [0, 0, 0.4]
+[ending]
+max_impacts = 4
+"""
+FIELDS = "release.angular_velocity.eta", "release.position.z"
+AXES = ("--x", f"{FIELDS[0]}=20:60:24", "--y", f"{FIELDS[1]}=0.2:0.6:18", "--after", "1")
+
+
+def small_map(folder: Path, name: str = "map.zarr") -> Path:
+    """Make a map of 24 by 18 pixels in a folder."""
+    (folder / "coin.toml").write_text(SCENARIO)
+    made = cointoss("basin", folder / "coin.toml", *AXES, "--out", folder / name)
+    assert made.exit_code == 0, made.stderr
+    return folder / name
+
+
+@contextmanager
+def serving(path: Path) -> Iterator[Explorer]:
+    """Serve a map until the `with` statement ends."""
+    with Explorer(path, 0) as explorer:
+        thread = threading.Thread(target=explorer.serve_forever, args=(0.05,))
+        thread.start()
+        try:
+            yield explorer
+        finally:
+            explorer.shutdown()
+            thread.join()
+
+
+def sent(port: int, request: bytes) -> tuple[int, dict[str, str], bytes]:
+    """Send bytes to a server; return its answer's status, headers and body."""
+    with socket.create_connection(("127.0.0.1", port), timeout=60) as connection:
+        connection.sendall(request)
+        connection.shutdown(socket.SHUT_WR)
+        answer = b"".join(iter(lambda: connection.recv(1 << 16), b""))
+    head, _, body = answer.partition(b"\r\n\r\n")
+    first, *lines = head.decode("latin-1").split("\r\n")
+    headers = {name.lower(): value for name, value in (line.split(": ", 1) for line in lines)}
+    return int(first.split()[1]), headers, body
+
+
+def got(port: int, target: str, *more: str, method: str = "GET", host: str | None = None):
+    """Ask a server for a target; return its answer's status, headers and body."""
+    lines = [f"{method} {target} HTTP/1.1", f"Host: {host or f'127.0.0.1:{port}'}", *more, "", ""]
+    return sent(port, "\r\n".join(lines).encode("latin-1"))
