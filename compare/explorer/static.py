@@ -16,7 +16,7 @@ from compare.output.files import write_text
 
 MOST_BYTES = 10_000_000
 """Of the file."""
-MOST_PIXELS = 300_000
+MOST_PIXELS = 200_000
 """Of the map in it."""
 COLUMNS, ROWS = 12, 9
 """Pixels that are tossed, at most."""

@@ -4,6 +4,7 @@ import base64
 import io
 import json
 import re
+from itertools import product
 from urllib.parse import parse_qs
 
 import numpy as np
@@ -188,10 +189,25 @@ def test_the_mouse_hovers_and_zooms_into_a_finer_map(page, server):
     page.mouse("mouseMoved", *at)
     page.wait_for("document.getElementById('readout').textContent.includes('2 impacts')")
     assert "tile" not in " ".join(page.asked())
-    for _ in range(12):
+    for _ in range(4):
         page.mouse("mouseWheel", *at, deltaX=0, deltaY=-120)
     page.wait_for("performance.getEntriesByType('resource').some((one) => one.name.includes('/tile?'))")
-    page.click(*at)
+    scenario = parse(SCENARIO, "here")
+    left, top, *_ = box(page, "map")
+    seen = set()
+    for dx, dy in product((-150, 0, 150), (-120, 0, 120)):
+        page.wait_for(
+            f"document.getElementById('map').dispatchEvent(new PointerEvent('pointermove',"
+            f" {{clientX: {at[0] + dx}, clientY: {at[1] + dy}}})) &&"
+            " /heads|tails/.test(document.getElementById('readout').textContent)"
+        )
+        shown = picture(page, "map")[round(at[1] + dy - top), round(at[0] + dx - left)]
+        page.click(at[0] + dx, at[1] + dy)
+        x, y = chosen(page)
+        face = analytic.toss(scenario.replace(FIELDS[0], x, FIELDS[1], y)).impacts.face[1]
+        assert tuple(shown) == (GOLD if face == 1 else BLUE)
+        seen.add(face)
+    assert seen == {1, 2}
     page.wait_for(TOSSED)
     first = chosen(page)
     page.press("ArrowRight")
@@ -201,6 +217,44 @@ def test_the_mouse_hovers_and_zooms_into_a_finer_map(page, server):
     assert 0 < steps[1] < 0.4 / 17 / 2
     assert steps[0] / (40 / 23) == pytest.approx(steps[1] / (0.4 / 17))
     assert page.complaints() == []
+
+
+def test_the_margin_of_a_pixel_is_told(page, tmp_path):
+    (tmp_path / "coin.toml").write_text(SCENARIO)
+    axes = (
+        "--x",
+        f"{FIELDS[0]}=20:60:3",
+        "--y",
+        f"{FIELDS[1]}=0.2:0.6:3",
+        "--after",
+        "1",
+        "--margin",
+        "height",
+    )
+    made = cointoss("basin", tmp_path / "coin.toml", *axes, "--out", tmp_path / "map.zarr")
+    assert made.exit_code == 0, made.stderr
+    found = read_map(tmp_path / "map.zarr").arrays["margin"][2, 1]
+    with serving(tmp_path / "map.zarr") as explorer:
+        page.open(f"{explorer.url}#x=40&y=0.6")
+        shown = float(
+            re.findall(r"margin along height ([+−][\d.e-]+) mm", page.text("release"))[0].replace("−", "-")
+        )
+        page.wait_for(TOSSED)
+    assert shown == pytest.approx(found, rel=5e-3)
+
+
+def test_each_sequence_has_its_own_horizon(page, server):
+    page.open(server.url)
+    toss = {"engine": "analytic", "sequence": "HHTTH", "trusted": 2, "count": 9, "path": {}}
+    page.value(
+        "import('./sequences.js').then(({ showSequences }) =>"
+        f" showSequences(document.getElementById('sequences'), [{json.dumps(toss)}], null, null))"
+    )
+    assert sequences(page) == {"analytic": ("HHTTH", 3)}
+    assert page.value("document.querySelector('#sequences .horizon').dataset.touch") == "1"
+    assert "and 4 more" in page.text("sequences")
+    told = page.value("document.querySelector('#sequences .row').getAttribute('aria-label')")
+    assert told == "analytic: H H T T H; horizon of trust after touch 2 of 9"
 
 
 def test_an_address_names_a_pixel(page, server):

@@ -61,7 +61,7 @@ function describe() {
   const parts = [
     `${map.axes.x.count} by ${map.axes.y.count} tosses by the ${LABELS[map.engine]} engine: ` +
       (map.after === null ? "the final outcome." : `the face at touch ${map.after + 1}, or the outcome of a toss that ended before.`)];
-  if (map.stride > 1) parts.push(`Each ${map.stride}th pixel is shown.`);
+  if (map.stride > 1) parts.push(`One pixel of every ${map.stride} along each axis is shown.`);
   if (map.tossed < 1) parts.push(`The map is not finished: ${(100 * map.tossed).toFixed(1)} % is tossed${isStatic ? "" : "; reload to see more"}.`);
   if (isStatic) parts.push("Dots mark the pixels whose tosses are in this page.");
   byId("about").textContent = parts.join(" ");
