@@ -107,6 +107,14 @@ def hit(body, rules, chi, y, row):
 
 
 @compiled
+def restitution_at(body, rules, y):
+    """Return χ of the touch in the state y, (13,): 0 up to the floor's threshold of the speed of approach."""
+    threshold = rules.restitution_threshold
+    is_plastic = threshold > 0 and -closing_speed(body, y)[1] <= threshold
+    return 0.0 if is_plastic else rules.restitution
+
+
+@compiled
 def toss_coin(body, rules, limits, y, rows, keep_all):
     """Run the event loop.
 
@@ -185,10 +193,11 @@ def fly_to_event(body, rules, friction, y, time, n, row, history):
     time += flown
     if not touches:
         return Event.ENDS, time, n, Outcome.UNDECIDED, Ending.MAX_TIME
-    if is_chattering(body, rules.restitution, y):
+    chi = restitution_at(body, rules, y)
+    if is_chattering(body, chi, y):
         event, outcome, ending = come_to_stay(body, rules, friction, y, time, row, history)
         return event, time, n, outcome, ending
-    ending = hit(body, rules, rules.restitution, y, row)
+    ending = hit(body, rules, chi, y, row)
     if ending != Ending.NONE:
         return Event.ENDS, time, n, Outcome.UNDECIDED, ending
     row.time = time

@@ -18,7 +18,7 @@ def strike(
         body: the coin.
         rules: of the floor, but for the next two.
         states: of the coin as it touches, (n, 13): position and velocity of C, Euler parameters, and ω.
-        restitution: χ, one number or (n,).
+        restitution: χ at any speed, one number or (n,).
         friction: μ, one number or (n,).
 
     Returns:
@@ -45,6 +45,7 @@ def rules_at(rules, chi, mu):
     return Rules(
         rules.law,
         chi,
+        rules.restitution_threshold,
         rules.restitution_kind,
         mu,
         rules.rolling_friction,

@@ -88,7 +88,7 @@ def require_supported(scenario: Scenario, *, settings: Settings) -> None:
             f'floor.restitution_kind = "{floor.restitution_kind.label}": accepted by the MuJoCo engine: '
             '"kinematic" (its contacts prescribe how the normal speed changes, whatever the work)'
         )
-    for name in RESISTANCES:
+    for name in (*RESISTANCES, "restitution_threshold"):
         if getattr(floor, name) > 0:
             raise UnsupportedError(
                 f"floor.{name} = {getattr(floor, name):g}: accepted by the MuJoCo engine: 0"
@@ -118,7 +118,8 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     Raises:
         ScenarioError: for a file or a name that can't be used.
         UnsupportedError: for contact laws other than "smooth", "coulomb" and "perfectly_rough"; energetic
-            restitution; resistance to rolling or pivoting; restitution 0 of a spring.
+            restitution; resistance to rolling or pivoting; a threshold of restitution; restitution 0 of a
+            spring.
 
     Warns:
         ApproximationWarning: for a perfectly rough floor, which is one of friction `ROUGH`.

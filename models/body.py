@@ -46,6 +46,7 @@ class Rules(NamedTuple):
 
     law: ContactLaw
     restitution: float
+    restitution_threshold: float
     restitution_kind: RestitutionKind
     friction: float
     rolling_friction: float

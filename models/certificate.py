@@ -82,9 +82,9 @@ def measurements(
 def law_residuals(body: Body, rules: Rules, impacts: Impacts) -> Array:
     """Return by how much each impact misses its contact law, (n,).
 
-    Velocities relative to |v_A| before the impact, impulses relative to |S|. Newton's v_Az' = -χ v_Az, and
-    the law's own constraint; of Coulomb's law that |S_xy| <= μ S_z, and with energetic restitution that no
-    energy is gained. A flat landing's impulse is vertical.
+    Velocities relative to |v_A| before the impact, impulses relative to |S|. Newton's v_Az' = -χ v_Az, χ = 0
+    up to the threshold of restitution, and the law's own constraint; of Coulomb's law that |S_xy| <= μ S_z,
+    and with energetic restitution that no energy is gained. A flat landing's impulse is vertical.
 
     Args:
         body: the coin.
@@ -120,7 +120,8 @@ def law_residuals(body: Body, rules: Rules, impacts: Impacts) -> Array:
     own = np.where(flat, horizontal / size, own)
     if law == ContactLaw.COULOMB and rules.restitution_kind == RestitutionKind.ENERGETIC:
         return np.maximum(own, np.maximum(impacts.energy_change, 0) / (size * speed))
-    return np.maximum(own, np.abs(after[:, 2] + rules.restitution * before[:, 2]) / speed)
+    chi = np.where(-before[:, 2] > rules.restitution_threshold, rules.restitution, 0.0)
+    return np.maximum(own, np.abs(after[:, 2] + chi * before[:, 2]) / speed)
 
 
 def momentum_residuals(body: Body, impacts: Impacts) -> Array:

@@ -50,6 +50,7 @@ UNITS = {
     "air.normal": lambda_unit(0),
     "air.tangential": lambda_unit(0),
     "floor.restitution": "",
+    "floor.restitution_threshold": "m/s",
     "floor.friction": "",
     "floor.rolling_friction": "m",
     "floor.pivoting_friction": "m",

@@ -223,6 +223,8 @@ class Floor(_Part):
 
     restitution: Annotated[Number, Field(ge=0, le=1)]
     """χ: normal speed of the contact point after an impact over that before it."""
+    restitution_threshold: Annotated[float, _quantity("m/s"), _not_negative] = 0.0
+    """Normal speed of approach up to which a touch is plastic, χ = 0 [m/s]."""
     contact: Annotated[ContactLaw, BeforeValidator(_named(ContactLaw))]
     """The contact law."""
     friction: Annotated[Number, _not_negative] = 0.0
@@ -436,6 +438,7 @@ class Scenario(_Part):
         return Rules(
             law=floor.contact,
             restitution=floor.restitution,
+            restitution_threshold=floor.restitution_threshold,
             restitution_kind=floor.restitution_kind,
             friction=floor.friction,
             rolling_friction=floor.rolling_friction,

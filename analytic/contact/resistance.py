@@ -24,7 +24,7 @@ class FloorFriction(NamedTuple):
     """p [m]."""
 
 
-WITHOUT = FloorFriction(0.0)
+FRICTIONLESS = FloorFriction(0.0)
 """Of a floor that acts on a coin in contact by its normal force alone."""
 
 

@@ -6,7 +6,7 @@ force F at A, dv_A/dt = b + K F, K the mobility of A as in an impact and b what 
 
 from typing import NamedTuple
 
-from analytic.contact.resistance import WITHOUT, has_resistance, moment_per_force
+from analytic.contact.resistance import FRICTIONLESS, has_resistance, moment_per_force
 from analytic.flight.equations_of_motion import flight_of
 from analytic.flight.state_vector import set_spin, set_velocity, spin_of, velocity_of
 from models.geometry import tilt_sine_of
@@ -51,7 +51,7 @@ def rim_contact(body, y, rim):
         y: state, (13,), not flat.
         rim: -1 for tails' rim, 1 for heads'; see `models.geometry.lower_rim`.
     """
-    return rim_contact_in_flight(body, WITHOUT, flight_of(body, y), rim)
+    return rim_contact_in_flight(body, FRICTIONLESS, flight_of(body, y), rim)
 
 
 @compiled

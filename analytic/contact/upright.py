@@ -7,7 +7,7 @@ friction on slow slip grows in proportion to it.
 import math
 
 from analytic.contact.floor_force import friction_holds, holding_force
-from analytic.contact.resistance import WITHOUT, has_resistance
+from analytic.contact.resistance import FRICTIONLESS, has_resistance
 from analytic.contact.rim_contact import (
     accelerate,
     add_quotient,
@@ -86,8 +86,8 @@ def put_on_floor(body, y):
         y: state, (13,).
     """
     tilt(y, rotation_matrix(attitude_of(y))[2][2])
-    tails, heads = both_rims(body, WITHOUT, y)
-    _, S, turned = _holding(body, WITHOUT, tails, heads, (tails.velocity[2], heads.velocity[2]))
+    tails, heads = both_rims(body, FRICTIONLESS, y)
+    _, S, turned = _holding(body, FRICTIONLESS, tails, heads, (tails.velocity[2], heads.velocity[2]))
     v = velocity_of(y)
     set_height(y, -tails.arm[2])
     set_velocity(y, (v[0], v[1], v[2] + S[2] / body.mass))
@@ -144,7 +144,7 @@ def start_creep(body, friction, rim, y):
     if N < 0 or not friction_holds(mu, F):
         return
     slip = -_slow_slip(body, mu) / (mu * F[2])
-    tails, heads = both_rims(body, WITHOUT, y)
+    tails, heads = both_rims(body, FRICTIONLESS, y)
     held, other = (tails, heads) if rim < 0 else (heads, tails)
     change = subtract(held.velocity, (slip * F[0], slip * F[1], 0.0))
     S, S_other = _gripping(body, friction, held, other, (0.0, 0.0, 1.0), change, other.velocity[2])

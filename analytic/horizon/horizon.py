@@ -170,10 +170,13 @@ def _holds(rules: Rules, row: np.void, touch: Touch, errors: Array) -> bool:
     else:
         slips = rules.law == ContactLaw.SLIDING_FRICTION and rules.friction > 0
         in_place = error(touch.up[:2]) <= LINEAR_RANGE * tilt_sine and not (slips and not v_A[:2].any())
+    speed, threshold = abs(v_A[2]), rules.restitution_threshold
+    same_restitution = threshold == 0 or error(touch.contact_velocity[2]) < abs(speed - threshold)
     return bool(
         in_place
+        and same_restitution
         and _size(errors[-1]) <= TIME_ERROR
         and error(touch.up[2]) < abs(up[2])
-        and error(touch.contact_velocity[2]) <= LINEAR_RANGE * abs(v_A[2])
+        and error(touch.contact_velocity[2]) <= LINEAR_RANGE * speed
         and error(touch.impulse) <= IMPULSE_ERROR * np.linalg.norm(row["impulse"])
     )

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic.events import hit
+from analytic.events import hit, restitution_at
 from analytic.flight.equations_of_motion import derivative
 from analytic.flight.state_vector import STATE_SIZE, attitude_of, normalise
 from models.attitude import rotation_matrix
@@ -57,10 +57,11 @@ def touch_derivatives(body: Body, rules: Rules, y: Array) -> Touch:
         y: state at the touch, before the impact, (13,).
     """
     rate, values = np.empty(STATE_SIZE), np.empty(_AFTER + STATE_SIZE)
+    chi = restitution_at(body, rules, y)
     derivative(body, y, rate)
-    touch_values(body, rules, y, values)
+    touch_values(body, rules, chi, y, values)
     v_A = values[_VELOCITY:_IMPULSE]
-    slopes = touch_differences(body, rules, y, step_size(body, rules, y, v_A))
+    slopes = touch_differences(body, rules, chi, y, step_size(body, rules, y, v_A))
     return Touch(
         v_A[2],
         rate,
@@ -73,19 +74,20 @@ def touch_derivatives(body: Body, rules: Rules, y: Array) -> Touch:
 
 
 @compiled
-def touch_values(body, rules, y, values):
+def touch_values(body, rules, chi, y, values):
     """Write gap, upward unit vector, velocity of A, impulse and the state after into `values`.
 
     Args:
         body: the coin.
         rules: floor and ending.
+        chi: restitution of the touch.
         y: state at the touch, (13,).
         values: where they go, (23,).
     """
     up, rows = rotation_matrix(attitude_of(y))[2], np.zeros(1, IMPACT_ROW)
     values[0] = gap(body, y[2], up)
     copy_into(values[_AFTER:], y)
-    hit(body, rules, rules.restitution, values[_AFTER:], rows[0])
+    hit(body, rules, chi, values[_AFTER:], rows[0])
     for i in range(3):
         values[_UP + i] = up[i]
         values[_VELOCITY + i] = rows[0].contact_velocity_before[i]
@@ -125,12 +127,13 @@ def speed_scale(body, y):
 
 
 @compiled
-def touch_differences(body, rules, y, part):
+def touch_differences(body, rules, chi, y, part):
     """Return central differences of `touch_values`, over changes of the state's components, (23, 13).
 
     Args:
         body: the coin.
         rules: floor and ending.
+        chi: restitution of the touch, and of those beside it.
         y: state at the touch, (13,).
         part: size of the changes, relative to the coin's scales; the Euler parameters keep norm 1.
     """
@@ -152,7 +155,7 @@ def touch_differences(body, rules, y, part):
             copy_into(moved, y)
             moved[column] += change if i == 0 else -change
             normalise(moved)
-            touch_values(body, rules, moved, ends[i])
+            touch_values(body, rules, chi, moved, ends[i])
         for i in range(len(slopes)):
             slopes[i, column] = (ends[0, i] - ends[1, i]) / (2 * change)
     return slopes

@@ -56,7 +56,7 @@ def planar_coin(scenario: Scenario) -> PlanarCoin:
         ),
         **{
             f"floor.{name}: {getattr(scenario.floor, name)}, accepted: 0": getattr(scenario.floor, name) > 0
-            for name in RESISTANCES
+            for name in (*RESISTANCES, "restitution_threshold")
         },
     }
     for message, is_so in refused.items():

@@ -115,7 +115,7 @@ def test_differences_are_of_the_second_order_and_the_step_chosen_is_short_enough
     assert min(abs(rows[2][2]), np.hypot(*rows[2][:2])) > 0.1
 
     def differences(part: float) -> np.ndarray:
-        return touch_differences(body, rules, y, part)
+        return touch_differences(body, rules, rules.restitution, y, part)
 
     touch = touch_derivatives(body, rules, y)
     chosen = np.vstack([touch.gap, touch.up, touch.contact_velocity, touch.impulse, touch.after])

@@ -302,7 +302,12 @@ def test_a_coin_that_lands_flat_touches_first_with_the_rim_point_that_is_lower()
 
 
 def test_a_coin_of_no_plane_is_refused():
-    for field, value in (("coin.thickness", 1e-3), ("air.exponent", 0.5), ("floor.contact", "coulomb")):
+    for field, value in (
+        ("coin.thickness", 1e-3),
+        ("air.exponent", 0.5),
+        ("floor.contact", "coulomb"),
+        ("floor.restitution_threshold", 0.01),
+    ):
         scenario = case(air=True).replace(field, value)
         with pytest.raises(ValueError, match=f"{field}: .*, accepted: "):
             planar_coin(scenario)

@@ -47,6 +47,7 @@ def test_what_is_left_out_has_its_documented_default():
     read = parse(GOOD.replace("[air]\nnormal = 0.8", ""), "good.toml")
     assert (read.air.normal, read.air.tangential, read.air.exponent) == (0, 0, 0)
     assert (read.floor.friction, read.floor.rolling_friction, read.floor.pivoting_friction) == (0, 0, 0)
+    assert read.floor.restitution_threshold == 0
     assert read.release.velocity == (0, 0, 0)
     assert read.coin.center_of_mass == (0, 0, 0)
     assert read.ending.max_time == 1_000_000
@@ -131,6 +132,16 @@ WRONG = {
         "restitution = 0.8",
         "restitution = 0.8\nfriction = -1",
         ["floor.friction", "-1", ">= 0"],
+    ),
+    "negative threshold": (
+        "restitution = 0.8",
+        'restitution = 0.8\nrestitution_threshold = "-1 mm/s"',
+        ["floor.restitution_threshold", '"-1 mm/s"', ">= 0"],
+    ),
+    "threshold that is no speed": (
+        "restitution = 0.8",
+        'restitution = 0.8\nrestitution_threshold = "1 mm"',
+        ["floor.restitution_threshold", '"1 mm"', "a number in m/s"],
     ),
     "negative resistance": (
         "restitution = 0.8",
@@ -337,6 +348,6 @@ def test_a_scenario_made_in_python_is_refused_as_its_file_is():
     with pytest.raises(ScenarioError, match=r"^floor\.restitution = 2: accepted: a number >= 0 and <= 1$"):
         Scenario(**tables)
     with pytest.raises(ScenarioError, match=r'^radius = "-1 cm": accepted: a number >= 1e-09'):
-        Coin(mass=0.002, radius="-1 cm", thickness=0.002)
+        Coin(**tables["coin"] | {"radius": "-1 cm"})
     with pytest.raises(ScenarioError, match="did you mean angles"):
-        Release(position=(0, 0, 1), angels=(0, 0, 0))
+        Release(**tables["release"] | {"angels": (0, 0, 0)})

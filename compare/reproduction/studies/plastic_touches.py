@@ -1,0 +1,153 @@
+"""What a threshold of restitution does: how many impacts it leaves of a rattle, and the odds of the faces."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+import analytic
+from compare.output.progress import Progress
+from compare.output.tables import table
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.estimates import difference, share
+from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.setups.hands import releases_of_hands
+from models.reading import load
+from models.records import Outcome
+from models.scenario import Scenario
+
+COUNT, SEED = 1000, 5460
+"""Hand tosses of the zloty for each threshold, and the seed."""
+THRESHOLDS = (0.0, 1e-3, 1e-2, 3e-2, 1e-1)
+"""Speeds up to which a touch is plastic [m/s]."""
+MODERATE = 1e-2
+"""The threshold of the claims [m/s]; a fall from 5 µm reaches it."""
+
+
+@dataclass(frozen=True)
+class OneToss:
+    """How the zloty's own toss ended."""
+
+    impacts: int
+    contacts: int
+    end_time: float
+    end: str
+
+
+@dataclass(frozen=True)
+class HandTosses:
+    """How hand tosses of the zloty ended."""
+
+    impacts: list[int]
+    """Of each toss."""
+    outcomes: list[int]
+    """`Outcome` of each toss."""
+
+
+@dataclass(frozen=True)
+class PlasticTouchesRecord:
+    """What the study found, by threshold."""
+
+    zloty: dict[str, OneToss]
+    hands: dict[str, HandTosses]
+
+
+def result(found: PlasticTouchesRecord) -> Result:
+    """Return the study's tables and claims."""
+    return Result(claims=claims(found), data=found, tables=tables(found))
+
+
+def zloty(threshold: float) -> Scenario:
+    """Return the zloty's scenario with such a threshold of restitution."""
+    return load("zloty").replace("floor.restitution_threshold", threshold)
+
+
+def one_toss(threshold: float) -> OneToss:
+    """Toss the zloty as its scenario says."""
+    tossed = analytic.toss(zloty(threshold))
+    end = f"{tossed.outcome.label}, {tossed.ending.label}"
+    return OneToss(len(tossed.impacts), len(tossed.contacts), tossed.end_time, end)
+
+
+def hand_tosses(threshold: float, count: int, seed: int) -> HandTosses:
+    """Toss the zloty by hand; the releases are those of every threshold."""
+    releases = releases_of_hands(np.random.default_rng(seed), count, aside=10.0)
+    ended = analytic.toss_many(zloty(threshold), releases)
+    return HandTosses(ended.impacts.tolist(), ended.outcome.tolist())
+
+
+def compute(count: int, seed: int, progress: Progress) -> PlasticTouchesRecord:
+    """Toss the zloty once, and by `count` hands, for each of `THRESHOLDS`."""
+    alone, hands = {}, {}
+    for done, threshold in enumerate(THRESHOLDS, start=1):
+        alone[f"{threshold:g}"] = one_toss(threshold)
+        hands[f"{threshold:g}"] = hand_tosses(threshold, count, seed)
+        progress(done, len(THRESHOLDS))
+    return PlasticTouchesRecord(alone, hands)
+
+
+def ended(tosses: HandTosses, outcome: Outcome) -> list[bool]:
+    """Return which tosses ended so."""
+    return [found == outcome for found in tosses.outcomes]
+
+
+def claims(found: PlasticTouchesRecord) -> tuple[Claim, ...]:
+    """Return the claims of the study."""
+    name = f"{MODERATE:g}"
+    free, cut = found.hands["0"], found.hands[name]
+    kept = found.zloty[name].impacts / found.zloty["0"].impacts
+    moved = difference(ended(cut, Outcome.HEADS), ended(free, Outcome.HEADS))
+    return (
+        Claim(
+            claim=f"plastic touches up to {MODERATE:g} m/s end the rattle of the zloty",
+            criteria=[Criterion("share of its impacts that is left", kept, "<", 0.2, "a fifth")],
+        ),
+        Claim(
+            claim="they leave the odds of the faces as they are",
+            criteria=[Criterion("change of the share of heads", moved, "within ±", 0.1, "what counts here")],
+        ),
+    )
+
+
+def tables(found: PlasticTouchesRecord) -> str:
+    """Return the tables, in Markdown."""
+    alone = [
+        [f"{1e3 * float(name):g}", str(toss.impacts), str(toss.contacts), f"{toss.end_time:.3f}", toss.end]
+        for name, toss in found.zloty.items()
+    ]
+    free, rows = found.hands["0"], []
+    for name, tosses in found.hands.items():
+        same = np.equal(tosses.outcomes, free.outcomes)
+        shares = [share(flags) for flags in (ended(tosses, Outcome.HEADS), ended(tosses, Outcome.EDGE))]
+        rows.append(
+            [
+                f"{1e3 * float(name):g}",
+                f"{np.median(tosses.impacts):g}",
+                str(max(tosses.impacts)),
+                f"{100 * same.mean():.1f}",
+                *(f"{100 * s.value:.1f} [{100 * s.low:.1f}, {100 * s.high:.1f}]" for s in shares),
+            ]
+        )
+    return "\n\n".join(
+        [
+            table(["`zloty`, plastic up to [mm/s]", "impacts", "contacts", "ends at [s]", "as"], alone),
+            table(
+                [
+                    "hand tosses, plastic up to [mm/s]",
+                    "impacts, median",
+                    "at most",
+                    "outcome as without [%]",
+                    "heads [%]",
+                    "edge [%]",
+                ],
+                rows,
+            ),
+        ]
+    )
+
+
+REPRODUCTION = Reproduction(
+    title="what a threshold of restitution does: how many impacts are left of a rattle",
+    seconds=120,
+    make=lambda progress: result(compute(COUNT, SEED, progress)),
+    draw={},
+)

@@ -1,0 +1,115 @@
+"""A threshold of restitution: touches up to that speed of approach are plastic, and no others change."""
+
+import numpy as np
+import pytest
+
+import analytic
+from analytic.events import restitution_at
+from analytic.horizon.touch_derivatives import touch_derivatives
+from models.certificate import law_residuals
+from models.reading import load
+from models.records import Ending, Outcome
+from tests.helpers.draws import ZLOTY, scenario
+
+G = 9.81
+
+
+def test_a_coin_that_falls_flat_stops_after_the_bounces_of_the_closed_form():
+    """It comes down at v₀ χⁿ, so touch number ln(v₀/v)/ln(1/χ), rounded up, is the first plastic one."""
+    chi, threshold, height = 0.9, 1.0, 1.0
+    v0 = (2 * G * height) ** 0.5
+    bounces = int(np.ceil(np.log(v0 / threshold) / np.log(1 / chi)))
+    case = scenario(
+        coin=ZLOTY,
+        floor={"contact": "smooth", "restitution": chi, "restitution_threshold": threshold},
+        release={"position": [0, 0, height + ZLOTY["thickness"] / 2]},
+    )
+    tossed = analytic.toss(case)
+    speeds = -tossed.impacts.contact_velocity_before[:, 2]
+    after = tossed.impacts.contact_velocity_after[:, 2]
+    assert bounces == 15
+    assert speeds == pytest.approx(v0 * chi ** np.arange(bounces + 1), rel=1e-12)
+    assert after[:-1] == pytest.approx(chi * speeds[:-1], rel=1e-14)
+    assert after[-1] == pytest.approx(0, abs=1e-15)
+    assert (tossed.outcome, tossed.ending) == (Outcome.HEADS, Ending.SETTLED)
+    flights = 2 * v0 / G * (chi * (1 - chi**bounces) / (1 - chi))
+    assert tossed.end_time == pytest.approx(v0 / G + flights, rel=1e-12)
+
+
+def test_a_touch_is_plastic_at_the_threshold_and_elastic_above_it():
+    threshold, at_rest = 0.3, scenario(coin=ZLOTY)
+    case = at_rest.replace("floor.restitution", 0.8, "floor.restitution_threshold", threshold)
+    for speed, chi in ((0.0, 0.0), (threshold, 0.0), (np.nextafter(threshold, 1), 0.8)):
+        y = np.array([0, 0, ZLOTY["thickness"] / 2, 0, 0, -speed, 1, 0, 0, 0, 0, 0, 0.0])
+        assert restitution_at(case.body, case.rules, y) == chi
+        assert restitution_at(at_rest.body, at_rest.rules, y) == at_rest.floor.restitution
+
+
+@pytest.mark.parametrize(("name", "stays"), [("fig24a", False), ("zloty", True)])
+def test_a_toss_is_the_same_up_to_its_first_touch_below_the_threshold(name, stays):
+    """That touch is a plastic impact, or starts a sustained contact where plastic impacts would chatter."""
+    case = load(name)
+    free = analytic.toss(case)
+    speeds = -free.impacts.contact_velocity_before[:, 2]
+    threshold = float(np.sort(speeds)[len(speeds) // 10])
+    first = int(np.argmax(speeds <= threshold))
+    at = free.impacts.time[first]
+    cut = analytic.toss(case.replace("floor.restitution_threshold", threshold))
+    assert first > 0
+    assert np.array_equal(cut.impacts.time[:first], free.impacts.time[:first])
+    assert np.array_equal(cut.impacts.impulse[:first], free.impacts.impulse[:first])
+    assert (at in cut.contacts[:, 0]) == stays
+    assert (cut.impacts.time[first] == at) != stays
+    if not stays:
+        assert cut.impacts.contact_velocity_after[first, 2] == pytest.approx(0, abs=1e-12)
+    least = analytic.toss(case.replace("floor.restitution_threshold", float(speeds.min()) / 2))
+    assert np.array_equal(least.impacts.impulse, free.impacts.impulse)
+
+
+def test_a_zloty_rattles_less_and_every_slow_touch_is_plastic():
+    case = load("zloty")
+    free, cut = (analytic.toss(case.replace("floor.restitution_threshold", size)) for size in (0.0, 0.02))
+    assert len(cut.impacts) < len(free.impacts) / 2
+    speeds, after = (
+        -cut.impacts.contact_velocity_before[:, 2],
+        cut.impacts.contact_velocity_after[:, 2],
+    )
+    slow = speeds <= 0.02
+    assert slow.any()
+    assert after[slow] == pytest.approx(0, abs=1e-12)
+    assert after[~slow] == pytest.approx(0.8 * speeds[~slow], rel=1e-9)
+    rules = case.replace("floor.restitution_threshold", 0.02).rules
+    assert law_residuals(case.body, rules, cut.impacts).max() < 1e-9
+    assert (cut.impacts.energy_change < 0).all()
+
+
+def test_the_derivatives_of_a_plastic_touch_are_those_without_restitution():
+    case = load("fig24a")
+    found = analytic.toss(case).impacts
+    parts = (found.position, found.velocity_before, found.quaternion, found.angular_velocity_before)
+    y = np.concatenate([part[0] for part in parts])
+    plastic, without, free = (
+        touch_derivatives(case.body, changed.rules, y)
+        for changed in (
+            case.replace("floor.restitution_threshold", 10.0),
+            case.replace("floor.restitution", 0.0),
+            case,
+        )
+    )
+    assert np.array_equal(plastic.after, without.after)
+    assert np.array_equal(plastic.impulse, without.impulse)
+    assert not np.allclose(plastic.after, free.after)
+
+
+def test_no_impact_is_trusted_whose_speed_may_be_on_either_side_of_the_threshold():
+    case = load("fig24a")
+    free = analytic.toss(case)
+    speeds = -free.impacts.contact_velocity_before[: free.trusted_impacts, 2]
+    slowest = int(np.argmin(speeds))
+    barely, clearly = (
+        analytic.toss(case.replace("floor.restitution_threshold", float(part * speeds[slowest])))
+        for part in (1 - 1e-15, 0.999)
+    )
+    assert slowest > 0
+    assert np.array_equal(barely.impacts.impulse[: slowest + 1], free.impacts.impulse[: slowest + 1])
+    assert barely.trusted_impacts == slowest < clearly.trusted_impacts
