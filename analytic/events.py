@@ -11,13 +11,14 @@ from analytic.contact.following import follow, friction_in_contact, is_followed,
 from analytic.contact.periodic import repeats, start_tilting
 from analytic.contact.resistance import has_resistance
 from analytic.contact.rest import rests, rolls_upright
+from analytic.flight.catch import fly_to_hand
 from analytic.flight.flying import fly
 from analytic.flight.state_vector import STATE_SIZE, position_of, set_height, set_spin, set_velocity, state_of
 from analytic.flight.touch_search import closing_speed, is_chattering
 from analytic.impact.laws import impulse, spin_gained
 from analytic.settings import FINE, Settings, contact_limits
-from models.body import Body, Rules
-from models.ending import classify_ending, endless
+from models.body import Body, Rules, is_to_be_caught
+from models.ending import classify_ending, endless, face_outcome, unless_caught
 from models.geometry import contact_velocity, lowest_point
 from models.impact_row import FIRST_ROOM, with_room, write_impact
 from models.kernel.arrays import copy_into
@@ -158,7 +159,7 @@ def toss_coin(body, rules, limits, y, rows, keep_all):
         if event != Event.ENDS and steps >= limits.steps:
             event, ending = Event.ENDS, Ending.CONTACT_STEPS
         mode = mode_after(mode, event)
-    return n, rows, pieces[:k], outcome, ending, time
+    return n, rows, pieces[:k], *unless_caught(rules, outcome, ending), time
 
 
 @compiled
@@ -189,6 +190,10 @@ def fly_to_event(body, rules, friction, y, time, n, row, history):
     """
     if n == rules.max_impacts:
         return Event.ENDS, time, n, Outcome.UNDECIDED, Ending.MAX_IMPACTS
+    if is_to_be_caught(rules):
+        flown = fly_to_hand(body, rules.caught, y, rules.max_time - time)
+        if flown < np.inf:
+            return Event.ENDS, time + flown, n, face_outcome(state_of(y)), Ending.CAUGHT
     flown, touches, _ = fly(body, y, rules.max_time - time)
     time += flown
     if not touches:

@@ -53,4 +53,5 @@ def rules_at(rules, chi, mu):
         rules.test,
         rules.max_impacts,
         rules.max_time,
+        rules.caught,
     )

@@ -3,13 +3,13 @@
 import numpy as np
 
 from coin_mj.model.state import state_of
-from coin_mj.steps.flight import fly
+from coin_mj.steps.flight import FlightExit, fly
 from coin_mj.steps.gap_evaluation import evaluate_gap
 from coin_mj.steps.impact import TouchResult, resolve_impact
 from coin_mj.steps.knots import Step, add_knot, knot_of
 from coin_mj.steps.sustained_contact import NO_LOSS, ContactExit, follow_contact, slow_speed
 from models.attitude import rotation_matrix
-from models.ending import classify_ending
+from models.ending import classify_ending, face_outcome, unless_caught
 from models.geometry import contact_velocity, lowest_point
 from models.impact_row import with_room, write_impact
 from models.kernel.compiled import compiled
@@ -47,8 +47,11 @@ def toss_coin(coin, rules, budgets, rows, keep_all):
             ending = Ending.MAX_IMPACTS
             break
         if not lands:
-            time, touches, flight_steps_left = fly(coin, time, rules.max_time, flight_steps_left, knots)
-            if not touches:
+            time, way, flight_steps_left = fly(coin, rules, time, flight_steps_left, knots)
+            if way == FlightExit.CAUGHT:
+                outcome, ending = face_outcome(state(*state_of(coin))), Ending.CAUGHT
+                break
+            if way == FlightExit.BUDGET:
                 ending = Ending.MAX_TIME if time >= rules.max_time else Ending.FLIGHT_STEPS
                 break
         start, touch = time, state_of(coin)
@@ -66,14 +69,15 @@ def toss_coin(coin, rules, budgets, rows, keep_all):
         lands = False
         if sustained:
             start_history(coin.body, history, time)
-            way, time, steps_left, outcome, ending = follow_contact(
+            left_by, time, steps_left, outcome, ending = follow_contact(
                 coin, rules, time, steps_left, history, knots
             )
             if time > start:
                 contacts.append((start, time))
-            lands = way == ContactExit.RIM_LANDS
+            lands = left_by == ContactExit.RIM_LANDS
             steps_left -= 1
     add_knot(coin, time, Step.FLIGHT, knots)
+    outcome, ending = unless_caught(rules, outcome, ending)
     return n, rows, _table(knots), _pairs(contacts), outcome, ending, time
 
 

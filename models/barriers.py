@@ -66,6 +66,12 @@ def rim_offset(body, n_z):
     return out, up
 
 
+def highest_on_floor(body):
+    """Return the largest height that the mass centre of a coin that touches the floor may have [m]."""
+    c = body.center
+    return math.hypot(body.radius + math.hypot(c[0], c[1]), body.thickness / 2 + abs(c[2]))
+
+
 @compiled
 def spin_barrier(body, up, w):
     """Bound from below the energy at which a coin on a smooth floor in vacuum can turn over [J].

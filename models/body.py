@@ -1,5 +1,6 @@
 """A scenario's coin, air and floor as plain numbers for compiled code."""
 
+import math
 from typing import NamedTuple
 
 from models.drag import Drag
@@ -54,12 +55,20 @@ class Rules(NamedTuple):
     test: EndingTest
     max_impacts: int
     max_time: float
+    caught: float
+    """Height at which the toss ends as C comes down to it; infinite where it is not caught."""
 
 
 @compiled
 def resists(rules):
     """Return whether the floor resists rolling or pivoting."""
     return rules.rolling_friction > 0 or rules.pivoting_friction > 0
+
+
+@compiled
+def is_to_be_caught(rules):
+    """Return whether a hand catches the coin."""
+    return rules.caught < math.inf
 
 
 @compiled

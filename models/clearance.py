@@ -64,6 +64,18 @@ def damping_rate(body, v, w, window):
     return k * (1 / body.mass + arm * arm / body.inertia_smallest)
 
 
+@compiled
+def fastest_motion(body, v, w, window):
+    """Bound p = |v_C| + ω̃ ℓ and ω̃ over a time window, and return k, ℓ and d of `drag_bound` before them."""
+    drag, arm, turn_drag = drag_bound(body, body.air.exponent, v, w, window)
+    spin = _spin_bound(body, w)
+    speed = norm(v) + spin * arm
+    if drag > 0:
+        speed = (speed + body.gravity * window) * math.exp(damping_rate(body, v, w, window) * window)
+        spin += drag * arm / body.inertia_smallest * window * speed
+    return drag, arm, turn_drag, speed, spin
+
+
 class Accelerations(NamedTuple):
     """Bounds on the accelerations of a flying coin."""
 
@@ -99,12 +111,7 @@ def acceleration_bounds(body, v, up, w, window):
         window: length of the time window [s].
     """
     J, J_min = body.inertia, body.inertia_smallest
-    drag, arm, turn_drag = drag_bound(body, body.air.exponent, v, w, window)
-    spin = _spin_bound(body, w)
-    speed = norm(v) + spin * arm
-    if drag > 0:
-        speed = (speed + body.gravity * window) * math.exp(damping_rate(body, v, w, window) * window)
-        spin += drag * arm / J_min * window * speed
+    drag, arm, turn_drag, speed, spin = fastest_motion(body, v, w, window)
     j, spread = math.hypot(J[0][2], J[1][2]), body.inertia_largest - J_min
     apart = (2 * spin * spin * j + arm * drag * speed) / J_min + j / J_min * turn_drag * spin / J_min
     growth = (spin * spread + turn_drag) / J_min
@@ -143,10 +150,7 @@ def clear_time(body, z, v, up, w, window):
         A time in [0, window].
     """
     r = body.radius
-    # Bounds over a window much longer than the drag's own time would be too wide to be of use.
-    rate = damping_rate(body, v, w, window)
-    if rate * window > 0.5:
-        window = 0.5 / rate
+    window = useful_window(body, v, w, window)
     bounds = acceleration_bounds(body, v, up, w, window)
     up_rate = cross(up, w)
     tilt_sine = tilt_sine_of(up)
@@ -159,15 +163,25 @@ def clear_time(body, z, v, up, w, window):
         F = max((q - r * tilt_sine) * (q + r * tilt_sine), 0.0)
         F_rate = 2 * (q * q_rate + r * r * up[2] * up_rate[2])
         K = 2 * (q_most * bounds.of_height + r * r * bounds.of_height_of_normal)
-        root = (F_rate * F_rate + 2 * K * F) ** 0.5
-        # Of the two forms of the root, each sign of F_rate takes the one without cancellation.
-        if F_rate > 0:
-            clear = min(clear, (F_rate + root) / K)
-        elif F > 0:
-            clear = min(clear, 2 * F / (root - F_rate))
-        else:
-            clear = 0.0
+        clear = min(clear, first_root(F, F_rate, K))
     return clear
+
+
+@compiled
+def useful_window(body, v, w, window):
+    """Return a window no longer than half of the drag's own time: beyond, bounds are too wide."""
+    rate = damping_rate(body, v, w, window)
+    return 0.5 / rate if rate * window > 0.5 else window
+
+
+@compiled
+def first_root(F, rate, K):
+    """Return the positive root of F + rate t - K t²/2, or 0 where F = 0 falls; F >= 0 and K > 0."""
+    root = (rate * rate + 2 * K * F) ** 0.5
+    # Of its two forms, each sign of the rate takes the one without cancellation.
+    if rate > 0:
+        return (rate + root) / K
+    return 2 * F / (root - rate) if F > 0 else 0.0
 
 
 @compiled

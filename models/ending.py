@@ -10,7 +10,7 @@ from models.barriers import (
     spin_barrier,
     spin_barrier_bound,
 )
-from models.body import in_vacuum, is_ideal, resists
+from models.body import in_vacuum, is_ideal, is_to_be_caught, resists
 from models.clearance import drag_bound
 from models.geometry import tilt_sine_of
 from models.kernel.compiled import compiled
@@ -40,9 +40,42 @@ def classify_ending(body, rules, state, time, history):
         time: now [s].
         history: `EnergyHistory` of the toss; kept up.
     """
+    if cannot_be_caught(body, rules, state):
+        return Outcome.UNDECIDED, Ending.NOT_CAUGHT
     outcome, ending = final_face(body, rules, state)
     if ending == Ending.NONE and energy_loss_converges(body, rules, state, time, history):
         return endless(body, rules, state)
+    return outcome, ending
+
+
+@compiled
+def cannot_be_caught(body, rules, state):
+    """Return whether the coin is to be caught at a height to which its energy can never lift it.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        state: of the coin, a `State`.
+    """
+    never_adds = rules.law == ContactLaw.SMOOTH or rules.restitution_kind == RestitutionKind.ENERGETIC
+    if not (is_to_be_caught(rules) and never_adds):
+        return False
+    E = energy(body, state.position[2], state.velocity, state.spin)
+    return E < body.mass * body.gravity * rules.caught
+
+
+@compiled
+def unless_caught(rules, outcome, ending):
+    """Return how a toss ends: of a coin that is to be caught its face on the floor is not asked for.
+
+    Args:
+        rules: floor and ending.
+        outcome: in the hand or on the floor.
+        ending: there.
+    """
+    lies = outcome == Outcome.HEADS or outcome == Outcome.TAILS or outcome == Outcome.EDGE
+    if is_to_be_caught(rules) and lies and ending != Ending.CAUGHT:
+        return Outcome.UNDECIDED, Ending.NOT_CAUGHT
     return outcome, ending
 
 
@@ -75,7 +108,7 @@ def final_face(body, rules, state):
         rules: floor and ending.
         state: of the coin, a `State`.
     """
-    face, mgr = _face(state), body.mass * body.gravity * body.radius
+    face, mgr = face_outcome(state), body.mass * body.gravity * body.radius
     if rules.test == EndingTest.RIGOROUS:
         outcome, ending = settled_face(body, rules, state)
         if ending != Ending.NONE:
@@ -91,7 +124,7 @@ def final_face(body, rules, state):
 
 
 @compiled
-def _face(state):
+def face_outcome(state):
     """Return the face that is up, as an outcome."""
     return Outcome.HEADS if state.R[2][2] > 0 else Outcome.TAILS
 
@@ -114,7 +147,7 @@ def settled_face(body, rules, state):
         state: of the coin, a `State`.
     """
     v, w, up = state.velocity, state.spin, state.R[2]
-    E, face = energy(body, state.position[2], v, w), _face(state)
+    E, face = energy(body, state.position[2], v, w), face_outcome(state)
     smooth = rules.law == ContactLaw.SMOOTH
     energetic = rules.restitution_kind == RestitutionKind.ENERGETIC
     ending = Ending.SETTLED if smooth or energetic else Ending.PAPER

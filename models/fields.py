@@ -61,6 +61,7 @@ UNITS = {
     **_components("release.angular_velocity", "rad/s"),
     "ending.max_impacts": "",
     "ending.max_time": "s",
+    "ending.caught": "m",
 }
 """SI units, in pint's spelling, of the fields that are one number; those of λ are for b = 0."""
 

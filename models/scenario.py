@@ -18,6 +18,7 @@ from pydantic import (
 )
 
 from models.attitude import Quaternion, quaternion_from_angles, rotation_matrix
+from models.barriers import highest_on_floor
 from models.body import AirLaw, Body, Rules
 from models.clearance import damping_rate
 from models.drag import linear_drag, sliding_share
@@ -317,6 +318,9 @@ class EndingCriteria(_Part):
     impacts may take no energy."""
     max_time: Annotated[float, _quantity("s"), _size] = 1_000_000.0
     """The toss stops at this time [s]."""
+    caught: Annotated[float | None, _size, _quantity("m")] = None
+    """Height at which a hand catches the coin: the toss ends, with the face up, when C first comes down to it
+    [m]."""
 
 
 class Scenario(_Part):
@@ -371,6 +375,14 @@ class Scenario(_Part):
                 f"= {most:.6g} m, J the least moment of inertia: beyond, the floor's force has no solution"
             )
             raise FieldError(f"floor.{name}", size, accepted)
+        return self
+
+    @model_validator(mode="after")
+    def _caught_in_flight(self) -> Self:
+        caught, reach = self.ending.caught, highest_on_floor(self.body)
+        if caught is not None and not caught > reach:
+            accepted = f"more than {reach:.6g} m, so that the coin is caught in flight"
+            raise FieldError("ending.caught", caught, accepted)
         return self
 
     def replace(self, field: str, value: Any, /, *more: Any) -> "Scenario":
@@ -446,6 +458,7 @@ class Scenario(_Part):
             test=ending.test,
             max_impacts=most,
             max_time=ending.max_time,
+            caught=math.inf if ending.caught is None else ending.caught,
         )
 
 

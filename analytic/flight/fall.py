@@ -121,7 +121,8 @@ def expand(body, turning, y, longest, series):
     W, W_before, weight = (V[0], -V[1], -V[2]), _NONE, scale(body.gravity, up)
     weight_mirrored = (weight[0], -weight[1], -weight[2])
     series[0, 0], series[1, 0], series[2, 0], series[3, 0] = 0.0, 0.0, 0.0, position_of(y)[2]
-    order, size = 0, 1.0
+    # However short the piece, its velocity is that of the first term.
+    order, size = 1, 1.0
     for k in range(ORDER):
         part, slowed = _INVERSE[k], slowing * k
         x = scale(part, add(scale(slowed, x), V))

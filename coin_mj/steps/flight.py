@@ -1,14 +1,29 @@
 """A free flight of MuJoCo's coin, from step to step, until it touches the floor."""
 
+from enum import IntEnum
+
 import numpy as np
 
-from coin_mj.model.state import motion_of
+from coin_mj.model.state import motion_of, state_of
 from coin_mj.steps.free_step import free_rate, free_step_from, rates_of_step
 from coin_mj.steps.gap_evaluation import clear_flight, evaluate_gap, longest_step
 from coin_mj.steps.knots import Step, add_knot
 from coin_mj.steps.touch_search import arc_of, first_touch
+from models.body import is_to_be_caught
+from models.catch import approach_hand
 from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
+
+
+class FlightExit(IntEnum):
+    """How a flight ends."""
+
+    TOUCHES = 0
+    CAUGHT = 1
+    """C has come down to the height of the catch."""
+    BUDGET = 2
+    """Of time or of steps."""
+
 
 TOUCH_STEP = 1e-4
 """A touch is located to within this part of a contact step."""
@@ -17,27 +32,34 @@ ROUNDS = 8
 
 
 @compiled
-def fly(coin, time, max_time, steps_left, knots):
-    """Fly until the coin touches the floor.
+def fly(coin, rules, time, steps_left, knots):
+    """Fly until the coin touches the floor or is caught.
 
     Args:
         coin: MuJoCo's.
+        rules: floor and ending.
         time: now [s].
-        max_time: when to stop [s].
         steps_left: the most steps wanted.
         knots: of the path, kept up; see `knots.add_knot`.
 
     Returns:
-        The time [s], whether the coin touches before max_time and within its steps, and the steps left.
+        The time [s], the `FlightExit`, and the steps left.
     """
     # No step of flight detects contacts: of a coin that is flat within rounding MuJoCo's plane-cylinder
     # routine may take the radius for the height.
     shortest = TOUCH_STEP * coin.rebound.step
     rates, end_rate = rates_of_step(), np.empty(13)
     free_rate(coin, rates[0])
-    while time < max_time and steps_left > 0:
+    is_above = state_of(coin)[0][2] - coin.floor_height > rules.caught
+    while time < rules.max_time and steps_left > 0:
         steps_left -= 1
-        start, dt = motion_of(coin), min(longest_step(coin), max_time - time)
+        start, dt = motion_of(coin), min(longest_step(coin), rules.max_time - time)
+        if is_to_be_caught(rules):
+            x, v, _, w = state_of(coin)
+            height = x[2] - coin.floor_height
+            caught, is_above, dt = approach_hand(coin.body, rules.caught, is_above, height, v, w, dt)
+            if caught:
+                return time, FlightExit.CAUGHT, steps_left
         clear = clear_flight(coin, dt) >= dt
         add_knot(coin, time, Step.FLIGHT, knots)
         free_step_from(coin, start, rates, dt)
@@ -47,11 +69,11 @@ def fly(coin, time, max_time, steps_left, knots):
             if touch < dt:
                 dt, touches = _land(coin, start, rates, touch, dt, shortest)
                 if touches:
-                    return time + dt, True, steps_left
+                    return time + dt, FlightExit.TOUCHES, steps_left
                 free_rate(coin, end_rate)
         copy_into(rates[0], end_rate)
         time += dt
-    return time, False, steps_left
+    return time, FlightExit.BUDGET, steps_left
 
 
 @compiled

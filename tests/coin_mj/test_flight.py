@@ -12,7 +12,7 @@ from coin_mj import MANY
 from coin_mj.model.machine import machine_of
 from coin_mj.model.scene import shape_thickness
 from coin_mj.model.state import motion_of, set_motion, state_of
-from coin_mj.steps.flight import TOUCH_STEP, fly
+from coin_mj.steps.flight import TOUCH_STEP, FlightExit, fly
 from coin_mj.steps.free_step import free_rate, free_step, free_step_from, rates_of_step
 from coin_mj.steps.gap_evaluation import evaluate_gap
 from coin_mj.steps.knots import Step, knot_of
@@ -34,10 +34,14 @@ def flying(coin, seed=0, height=0.0, **settings):
 
 
 @compiled
-def flight(coin, longest):
+def fly_alone(coin, rules):
     knots = [knot_of(coin, 0.0, Step.FLIGHT)]
     knots.clear()
-    return fly(coin, 0.0, longest, 1000, knots)
+    return fly(coin, rules, 0.0, 1000, knots)
+
+
+def flight(case, machine, longest):
+    return fly_alone(machine.coin, case.rules._replace(max_time=longest))
 
 
 @compiled
@@ -116,9 +120,9 @@ def test_no_touch_is_found_where_a_step_ends():
 def test_a_flight_ends_where_the_coin_has_just_touched(coin):
     for seed in range(100):
         case, machine = flying(coin, seed)
-        time, touches, _ = flight(machine.coin, 100.0)
+        time, way, _ = flight(case, machine, 100.0)
         below = evaluate_gap(machine.coin)
-        assert touches
+        assert way == FlightExit.TOUCHES
         assert below.speed < 0
         assert 0 <= below.gap / below.speed <= TOUCH_STEP * machine.coin.rebound.step
         # By steps of 0.5 rad.
@@ -126,7 +130,7 @@ def test_a_flight_ends_where_the_coin_has_just_touched(coin):
 
 
 def test_a_coin_that_rocks_below_the_floor_touches_as_its_other_rim_comes_down():
-    machine = flying({**ZLOTY, "thickness": 8e-3})[1]
+    case, machine = flying({**ZLOTY, "thickness": 8e-3})
     # Its mass centre is over the lower rim, which rises.
     half = (np.pi / 2 + 1e-7) / 2
     upright = (0.0, 0.0, 0.0125 - 1e-9, np.cos(half), np.sin(half), 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -134,8 +138,8 @@ def test_a_coin_that_rocks_below_the_floor_touches_as_its_other_rim_comes_down()
         set_motion(machine.coin, (*upright, spin, 0.0, 0.0))
         before = evaluate_gap(machine.coin)
         assert before.gap < 0
-        time, touches, steps_left = flight(machine.coin, 1.0)
-        assert touches
+        time, way, steps_left = flight(case, machine, 1.0)
+        assert way == FlightExit.TOUCHES
         assert steps_left >= 998
         assert (time > 0) == (before.speed > 0)
         assert -1e-8 < evaluate_gap(machine.coin).gap < 0
@@ -143,8 +147,7 @@ def test_a_coin_that_rocks_below_the_floor_touches_as_its_other_rim_comes_down()
 
 
 def test_a_flight_ends_in_time_too():
-    _, machine = flying(BALANCED)
-    assert flight(machine.coin, 0.01)[:2] == (0.01, False)
+    assert flight(*flying(BALANCED), 0.01)[:2] == (0.01, FlightExit.BUDGET)
 
 
 def test_a_toss_flies_no_more_steps_than_its_budget():
