@@ -26,13 +26,13 @@ from models.kernel.code_cache import source_hash
 from models.records import Array, Outcome
 
 TESTS = {"E < m g r": BLUE, "eq. (20)": VERMILION}
-COUNT, PART = 4000, 500
+COUNT, PART = 100_000, 2000
 """Tosses of each class, and of a part that is kept."""
 SETTINGS = {True: Settings(contact_steps=5000), False: Settings(contact_steps=500)}
 """In air and in vacuum, where coins that never rest are not followed for ever."""
 NAMED, LEFT, OPEN, TOSSES = range(4)
 """Of a count: tosses whose face a test names, which leave it, of which that is not known; and all tosses."""
-NEVER = 2e-3
+NEVER = 1e-4
 """A share of the tosses that is nearly none: `COUNT` tosses without one have an interval below it."""
 CLASSES = tuple(
     CoinClass(thick=thick, imperfect=imperfect, air=air, coulomb=coulomb)
@@ -177,7 +177,7 @@ REPRODUCTION = Reproduction(
         "10 rad/s about the other axes. The tests look at the coin after each impact, as in section 4, and "
         "the toss goes on until its face is proved to stay. An interrupted run goes on where it was."
     ),
-    seconds=150,
+    seconds=3600,
     make=make,
     resumes=True,
     draw={"figure": _draw},

@@ -57,7 +57,7 @@ def make(progress: Progress, count: int = 1000, count_mujoco: int = 60) -> Resul
 
     The analytic engine makes `count` tosses of each reading of Fig. 24 whose impacts cluster as printed.
     """
-    readings = [one for one in READINGS if clusters_as_printed(sequences(one, printed_heights()))]
+    readings = [one for one in READINGS if clusters_as_printed(sequences(one.scenario, printed_heights()))]
     rng = np.random.default_rng(SEED)
     found: dict[str, Changes] = {}
     whole = len(readings) * count + count_mujoco
