@@ -140,7 +140,7 @@ def test_the_section_tells_what_is_on_made_maps(tmp_path):
         "x release.angular_velocity.eta 20 rad/s 60 rad/s 5",
         "y release.position.z 0.2 m 0.6 m 4",
         "tolerance 1e-13",
-        "stiffness 1e+10 1/s²",
+        "stiffness 1e+11 1/s²",
         "cointoss basin",
     ):
         assert said in text
