@@ -20,12 +20,14 @@ MODEL = """<mujoco>
     <geom type="plane" size="0 0 1" condim="1"/>
     <body pos="0 0 {height!r}">
       <freejoint/>
-      <geom type="sphere" size="0.01" mass="0.01" condim="1" priority="1"
+      <geom type="sphere" size="{radius!r}" mass="0.01" condim="1" priority="1"
             solref="{solref}" solimp="{solimp}"/>
     </body>
   </worldbody>
 </mujoco>"""
 """A ball over a plane."""
+RADIUS = 0.01
+"""Of the ball [m]."""
 HARDEST = "0.9999 0.9999 0.001 0.5 2"
 """The largest impedance MuJoCo takes, as solimp."""
 LONGEST = 2000
@@ -36,6 +38,8 @@ SPRING_STEPS = 40
 """Steps in a contact by a spring, by default."""
 SPEED = 2.0
 """Of the ball [m/s]."""
+GRAVITY = 9.81
+"""[m/s²]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,7 +55,9 @@ class Bounce:
     """0 and -(1 + e)/dt, or -stiffness and -damping."""
     solimp: str
     error: float
-    """Largest |e' - e| over `PHASES` touches of a ball, anywhere between two steps."""
+    """Largest |e' - e| over `PHASES` touches of a ball without weight, anywhere between two steps."""
+    error_with_weight: float
+    """That of a ball which touches at `SPEED` under `GRAVITY`; as the contact's length over the speed."""
     depth: float
     """How deep a body goes into the floor at 1 m/s, at most, whatever its mass [m]."""
 
@@ -94,6 +100,7 @@ def solref(restitution: float, timestep: float, *, spring: bool = False, steps: 
     found = spring_solref(restitution, timestep, steps) if spring else one_step_solref(restitution, timestep)
     integrator = "RK4" if spring else "implicitfast"
     restitutions, depth = drops_of_a_ball(found, timestep, integrator)
+    with_weight = restitutions_of_a_ball(found, timestep, integrator, gravity=GRAVITY)
     return Bounce(
         restitution=restitution,
         timestep=timestep,
@@ -101,6 +108,7 @@ def solref(restitution: float, timestep: float, *, spring: bool = False, steps: 
         solref=found,
         solimp=HARDEST,
         error=float(np.abs(restitutions - restitution).max()),
+        error_with_weight=float(np.abs(with_weight - restitution).max()),
         depth=depth / SPEED,
     )
 
@@ -126,14 +134,14 @@ def _solref_of(restitution: float, settings: Settings) -> tuple[float, float]:
 
 
 def restitutions_of_a_ball(
-    solref: tuple[float, float], dt: float, integrator: str, solimp: str = HARDEST
+    solref: tuple[float, float], dt: float, integrator: str, solimp: str = HARDEST, gravity: float = 0.0
 ) -> Array:
     """Return the restitutions of a ball, as `drops_of_a_ball` does."""
-    return drops_of_a_ball(solref, dt, integrator, solimp)[0]
+    return drops_of_a_ball(solref, dt, integrator, solimp, gravity)[0]
 
 
 def drops_of_a_ball(
-    solref: tuple[float, float], dt: float, integrator: str, solimp: str = HARDEST
+    solref: tuple[float, float], dt: float, integrator: str, solimp: str = HARDEST, gravity: float = 0.0
 ) -> tuple[Array, float]:
     """Return the restitutions of a ball that comes down on a plane with `SPEED`, and its greatest depth [m].
 
@@ -142,32 +150,43 @@ def drops_of_a_ball(
         dt: length of a step [s].
         integrator: of MuJoCo, by its name in a model.
         solimp: of the contact.
+        gravity: downward [m/s²]; by default the contact alone acts.
 
     Returns:
-        The speed after over that before for each of the `PHASES` of the touch between two steps, (PHASES,).
+        The speed after over that before, both where the ball meets the floor, for each of the `PHASES` of
+        the touch between two steps, (PHASES,); 0 where the ball does not leave the floor.
     """
-    restitutions, depth = np.empty(PHASES), 0.0
+    restitutions, depth = np.zeros(PHASES), 0.0
     for number in range(PHASES):
-        height = 0.01 + SPEED * dt * (2 + (number + 0.5) / PHASES)
+        height = RADIUS + SPEED * dt * (2 + (number + 0.5) / PHASES)
         model = mujoco.MjModel.from_xml_string(_described(solref, dt, integrator, solimp, height))
         data = mujoco.MjData(model)
-        # Without weight the speed before and after is the same whenever it is read.
-        model.opt.gravity[:] = 0
+        model.opt.gravity[2] = -gravity
         data.qvel[2] = -SPEED
-        touched = False
+        before, touched = _speed_at_floor(data, gravity), False
         for _ in range(LONGEST):
             mujoco.mj_step(model, data)
             touched = touched or data.ncon > 0
-            depth = max(depth, 0.01 - data.qpos[2])
+            depth = max(depth, RADIUS - data.qpos[2])
             if touched and data.ncon == 0 and data.qvel[2] > 0:
+                restitutions[number] = _speed_at_floor(data, gravity) / before
                 break
-        restitutions[number] = data.qvel[2] / SPEED
     return restitutions, depth
+
+
+def _speed_at_floor(data: mujoco.MjData, gravity: float) -> float:
+    """Return the speed that a ball in free flight has where it meets the floor."""
+    return math.sqrt(max(data.qvel[2] ** 2 + 2 * gravity * (data.qpos[2] - RADIUS), 0.0))
 
 
 def _described(solref: tuple[float, float], dt: float, integrator: str, solimp: str, height: float) -> str:
     return MODEL.format(
-        timestep=dt, integrator=integrator, height=height, solref=_text(solref), solimp=solimp
+        timestep=dt,
+        integrator=integrator,
+        height=height,
+        radius=RADIUS,
+        solref=_text(solref),
+        solimp=solimp,
     )
 
 

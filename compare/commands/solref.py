@@ -31,7 +31,7 @@ def solref(
 
         require_mujoco()
         import coin_mj
-        from coin_mj.bounce import SPRING_STEPS
+        from coin_mj.bounce import SPEED, SPRING_STEPS
 
         try:
             found = coin_mj.solref(
@@ -49,6 +49,7 @@ def solref(
             f"{found.option}\n<geom {found.geom}/>\n\n"
             f"integrator  {found.integrator}, {others}\n"
             f"error       {found.error:.0e} at worst, of a ball that touches at 16 phases of a step\n"
+            f"            {found.error_with_weight:.0e} with weight, at {SPEED:g} m/s; more if slower\n"
             f"depth       up to {1000 * found.depth:.3g} mm into the floor for each m/s, whatever the mass\n"
             f'friction    with condim="1"; MuJoCo\'s own friction lifts a body that slides (docs/MUJOCO.md)'
         )

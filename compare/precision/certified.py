@@ -15,19 +15,15 @@ from typing import Any, NamedTuple
 
 from flint import acb, arb, ctx, fmpq
 
+from compare.precision.certified_gap import Gap, polynomial
 from compare.precision.double_double import exact
 from compare.precision.planar_coin import PlanarCoin, Units, square_root
-from compare.precision.planar_flight import safe_step
 from compare.precision.taylor_models import ORDER, TaylorModel, UndecidedError, middle, varying, whole, zero
 from models.records import Outcome
 
 MOST_IMPACTS = 5000
-MOST_STEPS = 20_000
-"""Of the search for a touch."""
 TURN = 2.0
 """At most this angle is flown on one series in air [rad]."""
-NEAR = 1e-9
-"""Below this gap, and what it is uncertain by, a zero is enclosed by the gap's falling."""
 LEAST = Fraction(1, 2**40)
 """Part of a change that is still tried."""
 
@@ -353,7 +349,7 @@ class _Toss:
             heights, drifts, tail = self.series(state, length)
             best, who = None, 0
             limit = arb(length)
-            gap_of = partial(_Gap, heights, tail, state, corners, start)
+            gap_of = partial(Gap, heights, tail, state.tilt, state.w, corners, start)
             for side in (-1, 1):
                 root = gap_of(side, whole).first_zero(
                     float(length) if best is None else float(best.upper()) * (1 + 1e-15)
@@ -371,7 +367,7 @@ class _Toss:
                 raise UndecidedError
             corners, start = (), None
 
-    def touch(self, gap_of: Callable[[Callable[[Any], Any]], "_Gap"], root: Any) -> Any:
+    def touch(self, gap_of: Callable[[Callable[[Any], Any]], Gap], root: Any) -> Any:
         """Return the clock of a touch that is enclosed for all releases; where they vary, as they do."""
         gap = gap_of(_itself)
         if not isinstance(gap.w, TaylorModel):
@@ -383,9 +379,9 @@ class _Toss:
 
     def move(self, state: _State, heights: list[Any], drifts: list[Any], tail: Any, s: Any) -> None:
         left = 1 - self.k * s
-        state.z = _value(heights, s) + tail
-        state.v = left * (_value([n * c for n, c in enumerate(heights)][1:], s) + tail * len(heights) * 4)
-        state.u = _value(drifts, s) + tail
+        state.z = polynomial(heights, s) + tail
+        state.v = left * (polynomial([n * c for n, c in enumerate(heights)][1:], s) + tail * len(heights) * 4)
+        state.u = polynomial(drifts, s) + tail
         state.tilt, state.w = state.tilt + state.w * s, left * state.w
         state.tighten()
 
@@ -466,101 +462,5 @@ class _Toss:
         raise UndecidedError
 
 
-def _value(coefficients: list[Any], s: Any) -> Any:
-    total = arb(0)
-    for c in reversed(coefficients):
-        total = total * s + c
-    return total
-
-
 def _itself(x: Any) -> Any:
     return x
-
-
-class _Gap:
-    """The gap of a rim point over the clock of a flight."""
-
-    def __init__(
-        self,
-        heights: list[Any],
-        tail: Any,
-        state: _State,
-        corners: tuple[int, ...],
-        start: Any,
-        side: int,
-        part: Callable[[Any], Any],
-    ) -> None:
-        heights = [part(c) for c in heights]
-        sine, cosine = part(state.tilt).sin_cos()
-        self.sn, self.cs, self.w = side * sine, side * cosine, part(state.w)
-        self.f0 = arb(0) if side in corners else heights[0] + self.sn
-        self.f1 = heights[1] + self.cs * self.w
-        self.start = 0.0
-        if side in corners and start is not None:
-            self.f1, self.start = arb(0), float(start.lower()) * (1 - 1e-9)
-        self.rest, self.tail = [arb(0), arb(0), *heights[2:]], tail
-        self.slopes = [n * c for n, c in enumerate(self.rest)][1:]
-        self.bends = [n * c for n, c in enumerate(self.slopes)][1:]
-
-    def at(self, s: Any) -> tuple[Any, Any]:
-        """Return the gap and its rate."""
-        angle = self.w * s
-        half = (angle / 2).sin()
-        less, sine = 2 * half**2, angle.sin()
-        f = self.f0 + self.f1 * s + _value(self.rest, s) + self.tail
-        f = f + self.cs * (sine - angle) - self.sn * less
-        rate = self.f1 + _value(self.slopes, s) + self.tail * len(self.rest) * 4
-        return f, rate - self.w * (self.sn * sine + self.cs * less)
-
-    def bend(self, s: Any) -> Any:
-        """Return the gap's second derivative."""
-        sine, cosine = (self.w * s).sin_cos()
-        tail = self.tail * len(self.rest) ** 2 * 16
-        return _value(self.bends, s) + tail - self.w**2 * (self.sn * cosine + self.cs * sine)
-
-    def bounds(self, length: float) -> tuple[float, float]:
-        """Bound how fast the rate and the second derivative fall, up to a clock."""
-        second, third, power = -2 * self.rest[2], arb(0), arb(1)
-        for n in range(3, len(self.rest)):
-            third = third + n * (n - 1) * (n - 2) * abs(self.rest[n]) * power
-            power = power * length
-            second = second + n * (n - 1) * abs(self.rest[n]) * power
-        tail = abs(self.tail) * len(self.rest) ** 3 * 64 / min(length, 1.0) ** 3
-        second, third = second + self.w**2 + tail, third + abs(self.w) ** 3 + tail
-        return float(second.upper()) * (1 + 1e-12), float(third.upper()) * (1 + 1e-12)
-
-    def first_zero(self, limit: float) -> Any:
-        """Return an enclosure of the first zero up to the limit; None where there is proved to be none."""
-        bound, third = self.bounds(limit)
-        s = arb(self.start)
-        for _ in range(MOST_STEPS):
-            if s > limit:
-                return None
-            f, rate = self.at(s)
-            low, slope = float(f.lower()), float(rate.lower())
-            if s > 0 and f.mid() < NEAR + 2 * f.rad() and rate < 0 and (root := self.enclosed(s)) is not None:
-                return root
-            if s == 0 and self.f0 == 0:
-                low = 0.0
-            elif not f > 0:
-                raise UndecidedError
-            step = safe_step(low, slope, float(self.bend(s).lower()), (bound, third)) * (1 - 1e-12)
-            if not step > 0:
-                raise UndecidedError
-            s = (s + arb(step)).mid()
-        raise UndecidedError
-
-    def enclosed(self, s: Any) -> Any:
-        """Enclose a zero after s, up to which the gap falls; None where that is not proved."""
-        x = s
-        for _ in range(12):
-            f, rate = self.at(x)
-            x = (x - f.mid() / rate.mid()).mid()
-        f, rate = self.at(x)
-        wide = 4 * abs(f).upper() / abs(rate).lower() + arb(2) ** (-2 * ctx.prec)
-        low, high = (x - wide).lower(), (x + wide).upper()
-        whole = s.union(high)
-        f_low, f_high = self.at(low)[0], self.at(high)[0]
-        if self.at(whole)[1] < 0 and f_low > 0 and f_high < 0:
-            return low.union(high)
-        return None
