@@ -104,6 +104,22 @@ def contact_states(seed):
 
 
 @pytest.mark.parametrize("seed", range(12))
+def test_the_lowest_point_stays_on_the_floor_and_stays_there_where_friction_holds_it(seed):
+    """D v_A/dt = 0, by differences, where the coin sticks; its vertical part wherever it touches."""
+    met = 0
+    for body, friction, mode, y in contact_states(seed):
+        if mode == Mode.UPRIGHT:
+            continue
+        rim, dy, dt = lower_rim_of(y), np.empty(13), 1e-6
+        modes.rate(body, friction, mode.value, rim, y, dy)
+        after, before = (np.array(rim_contact(body, y + side * dt * dy, rim).velocity) for side in (1, -1))
+        held = slice(None) if mode == Mode.STICKING else slice(2, 3)
+        assert ((after - before) / (2 * dt))[held] == pytest.approx(0, abs=1e-6 * np.linalg.norm(dy))
+        met += 1
+    assert met == 3
+
+
+@pytest.mark.parametrize("seed", range(12))
 def test_the_floor_takes_energy_at_the_rate_of_slip_roll_and_pivot(seed):
     """DE/dt = F · v_A - N (δ |ω_h| + p |ω_z|) in every mode, with the N of that very instant."""
     for body, friction, mode, y in contact_states(seed):
