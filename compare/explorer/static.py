@@ -1,8 +1,5 @@
 """The explorer as one file: the page, its map, and the tosses of some pixels; it needs no server."""
 
-import json
-import re
-from base64 import b64encode
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,6 +10,7 @@ from compare.explorer.map_file import MapFile, read_map
 from compare.explorer.page_files import page_files
 from compare.explorer.tosses import toss_pixel
 from compare.output.files import write_text
+from compare.web.scripts import POLICY, data_element, import_map
 
 MOST_BYTES = 10_000_000
 """Of the file."""
@@ -22,10 +20,6 @@ COLUMNS, ROWS = 12, 9
 """Pixels that are tossed, at most."""
 SAMPLES = 300
 """Of the path of each toss."""
-_POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; img-src data: blob:"
-)
-_IMPORTED = re.compile(r"""(from\s*["'])\./([\w.]+\.js)(["'])""")
 
 
 def write_static(map_path: Path, out: Path, progress: Callable[[int, int], None]) -> None:
@@ -63,28 +57,20 @@ def _spread(count: int, most: int) -> list[int]:
 def _page(found: MapFile, grid: dict[str, object]) -> str:
     """Return the page as one text: its modules in an import map, as data."""
     files = {name: content.decode("utf-8") for name, content in page_files().items()}
-    data = json.dumps({"map": found.as_json(), **grid}, allow_nan=False, separators=(",", ":"))
-    modules = {
-        name: "data:text/javascript;base64," + b64encode(_by_name(text).encode()).decode("ascii")
-        for name, text in files.items()
-        if name.endswith(".js")
-    }
+    modules = {name: text for name, text in files.items() if name.endswith(".js")}
     parts = {
         '<meta charset="utf-8">': f'<meta charset="utf-8">\n'
-        f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">',
-        '<link rel="stylesheet" href="style.css">': f"<style>\n{files['style.css']}</style>",
+        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">',
+        **{
+            f'<link rel="stylesheet" href="{name}">': f"<style>\n{files[name]}</style>"
+            for name in files
+            if name.endswith(".css")
+        },
         '<script type="module" src="main.js"></script>': f"<!-- three.js:\n{files['LICENSE']}-->\n"
-        f'<script type="importmap">{json.dumps({"imports": modules})}</script>\n'
-        # A "</script>" in the data must not end it.
-        f'<script type="application/json" id="data">{data.replace("<", chr(92) + "u003c")}</script>\n'
+        f"{import_map(modules)}\n{data_element({'map': found.as_json(), **grid}, id_='data')}\n"
         '<script type="module">import "main.js";</script>',
     }
     page = files["index.html"]
     for mark, part in parts.items():
         page = page.replace(mark, part)
     return page
-
-
-def _by_name(module: str) -> str:
-    """Return a module's text with what it imports named as in the import map."""
-    return _IMPORTED.sub(r"\1\2\3", module)

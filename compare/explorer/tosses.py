@@ -1,22 +1,16 @@
 """The toss of a pixel by one engine, as the explorer's page reads it."""
 
-import math
 import warnings
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
-from coin_mj.model.scene import shape_thickness
 from compare.engines import Engine
 from compare.film.back_end import BackEndError, require_mujoco
-from compare.report.plots import energies
 from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep
 from compare.sweep.pixels import pixel_scenario
-from models.barriers import barrier
-from models.records import ApproximationWarning, Array, Toss, UnsupportedError, UnusableEngineError
-from models.scenario import Scenario
+from compare.web.playable import coin_of, path_of, rounded
+from models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
 
 SAMPLES = 1200
 """Of the path that is played."""
@@ -57,7 +51,7 @@ def toss_pixel(
             if engine == Engine.MUJOCO:
                 require_mujoco()
             toss = engine.package.toss(followed, settings=_settings(sweep, engine))
-            path = _path(toss, samples)
+            path = path_of(toss, samples)
         except (UnsupportedError, UnusableEngineError, BackEndError, FloatingPointError) as error:
             return {"engine": engine.value, "problem": str(error)}
     notes = [str(one.message) for one in raised if issubclass(one.category, ApproximationWarning)]
@@ -69,10 +63,10 @@ def toss_pixel(
         "end_time": toss.end_time,
         "count": len(toss.impacts),
         "sequence": toss.sequence[:most_symbols],
-        "times": _rounded(toss.impacts.time[:most_symbols], 7),
+        "times": rounded(toss.impacts.time[:most_symbols], 7),
         "trusted": toss.trusted_impacts,
         "notes": notes,
-        "coin": _coin(scenario),
+        "coin": coin_of(scenario),
         "path": path,
     }
 
@@ -83,40 +77,6 @@ def _settings(sweep: Sweep, engine: Engine) -> Any:
     if sweep.engine == engine == Engine.MUJOCO:
         return replace(fine, contact=sweep.settings.as_dict()["contact"])
     return fine
-
-
-def _coin(scenario: Scenario) -> dict[str, Any]:
-    """Return what the coin looks like [m], and the least energy with which it turns over [J]."""
-    body = scenario.body
-    return {
-        "radius": scenario.coin.radius,
-        "thickness": shape_thickness(scenario),
-        "center": list(scenario.coin.center_of_mass),
-        "barrier": min(barrier(body, side) for side in (1.0, -1.0)),
-    }
-
-
-def _path(toss: Toss, samples: int) -> dict[str, Any]:
-    """Return times [s], positions of C [m], Euler parameters and energies [J], number after number."""
-    hits = toss.impacts.time[: samples // 4]
-    times = np.unique(
-        np.concatenate(
-            [np.linspace(0, toss.end_time, samples - 2 * len(hits)), hits, np.nextafter(hits, 0)]
-        ).clip(0, toss.end_time)
-    )
-    states = toss.sample(times)
-    # Finer than the eye sees: a ten-thousandth of a radius.
-    decimals = 4 - math.floor(math.log10(toss.scenario.coin.radius))
-    return {
-        "time": _rounded(times, 7),
-        "position": np.round(states.position, decimals).ravel().tolist(),
-        "quaternion": np.round(states.quaternion, 5).ravel().tolist(),
-        "energy": _rounded(energies(toss.scenario, states), 5),
-    }
-
-
-def _rounded(numbers: Array, digits: int) -> list[float]:
-    return [float(f"{number:.{digits}g}") for number in numbers.tolist()]
 
 
 def require_inside(sweep: Sweep, x: float, y: float) -> None:

@@ -12,7 +12,6 @@ from compare.engines import EngineSettings
 from compare.metrics.comparison import Comparison, compare
 from compare.output import answer
 from compare.output.files import written_together
-from compare.report import plots
 from compare.report.contents import FILES, OF_THE_FILM
 from compare.report.map_section import MapSection
 from compare.report.page import Page, render, versions
@@ -77,7 +76,6 @@ def write_report(
             analytic=analytic,
             comparison=comparison,
             not_realisable=not_realisable,
-            figures=plots.draw(tosses, comparison),
             video=None,
             no_video=BEING_DRAWN if filmed else no_video or not_realisable,
             maps=maps,

@@ -12,9 +12,11 @@ from pydantic import BaseModel
 
 from compare.metrics.comparison import Comparison
 from compare.metrics.sequences import SAFETY, aligned
-from compare.output.answer import MOST_SHOWN
-from compare.output.style import HEADS, TAILS
+from compare.output.answer import MOST_SHOWN, counted
 from compare.report.map_section import MapSection
+from compare.report.motion import motion_of
+from compare.report.verdict import contact_lines, horizon_sentence, verdict_of
+from compare.web.scripts import POLICY, data_element, import_map, shared_files
 from models import certificate
 from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.meanings import meanings
@@ -22,6 +24,8 @@ from models.notebook import shortened
 from models.records import Face, Toss
 from models.scenario import Scenario
 
+MODULES = ("motion.js", "plot.js", "sampled.js", "ticks.js")
+"""The shared scripts that the page imports."""
 PACKAGES = ("cointoss", "mujoco", "numpy", "scipy", "numba", "matplotlib", "mediapy")
 
 
@@ -36,8 +40,6 @@ class Page:
     comparison: Comparison | None
     not_realisable: str | None
     """Why MuJoCo can't toss the scenario, where it can't."""
-    figures: dict[str, str]
-    """SVG texts."""
     video: bytes | None
     """The mp4."""
     no_video: str | None
@@ -47,7 +49,11 @@ class Page:
 
 def render(page: Page) -> str:
     """Return the HTML text of a page."""
-    template = (resources.files("compare.report") / "report.html.j2").read_text(encoding="utf-8")
+    folder = resources.files("compare.report")
+    template = (folder / "report.html.j2").read_text(encoding="utf-8")
+    shared = {name: content.decode("utf-8") for name, content in shared_files().items()}
+    modules = {name: shared[name] for name in MODULES}
+    modules["report.js"] = (folder / "report.js").read_text(encoding="utf-8")
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
     comparison = page.comparison
     tosses = [page.analytic, *([comparison.mujoco] if comparison else [])]
@@ -57,17 +63,31 @@ def render(page: Page) -> str:
         measured=certificate.NAMES,
         labels={"analytic": "analytic", "mujoco": "MuJoCo"},
         parameters=_parameters(page.scenario),
-        heads=HEADS,
-        tails=TAILS,
+        policy=POLICY,
+        style=shared["shared.css"],
+        scripts=import_map(modules),
+        data=data_element(motion_of(tosses, comparison), id_="data"),
+        about=_about(page.scenario_text),
+        verdict=verdict_of(page.analytic, comparison),
+        horizon=horizon_sentence(comparison) if comparison else "",
+        contact_lines=contact_lines,
+        counted=counted,
         pairs=aligned(page.analytic.sequence, comparison.mujoco.sequence) if comparison else [],
         most_shown=MOST_SHOWN,
         sequence=shortened(page.analytic.sequence, MOST_SHOWN),
+        other_sequence=shortened(comparison.mujoco.sequence, MOST_SHOWN) if comparison else "",
         impacts=_impact_rows(page.analytic, comparison),
         video=b64encode(page.video).decode("ascii") if page.video else None,
         map_picture=b64encode(page.maps.picture).decode("ascii") if page.maps else None,
         safety=SAFETY,
         versions=versions(),
     )
+
+
+def _about(scenario_text: str) -> str:
+    """Return what a scenario says of itself in its first line, or nothing."""
+    first, _, _ = scenario_text.strip().partition("\n")
+    return first.removeprefix("#").strip() if first.startswith("#") else ""
 
 
 def versions() -> dict[str, str]:

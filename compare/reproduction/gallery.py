@@ -26,6 +26,7 @@ SKETCHES = {
 """Figures that show definitions: there is nothing to reproduce."""
 _KINDS = {True: "holds", False: "fails", None: "open"}
 """The classes of the verdicts in the gallery."""
+_MARKS = {True: "✓", False: "✗", None: "?"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,10 +86,10 @@ class Entry:
     picture: Path
 
     @property
-    def holds(self) -> bool | None:
-        """Whether all claims hold; None where none fails but one cannot be tested."""
-        found = {claim.holds for claim in self.claims}
-        return False if False in found else None if None in found else True
+    def verdicts(self) -> dict[bool | None, int]:
+        """How many of the claims have each of the verdicts."""
+        counted = Counter(claim.holds for claim in self.claims)
+        return {kind: counted[kind] for kind in VERDICTS}
 
 
 def of_paper() -> list[str]:
@@ -171,8 +172,7 @@ def _contents(shown: Sequence[Entry]) -> str:
     """Return the table of all figures, with how many of their claims have which verdict."""
     rows: list[tuple[str, ...]] = []
     for entry in shown:
-        verdicts = Counter(claim.holds for claim in entry.claims)
-        numbers = (str(verdicts[kind] or "") for kind in VERDICTS)
+        numbers = (str(count or "") for count in entry.verdicts.values())
         rows.append((entry.found.paper, f"[{entry.found.title}](#{entry.name})", *numbers))
     rows += [(place, f"{shows}: a sketch", "", "", "") for place, shows in SKETCHES.items()]
     rows.sort(key=lambda row: _place(row[0]))
@@ -214,7 +214,7 @@ def html(out: Path, shown: Sequence[Entry]) -> str:
     pictures = {entry.name: _embedded(entry.picture) for entry in shown}
     opened = [(main.says, found, _embedded(picture)) for main, found, picture in opening(out)]
     return environment.from_string(template).render(
-        entries=shown, pictures=pictures, kinds=_KINDS, opened=opened
+        entries=shown, pictures=pictures, kinds=_KINDS, marks=_MARKS, words=VERDICTS, opened=opened
     )
 
 

@@ -1,4 +1,4 @@
-// An axis of the map: the value at a pixel, its name and unit, and ticks.
+// An axis of the map: the value at a pixel, its name and its unit.
 
 export function valueAt(axis, index) {
   // As numpy.linspace, to the last bit: the pixel's toss is the map's.
@@ -28,17 +28,4 @@ export function shown(value, step) {
   const size = Math.max(Math.abs(value), Math.abs(step));
   const digits = size === 0 || step === 0 ? 6 : Math.ceil(Math.log10(size / Math.abs(step))) + 2;
   return String(Number(value.toPrecision(Math.min(Math.max(digits, 4), 17))));
-}
-
-// Round numbers between two ends, at most about `most` of them.
-export function ticks(start, stop, most) {
-  const low = Math.min(start, stop), high = Math.max(start, stop);
-  const raw = (high - low) / Math.max(most, 1);
-  const power = 10 ** Math.floor(Math.log10(raw));
-  const step = power * [1, 2, 5, 10].find((part) => part * power >= raw);
-  const found = [];
-  for (let k = Math.ceil(low / step); k * step <= high && found.length < 50; k++) {
-    found.push(Number((k * step).toPrecision(15)));
-  }
-  return { values: found, step };
 }

@@ -1,6 +1,7 @@
 // The map on its canvas: pixels, axes, zoom, the cursor, and finer tiles where one zooms past the pixels.
 
-import { title, ticks, valueAt, indexOf, shown } from "./axes.js";
+import { title, valueAt, indexOf, shown } from "./axes.js";
+import { ticks } from "./ticks.js";
 
 const LEFT = 74, BOTTOM = 52, TOP = 10, RIGHT = 14;
 const SIDE = 32; // of a tile, in its own pixels

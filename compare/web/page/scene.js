@@ -1,6 +1,7 @@
 // Both tosses in 3D, side by side: gold with an H is heads, blue with a T is tails, as in the films.
 
 import * as THREE from "./three.module.min.js";
+import { placeIn } from "./sampled.js";
 
 const TRAIL = "#7d8894";
 
@@ -133,18 +134,6 @@ export function makeScene(canvas) {
   for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => (drag = null));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", recolor);
   return { show, draw, look: (how) => (looks = how) };
-}
-
-// The last sample before a time, and which part of the way to the next has gone.
-export function placeIn(times, time) {
-  let low = 0, high = times.length - 1;
-  while (low < high) {
-    const middle = (low + high + 1) >> 1;
-    if (times[middle] <= time) low = middle;
-    else high = middle - 1;
-  }
-  const span = (times[low + 1] ?? times[low]) - times[low];
-  return { at: low, part: span > 0 ? Math.min(Math.max((time - times[low]) / span, 0), 1) : 0 };
 }
 
 // What both paths need together.

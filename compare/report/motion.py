@@ -1,0 +1,67 @@
+"""The motion of a report's tosses, as the scripts of its page draw it."""
+
+from typing import Any
+
+import numpy as np
+
+from compare.metrics.comparison import PARTED, Comparison
+from compare.web.playable import coin_of, path_of, rounded
+from models.records import Array, Toss
+
+SAMPLES = 2000
+"""Of a path."""
+MOST_TOUCHES = 2000
+"""Impacts that are marked in the plots."""
+ROUNDING = 1e-16
+"""Zero has no place on a logarithmic axis; a difference of rounding is drawn as this."""
+
+
+def motion_of(tosses: list[Toss], comparison: Comparison | None) -> dict[str, Any]:
+    """Return the motion of the tosses, for JSON.
+
+    Args:
+        tosses: by one engine or both.
+        comparison: of both, where there are both.
+
+    Returns:
+        `tosses`; `apart`, how the differences between the engines grow, or None; and `horizon`, the time of
+        the last impact whose face must be shared where others follow, or None [s].
+    """
+    return {
+        "tosses": [_played(toss) for toss in tosses],
+        "apart": _apart(comparison) if comparison else None,
+        "horizon": _horizon_time(comparison) if comparison else None,
+    }
+
+
+def _played(toss: Toss) -> dict[str, Any]:
+    impacts = toss.impacts
+    return {
+        "engine": toss.engine,
+        "end_time": toss.end_time,
+        "times": rounded(impacts.time[:MOST_TOUCHES], 7),
+        "heights": rounded(impacts.position[:MOST_TOUCHES, 2], 5),
+        "coin": coin_of(toss.scenario),
+        "path": path_of(toss, SAMPLES, with_spin=True),
+    }
+
+
+def _apart(comparison: Comparison) -> dict[str, Any]:
+    together, radius = comparison.together, comparison.scenario.coin.radius
+    return {
+        "time": rounded(together.time, 7),
+        "distance": _above_rounding(together.distance / radius),
+        "angle": _above_rounding(together.attitude_angle),
+        "parted": PARTED,
+        "rounding": ROUNDING,
+    }
+
+
+def _above_rounding(differences: Array) -> list[float]:
+    return rounded(np.maximum(differences, ROUNDING), 4)
+
+
+def _horizon_time(comparison: Comparison) -> float | None:
+    impacts, horizon = comparison.analytic.impacts, comparison.horizon
+    follows = horizon < max(len(impacts), len(comparison.mujoco.impacts))
+    return float(impacts.time[horizon - 1]) if 0 < horizon and follows else None

@@ -1,0 +1,31 @@
+// The report's plots.
+
+import { energyOf, heightOf, placeOf, spinOf, tiltsOf } from "./motion.js";
+import { makePlot, makeSpan } from "./plot.js";
+
+const { tosses, apart, horizon } = JSON.parse(document.getElementById("data").textContent);
+const byId = (id) => document.getElementById(id);
+const span = makeSpan(Math.max(...tosses.map((toss) => toss.end_time)));
+
+function apartOf({ time, distance, angle, parted, rounding }) {
+  return {
+    title: "difference of the engines", log: true, range: [rounding, 1e3], marks: tosses[0].times,
+    levels: [{ value: parted, text: `${parted} r` }],
+    lines: [
+      { name: "distance / r", kind: "green", time, values: distance },
+      { name: "angle [rad]", kind: "purple", time, values: angle },
+    ],
+  };
+}
+
+const plots = {
+  height: heightOf(tosses), place: placeOf(tosses), tilt: tiltsOf(tosses), spin: spinOf(tosses), energy: energyOf(tosses),
+  ...(apart && { apart: apartOf(apart) }),
+};
+const bars = horizon === null ? [] : [{ time: horizon, text: "horizon" }];
+for (const [name, about] of Object.entries(plots)) makePlot(byId(`plot-${name}`), { ...about, bars }, span);
+
+byId("zoom-in").addEventListener("click", () => span.zoom(0.5));
+byId("zoom-out").addEventListener("click", () => span.zoom(2));
+byId("whole").addEventListener("click", () => span.show(0, span.end));
+document.body.dataset.ready = "true";

@@ -1,0 +1,40 @@
+// What is plotted of the motion of tosses, each a plot of plot.js.
+
+export const LABELS = { analytic: "analytic", mujoco: "MuJoCo" };
+
+const TURN = 180 / Math.PI;
+
+function linesOf(tosses, values, more = {}) {
+  return tosses.map((toss) => ({ name: LABELS[toss.engine], kind: toss.engine, time: toss.path.time, values: values(toss.path), ...more }));
+}
+
+const along = (axis) => (path) => path.time.map((_, k) => 1e3 * path.position[3 * k + axis]);
+const tiltOf = (path) => path.time.map((_, k) => {
+  const [, e1, e2] = path.quaternion.slice(4 * k, 4 * k + 3);
+  return TURN * Math.acos(Math.min(Math.max(1 - 2 * (e1 * e1 + e2 * e2), -1), 1));
+});
+
+export function heightOf(tosses) {
+  const touches = (toss) => ({ kind: toss.engine, time: toss.times, values: toss.heights.map((each) => 1e3 * each) });
+  return { title: "height of the mass centre", unit: "mm", range: [0], lines: linesOf(tosses, along(2)), dots: tosses.map(touches) };
+}
+
+export function placeOf(tosses) {
+  const named = (axis, name, dotted) => linesOf(tosses, along(axis)).map((line) => ({ ...line, name: `${name} ${line.name}`, kind: `${line.kind}${dotted}` }));
+  return { title: "horizontal position", unit: "mm", lines: [...named(0, "x", ""), ...named(1, "y", " second")] };
+}
+
+export function tiltsOf(tosses) {
+  const at = [[0, "heads"], [45, "45"], [90, "90"], [135, "135"], [180, "tails"]];
+  return { title: "tilt of the normal", unit: "°", range: [-3, 183], at, lines: linesOf(tosses, tiltOf) };
+}
+
+export function spinOf(tosses) {
+  const second = linesOf(tosses, (path) => path.spin_normal).map((line) => ({ ...line, name: `about ζ ${line.name}`, kind: `${line.kind} second` }));
+  return { title: "spin", unit: "rad/s", lines: [...linesOf(tosses, (path) => path.spin), ...second] };
+}
+
+export function energyOf(tosses) {
+  const levels = [{ value: 1e3 * tosses[0].coin.barrier, text: "least energy to turn over" }];
+  return { title: "energy", unit: "mJ", log: true, levels, lines: linesOf(tosses, (path) => path.energy.map((each) => 1e3 * each)) };
+}

@@ -1,0 +1,223 @@
+// A plot over time as SVG: the values at the pointer, zoom by dragging, and a line at the time that is played.
+
+import { placeIn, valueAt } from "./sampled.js";
+import { logTicks, ticks } from "./ticks.js";
+
+const SVG = "http://www.w3.org/2000/svg";
+const LEFT = 58, RIGHT = 14, TOP = 22, BOTTOM = 40;
+const SHORTEST = 1e-6; // of the whole time
+const CLEAR_MARKS = 40; // more vertical lines than these fade
+const MOST_DOTS = 300;
+
+function element(tag, attributes = {}, text = "") {
+  const made = document.createElementNS(SVG, tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  made.textContent = text;
+  return made;
+}
+
+export function numberText(value) {
+  if (value === null || !Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  return size !== 0 && (size < 1e-3 || size >= 1e5) ? value.toExponential(1).replace(".0e", "e") : String(Number(value.toPrecision(5)));
+}
+
+// The stretch of time that several plots show, and the times that are marked in all of them.
+export function makeSpan(until) {
+  const end = until || 1, plots = [];
+  const span = { end, low: 0, high: end, pointed: null, played: null };
+  const all = (how) => plots.forEach((plot) => plot[how]());
+  span.add = (plot) => plots.push(plot);
+  span.show = (low, high) => {
+    const wide = Math.min(Math.max(high - low, SHORTEST * end), end);
+    span.low = Math.min(Math.max((low + high - wide) / 2, 0), end - wide);
+    span.high = span.low + wide;
+    all("draw");
+  };
+  span.zoom = (factor) => {
+    const about = span.pointed ?? (span.low + span.high) / 2;
+    span.show(about + factor * (span.low - about), about + factor * (span.high - about));
+  };
+  span.point = (time) => {
+    span.pointed = time === null ? null : Math.min(Math.max(time, span.low), span.high);
+    all("mark");
+  };
+  span.play = (time) => {
+    span.played = time;
+    all("mark");
+  };
+  return span;
+}
+
+// Puts a plot into a box. `about` has: title, unit, lines of { name, kind, time, values }; and where wanted
+// height, log, range (both ends, or from which value on), at (ticks of [value, text]), levels of { value, text },
+// dots of { kind, time, values }, marks (times), and bars of { time, text }.
+export function makePlot(box, about, span) {
+  const { title, unit = "", lines, height = 270, levels = [], dots = [], marks = [], bars = [] } = about;
+  const svg = element("svg", { role: "img", tabindex: "0", height, "aria-label": label(about) });
+  const readout = document.createElement("p"), drawn = element("g"), marked = element("g");
+  readout.className = "values";
+  svg.append(drawn, marked);
+  box.classList.add("plot");
+  box.replaceChildren(readout, svg);
+  let wide = 0, low = 0, high = 1, drag = null;
+
+  const x = (time) => LEFT + ((time - span.low) / (span.high - span.low)) * (wide - LEFT - RIGHT);
+  const timeAt = (place) => span.low + ((place - LEFT) / (wide - LEFT - RIGHT)) * (span.high - span.low);
+  const y = (value) => {
+    const part = about.log ? Math.log(Math.max(value, low) / low) / Math.log(high / low) : (value - low) / (high - low);
+    return height - BOTTOM - part * (height - TOP - BOTTOM);
+  };
+  const visible = (time) => time >= span.low && time <= span.high;
+
+  // The samples of a line that are in sight, and one more on each side.
+  function inSight(line) {
+    const first = placeIn(line.time, span.low).at, last = placeIn(line.time, span.high).at + 2;
+    return { time: line.time.slice(first, last), values: line.values.slice(first, last) };
+  }
+
+  function scale(parts) {
+    if (about.range?.length === 2) return ([low, high] = about.range);
+    let least = Infinity, most = -Infinity;
+    for (const { values } of parts) {
+      for (const value of values) {
+        least = Math.min(least, value);
+        most = Math.max(most, value);
+      }
+    }
+    if (!(least <= most)) [least, most] = [0, 1];
+    if (about.log) {
+      for (const { value } of levels) [least, most] = [Math.min(Math.max(least, value / 20), value), Math.max(most, value)];
+      return ([low, high] = [least / 1.3, most * 1.3]);
+    }
+    if (about.range) least = Math.min(least, about.range[0]);
+    const edge = 0.05 * (most - least) || 0.05 * Math.abs(most) || 1;
+    return ([low, high] = [about.range ? about.range[0] : least - edge, most + edge]);
+  }
+
+  function draw() {
+    wide = box.clientWidth;
+    if (!wide) return;
+    svg.setAttribute("width", wide);
+    const right = wide - RIGHT, foot = height - BOTTOM, parts = lines.map(inSight), made = [];
+    scale(parts);
+    const frame = element("svg", { x: LEFT, y: TOP, width: right - LEFT, height: foot - TOP, viewBox: `${LEFT} ${TOP} ${right - LEFT} ${foot - TOP}` });
+    const rows = about.at ?? (about.log ? logTicks(low, high) : ticks(low, high, 5).values).map((value) => [value, numberText(value)]);
+    for (const [value, text] of rows) {
+      made.push(element("line", { class: "grid", x1: LEFT, x2: right, y1: y(value), y2: y(value) }));
+      made.push(element("text", { x: LEFT - 7, y: y(value) + 4, "text-anchor": "end" }, text));
+    }
+    for (const time of ticks(span.low, span.high, Math.min(6, wide / 90)).values) {
+      made.push(element("text", { x: x(time), y: foot + 17, "text-anchor": "middle" }, String(time)));
+    }
+    made.push(element("text", { x: right, y: height - 5, "text-anchor": "end" }, "t [s]"));
+    const near = marks.filter(visible);
+    if (near.length) {
+      const all = near.map((time) => `M${x(time).toFixed(1)} ${TOP}V${foot}`).join("");
+      frame.append(element("path", { class: "marks", d: all, opacity: Math.min(1, CLEAR_MARKS / near.length) }));
+    }
+    for (const { value, text } of levels) {
+      frame.append(element("line", { class: "level", x1: LEFT, x2: right, y1: y(value), y2: y(value) }));
+      frame.append(element("text", { x: LEFT + 5, y: y(value) - 5 }, text));
+    }
+    lines.forEach(({ kind }, i) => {
+      const { time, values } = parts[i];
+      const points = time.map((each, k) => `${x(each).toFixed(1)},${y(values[k]).toFixed(1)}`);
+      frame.append(element("polyline", { class: `line ${kind}`, points: points.join(" ") }));
+    });
+    for (const { kind, time, values } of dots) {
+      const shown = time.map((each, k) => [each, values[k]]).filter(([each]) => visible(each));
+      if (shown.length > MOST_DOTS) continue;
+      for (const [each, value] of shown) frame.append(element("circle", { class: kind, cx: x(each), cy: y(value), r: 2.8 }));
+    }
+    for (const { time, text } of bars.filter((bar) => visible(bar.time))) {
+      frame.append(element("line", { class: "bar", x1: x(time), x2: x(time), y1: TOP, y2: foot }));
+      made.push(element("text", { class: "bar", x: Math.min(Math.max(x(time), LEFT + 24), right - 24), y: TOP - 6, "text-anchor": "middle" }, text));
+    }
+    drawn.replaceChildren(...made, frame);
+    mark();
+  }
+
+  function mark() {
+    const made = [], foot = height - BOTTOM;
+    const line = (kind, time) => made.push(element("line", { class: kind, x1: x(time), x2: x(time), y1: TOP, y2: foot }));
+    if (drag && drag.to !== drag.from) {
+      const [from, to] = [drag.from, drag.to].sort((a, b) => a - b);
+      made.push(element("rect", { class: "chosen", x: from, y: TOP, width: to - from, height: foot - TOP }));
+    }
+    if (span.played !== null && visible(span.played)) line("now", span.played);
+    if (span.pointed !== null) {
+      line("pointed", span.pointed);
+      for (const { kind, time, values } of lines) {
+        const value = valueAt(time, values, span.pointed);
+        if (value !== null && value <= high) made.push(element("circle", { class: kind, cx: x(span.pointed), cy: y(value), r: 4 }));
+      }
+    }
+    marked.replaceChildren(...made);
+    tell();
+  }
+
+  // The lines by name, with their values where the pointer is.
+  function tell() {
+    const at = span.pointed, parts = lines.map(({ name, kind, time, values }) => {
+      const part = document.createElement("span");
+      part.className = `of ${kind}`;
+      part.append(element("svg", { width: 22, height: 8, "aria-hidden": "true" }), name);
+      part.firstChild.append(element("path", { class: `line ${kind}`, d: "M0 4H22" }));
+      if (at !== null) part.append(` ${numberText(valueAt(time, values, at))}`);
+      return part;
+    });
+    const heading = document.createElement("b");
+    heading.textContent = unit ? `${title} [${unit}]` : title;
+    const when = document.createElement("span");
+    when.textContent = at === null ? "" : `at ${Number(at.toPrecision(6))} s`;
+    readout.replaceChildren(heading, ...parts, when);
+  }
+
+  const placed = (event) => Math.min(Math.max(event.clientX - svg.getBoundingClientRect().left, LEFT), wide - RIGHT);
+  svg.addEventListener("pointermove", (event) => {
+    if (drag) drag.to = placed(event);
+    span.point(timeAt(placed(event)));
+  });
+  svg.addEventListener("pointerleave", () => {
+    if (!drag) span.point(null);
+  });
+  svg.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    drag = { from: placed(event), to: placed(event) };
+    svg.setPointerCapture(event.pointerId);
+  });
+  svg.addEventListener("pointerup", () => {
+    const ends = drag && [drag.from, drag.to].map(timeAt).sort((a, b) => a - b);
+    const far = drag && Math.abs(drag.to - drag.from) > 6;
+    drag = null;
+    if (far) span.show(...ends);
+    else mark();
+  });
+  svg.addEventListener("pointercancel", () => {
+    drag = null;
+    span.point(null);
+  });
+  svg.addEventListener("dblclick", () => span.show(0, span.end));
+  svg.addEventListener("keydown", (event) => {
+    const step = ((span.high - span.low) / 100) * (event.shiftKey ? 10 : 1);
+    const from = span.pointed ?? (span.low + span.high) / 2;
+    const done = {
+      ArrowLeft: () => span.point(from - step), ArrowRight: () => span.point(from + step),
+      "+": () => span.zoom(0.5), "-": () => span.zoom(2), 0: () => span.show(0, span.end), Escape: () => span.point(null),
+    }[event.key];
+    if (!done || event.ctrlKey || event.metaKey || event.altKey) return;
+    readout.setAttribute("aria-live", "polite");
+    event.preventDefault();
+    done();
+  });
+  svg.addEventListener("blur", () => readout.removeAttribute("aria-live"));
+  new ResizeObserver(() => box.clientWidth !== wide && draw()).observe(box);
+  span.add({ draw, mark });
+  draw();
+}
+
+function label({ title, unit = "", lines, levels = [] }) {
+  const ends = lines.map(({ name, values }) => `${name} from ${numberText(values[0])} to ${numberText(values.at(-1))} ${unit}`.trim());
+  return [`${title} over time: ${ends.join("; ")}`, ...levels.map(({ value, text }) => `${text}: ${numberText(value)} ${unit}`.trim())].join("; ");
+}

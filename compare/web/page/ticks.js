@@ -1,0 +1,24 @@
+// Round numbers for an axis.
+
+// Numbers between two ends, at most about `most` of them.
+export function ticks(start, stop, most) {
+  const low = Math.min(start, stop), high = Math.max(start, stop);
+  const raw = (high - low) / Math.max(most, 1);
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const step = power * [1, 2, 5, 10].find((part) => part * power >= raw);
+  const found = [];
+  for (let k = Math.ceil(low / step); k * step <= high && found.length < 50; k++) {
+    found.push(Number((k * step).toPrecision(15)));
+  }
+  return { values: found, step };
+}
+
+// Numbers for a logarithmic axis: powers of ten, with 2 and 5 between where these are few.
+export function logTicks(low, high, most = 7) {
+  const decades = Math.log10(high / low), found = [];
+  const parts = decades > 2.5 ? [1] : [1, 2, 5], every = Math.max(1, Math.ceil(decades / most));
+  for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); power++) {
+    if (power % every === 0) for (const part of parts) found.push(Number((part * 10 ** power).toPrecision(3)));
+  }
+  return found.filter((value) => value >= low && value <= high);
+}

@@ -1,0 +1,60 @@
+"""A toss as the scripts of a page play it."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from coin_mj.model.scene import shape_thickness
+from models.barriers import barrier
+from models.certificate import energies
+from models.records import Array, Toss
+from models.scenario import Scenario
+
+
+def coin_of(scenario: Scenario) -> dict[str, Any]:
+    """Return what the coin looks like [m], and the least energy with which it turns over [J]."""
+    body = scenario.body
+    return {
+        "radius": scenario.coin.radius,
+        "thickness": shape_thickness(scenario),
+        "center": list(scenario.coin.center_of_mass),
+        "barrier": min(barrier(body, side) for side in (1.0, -1.0)),
+    }
+
+
+def path_of(toss: Toss, samples: int, *, with_spin: bool = False) -> dict[str, Any]:
+    """Return a path at evenly spread times, and on both sides of its first impacts, number after number.
+
+    Args:
+        toss: by either engine.
+        samples: how many, roughly.
+        with_spin: whether the size of the angular velocity and its part along the normal are wanted.
+
+    Returns:
+        Times [s], positions of C [m], Euler parameters, energies [J], and spins [rad/s].
+    """
+    hits = toss.impacts.time[: samples // 4]
+    times = np.unique(
+        np.concatenate(
+            [np.linspace(0, toss.end_time, samples - 2 * len(hits)), hits, np.nextafter(hits, 0)]
+        ).clip(0, toss.end_time)
+    )
+    states = toss.sample(times)
+    # Finer than the eye sees: a ten-thousandth of a radius.
+    decimals = 4 - math.floor(math.log10(toss.scenario.coin.radius))
+    path = {
+        "time": rounded(times, 7),
+        "position": np.round(states.position, decimals).ravel().tolist(),
+        "quaternion": np.round(states.quaternion, 5).ravel().tolist(),
+        "energy": rounded(energies(toss.scenario.body, states), 5),
+    }
+    if not with_spin:
+        return path
+    spin = np.linalg.norm(states.angular_velocity, axis=1)
+    return path | {"spin": rounded(spin, 5), "spin_normal": rounded(states.angular_velocity[:, 2], 5)}
+
+
+def rounded(numbers: Array, digits: int) -> list[float]:
+    """Return numbers with so many significant digits."""
+    return [float(f"{number:.{digits}g}") for number in numbers.tolist()]

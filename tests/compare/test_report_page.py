@@ -1,0 +1,115 @@
+"""The report's page in a headless Chromium: mouse and keyboard, light and dark, wide and narrow."""
+
+import json
+
+import numpy as np
+import pytest
+
+from compare.report.folder import write_report
+from models.reading import parse, scenario_text
+from tests.helpers.browser import Page, browser
+
+TEXT = scenario_text("fig24a") + "\n[ending]\nmax_impacts = 6\n"
+PLOTS = ["height", "tilt", "energy", "apart", "spin", "place"]
+UNNAMED = (
+    "[...document.querySelectorAll('button, select, input, canvas, video, svg[role], [tabindex]')]"
+    ".filter((one) => !(one.ariaLabel || one.textContent.trim() || one.labels?.length)).length"
+)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    target = tmp_path_factory.mktemp("report")
+    write_report(parse(TEXT, "made"), TEXT, "made", target, "none here", lambda *_: None)
+    return target
+
+
+@pytest.fixture(scope="module")
+def chromium(tmp_path_factory):
+    with browser(tmp_path_factory.mktemp("profile")) as started:
+        yield started
+
+
+@pytest.fixture
+def page(chromium):
+    with Page(chromium) as opened:
+        yield opened
+
+
+def place(page, name, part):
+    """Return where a plot has a part of the time that it shows; the margins are those of plot.js."""
+    page.value(f"document.getElementById('plot-{name}').scrollIntoView()")
+    left, top, width = page.value(
+        f"(() => {{ const b = document.querySelector('#plot-{name} > svg').getBoundingClientRect();"
+        " return [b.left, b.top, b.width]; })()"
+    )
+    return left + 58 + part * (width - 58 - 14), top + 120
+
+
+def texts(page, selector):
+    return page.value(f"[...document.querySelectorAll('{selector}')].map((one) => one.textContent)")
+
+
+def told(page, name):
+    """Return what a plot says of the pointer: its time, and the first two values."""
+    parts = page.value(
+        f"[...document.querySelectorAll('#plot-{name} .values span')].map((one) => one.textContent)"
+    )
+    return float(parts[-1].split()[1]), [float(part.split()[-1]) for part in parts[:2]]
+
+
+def ticks(page, name):
+    return texts(page, f"#plot-{name} text[text-anchor=middle]")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [1280, 420])
+def test_the_page_fits_and_needs_nothing_else(page, folder, width, scheme):
+    page.open((folder / "report.html").as_uri(), width=width, scheme=scheme)
+    drawn = page.value(
+        "[...document.querySelectorAll('.plot')]"
+        ".map((plot) => [plot.id.slice(5), plot.querySelectorAll('polyline').length])"
+    )
+    assert dict(drawn) == {name: 4 if name in ("spin", "place") else 2 for name in PLOTS}
+    assert page.value("document.documentElement.scrollWidth <= innerWidth")
+    # In the dark no block is white.
+    grounds = page.value(
+        "[...document.querySelectorAll('body, .card, .figure')]"
+        ".map((one) => getComputedStyle(one).backgroundColor)"
+    )
+    levels = [np.mean([int(part) for part in ground[4:-1].split(",")]) for ground in grounds]
+    assert min(levels) > 200 if scheme == "light" else max(levels) < 60
+    assert page.value(UNNAMED) == 0
+    assert page.complaints() == []
+    assert {address.partition(":")[0] for address in page.asked()} <= {"file", "data", "about"}
+
+
+def test_a_plot_tells_its_values_and_zooms(page, folder):
+    page.open((folder / "report.html").as_uri())
+    numbers = json.loads((folder / "numbers.json").read_text(encoding="utf-8"))
+    end = max(toss["end_time"] for toss in numbers["tosses"])
+    page.mouse("mouseMoved", *place(page, "height", 0.1))
+    time, heights = told(page, "height")
+    assert time == pytest.approx(0.1 * end, abs=0.01 * end)
+    # Its first fall; the air takes little of it.
+    assert heights == pytest.approx([400 - 1e3 * 9.81 * time**2 / 2] * 2, rel=0.01)
+
+    from_, to = place(page, "tilt", 0.4), place(page, "tilt", 0.6)
+    page.mouse("mousePressed", *from_, button="left", buttons=1, clickCount=1)
+    page.mouse("mouseMoved", *to, button="left", buttons=1)
+    page.mouse("mouseReleased", *to, button="left", clickCount=1)
+    for name in PLOTS:
+        shown = [float(text) for text in ticks(page, name) if text != "horizon"]
+        assert 0.39 * end < min(shown) < max(shown) < 0.61 * end
+
+    page.value("document.querySelector('#plot-energy > svg').focus()")
+    page.mouse("mouseMoved", *place(page, "energy", 0.5))
+    before, _ = told(page, "energy")
+    page.press("ArrowRight")
+    after, _ = told(page, "energy")
+    assert after - before == pytest.approx(0.2 * end / 100, rel=0.01)
+    page.press("0")
+    assert ticks(page, "energy")[0] == "0"
+    page.value("document.getElementById('zoom-in').click()")
+    assert "0" not in ticks(page, "energy")
+    assert page.complaints() == []

@@ -1,0 +1,208 @@
+"""The verdict of a report: one sentence for every case, with the numbers of the comparison."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from compare.metrics.comparison import Comparison, Together
+from compare.metrics.impulses import Differences
+from compare.report.verdict import Kind, contact_lines, horizon_sentence, verdict_of
+from models.records import IMPACT_ROW, Ending, Face, Impacts, Outcome, States, Toss
+from tests.helpers.draws import scenario
+
+NOTHING = np.zeros(0)
+
+
+class NoPath:
+    """A path that is not asked for."""
+
+    def sample(self, times) -> States:
+        raise NotImplementedError
+
+    def floor_force(self, times):
+        raise NotImplementedError
+
+
+def made(sequence, outcome=Outcome.HEADS, *, engine="analytic", ending=Ending.SETTLED, contacts=()):
+    rows = np.zeros(len(sequence), IMPACT_ROW)
+    for i, symbol in enumerate(sequence):
+        rows[i]["time"], rows[i]["face"] = 0.1 * (i + 1), Face.HEADS if symbol == "H" else Face.TAILS
+    return Toss(
+        engine=engine,
+        scenario=scenario(),
+        impacts=Impacts.from_rows(rows),
+        contacts=np.array(contacts, dtype=float).reshape(-1, 2),
+        outcome=outcome,
+        ending=ending,
+        end_time=1.0,
+        trusted_impacts=len(sequence),
+        certificate=(),
+        path=NoPath(),
+    )
+
+
+def compared(a, b, prefix, horizon):
+    together = Together(time=NOTHING, distance=NOTHING, attitude_angle=NOTHING, parting_time=None)
+    return Comparison(
+        scenario=a.scenario,
+        analytic=a,
+        mujoco=replace(b, engine="mujoco"),
+        differences=Differences(time=NOTHING, impulse=NOTHING, angular_velocity=NOTHING),
+        together=together,
+        common_prefix=prefix,
+        errors=NOTHING,
+        horizon=horizon,
+    )
+
+
+HEADS_TAILS = "Heads by the analytic engine, tails by MuJoCo:"
+HEADS, TAILS = made("HHT"), made("HTT", Outcome.TAILS)
+CAUGHT = made("", ending=Ending.CAUGHT)
+CUT = made("HH", Outcome.UNDECIDED, ending=Ending.MAX_IMPACTS)
+ROLLED = made("HH", contacts=[(0.5, 0.7)])
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "prefix", "horizon", "kind", "text"),
+    [
+        (
+            HEADS,
+            HEADS,
+            3,
+            3,
+            Kind.AGREE,
+            "Heads by both engines: they agree on all 3 impacts, and that is certain.",
+        ),
+        (
+            HEADS,
+            HEADS,
+            3,
+            1,
+            Kind.AGREE,
+            "Heads by both engines: they agree on all 3 impacts; up to impact 1 that is certain, "
+            "after it they might have differed.",
+        ),
+        (
+            HEADS,
+            made("HHTH"),
+            3,
+            2,
+            Kind.DIFFER,
+            "Heads by both engines: they agree on the first 3 impacts; up to impact 2 that is certain, "
+            "after it neither is wrong.",
+        ),
+        (
+            HEADS,
+            TAILS,
+            1,
+            1,
+            Kind.DIFFER,
+            f"{HEADS_TAILS} they agree on the first impact, and that is certain; "
+            "after that neither is wrong.",
+        ),
+        (
+            HEADS,
+            made("TTT", Outcome.TAILS),
+            0,
+            0,
+            Kind.DIFFER,
+            f"{HEADS_TAILS} they differ from the first impact on, where no face "
+            "is certain and neither is wrong.",
+        ),
+        (
+            HEADS,
+            TAILS,
+            1,
+            0,
+            Kind.DIFFER,
+            f"{HEADS_TAILS} they agree on the first impact, but none of this is "
+            "certain, and neither is wrong.",
+        ),
+        (
+            HEADS,
+            TAILS,
+            1,
+            2,
+            Kind.FAULT,
+            f"{HEADS_TAILS} they differ at impact 2, although the first 2 impacts "
+            "must be the same; one of them is wrong: please report it.",
+        ),
+        (
+            HEADS,
+            replace(HEADS, outcome=Outcome.TAILS),
+            3,
+            3,
+            Kind.FAULT,
+            f"{HEADS_TAILS} they differ although all 3 impacts must lead to the "
+            "same; one of them is wrong: please report it.",
+        ),
+        (
+            ROLLED,
+            replace(ROLLED, outcome=Outcome.EDGE),
+            2,
+            2,
+            Kind.DIFFER,
+            "Heads by the analytic engine, on its edge by MuJoCo: they agree on all 2 impacts, and that is "
+            "certain; what the floor does after that decides.",
+        ),
+        (
+            CAUGHT,
+            CAUGHT,
+            0,
+            0,
+            Kind.AGREE,
+            "Heads in the hand by both engines: it is caught before it touches the floor, so that nothing "
+            "amplifies small errors.",
+        ),
+        (
+            CUT,
+            CUT,
+            2,
+            2,
+            Kind.AGREE,
+            "Undecided by both engines: they agree on all 2 impacts, and that is certain.",
+        ),
+        (
+            made("", Outcome.UNDECIDED, ending=Ending.MAX_TIME),
+            made("", Outcome.UNDECIDED, ending=Ending.MAX_TIME),
+            0,
+            0,
+            Kind.AGREE,
+            "Undecided by both engines: the coin does not touch the floor in the 1 s of the toss.",
+        ),
+    ],
+)
+def test_the_verdict_of_every_case(a, b, prefix, horizon, kind, text):
+    assert verdict_of(a, compared(a, b, prefix, horizon)) == (text, kind)
+
+
+def test_what_mujoco_cannot_toss_is_said():
+    verdict = verdict_of(HEADS, None)
+    assert verdict == (
+        "Heads by the analytic engine alone: MuJoCo can't toss this coin on this floor.",
+        Kind.ALONE,
+    )
+
+
+@pytest.mark.parametrize(
+    ("horizon", "begins"),
+    [
+        (3, "The sequences must be the same to the end:"),
+        (2, "Up to the bar, after impact 2, the faces"),
+        (0, "Not even"),
+    ],
+)
+def test_the_horizon_is_one_sentence(horizon, begins):
+    sentence = horizon_sentence(compared(HEADS, HEADS, 3, horizon))
+    assert sentence.startswith(begins)
+    assert sentence.count(".") == 1
+
+
+def test_many_contacts_are_summed_in_one_line():
+    few = [(0.1 * i, 0.1 * i + 0.01) for i in range(5)]
+    assert len(contact_lines(made("H", contacts=few))) == 5
+    many = [*few, (0.5, 0.75)]
+    assert contact_lines(made("H", contacts=many)) == [
+        "In contact 6 times, for 0.3000 s in all, between 0.000000 s and 0.750000 s."
+    ]
