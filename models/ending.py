@@ -152,8 +152,7 @@ def settled_face(body, rules, state):
     energetic = rules.restitution_kind == RestitutionKind.ENERGETIC
     ending = Ending.SETTLED if smooth or energetic else Ending.PAPER
     tilt_sine = tilt_sine_of(up)
-    out, high = rim_offset(body, up[2])
-    on_face = tilt_sine * high < out * abs(up[2])
+    on_face = _is_on_face(body, up)
     if E < barrier(body, up[2]):
         if on_face:
             return face, ending
@@ -191,6 +190,13 @@ def idle_energy(body, rules, v, w):
 
 
 @compiled
+def _is_on_face(body, up):
+    """Return whether the tilt is on the face's side of every pass to the other face or to the edge."""
+    out, high = rim_offset(body, up[2])
+    return tilt_sine_of(up) * high < out * abs(up[2])
+
+
+@compiled
 def _beyond_the_pass(body, up, tilt_sine):
     """Return whether C is on the edge's side of the pass over the rim point that is lowest."""
     if tilt_sine == 0:
@@ -217,7 +223,8 @@ def _lies(body, rules, state):
         body.mass * (v[2] * v[2] / 2 + body.gravity * abs(z - flat_z)) + dot(across, apply(J, across)) / 2
     )
     weight = body.mass * body.gravity
-    if wobble > WOBBLE * weight * body.radius:
+    # Upright a coin as thick as wide is as high as flat.
+    if wobble > WOBBLE * weight * body.radius or not _is_on_face(body, up):
         return False
     if not (
         rules.law == ContactLaw.COULOMB

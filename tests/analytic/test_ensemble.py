@@ -8,6 +8,7 @@ import pytest
 import analytic
 from analytic.events import run
 from analytic.toss import state_of
+from models.hand import Hand
 from models.laws import ContactLaw
 from models.outcomes import Outcomes
 from models.records import Ending, Face, Outcome
@@ -137,3 +138,15 @@ def test_a_flat_drop_shows_its_face():
     outcomes = analytic.toss_many(scenario(), drop)
     assert outcomes.outcome.tolist() == [Outcome.HEADS, Outcome.TAILS]
     assert outcomes.last_face.tolist() == [Face.HEADS, Face.TAILS]
+
+
+@pytest.mark.parametrize("chi", [0.0, 0.6])
+def test_a_square_section_that_turns_in_its_plane_ends_on_its_edge_as_often_as_on_a_face(chi):
+    """Half a toss each: its four sides are alike, and no roll brings it out of the plane."""
+    thick = {**ZLOTY, "thickness": 2 * ZLOTY["radius"]}
+    case = scenario(coin=thick, floor={"contact": "coulomb", "friction": 0.3, "restitution": chi})
+    count = 600
+    ended = analytic.toss_many(case, Hand().releases(case.body, np.random.default_rng(17), count))
+    assert set(ended.outcome) == {Outcome.HEADS, Outcome.TAILS, Outcome.EDGE}
+    # Four standard deviations of a fair draw.
+    assert abs(np.mean(ended.outcome == Outcome.EDGE) - 1 / 2) < 2 / count**0.5

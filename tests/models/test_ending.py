@@ -199,6 +199,15 @@ def test_a_flat_coin_lies_unless_its_unbalanced_spin_lifts_it(contact, spin, lie
     assert classified(case, 1e-3, w=(0.0, 0.0, 300.0))[0] == (Outcome.UNDECIDED, Ending.NONE), "it is tilted"
 
 
+@pytest.mark.parametrize("tilt", [np.pi / 2 - 1e-10, np.pi / 2 + 1e-10])
+def test_a_coin_as_thick_as_wide_does_not_lie_on_a_face_where_it_slides_upright(tilt):
+    """It is then as high as flat."""
+    thick = scenario(coin={**ZLOTY, "thickness": 2 * ZLOTY["radius"]}, floor={"contact": "coulomb"})
+    assert classified(thick, tilt, v=(0.6, 0.0, 0.0))[0] == (Outcome.UNDECIDED, Ending.NONE)
+    assert classified(thick, 0.0, v=(0.6, 0.0, 0.0))[0] == (Outcome.HEADS, Ending.LYING)
+    assert classified(thick, tilt)[0][0] == Outcome.EDGE
+
+
 def test_an_imperfect_coin_is_caught_on_its_edge_below_both_passes():
     coin = {**ZLOTY, "thickness": 0.01, "center_of_mass": [-1e-3, -1e-3, -2e-4]}
     for tilt in (np.pi / 2 - 0.05, np.pi / 2 + 0.05):
