@@ -58,16 +58,16 @@ def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Setting
         if not hasattr(of_thread, "machine"):
             of_thread.machine = machine_of(described, settings, thickness)
         with air_of(of_thread.machine.model), clock_stopped():
-            _toss_each(of_thread.machine.coin, rules, settings.budgets, *columns)
+            _toss_each(of_thread.machine.coin, of_thread.machine.plastic, rules, settings.budgets, *columns)
 
     return toss_in_tiles(releases, TILE, toss_tile)
 
 
 @compiled
-def _toss_each(coin, rules, budgets, states, outcomes, endings, faces, impacts, end_times):
+def _toss_each(coin, plastic, rules, budgets, states, outcomes, endings, faces, impacts, end_times):
     rows = np.zeros(1, IMPACT_ROW)
     for i in range(len(states)):
         put_at(coin, states[i])
-        n, _, _, _, outcome, ending, end_time = toss_coin(coin, rules, budgets, rows, False)
+        n, _, _, _, outcome, ending, end_time = toss_coin(coin, plastic, rules, budgets, rows, False)
         outcomes[i], endings[i], impacts[i], end_times[i] = outcome.value, ending.value, n, end_time
         faces[i] = rows[0].face if n > 0 else 0

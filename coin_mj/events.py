@@ -19,11 +19,12 @@ from models.state import state
 
 
 @compiled
-def toss_coin(coin, rules, budgets, rows, keep_all):
+def toss_coin(coin, plastic, rules, budgets, rows, keep_all):
     """Toss the coin from its present state until the toss is decided.
 
     Args:
         coin: MuJoCo's, at its release.
+        plastic: the same, for touches up to the threshold of restitution.
         rules: floor and ending.
         budgets: the most steps in flight and in sustained contact.
         rows: where the impacts are recorded, (m,) of `IMPACT_ROW`.
@@ -55,9 +56,12 @@ def toss_coin(coin, rules, budgets, rows, keep_all):
                 ending = Ending.MAX_TIME if time >= rules.max_time else Ending.FLIGHT_STEPS
                 break
         start, touch = time, state_of(coin)
-        sustained = not lands and -evaluate_gap(coin).speed < slow_speed(coin, rules.restitution, touch[3])
+        speed = -evaluate_gap(coin).speed
+        is_plastic = rules.restitution_threshold > 0 and speed <= rules.restitution_threshold
+        chi = 0.0 if is_plastic else rules.restitution
+        sustained = not lands and speed < slow_speed(coin, chi, touch[3])
         if not sustained:
-            result, time, impulse = resolve_impact(coin, time, knots)
+            result, time, impulse = resolve_impact(plastic if is_plastic else coin, time, knots)
             sustained = result == TouchResult.SUSTAINED
             if result == TouchResult.IMPACT:
                 if keep_all:

@@ -66,7 +66,7 @@ def run(machine: Machine, rules: Rules) -> MujocoRun:
     room = np.zeros(FIRST_ROOM, IMPACT_ROW)
     with air_of(machine.model), clock_stopped():
         n, rows, knots, contacts, outcome, ending, end_time = toss_coin(
-            machine.coin, rules, machine.settings.budgets, room, True
+            machine.coin, machine.plastic, rules, machine.settings.budgets, room, True
         )
     return MujocoRun(rows[:n].copy(), knots, contacts, Outcome(outcome), Ending(ending), end_time)
 
@@ -88,10 +88,11 @@ def require_supported(scenario: Scenario, *, settings: Settings) -> None:
             f'floor.restitution_kind = "{floor.restitution_kind.label}": accepted by the MuJoCo engine: '
             '"kinematic" (its contacts prescribe how the normal speed changes, whatever the work)'
         )
-    for name in (*RESISTANCES, "restitution_threshold"):
+    for name in RESISTANCES if settings.friction == Friction.NATIVE else ():
         if getattr(floor, name) > 0:
             raise UnsupportedError(
-                f"floor.{name} = {getattr(floor, name):g}: accepted by the MuJoCo engine: 0"
+                f"floor.{name} = {getattr(floor, name):g}: accepted by the MuJoCo engine with its native "
+                "friction: 0; a length with explicit friction"
             )
     if floor.restitution == 0 and settings.contact == Realisation.SPRING:
         raise UnsupportedError(
@@ -118,8 +119,7 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     Raises:
         ScenarioError: for a file or a name that can't be used.
         UnsupportedError: for contact laws other than "smooth", "coulomb" and "perfectly_rough"; energetic
-            restitution; resistance to rolling or pivoting; a threshold of restitution; restitution 0 of a
-            spring.
+            restitution; resistance to rolling or pivoting beside native friction; restitution 0 of a spring.
 
     Warns:
         ApproximationWarning: for a perfectly rough floor, which is one of friction `ROUGH`.

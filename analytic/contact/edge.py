@@ -9,7 +9,7 @@ from analytic.contact import one_rim, upright
 from analytic.contact.floor_force import friction_holds, holding_force
 from analytic.contact.one_rim import lower_rim_of
 from analytic.contact.periodic import tilt_rate
-from analytic.contact.resistance import has_resistance, slow_spin
+from analytic.contact.resistance import has_resistance
 from analytic.contact.rim_contact import both_rims
 from analytic.flight.state_vector import (
     STATE_SIZE,
@@ -28,6 +28,7 @@ from models.geometry import FLAT_SINE, tilt_sine_of
 from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import apply, cross, dot, scale
+from models.rest import is_slowing
 
 # Half the angle by which a coin on its edge is tipped onto either rim, for trial.
 _TRIAL = 1e-9
@@ -81,14 +82,9 @@ def event_of_upright_coin(body, friction, steps, y):
 
 @compiled
 def slows(body, friction, y):
-    """Return whether resistance will bring a coin that stands to rest, or is still to stop its roll.
-
-    Without resistance to rolling it may roll on for ever; without that to pivoting, spin.
-    """
-    if not friction.rolling > 0:
-        return False
+    """Return whether the floor's resistance slows a coin that stands; see `models.rest.is_slowing`."""
     w = apply(rotation_matrix(attitude_of(y)), spin_of(y))
-    return friction.pivoting > 0 or math.hypot(w[0], w[1]) > slow_spin(body)
+    return is_slowing(body, friction.rolling, friction.pivoting, w)
 
 
 @compiled

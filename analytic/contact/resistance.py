@@ -3,14 +3,14 @@
 With a unit normal force at A comes the moment -δ ω_h/|ω_h| - p ω_z/|ω_z| ẑ, ω_h the part of ω along the
 floor, so that the force F at A gives dv_A/dt = b + (K + q ẑᵀ) F, q the acceleration of A by that moment. What
 holds for K without resistance holds with K + q ẑᵀ: N and the moments are found together. They oppose ω, and
-take energy at the rate N (δ |ω_h| + p |ω_z|). Below `SLOW` √(g/r) either grows in proportion to ω.
+take energy at the rate N (δ |ω_h| + p |ω_z|). Below `slow_spin` either grows in proportion to ω.
 """
 
 import math
 from typing import NamedTuple
 
-from analytic.numerics.tolerances import SLOW
 from models.kernel.compiled import compiled
+from models.rest import slow_spin
 
 
 class FloorFriction(NamedTuple):
@@ -32,12 +32,6 @@ FRICTIONLESS = FloorFriction(0.0)
 def has_resistance(friction):
     """Return whether the floor resists rolling or pivoting."""
     return friction.rolling > 0 or friction.pivoting > 0
-
-
-@compiled
-def slow_spin(body):
-    """Return the spin below which resistance grows in proportion to it [rad/s]."""
-    return SLOW * (body.gravity / body.radius) ** 0.5
 
 
 @compiled

@@ -1,5 +1,7 @@
 """Where the analytic engine draws the line: what counts as touching, as slow, as upright, and why."""
 
+from models import rest
+
 STEP_ERROR = 1e-13
 """Error allowed in one step of the integrator, relative to the scales of the coin."""
 
@@ -19,7 +21,7 @@ CHATTERING = 1e-2
 """Impacts chatter when in the time of all still to come the coin turns by less than this angle times the sine
 of its tilt [rad]. Contact has their impulse and mean force: it errs by the third power of the angle."""
 
-SLOW = 1e-3
+SLOW = rest.SLOW
 """Against √(g r): slip slower than this is stopped where friction can hold it, and creeps elsewhere, for
 there friction would turn it in the time of slip/(μ g). Sliding is kept down to half of it."""
 BORDER = 1e-6

@@ -10,9 +10,17 @@ import numpy as np
 
 from coin_mj.model.memory import joint_arrays, offset_of, require_layout
 from coin_mj.model.scene import build, floor_height
-from coin_mj.model.settings import Friction, Realisation, Rebound, Settings, friction_of, rebound_of
+from coin_mj.model.settings import (
+    Friction,
+    Realisation,
+    Rebound,
+    Settings,
+    friction_of,
+    plastic_rebound,
+    rebound_of,
+)
 from coin_mj.model.state import of_release
-from models.body import Body
+from models.body import Body, resists
 from models.scenario import Scenario
 
 _Disable = mujoco.mjtDisableBit
@@ -62,10 +70,16 @@ class MujocoCoin(NamedTuple):
     rebound: Rebound
     friction: float
     """Coefficient of friction μ of the floor."""
+    rolling_friction: float
+    """δ of the floor [m]."""
+    pivoting_friction: float
+    """p of the floor [m]."""
     is_balanced: bool
     """Whether C is B: then the free joint's mass matrix never changes."""
     has_explicit_friction: bool
     """Whether the friction is Coulomb's force."""
+    resists: bool
+    """Whether the floor resists rolling or pivoting."""
     has_one_step: bool
     """Whether a contact is one step."""
     flight_angle: float
@@ -79,6 +93,8 @@ class Machine(NamedTuple):
     data: mujoco.MjData
     settings: Settings
     coin: MujocoCoin
+    plastic: MujocoCoin
+    """The same coin where a touch is plastic: one step with χ = 0, which no spring has."""
 
 
 def machine_of(scenario: Scenario, settings: Settings, thickness: float) -> Machine:
@@ -106,12 +122,16 @@ def machine_of(scenario: Scenario, settings: Settings, thickness: float) -> Mach
         floor_height=floor_height(scenario, thickness),
         rebound=rebound,
         friction=mu,
+        rolling_friction=scenario.floor.rolling_friction,
+        pivoting_friction=scenario.floor.pivoting_friction,
         is_balanced=not any(scenario.coin.center_of_mass),
         has_explicit_friction=settings.friction == Friction.EXPLICIT and mu > 0,
+        resists=resists(scenario.rules),
         has_one_step=settings.contact == Realisation.ONE_STEP,
         flight_angle=settings.flight_angle,
     )
-    return Machine(model, data, settings, coin)
+    plastic = coin._replace(rebound=plastic_rebound(rebound, settings), has_one_step=True)
+    return Machine(model, data, settings, coin, plastic)
 
 
 def _addresses(model: mujoco.MjModel, data: mujoco.MjData, *, has_pair: bool) -> Any:

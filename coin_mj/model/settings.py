@@ -154,6 +154,11 @@ def rebound_of(restitution: float, settings: Settings) -> Rebound:
     return Rebound(stiffness, damping, slip_damping, step, duration)
 
 
+def plastic_rebound(rebound: Rebound, settings: Settings) -> Rebound:
+    """Return the rebound with χ = 0: one step, as long as those of `rebound` are."""
+    return rebound_of(0.0, replace(settings, contact=Realisation.ONE_STEP, step=rebound.step))
+
+
 def friction_of(floor: Floor) -> float:
     """Return the coefficient of friction μ with which MuJoCo stands for a floor."""
     return {ContactLaw.COULOMB: floor.friction, ContactLaw.PERFECTLY_ROUGH: ROUGH}.get(floor.contact, 0.0)

@@ -1,30 +1,24 @@
-"""Coulomb's force on a frictionless MuJoCo contact, from the normal force that MuJoCo measures."""
+"""Coulomb's force, and moments of resistance, on a frictionless MuJoCo contact.
 
-import math
+Both follow from the normal force that MuJoCo measures.
+"""
 
 import numpy as np
 
 from coin_mj.model.library import mj_solve_mass
 from coin_mj.model.state import momentum_of, motion_of, set_motion
 from coin_mj.steps.constrained_step import constrained_forward, contact_step
+from coin_mj.steps.coulomb import coulomb_force
 from coin_mj.steps.mujoco_step import other_force
+from coin_mj.steps.resistance import resisted_force
 from models.attitude import rotation_matrix
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, apply, apply_transposed, cross
 
-PARTS = 512
-"""Of a step in which the slip may turn or stop."""
-STEADY = 0.1
-"""Slip that changes by less than this part of itself does not turn much."""
-ROUNDS = 60
-"""Most rounds in which the direction of the slip in a step is found."""
-SAME = 1e-13
-"""Two directions that differ by less are one."""
-
 
 @compiled
 def friction_step(coin, constraint, dt):
-    """Advance by dt [s] with Coulomb's force in a frictionless contact; see `apply_friction`."""
+    """Advance by dt [s] with the forces of `apply_friction` in a frictionless contact."""
     apply_friction(coin, constraint, dt)
     contact_step(coin, constraint, dt)
     coin.joint.qfrc_applied[:] = 0
@@ -34,7 +28,8 @@ def friction_step(coin, constraint, dt):
 def apply_friction(coin, constraint, dt):
     """Apply Coulomb's force to a coin in a frictionless contact, for a step of dt [s].
 
-    The step is made without friction, to measure the normal force, and taken back. The friction acts midway
+    In a sustained contact the moments of the floor's resistance to rolling and pivoting come with it. The
+    step is made without either, to measure the normal force, and taken back. The friction acts midway
     between the contact points at the start and at the end of the step.
 
     Args:
@@ -44,7 +39,8 @@ def apply_friction(coin, constraint, dt):
     """
     start, momentum, other = motion_of(coin), momentum_of(coin)[2], other_force(coin)[2]
     R, point = rotation_matrix(start[3:7]), contact_point(coin)
-    K = mobility(coin, R, point)
+    resists = coin.resists and constraint.frequency > 0
+    K = mobility(coin, R, point, 6 if resists else 3)
     contact_step(coin, constraint, dt)
     normal = max((momentum_of(coin)[2] - momentum) / dt - other, 0.0)
     end = motion_of(coin)
@@ -52,11 +48,17 @@ def apply_friction(coin, constraint, dt):
     if constrained_forward(coin, constraint) > 0:
         point_end = contact_point(coin)
     slip, slip_free = _velocity(start, R, point), _velocity(end, R_end, point_end)
-    x, y = coulomb_force(K, coin.friction, normal, slip[:2], slip_free[:2], dt)
     # What the friction takes from the normal force goes with it: MuJoCo, which lets the share 1 - solimp of
     # any other push through its contact, has nothing left to do.
-    F = (x, y, -(K[0, 2] * x + K[1, 2] * y) / K[2, 2])
-    at_start, at_end = apply_transposed(R, cross(point, F)), apply_transposed(R_end, cross(point_end, F))
+    if resists:
+        motion, motion_free = slip + apply(R, start[10:13]), slip_free + apply(R_end, end[10:13])
+        coefficients = (coin.friction, coin.rolling_friction, coin.pivoting_friction)
+        F, M = resisted_force(K, coefficients, normal, motion, motion_free, dt)
+    else:
+        x, y = coulomb_force(K, coin.friction, normal, slip[:2], slip_free[:2], dt)
+        F, M = (x, y, -(K[0, 2] * x + K[1, 2] * y) / K[2, 2]), (0.0, 0.0, 0.0)
+    at_start = apply_transposed(R, add(cross(point, F), M))
+    at_end = apply_transposed(R_end, add(cross(point_end, F), M))
     for i in range(3):
         coin.joint.qfrc_applied[i] = F[i]
         coin.joint.qfrc_applied[3 + i] = (at_start[i] + at_end[i]) / 2
@@ -82,110 +84,31 @@ def _velocity(motion, R, point):
 
 
 @compiled
-def mobility(coin, R, point):
+def mobility(coin, R, point, n):
     """Return K, the change of the velocity of the coin's point at `point` from B by an impulse there.
 
     Args:
         coin: MuJoCo's, after `constrained_forward`.
         R: rotation matrix, body to space.
         point: space frame, (3,) [m].
+        n: 3; or 6, where the angular velocity and an angular impulse come after the other three.
 
     Returns:
-        K: space frame, (3, 3) [1/kg].
+        K: space frame, (n, n) [1/kg].
     """
-    jacobian, gained = np.zeros((3, 6)), np.empty((3, 6))
-    for i in range(3):
-        unit = (1.0 if i == 0 else 0.0, 1.0 if i == 1 else 0.0, 1.0 if i == 2 else 0.0)
-        turning = apply_transposed(R, cross(point, unit))
-        jacobian[i, i] = 1.0
+    jacobian, gained = np.zeros((n, 6)), np.empty((n, 6))
+    for i in range(n):
+        k = i % 3
+        unit = (1.0 if k == 0 else 0.0, 1.0 if k == 1 else 0.0, 1.0 if k == 2 else 0.0)
+        turning = apply_transposed(R, cross(point, unit) if i < 3 else unit)
+        if i < 3:
+            jacobian[i, i] = 1.0
         for j in range(3):
             jacobian[i, 3 + j] = turning[j]
-    mj_solve_mass(coin.address.model, coin.address.data, gained.ctypes, jacobian.ctypes, 3)
-    K = np.zeros((3, 3))
-    for i in range(3):
-        for j in range(3):
+    mj_solve_mass(coin.address.model, coin.address.data, gained.ctypes, jacobian.ctypes, n)
+    K = np.zeros((n, n))
+    for i in range(n):
+        for j in range(n):
             for k in range(6):
                 K[i, j] += jacobian[i, k] * gained[j, k]
     return K
-
-
-@compiled
-def coulomb_force(K, mu, normal, slip, slip_free, dt):
-    """Return the mean friction of a step that Coulomb's law asks for.
-
-    MuJoCo prescribes the vertical acceleration of the contact, whatever else acts on it: a friction f lowers
-    the normal force by K_zt · f/K_zz, and changes the slip at the rate (K_tt - K_tz K_zt/K_zz) f. Where the
-    slip may turn much in the step it is followed in `PARTS` of it.
-
-    Args:
-        K: mobility of the contact point, space frame, (3, 3) [1/kg].
-        mu: coefficient of friction μ.
-        normal: mean normal force of the step without friction [N].
-        slip: velocity of the contact point in the floor at the start of the step, (2,) [m/s].
-        slip_free: at the end of the step without friction, (2,) [m/s].
-        dt: length of the step [s].
-
-    Returns:
-        f: (2,) [N].
-    """
-    g = (K[0, 2] / K[2, 2], K[1, 2] / K[2, 2])
-    xx, yy, xy = K[0, 0] - g[0] * K[0, 2], K[1, 1] - g[1] * K[1, 2], K[0, 1] - g[0] * K[1, 2]
-    driven_x, driven_y = slip_free[0] - slip[0], slip_free[1] - slip[1]
-    change = math.hypot(driven_x, driven_y) + mu * normal * (xx + yy) * dt
-    parts = PARTS if change > STEADY * math.hypot(slip[0], slip[1]) else 1
-    part = dt / parts
-    v_x, v_y, sum_x, sum_y = slip[0], slip[1], 0.0, 0.0
-    for _ in range(parts):
-        free = (v_x + driven_x / parts, v_y + driven_y / parts)
-        f_x, f_y = _force(g, (xx * part, yy * part, xy * part), mu, normal, (v_x, v_y), free)
-        v_x = free[0] + (xx * f_x + xy * f_y) * part
-        v_y = free[1] + (xy * f_x + yy * f_y) * part
-        sum_x, sum_y = sum_x + f_x, sum_y + f_y
-    return sum_x / parts, sum_y / parts
-
-
-@compiled
-def _force(g, resistance, mu, normal, slip, slip_free):
-    """Return the friction that stops the slip, where that lies within the cone; else that of sliding.
-
-    It is -μ N s, s the direction of the mean slip, N the normal force as the friction has left it. Where no
-    such N is positive (Painlevé's case) the slip stops at once.
-
-    Args:
-        g: part of a friction that the normal force gives way to, (2,).
-        resistance: xx, yy and xy of the symmetric matrix from friction to the change of the slip [s/kg].
-        mu: coefficient of friction μ.
-        normal: normal force without friction [N].
-        slip: at the start, (2,) [m/s].
-        slip_free: at the end without friction, (2,) [m/s].
-    """
-    xx, yy, xy = resistance
-    determinant = xx * yy - xy * xy
-    stop_x = -(yy * slip_free[0] - xy * slip_free[1]) / determinant
-    stop_y = -(xx * slip_free[1] - xy * slip_free[0]) / determinant
-    if math.hypot(stop_x, stop_y) <= mu * (normal - g[0] * stop_x - g[1] * stop_y):
-        return stop_x, stop_y
-    s_x, s_y = slip if math.hypot(slip[0], slip[1]) > 0 else slip_free
-    size = math.hypot(s_x, s_y)
-    f_x, f_y = 0.0, 0.0
-    for turn in range(ROUNDS):
-        s_x, s_y = s_x / size, s_y / size
-        share = 1 - mu * (g[0] * s_x + g[1] * s_y)
-        if share <= 0:
-            return stop_x, stop_y
-        f_x, f_y = -mu * normal / share * s_x, -mu * normal / share * s_y
-        mean_x = slip[0] + slip_free[0] + xx * f_x + xy * f_y
-        mean_y = slip[1] + slip_free[1] + xy * f_x + yy * f_y
-        size = math.hypot(mean_x, mean_y)
-        if size == 0:
-            break
-        change_x, change_y = mean_x / size - s_x, mean_y / size - s_y
-        if math.hypot(change_x, change_y) < SAME:
-            break
-        # Where the slip nearly stops the full way may overshoot for ever.
-        way = 1.0 if turn < ROUNDS / 2 else 0.5
-        s_x, s_y = s_x + way * change_x, s_y + way * change_y
-        size = math.hypot(s_x, s_y)
-        if size == 0:
-            break
-    return f_x, f_y

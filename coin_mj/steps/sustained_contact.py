@@ -10,12 +10,15 @@ from coin_mj.steps.friction import apply_friction, friction_step
 from coin_mj.steps.gap_evaluation import evaluate_gap, turning_rate
 from coin_mj.steps.knots import Step, add_knot
 from coin_mj.steps.mujoco_step import set_margin, set_spring
+from coin_mj.steps.resistance import shortest_stop
 from models.attitude import rotation_matrix
 from models.ending import classify_ending
+from models.geometry import lowest_point
 from models.kernel.compiled import compiled
-from models.kernel.vectors import cross
+from models.kernel.vectors import apply, cross, subtract
 from models.perpetual import FIRST_CHECK
 from models.records import Ending, Outcome
+from models.rest import is_held, is_slowing, lever_of
 from models.state import state
 
 HEAVY = 10
@@ -86,39 +89,99 @@ def follow_contact(coin, rules, time, steps_left, history, knots):
     unloaded, upright = 0.0, 0.0
     while time < rules.max_time:
         x, v, e, w = state_of(coin)
-        up = rotation_matrix(e)[2]
+        R = rotation_matrix(e)
+        up = R[2]
         up_rate = cross(up, w)
         # Where the coin would be if it did not sink: the energy tests are finer than that.
         z = x[2] - min(evaluate_gap(coin).gap, 0.0)
         now = state((x[0], x[1], z), v, e, w)
         outcome, ending = classify_ending(body, rules, now, time, history)
-        if ending == Ending.NONE and upright * rate > FIRST_CHECK:
+        if ending == Ending.NONE and upright * rate > FIRST_CHECK and not slows(coin, R, w):
             outcome, ending = Outcome.EDGE, Ending.STANDING
+        if ending == Ending.NONE and rests(coin, R, v, w, upright > 0):
+            outcome, ending = Outcome.EDGE, Ending.AT_REST
         if ending == Ending.NONE and steps_left <= 0:
-            ending = Ending.CONTACT_STEPS
+            outcome, ending = out_of_budget(coin, upright > 0, Ending.CONTACT_STEPS)
         if ending != Ending.NONE:
             return ContactExit.DECIDED, time, steps_left, outcome, ending
         dt, lands = next_step(coin, rules.restitution, up, up_rate, w)
         if lands:
             _pass_over(coin, dt)
             return ContactExit.RIM_LANDS, time + dt, steps_left, Outcome.UNDECIDED, Ending.NONE
-        dt = min(dt, rules.max_time - time)
-        constraint = constrain(coin, rules.restitution, w, dt)
-        force = constrained_forward(coin, constraint)
+        dt = min(dt, shortest_stop(coin, w), rules.max_time - time)
         add_knot(coin, time, Step.CONTACT, knots)
-        if force > 0 and coin.has_explicit_friction:
-            friction_step(coin, constraint, dt)
-        else:
-            contact_step(coin, constraint, dt)
+        force = sustained_step(coin, rules.restitution, w, dt)
         time += dt
         steps_left -= 1
         on_edge = body.thickness > 0 and abs(up[2]) < UPRIGHT and abs(up_rate[2]) < UPRIGHT * rate
         upright = upright + dt if on_edge and force > 0 else 0.0
         unloaded = unloaded + dt if force == 0 else 0.0
         # Half a period of the spring.
-        if unloaded * constraint.frequency > math.pi:
+        if unloaded * frequency_of(dt) > math.pi:
             return ContactExit.LIFT_OFF, time, steps_left, Outcome.UNDECIDED, Ending.NONE
-    return ContactExit.DECIDED, time, steps_left, Outcome.UNDECIDED, Ending.MAX_TIME
+    outcome, ending = out_of_budget(coin, upright > 0, Ending.MAX_TIME)
+    return ContactExit.DECIDED, time, steps_left, outcome, ending
+
+
+@compiled
+def sustained_step(coin, chi, w, dt):
+    """Advance a coin in sustained contact by dt [s]; see `constrain` for the arguments.
+
+    Returns:
+        The floor's force along z at the start, without friction and resistance [N].
+    """
+    constraint = constrain(coin, chi, w, dt)
+    force = constrained_forward(coin, constraint)
+    if force > 0 and (coin.has_explicit_friction or coin.resists):
+        friction_step(coin, constraint, dt)
+    else:
+        contact_step(coin, constraint, dt)
+    return force
+
+
+@compiled
+def frequency_of(dt):
+    """Return √k of the spring in a step of dt [s] [1/s]."""
+    return SOFTNESS / dt
+
+
+@compiled
+def slows(coin, R, w):
+    """Return whether the floor's resistance slows a coin that stands; see `models.rest.is_slowing`."""
+    return is_slowing(coin.body, coin.rolling_friction, coin.pivoting_friction, apply(R, w))
+
+
+@compiled
+def rests(coin, R, v, w, upright):
+    """Return whether resistance to rolling holds the coin where it is; see `models.rest.is_held`.
+
+    Args:
+        coin: MuJoCo's.
+        R: rotation matrix, body to space.
+        v: velocity of C, space frame, (3,) [m/s].
+        w: angular velocity, body frame, (3,) [rad/s].
+        upright: whether it is on both rims.
+    """
+    if not coin.rolling_friction > 0:
+        return False
+    point, _ = lowest_point(coin.body, R[2], w)
+    arm = apply(R, subtract(point, coin.body.center))
+    lever = lever_of(R, arm, upright)
+    return is_held(coin.body, coin.rolling_friction, coin.friction, v, w, arm, lever)
+
+
+@compiled
+def out_of_budget(coin, upright, ending):
+    """Return the outcome and ending of a toss that ends in contact as a budget is spent.
+
+    Args:
+        coin: MuJoCo's.
+        upright: whether it is on both rims.
+        ending: named after the budget.
+    """
+    if upright and coin.resists:
+        return Outcome.EDGE, Ending.ROLLING
+    return Outcome.UNDECIDED, ending
 
 
 @compiled
@@ -134,14 +197,14 @@ def constrain(coin, chi, w, dt):
     body = coin.body
     set_margin(coin, REACH * body.radius)
     set_spring(coin, 0.0, 0.0, (body.gravity / body.radius) ** 0.5)
-    return Constraint(SOFTNESS / dt, LEVEL * slow_speed(coin, chi, w) * dt)
+    return Constraint(frequency_of(dt), LEVEL * slow_speed(coin, chi, w) * dt)
 
 
 @compiled
 def floor_force(coin, chi, dt):
     """Return the floor's force at the start of a step of a sustained contact, space frame, (3,) [N].
 
-    It is MuJoCo's own constraint force, and Coulomb's friction where that is explicit.
+    It is MuJoCo's own constraint force, and what `apply_friction` gives.
 
     Args:
         coin: MuJoCo's.
@@ -149,7 +212,7 @@ def floor_force(coin, chi, dt):
         dt: length of the step [s].
     """
     constraint = constrain(coin, chi, state_of(coin)[3], dt)
-    if constrained_forward(coin, constraint) > 0 and coin.has_explicit_friction:
+    if constrained_forward(coin, constraint) > 0 and (coin.has_explicit_friction or coin.resists):
         apply_friction(coin, constraint, dt)
     f, g = coin.joint.qfrc_constraint, coin.joint.qfrc_applied
     force = f[0] + g[0], f[1] + g[1], f[2] + g[2]

@@ -5,7 +5,7 @@ import pytest
 
 import analytic
 from coin_mj import Friction, Realisation, Settings, impacts_of, toss
-from coin_mj.steps.friction import coulomb_force
+from coin_mj.steps.coulomb import coulomb_force
 from compare.metrics.impulses import match
 from models.records import ApproximationWarning, Ending, Flag
 from tests.helpers.draws import ZLOTY, draw_coin, draw_release, scenario

@@ -144,9 +144,6 @@ def test_a_flat_landing_keeps_restitution():
             ['floor.restitution_kind = "energetic"', '"kinematic"'],
         ),
         ({"floor": {"restitution": 0.0}}, ["floor.restitution = 0", "> 0"]),
-        ({"floor": {"rolling_friction": "0.1 mm"}}, ["floor.rolling_friction = 0.0001", "engine: 0"]),
-        ({"floor": {"restitution_threshold": 0.01}}, ["floor.restitution_threshold = 0.01", "engine: 0"]),
-        ({"floor": {"pivoting_friction": 2e-4}}, ["floor.pivoting_friction = 0.0002", "engine: 0"]),
     ],
 )
 def test_what_is_not_realised_is_refused_by_name(parts, words):

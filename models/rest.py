@@ -1,0 +1,77 @@
+"""Whether a floor's resistance to rolling and pivoting holds a coin on its edge, or is still to stop it."""
+
+import math
+
+from models.kernel.compiled import compiled
+from models.kernel.vectors import apply, dot
+
+SLOW = 1e-3
+"""Against √(g/r): a spin slower than this is as good as none."""
+
+
+@compiled
+def slow_spin(body):
+    """Return the spin that is as good as none [rad/s]."""
+    return SLOW * (body.gravity / body.radius) ** 0.5
+
+
+@compiled
+def is_held(body, rolling, sliding, v, w, arm, lever):
+    """Return whether resistance to rolling holds a coin in contact where it is, on its edge.
+
+    At rest the weight's moment about the line of contact is m g a, a the horizontal distance of C from it:
+    it stays while a <= δ. All motion is slower than `SLOW`, and its energy is a quarter of what resistance
+    takes from it before a can grow to δ, at most. On a smooth floor the coin may slide on.
+
+    Args:
+        body: the coin.
+        rolling: δ [m].
+        sliding: μ in sustained contact.
+        v: velocity of C, space frame, (3,) [m/s].
+        w: angular velocity, body frame, (3,) [rad/s].
+        arm: of the contact point A from C, (3,) [m].
+        lever: a [m].
+    """
+    slow = slow_spin(body)
+    if not rolling > 0 or dot(w, w) > slow * slow:
+        return False
+    spare = rolling - lever
+    if not spare > 0 or (sliding > 0 and math.hypot(v[0], v[1]) > slow * body.radius):
+        return False
+    energy = (body.mass * v[2] * v[2] + dot(w, apply(body.inertia, w))) / 2
+    if sliding > 0:
+        energy += body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
+    # C and A move apart by less than twice the longest lever for each radian of turn.
+    longest = 2 * (dot(arm, arm) ** 0.5 + body.radius)
+    return energy < body.mass * body.gravity * spare * spare / (4 * longest)
+
+
+@compiled
+def lever_of(R, arm, on_line):
+    """Return the horizontal distance of C from A, or from the line on which a thick coin stands [m].
+
+    Args:
+        R: rotation matrix, body to space.
+        arm: of A from C, space frame, (3,) [m].
+        on_line: whether the coin stands on that line.
+    """
+    if not on_line:
+        return math.hypot(arm[0], arm[1])
+    return abs(R[0][2] * arm[1] - R[1][2] * arm[0])
+
+
+@compiled
+def is_slowing(body, rolling, pivoting, w):
+    """Return whether resistance will bring a coin that stands to rest, or is still to stop its roll.
+
+    Without resistance to rolling it may roll on for ever; without that to pivoting, spin.
+
+    Args:
+        body: the coin.
+        rolling: δ [m].
+        pivoting: p [m].
+        w: angular velocity, space frame, (3,) [rad/s].
+    """
+    if not rolling > 0:
+        return False
+    return pivoting > 0 or math.hypot(w[0], w[1]) > slow_spin(body)

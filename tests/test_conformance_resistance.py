@@ -1,0 +1,104 @@
+"""What both engines must do alike where the floor resists rolling and pivoting."""
+
+from collections import Counter
+from functools import cache
+
+import numpy as np
+import pytest
+
+from compare.engines import Engine
+from compare.reproduction.setups.hands import releases_of_hands
+from models.records import Ending, Outcome
+from tests.helpers.draws import AIR, ZLOTY, scenario
+from tests.helpers.engines import toss, toss_many
+
+R, G = ZLOTY["radius"], 9.81
+THIN, THICK = {**ZLOTY, "thickness": 0.0}, {**ZLOTY, "thickness": 4e-3}
+RESISTANCE = {"rolling_friction": 5e-4, "pivoting_friction": 1e-4}
+
+
+def set_down(coin, speed, tilt=np.pi / 2, spin=0.0, **floor):
+    """Give a coin that is set down at a tilt, and rolls along x without slip."""
+    half = coin["thickness"] / 2
+    return scenario(
+        coin=coin,
+        floor={"contact": "coulomb", "friction": 0.9, "restitution": 0.3, **floor},
+        release={
+            "position": [0.0, 0.0, R * np.sin(tilt) + half * abs(np.cos(tilt))],
+            "velocity": [speed, 0.0, 0.0],
+            "angles": [0.0, tilt, 0.0],
+            "angular_velocity": [0.0, spin, -speed / R],
+        },
+    )
+
+
+CASES = {
+    "rolls to rest": (set_down(THIN, 0.3, rolling_friction=1e-3), Outcome.EDGE, Ending.AT_REST),
+    "is caught on its edge": (set_down(THICK, 0.4, **RESISTANCE), Outcome.EDGE, Ending.PAPER),
+    "rolls in a circle and falls": (
+        set_down(ZLOTY, 0.5, 1.35, **RESISTANCE),
+        Outcome.HEADS,
+        Ending.PAPER,
+    ),
+    "spins and falls": (
+        set_down(ZLOTY, 0.0, 1.2, 35.0, **RESISTANCE),
+        Outcome.HEADS,
+        Ending.PAPER,
+    ),
+}
+BOTH = [pytest.param(engine, name, id=f"{engine}-{name}") for engine in Engine for name in CASES]
+
+
+@cache
+def tossed(engine, name):
+    return toss(engine, CASES[name][0])
+
+
+@pytest.mark.parametrize(("engine", "name"), BOTH)
+def test_a_coin_comes_to_rest_as_its_name_says(engine, name):
+    found = tossed(engine, name)
+    assert (found.outcome, found.ending) == CASES[name][1:]
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_engines_agree_on_when_and_where(name):
+    analytic, mujoco = (tossed(engine, name) for engine in (Engine.ANALYTIC, Engine.MUJOCO))
+    # MuJoCo notices an end after a step, of up to 4 ms, and in a second its steps change 1e-3 of the energy.
+    assert mujoco.end_time == pytest.approx(analytic.end_time, rel=2e-2)
+    at_end = [each.sample(each.end_time).position[0, :2] for each in (analytic, mujoco)]
+    path = analytic.sample(np.linspace(0, analytic.end_time, 200)).position[:, :2]
+    assert np.linalg.norm(at_end[0] - at_end[1]) < 0.02 * np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
+
+
+@pytest.mark.parametrize(("engine", "name"), BOTH)
+def test_energy_falls(engine, name):
+    found, case = tossed(engine, name), CASES[name][0]
+    states = found.sample(np.linspace(0, found.end_time, 1001))
+    v, w, J = states.velocity, states.angular_velocity, np.array(case.body.inertia)
+    energy = case.coin.mass * ((v**2).sum(1) / 2 + G * states.position[:, 2])
+    energy += np.einsum("ni,ij,nj->n", w, J, w) / 2
+    gain = np.max(energy - np.minimum.accumulate(energy)) / energy[0]
+    # MuJoCo's steps in a contact change about 1e-3 of the energy in a second.
+    assert gain < {Engine.ANALYTIC: 1e-9, Engine.MUJOCO: 2e-3}[engine]
+    assert energy[-1] < 0.98 * energy[0]
+
+
+def test_nickels_tossed_by_hand_come_to_rest_alike_on_both_engines():
+    """Within four standard deviations of what 100 tosses leave, and none rolls or stands for ever."""
+    n = 100
+    case = scenario(
+        coin={"mass": 5e-3, "radius": 10.605e-3, "thickness": 1.95e-3},
+        air=AIR,
+        floor={"contact": "coulomb", "friction": 0.3, "restitution": 0.5, "restitution_threshold": 0.02}
+        | {"rolling_friction": 1e-3, "pivoting_friction": 1e-3},
+    )
+    releases = releases_of_hands(np.random.default_rng(1993), n, aside=10.0)
+    found = [toss_many(engine, case, releases) for engine in Engine]
+    for outcomes in found:
+        assert set(outcomes.ending) <= {Ending.PAPER, Ending.LYING, Ending.AT_REST}
+        assert set(outcomes.outcome) <= {Outcome.HEADS, Outcome.TAILS, Outcome.EDGE}
+    counts = [Counter(outcomes.outcome.tolist()) for outcomes in found]
+    for outcome in (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE):
+        assert abs(counts[0][outcome] - counts[1][outcome]) < 4 * (2 * n * 0.25) ** 0.5
+    times = [np.mean(outcomes.end_time) for outcomes in found]
+    assert times[0] == pytest.approx(times[1], rel=0.1)
