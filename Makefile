@@ -4,10 +4,13 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 SCENARIOS := fig24a zloty
+# What the site computes, made again where the code has changed.
+MADE := out/docs
+CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path '*/__pycache__/*')
 
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
-.PHONY: report test test-all bench lint opengl chromium compiled clean
+.PHONY: report test test-all bench docs lint opengl chromium compiled clean
 
 report: $(READY) opengl compiled
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
@@ -22,6 +25,19 @@ test-all: $(READY) opengl chromium lint compiled
 bench: $(READY)
 	$(BIN)/pytest tests/benchmarks --benchmark-enable --benchmark-columns=min,median,rounds
 
+# The pages of docs/ as a site, out/site/index.html; its links and its pages in the browser are tested.
+docs: $(VENV)/.ready-docs chromium $(MADE)/pages/explorer.html
+	rm -rf out/site
+	$(BIN)/sphinx-build -q -W --keep-going -d $(MADE)/doctrees docs out/site
+	$(BIN)/pytest tests/site
+
+$(MADE)/pages/explorer.html: $(READY) $(CODE) docs/conf.py
+	rm -rf $(MADE)
+	mkdir -p $(@D)
+	$(BIN)/cointoss basin fig24a --x release.angular_velocity.eta=20:60:160 --y release.position.z=0.2:0.6:120 \
+	  --after 2 --out $(MADE)/map.zarr
+	$(BIN)/cointoss explore $(MADE)/map.zarr --static $@
+
 lint: $(READY)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
@@ -33,6 +49,10 @@ $(READY): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet "pip>=25.1"
 	$(BIN)/python -m pip install --quiet --editable . --group dev
+	touch $@
+
+$(VENV)/.ready-docs: $(READY)
+	$(BIN)/python -m pip install --quiet --group docs
 	touch $@
 
 # MuJoCo draws without a screen through EGL. Debian's packages are installed where that is allowed; elsewhere

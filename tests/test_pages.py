@@ -2,19 +2,24 @@
 
 import re
 import shlex
+from contextlib import redirect_stdout
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
 import click
 import pytest
 
+import cointoss as package
 from compare.cli import main
 from models.reading import parse
 from tests.helpers.command_line import cointoss
 
 TOP = Path(__file__).parents[1]
-PAGES = [TOP / "README.md", *sorted((TOP / "docs").glob("*.md"))]
+DOCS = TOP / "docs"
+PAGES = [TOP / "README.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("howto/*.md"))]
+NOTEBOOKS = sorted(DOCS.glob("examples/*.md"))
 MOST_TOSSES = 150_000
 """Of a map that is made here; a second or two."""
 PLACEHOLDER = re.compile(r"\[|\.\.\.|\b(?!T\b|H+\b)[A-Z]{2,}\b(?![-.\w]*[a-z])")
@@ -86,6 +91,7 @@ def test_the_code_of_a_page_runs_from_top_to_bottom(page, tmp_path, monkeypatch)
     """Python in one namespace for each page, and the fast commands, in one folder."""
     monkeypatch.chdir(tmp_path)
     names: dict[str, Any] = {"__name__": "page"}
+    printed = ""
     for block in written(page):
         for command in commands(block.text):
             words = shlex.split(command)[1:]
@@ -100,9 +106,15 @@ def test_the_code_of_a_page_runs_from_top_to_bottom(page, tmp_path, monkeypatch)
                 main.make_context("cointoss", words[:1])
                 assert subcommand(words[0]).make_context(words[0], words[1:]).command.name == words[0]
         if block.language == "python":
-            exec(compile(block.text, page.name, "exec"), names)
+            with redirect_stdout(StringIO()) as told:
+                exec(compile(block.text, page.name, "exec"), names)
+            printed = told.getvalue()
+        if block.language == "text":
+            assert printed.rstrip() == block.text, f"printed:\n{printed}"
         if "[coin]" in block.text and "[release]" in block.text and block.language in ("", "toml"):
             assert parse(block.text, page.name).coin.mass > 0
+            if named := re.match(r"# (\w+\.toml):", block.text):
+                Path(named[1]).write_text(block.text, encoding="utf-8")
 
 
 def assert_shown(block: str, command: str, stdout: str) -> None:
@@ -132,12 +144,34 @@ def is_number(text: str) -> bool:
     return re.fullmatch(r"[-+]?\d+(\.\d*)?(e[-+]?\d+)?", text) is not None
 
 
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda page: page.stem)
+def test_a_notebook_has_code_that_parses_and_ends_with_exercises(notebook):
+    """`make docs` runs them; a cell may begin with options between two lines of dashes."""
+    cells = [block.text for block in written(notebook) if block.language == "{code-cell}"]
+    code = [re.sub(r"\A---\n.*?\n---\n", "", cell, flags=re.DOTALL) for cell in cells]
+    assert len([compile(cell, notebook.name, "exec") for cell in code]) >= 4
+    assert max(len(line) for cell in code for line in cell.splitlines()) <= 88
+    _, _, exercises = notebook.read_text(encoding="utf-8").partition("\n## Exercises\n")
+    assert len(re.findall(r"^\d\. ", exercises, flags=re.MULTILINE)) >= 3
+    assert "\n## " not in exercises
+
+
+def test_every_public_name_is_described_in_the_pages_of_the_api():
+    text = "\n".join(page.read_text(encoding="utf-8") for page in DOCS.glob("api/*.md"))
+    described = set(re.findall(r"^\.\. auto\w+:: (\S+)$", text, flags=re.MULTILINE))
+    engines = (package.analytic, package.coin_mj)
+    public = {f"cointoss.{name}" for name in dir(package)}
+    public |= {f"{engine.__name__}.{name}" for engine in engines for name in engine.__all__}
+    assert public - described == {"cointoss.analytic", "cointoss.coin_mj", "cointoss.__version__"}
+
+
 def test_there_is_code_to_run():
     code = {page.name: written(page) for page in PAGES}
     assert sum(block.language == "python" for block in code["README.md"]) >= 2
     called = [command for block in code["README.md"] for command in commands(block.text)]
     assert any(runs_here(shlex.split(command)[1:]) for command in called)
     assert sum(len(commands(block.text)) for parts in code.values() for block in parts) >= 20
+    assert len(NOTEBOOKS) == 3
 
 
 PAGE = """

@@ -125,9 +125,19 @@ class Page:
         return self._browser.call(method, self._session, **arguments)
 
     def open(
-        self, url: str, *, width: int = 1280, height: int = 900, scheme: str = "light", moving: bool = False
+        self,
+        url: str,
+        *,
+        width: int = 1280,
+        height: int = 900,
+        scheme: str = "light",
+        moving: bool = False,
+        ready: str = "document.body?.dataset.ready === 'true'",
     ) -> None:
-        """Load an address in a window of a size, in light or dark, with motion or the least of it."""
+        """Load an address in a window of a size, in light or dark, with motion or the least of it.
+
+        It is loaded when the expression `ready` is true, by default when a page of the explorer says so.
+        """
         self.call(
             "Emulation.setDeviceMetricsOverride",
             width=width,
@@ -142,7 +152,7 @@ class Page:
         # A new fragment alone would not load the page again.
         self.call("Page.navigate", url="about:blank")
         self.call("Page.navigate", url=url)
-        self.wait_for("document.body?.dataset.ready === 'true'")
+        self.wait_for(ready)
 
     def value(self, expression: str) -> Any:
         """Return the value of an expression of JavaScript, a promise's when it is kept."""

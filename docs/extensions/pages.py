@@ -1,0 +1,57 @@
+"""Pages of docs/ as Sphinx must read them, where GitHub reads them as they are."""
+
+import re
+from pathlib import Path
+
+from sphinx.application import Sphinx
+
+from compare.reproduction import gallery, runner
+
+ANCHOR = re.compile(r'^(#+ )<a id="([\w-]+)"></a>', re.MULTILINE)
+
+
+def read(app: Sphinx, docname: str, source: list[str]) -> None:
+    """Change the text of a page before it is parsed."""
+    if docname == "OVERVIEW":
+        source[0] = readme(Path(app.srcdir).parent / "README.md")
+    if docname == "GALLERY":
+        source[0] += cards()
+    source[0] = ANCHOR.sub(r"(\2)=\n\1", source[0]).replace("](../README.md", "](OVERVIEW.md")
+
+
+def readme(path: Path) -> str:
+    """Return the README with its links as they are from docs/."""
+    text = path.read_text(encoding="utf-8")
+    return re.sub(r"\]\((?!https?:|#)(?!docs/)", "](../", text).replace("](docs/", "](")
+
+
+def cards() -> str:
+    """Return a card for each figure that was reproduced: its picture, with a link to its claims."""
+    lines = ["", "::::{grid} 2 2 3 3", ":gutter: 2", ""]
+    for name in gallery.of_paper():
+        found = runner.find(name)
+        lines += [
+            f":::{{grid-item-card}} {found.paper}",
+            f":img-top: reproduction/{name}/figure.png",
+            f":img-alt: {found.paper}, {found.title}",
+            f":link: {name}",
+            ":link-type: ref",
+            found.title,
+            ":::",
+        ]
+    return "\n".join([*lines, "::::", ""])
+
+
+def write_gallery(app: Sphinx) -> None:
+    """Write the gallery to project among the pages that the site takes as they are."""
+    docs, made = Path(app.srcdir), Path(app.config.html_extra_path[0])
+    made.mkdir(parents=True, exist_ok=True)
+    shown = gallery.entries(docs, gallery.of_paper())
+    (made / "gallery.html").write_text(gallery.html(docs, shown), encoding="utf-8")
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Connect to the reading of a page."""
+    app.connect("builder-inited", write_gallery)
+    app.connect("source-read", read)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

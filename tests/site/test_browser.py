@@ -1,0 +1,56 @@
+"""Pages of the built site in a browser: no complaint, no request, and nothing wider than the window."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.helpers.browser import Page, browser
+
+SITE = Path(__file__).parents[2] / "out" / "site"
+COMPLETE = "document.readyState === 'complete' && location.href !== 'about:blank'"
+PAGES = (
+    "index.html",
+    "TUTORIAL.html",
+    "GALLERY.html",
+    "MUJOCO.html",
+    "REPRODUCTION.html",
+    "examples/two_engines_part.html",
+    "api/cointoss.html",
+)
+
+
+@pytest.fixture(scope="module")
+def chromium(tmp_path_factory):
+    with browser(tmp_path_factory.mktemp("profile")) as started:
+        yield started
+
+
+def foreign(page):
+    return [
+        address for address in page.asked() if not address.startswith(("file:", "data:", "blob:", "about:"))
+    ]
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_a_page_is_quiet_and_fits_its_window(chromium, name):
+    for width, scheme in ((1280, "light"), (420, "dark")):
+        with Page(chromium) as page:
+            page.open((SITE / name).as_uri(), width=width, scheme=scheme, ready=COMPLETE)
+            assert page.value("document.documentElement.scrollWidth") <= width
+            assert page.complaints() == []
+            assert foreign(page) == []
+
+
+def test_the_search_finds_a_page(chromium):
+    with Page(chromium) as page:
+        page.open(f"{(SITE / 'search.html').as_uri()}?q=restitution", ready=COMPLETE)
+        page.wait_for("document.querySelectorAll('#search-results li a').length > 5")
+        assert page.complaints() == []
+        assert foreign(page) == []
+
+
+def test_the_map_of_the_site_can_be_explored(chromium):
+    with Page(chromium) as page:
+        page.open((SITE / "explorer.html").as_uri())
+        assert page.complaints() == []
+        assert foreign(page) == []

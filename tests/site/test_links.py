@@ -1,0 +1,62 @@
+"""The built site: its links lead somewhere, it needs no network, and its pictures are described."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.helpers.site import problems
+
+TOP = Path(__file__).parents[2]
+SITE = TOP / "out" / "site"
+
+
+def test_the_site_has_a_page_for_each_source_and_what_it_takes_along():
+    sources = [*(TOP / "docs").glob("*.md"), *(TOP / "docs").glob("*/*.md")]
+    assert len(sources) > 30
+    pages = [SITE / source.relative_to(TOP / "docs").with_suffix(".html") for source in sources]
+    assert [
+        page for page in [*pages, SITE / "explorer.html", SITE / "gallery.html"] if not page.is_file()
+    ] == []
+
+
+def test_every_link_leads_somewhere_and_nothing_comes_from_the_network():
+    assert problems(SITE) == []
+
+
+GOOD = '<h1 id="a">A</h1><a href="b.html#b">b</a><a href="#a">a</a><a href="https://example.org/x">x</a>'
+
+
+def made(folder, page):
+    (folder / "a.html").write_text(page, encoding="utf-8")
+    (folder / "b.html").write_text('<p id="b"></p><img src="data:," alt="nothing">', encoding="utf-8")
+    return folder
+
+
+def test_a_site_without_a_problem_has_none(tmp_path):
+    assert problems(made(tmp_path, GOOD)) == []
+
+
+@pytest.mark.parametrize(
+    ("wrong", "problem"),
+    [
+        ('<a href="c.html">c</a>', "c.html leads nowhere"),
+        ('<a href="b.html#c">c</a>', "b.html#c has no such anchor"),
+        ('<a href="#b">b</a>', "#b has no such anchor"),
+        ('<a href="https:/example">x</a>', "https:/example is no address"),
+        ('<img src="c.png" alt="c">', "c.png leads nowhere"),
+        ('<img src="data:,">', "data:, has no alt"),
+        ('<img src="data:," alt="data:,">', "data:, has no alt"),
+        ('<script src="https://example.org/x.js"></script>', "loads https://example.org/x.js"),
+        ('<link rel="stylesheet" href="//example.org/x.css">', "loads //example.org/x.css"),
+        ("<style>@import 'https://example.org/x.css';</style>", "loads https://example.org/x.css"),
+        ('<p style="background: url(https://example.org/x.png)">', "loads https://example.org/x.png"),
+    ],
+)
+def test_a_problem_is_seen(tmp_path, wrong, problem):
+    assert problems(made(tmp_path, GOOD + wrong)) == [f"a.html: {problem}"]
+
+
+def test_a_style_sheet_that_loads_a_font_is_seen(tmp_path):
+    made(tmp_path, GOOD)
+    (tmp_path / "x.css").write_text("a { src: url('https://example.org/f.woff') }", encoding="utf-8")
+    assert problems(tmp_path) == ["x.css: loads https://example.org/f.woff"]
