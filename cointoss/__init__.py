@@ -9,6 +9,10 @@ if TYPE_CHECKING:
     from compare.engines import Engine as Engine
     from compare.metrics.comparison import Comparison as Comparison
     from compare.metrics.comparison import compare as compare
+    from compare.sweep.errors import SweepError as SweepError
+    from compare.sweep.in_memory import basin as basin
+    from compare.sweep.outcome_map import OutcomeMap as OutcomeMap
+    from compare.sweep.reading import read_map as read_map
     from models.errors import ScenarioError as ScenarioError
     from models.hand import Hand as Hand
     from models.laws import ContactLaw as ContactLaw
@@ -43,6 +47,10 @@ _PACKAGES = ("analytic", "coin_mj")
 _NAMES = {
     "compare.engines": ("Engine",),
     "compare.metrics.comparison": ("Comparison", "compare"),
+    "compare.sweep.errors": ("SweepError",),
+    "compare.sweep.in_memory": ("basin",),
+    "compare.sweep.outcome_map": ("OutcomeMap",),
+    "compare.sweep.reading": ("read_map",),
     "models.errors": ("ScenarioError",),
     "models.hand": ("Hand",),
     "models.laws": ("ContactLaw", "EndingTest", "RestitutionKind"),

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from compare.sweep.axes import Axis
 from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile
+from compare.sweep.layers import NOT_TOSSED
 from compare.sweep.pixels import toss_pixels
-from compare.sweep.store import NOT_TOSSED
 
 SIDE = 32
 """Of a tile, in pixels of the finer map."""

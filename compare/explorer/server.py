@@ -14,11 +14,13 @@ from urllib.parse import parse_qsl
 
 from compare.engines import Engine
 from compare.explorer.finer import toss_tile
-from compare.explorer.map_file import MapFile, read_map
 from compare.explorer.page_files import page_files
+from compare.explorer.page_map import MOST_SHOWN, page_map
 from compare.explorer.tosses import require_inside, toss_pixel
 from compare.output.files import UnwritableError
 from compare.sweep.errors import SweepError
+from compare.sweep.outcome_map import OutcomeMap
+from compare.sweep.reading import read_map
 from models.errors import ScenarioError
 from models.records import UnsupportedError
 
@@ -59,7 +61,7 @@ class Explorer(ThreadingTCPServer):
             UnwritableError: for a port that can't be had.
         """
         self.path = path
-        self.sweep = read_map(path).sweep
+        self.sweep = read_map(path, most=MOST_SHOWN).sweep
         self.files = {f"/{name}": content for name, content in page_files().items()}
         self.tossing = threading.Lock()
         try:
@@ -83,9 +85,9 @@ class Explorer(ThreadingTCPServer):
         if not isinstance(sys.exception(), OSError):
             super().handle_error(request, client_address)
 
-    def map_now(self) -> MapFile:
+    def map_now(self) -> OutcomeMap:
         """Return the map as far as it is tossed now."""
-        return read_map(self.path)
+        return read_map(self.path, most=MOST_SHOWN)
 
 
 class Request(BaseHTTPRequestHandler):
@@ -137,7 +139,7 @@ class Request(BaseHTTPRequestHandler):
 
     def _map(self, query: Query) -> Any:
         _require_names(query)
-        return self.server.map_now().as_json()
+        return page_map(self.server.map_now())
 
     def _toss(self, query: Query) -> Any:
         _require_names(query, "x", "y", also="engine")

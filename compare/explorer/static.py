@@ -6,10 +6,12 @@ from pathlib import Path
 import numpy as np
 
 from compare.engines import Engine
-from compare.explorer.map_file import MapFile, read_map
 from compare.explorer.page_files import page_files
+from compare.explorer.page_map import page_map
 from compare.explorer.tosses import toss_pixel
 from compare.output.files import write_text
+from compare.sweep.outcome_map import OutcomeMap
+from compare.sweep.reading import read_map
 from compare.web.scripts import POLICY, data_element, import_map
 
 MOST_BYTES = 10_000_000
@@ -54,7 +56,7 @@ def _spread(count: int, most: int) -> list[int]:
     return ((np.arange(number) + 0.5) * count / number).astype(int).tolist()
 
 
-def _page(found: MapFile, grid: dict[str, object]) -> str:
+def _page(found: OutcomeMap, grid: dict[str, object]) -> str:
     """Return the page as one text: its modules in an import map, as data."""
     files = {name: content.decode("utf-8") for name, content in page_files().items()}
     modules = {name: text for name, text in files.items() if name.endswith(".js")}
@@ -67,7 +69,7 @@ def _page(found: MapFile, grid: dict[str, object]) -> str:
             if name.endswith(".css")
         },
         '<script type="module" src="main.js"></script>': f"<!-- three.js:\n{files['LICENSE']}-->\n"
-        f"{import_map(modules)}\n{data_element({'map': found.as_json(), **grid}, id_='data')}\n"
+        f"{import_map(modules)}\n{data_element({'map': page_map(found), **grid}, id_='data')}\n"
         '<script type="module">import "main.js";</script>',
     }
     page = files["index.html"]

@@ -10,8 +10,9 @@ import numpy as np
 from compare.output.files import UnwritableError
 from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile
+from compare.sweep.layers import bytes_per_pixel
 from compare.sweep.pixels import Pixels, toss_pixels
-from compare.sweep.store import Map, bytes_per_pixel
+from compare.sweep.store import Map
 from models.records import Array, Outcome
 
 Tosser = Callable[[Sweep, Iterable[Tile]], Iterator[tuple[Tile, Pixels]]]

@@ -54,7 +54,7 @@ def write(
     Raises:
         UnwritableError: naming the file and why.
     """
-    picture.write_png(_figure(maps, sweep, style, margins), png, dpi=style.dpi)
+    picture.write_png(figure_of(maps, sweep, style, margins), png, dpi=style.dpi)
 
 
 def section(
@@ -69,7 +69,7 @@ def section(
         command: that makes the maps.
     """
     drawn, sweep = io.BytesIO(), sweeps[0]
-    _figure(maps, sweep, style).savefig(drawn, format="png", dpi=style.dpi)
+    figure_of(maps, sweep, style).savefig(drawn, format="png", dpi=style.dpi)
     shares = {
         sweep.engine.value: {outcome.label: share for outcome, share in fractions(outcomes).items()}
         for sweep, outcomes in zip(sweeps, maps, strict=True)
@@ -87,9 +87,10 @@ def section(
     )
 
 
-def _figure(
+def figure_of(
     maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle, margins: Array | None = None
 ) -> Figure:
+    """Draw one map, its margins beside it, or those of both engines; see `write` for the arguments."""
     x, y = _drawn(sweep.x), _drawn(sweep.y)
     common: Any = {"x": x, "y": y, "palette": style.palette, "boundaries": style.boundaries}
     if len(maps) > 1:

@@ -9,7 +9,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import zarr
@@ -21,18 +21,14 @@ from compare.output.files import UnwritableError, beside, naming, remove, writte
 from compare.output.interruption import undoing
 from compare.sweep.axes import Axis
 from compare.sweep.grid import Sweep, Tile, tile_shape, tiles
+from compare.sweep.layers import Layer, axis_attributes, layers_of
 from compare.sweep.pixels import Pixels
 from models.errors import ScenarioError, shown
-from models.labelled import meanings_of
 from models.reading import parse
 from models.records import Outcome
 
 FORMAT = 1
 """Of a map, under the attribute `cointoss_map`."""
-NOT_TOSSED = -1
-"""What `outcome` and `impacts` hold where no toss was made yet."""
-NO_MARGIN = float("nan")
-"""What `margin` holds there."""
 _ATTRIBUTES = {
     "scenario": str,
     "engine": str,
@@ -43,36 +39,6 @@ _ATTRIBUTES = {
 _MARGIN = "margin_along"
 """Attribute of a map with margins: their quantity."""
 _WAYS_OUT = "accepted: a new name, or --overwrite"
-
-
-class _Layer(NamedTuple):
-    """An array of a map."""
-
-    kind: type[np.number]
-    fill_value: float
-    attributes: dict[str, Any]
-
-
-def _layers(sweep: Sweep) -> dict[str, _Layer]:
-    """Return the arrays of a sweep's map, by name."""
-    meanings = meanings_of({NOT_TOSSED: "not_tossed", **{int(item): item.label for item in Outcome}})
-    layers = {
-        "outcome": _Layer(np.int8, NOT_TOSSED, {"long_name": "outcome", **meanings}),
-        "impacts": _Layer(np.int32, NOT_TOSSED, {"long_name": "number of impacts"}),
-    }
-    if sweep.margin is None:
-        return layers
-    from compare.metrics.margin import quantity_of
-
-    found = f"smallest change of the release's {sweep.margin} that was found to change the outcome"
-    attributes = {"long_name": f"{found}; infinite: none up to 1 SI unit"}
-    units = quantity_of(sweep.margin).unit
-    return {**layers, "margin": _Layer(np.float64, NO_MARGIN, {**attributes, "units": units})}
-
-
-def bytes_per_pixel(sweep: Sweep) -> int:
-    """Return what a pixel of a sweep's map takes on disk, before compression."""
-    return sum(np.dtype(layer.kind).itemsize for layer in _layers(sweep).values())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -209,7 +175,7 @@ def _create(target: Path, sweep: Sweep, scenario_text: str) -> None:
 
 def _write_empty(folder: Path, sweep: Sweep, scenario_text: str) -> None:
     group = zarr.create_group(folder, zarr_format=3, attributes=_attributes(sweep, scenario_text))
-    for name, layer in _layers(sweep).items():
+    for name, layer in layers_of(sweep).items():
         group.create_array(
             name,
             shape=sweep.shape,
@@ -226,7 +192,7 @@ def _write_empty(folder: Path, sweep: Sweep, scenario_text: str) -> None:
             axis.field,
             data=axis.values,
             dimension_names=(dimension,),
-            attributes={"long_name": axis.field.replace(".", " ").replace("_", " "), "units": axis.unit},
+            attributes=axis_attributes(axis),
         )
     with warnings.catch_warnings():
         # Not yet in the specification of Zarr 3, but xarray asks for it.
@@ -275,14 +241,14 @@ def _require_same(path: Path, group: zarr.Group, sweep: Sweep) -> None:
             raise UnwritableError(f"{path}: is a map with another {what}; {_WAYS_OUT}")
     consolidated = zarr.open_group(group.store, mode="r", use_consolidated=True)
     for read in (group, consolidated):
-        for name, layer in _layers(sweep).items():
+        for name, layer in layers_of(sweep).items():
             _require_array(path, read, name, layer, sweep)
     for name, axis in (("x", sweep.x), ("y", sweep.y)):
         if not _is_axis(consolidated, name, axis):
             raise _damaged(path, f"array {axis.field}: not in the consolidated metadata")
 
 
-def _require_array(path: Path, group: zarr.Group, name: str, layer: _Layer, sweep: Sweep) -> None:
+def _require_array(path: Path, group: zarr.Group, name: str, layer: Layer, sweep: Sweep) -> None:
     """Refuse an array that is none of a map of a sweep."""
     array: Any = group.get(name)
     if not isinstance(array, zarr.Array):

@@ -28,7 +28,8 @@ from compare.output.files import UnwritableError
 from compare.sweep import grid, run
 from compare.sweep.axes import parse_axis
 from compare.sweep.grid import Sweep
-from compare.sweep.store import NOT_TOSSED, opened, require_place
+from compare.sweep.layers import NOT_TOSSED
+from compare.sweep.store import opened, require_place
 from models.reading import parse
 from models.records import Outcome
 from tests.helpers.basin_runs import (

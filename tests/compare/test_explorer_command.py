@@ -13,9 +13,10 @@ import numpy as np
 import pytest
 import zarr
 
-from compare.explorer import map_file
-from compare.explorer.map_file import read_map
+from compare.explorer.page_map import page_map
 from compare.explorer.server import Explorer
+from compare.sweep import reading
+from compare.sweep.reading import read_map
 from tests.helpers.command_line import HERE, cointoss
 from tests.helpers.explored import AXES, SCENARIO, got, small_map
 
@@ -85,16 +86,16 @@ def test_a_map_without_an_axis_or_of_another_shape_is_refused(copy):
 
 
 def test_a_map_of_too_many_pixels_is_refused(whole, monkeypatch):
-    monkeypatch.setattr(map_file, "MOST_READ", 400)
+    monkeypatch.setattr(reading, "MOST_READ", 400)
     assert "has 24 by 18 pixels; accepted: a map of at most 400 pixels" in refused(whole)
 
 
 def test_of_a_large_map_every_so_many_th_pixel_is_shown(whole):
     full, part = read_map(whole), read_map(whole, most=100)
     assert (full.stride, part.stride) == (1, 3)
-    assert part.arrays["outcome"].shape == (6, 8)
-    for name, array in part.arrays.items():
-        assert np.array_equal(array, full.arrays[name][::3, ::3])
+    assert part.outcome.shape == (6, 8)
+    for name, array in part.layers.items():
+        assert np.array_equal(array, full.layers[name][::3, ::3])
 
 
 def test_an_unfinished_map_is_shown_as_far_as_it_is(copy, monkeypatch):
@@ -104,16 +105,16 @@ def test_an_unfinished_map_is_shown_as_far_as_it_is(copy, monkeypatch):
     (copy.parent / "coin.toml").write_text(SCENARIO)
     made = cointoss("basin", copy.parent / "coin.toml", *AXES, "--out", copy, "--overwrite")
     assert made.exit_code == 0, made.stderr
-    before = read_map(copy).arrays["outcome"]
+    before = read_map(copy).outcome
     chunks = sorted(path for path in (copy / "outcome" / "c").rglob("*") if path.is_file())
     assert len(chunks) > 3
     chunks[0].unlink()
     chunks[1].write_bytes(b"broken")
     found = read_map(copy)
-    outcome = found.arrays["outcome"]
+    outcome = found.outcome
     assert 0 < (outcome == -1).mean() < 0.8
     assert np.array_equal(outcome[outcome != -1], before[outcome != -1])
-    assert found.as_json()["tossed"] == pytest.approx(np.mean(outcome != -1))
+    assert page_map(found)["tossed"] == pytest.approx(np.mean(outcome != -1))
 
 
 def test_margins_are_read(whole, tmp_path):
@@ -123,10 +124,10 @@ def test_margins_are_read(whole, tmp_path):
         "basin", tmp_path / "coin.toml", *axes, "--margin", "height", "--out", tmp_path / "m.zarr"
     )
     assert made.exit_code == 0, made.stderr
-    told = read_map(tmp_path / "m.zarr").as_json()
+    told = page_map(read_map(tmp_path / "m.zarr"))
     assert told["margin"] == {"along": "height", "unit": "mm"}
     assert len(told["arrays"]["margin"]) == 4 * (3 * 2 * 4) // 3
-    assert read_map(whole).as_json()["margin"] is None
+    assert page_map(read_map(whole))["margin"] is None
 
 
 def test_a_port_in_use_is_refused(whole):

@@ -13,7 +13,7 @@ from PIL import Image
 
 import analytic
 from compare.explorer import static
-from compare.explorer.map_file import read_map
+from compare.sweep.reading import read_map
 from models.reading import parse
 from tests.helpers.browser import Page, browser
 from tests.helpers.command_line import cointoss
@@ -114,7 +114,7 @@ def sequences(page):
 @pytest.mark.parametrize("width", [1280, 420])
 def test_a_click_tosses_a_pixel_by_both_engines(page, server, map_path, width, scheme):
     page.open(server.url, width=width, height=1900, scheme=scheme)
-    codes = read_map(map_path).arrays["outcome"]
+    codes = read_map(map_path).outcome
     shown = picture(page, "map")
     left, top, *_ = box(page, "map")
     for u, v in ((0, 0), (23, 0), (0, 17), (23, 17), (11, 6), (5, 13)):
@@ -233,7 +233,7 @@ def test_the_margin_of_a_pixel_is_told(page, tmp_path):
     )
     made = cointoss("basin", tmp_path / "coin.toml", *axes, "--out", tmp_path / "map.zarr")
     assert made.exit_code == 0, made.stderr
-    found = read_map(tmp_path / "map.zarr").arrays["margin"][2, 1]
+    found = read_map(tmp_path / "map.zarr").margin[2, 1]
     with serving(tmp_path / "map.zarr") as explorer:
         page.open(f"{explorer.url}#x=40&y=0.6")
         shown = float(

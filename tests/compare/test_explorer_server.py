@@ -10,9 +10,9 @@ import xarray as xr
 
 import analytic
 from compare.explorer.finer import SIDE, toss_tile
-from compare.explorer.map_file import read_map
 from compare.explorer.page_files import page_files
 from compare.sweep.errors import SweepError
+from compare.sweep.reading import read_map
 from models.reading import parse
 from tests.helpers.explored import FIELDS, SCENARIO, got, sent, serving, small_map
 
@@ -265,7 +265,7 @@ def test_a_pixel_is_tossed_by_both_engines_to_its_end(server):
 
 def test_a_finer_tile_has_the_outcomes_of_its_points(map_path):
     sweep = read_map(map_path).sweep
-    assert np.array_equal(toss_tile(sweep, 0, 0, 0)[:18, :24], read_map(map_path).arrays["outcome"])
+    assert np.array_equal(toss_tile(sweep, 0, 0, 0)[:18, :24], read_map(map_path).outcome)
     tile = toss_tile(sweep, 2, 1, 1)
     assert tile.shape == (SIDE, SIDE)
     assert {1, 2} <= set(tile.ravel())

@@ -1,7 +1,6 @@
-"""Read a map for the explorer: what it is of, and the pixels that are tossed."""
+"""Read a map from disk: what it is of, and the pixels that are tossed."""
 
-from base64 import b64encode
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,65 +10,33 @@ from numpy.typing import NDArray
 
 from compare.engines import Engine, EngineSettings
 from compare.film.back_end import require_mujoco
-from compare.metrics.margin import quantity_of
-from compare.output.style import OUTCOMES
 from compare.sweep.axes import Axis
 from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep
-from compare.sweep.store import FORMAT, NOT_TOSSED, Map
+from compare.sweep.layers import NOT_TOSSED
+from compare.sweep.outcome_map import OutcomeMap
+from compare.sweep.store import FORMAT, Map
 from models.errors import ScenarioError, shown
 from models.fields import UNITS, lambda_unit
 from models.reading import parse
 
-MOST_READ, MOST_SHOWN = 100_000_000, 4_000_000
-"""Pixels of a map that is read, and of what is shown of it: of a larger one every second, third, ..."""
+MOST_READ = 100_000_000
+"""Pixels of a map that is read."""
 _ACCEPTED = "accepted: a map that cointoss basin made"
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class MapFile:
-    """A map as far as it is tossed."""
-
-    name: str
-    sweep: Sweep
-    stride: int
-    """Every so many-th pixel is here, along both axes."""
-    arrays: dict[str, NDArray[Any]]
-    """`outcome` and `impacts`, and `margin` where the map has one, (ny, nx)."""
-
-    def as_json(self) -> dict[str, Any]:
-        """Return the map as its page reads it; arrays row by row in base64, little-endian."""
-        kinds = {"outcome": "<i1", "impacts": "<i4", "margin": "<f4"}
-        margin = quantity_of(self.sweep.margin) if self.sweep.margin else None
-        return {
-            "name": self.name,
-            "engine": self.sweep.engine.value,
-            "after": self.sweep.after,
-            "stride": self.stride,
-            "tossed": float(np.mean(self.arrays["outcome"] != NOT_TOSSED)),
-            "axes": {name: asdict(axis) for name, axis in (("x", self.sweep.x), ("y", self.sweep.y))},
-            "outcomes": {
-                int(outcome): {"label": outcome.label, "color": color} for outcome, color in OUTCOMES.items()
-            },
-            "margin": margin and {"along": margin.name, "unit": margin.unit},
-            "arrays": {
-                name: b64encode(array.astype(kinds[name]).tobytes()).decode("ascii")
-                for name, array in self.arrays.items()
-            },
-        }
-
-
-def read_map(path: Path, *, most: int = MOST_SHOWN) -> MapFile:
-    """Return a map; one that is not finished, or has damaged tiles, as far as it is.
+def read_map(path: str | Path, *, most: int = MOST_READ) -> OutcomeMap:
+    """Return a map that `cointoss basin` made, as far as its tiles are tossed and whole.
 
     Args:
-        path: of the map.
-        most: pixels that are kept.
+        path: of the map's folder.
+        most: pixels that are kept; of a larger map every second, third, ... along both axes.
 
     Raises:
         SweepError: saying why this is no map that can be shown.
         ScenarioError: for a scenario that this version does not accept.
     """
+    path = Path(path)
     if not path.is_dir():
         raise SweepError(f"no such folder; {_ACCEPTED}")
     try:
@@ -96,11 +63,11 @@ def read_map(path: Path, *, most: int = MOST_SHOWN) -> MapFile:
     stride = 1
     while -(-ny // stride) * -(-nx // stride) > most:
         stride += 1
-    return MapFile(
+    return OutcomeMap(
         name=path.name,
         sweep=sweep,
         stride=stride,
-        arrays=_read(Map(path=path, group=group), tuple(layers), stride, sweep.shape),
+        **_read(Map(path=path, group=group), tuple(layers), stride, sweep.shape),
     )
 
 

@@ -1,0 +1,38 @@
+"""A map as the explorer's page reads it."""
+
+from base64 import b64encode
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from compare.metrics.margin import quantity_of
+from compare.output.style import OUTCOMES
+from compare.sweep.layers import NOT_TOSSED
+from compare.sweep.outcome_map import OutcomeMap
+
+MOST_SHOWN = 4_000_000
+"""Pixels on the page: of a larger map every second, third, ..."""
+_KINDS = {"outcome": "<i1", "impacts": "<i4", "margin": "<f4"}
+
+
+def page_map(found: OutcomeMap) -> dict[str, Any]:
+    """Return a map as JSON; arrays row by row in base64, little-endian."""
+    sweep = found.sweep
+    margin = quantity_of(sweep.margin) if sweep.margin else None
+    return {
+        "name": found.name,
+        "engine": sweep.engine.value,
+        "after": sweep.after,
+        "stride": found.stride,
+        "tossed": float(np.mean(found.outcome != NOT_TOSSED)),
+        "axes": {name: asdict(axis) for name, axis in (("x", sweep.x), ("y", sweep.y))},
+        "outcomes": {
+            int(outcome): {"label": outcome.label, "color": color} for outcome, color in OUTCOMES.items()
+        },
+        "margin": margin and {"along": margin.name, "unit": margin.unit},
+        "arrays": {
+            name: b64encode(array.astype(_KINDS[name]).tobytes()).decode("ascii")
+            for name, array in found.layers.items()
+        },
+    }

@@ -1,0 +1,77 @@
+"""Make a map in memory, from Python."""
+
+from compare.engines import Engine
+from compare.sweep.axes import parse_axis
+from compare.sweep.errors import SweepError
+from compare.sweep.grid import Sweep, Tile
+from compare.sweep.outcome_map import OutcomeMap
+from compare.sweep.pixels import check, toss_pixels
+from models.reading import ScenarioSource, scenario_of
+from models.scenario import Scenario
+
+
+def basin(
+    scenario: ScenarioSource,
+    *,
+    x: str,
+    y: str,
+    engine: str = "analytic",
+    after: int | None = None,
+    margin: str | None = None,
+) -> OutcomeMap:
+    """Toss a coin once for each pair of values of two fields, on all cores, and return the map.
+
+    The command `cointoss basin` makes the same map tile by tile on disk, where a long one can be continued.
+
+    Args:
+        scenario: a `Scenario`, the path of its file, or the name of one that comes with the package.
+        x: the columns, FIELD=START:STOP:N, such as "release.angular_velocity.eta=20:60:100"; both ends are
+            included, in SI or with a unit.
+        y: the rows, likewise.
+        engine: "analytic" or "mujoco".
+        after: show the face at the touch after so many impacts; by default the final outcome.
+        margin: also find the smallest change of this quantity of the release, such as "height", that changes
+            a pixel's outcome; by the analytic engine only.
+
+    Raises:
+        ScenarioError: naming file, field, value and what is accepted.
+        SweepError: naming the argument, its value and what is accepted.
+        UnsupportedError: for a scenario that the engine can't toss.
+    """
+    found = scenario_of(scenario)
+    if engine not in list(Engine):
+        raise SweepError(f"engine: {engine!r}, accepted: {', '.join(Engine)}")
+    if after is not None and after < 0:
+        raise SweepError(f"after: {after}, accepted: a whole number from 0")
+    sweep = Sweep(
+        scenario=found,
+        engine=Engine(engine),
+        x=parse_axis(x, found),
+        y=parse_axis(y, found),
+        settings=Engine(engine).package.MANY,
+        after=after,
+        margin=_margin(margin, engine),
+    )
+    check(sweep)
+    ny, nx = sweep.shape
+    pixels = toss_pixels(sweep, Tile(slice(0, ny), slice(0, nx)))
+    return OutcomeMap(
+        name="map" if isinstance(scenario, Scenario) else f"map of {scenario}",
+        sweep=sweep,
+        outcome=pixels.outcome,
+        impacts=pixels.impacts,
+        margin=pixels.margin,
+    )
+
+
+def _margin(name: str | None, engine: str) -> str | None:
+    if name is None:
+        return None
+    from compare.metrics.margin import quantity_of
+
+    if engine != Engine.ANALYTIC:
+        raise SweepError(f"margin: {name!r} by {engine}, accepted: only by the analytic engine")
+    try:
+        return quantity_of(name).name
+    except ValueError as error:
+        raise SweepError(f"margin {error}") from None

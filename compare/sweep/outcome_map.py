@@ -1,0 +1,156 @@
+"""The outcomes of tosses over two fields of a scenario, as one record."""
+
+from base64 import b64encode
+from dataclasses import dataclass, fields
+from functools import cached_property
+from html import escape
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.basins.picture_style import Palette, PictureStyle
+from compare.sweep.errors import SweepError
+from compare.sweep.grid import Sweep
+from compare.sweep.layers import NOT_TOSSED, axis_attributes, layers_of
+from models import notebook
+from models.records import Array, Outcome
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+_HTML_DPI = 80
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class OutcomeMap:
+    """The outcomes of tosses over two fields of a scenario; arrays are read-only.
+
+    `basin` makes one, `read_map` reads one that `cointoss basin` made.
+    """
+
+    name: str
+    sweep: Sweep
+    """The scenario, the axes, the engine with its settings, and which face or outcome is shown."""
+    outcome: NDArray[np.int8]
+    """`Outcome`, or -1 where no toss was made yet, (ny, nx)."""
+    impacts: NDArray[np.int32]
+    """Number of impacts, or -1, (ny, nx)."""
+    margin: Array | None = None
+    """The smallest change of `sweep.margin` that was found to change the outcome, (ny, nx)."""
+    stride: int = 1
+    """Every so many-th pixel of the sweep is here, along both axes."""
+
+    def __post_init__(self) -> None:
+        """Check the shapes and make the arrays read-only."""
+        expected = len(self.y), len(self.x)
+        for name, array in self.layers.items():
+            if array.shape != expected:
+                raise ValueError(f"OutcomeMap.{name}: shape {array.shape}, expected {expected}")
+            array.setflags(write=False)
+
+    @property
+    def layers(self) -> dict[str, NDArray[Any]]:
+        """The arrays there are, by name."""
+        arrays = {item.name: getattr(self, item.name) for item in fields(self)}
+        return {name: arrays[name] for name in layers_of(self.sweep)}
+
+    @property
+    def x(self) -> Array:
+        """The values of the field of the columns, `sweep.x.field`, (nx,) [sweep.x.unit]."""
+        return self.sweep.x.values[:: self.stride]
+
+    @property
+    def y(self) -> Array:
+        """The values of the field of the rows, `sweep.y.field`, (ny,) [sweep.y.unit]."""
+        return self.sweep.y.values[:: self.stride]
+
+    @cached_property
+    def shares(self) -> dict[str, float]:
+        """The share of the pixels that each outcome has, and those not tossed yet, of what there is."""
+        codes, counts = np.unique(self.outcome, return_counts=True)
+        labels = {NOT_TOSSED: "not tossed", **{int(item): item.label for item in Outcome}}
+        return {
+            labels[code]: count / self.outcome.size
+            for code, count in zip(codes.tolist(), counts.tolist(), strict=True)
+        }
+
+    def __repr__(self) -> str:
+        """Return what the map is of, and the shares of its outcomes."""
+        told = ", ".join(f"{share:.1%} {name}" for name, share in self.shares.items())
+        return f"<OutcomeMap {self.name} by {self.sweep.engine}: {self._size}: {told}>"
+
+    def _repr_html_(self) -> str:
+        """Return what `repr` says, with a picture."""
+        facts = {name: f"{share:.2%}" for name, share in self.shares.items()}
+        facts["engine"] = self.sweep.engine.value
+        return notebook.block(self.name, self._picture(), {"tosses": self._size, **facts})
+
+    @property
+    def _size(self) -> str:
+        x, y = self.sweep.x, self.sweep.y
+        return f"{len(self.x)} x {len(self.y)} over {x.field} and {y.field}"
+
+    def _picture(self) -> str:
+        if NOT_TOSSED in self.outcome:
+            return notebook.shares_picture(self.shares)
+        drawn = BytesIO()
+        self.plot().savefig(drawn, format="png", dpi=_HTML_DPI)
+        about = escape(f"map of the outcome: {self._size}")
+        return f'<img alt="{about}" src="data:image/png;base64,{b64encode(drawn.getvalue()).decode()}">'
+
+    def to_xarray(self) -> "xr.Dataset":
+        """Return the map as a dataset of xarray, as it is on disk: coordinates are named by their fields."""
+        import xarray
+
+        sweep = self.sweep
+        coordinates = {
+            axis.field: (dimension, values, axis_attributes(axis))
+            for dimension, axis, values in (("y", sweep.y, self.y), ("x", sweep.x, self.x))
+        }
+        layers = layers_of(sweep)
+        arrays = {name: (("y", "x"), array, layers[name].attributes) for name, array in self.layers.items()}
+        about = {
+            "scenario": sweep.scenario.model_dump_json(),
+            "engine": sweep.engine.value,
+            "after": "" if sweep.after is None else sweep.after,
+        }
+        return xarray.Dataset(arrays, coordinates, about)
+
+    def to_dataframe(self) -> "pd.DataFrame":
+        """Return the map as a table of pandas, a row a pixel, its outcome in words."""
+        labels = {NOT_TOSSED: "not_tossed", **{int(item): item.label for item in Outcome}}
+        frame = self.to_xarray().to_dataframe().reset_index(drop=True)
+        words = [labels[code] for code in self.outcome.ravel().tolist()]
+        return frame[[self.sweep.y.field, self.sweep.x.field, *self.layers]].assign(outcome=words)
+
+    def plot(
+        self,
+        *,
+        palette: str = "safe",
+        boundaries: bool = False,
+        size: tuple[float, float] | None = None,
+    ) -> "Figure":
+        """Draw the map, and beside it its margins where it has them.
+
+        Args:
+            palette: "safe" for gold and blue, "paper" for black and white.
+            boundaries: whether pixels at a boundary are coloured as such.
+            size: width and height [inches].
+
+        Raises:
+            SweepError: for a map that is not finished.
+        """
+        missing = np.count_nonzero(self.outcome == NOT_TOSSED)
+        if missing:
+            raise SweepError(
+                f"{self.name}: {missing} of {self.outcome.size} pixels are not tossed; "
+                "accepted: a whole map (cointoss basin --resume continues one)"
+            )
+        from compare.sweep.show import figure_of
+
+        style = PictureStyle(palette=Palette(palette), boundaries=boundaries, size=size)
+        return figure_of([self.outcome], self.sweep, style, self.margin)

@@ -1,0 +1,112 @@
+"""Maps from Python: the same as the command's, and what a notebook, xarray and pandas see of them."""
+
+import numpy as np
+import pytest
+import xarray
+
+import cointoss
+from compare.sweep.layers import NOT_TOSSED
+from models.records import Outcome
+from tests.helpers.command_line import cointoss as command
+
+X, Y = "release.angular_velocity.eta=20:60:7", "release.position.z=20 cm:60 cm:5"
+
+
+@pytest.fixture(scope="module")
+def found():
+    return cointoss.basin("fig24a", x=X, y=Y)
+
+
+def test_a_map_has_the_tosses_of_its_pixels(found):
+    scenario = cointoss.load("fig24a")
+    assert (found.x[0], found.x[-1], found.y[0], found.y[-1]) == (20, 60, 0.2, 0.6)
+    for row, column in ((0, 0), (4, 6), (2, 3)):
+        changed = scenario.replace(
+            "release.angular_velocity.eta", found.x[column], "release.position.z", found.y[row]
+        )
+        toss = cointoss.analytic.toss(changed)
+        assert (found.outcome[row, column], found.impacts[row, column]) == (toss.outcome, len(toss.impacts))
+    with pytest.raises(ValueError, match="read-only"):
+        found.outcome[0, 0] = 0
+
+
+def test_a_map_is_that_which_the_command_writes(found, tmp_path):
+    path = tmp_path / "map.zarr"
+    command("basin", "fig24a", "--x", X, "--y", Y, "--out", path)
+    read = cointoss.read_map(str(path))
+    assert read.sweep == found.sweep
+    for name, array in found.layers.items():
+        assert np.array_equal(read.layers[name], array)
+    with xarray.open_dataset(path, engine="zarr", consolidated=True) as on_disk:
+        ours = found.to_xarray()
+        for name in ("outcome", "impacts", "release.angular_velocity.eta", "release.position.z"):
+            assert ours[name].attrs == on_disk[name].attrs
+            assert ours[name].dims == on_disk[name].dims
+            assert np.array_equal(ours[name], on_disk[name])
+    assert ours.attrs["engine"] == on_disk.attrs["engine"]
+
+
+def test_what_a_person_sees_of_a_map(found):
+    counts = {item.label: np.count_nonzero(found.outcome == item) for item in Outcome}
+    assert {name: round(35 * share) for name, share in found.shares.items()} == {
+        name: count for name, count in counts.items() if count
+    }
+    told = repr(found)
+    assert told.startswith(
+        "<OutcomeMap map of fig24a by analytic: 7 x 5 over release.angular_velocity.eta and"
+    )
+    assert f"{counts['heads'] / 35:.1%} heads" in told
+    assert len(told) < 200
+    html = found._repr_html_()
+    assert 'src="data:image/png;base64,' in html
+    assert 'alt="map of the outcome: 7 x 5' in html
+    frame = found.to_dataframe()
+    assert list(frame) == ["release.position.z", "release.angular_velocity.eta", "outcome", "impacts"]
+    assert frame["outcome"].tolist().count("heads") == counts["heads"]
+    assert frame["release.angular_velocity.eta"].tolist() == np.tile(found.x, 5).tolist()
+    assert frame["impacts"].tolist() == found.impacts.ravel().tolist()
+
+
+def test_a_plot_shows_the_map_and_its_margins(found):
+    (panel,) = found.plot().axes
+    assert panel.get_images()[0].get_array().shape[:2] == found.outcome.shape
+    with_margins = cointoss.basin(
+        "fig24a", x="release.angular_velocity.eta=20:60:3", y="release.position.z=0.2:0.6:2", margin="height"
+    )
+    assert with_margins.margin is not None
+    assert len(with_margins.plot(palette="paper").axes) > 2
+
+
+def test_a_map_that_is_not_finished_says_so(found):
+    outcome = found.outcome.copy()
+    outcome[0, 0] = NOT_TOSSED
+    part = cointoss.OutcomeMap(name="m", sweep=found.sweep, outcome=outcome, impacts=found.impacts)
+    assert part.shares["not tossed"] == 1 / 35
+    assert "not tossed" in part._repr_html_()
+    assert part.to_dataframe()["outcome"].tolist()[0] == "not_tossed"
+    with pytest.raises(cointoss.SweepError, match="m: 1 of 35 pixels are not tossed; accepted"):
+        part.plot()
+
+
+@pytest.mark.parametrize(
+    ("wrong", "named"),
+    [
+        ({"engine": "paper"}, "engine: 'paper', accepted: analytic, mujoco"),
+        ({"after": -1}, "after: -1, accepted: a whole number from 0"),
+        ({"x": "release.position.z=1"}, "accepted: FIELD=START:STOP:N"),
+        ({"x": Y}, "release.position.z: on both axes; accepted: two fields"),
+        ({"margin": "luck"}, "margin luck: accepted: height"),
+        ({"margin": "height", "engine": "mujoco"}, "margin: 'height' by mujoco, accepted: only by"),
+        ({"y": "release.position.z=-1:1:3"}, "release.position.z"),
+    ],
+)
+def test_what_makes_no_map_is_refused(wrong, named):
+    with pytest.raises(ValueError, match=named):
+        cointoss.basin("fig24a", **{"x": X, "y": Y, **wrong})
+
+
+def test_shapes_that_are_not_those_of_the_axes_are_refused(found):
+    with pytest.raises(ValueError, match=r"OutcomeMap.impacts: shape \(1, 1\), expected \(5, 7\)"):
+        cointoss.OutcomeMap(
+            name="m", sweep=found.sweep, outcome=found.outcome, impacts=np.zeros((1, 1), np.int32)
+        )
