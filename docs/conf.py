@@ -16,7 +16,8 @@ version = release = version_of("cointoss")
 root_doc = "index"
 extensions = ["myst_nb", "sphinx_design", "sphinx.ext.autodoc", "docstrings", "pages"]
 exclude_patterns = ["extensions", "reproduction"]
-smartquotes = False
+# Quotes stay as they are written.
+smartquotes_action = "D"
 nitpicky = True
 nitpick_ignore_regex = [("py:.*", r"numpy\..*")]
 
