@@ -26,7 +26,7 @@ bench: $(READY)
 	$(BIN)/pytest tests/benchmarks --benchmark-enable --benchmark-columns=min,median,rounds
 
 # The pages of docs/ as a site, out/site/index.html; its links and its pages in the browser are tested.
-docs: $(VENV)/.ready-docs chromium $(MADE)/pages/explorer.html
+docs: $(VENV)/.ready-docs chromium compiled $(MADE)/pages/explorer.html
 	rm -rf out/site
 	$(BIN)/sphinx-build -q -W --keep-going -d $(MADE)/doctrees docs out/site
 	$(BIN)/pytest tests/site
@@ -36,6 +36,7 @@ $(MADE)/pages/explorer.html: $(READY) $(CODE) docs/conf.py
 	mkdir -p $(@D)
 	$(BIN)/cointoss basin fig24a --x release.angular_velocity.eta=20:60:160 --y release.position.z=0.2:0.6:120 \
 	  --after 2 --out $(MADE)/map.zarr
+	$(BIN)/cointoss compare fig24a --no-video --out $(@D)/report
 	$(BIN)/cointoss explore $(MADE)/map.zarr --static $@
 
 lint: $(READY)
