@@ -57,12 +57,18 @@ class _Quantity(click.ParamType):
     show_default=True,
     help="Standard deviation of height, speed and spin.",
 )
+@click.option(
+    "--caught",
+    type=_Quantity("m"),
+    help="Height at which a hand catches the coin; by default the scenario's [ending] caught, if it has one.",
+)
 @click.option("--tosses", type=Count(1, 10_000_000), default=1000, show_default=True, help="How many.")
 @click.option("--seed", type=Count(0, 2**32), default=0, show_default=True, help="Of the releases.")
 @engine_option
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
 def hands(
     scenario: str,
+    caught: float | None,
     tosses: int,
     seed: int,
     engine: str,
@@ -71,14 +77,15 @@ def hands(
 ) -> None:
     """Toss a scenario's coin many times as a hand does, and count the side that was up at first.
 
-    The coin is released flat; the scenario's own release is not used. Intervals are of 99 %.
+    The coin is released flat; the scenario's own release is not used. The side is that at the first touches
+    of the floor and at rest, or that in a hand which catches the coin. Intervals are of 99 %.
     """
     with plain_errors(scenario):
         import numpy as np
 
         from compare.engines import Engine
         from compare.film.back_end import require_mujoco
-        from compare.metrics.first_side import TOUCHES, first_side
+        from compare.metrics.first_side import TOUCHES, caught_side, first_side
         from compare.output.progress import elapsed_time
         from compare.reproduction.estimates import share
         from models.hand import Hand
@@ -86,6 +93,8 @@ def hands(
         from models.releases import check_releases
 
         described = load(scenario)
+        if caught is not None:
+            described = described.replace("ending.caught", caught)
         if engine == Engine.MUJOCO:
             require_mujoco()
         try:
@@ -94,13 +103,19 @@ def hands(
         except ValueError as error:
             refuse(f"{scenario}: {error}")
         with elapsed_time("still tossing; fewer --tosses are sooner"):
-            found = first_side(described, start, Engine(engine))
-        shares = {f"touch {n + 1}": share(up) for n, up in zip(TOUCHES, found.touches, strict=True)}
-        if len(found.at_rest):
-            shares["at rest"] = share(found.at_rest)
+            if described.ending.caught is not None:
+                counted = {"caught": caught_side(described, start, Engine(engine))}
+            else:
+                found = first_side(described, start, Engine(engine))
+                counted = {f"touch {n + 1}": up for n, up in zip(TOUCHES, found.touches, strict=True)}
+                counted["at rest"] = found.at_rest
+        shares = {name: share(up) for name, up in counted.items() if len(up)}
         if as_json:
-            told = {"hand": hand, "tosses": tosses, "seed": seed, "engine": engine}
+            told = {"hand": hand, "caught": described.ending.caught}
+            told |= {"tosses": tosses, "seed": seed, "engine": engine}
             click.echo(json.dumps({**told, "same_side": {k: asdict(v) for k, v in shares.items()}}, indent=1))
             return
         for name, one in shares.items():
             click.echo(f"{name:9} {one.value:7.2%} [{one.low:.2%}, {one.high:.2%}] of {one.count:,d} tosses")
+        if not len(counted.get("caught", [True])):
+            click.echo(f"none of {tosses:,d} tosses was caught")

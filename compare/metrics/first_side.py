@@ -1,4 +1,4 @@
-"""How often the side up at the release is up at each touch, and at rest."""
+"""How often the side up at the release is up: at each touch, at rest, or in a hand that catches the coin."""
 
 from dataclasses import dataclass
 
@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.engines import Engine
-from models.records import Outcome
+from models.records import Ending, Outcome
 from models.releases import Releases
 from models.scenario import Scenario
 
@@ -40,3 +40,18 @@ def first_side(scenario: Scenario, start: Releases, engine: Engine) -> FirstSide
     outcome = toss_many(scenario, start).outcome
     ended = outcome[(outcome == Outcome.HEADS) | (outcome == Outcome.TAILS)]
     return FirstSide(tuple(face == Outcome.HEADS for face in faces), ended == Outcome.HEADS)
+
+
+def caught_side(scenario: Scenario, start: Releases, engine: Engine) -> NDArray[np.bool_]:
+    """Toss coins released heads up to a hand, and see where heads are up in it.
+
+    Args:
+        scenario: coin, air, floor, and the height at which a hand catches the coin.
+        start: the releases.
+        engine: that tosses.
+
+    Returns:
+        Of those that are caught, (m,).
+    """
+    ended = engine.package.toss_many(scenario, start)
+    return ended.outcome[ended.ending == Ending.CAUGHT] == Outcome.HEADS

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from compare.engines import Engine
-from compare.metrics.first_side import first_side
+from compare.metrics.first_side import caught_side, first_side
 from compare.reproduction.claim import unexpected
 from compare.reproduction.saving import read_numbers
 from compare.reproduction.setups.same_side_fit import (
@@ -21,7 +21,7 @@ from compare.reproduction.setups.same_side_fit import (
     read_flips,
 )
 from compare.reproduction.studies.same_side import SameSide, claims, result
-from models.hand import Hand
+from models.hand import Hand, same_side_probability
 from models.reading import load
 from tests.helpers.command_line import cointoss
 from tests.helpers.pages import pictures, printed, saved
@@ -82,6 +82,51 @@ def test_on_a_smooth_floor_a_wobbling_coin_ends_as_it_started(engine):
     assert len(found.touches) == 4
 
 
+@pytest.mark.parametrize(("engine", "count"), [(Engine.ANALYTIC, 40_000), (Engine.MUJOCO, 200)])
+@pytest.mark.parametrize("psi", [40, 50, 60, 75, 90])
+def test_a_caught_coin_shows_its_first_side_as_often_as_the_theorem_says(engine, count, psi):
+    """Theorem 2 of Diaconis, Holmes and Montgomery, by whole tosses to a hand in vacuum."""
+    scenario = load("fig29").replace("air", {}, "ending.caught", 1.0)
+    start = Hand(psi=np.radians(psi)).releases(scenario.body, np.random.default_rng(11), count)
+    up = caught_side(scenario, start, engine)
+    p = float(same_side_probability(np.radians(psi)))
+    # The height of release scatters by a tenth: few tosses stay below the hand.
+    assert 0.9 * count < len(up) < count
+    assert abs(up.mean() - p) <= 4 * (p * (1 - p) / len(up)) ** 0.5
+
+
+def test_the_command_catches_where_it_or_the_scenario_says(tmp_path):
+    """The scenario's height is that of the command without one, and the command's goes before."""
+    path = tmp_path / "hand.toml"
+    path.write_text(
+        """
+[coin]
+mass = "2 g"
+radius = "1.25 cm"
+thickness = "0 mm"
+[floor]
+restitution = 0.5
+contact = "smooth"
+[release]
+position = [0, 0, 1]
+[ending]
+caught = "1 m"
+"""
+    )
+    arguments = ("--psi", "60 deg", "--tosses", "300")
+    of_scenario = cointoss("hands", path, *arguments).stdout
+    assert of_scenario.splitlines() == [
+        line for line in of_scenario.splitlines() if line.startswith("caught ")
+    ]
+    assert cointoss("hands", path, *arguments, "--caught", "100 cm").stdout == of_scenario
+    lower = json.loads(cointoss("hands", path, *arguments, "--caught", "0.8 m", "--json").stdout)
+    assert lower["caught"] == 0.8
+    assert lower["same_side"]["caught"]["count"] == 300
+    told = cointoss("hands", path, *arguments, "--caught", "5 m")
+    assert (told.exit_code, told.stdout) == (0, "none of 300 tosses was caught\n")
+    assert json.loads(cointoss("hands", "fig29", "--tosses", "5", "--json").stdout)["caught"] is None
+
+
 def test_the_command_counts_what_a_hand_tosses():
     arguments = ("hands", "fig29", "--psi", "60 deg", "--tosses", "60", "--height", "30 cm")
     answered = cointoss(*arguments)
@@ -100,6 +145,8 @@ def test_the_command_counts_what_a_hand_tosses():
         ("--height", "-1", "fig29: height: -1.0, accepted: a height above 0"),
         ("--spin", "1e7", "fig29: Releases.angular_velocity: row"),
         ("--tosses", "0", "--tosses"),
+        ("--caught", "1 mm", "ending.caught = 0.001"),
+        ("--caught", "1 s", "'--caught': 1 s; accepted: "),
     ],
 )
 def test_what_no_hand_does_is_one_line(option, value, message):
