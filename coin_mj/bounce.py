@@ -82,7 +82,8 @@ def solref(restitution: float, timestep: float, *, spring: bool = False, steps: 
     """Return the settings with which MuJoCo's contacts have a restitution, and their error, measured now.
 
     By default a contact takes one step, v' = -e v; a spring takes `steps`, in which its force can be seen.
-    docs/MUJOCO.md derives both. They hold for every mass and shape, without MuJoCo's own friction.
+    docs/MUJOCO.md derives both. They hold for every mass, and for every shape that hardly turns in the
+    contact, without MuJoCo's own friction.
 
     Args:
         restitution: e, from 0 to 1; more than 0 for a spring.

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import analytic as analytic
     import coin_mj as coin_mj
+    from coin_mj.bounce import solref as solref
     from compare.engines import Engine as Engine
     from compare.metrics.comparison import Comparison as Comparison
     from compare.metrics.comparison import compare as compare
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
 
 _PACKAGES = ("analytic", "coin_mj")
 _NAMES = {
+    "coin_mj.bounce": ("solref",),
     "compare.engines": ("Engine",),
     "compare.metrics.comparison": ("Comparison", "compare"),
     "compare.sweep.errors": ("SweepError",),

@@ -1,0 +1,292 @@
+"""Restitution of bodies of other mass and shape, of several contacts at once, and of mixed settings."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from coin_mj.bounce import GRAVITY, HARDEST, PHASES, SPEED, SPRING_STEPS, one_step_solref, spring_solref
+from compare.output.progress import Progress
+from compare.output.tables import table
+from compare.reproduction.claim import Claim, Criterion
+from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.setups.mujoco_bodies import SHAPES, SIZE, Rebounds, Touch, rebounds, resting_depth
+from compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
+
+RESTITUTION = 0.8
+STEP, FINE = 1e-3, 1e-4
+"""Of the simulation [s]."""
+MASSES = (0.01, 1.0, 100.0)
+"""[kg]."""
+SOFT = (-1e4, -50.0)
+"""The solref of a ball that lies still: it sinks a thousandth of a millimetre and more."""
+FLAT = ("ball", "box flat", "box flat, C off its middle")
+MIXED = {
+    'body: priority="1"': ('priority="1"', ""),
+    "equal priorities, plane by default": ("", ""),
+    'the same, body: solmix="1e6"': ('solmix="1e6"', ""),
+    'plane: priority="1", by default': ("", 'priority="1"'),
+    "equal priorities, plane with the body's settings": ("", "same"),
+}
+"""Attributes of the two geoms."""
+
+
+@dataclass(frozen=True)
+class BodyErrors:
+    """What bodies did that touched anywhere between two steps."""
+
+    error: float
+    """Largest |e' - e| of a point."""
+    unevenness: float
+    """Largest difference of e' between the points of one body."""
+    depth: float
+    """Greatest, over the speed and the length of the contact."""
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """What the study found."""
+
+    shapes: dict[str, dict[str, BodyErrors]]
+    """By shape and contact."""
+    by_mass: dict[str, float]
+    """Largest difference of e', and of the depth over itself, between `MASSES`, by contact."""
+    flat: dict[str, dict[str, BodyErrors]]
+    """By settings and shape."""
+    mixed: dict[str, float]
+    """Mean e' of a ball, by the priorities."""
+    resting: list[float]
+    """Depth of a ball that lies still over (1 - d) g/k, for each of `MASSES`."""
+
+
+def touch_of(contact: str, dt: float, **others) -> Touch:
+    """Return the settings of "one step" or of a "spring"."""
+    if contact == "one step":
+        return Touch(solref=one_step_solref(RESTITUTION, dt), dt=dt, integrator="implicitfast", **others)
+    return Touch(solref=spring_solref(RESTITUTION, dt, SPRING_STEPS), dt=dt, integrator="RK4", **others)
+
+
+CONTACTS = {
+    f"{contact}, {1e3 * dt:g} ms": (contact, dt) for contact in ("one step", "spring") for dt in (STEP, FINE)
+}
+FLATS = {
+    f"{contact}, solimp {name}, {'with' if exact else 'without'} diagexact": (contact, solimp, exact)
+    for contact in ("one step", "spring")
+    for name, solimp in (("0.9999", HARDEST), ("by default", DEFAULT))
+    for exact in (True, False)
+}
+
+
+def errors_of(found: Rebounds, contact: str, dt: float) -> BodyErrors:
+    """Return the errors of what was found."""
+    length = dt * (SPRING_STEPS if contact == "spring" else 1)
+    return BodyErrors(
+        error=float(np.abs(found.restitutions - RESTITUTION).max()),
+        unevenness=float(np.ptp(found.restitutions, axis=1).max()),
+        depth=found.depth / length,
+    )
+
+
+def compute(progress: Progress) -> Bodies:
+    """Let every body come down by every contact."""
+    shapes, by_mass = {}, {}
+    for done, (name, shape) in enumerate(SHAPES.items(), start=1):
+        shapes[name] = {
+            label: errors_of(rebounds(shape, touch_of(contact, dt)), contact, dt)
+            for label, (contact, dt) in CONTACTS.items()
+        }
+        for contact in ("one step", "spring"):
+            light, *heavier = (rebounds(shape, touch_of(contact, FINE, mass=mass)) for mass in MASSES)
+            change = max(
+                max(float(np.abs(each.restitutions - light.restitutions).max()) for each in heavier),
+                max(abs(each.depth / light.depth - 1) for each in heavier),
+            )
+            by_mass[contact] = max(change, by_mass.get(contact, 0.0))
+        progress(done, len(SHAPES))
+    flat = {
+        label: {
+            name: errors_of(
+                rebounds(SHAPES[name], touch_of(contact, STEP, solimp=solimp, exact=exact)), contact, STEP
+            )
+            for name in FLAT
+        }
+        for label, (contact, solimp, exact) in FLATS.items()
+    }
+    return Bodies(shapes, by_mass, flat, _mixed(), [_resting(mass) for mass in MASSES])
+
+
+def _mixed() -> dict[str, float]:
+    found = {}
+    for name, (body, plane) in MIXED.items():
+        touch = touch_of("one step", STEP, body=body)
+        if plane == "same":
+            plane = f'solref="0 {touch.solref[1]!r}" solimp="{HARDEST}"'
+        drops = rebounds(SHAPES["ball"], touch_of("one step", STEP, body=body, plane=plane))
+        found[name] = float(drops.restitutions.mean())
+    return found
+
+
+def _resting(mass: float) -> float:
+    k, impedance = -SOFT[0], 0.9
+    solimp = f"{impedance} {impedance} 0.001 0.5 2"
+    touch = Touch(solref=SOFT, dt=STEP, integrator="implicitfast", solimp=solimp, mass=mass)
+    return resting_depth(touch) / ((1 - impedance) * GRAVITY / k)
+
+
+def result(found: Bodies) -> Result:
+    """Return the study's tables and claims."""
+    return Result(claims=claims(found), data=found, tables=tables(found))
+
+
+def claims(found: Bodies) -> tuple[Claim, ...]:
+    """Return the claims of the study."""
+    turning = [name for name in SHAPES if name != "ball" and "flat" not in name]
+    coarse, fine, _, spring = CONTACTS
+    orders = [found.shapes[name][coarse].error / found.shapes[name][fine].error for name in turning]
+    depths = [each[label].depth for label in (fine, spring) for each in found.shapes.values()]
+    ball = {label: found.shapes["ball"][label].depth for label in (fine, spring)}
+    other = [
+        abs(each[label].depth / ball[label] - 1) for label in (fine, spring) for each in found.shapes.values()
+    ]
+    hard = [each["box flat"] for label, each in found.flat.items() if "0.9999" in label and "one" in label]
+    soft = {label: each["box flat"].error for label, each in found.flat.items() if "by default" in label}
+    with_exact = next(
+        error for label, error in soft.items() if "one step" in label and "without" not in label
+    )
+    without = next(error for label, error in soft.items() if "one step" in label and "without" in label)
+    best, equal, weighted, worst, same = found.mixed.values()
+    return (
+        Claim(
+            claim="neither the restitution nor the depth depends on the mass",
+            criteria=[
+                Criterion(
+                    "largest change, 10 g to 100 kg", max(found.by_mass.values()), "<", 1e-8, "rounding"
+                )
+            ],
+        ),
+        Claim(
+            claim="nor, with solimp 0.9999, does the depth depend on the shape",
+            criteria=[
+                Criterion(
+                    "largest relative difference", max(other), "<", 1e-2, "a body turns in the contact"
+                ),
+                Criterion("depths compared", len(depths), ">", 10, "all shapes"),
+            ],
+        ),
+        Claim(
+            claim="a body that the impact turns misses e by how far it turns in the contact",
+            criteria=[
+                Criterion("least error of 1 ms over that of 0.1 ms", min(orders), ">", 8, "first order"),
+                Criterion("largest", max(orders), "<", 12, "likewise"),
+            ],
+        ),
+        Claim(
+            claim="a box that lands flat on four corners rebounds evenly, in one step with solimp 0.9999",
+            criteria=[
+                Criterion(
+                    "largest error", max(each.error for each in hard), "<", 1e-3, "1 - 0.9999 and more"
+                ),
+                Criterion("largest unevenness", max(each.unevenness for each in hard), "<", 1e-9, "rounding"),
+            ],
+        ),
+        Claim(
+            claim="with MuJoCo's default solimp it does not get e, and with diagexact less so",
+            criteria=[
+                Criterion("error without diagexact", without, ">", 0.05, "far from e"),
+                Criterion("error with it", with_exact, ">", 2 * without, "twice as far"),
+            ],
+        ),
+        Claim(
+            claim="of the plane's default settings only solimp is mixed in, unless the plane has priority",
+            criteria=[
+                Criterion("|e' - e| with priority", abs(best - RESTITUTION), "<", 1e-9, "rounding"),
+                Criterion("with equal priorities", abs(equal - RESTITUTION), ">", 0.01, "solimp is the mean"),
+                Criterion("with solmix 1e6", abs(weighted - RESTITUTION), "<", 1e-3, "it is the body's"),
+                Criterion("with the plane's own", abs(same - RESTITUTION), "<", 1e-9, "rounding"),
+                Criterion(
+                    "e' by the plane's own, less exp(-2)",
+                    worst - np.exp(-2),
+                    "within ±",
+                    0.02,
+                    "that of ζ = 1",
+                ),
+            ],
+        ),
+        Claim(
+            claim="at rest a ball of any mass sinks (1 - d) g/k",
+            criteria=[
+                Criterion(
+                    "largest relative difference",
+                    max(abs(part - 1) for part in found.resting),
+                    "<",
+                    1e-3,
+                    "it has come to rest",
+                )
+            ],
+        ),
+    )
+
+
+def tables(found: Bodies) -> str:
+    """Return the tables, in Markdown."""
+    shapes = table(
+        ["error of e = 0.8", *CONTACTS, "depth, one step [v dt]", f"depth, spring [v × {SPRING_STEPS} dt]"],
+        [
+            [
+                name,
+                *(f"{each[label].error:.0e}" for label in CONTACTS),
+                *(f"{each[label].depth:.4f}" for label in list(CONTACTS)[1::2]),
+            ]
+            for name, each in found.shapes.items()
+        ],
+    )
+    flat = table(
+        ["error of e = 0.8, unevenness", *FLAT],
+        [
+            [label, *(f"{each[name].error:.0e}, {each[name].unevenness:.0e}" for name in FLAT)]
+            for label, each in found.flat.items()
+        ],
+    )
+    mixed = table(
+        ["a ball, one step, e = 0.8", "e'"], [[name, f"{e:.4f}"] for name, e in found.mixed.items()]
+    )
+    resting = ", ".join(f"{part:.5f}" for part in found.resting)
+    masses = ", ".join(f"{mass:g}" for mass in MASSES)
+    return "\n\n".join(
+        [
+            f"Bodies of about {1e2 * SIZE:g} cm that come down at {SPEED:g} m/s without spin and weight, "
+            f"{PHASES} touches anywhere between two steps; a spring has {SPRING_STEPS} steps:",
+            shapes,
+            f"Largest change of e' and of the depth, over itself, with masses of {masses} kg: "
+            + ", ".join(f"{contact} {change:.0e}" for contact, change in found.by_mass.items())
+            + f". At rest these balls lie {resting} (1 - d) g/k deep.",
+            f"Several contacts at once, {1e3 * STEP:g} ms:",
+            flat,
+            mixed,
+        ]
+    )
+
+
+def draw(found: Bodies) -> Figure:
+    """Draw the errors of the bodies by contact."""
+    picture = Figure(figsize=(8, 3.2))
+    axes = picture.subplots()
+    rows = np.arange(len(found.shapes))
+    for number, label in enumerate(CONTACTS):
+        errors = [max(each[label].error, 1e-12) for each in found.shapes.values()]
+        axes.barh(rows + 0.2 * (number - 1.5), errors, height=0.18, left=1e-13, label=label)
+    axes.set_yticks(rows, list(found.shapes))
+    axes.invert_yaxis()
+    axes.set_xscale("log")
+    axes.set_xlim(1e-12, 1)
+    axes.set_xlabel("largest error of e = 0.8")
+    axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
+    return picture
+
+
+REPRODUCTION = Reproduction(
+    title="the restitution of bodies of other mass and shape in MuJoCo, and of several contacts at once",
+    seconds=60,
+    make=lambda progress: result(compute(progress)),
+    draw={"errors": draw},
+)
