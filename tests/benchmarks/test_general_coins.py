@@ -70,8 +70,9 @@ def parts_of(starts: Array) -> dict[str, Array]:
     return dict(zip(PARTS, np.split(starts, [3, 6, 10], axis=-1), strict=True))
 
 
+@pytest.mark.parametrize("batch", [False, True], ids=["one by one", "batch mode"])
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
-def test_first_impacts_by_heyoka(benchmark, capsys, kind):
+def test_first_impacts_by_heyoka(benchmark, capsys, kind, batch):
     pytest.importorskip("heyoka", reason="heyoka has wheels for Linux on x86-64 only")
     from tests.benchmarks import heyoka_toss
     from tests.helpers.extended import Extended
@@ -81,6 +82,8 @@ def test_first_impacts_by_heyoka(benchmark, capsys, kind):
     numbers = [Extended(scenario.replace("release", parts_of(start))) for start in starts]
 
     def toss():
+        if batch:
+            return heyoka_toss.toss_batch(numbers, coin, IMPACTS)
         return [heyoka_toss.toss(one, coin, 10.0, IMPACTS) for one in numbers]
 
     for (times, faces), start in zip(toss(), starts, strict=True):
@@ -89,8 +92,9 @@ def test_first_impacts_by_heyoka(benchmark, capsys, kind):
         assert times == pytest.approx(rows["time"], abs=1e-6)
         assert faces == rows["face"].tolist()
     benchmark(toss)
-    name = f"{kind.name}, {IMPACTS} impacts: heyoka"
-    report(capsys, benchmark, name, len(starts), toss, heyoka=name)
+    by_heyoka = f"{kind.name}, {IMPACTS} impacts: heyoka"
+    name = f"{by_heyoka} in batch mode" if batch else by_heyoka
+    report(capsys, benchmark, name, len(starts), toss, heyoka=by_heyoka)
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)

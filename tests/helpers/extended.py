@@ -47,12 +47,13 @@ def _rotation(e: Any) -> list[list[Any]]:
 
 
 @cache
-def integrator(number: Any, with_floor: bool) -> Any:
+def integrator(number: Any, with_floor: bool, lanes: int = 0) -> Any:
     """Compile the motion of (z, v, e, w) and, for each face, the event that its rim reaches the floor.
 
     Args:
         number: type to compute with.
         with_floor: whether the events are looked for; each ends the flight.
+        lanes: how many coins fly at once, in heyoka's batch mode; 0 without it.
     """
     z, *rest = hy.make_vars("z", "vx", "vy", "vz", "e0", "e1", "e2", "e3", "wx", "wy", "wz")
     v, e, w = rest[0:3], rest[3:7], rest[7:10]
@@ -83,12 +84,15 @@ def integrator(number: Any, with_floor: bool) -> Any:
         q = z - _dot(up, c) + side * par[_H] / 2 * up[2]
         rim = q * q - par[_R] * par[_R] * (up[0] * up[0] + up[1] * up[1])
         falling = hy.event_direction.negative
-        events.append(hy.t_event(rim, direction=falling, cooldown=number(0), fp_type=number))
+        event = hy.t_event_batch if lanes else hy.t_event
+        events.append(event(rim, direction=falling, cooldown=number(0), fp_type=number))
     system = list(zip([z, *v, *e, *w], rates, strict=True))
-    return hy.taylor_adaptive(
+    adaptive = hy.taylor_adaptive_batch if lanes else hy.taylor_adaptive
+    batch = (lanes,) if lanes else ()
+    return adaptive(
         system,
-        [number(0)] * 11,
-        pars=[number(0)] * _COUNT,
+        np.full((11, *batch), number(0)),
+        pars=np.full((_COUNT, *batch), number(0)),
         t_events=events if with_floor else [],
         fp_type=number,
         compact_mode=True,
