@@ -7,7 +7,6 @@ from analytic.flight.state_vector import STATE_SIZE
 from tests.benchmarks.one_coin import OneCoin
 from tests.helpers.extended import Extended, integrator
 
-
 Impacts = tuple[list[float], list[int]]
 """Their times [s], and the faces that are up at them."""
 
