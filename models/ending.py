@@ -19,8 +19,9 @@ from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.perpetual import energy_loss_converges
 from models.records import Ending, Face, Outcome
 
-# What is left of the energy of tilting, against m g r, in a coin that lies flat.
-WOBBLE = 1e-9
+# What is left of the energy of tilting, against m g r, in a coin that lies flat; and in one that lies still
+# to the eye, where that is waited for.
+WOBBLE, STILL = 1e-9, 1e-3
 
 
 @compiled
@@ -101,7 +102,7 @@ def final_face(body, rules, state):
     """Return the face that stays up and why, or the edge; UNDECIDED and NONE where either may still come.
 
     "rigorous" is `settled_face`, "paper" is E < m g r and "paper_smooth" is eq. (20) of Strzalko et al. 2008;
-    under each a coin may come to lie flat, with energy left that no longer turns it.
+    under each a coin may come to lie flat, with energy left that no longer turns it; "lying" waits for that.
 
     Args:
         body: the coin.
@@ -116,7 +117,7 @@ def final_face(body, rules, state):
     elif rules.test == EndingTest.PAPER:
         if energy(body, state.position[2], state.velocity, state.spin) < mgr:
             return face, Ending.PAPER
-    elif energy_without_spin(body, state) < mgr:
+    elif rules.test == EndingTest.PAPER_SMOOTH and energy_without_spin(body, state) < mgr:
         return face, Ending.PAPER_SMOOTH
     if _lies(body, rules, state):
         return face, Ending.LYING
@@ -223,8 +224,9 @@ def _lies(body, rules, state):
         body.mass * (v[2] * v[2] / 2 + body.gravity * abs(z - flat_z)) + dot(across, apply(J, across)) / 2
     )
     weight = body.mass * body.gravity
+    left = STILL if rules.test == EndingTest.LYING else WOBBLE
     # Upright a coin as thick as wide is as high as flat.
-    if wobble > WOBBLE * weight * body.radius or not _is_on_face(body, up):
+    if wobble > left * weight * body.radius or not _is_on_face(body, up):
         return False
     if not (
         rules.law == ContactLaw.COULOMB

@@ -29,6 +29,8 @@ class EndingTest(IntEnum):
     """E < m g r."""
     PAPER_SMOOTH = 3
     """E - m (ẋ² + ẏ²)/2 - J_ζ ω_ζ²/2 < m g r, eq. (20)."""
+    LYING = 4
+    """The coin lies on a face, still to the eye, or stays on its edge."""
 
     @property
     def label(self) -> str:

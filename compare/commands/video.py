@@ -10,7 +10,9 @@ from compare.commands.names import scenario_argument
 
 @click.command(epilog=SCENARIO_HELP)
 @scenario_argument
-@click.option("--out", type=click.Path(path_type=Path), required=True, help="The .mp4 file to write.")
+@click.option(
+    "--out", type=click.Path(path_type=Path), required=True, help="The file to write: .mp4, .webm or .gif."
+)
 @click.option(
     "--engine",
     type=click.Choice(["analytic", "mujoco", "both"]),
@@ -25,17 +27,23 @@ from compare.commands.names import scenario_argument
     show_default=True,
     help="Where the camera is; close-up follows the coin.",
 )
-def video(scenario: str, out: Path, engine: str, camera: str) -> None:
-    """Film one toss, drawn by MuJoCo.
+@click.option(
+    "--poster", type=click.Path(path_type=Path), help="Also a .png file of one frame, to stand for it."
+)
+def video(scenario: str, out: Path, engine: str, camera: str, poster: Path | None) -> None:
+    """Film one toss, drawn by MuJoCo, until the coin lies still.
 
     The film slows down around the impacts.
     """
     with plain_errors(scenario):
+        from compare.film.encodings import ENCODINGS
         from compare.output.files import require_file, written_whole
         from models.reading import load
 
         described = load(scenario)
-        require_file(out, ".mp4", scenario)
+        require_file(out, tuple(ENCODINGS), scenario)
+        if poster is not None:
+            require_file(poster, ".png", scenario)
 
         from compare.film.back_end import drawing_problem
 
@@ -43,13 +51,20 @@ def video(scenario: str, out: Path, engine: str, camera: str) -> None:
         if problem is not None:
             refuse(problem)
 
+        from PIL import Image
+
         from compare.engines import Engine
         from compare.film.drawing import Camera
-        from compare.film.video import FULL, write_video
+        from compare.film.filmed import followed
+        from compare.film.video import write_video
         from compare.output.progress import bar
 
         engines = list(Engine) if engine == "both" else [Engine(engine)]
-        tosses = [each.package.toss(described) for each in engines]
+        shown = [followed(each.package.toss(described)) for each in engines]
+        form = ENCODINGS[out.suffix.lower()].form
         with written_whole(out) as aside, bar("video", "frames") as progress:
-            write_video(tosses, Camera(camera), FULL, aside, progress)
+            picture = write_video(shown, Camera(camera), form, aside, progress)
+        if poster is not None:
+            with written_whole(poster) as aside:
+                Image.fromarray(picture).save(aside, format="png")
         click.echo(out)

@@ -11,7 +11,7 @@ from compare.film.drawing import FORCE_COLOR, IMPULSE_COLOR
 from compare.film.play import Play
 from compare.output.style import HEADS, TAILS
 from models.ending import face_up
-from models.records import Face, Outcome
+from models.records import Ending, Face, Outcome
 
 Color = tuple[int, int, int]
 
@@ -59,6 +59,21 @@ class Caption(NamedTuple):
     lines: Sequence[Line]
 
 
+_ENDED = {
+    Ending.SETTLED: "settled",
+    Ending.PAPER: "settled",
+    Ending.PAPER_SMOOTH: "settled",
+    Ending.CAUGHT: "caught",
+}
+"""Endings of a toss after which a film goes on, or which it shows."""
+_STILL = {
+    Ending.LYING: "lies still",
+    Ending.STANDING: "stands on its edge",
+    Ending.AT_REST: "rests on its edge",
+}
+"""How a motion ends that goes on beyond the toss."""
+
+
 def caption_of(play: Play, i: int) -> Caption:
     """Describe a toss at one of the times of a film."""
     toss, states = play.toss, play.states
@@ -67,9 +82,13 @@ def caption_of(play: Play, i: int) -> Caption:
     lines = [Line(f"{count} impact{'' if count == 1 else 's'}, height {height:.1f} cm")]
     outcome = {Face.HEADS: Outcome.HEADS, Face.TAILS: Outcome.TAILS}[face_up(states.normal[i, 2])]
     label = f"{outcome.label} up"
-    if play.times[i] == toss.end_time:
-        outcome, label = toss.outcome, toss.outcome.label
-        lines.append(Line(f"ended: {toss.ending.label.replace('_', ' ')}"))
+    told = play.filmed.toss
+    if play.times[i] >= told.end_time:
+        outcome, label = told.outcome, told.outcome.label
+        how = _ENDED.get(told.ending, f"ended: {told.ending.label.replace('_', ' ')},")
+        at_last = told is not toss and play.times[i] == toss.end_time
+        then = f", {_STILL.get(toss.ending, 'still moves')}" if at_last else ""
+        lines.append(Line(f"{how} at {told.end_time:.3f} s{then}"))
     shown = play.impulses(i)
     if shown:
         size = np.linalg.norm(shown[-1].impulse)
@@ -94,16 +113,16 @@ def written(frame: np.ndarray, captions: Sequence[Caption], below: str) -> np.nd
     """
     image = Image.fromarray(frame)
     draw = ImageDraw.Draw(image)
-    size = max(image.height / 30, 6)
-    font, large = ImageFont.load_default(size), ImageFont.load_default(1.4 * size)
+    size = max(image.height / 21, 6)
+    font, large = ImageFont.load_default(size), ImageFont.load_default(1.5 * size)
     for number, caption in enumerate(captions):
-        left = number * image.width / len(captions) + size
-        _write(draw, (left, 1.4 * size), caption.title, large, "lm")
+        left = number * image.width / len(captions) + size / 2
+        _write(draw, (left, size), caption.title, font, "lm")
         right = left + draw.textlength(caption.label, font=large) + size
-        draw.rounded_rectangle((left, 2.5 * size, right, 4.7 * size), size / 3, fill=caption.ground)
-        draw.text((left + size / 2, 3.6 * size), caption.label, font=large, fill=caption.ink, anchor="lm")
+        draw.rounded_rectangle((left, 1.8 * size, right, 4 * size), size / 3, fill=caption.ground)
+        draw.text((left + size / 2, 2.9 * size), caption.label, font=large, fill=caption.ink, anchor="lm")
         for i, line in enumerate(caption.lines):
-            _write(draw, (left, (5.6 + 1.4 * i) * size), line, font, "lm")
+            _write(draw, (left, (4.8 + 1.3 * i) * size), line, font, "lm")
         if number > 0:
             x = number * image.width // len(captions)
             draw.line((x, 0, x, image.height), fill=WHITE, width=max(2, image.width // 400))

@@ -14,7 +14,7 @@ import numpy as np
 
 from compare.film.play import Play
 from compare.film.visual_model import build_visual_model
-from models.records import Array
+from models.records import Array, Ending
 
 IMPULSE_COLOR, FORCE_COLOR = (0.80, 0.15, 0.50), (0.00, 0.55, 0.40)
 """Of the arrows: red, green and blue, from 0 to 1."""
@@ -23,6 +23,10 @@ LONGEST_NEAR, LONGEST_FAR = 0.3, 0.15
 picture: where the camera follows the coin, and where it is at rest."""
 THICKEST, THICKNESS = 0.04, 0.15
 """Of an arrow: in longest arrows, and in its own length."""
+HAND_COLOR, HAND_SIZE = (0.88, 0.68, 0.55), (1.5, 0.1)
+"""Of the palm that catches a coin: its radius, and half its thickness, in the coin's radii."""
+HAND_COMES = 0.3, 0.1
+"""A hand appears so long before the catch, in such a time [s]."""
 IN_FRONT = 0.6
 """An arrow is drawn in this part of its distance from the camera, before the coin."""
 TRAIL_CORNERS, TRAIL_WIDTH, TRAIL_COLOR = 200, 2.0, (0.3, 0.35, 0.4)
@@ -121,6 +125,7 @@ class Drawer:
         self._renderer.scene.geoms[self._model.geom("floor").id].category = NO_SHADOW
         if not self._follows:
             self._add_trail(i)
+        self._add_hand(i)
         self._add_arrows(i)
         return self._renderer.render()
 
@@ -129,6 +134,23 @@ class Drawer:
         count = np.searchsorted(self._trail_times, self._play.times[i])
         for start, end in itertools.pairwise([*self._trail[:count], self._play.states.position[i]]):
             self._add(mujoco.mjtGeom.mjGEOM_LINE, TRAIL_WIDTH, start, end, TRAIL_COLOR, 0.6)
+
+    def _add_hand(self, i: int) -> None:
+        """Add the hand to which a caught coin comes down, under the coin as it is caught."""
+        play, r, scene = self._play, self._play.toss.scenario.coin.radius, self._renderer.scene
+        if play.toss.ending != Ending.CAUGHT:
+            return
+        before, fades_in = HAND_COMES
+        alpha = min(1.0, (play.times[i] - play.toss.end_time + before) / fades_in)
+        comes_down = np.all(play.states.position[i:, 2] >= play.states.position[-1, 2])
+        if alpha > 0 and comes_down and scene.ngeom < scene.maxgeom:
+            below = play.lowest_point(len(play.times) - 1)[2] - HAND_SIZE[1] * r
+            place = np.array([*play.states.position[-1, :2], below])
+            size = r * np.array([HAND_SIZE[0], HAND_SIZE[1], 0.0])
+            rgba = np.array([*HAND_COLOR, alpha], np.float32)
+            kind = mujoco.mjtGeom.mjGEOM_CYLINDER
+            mujoco.mjv_initGeom(scene.geoms[scene.ngeom], kind, size, place, np.eye(3).ravel(), rgba)
+            scene.ngeom += 1
 
     def _add_arrows(self, i: int) -> None:
         play = self._play

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from coin_mj.model.state import of_release
+from compare.film.filmed import Filmed
 from models.attitude import rotation_matrix
 from models.geometry import lowest_point
 from models.kernel.vectors import add, apply, subtract
@@ -33,15 +34,20 @@ class Shown(NamedTuple):
 class Play:
     """A toss at the times of a film's frames."""
 
-    toss: Toss
+    filmed: Filmed
     times: Array
-    """Of the toss; after its end it stays as it ended, (n,) [s]."""
+    """Of the motion; after its end it stays as it ended, (n,) [s]."""
     states: States
     """At these times, (n,)."""
     forces: Array
     """Of the floor in sustained contacts, 0 elsewhere, space frame, (n, 3) [N]."""
     largest_impulse: float
     """Of the toss [N s]."""
+
+    @property
+    def toss(self) -> Toss:
+        """The motion that is shown."""
+        return self.filmed.motion
 
     def impulses(self, i: int) -> list[Shown]:
         """Return the impulses of the impacts of the last `SHOWN_FOR` before one of the times."""
@@ -78,18 +84,19 @@ class Play:
         return np.array(add(vector(position), apply(R, from_C)))
 
 
-def play_of(toss: Toss, times: Array) -> Play:
+def play_of(filmed: Filmed, times: Array) -> Play:
     """Sample a toss for a film.
 
     Args:
-        toss: by either engine.
+        filmed: by either engine.
         times: of the frames, from 0 on, (n,) [s].
     """
-    times = np.minimum(times, toss.end_time)
+    motion = filmed.motion
+    times = np.minimum(times, motion.end_time)
     return Play(
-        toss=toss,
+        filmed=filmed,
         times=times,
-        states=toss.sample(times),
-        forces=toss.floor_force(times),
-        largest_impulse=float(np.linalg.norm(toss.impacts.impulse, axis=1).max(initial=0.0)),
+        states=motion.sample(times),
+        forces=motion.floor_force(times),
+        largest_impulse=float(np.linalg.norm(motion.impacts.impulse, axis=1).max(initial=0.0)),
     )

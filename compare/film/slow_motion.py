@@ -1,13 +1,16 @@
-"""How fast a film runs: slowly around the impacts."""
+"""How fast a film runs: slowly around the impacts, and on when the faces are settled."""
 
 from collections.abc import Sequence
 
 import numpy as np
 
-from models.records import Array, Toss
+from compare.film.filmed import Filmed
+from models.records import Array, Ending
 
-FAST, SLOW = 1 / 4, 1 / 60
-"""Speed of the film far from an impact and at one, relative to the clock."""
+FAST, SLOW, SETTLED = 1 / 4, 1 / 60, 1.0
+"""Speed of the film far from an impact, at one, and when no face can change, relative to the clock."""
+SPEEDS_UP_FOR = 0.1
+"""How long after the last face is settled the film speeds up [s]."""
 SLOW_FOR = 0.02
 """How long before and after an impact the film is slowed down [s]."""
 WEAK = 0.1
@@ -18,12 +21,12 @@ _AROUND = SLOW_FOR * np.linspace(-1, 1, 41)
 
 
 def film_times(
-    tosses: Sequence[Toss], frames_per_second: int, longest: float = LONGEST
+    shown: Sequence[Filmed], frames_per_second: int, longest: float = LONGEST
 ) -> tuple[Array, Array]:
     """Choose the times that a film of some tosses, shown at once, consists of.
 
     Args:
-        tosses: what to show, to the end of the longest.
+        shown: the tosses, to the end of the longest motion.
         frames_per_second: of the film.
         longest: how long it may take [s].
 
@@ -31,12 +34,14 @@ def film_times(
         times: of the frames, increasing from 0 to the end, (n,) [s].
         speeds: of the film at these times, relative to the clock, (n,).
     """
-    end = max(toss.end_time for toss in tosses)
-    slow = np.sort(np.concatenate([_strong_impacts(toss) for toss in tosses]))
+    end = max(each.motion.end_time for each in shown)
+    settled = max(each.toss.end_time for each in shown)
+    slow = np.sort(np.concatenate([_slow_times(each) for each in shown]))
     # Film time is the integral of 1/speed, here on a grid that is fine where the speed changes.
-    grid = np.unique(np.clip(np.append(slow[:, None] + _AROUND, np.linspace(0, end, 1001)), 0, end))
-    part = np.clip(_distance_to(slow, grid) / SLOW_FOR, 0, 1)
-    speed = SLOW + (FAST - SLOW) * part * part * (3 - 2 * part)
+    changes = np.append(slow[:, None] + _AROUND, settled + SPEEDS_UP_FOR * np.linspace(0, 1, 41))
+    grid = np.unique(np.clip(np.append(changes, np.linspace(0, end, 1001)), 0, end))
+    speed = SLOW + (FAST - SLOW) * _smooth(_distance_to(slow, grid) / SLOW_FOR)
+    speed += (SETTLED - speed) * _smooth((grid - settled) / SPEEDS_UP_FOR)
     film = np.append(0.0, np.cumsum(np.diff(grid) * (1 / speed[1:] + 1 / speed[:-1]) / 2))
     stretch = max(1.0, film[-1] / longest)
     count = max(2, round(film[-1] / stretch * frames_per_second))
@@ -44,9 +49,18 @@ def film_times(
     return times, np.interp(times, grid, speed) * stretch
 
 
-def _strong_impacts(toss: Toss) -> Array:
-    size = np.linalg.norm(toss.impacts.impulse, axis=1)
-    return toss.impacts.time[size >= WEAK * size.max(initial=0.0)]
+def _smooth(part: Array) -> Array:
+    """Return a step from 0 to 1 that begins and ends level."""
+    part = np.clip(part, 0, 1)
+    return part * part * (3 - 2 * part)
+
+
+def _slow_times(filmed: Filmed) -> Array:
+    """Return the times of what slows the film of a toss down: strong impacts, and a catch, (n,) [s]."""
+    toss, impacts = filmed.toss, filmed.toss.impacts
+    size = np.linalg.norm(impacts.impulse, axis=1)
+    strong = impacts.time[size >= WEAK * size.max(initial=0.0)]
+    return np.append(strong, toss.end_time) if toss.ending == Ending.CAUGHT else strong
 
 
 def _distance_to(places: Array, x: Array) -> Array:

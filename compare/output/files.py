@@ -17,19 +17,20 @@ class UnwritableError(OSError):
     """A place that can't be written; the message names it and says why."""
 
 
-def require_file(path: Path, suffix: str, source: str) -> None:
+def require_file(path: Path, suffix: str | tuple[str, ...], source: str) -> None:
     """Check that a file can be written at `path`, in a folder that exists, and that nothing else is lost.
 
     Args:
         path: where to write; a link stands for what it points to.
-        suffix: what its name must end in.
+        suffix: what its name must end in, or several of which it must be one.
         source: the scenario, which must be another file.
 
     Raises:
         UnwritableError: naming the file and why.
     """
-    if path.suffix.lower() != suffix:
-        raise UnwritableError(f"{path}: accepted: a file name that ends in {suffix}")
+    suffixes = (suffix,) if isinstance(suffix, str) else suffix
+    if path.suffix.lower() not in suffixes:
+        raise UnwritableError(f"{path}: accepted: a file name that ends in {' or '.join(suffixes)}")
     with naming(path):
         if not path.parent.is_dir():
             raise UnwritableError(f"{path}: accepted: a file in a folder that exists")
@@ -153,7 +154,7 @@ def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
 
 def beside(path: Path) -> Path:
     """Return a new name beside `path`, of the same kind."""
-    return path.with_name(f".cointoss-{uuid.uuid4().hex}{path.suffix}")
+    return path.with_name(f".cointoss-{uuid.uuid4().hex}{path.suffix.lower()}")
 
 
 def remove(path: Path) -> None:

@@ -1,5 +1,6 @@
 """Write a report's folder: the page, the video, the numbers and the paths."""
 
+import io
 import json
 from collections.abc import Callable
 from dataclasses import asdict, replace
@@ -14,7 +15,7 @@ from compare.output import answer
 from compare.output.files import written_together
 from compare.report.contents import FILES, OF_THE_FILM
 from compare.report.map_section import MapSection
-from compare.report.page import Page, render, versions
+from compare.report.page import Film, Page, render, versions
 from models.records import Array, Toss
 from models.scenario import Scenario
 
@@ -76,7 +77,7 @@ def write_report(
             analytic=analytic,
             comparison=comparison,
             not_realisable=not_realisable,
-            video=None,
+            film=None,
             no_video=BEING_DRAWN if filmed else no_video or not_realisable,
             maps=maps,
         )
@@ -84,10 +85,15 @@ def write_report(
     if filmed:
         with written_together(folder, OF_THE_FILM) as aside:
             from compare.film.drawing import Camera
-            from compare.film.video import SMALL, write_video
+            from compare.film.encodings import SMALL
+            from compare.film.filmed import followed
+            from compare.film.video import write_video
 
-            write_video(tosses, Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress)
-            with_film = replace(page, video=(aside / "toss.mp4").read_bytes(), no_video=None)
+            settings = {"analytic": None, "mujoco": mujoco}
+            shown = [followed(toss, settings[toss.engine]) for toss in tosses]
+            poster = write_video(shown, Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress)
+            film = Film((aside / "toss.mp4").read_bytes(), _jpeg(poster))
+            with_film = replace(page, film=film, no_video=None)
             (aside / "report.html").write_text(render(with_film), encoding="utf-8")
     return folder / "report.html"
 
@@ -118,6 +124,15 @@ def _numbers(
             "angular_velocity_difference": _finite(comparison.differences.angular_velocity),
         },
     }
+
+
+def _jpeg(picture: np.ndarray) -> bytes:
+    """Return a picture, (height, width, 3) of uint8, as the bytes of a JPEG file."""
+    from PIL import Image
+
+    written = io.BytesIO()
+    Image.fromarray(picture).save(written, format="jpeg", quality=80)
+    return written.getvalue()
 
 
 def _finite(numbers: Array) -> list[float | None]:

@@ -4,12 +4,13 @@ import platform
 from base64 import b64encode
 from dataclasses import dataclass
 from importlib import metadata, resources
-from typing import Any
+from typing import Any, NamedTuple
 
 import jinja2
 import numpy as np
 from pydantic import BaseModel
 
+from compare.film.filmed import FOLLOWED_FOR
 from compare.metrics.comparison import Comparison
 from compare.metrics.sequences import SAFETY, aligned
 from compare.output.answer import MOST_SHOWN, counted
@@ -29,6 +30,15 @@ MODULES = ("motion.js", "plot.js", "sampled.js", "ticks.js")
 PACKAGES = ("cointoss", "mujoco", "numpy", "scipy", "numba", "matplotlib", "mediapy")
 
 
+class Film(NamedTuple):
+    """The film of a report."""
+
+    video: bytes
+    """The mp4."""
+    poster: bytes
+    """A frame that stands for it, as JPEG."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Page:
     """What the page shows."""
@@ -40,8 +50,7 @@ class Page:
     comparison: Comparison | None
     not_realisable: str | None
     """Why MuJoCo can't toss the scenario, where it can't."""
-    video: bytes | None
-    """The mp4."""
+    film: Film | None
     no_video: str | None
     """Why there is no video, where there is none."""
     maps: MapSection | None
@@ -77,9 +86,10 @@ def render(page: Page) -> str:
         sequence=shortened(page.analytic.sequence, MOST_SHOWN),
         other_sequence=shortened(comparison.mujoco.sequence, MOST_SHOWN) if comparison else "",
         impacts=_impact_rows(page.analytic, comparison),
-        video=b64encode(page.video).decode("ascii") if page.video else None,
+        film=[b64encode(part).decode("ascii") for part in page.film] if page.film else None,
         map_picture=b64encode(page.maps.picture).decode("ascii") if page.maps else None,
         safety=SAFETY,
+        followed_for=FOLLOWED_FOR,
         versions=versions(),
     )
 

@@ -25,6 +25,8 @@ const plots = {
 const bars = horizon === null ? [] : [{ time: horizon, text: "horizon" }];
 for (const [name, about] of Object.entries(plots)) makePlot(byId(`plot-${name}`), { ...about, bars }, span);
 
+if (!matchMedia("(prefers-reduced-motion: reduce)").matches) byId("film")?.play().catch(() => {});
+
 byId("zoom-in").addEventListener("click", () => span.zoom(0.5));
 byId("zoom-out").addEventListener("click", () => span.zoom(2));
 byId("whole").addEventListener("click", () => span.show(0, span.end));

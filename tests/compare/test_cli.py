@@ -23,7 +23,7 @@ import analytic
 from compare.cli import main
 from compare.film.back_end import drawing_problem
 from compare.film.drawing import Drawer
-from compare.film.video import Format
+from compare.film.encodings import ENCODINGS, Format
 from compare.output.answer import as_lines
 from compare.output.files import UnwritableError, require_file, write_text
 from compare.output.progress import bar
@@ -213,7 +213,7 @@ def test_a_contact_may_take_one_step(tmp_path):
         ["solref", "--restitution", "0.5"],
         ["throw", "fig24a"],
         ["toss", "no_such_scenario"],
-        ["video", "fig24a", "--out", "film.gif"],
+        ["video", "fig24a", "--out", "film.avi"],
         ["video", "fig24a", "--out", "film.mp4", "--camera", "below"],
     ],
 )
@@ -443,7 +443,7 @@ def test_where_a_film_is_interrupted_the_report_stands_without_it(tmp_path, sign
 @pytest.fixture
 def small_films(monkeypatch):
     """Films of the size of a stamp, of two frames a second."""
-    monkeypatch.setattr("compare.film.video.FULL", Format(64, 48, 2))
+    monkeypatch.setitem(ENCODINGS, ".mp4", ENCODINGS[".mp4"]._replace(form=Format(64, 48, 2)))
 
 
 @pytest.fixture
@@ -535,7 +535,8 @@ def test_progress_is_a_bar_on_a_terminal_alone(monkeypatch):
 
 def test_a_film_that_cannot_be_written_is_one_line(tmp_path):
     small = (
-        "import compare.film.video as v; v.FULL = v.Format(320, 240, 6); from compare.cli import main; main()"
+        "from compare.film.encodings import ENCODINGS as e, Format; "
+        "e['.mp4'] = e['.mp4']._replace(form=Format(320, 240, 6)); from compare.cli import main; main()"
     )
     command = f'"{sys.executable}" -c "{small}" video fig24a --out film.mp4'
     done = in_a_shell(f"ulimit -f 8; {command}; echo $?", tmp_path)

@@ -11,7 +11,9 @@ import imageio_ffmpeg
 import pytest
 
 from compare.film.back_end import ADVICE, UNKNOWN, drawing_problem
-from compare.film.video import SMALL, frame_count
+from compare.film.encodings import SMALL
+from compare.film.filmed import followed
+from compare.film.video import frame_count
 from compare.metrics.comparison import Comparison, compare
 from compare.output.files import UnwritableError
 from compare.report.contents import FILES, require_folder
@@ -117,7 +119,7 @@ def test_the_film_has_its_frames(folder):
     frames, seconds = counted
     compared = compare(parse(SHORT, "short"))
     assert isinstance(compared, Comparison)
-    assert frames == frame_count([compared.analytic, compared.mujoco], SMALL)
+    assert frames == frame_count([followed(compared.analytic), followed(compared.mujoco)], SMALL)
     assert seconds == pytest.approx(frames / SMALL.frames_per_second, abs=0.1)
 
 

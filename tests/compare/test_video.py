@@ -17,9 +17,11 @@ import pytest
 
 from compare.film.captions import caption_of, written
 from compare.film.drawing import LONGEST_FAR, LONGEST_NEAR, MARGIN, Box, Camera, Drawer, box_of
+from compare.film.encodings import FULL, SMALL, Format
+from compare.film.filmed import Filmed
 from compare.film.play import SHOWN_FOR, WEAKEST, play_of
 from compare.film.slow_motion import FAST, LONGEST, SLOW, SLOW_FOR, WEAK, film_times
-from compare.film.video import FULL, HELD, SMALL, Format, frame_count, frames, write_video
+from compare.film.video import HELD, frame_count, frames, write_video
 from compare.film.visual_model import build_visual_model
 from models.records import IMPACT_ROW, Array, Ending, Face, Impacts, Outcome, States, Toss
 from tests.helpers.draws import ZLOTY, scenario
@@ -56,7 +58,17 @@ class MadePath:
         )
 
 
-def made(path, *, impacts=(), contacts=(), end=1.0, engine="mujoco", outcome=Outcome.HEADS, **parts):
+def made(
+    path,
+    *,
+    impacts=(),
+    contacts=(),
+    end=1.0,
+    engine="mujoco",
+    outcome=Outcome.HEADS,
+    ending=Ending.SETTLED,
+    **parts,
+):
     """Make a toss: a path, impacts as (time, S_z) below the coin, and sustained contacts."""
     rows = np.zeros(len(impacts), IMPACT_ROW)
     for row, (time, S_z) in zip(rows, impacts, strict=True):
@@ -70,7 +82,7 @@ def made(path, *, impacts=(), contacts=(), end=1.0, engine="mujoco", outcome=Out
         impacts=Impacts.from_rows(rows),
         contacts=np.array(contacts, dtype=float).reshape(-1, 2),
         outcome=outcome,
-        ending=Ending.SETTLED,
+        ending=ending,
         end_time=end,
         trusted_impacts=0,
         certificate=(),
@@ -78,9 +90,14 @@ def made(path, *, impacts=(), contacts=(), end=1.0, engine="mujoco", outcome=Out
     )
 
 
+def shown(toss):
+    """Film a toss up to its ending."""
+    return Filmed(toss=toss, motion=toss)
+
+
 def drawn(toss, times, camera, *, height=48, width=64, box=None):
     """Draw a toss at some times."""
-    play = play_of(toss, np.array(times))
+    play = play_of(shown(toss), np.array(times))
     with Drawer(play, camera, box or box_of([play]), height=height, width=width) as drawer:
         return [drawer.draw(i).astype(int) for i in range(len(times))]
 
@@ -113,7 +130,7 @@ def center(mask):
 def test_the_film_runs_from_release_to_the_last_end_and_slows_down_at_impacts():
     path = MadePath(position=(0, 0, 0.1))
     tosses = [made(path, impacts=[(0.3, 1e-3)]), made(path, impacts=[(0.7, 1e-3)], end=1.5)]
-    times, speeds = film_times(tosses, 60)
+    times, speeds = film_times([shown(toss) for toss in tosses], 60)
     assert (times[0], times[-1]) == (0, 1.5)
     assert np.all(np.diff(times) > 0)
     for impact in (0.3, 0.7):
@@ -128,9 +145,9 @@ def test_the_film_runs_from_release_to_the_last_end_and_slows_down_at_impacts():
 def test_the_film_is_not_slowed_down_for_weak_impacts_which_show_no_arrow():
     path = MadePath(position=(0, 0, 0.1))
     toss = made(path, impacts=[(0.3, 1e-3), (0.6, 0.99 * WEAK * 1e-3), (0.8, 0.99 * WEAKEST * 1e-3)])
-    times, speeds = film_times([toss], 60)
+    times, speeds = film_times([shown(toss)], 60)
     assert min(speeds[times > 0.5]) == pytest.approx(FAST, rel=1e-12)
-    assert [len(play_of(toss, np.array([t])).impulses(0)) for t in (0.301, 0.601, 0.801)] == [1, 1, 0]
+    assert [len(play_of(shown(toss), np.array([t])).impulses(0)) for t in (0.301, 0.601, 0.801)] == [1, 1, 0]
 
 
 def test_only_the_film_of_a_page_leaves_the_border_jagged():
@@ -139,7 +156,7 @@ def test_only_the_film_of_a_page_leaves_the_border_jagged():
     colors = []
     for form in (FULL, SMALL):
         still = form._replace(width=160, height=120, frames_per_second=2)
-        picture = next(frames([toss], Camera.CLOSE_UP, still))
+        picture = next(frames([shown(toss)], Camera.CLOSE_UP, still))
         colors.append(len(np.unique(picture[:100].reshape(-1, 3), axis=0)))
     assert colors[0] > 1.1 * colors[1]
 
@@ -149,11 +166,11 @@ def test_the_longest_toss_has_no_more_frames_than_fit(impacts):
     path = MadePath(position=(0, 0, 0.1))
     end = 5000.0
     toss = made(path, impacts=[(t, 1e-3) for t in np.linspace(1, end, impacts)], end=end)
-    times, speeds = film_times([toss], 60)
+    times, speeds = film_times([shown(toss)], 60)
     assert len(times) == LONGEST * 60
     assert (times[0], times[-1]) == (0, end)
     assert np.mean(speeds) == pytest.approx(end / LONGEST, rel=0.1)
-    assert len(film_times([toss], 60, longest=5.0)[0]) == 300
+    assert len(film_times([shown(toss)], 60, longest=5.0)[0]) == 300
 
 
 # The coin.
@@ -241,7 +258,7 @@ def test_the_close_up_follows_the_coin():
 def test_a_coin_high_up_is_seen_close_by():
     """The nearest that a camera draws is a part of the scene's extent."""
     toss = made(MadePath(position=(0, 0, 1000.0), velocity=(0, 0, -1000.0)))
-    box = box_of([play_of(toss, np.array([0, 0.99]))])
+    box = box_of([play_of(shown(toss), np.array([0, 0.99]))])
     (picture,) = drawn(toss, [0], Camera.CLOSE_UP, box=box)
     assert golden(picture).any()
 
@@ -255,7 +272,7 @@ def test_an_impulse_is_an_arrow_from_the_impact_on_and_not_for_long():
     seen = [pink(picture).sum() for picture in drawn(toss, times, Camera.CLOSE_UP)]
     assert seen[0] == seen[3] == 0
     assert seen[1] > 10
-    fading = [shown.freshness for i in (1, 2) for shown in play_of(toss, np.array(times)).impulses(i)]
+    fading = [each.freshness for i in (1, 2) for each in play_of(shown(toss), np.array(times)).impulses(i)]
     assert fading == pytest.approx([1, 0.5])
 
 
@@ -298,9 +315,8 @@ def test_the_label_has_the_colour_of_the_face_and_then_of_the_outcome():
         (TURNED, Outcome.HEADS, ["TAILS UP", "HEADS"]),
         (TURNED, Outcome.UNDECIDED, ["TAILS UP", "UNDECIDED"]),
     ):
-        play = play_of(
-            made(MadePath(position=(0, 0, 0.1), quaternion=quaternion), outcome=outcome), np.array([0, 1])
-        )
+        toss = made(MadePath(position=(0, 0, 0.1), quaternion=quaternion), outcome=outcome)
+        play = play_of(shown(toss), np.array([0, 1]))
         captions = [caption_of(play, i) for i in range(2)]
         assert [caption.label for caption in captions] == labels
         for caption in captions:
@@ -311,17 +327,15 @@ def test_the_label_has_the_colour_of_the_face_and_then_of_the_outcome():
 
 def test_the_caption_tells_impacts_height_and_the_floors_action():
     path = MadePath(position=(0, 0, 0.123))
-    play = play_of(
-        made(path, impacts=[(0.2, 1e-3), (0.5, 2.5e-3)], contacts=[(0.6, 0.8)]),
-        np.array([0.1, 0.3, 0.5, 0.7, 1]),
-    )
-    told = ["; ".join(line.text for line in caption_of(play, i).lines) for i in range(5)]
-    assert told == [
+    toss = made(path, impacts=[(0.2, 1e-3), (0.5, 2.5e-3)], contacts=[(0.6, 0.8)])
+    play = play_of(shown(toss), np.array([0.1, 0.3, 0.5, 0.7, 1]))
+    lines = ["; ".join(line.text for line in caption_of(play, i).lines) for i in range(5)]
+    assert lines == [
         "0 impacts, height 12.3 cm",
         "1 impact, height 12.3 cm",
         "2 impacts, height 12.3 cm; impulse 2.50 mN s",
         "2 impacts, height 12.3 cm; floor's force 1.00 m g",
-        "2 impacts, height 12.3 cm; ended: settled",
+        "2 impacts, height 12.3 cm; settled at 1.000 s",
     ]
 
 
@@ -329,7 +343,7 @@ def test_the_time_is_written_into_the_frame():
     """A still coin's frames differ in the line below alone."""
     form = Format(320, 240, 8)
     toss = made(MadePath(position=(0, 0, 0.1)))
-    film = frames([toss], Camera.CLOSE_UP, form)
+    film = frames([shown(toss)], Camera.CLOSE_UP, form)
     first, second = next(film), next(film)
     rows = np.flatnonzero((first != second).any(axis=(1, 2)))
     assert len(rows) > 3
@@ -342,7 +356,7 @@ def test_the_time_is_written_into_the_frame():
 def test_two_tosses_stand_side_by_side_and_differ_where_their_paths_do():
     path = MadePath(position=(0, 0, 0.1))
     parting = MadePath(position=(0, 0, 0.1), velocity=(0.1, 0, 0), start=0.5)
-    tosses = [made(path), made(parting)]
+    tosses = [shown(made(path)), shown(made(parting))]
     film = list(frames(tosses, Camera.TOP, Format(256, 128, 2)))
     times, _ = film_times(tosses, 2)
     scale = 128 / (MARGIN * (0.05 + 4 * R))
@@ -362,27 +376,27 @@ def test_frames_are_drawn_one_at_a_time_and_the_last_one_stays():
         return draw(self, i)
 
     with patch.object(Drawer, "draw", counted):
-        film = frames([toss], Camera.OVERVIEW, TINY)
+        film = frames([shown(toss)], Camera.OVERVIEW, TINY)
         next(film)
         assert draws == [0]
         rest = list(film)
     held = round(HELD * TINY.frames_per_second)
-    assert len(draws) + held == 1 + len(rest) == frame_count([toss], TINY)
+    assert len(draws) + held == 1 + len(rest) == frame_count([shown(toss)], TINY)
     assert all(np.array_equal(frame, rest[-1]) for frame in rest[-held - 1 :])
     assert not np.array_equal(rest[-held - 2], rest[-1])
 
 
 def test_the_file_plays_at_its_size_and_rate(tmp_path):
     toss = made(MadePath(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), impacts=[(0.1, 1e-3)], end=0.2)
-    form, shown = Format(64, 48, 12), []
+    form, told = Format(64, 48, 12), []
     path = tmp_path / "film.mp4"
-    write_video([toss, toss], Camera.TOP, form, path, lambda done, count: shown.append((done, count)))
-    count = frame_count([toss], form)
-    assert shown == [(i + 1, count) for i in range(count)]
+    write_video([shown(toss)] * 2, Camera.TOP, form, path, lambda done, count: told.append((done, count)))
+    count = frame_count([shown(toss)], form)
+    assert told == [(i + 1, count) for i in range(count)]
     reader: Any = imageio_ffmpeg.read_frames(str(path))
-    told = next(reader)
+    about = next(reader)
     reader.close()
-    assert told["source_size"] == (64, 48)
-    assert told["fps"] == 12
+    assert about["source_size"] == (64, 48)
+    assert about["fps"] == 12
     counted: Any = imageio_ffmpeg.count_frames_and_secs(str(path))
     assert counted[0] == count

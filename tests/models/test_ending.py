@@ -248,6 +248,15 @@ def test_a_coin_flat_on_the_floor_lies_under_every_test_whatever_spin_it_has_lef
     assert classified(sharp, 0.0, v=(3.0, 0.0, 0.0))[0][1] == Ending.NONE
 
 
+def test_lying_is_waited_for_beyond_the_settled_face():
+    """A tilt s raises C by m g r s, up to the thickness; still to the eye is a thousandth of m g r."""
+    waiting = scenario(ending={"test": "lying"})
+    for tilt, lies in ((0.1, False), (1.1e-3, False), (0.9e-3, True)):
+        assert classified(scenario(), tilt)[0] == (Outcome.HEADS, Ending.SETTLED)
+        expected = (Outcome.HEADS, Ending.LYING) if lies else (Outcome.UNDECIDED, Ending.NONE)
+        assert classified(waiting, tilt)[0] == expected
+
+
 @pytest.mark.parametrize("center", [(0.0, 0.0, 0.0), PAPER_OFFSET])
 def test_a_coin_upright_within_rounding_still_needs_its_spin(center):
     body, w = scenario(coin={**ZLOTY, "center_of_mass": center}).body, (0.0, 30.0, 0.0)

@@ -1,0 +1,45 @@
+"""The sizes of films, and the kinds of files that they are written to."""
+
+from typing import NamedTuple
+
+from compare.film.slow_motion import LONGEST
+
+
+class Format(NamedTuple):
+    """Of a film."""
+
+    width: int
+    """[pixels]."""
+    height: int
+    """[pixels]."""
+    frames_per_second: int
+    longest: float = LONGEST
+    """A film that would take longer is sped up to this length [s]."""
+    samples: int = 2
+    """Points of a pixel at which the coin's border is looked for; two take twice the time of one."""
+
+
+FULL, SMALL = Format(1280, 720, 60), Format(960, 540, 24, longest=12.5, samples=1)
+"""Of a film that stands alone, and of one in a page, whose reader waits for it."""
+GIF = Format(640, 360, 20, longest=15.0)
+"""Of a film without compression in time."""
+
+
+class Encoding(NamedTuple):
+    """How a film is written to a file of one kind."""
+
+    codec: str
+    form: Format
+    """Of a film that stands alone."""
+    rate: float | None
+    """Constant rate factor: the larger, the smaller the file."""
+    arguments: str = ""
+    """Further ones, of ffmpeg."""
+
+
+ENCODINGS = {
+    ".mp4": Encoding("h264", FULL, 21, "-movflags +faststart"),
+    ".webm": Encoding("libvpx-vp9", FULL, 31, "-deadline good -cpu-used 5 -row-mt 1"),
+    ".gif": Encoding("gif", GIF, None),
+}
+"""By the suffix of the file."""

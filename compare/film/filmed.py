@@ -1,0 +1,40 @@
+"""A toss as it is filmed: on beyond its ending, until the coin lies still."""
+
+import warnings
+from dataclasses import dataclass
+
+from compare.engines import Engine, EngineSettings
+from models.records import ApproximationWarning, Ending, Toss
+
+FOLLOWED_FOR = 2.0
+"""A coin that does not come to lie is followed so long after its face is settled [s]."""
+_GOES_ON = (Ending.SETTLED, Ending.PAPER, Ending.PAPER_SMOOTH)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Filmed:
+    """A toss, and the motion that a film of it shows."""
+
+    toss: Toss
+    """How it ended, and when."""
+    motion: Toss
+    """The same toss, which ends later where the coin goes on when its face is settled."""
+
+
+def followed(toss: Toss, settings: EngineSettings | None = None) -> Filmed:
+    """Follow a toss until its coin lies still, at most `FOLLOWED_FOR` beyond its ending.
+
+    The coin is tossed again, and waited for: up to its ending it does the same, bit for bit.
+
+    Args:
+        toss: by either engine.
+        settings: of its engine, by default those of one toss.
+    """
+    if toss.ending not in _GOES_ON:
+        return Filmed(toss=toss, motion=toss)
+    engine, until = Engine(toss.engine).package, toss.end_time + FOLLOWED_FOR
+    waiting = toss.scenario.replace("ending.test", "lying", "ending.max_time", until)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ApproximationWarning)
+        motion = engine.toss(waiting, settings=settings or engine.FINE)
+    return Filmed(toss=toss, motion=motion if motion.end_time > toss.end_time else toss)
