@@ -20,8 +20,8 @@ def read(app: Sphinx, docname: str, source: list[str]) -> None:
 
 
 def readme(path: Path) -> str:
-    """Return the README with its links as they are from docs/."""
-    text = path.read_text(encoding="utf-8")
+    """Return the README as the page "Overview", with its links as they are from docs/."""
+    text = path.read_text(encoding="utf-8").replace("# cointoss\n", "# Overview\n", 1)
     return re.sub(r"\]\((?!https?:|#)(?!docs/)", "](../", text).replace("](docs/", "](")
 
 

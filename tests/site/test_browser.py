@@ -8,6 +8,14 @@ from tests.helpers.browser import Page, browser
 
 SITE = Path(__file__).parents[2] / "out" / "site"
 COMPLETE = "document.readyState === 'complete' && location.href !== 'about:blank'"
+CUT = """(() => {
+  const rolls = (e) => ["auto", "scroll"].includes(getComputedStyle(e).overflowX);
+  const scrolls = (e) => e && (rolls(e) || scrolls(e.parentElement));
+  const wide = (e) => e.getBoundingClientRect().right > document.documentElement.clientWidth + 1;
+  const cut = [...document.querySelectorAll("article *")].filter((e) => wide(e) && !scrolls(e));
+  return cut.map((e) => e.outerHTML.slice(0, 200));
+})()"""
+"""What reaches beyond the window and cannot be scrolled to."""
 PAGES = (
     "index.html",
     "TUTORIAL.html",
@@ -37,6 +45,7 @@ def test_a_page_is_quiet_and_fits_its_window(chromium, name):
         with Page(chromium) as page:
             page.open((SITE / name).as_uri(), width=width, scheme=scheme, ready=COMPLETE)
             assert page.value("document.documentElement.scrollWidth") <= width
+            assert page.value(CUT) == []
             assert page.complaints() == []
             assert foreign(page) == []
 
