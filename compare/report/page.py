@@ -25,8 +25,6 @@ from models.notebook import shortened
 from models.records import Face, Toss
 from models.scenario import Scenario
 
-MODULES = ("motion.js", "plot.js", "sampled.js", "ticks.js")
-"""The shared scripts that the page imports."""
 PACKAGES = ("cointoss", "mujoco", "numpy", "scipy", "numba", "matplotlib", "mediapy")
 
 
@@ -61,7 +59,7 @@ def render(page: Page) -> str:
     folder = resources.files("compare.report")
     template = (folder / "report.html.j2").read_text(encoding="utf-8")
     shared = {name: content.decode("utf-8") for name, content in shared_files().items()}
-    modules = {name: shared[name] for name in MODULES}
+    modules = {name: text for name, text in shared.items() if name.endswith(".js")}
     modules["report.js"] = (folder / "report.js").read_text(encoding="utf-8")
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
     comparison = page.comparison
@@ -74,6 +72,7 @@ def render(page: Page) -> str:
         parameters=_parameters(page.scenario),
         policy=POLICY,
         style=shared["shared.css"],
+        licence=shared["LICENSE"],
         scripts=import_map(modules),
         data=data_element(motion_of(tosses, comparison), id_="data"),
         about=_about(page.scenario_text),

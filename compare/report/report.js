@@ -1,7 +1,8 @@
-// The report's plots.
+// The report's coins in 3D, and its plots.
 
 import { energyOf, heightOf, placeOf, spinOf, tiltsOf } from "./motion.js";
 import { makePlot, makeSpan } from "./plot.js";
+import { makeStage } from "./stage.js";
 
 const { tosses, apart, horizon } = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
@@ -24,6 +25,13 @@ const plots = {
 };
 const bars = horizon === null ? [] : [{ time: horizon, text: "horizon" }];
 for (const [name, about] of Object.entries(plots)) makePlot(byId(`plot-${name}`), { ...about, bars }, span);
+
+const stage = makeStage(byId("played"), { without: "The plots work without it.", onTime: span.play });
+stage.show(tosses, tosses.map((toss) => toss.outcome), false);
+span.pick = (time) => {
+  byId("played").scrollIntoView({ block: "nearest" });
+  stage.seek(time);
+};
 
 if (!matchMedia("(prefers-reduced-motion: reduce)").matches) byId("film")?.play().catch(() => {});
 

@@ -1,7 +1,5 @@
 """The explorer's page in a headless Chromium: mouse and keyboard, light and dark, wide and narrow."""
 
-import base64
-import io
 import json
 import re
 from itertools import product
@@ -9,13 +7,13 @@ from urllib.parse import parse_qs
 
 import numpy as np
 import pytest
-from PIL import Image
 
 import analytic
 from compare.explorer import static
 from compare.sweep.reading import read_map
 from models.reading import parse
 from tests.helpers.browser import Page, browser
+from tests.helpers.coins_shown import BLUE, GOLD, UNNAMED, box, faces, picture, set_time
 from tests.helpers.command_line import cointoss
 from tests.helpers.explored import FIELDS, SCENARIO, serving, small_map
 
@@ -23,11 +21,6 @@ TOSSED = (
     "document.querySelectorAll('#outcome p').length === 2"
     " && !/tossing/i.test(document.getElementById('outcome').textContent)"
 )
-UNNAMED = (
-    "[...document.querySelectorAll('button, select, input, canvas')]"
-    ".filter((one) => !(one.ariaLabel || one.textContent.trim() || one.labels?.length)).length"
-)
-GOLD, BLUE = (245, 171, 31), (13, 92, 168)
 NO_WEBGL = """
 const own = HTMLCanvasElement.prototype.getContext;
 HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
@@ -59,13 +52,6 @@ def page(chromium):
         yield opened
 
 
-def box(page, id_):
-    return page.value(
-        f"(() => {{ const b = document.getElementById('{id_}').getBoundingClientRect();"
-        " return [b.left, b.top, b.width, b.height]; })()"
-    )
-
-
 def place_of(page, u, v, count=(24, 18)):
     """Return where a pixel of the whole map is on the page; the margins are those of map.js."""
     left, top, width, height = box(page, "map")
@@ -73,25 +59,6 @@ def place_of(page, u, v, count=(24, 18)):
         left + 74 + (u + 0.5) / count[0] * (width - 74 - 14),
         top + 10 + (1 - (v + 0.5) / count[1]) * (height - 10 - 52),
     )
-
-
-def picture(page, id_):
-    """Return what the window shows of an element, (height, width, 3)."""
-    shot = Image.open(io.BytesIO(base64.b64decode(page.call("Page.captureScreenshot")["data"])))
-    left, top, width, height = (round(part) for part in box(page, id_))
-    return np.asarray(shot.convert("RGB"))[top : top + height, left : left + width]
-
-
-def faces(coins):
-    """Count the pixels in the colours of the coin's faces, below the labels."""
-    shown = coins[48:].astype(int)
-    return sum((np.abs(shown - color).max(axis=-1) <= 60).sum() for color in (GOLD, BLUE))
-
-
-def set_time(page, time):
-    """Move the slider of the time, when the coin is as released: it shows its face."""
-    slider = "document.getElementById('time')"
-    page.value(f"{slider}.value = {time}; {slider}.dispatchEvent(new Event('input'))")
 
 
 def chosen(page):

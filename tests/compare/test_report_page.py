@@ -8,13 +8,10 @@ import pytest
 from compare.report.folder import write_report
 from models.reading import parse, scenario_text
 from tests.helpers.browser import Page, browser
+from tests.helpers.coins_shown import UNNAMED, faces, picture, set_time
 
 TEXT = scenario_text("fig24a") + "\n[ending]\nmax_impacts = 6\n"
 PLOTS = ["height", "tilt", "energy", "apart", "spin", "place"]
-UNNAMED = (
-    "[...document.querySelectorAll('button, select, input, canvas, video, svg[role], [tabindex]')]"
-    ".filter((one) => !(one.ariaLabel || one.textContent.trim() || one.labels?.length)).length"
-)
 
 
 @pytest.fixture(scope="module")
@@ -79,6 +76,10 @@ def test_the_page_fits_and_needs_nothing_else(page, folder, width, scheme):
     )
     levels = [np.mean([int(part) for part in ground[4:-1].split(",")]) for ground in grounds]
     assert min(levels) > 200 if scheme == "light" else max(levels) < 60
+    # Both coins are there, each in its half.
+    page.value("document.getElementById('played').scrollIntoView()")
+    for half in np.array_split(picture(page, "coins"), 2, axis=1):
+        assert faces(half) > 500
     assert page.value(UNNAMED) == 0
     assert page.complaints() == []
     assert {address.partition(":")[0] for address in page.asked()} <= {"file", "data", "about"}
@@ -112,4 +113,30 @@ def test_a_plot_tells_its_values_and_zooms(page, folder):
     assert ticks(page, "energy")[0] == "0"
     page.value("document.getElementById('zoom-in').click()")
     assert "0" not in ticks(page, "energy")
+    assert page.complaints() == []
+
+
+def test_a_click_on_a_plot_shows_the_coins_then_and_the_clock_marks_the_plots(page, folder):
+    page.open((folder / "report.html").as_uri())
+    end = float(page.value("document.getElementById('time').max"))
+    page.click(*place(page, "spin", 0.3))
+    assert float(page.value("document.getElementById('time').value")) == pytest.approx(0.3 * end, abs=0.01)
+    set_time(page, 0.5 * end)
+    marks = page.value("[...document.querySelectorAll('.plot .now')].map((one) => one.getAttribute('x1'))")
+    assert len(marks) == len(PLOTS)
+    width = page.value("document.querySelector('#plot-tilt > svg').clientWidth")
+    assert float(marks[1]) == pytest.approx(58 + 0.5 * (width - 58 - 14), abs=1)
+    page.value("document.getElementById('play').click()")
+    page.wait_for(f"Number(document.getElementById('time').value) > {0.51 * end}")
+    page.value("document.getElementById('play').click()")
+    assert page.text("play") == "Play"
+    assert page.complaints() == []
+
+
+def test_the_page_of_one_engine_shows_one_coin(page, tmp_path):
+    text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 2")
+    write_report(parse(text, "knurled"), text, "knurled", tmp_path, None, lambda *_: None)
+    page.open((tmp_path / "report.html").as_uri())
+    assert page.value("document.querySelector('.panel.mujoco').hidden")
+    assert faces(picture(page, "coins")) > 500
     assert page.complaints() == []

@@ -3,16 +3,16 @@
 import { grid, isStatic, loadMap, tile, toss } from "./source.js";
 import { indexOf, shown, unitOf, valueAt } from "./axes.js";
 import { clamp, makeMap } from "./map.js";
-import { makePlayer } from "./player.js";
-import { makeScene } from "./scene.js";
+import { LABELS } from "./motion.js";
+import { makeStage } from "./stage.js";
 import { horizonText, markTouch, showSequences } from "./sequences.js";
 import { showEnergy } from "./energy.js";
 
-const ENGINES = ["analytic", "mujoco"], LABELS = { analytic: "analytic", mujoco: "MuJoCo" };
+const ENGINES = ["analytic", "mujoco"];
 const KEPT = 40; // pixels whose tosses are kept
 const byId = (id) => document.getElementById(id);
 
-let map, view, scene = null, player, moveEnergy = () => {};
+let map, view, stage, moveEnergy = () => {};
 let tosses = [null, null], chosen = null, before = null, wanted = null, busy = false;
 const kept = new Map();
 
@@ -21,18 +21,13 @@ async function begin() {
   map.impacts = new Int32Array(bytes(map.arrays.impacts));
   map.margins = map.arrays.margin ? new Float32Array(bytes(map.arrays.margin)) : null;
   describe();
-  try {
-    scene = makeScene(byId("coins"));
-  } catch {
-    byId("hint").textContent = "The coins are not shown: this browser has no WebGL. The map, the sequences and the energies work without it.";
-    byId("coins").hidden = true;
-    byId("stage").classList.add("empty");
-    byId("camera").disabled = true;
-  }
-  player = makePlayer((time) => {
-    scene?.draw(time);
-    markTouch(byId("sequences"), tosses, time);
-    moveEnergy(time);
+  stage = makeStage(byId("played"), {
+    hint: "Click a pixel of the map: both engines toss its coin.",
+    without: "The map, the sequences and the energies work without it.",
+    onTime(time) {
+      markTouch(byId("sequences"), tosses, time);
+      moveEnergy(time);
+    },
   });
   const whole = map.axes.x.field !== "ending.max_impacts" && map.axes.y.field !== "ending.max_impacts";
   view = makeMap({
@@ -44,13 +39,6 @@ async function begin() {
   byId("zoom-in").addEventListener("click", () => view.zoom(0.5));
   byId("zoom-out").addEventListener("click", () => view.zoom(2));
   byId("whole").addEventListener("click", () => view.showWhole());
-  byId("camera").addEventListener("change", (event) => {
-    scene?.look(event.target.value);
-    player.redraw();
-  });
-  byId("coins").addEventListener("pointermove", () => player.redraw());
-  new ResizeObserver(() => player.redraw()).observe(byId("stage"));
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => requestAnimationFrame(() => player.redraw()));
   fromAddress();
   document.body.dataset.ready = "true";
 }
@@ -107,7 +95,7 @@ function choose(place) {
   history.replaceState(null, "", `#x=${place.x}&y=${place.y}`);
   byId("pixel").textContent = place.code === null || place.code < 0 ? "The toss of this pixel" : `The toss of this pixel: ${map.outcomes[place.code].label} on the map`;
   byId("release").textContent = `${releaseText(place)}${marginText(place)}`;
-  byId("hint").hidden = scene !== null;
+  stage.clear();
   byId("outcome").textContent = "Tossing …";
   wanted = place;
   if (!busy) answer();
@@ -140,13 +128,11 @@ function show(found, fresh) {
   tosses = [...found];
   const there = tosses.filter((one) => one?.path);
   for (const part of document.querySelectorAll(".of-toss")) part.hidden = there.length === 0;
-  scene?.show(tosses);
   showSequences(byId("sequences"), tosses, before, map.after);
   byId("horizon").textContent = horizonText(tosses, before, map.after);
   moveEnergy = showEnergy(byId("energy"), tosses);
   byId("outcome").replaceChildren(...ENGINES.map((engine, i) => outcome(engine, tosses[i])));
-  ENGINES.forEach((engine, i) => (byId(`state-${engine}`).textContent = tosses[i]?.outcome ?? (tosses[i] ? "no toss" : "…")));
-  player.load(Math.max(0, ...there.map((one) => one.end_time)), fresh);
+  stage.show(tosses, tosses.map((one) => one?.outcome ?? (one ? "no toss" : "…")), fresh);
 }
 
 function outcome(engine, one) {

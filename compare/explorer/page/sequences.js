@@ -1,6 +1,6 @@
 // The faces up at the touches of both tosses, each up to its horizon, and those of the pixel before.
 
-const LABELS = { analytic: "analytic", mujoco: "MuJoCo" };
+import { LABELS } from "./motion.js";
 
 export function commonPrefix(a, b) {
   let n = 0;

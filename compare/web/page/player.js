@@ -39,11 +39,13 @@ export function makePlayer(onTime) {
     playing ? stop() : play();
     told();
   });
-  slider.addEventListener("input", () => {
+  slider.addEventListener("input", () => seek(Number(slider.value)));
+
+  function seek(wanted) {
     stop();
-    time = Number(slider.value);
+    time = Math.min(Math.max(wanted, 0), end);
     told();
-  });
+  }
 
   return {
     // Other tosses, up to `until`; from the start where they are of another pixel.
@@ -57,6 +59,7 @@ export function makePlayer(onTime) {
       }
       told();
     },
+    seek,
     redraw: () => onTime(time),
   };
 }

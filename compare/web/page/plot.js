@@ -22,10 +22,11 @@ export function numberText(value) {
   return size !== 0 && (size < 1e-3 || size >= 1e5) ? value.toExponential(1).replace(".0e", "e") : String(Number(value.toPrecision(5)));
 }
 
-// The stretch of time that several plots show, and the times that are marked in all of them.
+// The stretch of time that several plots show, and the times that are marked in all of them; `pick` is called with
+// a time that is clicked.
 export function makeSpan(until) {
   const end = until || 1, plots = [];
-  const span = { end, low: 0, high: end, pointed: null, played: null };
+  const span = { end, low: 0, high: end, pointed: null, played: null, pick: () => {} };
   const all = (how) => plots.forEach((plot) => plot[how]());
   span.add = (plot) => plots.push(plot);
   span.show = (low, high) => {
@@ -192,7 +193,7 @@ export function makePlot(box, about, span) {
     const far = drag && Math.abs(drag.to - drag.from) > 6;
     drag = null;
     if (far) span.show(...ends);
-    else mark();
+    else if (ends) span.pick(ends[0]);
   });
   svg.addEventListener("pointercancel", () => {
     drag = null;
@@ -204,7 +205,7 @@ export function makePlot(box, about, span) {
     const from = span.pointed ?? (span.low + span.high) / 2;
     const done = {
       ArrowLeft: () => span.point(from - step), ArrowRight: () => span.point(from + step),
-      "+": () => span.zoom(0.5), "-": () => span.zoom(2), 0: () => span.show(0, span.end), Escape: () => span.point(null),
+      "+": () => span.zoom(0.5), "-": () => span.zoom(2), 0: () => span.show(0, span.end), Escape: () => span.point(null), Enter: () => span.pick(from),
     }[event.key];
     if (!done || event.ctrlKey || event.metaKey || event.altKey) return;
     readout.setAttribute("aria-live", "polite");

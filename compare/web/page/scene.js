@@ -78,15 +78,15 @@ export function makeScene(canvas) {
     if (!width || !height) return;
     renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     renderer.setSize(width, height, false);
+    const part = width / Math.max(panels.length, 1);
     panels.forEach((panel, i) => {
-      const left = i * (width / 2);
-      renderer.setViewport(left, 0, width / 2, height);
-      renderer.setScissor(left, 0, width / 2 - (i === 0 ? 1 : 0), height);
+      renderer.setViewport(i * part, 0, part, height);
+      renderer.setScissor(i * part, 0, part - (i < panels.length - 1 ? 1 : 0), height);
       renderer.setClearColor(style("--sky"), 1);
       renderer.clear();
       if (!panel) return;
       pose(panel, time);
-      aim(panel, width / 2 / height);
+      aim(panel, part / height);
       renderer.render(panel.scene, panel.camera);
     });
   }
