@@ -18,8 +18,8 @@ from compare.film.video import write_video
 from models.ending import face_up
 from models.reading import load, scenario_text
 from models.records import Ending, Outcome
-from tests.compare.test_video import FLAT, MadePath, drawn, made, shown
 from tests.helpers.command_line import cointoss
+from tests.helpers.films import FLAT, MadePath, drawn, made, shown
 
 TINY = Format(64, 48, 4, longest=2.0)
 

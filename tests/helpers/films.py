@@ -1,0 +1,84 @@
+"""Tosses made by formulas, and pictures of them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from compare.film.drawing import Drawer, box_of
+from compare.film.filmed import Filmed
+from compare.film.play import play_of
+from models.records import IMPACT_ROW, Array, Ending, Face, Impacts, Outcome, States, Toss
+from tests.helpers.draws import ZLOTY, scenario
+
+FLAT, TURNED = (1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)
+UPRIGHT = (0.5**0.5, 0.5**0.5, 0.0, 0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MadePath:
+    """A path at constant attitude: position + velocity t + acceleration t²/2, from `start` on."""
+
+    position: tuple[float, float, float]
+    velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    acceleration: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    quaternion: tuple[float, float, float, float] = FLAT
+    start: float = 0.0
+    force: tuple[float, float, float] = (0.0, 0.0, ZLOTY["mass"] * 9.81)
+
+    def floor_force(self, times: Array) -> Array:
+        return np.tile(self.force, (len(times), 1))
+
+    def sample(self, times: Array) -> States:
+        x, v, a = (np.array(part) for part in (self.position, self.velocity, self.acceleration))
+        t = np.maximum(times - self.start, 0.0)[:, None]
+        return States(
+            time=times.copy(),
+            position=x + v * t + a * t * t / 2,
+            velocity=np.where(t > 0, v + a * t, 0.0) if self.start else v + a * t,
+            quaternion=np.tile(self.quaternion, (len(times), 1)),
+            angular_velocity=np.zeros((len(times), 3)),
+        )
+
+
+def made(
+    path,
+    *,
+    impacts=(),
+    contacts=(),
+    end=1.0,
+    engine="mujoco",
+    outcome=Outcome.HEADS,
+    ending=Ending.SETTLED,
+    **parts,
+):
+    """Make a toss: a path, impacts as (time, S_z) below the coin, and sustained contacts."""
+    rows = np.zeros(len(impacts), IMPACT_ROW)
+    for row, (time, S_z) in zip(rows, impacts, strict=True):
+        row["time"], row["impulse"], row["face"] = time, (0, 0, S_z), Face.HEADS
+        row["position"] = path.sample(np.array([time])).position[0]
+        row["quaternion"] = path.quaternion
+        row["point"] = (0, 0, -ZLOTY["thickness"] / 2)
+    return Toss(
+        engine=engine,
+        scenario=scenario(**parts),
+        impacts=Impacts.from_rows(rows),
+        contacts=np.array(contacts, dtype=float).reshape(-1, 2),
+        outcome=outcome,
+        ending=ending,
+        end_time=end,
+        trusted_impacts=0,
+        certificate=(),
+        path=path,
+    )
+
+
+def shown(toss):
+    """Film a toss up to its ending."""
+    return Filmed(toss=toss, motion=toss)
+
+
+def drawn(toss, times, camera, *, height=48, width=64, box=None):
+    """Draw a toss at some times."""
+    play = play_of(shown(toss), np.array(times))
+    with Drawer(play, camera, box or box_of([play]), height=height, width=width) as drawer:
+        return [drawer.draw(i).astype(int) for i in range(len(times))]
