@@ -64,14 +64,12 @@ _ENDED = {
     Ending.PAPER: "settled",
     Ending.PAPER_SMOOTH: "settled",
     Ending.CAUGHT: "caught",
-}
-"""Endings of a toss after which a film goes on, or which it shows."""
-_STILL = {
+    Ending.NOT_CAUGHT: "not caught",
     Ending.LYING: "lies still",
     Ending.STANDING: "stands on its edge",
     Ending.AT_REST: "rests on its edge",
 }
-"""How a motion ends that goes on beyond the toss."""
+"""How a toss ends, and the motion beyond it; what is missing has a name of its own."""
 
 
 def caption_of(play: Play, i: int) -> Caption:
@@ -87,7 +85,7 @@ def caption_of(play: Play, i: int) -> Caption:
         outcome, label = told.outcome, told.outcome.label
         how = _ENDED.get(told.ending, f"ended: {told.ending.label.replace('_', ' ')},")
         at_last = told is not toss and play.times[i] == toss.end_time
-        then = f", {_STILL.get(toss.ending, 'still moves')}" if at_last else ""
+        then = f", {_ENDED.get(toss.ending, 'still moves')}" if at_last else ""
         lines.append(Line(f"{how} at {told.end_time:.3f} s{then}"))
     shown = play.impulses(i)
     if shown:

@@ -47,9 +47,3 @@ def agreement_horizon(toss: Toss, errors: Array) -> int:
 
 def _beyond(before: Array, after: Array, part: float) -> Array:
     return after + part * (after - before)
-
-
-def aligned(a: str, b: str) -> list[tuple[str, str]]:
-    """Pair two sequences symbol by symbol, "" where one has ended."""
-    n = max(len(a), len(b))
-    return list(zip((*a, *[""] * (n - len(a))), (*b, *[""] * (n - len(b))), strict=True))

@@ -4,6 +4,7 @@ import platform
 from base64 import b64encode
 from dataclasses import dataclass
 from importlib import metadata, resources
+from itertools import zip_longest
 from typing import Any, NamedTuple
 
 import jinja2
@@ -12,7 +13,7 @@ from pydantic import BaseModel
 
 from compare.film.filmed import FOLLOWED_FOR
 from compare.metrics.comparison import Comparison
-from compare.metrics.sequences import SAFETY, aligned
+from compare.metrics.sequences import SAFETY
 from compare.output.answer import MOST_SHOWN, counted
 from compare.report.map_section import MapSection
 from compare.report.motion import motion_of
@@ -21,7 +22,6 @@ from compare.web.scripts import POLICY, data_element, import_map, shared_files
 from models import certificate
 from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.meanings import meanings
-from models.notebook import shortened
 from models.records import Face, Toss
 from models.scenario import Scenario
 
@@ -80,10 +80,8 @@ def render(page: Page) -> str:
         horizon=horizon_sentence(comparison) if comparison else "",
         contact_lines=contact_lines,
         counted=counted,
-        pairs=aligned(page.analytic.sequence, comparison.mujoco.sequence) if comparison else [],
+        rows=list(zip_longest(*(toss.sequence for toss in tosses), fillvalue="")),
         most_shown=MOST_SHOWN,
-        sequence=shortened(page.analytic.sequence, MOST_SHOWN),
-        other_sequence=shortened(comparison.mujoco.sequence, MOST_SHOWN) if comparison else "",
         impacts=_impact_rows(page.analytic, comparison),
         film=[b64encode(part).decode("ascii") for part in page.film] if page.film else None,
         map_picture=b64encode(page.maps.picture).decode("ascii") if page.maps else None,

@@ -6,7 +6,7 @@ import pytest
 import analytic
 from compare.metrics.comparison import Comparison, compare
 from compare.metrics.impulses import errors_of_impacts, match
-from compare.metrics.sequences import agreement_horizon, aligned, common_prefix
+from compare.metrics.sequences import agreement_horizon, common_prefix
 from compare.metrics.trajectories import attitude_angle, distance, parting_time, tilt
 from models.records import IMPACT_ROW, Impacts, States
 from models.scenario import Scenario
@@ -51,7 +51,6 @@ def test_sequences_share_their_leading_symbols():
     assert common_prefix("HHTH", "HHTT") == 3
     assert common_prefix("HH", "HHTT") == 2
     assert common_prefix("T", "H") == common_prefix("", "H") == 0
-    assert aligned("HT", "H") == [("H", "H"), ("T", "")]
 
 
 def made(times, impulses):

@@ -100,7 +100,7 @@ export function makePlot(box, about, span) {
     wide = box.clientWidth;
     if (!wide) return;
     svg.setAttribute("width", wide);
-    const right = wide - RIGHT, foot = height - BOTTOM, parts = lines.map(inSight), made = [];
+    const right = wide - RIGHT, foot = height - BOTTOM, parts = lines.map(inSight), made = [], named = [];
     scale(parts);
     const frame = element("svg", { x: LEFT, y: TOP, width: right - LEFT, height: foot - TOP, viewBox: `${LEFT} ${TOP} ${right - LEFT} ${foot - TOP}` });
     const rows = about.at ?? (about.log ? logTicks(low, high) : ticks(low, high, 5).values).map((value) => [value, numberText(value)]);
@@ -119,7 +119,7 @@ export function makePlot(box, about, span) {
     }
     for (const { value, text } of levels) {
       frame.append(element("line", { class: "level", x1: LEFT, x2: right, y1: y(value), y2: y(value) }));
-      frame.append(element("text", { x: LEFT + 5, y: y(value) - 5 }, text));
+      named.push(element("text", { x: LEFT + 5, y: y(value) - 5 }, text));
     }
     lines.forEach(({ kind }, i) => {
       const { time, values } = parts[i];
@@ -135,6 +135,7 @@ export function makePlot(box, about, span) {
       frame.append(element("line", { class: "bar", x1: x(time), x2: x(time), y1: TOP, y2: foot }));
       made.push(element("text", { class: "bar", x: Math.min(Math.max(x(time), LEFT + 24), right - 24), y: TOP - 6, "text-anchor": "middle" }, text));
     }
+    frame.append(...named);
     drawn.replaceChildren(...made, frame);
     mark();
   }
