@@ -98,10 +98,10 @@ def write_video(
 
 
 def _poster_number(shown: Sequence[Filmed], form: Format) -> int:
-    """Return the number of the frame that stands for a film: at the first impact, else in the middle."""
+    """Return the number of the frame that stands for a film: at the first impact, without one the last."""
     times, _ = film_times(shown, form.frames_per_second, form.longest)
-    touches = [each.motion.impacts.time[0] for each in shown if len(each.motion.impacts)]
-    return 1 + int(np.searchsorted(times, min(touches))) if touches else 1 + len(times) // 2
+    firsts = [np.append(each.motion.impacts.time, each.motion.end_time)[0] for each in shown]
+    return 1 + int(np.searchsorted(times, min(firsts)))
 
 
 def _held(form: Format) -> int:

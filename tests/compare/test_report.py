@@ -234,7 +234,9 @@ def test_the_shortest_toss_has_a_report(tmp_path, max_time):
 def test_a_toss_without_impacts_has_a_report_too(tmp_path):
     case = scenario(air=AIR, ending={"max_time": 0.05})
     page = write_report(case, "# made", "falling", tmp_path, ADVICE, lambda *_: None)
-    assert "max_time" in page.read_text(encoding="utf-8")
+    text = page.read_text(encoding="utf-8")
+    assert "max_time" in text
+    assert "The coin does not touch the floor." in text
 
 
 @pytest.mark.usefixtures("fresh_back_end")
