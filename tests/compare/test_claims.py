@@ -177,7 +177,8 @@ def test_the_papers_claims_come_out_as_known_and_each_shows_its_thresholds(name,
     folder = runner.folder_of(name, tmp_path)
     assert (folder / "figure.png").stat().st_size < 150_000
     assert read_claims(folder / "claims.json") == tuple(result.claims)
-    for claim, line in zip(result.claims, result.text.splitlines()[2:], strict=True):
+    lines = result.text.splitlines()[-len(result.claims) :]
+    for claim, line in zip(result.claims, lines, strict=True):
         for criterion in claim.criteria:
             assert f"({criterion.accepted}: {criterion.reason})" in line
             assert criterion.reason

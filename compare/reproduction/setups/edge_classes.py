@@ -1,0 +1,183 @@
+"""Coins tossed by hand that may end on their edge: their classes, and how many tosses end how."""
+
+import zlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.engines import Engine
+from compare.reproduction.parts import Part, kept
+from models.attitude import quaternion_product
+from models.hand import Hand
+from models.kernel.code_cache import source_hash
+from models.records import Array, Ending, Outcome
+from models.releases import Releases
+from models.scenario import Scenario
+
+SEED = 1993
+DIAMETER, THICKNESS, MASS = 21.21e-3, 1.95e-3, 5e-3
+"""Of the US nickel [m, m, kg]; the other coins are as wide, and of its metal."""
+NICKEL = THICKNESS / DIAMETER
+"""Its h/D."""
+DIAMETRAL, WOBBLING = HANDS = ("about a diameter", "as people")
+"""ψ = 90°; and with the scatter that explains the flips of 48 people."""
+PEOPLE = np.radians(10.0)
+"""Root of the mean square of 90° - ψ over people, as `cointoss reproduce same-side` finds it [rad]."""
+BASE: dict[str, Any] = {
+    "contact": "coulomb",
+    "restitution": 0.5,
+    "friction": 0.3,
+    "rolling_friction": 1e-4,
+    "pivoting_friction": 1e-4,
+}
+"""The floor where nothing else is said."""
+AIR = {"normal": 0.8, "tangential": 0.2}
+LONGEST = 60.0
+"""Of a toss [s]."""
+_ENTRIES = {Engine.ANALYTIC: "analytic.events", Engine.MUJOCO: "coin_mj.events"}
+_HALF_TURN = (0.0, 1.0, 0.0, 0.0)
+
+Ends = dict[str, int]
+"""Numbers of tosses by outcome and ending, as in "edge, paper"."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class EdgeClass:
+    """A coin, its air and floor, and the hand that tosses it."""
+
+    name: str
+    """Of the class; its draws follow from it."""
+    aspect: float = NICKEL
+    """h/D."""
+    hand: Hand
+    floor: Mapping[str, Any]
+    """What is other than in `BASE`."""
+    air: bool = True
+
+    @property
+    def scenario(self) -> Scenario:
+        """What is tossed."""
+        h = self.aspect * DIAMETER
+        return Scenario.model_validate(
+            {
+                "coin": {"mass": MASS * h / THICKNESS, "radius": DIAMETER / 2, "thickness": h},
+                "air": AIR if self.air else {},
+                "floor": {**BASE, **self.floor},
+                "release": {"position": [0, 0, 10 * DIAMETER]},
+                "ending": {"max_time": LONGEST},
+            }
+        )
+
+    def releases(self, number: int, count: int) -> Releases:
+        """Draw a part of the releases, with either side up as likely.
+
+        Args:
+            number: of the part; the draws are those of the class, this number and this count.
+            count: how many.
+        """
+        rng = np.random.default_rng([SEED, zlib.crc32(self.name.encode()), number])
+        return on_either_side(self.hand.releases(self.scenario.body, rng, count), rng)
+
+
+def hand_of(wobble: str, **other: float) -> Hand:
+    """Return the hand of one of `HANDS`."""
+    return Hand(psi_scatter=PEOPLE if wobble == WOBBLING else 0.0, **other)
+
+
+def on_either_side(drawn: Releases, rng: np.random.Generator) -> Releases:
+    """Turn half of the coins by a half turn about ξ; their angular velocity in space stays."""
+    turned = rng.random(len(drawn)) < 1 / 2
+    other = np.array([quaternion_product(tuple(e), _HALF_TURN) for e in drawn.quaternion])
+    return Releases(
+        position=drawn.position,
+        velocity=drawn.velocity,
+        quaternion=np.where(turned[:, None], other, drawn.quaternion),
+        angular_velocity=np.where(turned[:, None], [1, -1, -1], 1) * drawn.angular_velocity,
+    )
+
+
+def ends_of(kind: EdgeClass, count: int, size: int, parts: Path, engine: Engine = Engine.ANALYTIC) -> Ends:
+    """Toss the coins of a class, part by part, and count how they end.
+
+    Args:
+        kind: the class.
+        count: how many tosses.
+        size: of a part.
+        parts: folder of what an interrupted run had done.
+        engine: that tosses.
+    """
+    counts = np.zeros((len(Outcome), len(Ending)), dtype=np.int64)
+    label = zlib.crc32(repr(kind).encode())
+    for number, first in enumerate(range(0, count, size)):
+        many = min(size, count - first)
+        name = f"{source_hash(_ENTRIES[engine])}-{engine}-{label:08x}-{number}-{many}"
+        counts += kept(parts, name, partial(_part, kind, number, many, engine))["counts"]
+    return {
+        f"{Outcome(o).label}, {Ending(e).label}": int(counts[o, e])
+        for o, e in zip(*counts.nonzero(), strict=True)
+    }
+
+
+def _part(kind: EdgeClass, number: int, count: int, engine: Engine) -> Part:
+    ended = engine.package.toss_many(kind.scenario, kind.releases(number, count))
+    counts = np.zeros((len(Outcome), len(Ending)), dtype=np.int64)
+    np.add.at(counts, (ended.outcome, ended.ending), 1)
+    return {"counts": counts}
+
+
+def tosses(ends: Ends) -> int:
+    """Return how many tosses there are."""
+    return sum(ends.values())
+
+
+def ended_as(ends: Ends, outcome: Outcome) -> int:
+    """Return how many tosses have an outcome."""
+    return sum(number for name, number in ends.items() if name.startswith(f"{outcome.label}, "))
+
+
+def corner(aspect: float | Array) -> Any:
+    """Return the angle between coin and vertical below which a resting coin falls onto its edge [rad]."""
+    return np.arctan(aspect)
+
+
+def edge_by_angle(aspect: float | Array) -> Any:
+    """Return the part of all turns about a diameter in which C is on the edge's side: (2/π) atan(h/D)."""
+    return 2 / np.pi * corner(aspect)
+
+
+def edge_by_solid_angle(aspect: float | Array) -> Any:
+    """Return the part of all attitudes in which C is on the edge's side: (h/D)/√(1 + (h/D)²)."""
+    return np.sin(corner(aspect))
+
+
+def three_way(
+    aspects: NDArray[Any], edges: NDArray[Any], counts: NDArray[Any], rng: np.random.Generator, draws: int
+) -> tuple[float, Array]:
+    """Return the h/D at which a third of the tosses end on edge, and draws of it by chance, (draws,).
+
+    The share is taken to be linear in ln(h/D) between two neighbours; NaN where it does not reach a third.
+
+    Args:
+        aspects: h/D of the coins, increasing, (n,).
+        edges: numbers of tosses on edge, (n,).
+        counts: numbers of tosses, (n,).
+        rng: the source of chance.
+        draws: how many samples of the same sizes are drawn.
+    """
+    shares = edges / counts
+    drawn = rng.binomial(counts, shares, (draws, len(counts))) / counts
+    return _crossing(np.log(aspects), shares), np.array([_crossing(np.log(aspects), one) for one in drawn])
+
+
+def _crossing(x: Array, shares: Array) -> float:
+    """Return exp(x) where the shares last rise through a third, NaN where they do not."""
+    rising = np.flatnonzero((shares[:-1] < 1 / 3) & (shares[1:] >= 1 / 3))
+    if not len(rising):
+        return float("nan")
+    i = rising[-1]
+    return float(np.exp(x[i] + (1 / 3 - shares[i]) / (shares[i + 1] - shares[i]) * (x[i + 1] - x[i])))

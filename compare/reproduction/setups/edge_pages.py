@@ -1,0 +1,237 @@
+"""What the edge study shows: shares with their intervals, tables and the figure."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from scipy.stats import chi2_contingency
+
+from compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
+from compare.output.tables import table
+from compare.reproduction.claim import Estimate
+from compare.reproduction.estimates import LEVEL, share
+from compare.reproduction.setups.edge_classes import (
+    DIAMETER,
+    DIAMETRAL,
+    HANDS,
+    NICKEL,
+    SEED,
+    WOBBLING,
+    Ends,
+    corner,
+    edge_by_angle,
+    edge_by_solid_angle,
+    ended_as,
+    three_way,
+    tosses,
+)
+from compare.reproduction.setups.edge_record import ANGLE, LAWS, SOLID_ANGLE, EdgeRecord
+from models.records import Outcome
+
+PUBLISHED = 1 / 6000
+"""Murray and Teare's share of a nickel's tosses on edge."""
+DRAWS = 2000
+"""Samples by which the intervals of the fair coin are found."""
+COLORS = (INK, BLUE, GREEN, ORANGE, VERMILION)
+FLOOR, LEAST_SCATTER = 5e-5, 0.03
+"""The least share that is drawn, and where no scatter of ψ is [deg]."""
+
+
+def on_edge(ends: Ends) -> Estimate:
+    """Return the share of tosses that end on edge."""
+    return share(np.arange(tosses(ends)) < ended_as(ends, Outcome.EDGE))
+
+
+def fair(found: EdgeRecord, wobble: str, chi: str) -> Estimate:
+    """Return the h/D of the coin that ends on its edge in a third of the tosses.
+
+    Its interval is of samples drawn from the shares found; where one has no such coin, it is open.
+    """
+    curve = found.curves[wobble][chi]
+    aspects = np.array([float(aspect) for aspect in curve])
+    edges = np.array([ended_as(ends, Outcome.EDGE) for ends in curve.values()])
+    counts = np.array([tosses(ends) for ends in curve.values()])
+    value, drawn = three_way(aspects, edges, counts, np.random.default_rng(SEED), DRAWS)
+    low, high = np.quantile(np.where(np.isnan(drawn), np.inf, drawn), [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
+    return Estimate(value, float(low), float(high), int(counts.sum()))
+
+
+def alike(counts: dict[str, Ends]) -> float:
+    """Return the probability by chance of ends that differ so much between the engines, by a χ² test."""
+    met = np.array([[ended_as(ends, outcome) for outcome in Outcome] for ends in counts.values()])
+    test: Any = chi2_contingency(met[:, met.any(axis=0)])
+    return float(test.pvalue)
+
+
+def percent(part: Estimate) -> str:
+    """Return a share in per cent, with its interval."""
+    digits = 3 if part.high < 0.01 else 2 if part.high < 0.1 else 1
+    value, low, high = (f"{100 * one:.{digits}f}" for one in (part.value, part.low, part.high))
+    return f"{value} % [{low}, {high}]"
+
+
+def tables(found: EdgeRecord) -> str:
+    """Return the tables, in Markdown."""
+    return "\n\n".join(
+        [
+            "Shares are of tosses that end on edge, in brackets their 99 % intervals.",
+            table(
+                ["the nickel", *HANDS],
+                [
+                    [factor, *(percent(on_edge(found.nickel[wobble][factor])) for wobble in HANDS)]
+                    for factor in found.nickel[DIAMETRAL]
+                ],
+            ),
+            table(
+                ["the nickel, scatter of ψ", "on edge"],
+                [[f"{scatter}°", percent(on_edge(ends))] for scatter, ends in found.wobbles.items()],
+            ),
+            _tipping(),
+            _ways(found),
+            table(
+                [
+                    "at the first touch, turned",
+                    "h/D",
+                    "its law",
+                    "C on the edge's side",
+                    "let go at rest",
+                    "energy left",
+                ],
+                [
+                    [
+                        turned,
+                        f"{LAWS[turned][0]:.3f}",
+                        f"{LAWS[turned][2]} = {LAWS[turned][1](LAWS[turned][0]):.3f}",
+                        percent(touch.touched),
+                        percent(touch.let_go),
+                        f"{touch.energy:.1f}",
+                    ]
+                    for turned, touch in found.touches.items()
+                ],
+            ),
+            *(_curves(found, wobble) for wobble in HANDS),
+            table(
+                ["h/D of the coin that is fair three ways", *HANDS],
+                [
+                    [f"χ = {chi}", *(_fair(found, wobble, chi) for wobble in HANDS)]
+                    for chi in found.curves[DIAMETRAL]
+                ],
+            ),
+            _engines(found),
+        ]
+    )
+
+
+def _tipping() -> str:
+    """Return what tips a nickel that stands on its edge."""
+    r, h = DIAMETER / 2, NICKEL * DIAMETER
+    rise = np.hypot(r, h / 2) - r
+    lean, push = np.degrees(corner(NICKEL)), 1e3 * (2 * 9.81 * rise) ** 0.5
+    return (
+        f"A nickel that stands on its edge falls when it leans by more than {lean:.1f}°; to tip it C must "
+        f"rise by {1e3 * rise:.3f} mm, as a push of {push:.0f} mm/s does."
+    )
+
+
+def _ways(found: EdgeRecord) -> str:
+    if not found.times:
+        return "No nickel tossed as people do came to rest on its edge."
+    quartiles = [np.quantile(values, (0.25, 0.5, 0.75)) for values in (found.times, found.ways)]
+    times, ways = ([f"{value:.2f}" for value in values] for values in quartiles)
+    return (
+        f"Of people's tosses {len(found.times)} nickels on edge were followed: from the last impact to rest "
+        f"they took {times[1]} s in the median (quartiles {times[0]} and {times[2]} s), and came {ways[1]} m "
+        f"far ({ways[0]} and {ways[2]} m), as the crow flies."
+    )
+
+
+def _curves(found: EdgeRecord, wobble: str) -> str:
+    by_chi = found.curves[wobble]
+    return table(
+        [f"tossed {wobble}: h/D", *(f"χ = {chi}" for chi in by_chi)],
+        [
+            [f"{float(aspect):.3g}", *(percent(on_edge(curve[aspect])) for curve in by_chi.values())]
+            for aspect in next(iter(by_chi.values()))
+        ],
+    )
+
+
+def _fair(found: EdgeRecord, wobble: str, chi: str) -> str:
+    one = fair(found, wobble, chi)
+    if not np.isfinite(one.value):
+        return "none"
+    return f"{one.value:.3f} [{one.low:.3f}, {one.high:.3f}]"
+
+
+def _engines(found: EdgeRecord) -> str:
+    rows = []
+    for name, counts in found.engines.items():
+        parts = [percent(on_edge(ends)) for ends in counts.values()]
+        open_ends = [str(ended_as(ends, Outcome.UNDECIDED)) for ends in counts.values()]
+        rows.append([name, *parts, *open_ends, f"{alike(counts):.2g}"])
+    heads = [
+        "by both engines",
+        "on edge, analytic",
+        "MuJoCo",
+        "undecided, analytic",
+        "MuJoCo",
+        "probability by chance",
+    ]
+    return table(heads, rows)
+
+
+def draw(found: EdgeRecord) -> Figure:
+    """Draw the share on edge over h/D, and the coin that is fair three ways over χ."""
+    picture = Figure(figsize=(9.5, 7))
+    (plain, people), (fairest, wobbling) = picture.subplots(2, 2)
+    for axes, wobble in ((plain, DIAMETRAL), (people, WOBBLING)):
+        _draw_curves(axes, found, wobble)
+    for wobble, color in zip(HANDS, (BLUE, VERMILION), strict=True):
+        ones = [(float(chi), fair(found, wobble, chi)) for chi in found.curves[wobble]]
+        known = [(chi, one) for chi, one in ones if np.isfinite([one.value, one.low, one.high]).all()]
+        for chi, one in known:
+            fairest.plot([chi, chi], [one.low, one.high], color=color)
+        fairest.plot(
+            [chi for chi, _ in known], [one.value for _, one in known], "o-", color=color, label=wobble
+        )
+    for aspect, label in ((ANGLE, "angle, 0.577"), (SOLID_ANGLE, "solid angle, 0.354")):
+        fairest.axhline(aspect, color=GREY, linestyle="--", linewidth=0.9)
+        fairest.annotate(label, (0.02, aspect), xycoords=("axes fraction", "data"), va="bottom")
+    fairest.set(title="fair three ways", xlabel="χ", ylabel="h/D", ylim=(0, None))
+    fairest.legend(loc="lower left")
+    scattered = {0.0: found.nickel[DIAMETRAL]["as said"], 10.0: found.nickel[WOBBLING]["as said"]}
+    scattered |= {float(scatter): ends for scatter, ends in found.wobbles.items()}
+    for scatter, ends in sorted(scattered.items()):
+        part, at = on_edge(ends), max(scatter, LEAST_SCATTER)
+        wobbling.plot([at, at], [max(part.low, FLOOR), part.high], color=INK, linewidth=1)
+        wobbling.plot(at, max(part.value, FLOOR), "o", color=INK, markersize=4)
+    wobbling.axhline(PUBLISHED, color=GREY, linestyle="--", linewidth=0.9)
+    wobbling.annotate(
+        "1 in 6,000", (0.98, PUBLISHED), xycoords=("axes fraction", "data"), ha="right", va="bottom"
+    )
+    wobbling.set(title="the nickel", xlabel="scatter of ψ [deg] (leftmost: none)", ylabel="share on edge")
+    wobbling.set(xscale="log", yscale="log", ylim=(FLOOR, 1))
+    return picture
+
+
+def _draw_curves(axes: Axes, found: EdgeRecord, wobble: str) -> None:
+    for (chi, curve), color in zip(found.curves[wobble].items(), COLORS, strict=False):
+        aspects, parts = [float(aspect) for aspect in curve], [on_edge(ends) for ends in curve.values()]
+        axes.fill_between(
+            aspects, [p.low for p in parts], [p.high for p in parts], color=color, alpha=0.15, linewidth=0
+        )
+        axes.plot(aspects, [p.value for p in parts], "o-", color=color, markersize=2.5, label=f"χ = {chi}")
+    x = np.geomspace(0.05, 4, 100)
+    axes.plot(x, edge_by_angle(x), "--", color=GREY, linewidth=0.9, label="by angle")
+    axes.plot(x, edge_by_solid_angle(x), ":", color=GREY, linewidth=0.9, label="by solid angle")
+    axes.axhline(1 / 3, color=GREY, linewidth=0.6)
+    axes.set(
+        title=f"tossed {wobble}",
+        xlabel="h/D",
+        ylabel="share on edge",
+        xscale="log",
+        xlim=(0.05, 4),
+        ylim=(0, 1),
+    )
+    axes.legend(loc="upper left")

@@ -1,0 +1,261 @@
+"""The tosses of the edge study: which are made, and the record of how they end."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from compare.engines import Engine
+from compare.output.progress import Progress
+from compare.reproduction.claim import Estimate
+from compare.reproduction.estimates import share
+from compare.reproduction.parts import kept
+from compare.reproduction.setups.edge_classes import (
+    DIAMETRAL,
+    HANDS,
+    NICKEL,
+    SEED,
+    WOBBLING,
+    EdgeClass,
+    Ends,
+    edge_by_angle,
+    edge_by_solid_angle,
+    ends_of,
+    hand_of,
+)
+from compare.reproduction.setups.edge_touches import (
+    ANYHOW,
+    TURNED,
+    first_touches,
+    let_go,
+    tossed,
+    way_to_rest,
+)
+from models.kernel.code_cache import source_hash
+
+ANGLE, SOLID_ANGLE = 3**-0.5, 8**-0.5
+"""h/D at which C is on the edge's side in a third of all turns about a diameter, and of all attitudes."""
+SQUARE = "h/D = 1,"
+"""In the names of the classes of such coins."""
+SQUARES = 5
+"""So many times more of them are tossed by MuJoCo."""
+LAWS = {
+    DIAMETRAL: (ANGLE, edge_by_angle, "(2/π) atan(h/D)"),
+    ANYHOW: (SOLID_ANGLE, edge_by_solid_angle, "(h/D)/√(1 + (h/D)²)"),
+}
+"""For each way of turning: the h/D at which its law gives a third, the law, and its formula."""
+SLIPPERY = {"contact": "smooth", "friction": 0.0}
+FACTORS: dict[str, dict[str, Any]] = {
+    "as said": {},
+    "χ = 0.2": {"floor": {"restitution": 0.2}},
+    "χ = 0.8": {"floor": {"restitution": 0.8}},
+    "energetic restitution": {"floor": {"restitution_kind": "energetic"}},
+    "smooth": {"floor": SLIPPERY},
+    "μ = 0.1": {"floor": {"friction": 0.1}},
+    "μ = 0.6": {"floor": {"friction": 0.6}},
+    "δ = p = 0": {"floor": {"rolling_friction": 0.0, "pivoting_friction": 0.0}},
+    "δ = p = 1 mm": {"floor": {"rolling_friction": 1e-3, "pivoting_friction": 1e-3}},
+    "plastic up to 10 mm/s": {"floor": {"restitution_threshold": 1e-2}},
+    "vacuum": {"air": False},
+    "from 0.3 m": {"hand": {"height": 0.3}},
+    "40 rad/s": {"hand": {"spin": 40.0}},
+    "250 rad/s": {"hand": {"spin": 250.0}},
+}
+"""What is other than χ = 0.5, μ = 0.3, δ = p = 0.1 mm, from 1 m with 120 rad/s, in air."""
+FREE = "δ = p = 0"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sizes:
+    """How many tosses are made of what."""
+
+    aspects: tuple[float, ...]
+    """h/D of the coins."""
+    chis: tuple[float, ...]
+    curve: dict[str, int]
+    """Tosses of each coin and restitution, by hand."""
+    nickel: dict[str, int]
+    """Tosses of the nickel as said."""
+    factor: dict[str, int]
+    """Tosses of the nickel with something other."""
+    factors: tuple[str, ...]
+    wobbles: tuple[float, ...]
+    """Scatters of ψ [deg]."""
+    wobble: int
+    touches: int
+    ways: int
+    mujoco: int
+    """Tosses of each class by MuJoCo; the analytic engine makes four times as many."""
+    shared: tuple[tuple[str, float, float, bool], ...]
+    """Hand, h/D and χ of the coins that both engines toss, and whether the floor resists."""
+
+
+FULL = Sizes(
+    aspects=(0.01, 0.05, 0.1, 0.2, 0.3, SOLID_ANGLE, 0.42, 0.5, ANGLE, 0.65, 0.75, 0.85, 1, 1.3, 2, 4),
+    chis=(0.0, 0.2, 0.4, 0.6, 0.8),
+    curve={DIAMETRAL: 800, WOBBLING: 120},
+    nickel={DIAMETRAL: 100_000, WOBBLING: 2000},
+    factor={DIAMETRAL: 8000, WOBBLING: 500},
+    factors=tuple(FACTORS)[1:],
+    wobbles=(0.1, 0.3, 1.0, 3.0, 30.0),
+    wobble=1000,
+    touches=4000,
+    ways=200,
+    mujoco=100,
+    shared=(
+        *((DIAMETRAL, aspect, chi, True) for aspect in (NICKEL, 0.35, 0.6) for chi in (0.5, 0.8)),
+        (DIAMETRAL, 1.0, 0.2, True),
+        *((WOBBLING, aspect, chi, True) for aspect in (NICKEL, 0.35, 0.6) for chi in (0.5, 0.8)),
+        *((WOBBLING, aspect, chi, False) for aspect in (NICKEL, 0.35) for chi in (0.5, 0.8)),
+    ),
+)
+QUICK = Sizes(
+    aspects=(0.01, ANGLE, 1.0, 4.0),
+    chis=(0.0, 0.6),
+    curve={DIAMETRAL: 60, WOBBLING: 4},
+    nickel={DIAMETRAL: 1000, WOBBLING: 30},
+    factor={DIAMETRAL: 100, WOBBLING: 30},
+    factors=(FREE,),
+    wobbles=(1.0,),
+    wobble=20,
+    touches=200,
+    ways=10,
+    mujoco=4,
+    shared=((DIAMETRAL, 0.6, 0.8, True), (DIAMETRAL, 1.0, 0.2, True)),
+)
+SIZE = {DIAMETRAL: 10_000, WOBBLING: 500}
+"""Of the parts that are kept."""
+
+
+@dataclass(frozen=True)
+class FirstTouch:
+    """How often C is on the edge's side at the first touch, where a floor does not rebound, and later."""
+
+    touched: Estimate
+    """At the first touch of a toss."""
+    let_go: Estimate
+    """At the end, of coins let go at rest just above the floor."""
+    energy: float
+    """Left after the first touch of a toss, over that of the pass over the rim; the median."""
+
+
+@dataclass(frozen=True)
+class EdgeRecord:
+    """What the tosses show."""
+
+    touches: dict[str, FirstTouch]
+    """By how the coin was turned."""
+    curves: dict[str, dict[str, dict[str, Ends]]]
+    """By hand, χ and h/D."""
+    nickel: dict[str, dict[str, Ends]]
+    """By hand and what was other."""
+    wobbles: dict[str, Ends]
+    """Of the nickel, by the scatter of ψ [deg]."""
+    times: list[float]
+    """Of people's nickels that end on edge: from the last impact to the end [s]."""
+    ways: list[float]
+    """Of C in this time, as the crow flies [m]."""
+    engines: dict[str, dict[str, Ends]]
+    """By class and engine."""
+
+
+def record_of(sizes: Sizes, progress: Progress, parts: Path) -> EdgeRecord:
+    """Toss coins from thin ones to rods, nickels on many floors, and some by both engines.
+
+    Args:
+        sizes: how many of what.
+        progress: called as the work goes on.
+        parts: folder of what an interrupted run had done.
+    """
+    jobs = list(_jobs(sizes, parts))
+    done: dict[tuple[str, ...], Any] = {}
+    for number, (key, job) in enumerate(jobs, start=1):
+        done[key] = job()
+        progress(number, len(jobs))
+    ways = done["ways", "nickel"]
+    return EdgeRecord(
+        touches=_tree(done, "touches"),
+        curves=_tree(done, "curves"),
+        nickel=_tree(done, "nickel"),
+        wobbles=_tree(done, "wobbles"),
+        times=ways["times"].tolist(),
+        ways=ways["ways"].tolist(),
+        engines=_tree(done, "engines"),
+    )
+
+
+def _tree(done: dict[tuple[str, ...], Any], first: str) -> dict[str, Any]:
+    """Return what lies below one name, as nested dicts."""
+    tree: dict[str, Any] = {}
+    for (name, *path, last), value in done.items():
+        if name == first:
+            branch = tree
+            for part in path:
+                branch = branch.setdefault(part, {})
+            branch[last] = value
+    return tree
+
+
+def _jobs(sizes: Sizes, parts: Path) -> Iterator[tuple[tuple[str, ...], Callable[[], Any]]]:
+    """Return what is to be done, each under its place in the record."""
+
+    def counted(
+        kind: EdgeClass, count: int, size: int, engine: Engine = Engine.ANALYTIC
+    ) -> Callable[[], Ends]:
+        return partial(ends_of, kind, count, size, parts, engine)
+
+    for turned in TURNED:
+        yield ("touches", turned), partial(_touch, turned, sizes.touches, parts)
+    for wobble in HANDS:
+        for chi in sizes.chis:
+            for aspect in sizes.aspects:
+                name = f"{wobble}, χ = {chi:g}, h/D = {aspect:.4g}"
+                kind = EdgeClass(name=name, aspect=aspect, hand=hand_of(wobble), floor={"restitution": chi})
+                key = "curves", wobble, f"{chi:g}", f"{aspect:.6g}"
+                yield key, counted(kind, sizes.curve[wobble], SIZE[wobble])
+    for wobble in HANDS:
+        for factor in ("as said", *sizes.factors):
+            many = (sizes.factor if FACTORS[factor] else sizes.nickel)[wobble]
+            yield ("nickel", wobble, factor), counted(nickel(wobble, factor), many, SIZE[wobble])
+    for scatter in sizes.wobbles:
+        hand = replace(hand_of(DIAMETRAL), psi_scatter=np.radians(scatter))
+        kind = EdgeClass(name=f"ψ = 90° ± {scatter:g}°", hand=hand, floor={})
+        yield ("wobbles", f"{scatter:g}"), counted(kind, sizes.wobble, SIZE[WOBBLING])
+    name = f"{source_hash('analytic.events')}-ways-{sizes.ways}"
+    yield ("ways", "nickel"), partial(kept, parts, name, partial(way_to_rest, nickel(WOBBLING), sizes.ways))
+    for wobble, aspect, chi, resists in sizes.shared:
+        name = f"{wobble}, h/D = {aspect:.2g}, χ = {chi:g}{'' if resists else ', no resistance'}"
+        floor = {"restitution": chi, **({} if resists else FACTORS[FREE]["floor"])}
+        kind = EdgeClass(name=name, aspect=aspect, hand=hand_of(wobble), floor=floor)
+        for engine, times in ((Engine.ANALYTIC, 4), (Engine.MUJOCO, 1)):
+            other = replace(kind, name=f"{name}, {engine}")
+            many = times * sizes.mujoco * (SQUARES if aspect == 1 and engine == Engine.MUJOCO else 1)
+            yield ("engines", name, engine.value), counted(other, many, 50 * times, engine)
+
+
+def nickel(wobble: str, factor: str = "as said") -> EdgeClass:
+    """Return the nickel of one of `HANDS`, with one of `FACTORS`."""
+    other = FACTORS[factor]
+    return EdgeClass(
+        name=f"nickel, {wobble}, {factor}",
+        hand=hand_of(wobble, **other.get("hand", {})),
+        floor=other.get("floor", {}),
+        air=other.get("air", True),
+    )
+
+
+def _touch(turned: str, count: int, parts: Path) -> FirstTouch:
+    """Look at the first touches of coins that are turned so, and let some go at rest."""
+    kind = EdgeClass(name=turned, aspect=LAWS[turned][0], hand=hand_of(DIAMETRAL), floor={"restitution": 0.0})
+    name = f"{source_hash('analytic.events')}-touches-{turned.replace(' ', '-')}-{count}"
+    rng = np.random.default_rng(SEED)
+
+    def part() -> dict[str, Any]:
+        touched = first_touches(kind, tossed(kind, turned, rng, count))
+        return {**touched, "let_go": let_go(kind, turned, rng, count)["on_edge"]}
+
+    found = kept(parts, name, part)
+    return FirstTouch(share(found["on_edge"]), share(found["let_go"]), float(np.median(found["energy"])))

@@ -1,0 +1,91 @@
+"""Coins at their first touch, let go at rest, and on their edge: what the edge's share follows from."""
+
+import numpy as np
+
+import analytic
+from analytic.events import run
+from compare.reproduction.parts import Part
+from compare.reproduction.setups.edge_classes import DIAMETRAL, EdgeClass, corner
+from compare.reproduction.setups.release_arrays import states_of
+from models.attitude import quaternion_from_angles, rotation_matrix
+from models.barriers import highest_on_floor
+from models.geometry import gap
+from models.records import Array, Outcome
+from models.releases import Releases
+
+DROP = 1e-4
+"""Height of the lowest point of a coin that is let go at rest [m]."""
+ANYHOW = "to any attitude"
+TURNED = (DIAMETRAL, ANYHOW)
+"""How a coin may be turned."""
+
+
+def attitudes(turned: str, rng: np.random.Generator, count: int) -> Array:
+    """Draw Euler parameters of coins that are turned in one of these ways, (count, 4)."""
+    if turned == ANYHOW:
+        drawn = rng.normal(size=(count, 4))
+        return drawn / np.linalg.norm(drawn, axis=1, keepdims=True)
+    return np.array([quaternion_from_angles((0.0, tilt, 0.0)) for tilt in rng.uniform(0, 2 * np.pi, count)])
+
+
+def tossed(kind: EdgeClass, turned: str, rng: np.random.Generator, count: int) -> Releases:
+    """Draw releases of a class, flat to turn about a diameter, or with any attitude and as much spin."""
+    drawn = kind.releases(0, count)
+    if turned == DIAMETRAL:
+        return drawn
+    return Releases(
+        position=drawn.position,
+        velocity=drawn.velocity,
+        quaternion=attitudes(turned, rng, count),
+        angular_velocity=drawn.angular_velocity,
+    )
+
+
+def first_touches(kind: EdgeClass, start: Releases) -> Part:
+    """Toss coins of a class up to their first impact.
+
+    Args:
+        kind: the class.
+        start: the releases, (count,).
+
+    Returns:
+        Whether C is then on the edge's side of the rim, and the energy left over that of the pass, (count,).
+    """
+    scenario = kind.scenario.replace("ending.max_impacts", 1)
+    body = scenario.body
+    on_edge, energy = np.empty(len(start), dtype=bool), np.empty(len(start))
+    for i, state in enumerate(states_of(start)):
+        row = run(body, scenario.rules, state).rows[0]
+        n_z = rotation_matrix(tuple(row["quaternion"]))[2][2]
+        on_edge[i] = abs(n_z) < np.sin(corner(kind.aspect))
+        energy[i] = row["energy"] / (body.mass * body.gravity * highest_on_floor(body))
+    return {"on_edge": on_edge, "energy": energy}
+
+
+def let_go(kind: EdgeClass, turned: str, rng: np.random.Generator, count: int) -> Part:
+    """Let coins of a class go at rest just above the floor; return which end on their edge, (count,)."""
+    scenario, quaternions = kind.scenario, attitudes(turned, rng, count)
+    height = np.array([DROP - gap(scenario.body, 0.0, rotation_matrix(tuple(e))[2]) for e in quaternions])
+    start = Releases(
+        position=height[:, None] * [0, 0, 1],
+        velocity=np.zeros((count, 3)),
+        quaternion=quaternions,
+        angular_velocity=np.zeros((count, 3)),
+    )
+    return {"on_edge": analytic.toss_many(scenario, start).outcome == Outcome.EDGE}
+
+
+def way_to_rest(kind: EdgeClass, count: int) -> Part:
+    """Toss coins of a class, and return of those that end on their edge how they came to rest there.
+
+    Returns:
+        The time from their last impact to the end [s], and the way of C in it, as the crow flies [m].
+    """
+    scenario, times, ways = kind.scenario, [], []
+    for state in states_of(kind.releases(0, count)):
+        log = run(scenario.body, scenario.rules, state)
+        if log.outcome == Outcome.EDGE:
+            last = log.rows[-1]
+            times.append(log.end_time - last["time"])
+            ways.append(np.linalg.norm(log.start_states[-1][:2] - last["position"][:2]))
+    return {"times": np.array(times), "ways": np.array(ways)}

@@ -1,0 +1,126 @@
+"""Coins that end on their edge: laws of the first touch, draws, the fair coin, and what the page shows."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from compare.engines import Engine
+from compare.reproduction.claim import unexpected
+from compare.reproduction.claims.edge import claims, result
+from compare.reproduction.saving import read_numbers
+from compare.reproduction.setups import edge_classes
+from compare.reproduction.setups.edge_classes import (
+    DIAMETRAL,
+    NICKEL,
+    SEED,
+    WOBBLING,
+    EdgeClass,
+    edge_by_angle,
+    edge_by_solid_angle,
+    ended_as,
+    ends_of,
+    hand_of,
+    three_way,
+    tosses,
+)
+from compare.reproduction.setups.edge_pages import alike, fair, on_edge
+from compare.reproduction.setups.edge_record import ANGLE, SOLID_ANGLE, EdgeRecord
+from compare.reproduction.setups.edge_touches import ANYHOW, first_touches, let_go, tossed, way_to_rest
+from models.attitude import rotation_matrix
+from models.records import Outcome
+from tests.helpers.pages import pictures, printed, saved
+
+SAVED = read_numbers(saved("edge"), EdgeRecord)
+LAWS = {DIAMETRAL: edge_by_angle, ANYHOW: edge_by_solid_angle}
+
+
+def kind_of(aspect: float = NICKEL, **floor: float) -> EdgeClass:
+    return EdgeClass(name="a test", aspect=aspect, hand=hand_of(DIAMETRAL), floor=floor)
+
+
+def test_the_laws_give_a_third_where_they_are_known_to():
+    assert edge_by_angle(ANGLE) == pytest.approx(1 / 3)
+    assert edge_by_solid_angle(SOLID_ANGLE) == pytest.approx(1 / 3)
+    assert edge_by_angle(1.0) == pytest.approx(1 / 2)
+
+
+@pytest.mark.parametrize("aspect", [0.2, 0.6, 1.5])
+@pytest.mark.parametrize("turned", LAWS)
+def test_a_coin_let_go_at_rest_and_one_that_touches_are_on_the_laws_side(turned, aspect):
+    """Without energy a coin falls to the side on which C is; in flight its turns are as likely."""
+    kind, count, law = kind_of(aspect, restitution=0.0), 600, LAWS[turned](aspect)
+    spread = 4 * (law * (1 - law) / count) ** 0.5
+    rng = np.random.default_rng(5)
+    assert abs(let_go(kind, turned, rng, count)["on_edge"].mean() - law) < spread
+    touched = first_touches(kind, tossed(kind, turned, rng, count))
+    assert abs(touched["on_edge"].mean() - law) < spread
+    assert np.median(touched["energy"]) > 3, "a tossed coin keeps what tips it"
+
+
+def test_half_of_the_coins_start_on_the_other_side_and_turn_alike_in_space():
+    kind = kind_of()
+    plain = kind.hand.releases(kind.scenario.body, np.random.default_rng(1), 400)
+    either = edge_classes.on_either_side(plain, np.random.default_rng(2))
+    up = np.array([np.array(rotation_matrix(tuple(e))) for e in either.quaternion])
+    assert 150 < np.sum(up[:, 2, 2] < -0.999) < 250
+    assert np.einsum("nij,nj->ni", up, either.angular_velocity) == pytest.approx(plain.angular_velocity)
+
+
+def test_ends_are_counted_once_and_kept(tmp_path, monkeypatch):
+    kind = kind_of(0.6, restitution=0.8)
+    found = ends_of(kind, 50, 20, tmp_path)
+    assert tosses(found) == 50
+    outcomes = [
+        Engine.ANALYTIC.package.toss_many(kind.scenario, kind.releases(n, m))
+        for n, m in ((0, 20), (1, 20), (2, 10))
+    ]
+    for outcome in Outcome:
+        assert ended_as(found, outcome) == sum(int(np.sum(one.outcome == outcome)) for one in outcomes)
+    assert ended_as(found, Outcome.EDGE) > 0
+    monkeypatch.setattr(EdgeClass, "releases", None)
+    assert ends_of(kind, 50, 20, tmp_path) == found
+    with pytest.raises(TypeError):
+        ends_of(replace(kind, aspect=0.7), 50, 20, tmp_path)
+
+
+def test_the_fair_coin_is_found_again_within_its_interval():
+    aspects, rng = np.array([0.2, 0.4, 0.6, 0.8, 1.0]), np.random.default_rng(3)
+    truth = edge_by_angle(aspects)
+    counts = np.full(5, 4000)
+    value, drawn = three_way(aspects, rng.binomial(counts, truth), counts, rng, 400)
+    low, high = np.quantile(drawn, (0.005, 0.995))
+    assert low < ANGLE < high
+    assert value == pytest.approx(ANGLE, abs=0.03)
+    assert 0.01 < high - low < 0.1
+    assert np.isnan(three_way(aspects, counts // 10, counts, rng, 3)[0])
+
+
+def test_engines_that_differ_are_seen():
+    one = {"heads, paper": 40, "tails, paper": 40, "edge, paper": 20}
+    assert alike({"analytic": one, "mujoco": one}) > 0.9
+    assert alike({"analytic": one, "mujoco": {**one, "edge, paper": 90}}) < 1e-3
+
+
+def test_coins_that_end_on_their_edge_are_followed_to_their_rest():
+    found = way_to_rest(replace(kind_of(0.35), hand=hand_of(WOBBLING)), 30)
+    assert len(found["times"]) == len(found["ways"]) > 0
+    assert (found["times"] >= 0).all()
+
+
+def test_the_page_shows_the_saved_numbers():
+    assert printed("EDGE.md", "edge") == result(SAVED).text
+    assert pictures("EDGE.md", "edge") == {"figure.png"}
+    assert unexpected(claims(SAVED)) == ()
+
+
+def test_a_nickel_as_rare_on_its_edge_as_published_would_be_seen():
+    rare = {"heads, paper": 300_000 - 50, "edge, paper": 50}
+    nickel = {hand: {**by_factor, "as said": rare} for hand, by_factor in SAVED.nickel.items()}
+    assert claims(replace(SAVED, nickel=nickel))[0].holds
+    assert not claims(SAVED)[0].holds
+    assert on_edge(rare).value == pytest.approx(1 / 6000)
+    assert fair(SAVED, DIAMETRAL, "0.4").low < fair(SAVED, DIAMETRAL, "0.4").value
+    assert SEED == 1993
+    assert Path(saved("edge") / "figure.png").stat().st_size < 150_000
