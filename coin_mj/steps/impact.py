@@ -12,7 +12,7 @@ from coin_mj.steps.knots import Step, add_knot
 from coin_mj.steps.mujoco_step import other_force, set_margin, set_spring
 from models.attitude import quaternion_product, rotation_matrix
 from models.kernel.compiled import compiled
-from models.kernel.vectors import add, apply, apply_transposed, scale, subtract
+from models.kernel.vectors import add, apply, apply_transposed, cross, scale, subtract
 
 PAST = 1.0005
 """Factor on a step that should end with the contact: past the release there is no force."""
@@ -44,7 +44,8 @@ def resolve_impact(coin, time, knots):
     mechanics. MuJoCo's plane-cylinder routine finds the lowest rim point from the tilt, and where that is
     nothing but rounding it takes the radius for the height. So a coin flat within `FLAT` is turned about the
     vertical, until its axes are MuJoCo's and the tilt exactly nothing, and back after its contact. The floor
-    and the cylinder are round: neither this turn nor the spin about ζ changes the contact.
+    and the cylinder are round: neither this turn nor the spin about ζ changes the contact. One that turns out
+    of `FLAT` in its contact lands on the rim point that goes down.
 
     Args:
         coin: MuJoCo's.
@@ -57,7 +58,7 @@ def resolve_impact(coin, time, knots):
     set_margin(coin, 0.0)
     set_spring(coin, coin.rebound.stiffness, coin.rebound.damping, coin.rebound.slip_damping)
     up = rotation_matrix(coin.joint.qpos[3:])[2]
-    if math.hypot(up[0], up[1]) > FLAT:
+    if math.hypot(up[0], up[1]) > FLAT or _leans(coin, up):
         return _resolve(coin, coin.has_explicit_friction, time, knots)
     first = len(knots)
     turn, spin = _turn_level(coin, up[2])
@@ -67,6 +68,27 @@ def resolve_impact(coin, time, knots):
         knots[number] = knot[:2] + _turned_back(turn, spin, knot[0] - time, knot[2:])
     set_motion(coin, _turned_back(turn, spin, end - time, motion_of(coin)))
     return result, end, apply(rotation_matrix(turn), impulse)
+
+
+@compiled
+def _leans(coin, up):
+    """Let a flat coin that turns lean as it does, on the floor; return whether it turns.
+
+    Args:
+        coin: MuJoCo's.
+        up: the upward unit vector in the body frame, (3,).
+    """
+    qpos, w = coin.joint.qpos, coin.joint.qvel
+    rate = cross(up, (w[3], w[4], w[5]))
+    turning = math.hypot(rate[0], rate[1])
+    if turning * coin.rebound.duration <= FLAT:
+        return False
+    half = scale(FLAT / turning, cross(rate, up))
+    e = quaternion_product((qpos[3], qpos[4], qpos[5], qpos[6]), (1.0, half[0], half[1], half[2]))
+    for i in range(4):
+        qpos[3 + i] = e[i]
+    qpos[2] -= evaluate_gap(coin).gap
+    return True
 
 
 @compiled

@@ -93,7 +93,8 @@ def follow_contact(coin, rules, time, steps_left, history, knots):
         up = R[2]
         up_rate = cross(up, w)
         # Where the coin would be if it did not sink: the energy tests are finer than that.
-        z = x[2] - min(evaluate_gap(coin).gap, 0.0)
+        sunk = -min(evaluate_gap(coin).gap, 0.0)
+        z = x[2] + sunk
         now = state((x[0], x[1], z), v, e, w)
         outcome, ending = classify_ending(body, rules, now, time, history)
         if ending == Ending.NONE and upright * rate > FIRST_CHECK and not slows(coin, R, w):
@@ -104,7 +105,7 @@ def follow_contact(coin, rules, time, steps_left, history, knots):
             outcome, ending = out_of_budget(coin, upright > 0, Ending.CONTACT_STEPS)
         if ending != Ending.NONE:
             return ContactExit.DECIDED, time, steps_left, outcome, ending
-        dt, lands = next_step(coin, rules.restitution, up, up_rate, w)
+        dt, lands = next_step(coin, rules.restitution, up, up_rate, w, sunk)
         if lands:
             _pass_over(coin, dt)
             return ContactExit.RIM_LANDS, time + dt, steps_left, Outcome.UNDECIDED, Ending.NONE
@@ -221,7 +222,7 @@ def floor_force(coin, chi, dt):
 
 
 @compiled
-def next_step(coin, chi, up, up_rate, w):
+def next_step(coin, chi, up, up_rate, w, sunk):
     """Return the length of the next step of a sustained contact.
 
     In it the coin, and the lowest point on its way round the rim, turn by less than `ANGLE`. It ends
@@ -233,6 +234,7 @@ def next_step(coin, chi, up, up_rate, w):
         up: the upward unit vector in the body frame, (3,).
         up_rate: its rate of change [1/s].
         w: angular velocity, body frame, (3,) [rad/s].
+        sunk: how deep its lowest point is in the floor [m].
 
     Returns:
         The length [s], and whether a rim point lands in it.
@@ -241,7 +243,11 @@ def next_step(coin, chi, up, up_rate, w):
     sine = math.hypot(up[0], up[1])
     rate = turning_rate(body, w)
     if sine > FACE:
-        rate = max(rate, math.hypot(up_rate[0], up_rate[1]) / sine)
+        # A face that sank as a whole rises by the spring, not by a turn of the coin: shorter steps, which
+        # have stiffer springs, would push it the faster.
+        lies = sunk > body.radius * sine
+        around = abs(up[0] * up_rate[1] - up[1] * up_rate[0]) / (sine * sine)
+        rate = max(rate, around if lies else math.hypot(up_rate[0], up_rate[1]) / sine)
     dt, lands = ANGLE / rate, False
     sine_rate = (up[0] * up_rate[0] + up[1] * up_rate[1]) / sine if sine > 0 else 0.0
     if -sine_rate * 2 * body.radius > slow:

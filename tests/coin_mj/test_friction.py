@@ -125,6 +125,23 @@ def test_a_flat_landing_is_without_friction():
     assert after == pytest.approx(analytic.toss(case).impacts.velocity_after[0], rel=1e-4)
 
 
+def test_a_flat_landing_that_turns_has_friction():
+    """A rim goes down first: it slips on while the coin turns out of the plane of the floor."""
+    h = ZLOTY["thickness"]
+    case = scenario(
+        floor={"contact": "coulomb", "friction": 0.2},
+        release={
+            "position": [0, 0, h / 2 + 1e-12],
+            "velocity": [0.5, 0, -0.5],
+            "angular_velocity": [0, 30, 0],
+        },
+        ending={"max_impacts": 1},
+    )
+    S = toss(case).impacts.impulse[0]
+    assert S[0] == pytest.approx(-0.2 * S[2], rel=0.02)
+    assert S[0] < 0
+
+
 def test_no_impact_leaves_the_cone():
     case = scenario(
         coin={**ZLOTY, "center_of_mass": [-1e-3, -1e-3, -2e-4]},

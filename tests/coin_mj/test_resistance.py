@@ -184,7 +184,7 @@ def eulers_disk(**floor):
             (time, np.arcsin(np.hypot(*turn[2, :2])), kinetic / (M * G * R) + x[2] / R, turn[2] @ np.array(w))
         )
         up = tuple(turn[2])
-        dt, lands = next_step(coin, 0.3, up, cross(up, w), w)
+        dt, lands = next_step(coin, 0.3, up, cross(up, w), w, 0.0)
         assert not lands
         dt = min(dt, shortest_stop(coin, w))
         sustained_step(coin, 0.3, w, dt)

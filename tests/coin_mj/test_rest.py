@@ -124,6 +124,23 @@ def test_a_coin_that_rolls_without_slip_keeps_its_energy():
     assert np.ptp(energies) < 5e-3 * energies[0]
 
 
+@pytest.mark.parametrize("spin", [120, 132, 138])
+def test_a_thick_coin_that_settles_on_a_face_gains_no_energy(spin):
+    """Friction tips it from rim to rim through flat: a long step may let the other rim sink."""
+    case = scenario(
+        coin={"mass": 7.5e-3, "radius": 11.625e-3, "thickness": 2.33e-3},
+        floor={"restitution": 0.5, "contact": "coulomb", "friction": 0.2},
+        release={"position": [0, 0, 1.0], "velocity": [0, 0, 2.0], "angular_velocity": [0, spin, 0]},
+    )
+    tossed = coin_mj.toss(case)
+    assert len(tossed.contacts) > 0
+    energies = tossed.impacts.energy
+    unit = 7.5e-3 * G * 11.625e-3
+    assert np.diff(energies).max() < 1e-6 * unit
+    gained = next(line.value for line in tossed.certificate if line.name.endswith("largest gain of energy"))
+    assert gained < 1e-2
+
+
 def test_a_flat_coin_that_slides_and_spins_lies():
     case = scenario(
         floor={"contact": "coulomb", "friction": 0.3},
