@@ -105,8 +105,8 @@ def on_edge(body, y):
     """Return whether a coin in contact is on its edge, and does not turn off it."""
     up = rotation_matrix(attitude_of(y))[2]
     n_z_rate = cross(up, spin_of(y))[2]
-    rate = (body.gravity / body.radius) ** 0.5
-    return body.thickness > 0 and abs(up[2]) < ON_EDGE and abs(n_z_rate) < ON_EDGE * rate
+    most = ON_EDGE * body.thickness / (2 * body.radius)
+    return abs(up[2]) < most and abs(n_z_rate) < most * (body.gravity / body.radius) ** 0.5
 
 
 @compiled

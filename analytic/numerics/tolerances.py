@@ -26,5 +26,6 @@ SLOW = rest.SLOW
 there friction would turn it in the time of slip/(μ g). Sliding is kept down to half of it."""
 BORDER = 1e-6
 """Friction holds a part more than it starts with, or a coin on the border would for ever start and stop."""
-ON_EDGE = 1e-6
-"""A coin is on its edge below this sine of the angle off it, and below this rate of it against √(g/r)."""
+ON_EDGE = 1e-3
+"""A thick coin is on its edge where it leans by less than this part of h/(2 r), which tips it over, and turns off
+its edge by less than this part of h/(2 r) √(g/r)."""
