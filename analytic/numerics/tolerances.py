@@ -27,5 +27,5 @@ there friction would turn it in the time of slip/(μ g). Sliding is kept down to
 BORDER = 1e-6
 """Friction holds a part more than it starts with, or a coin on the border would for ever start and stop."""
 ON_EDGE = 1e-3
-"""A thick coin is on its edge where it leans by less than this part of h/(2 r), which tips it over, and turns off
-its edge by less than this part of h/(2 r) √(g/r)."""
+"""A thick coin is on its edge where it leans by less than this part of h/(2 r), which tips it over, and turns
+off its edge by less than this part of h/(2 r) √(g/r)."""
