@@ -114,7 +114,7 @@ def test_the_lowest_point_stays_on_the_floor_and_stays_there_where_friction_hold
         modes.rate(body, friction, mode.value, rim, y, dy)
         after, before = (np.array(rim_contact(body, y + side * dt * dy, rim).velocity) for side in (1, -1))
         held = slice(None) if mode == Mode.STICKING else slice(2, 3)
-        assert ((after - before) / (2 * dt))[held] == pytest.approx(0, abs=1e-6 * np.linalg.norm(dy))
+        assert ((after - before) / (2 * dt))[held] == pytest.approx(0, abs=1e-6 * float(np.linalg.norm(dy)))
         met += 1
     assert met == 3
 

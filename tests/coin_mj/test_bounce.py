@@ -21,6 +21,7 @@ def rebound(model, lowest):
     def at_floor():
         return (data.qvel[2] ** 2 + 2 * 9.81 * (data.qpos[2] - lowest)) ** 0.5
 
+    before = at_floor()
     while data.ncon == 0:
         before = at_floor()
         mujoco.mj_step(model, data)

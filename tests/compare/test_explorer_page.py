@@ -200,7 +200,7 @@ def test_the_margin_of_a_pixel_is_told(page, tmp_path):
     )
     made = cointoss("basin", tmp_path / "coin.toml", *axes, "--out", tmp_path / "map.zarr")
     assert made.exit_code == 0, made.stderr
-    found = read_map(tmp_path / "map.zarr").margin[2, 1]
+    found = read_map(tmp_path / "map.zarr").layers["margin"][2, 1]
     with serving(tmp_path / "map.zarr") as explorer:
         page.open(f"{explorer.url}#x=40&y=0.6")
         shown = float(
