@@ -67,6 +67,17 @@ def test_two_geoms_of_one_priority_mix_their_solimp_and_take_the_smaller_solref(
     assert both[0].mean() < RESTITUTION - 0.01
 
 
+def test_speculative_contacts_keep_the_restitution_of_one_step_and_not_of_a_spring():
+    """The ball goes twice its radius in a step."""
+    step = 2 * 0.1 / 2.0
+    one, spring = (
+        rebounds(SHAPES["ball"], touch_of(contact, step, speculative=True)).restitutions
+        for contact in ("one step", "spring")
+    )
+    assert one == pytest.approx(RESTITUTION, abs=1e-9)
+    assert spring.max() < RESTITUTION - 0.2
+
+
 def test_a_ball_at_rest_sinks_by_the_same_depth_whatever_its_mass():
     """(1 - d) g/k, d the impedance."""
     touch = replace(touch_of("one step", STEP), solref=(-1e4, -50.0), solimp="0.9 0.9 0.001 0.5 2")

@@ -54,6 +54,8 @@ class Touch:
     solimp: str = HARDEST
     exact: bool = True
     """The flag diagexact."""
+    speculative: bool = False
+    """The flag of this name: contacts that would come within the step act at its beginning."""
     mass: float = 1.0
     """Of the body [kg]."""
     body: str = 'priority="1"'
@@ -97,10 +99,11 @@ def _described(shape: Shape, touch: Touch) -> str:
     )
     mass = "" if off else f'mass="{touch.mass!r}"'
     solref = " ".join(repr(number) if number else "0" for number in touch.solref)
-    flag = "enable" if touch.exact else "disable"
+    flags = {"diagexact": touch.exact, "speculative": touch.speculative}
+    flag = " ".join(f'{name}="{"enable" if on else "disable"}"' for name, on in flags.items())
     return f"""<mujoco>
   <option timestep="{touch.dt!r}" integrator="{touch.integrator}" gravity="0 0 0">
-    <flag diagexact="{flag}"/>
+    <flag {flag}/>
   </option>
   <worldbody>
     <geom type="plane" size="0 0 1" condim="1" {touch.plane}/>
@@ -131,7 +134,8 @@ def _drop(shape: Shape, touch: Touch, phase: float) -> tuple[Array, float]:
         depth = max(depth, -_corners(model, data)[:, 2].min())
         pressed = bool(data.nefc) and data.efc_force.max() > 1e-9 * touch.mass * SPEED / touch.dt
         touched = touched or pressed or data.ncon > 0
-        if touched and not pressed:
+        # A speculative contact first lets the body come to the floor.
+        if touched and not pressed and (data.qvel[2] > 0 or not touch.speculative):
             return np.array([_rise(model, data, point) for point in points]) / SPEED, depth
     return np.zeros(len(points)), depth
 

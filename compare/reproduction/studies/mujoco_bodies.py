@@ -1,4 +1,4 @@
-"""Restitution of bodies of other mass and shape, of several contacts at once, and of mixed settings."""
+"""Restitution of bodies of other mass and shape, of several contacts at once, and of other settings."""
 
 from dataclasses import dataclass
 
@@ -20,6 +20,8 @@ MASSES = (0.01, 1.0, 100.0)
 """[kg]."""
 SOFT = (-1e4, -50.0)
 """The solref of a ball that lies still: it sinks a thousandth of a millimetre and more."""
+WAYS = (0.1, 0.5, 1.5, 3.0)
+"""Of a ball in one step, over its radius; speculative contacts act where it goes further than its size."""
 FLAT = ("ball", "box flat", "box flat, C off its middle")
 MIXED = {
     'body: priority="1"': ('priority="1"', ""),
@@ -57,6 +59,8 @@ class Bodies:
     """Mean e' of a ball, by the priorities."""
     resting: list[float]
     """Depth of a ball that lies still over (1 - d) g/k, for each of `MASSES`."""
+    speculative: dict[str, list[tuple[float, float]]]
+    """Least and largest e' of a ball with speculative contacts, by contact, for each of `WAYS`."""
 
 
 def touch_of(contact: str, dt: float, **others) -> Touch:
@@ -112,7 +116,8 @@ def compute(progress: Progress) -> Bodies:
         }
         for label, (contact, solimp, exact) in FLATS.items()
     }
-    return Bodies(shapes, by_mass, flat, _mixed(), [_resting(mass) for mass in MASSES])
+    resting = [_resting(mass) for mass in MASSES]
+    return Bodies(shapes, by_mass, flat, _mixed(), resting, _speculative())
 
 
 def _mixed() -> dict[str, float]:
@@ -123,6 +128,17 @@ def _mixed() -> dict[str, float]:
             plane = f'solref="0 {touch.solref[1]!r}" solimp="{HARDEST}"'
         drops = rebounds(SHAPES["ball"], touch_of("one step", STEP, body=body, plane=plane))
         found[name] = float(drops.restitutions.mean())
+    return found
+
+
+def _speculative() -> dict[str, list[tuple[float, float]]]:
+    found = {}
+    for contact in ("one step", "spring"):
+        found[contact] = []
+        for way in WAYS:
+            touch = touch_of(contact, way * SIZE / SPEED, speculative=True)
+            e = rebounds(SHAPES["ball"], touch).restitutions
+            found[contact].append((float(e.min()), float(e.max())))
     return found
 
 
@@ -213,6 +229,25 @@ def claims(found: Bodies) -> tuple[Claim, ...]:
             ],
         ),
         Claim(
+            claim="with speculative contacts one step keeps e however far a ball goes, a spring does not",
+            criteria=[
+                Criterion(
+                    "largest error in one step",
+                    max(abs(e - RESTITUTION) for pair in found.speculative["one step"] for e in pair),
+                    "<",
+                    1e-9,
+                    "rounding",
+                ),
+                Criterion(
+                    "least error of a spring of a ball that goes further than its size",
+                    min(RESTITUTION - most for _, most in found.speculative["spring"][-2:]),
+                    ">",
+                    0.2,
+                    "far from e",
+                ),
+            ],
+        ),
+        Claim(
             claim="at rest a ball of any mass sinks (1 - d) g/k",
             criteria=[
                 Criterion(
@@ -250,6 +285,13 @@ def tables(found: Bodies) -> str:
     mixed = table(
         ["a ball, one step, e = 0.8", "e'"], [[name, f"{e:.4f}"] for name, e in found.mixed.items()]
     )
+    speculative = table(
+        ["a ball with speculative contacts that goes, in a step", *(f"{way:g} r" for way in WAYS)],
+        [
+            [f"{contact}: e' from, to", *(f"{least:.3f}, {most:.3f}" for least, most in each)]
+            for contact, each in found.speculative.items()
+        ],
+    )
     resting = ", ".join(f"{part:.5f}" for part in found.resting)
     masses = ", ".join(f"{mass:g}" for mass in MASSES)
     return "\n\n".join(
@@ -263,6 +305,7 @@ def tables(found: Bodies) -> str:
             f"Several contacts at once, {1e3 * STEP:g} ms:",
             flat,
             mixed,
+            speculative,
         ]
     )
 
