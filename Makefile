@@ -9,6 +9,8 @@ MADE := out/docs
 CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path '*/__pycache__/*')
 
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
+# What does not wait for each other is made side by side.
+MAKEFLAGS += --jobs=2
 
 .PHONY: report test test-all bench docs lint opengl chromium compiled clean
 
@@ -31,7 +33,7 @@ docs: $(VENV)/.ready-docs chromium compiled $(MADE)/pages/explorer.html
 	$(BIN)/sphinx-build -q -W --keep-going -d $(MADE)/doctrees docs out/site
 	$(BIN)/pytest tests/site
 
-$(MADE)/pages/explorer.html: $(READY) $(CODE) docs/conf.py
+$(MADE)/pages/explorer.html: $(READY) $(CODE) docs/conf.py | compiled
 	rm -rf $(MADE)
 	mkdir -p $(@D)
 	$(BIN)/cointoss basin fig24a --x release.angular_velocity.eta=20:60:160 --y release.position.z=0.2:0.6:120 \
@@ -66,7 +68,7 @@ opengl:
 	fi
 
 # The tests of the explorer's page drive a headless Chromium.
-chromium:
+chromium: | opengl
 	@if [ "$$(uname)" = Linux ] && ! command -v chromium >/dev/null \
 	  && [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
 	  apt-get update -q && apt-get install -y -q --no-install-recommends chromium \
@@ -74,7 +76,7 @@ chromium:
 	fi
 
 # Both engines are compiled once, side by side.
-compiled: $(READY)
+compiled: $(READY) | opengl
 	@$(BIN)/cointoss toss fig24a --engine mujoco >/dev/null & $(BIN)/cointoss toss fig24a >/dev/null && wait
 
 clean:
