@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
+from functools import cached_property
 from typing import Annotated, Any, Self
 
 import numpy as np
@@ -418,7 +419,7 @@ class Scenario(_Part):
         """Return the scenario as a file has it: numbers in SI, lists, words for what has a name."""
         return _as_in_a_file(self.model_dump(exclude_none=True))
 
-    @property
+    @cached_property
     def body(self) -> Body:
         """The coin in its air and gravity, for compiled code."""
         coin, air = self.coin, self.air
