@@ -5,6 +5,7 @@
 
 import math
 from dataclasses import dataclass
+from numbers import Integral, Real
 
 import mujoco
 import numpy as np
@@ -36,6 +37,8 @@ PHASES = 16
 """Heights of release, spread over the way of one step: a touch falls anywhere between two steps."""
 SPRING_STEPS = 40
 """Steps in a contact by a spring, by default."""
+LEAST = 0.01
+"""Restitution by a spring."""
 SPEED = 2.0
 """Of the ball [m/s]."""
 GRAVITY = 9.81
@@ -86,7 +89,7 @@ def solref(restitution: float, timestep: float, *, spring: bool = False, steps: 
     contact, without MuJoCo's own friction.
 
     Args:
-        restitution: e, from 0 to 1; more than 0 for a spring.
+        restitution: e, from 0 to 1; for a spring from 0.01, below which its error is as large.
         timestep: dt of the simulation [s].
         spring: whether a contact is a spring, resolved in time.
         steps: of the simulation in the contact of a spring.
@@ -94,10 +97,14 @@ def solref(restitution: float, timestep: float, *, spring: bool = False, steps: 
     Raises:
         ValueError: naming the argument, its value and what is accepted.
     """
+    numbers = {"restitution": restitution, "timestep": timestep, "steps": steps}
+    for name, value in numbers.items():
+        _require(name, value, isinstance(value, Real), "a number")
     _require("restitution", restitution, 0 <= restitution <= 1, "a number from 0 to 1")
-    _require("restitution", restitution, restitution > 0 or not spring, "more than 0 by a spring")
+    _require("restitution", restitution, restitution >= LEAST or not spring, f"from {LEAST} by a spring")
     _require("timestep", timestep, 1e-7 <= timestep <= 0.1, "from 1e-7 to 0.1 s")
-    _require("steps", steps, 5 <= steps <= LONGEST // 4, f"a whole number from 5 to {LONGEST // 4}")
+    whole = isinstance(steps, Integral) and 5 <= steps <= LONGEST // 4
+    _require("steps", steps, whole, f"a whole number from 5 to {LONGEST // 4}")
     found = spring_solref(restitution, timestep, steps) if spring else one_step_solref(restitution, timestep)
     integrator = "RK4" if spring else "implicitfast"
     restitutions, depth = drops_of_a_ball(found, timestep, integrator)
@@ -114,7 +121,7 @@ def solref(restitution: float, timestep: float, *, spring: bool = False, steps: 
     )
 
 
-def _require(name: str, value: float, holds: bool, accepted: str) -> None:
+def _require(name: str, value: object, holds: bool, accepted: str) -> None:
     if not holds:
         raise ValueError(f"{name} = {value}: accepted: {accepted}")
 

@@ -103,7 +103,7 @@ _SENTENCES = {
     Ending.CONTACT_STEPS: "Contact took as many steps as contact_steps allows; raise it: --contact-steps N.",
     Ending.FLIGHT_STEPS: "Flights took as many steps as flight_steps allows; raise it: --flight-steps N.",
     Ending.AT_REST: "The coin rests on its edge, where the floor's resistance to rolling holds it.",
-    Ending.CAUGHT: "The mass centre came down to the height [ending] caught: the face up there.",
+    Ending.CAUGHT: "The mass centre came down to the hand, [ending] caught: the face up there counts.",
     Ending.NOT_CAUGHT: "The coin ends on the floor: it never comes down to [ending] caught.",
     Ending.ROLLING: "The coin rolls upright, held on its edge; to go on raise max_time or contact_steps.",
 }

@@ -1,13 +1,20 @@
 """Make a map in memory, from Python."""
 
+from numbers import Integral
+from os import PathLike
+
 from compare.engines import Engine
 from compare.sweep.axes import parse_axis
 from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile
 from compare.sweep.outcome_map import OutcomeMap
 from compare.sweep.pixels import check, toss_pixels
+from compare.sweep.reading import MOST_READ
 from models.reading import ScenarioSource, scenario_of
 from models.scenario import Scenario
+
+MOST_AFTER = 999_999
+"""Impacts after which a face is shown, as of the command."""
 
 
 def basin(
@@ -38,22 +45,32 @@ def basin(
         SweepError: naming the argument, its value and what is accepted.
         UnsupportedError: for a scenario that the engine can't toss.
     """
+    for name, text in (("x", x), ("y", y), ("engine", engine), ("margin", margin or "")):
+        if not isinstance(text, str):
+            raise SweepError(f"{name}: {text!r}, accepted: text")
+    if not isinstance(scenario, Scenario | str | PathLike):
+        raise SweepError(f"scenario: {scenario!r}, accepted: a Scenario, a name or a path")
     found = scenario_of(scenario)
     if engine not in list(Engine):
         raise SweepError(f"engine: {engine!r}, accepted: {', '.join(Engine)}")
-    if after is not None and after < 0:
-        raise SweepError(f"after: {after}, accepted: a whole number from 0")
+    if after is not None and not (_is_whole(after) and 0 <= after <= MOST_AFTER):
+        raise SweepError(f"after: {after!r}, accepted: a whole number from 0 to {MOST_AFTER}")
     sweep = Sweep(
         scenario=found,
         engine=Engine(engine),
         x=parse_axis(x, found),
         y=parse_axis(y, found),
         settings=Engine(engine).package.MANY,
-        after=after,
+        after=None if after is None else int(after),
         margin=_margin(margin, engine),
     )
-    check(sweep)
     ny, nx = sweep.shape
+    if ny * nx > MOST_READ:
+        raise SweepError(
+            f"x, y: {nx} by {ny} pixels, accepted: at most {MOST_READ:g}; "
+            "cointoss basin makes larger maps on disk"
+        )
+    check(sweep)
     pixels = toss_pixels(sweep, Tile(slice(0, ny), slice(0, nx)))
     return OutcomeMap(
         name="map" if isinstance(scenario, Scenario) else f"map of {scenario}",
@@ -62,6 +79,11 @@ def basin(
         impacts=pixels.impacts,
         margin=pixels.margin,
     )
+
+
+def _is_whole(number: object) -> bool:
+    """Return whether a number is whole, and none that stands for a truth."""
+    return isinstance(number, Integral) and not isinstance(number, bool)
 
 
 def _margin(name: str | None, engine: str) -> str | None:

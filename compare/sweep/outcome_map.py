@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from compare.basins.maps import outcome_codes
 from compare.basins.picture_style import Palette, PictureStyle
 from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep
@@ -46,11 +47,18 @@ class OutcomeMap:
 
     def __post_init__(self) -> None:
         """Check the shapes and make the arrays read-only."""
+        if self.stride < 1:
+            raise ValueError(f"OutcomeMap.stride: {self.stride}, accepted: a whole number from 1")
         expected = len(self.y), len(self.x)
         for name, array in self.layers.items():
             if array.shape != expected:
                 raise ValueError(f"OutcomeMap.{name}: shape {array.shape}, expected {expected}")
-            array.setflags(write=False)
+            own = array.view()
+            own.setflags(write=False)
+            object.__setattr__(self, name, own)
+        tossed = self.outcome[self.outcome != NOT_TOSSED]
+        if tossed.size:
+            outcome_codes(tossed)
 
     @property
     def layers(self) -> dict[str, NDArray[Any]]:
@@ -150,6 +158,8 @@ class OutcomeMap:
                 f"{self.name}: {missing} of {self.outcome.size} pixels are not tossed; "
                 "accepted: a whole map (cointoss basin --resume continues one)"
             )
+        if palette not in list(Palette):
+            raise SweepError(f"palette: {palette!r}, accepted: {', '.join(Palette)}")
         from compare.sweep.show import figure_of
 
         style = PictureStyle(palette=Palette(palette), boundaries=boundaries, size=size)

@@ -36,6 +36,8 @@ def read_map(path: str | Path, *, most: int = MOST_READ) -> OutcomeMap:
         SweepError: saying why this is no map that can be shown.
         ScenarioError: for a scenario that this version does not accept.
     """
+    if not (isinstance(most, int) and most >= 1):
+        raise SweepError(f"most = {most!r}; accepted: a whole number from 1")
     path = Path(path)
     if not path.is_dir():
         raise SweepError(f"no such folder; {_ACCEPTED}")

@@ -79,7 +79,11 @@ def test_the_depth_is_that_of_a_spring_or_of_a_step():
     ("wrong", "named"),
     [
         ({"restitution": 1.1}, "restitution = 1.1: accepted: a number from 0 to 1"),
-        ({"restitution": 0, "spring": True}, "restitution = 0: accepted: more than 0 by a spring"),
+        ({"restitution": 0, "spring": True}, "restitution = 0: accepted: from 0.01 by a spring"),
+        ({"restitution": 1e-3, "spring": True}, "restitution = 0.001: accepted: from 0.01 by a spring"),
+        ({"restitution": "x"}, "restitution = x: accepted: a number"),
+        ({"timestep": None}, "timestep = None: accepted: a number"),
+        ({"steps": 7.5, "spring": True}, "steps = 7.5: accepted: a whole number from 5 to 500"),
         ({"timestep": 0}, "timestep = 0: accepted: from 1e-7 to 0.1 s"),
         ({"timestep": float("nan")}, "timestep = nan: accepted"),
         ({"steps": 2, "spring": True}, "steps = 2: accepted: a whole number from 5 to 500"),

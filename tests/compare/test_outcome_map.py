@@ -28,6 +28,7 @@ def test_a_map_has_the_tosses_of_its_pixels(found):
         assert (found.outcome[row, column], found.impacts[row, column]) == (toss.outcome, len(toss.impacts))
     with pytest.raises(ValueError, match="read-only"):
         found.outcome[0, 0] = 0
+    assert cointoss.basin("fig24a", x=X, y=Y, after=np.int64(0)).sweep.after == 0  # pyright: ignore
 
 
 def test_a_map_is_that_which_the_command_writes(found, tmp_path):
@@ -93,6 +94,15 @@ def test_a_map_that_is_not_finished_says_so(found):
     [
         ({"engine": "paper"}, "engine: 'paper', accepted: analytic, mujoco"),
         ({"after": -1}, "after: -1, accepted: a whole number from 0"),
+        ({"after": "2"}, "after: '2', accepted: a whole number"),
+        ({"after": True}, "after: True, accepted: a whole number"),
+        ({"after": 1.5}, "after: 1.5, accepted: a whole number"),
+        ({"x": None}, "x: None, accepted: text"),
+        ({"margin": 3}, "margin: 3, accepted: text"),
+        (
+            {"x": "release.position.z=0.1:1:100000", "y": "gravity=1:9:100000"},
+            "100000 by 100000 pixels, accepted: at most 1e",
+        ),
         ({"x": "release.position.z=1"}, "accepted: FIELD=START:STOP:N"),
         ({"x": Y}, "release.position.z: on both axes; accepted: two fields"),
         ({"margin": "luck"}, "margin luck: accepted: height"),
@@ -103,6 +113,20 @@ def test_a_map_that_is_not_finished_says_so(found):
 def test_what_makes_no_map_is_refused(wrong, named):
     with pytest.raises(ValueError, match=named):
         cointoss.basin("fig24a", **{"x": X, "y": Y, **wrong})
+
+
+def test_what_is_no_map_is_refused(found):
+    with pytest.raises(ValueError, match="77 is no outcome"):
+        cointoss.OutcomeMap(
+            name="m", sweep=found.sweep, outcome=np.full((5, 7), 77, np.int8), impacts=found.impacts
+        )
+    with pytest.raises(cointoss.SweepError, match="palette: 'foo', accepted: safe, paper"):
+        found.plot(palette="foo")
+    with pytest.raises(cointoss.SweepError, match="most = 0; accepted: a whole number from 1"):
+        cointoss.read_map("map.zarr", most=0)
+    mine = found.outcome.copy()
+    cointoss.OutcomeMap(name="m", sweep=found.sweep, outcome=mine, impacts=found.impacts)
+    mine[0, 0] = 1
 
 
 def test_shapes_that_are_not_those_of_the_axes_are_refused(found):
