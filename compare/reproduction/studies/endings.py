@@ -212,6 +212,7 @@ def claims(counts: EndingCounts) -> tuple[Claim, ...]:
         Claim(
             claim="at most 1 toss in 10,000 stays undecided",
             criteria=[Criterion("larger share of both engines", max(undecided), "≤", 1e-4, "1 in 10,000")],
+            expected=False,
         ),
         Claim(
             claim="in air the engines' ends differ no more than by chance",
