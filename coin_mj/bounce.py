@@ -99,7 +99,7 @@ def solref(restitution: float, timestep: float, *, spring: bool = False, steps: 
     """
     numbers = {"restitution": restitution, "timestep": timestep, "steps": steps}
     for name, value in numbers.items():
-        _require(name, value, isinstance(value, Real), "a number")
+        _require(name, value, isinstance(value, Real) and not isinstance(value, bool), "a number")
     _require("restitution", restitution, 0 <= restitution <= 1, "a number from 0 to 1")
     _require("restitution", restitution, restitution >= LEAST or not spring, f"from {LEAST} by a spring")
     _require("timestep", timestep, 1e-7 <= timestep <= 0.1, "from 1e-7 to 0.1 s")

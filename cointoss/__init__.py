@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from compare.engines import Engine as Engine
     from compare.metrics.comparison import Comparison as Comparison
     from compare.metrics.comparison import compare as compare
+    from compare.sweep.errors import MapError as MapError
     from compare.sweep.errors import SweepError as SweepError
     from compare.sweep.in_memory import basin as basin
     from compare.sweep.outcome_map import OutcomeMap as OutcomeMap
@@ -49,7 +50,7 @@ _NAMES = {
     "coin_mj.bounce": ("solref",),
     "compare.engines": ("Engine",),
     "compare.metrics.comparison": ("Comparison", "compare"),
-    "compare.sweep.errors": ("SweepError",),
+    "compare.sweep.errors": ("MapError", "SweepError"),
     "compare.sweep.in_memory": ("basin",),
     "compare.sweep.outcome_map": ("OutcomeMap",),
     "compare.sweep.reading": ("read_map",),

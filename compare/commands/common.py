@@ -33,7 +33,7 @@ def plain_errors(source: str) -> Iterator[None]:
     from compare.film.back_end import BackEndError
     from compare.output.files import UnwritableError
     from compare.output.progress import compile_bar
-    from compare.sweep.errors import SweepError
+    from compare.sweep.errors import MapError, SweepError
     from models.errors import ScenarioError
     from models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
 
@@ -52,7 +52,7 @@ def plain_errors(source: str) -> Iterator[None]:
         show, warnings.showwarning = warnings.showwarning, report
         try:
             yield
-        except (ScenarioError, UnwritableError, BackEndError, UnusableEngineError) as error:
+        except (ScenarioError, MapError, UnwritableError, BackEndError, UnusableEngineError) as error:
             refuse(str(error))
         except (SweepError, UnsupportedError, FloatingPointError) as error:
             refuse(f"{source}: {error}")

@@ -57,7 +57,7 @@ class Explorer(ThreadingTCPServer):
             port: 0 for a free one.
 
         Raises:
-            SweepError, ScenarioError: for what is no map.
+            MapError, ScenarioError: for what is no map.
             UnwritableError: for a port that can't be had.
         """
         self.path = path

@@ -33,7 +33,7 @@ def write_static(map_path: Path, out: Path, progress: Callable[[int, int], None]
         progress: called after each pixel with their number so far and in all.
 
     Raises:
-        SweepError, ScenarioError: for what is no map.
+        MapError, ScenarioError: for what is no map.
         UnwritableError: naming the file and why.
     """
     found = read_map(map_path, most=MOST_PIXELS)

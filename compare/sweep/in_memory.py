@@ -1,6 +1,5 @@
 """Make a map in memory, from Python."""
 
-from numbers import Integral
 from os import PathLike
 
 from compare.engines import Engine
@@ -9,7 +8,7 @@ from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile
 from compare.sweep.outcome_map import OutcomeMap
 from compare.sweep.pixels import check, toss_pixels
-from compare.sweep.reading import MOST_READ
+from compare.sweep.reading import MOST_READ, is_whole
 from models.reading import ScenarioSource, scenario_of
 from models.scenario import Scenario
 
@@ -53,7 +52,7 @@ def basin(
     found = scenario_of(scenario)
     if engine not in list(Engine):
         raise SweepError(f"engine: {engine!r}, accepted: {', '.join(Engine)}")
-    if after is not None and not (_is_whole(after) and 0 <= after <= MOST_AFTER):
+    if after is not None and not (is_whole(after) and 0 <= after <= MOST_AFTER):
         raise SweepError(f"after: {after!r}, accepted: a whole number from 0 to {MOST_AFTER}")
     sweep = Sweep(
         scenario=found,
@@ -79,11 +78,6 @@ def basin(
         impacts=pixels.impacts,
         margin=pixels.margin,
     )
-
-
-def _is_whole(number: object) -> bool:
-    """Return whether a number is whole, and none that stands for a truth."""
-    return isinstance(number, Integral) and not isinstance(number, bool)
 
 
 def _margin(name: str | None, engine: str) -> str | None:

@@ -1,6 +1,7 @@
 """Read a map from disk: what it is of, and the pixels that are tossed."""
 
 from dataclasses import fields, replace
+from numbers import Integral
 from pathlib import Path
 from typing import Any
 
@@ -9,11 +10,11 @@ import zarr
 from numpy.typing import NDArray
 
 from compare.engines import Engine, EngineSettings
-from compare.film.back_end import require_mujoco
+from compare.film.back_end import BackEndError, require_mujoco
 from compare.sweep.axes import Axis
-from compare.sweep.errors import SweepError
+from compare.sweep.errors import MapError, SweepError
 from compare.sweep.grid import Sweep
-from compare.sweep.layers import NOT_TOSSED
+from compare.sweep.layers import NOT_TOSSED, layers_of
 from compare.sweep.outcome_map import OutcomeMap
 from compare.sweep.store import FORMAT, Map
 from models.errors import ScenarioError, shown
@@ -33,35 +34,36 @@ def read_map(path: str | Path, *, most: int = MOST_READ) -> OutcomeMap:
         most: pixels that are kept; of a larger map every second, third, ... along both axes.
 
     Raises:
-        SweepError: saying why this is no map that can be shown.
+        MapError: naming the path and why this is no map that can be shown.
         ScenarioError: for a scenario that this version does not accept.
+        BackEndError: for MuJoCo's map, where MuJoCo can't be used.
+        SweepError: for `most`.
     """
-    if not (isinstance(most, int) and most >= 1):
+    if not (is_whole(most) and most >= 1):
         raise SweepError(f"most = {most!r}; accepted: a whole number from 1")
     path = Path(path)
     if not path.is_dir():
-        raise SweepError(f"no such folder; {_ACCEPTED}")
+        raise MapError(f"{path}: no such folder; {_ACCEPTED}")
     try:
         group = zarr.open_group(path, mode="r", use_consolidated=False)
         attributes: dict[str, Any] = dict(group.attrs)
     except Exception as error:  # zarr raises errors of any kind
-        raise SweepError(f"can't be read as a map ({type(error).__name__}); {_ACCEPTED}") from None
+        raise MapError(f"{path}: can't be read as a map ({type(error).__name__}); {_ACCEPTED}") from None
     if attributes.get("cointoss_map") != FORMAT:
-        raise SweepError(f"is no map of this version of cointoss; {_ACCEPTED}")
+        raise MapError(f"{path}: is no map of this version of cointoss; {_ACCEPTED}")
     try:
         sweep = _sweep(path, group, attributes)
-        layers: dict[str, Any] = {name: group[name] for name in ("outcome", "impacts")}
-        if sweep.margin is not None:
-            layers["margin"] = group["margin"]
+        layers: dict[str, Any] = {name: group[name] for name in layers_of(sweep)}
         if any(layer.shape != sweep.shape for layer in layers.values()):
             raise ValueError("arrays whose shapes are not that of the axes")
-    except (ScenarioError, SweepError):
+    except (ScenarioError, BackEndError):
         raise
     except Exception as error:
-        raise SweepError(f"is a damaged map ({type(error).__name__}: {error}); {_ACCEPTED}") from None
+        raise MapError(f"{path}: is a damaged map ({type(error).__name__}: {error}); {_ACCEPTED}") from None
     ny, nx = sweep.shape
     if ny * nx > MOST_READ:
-        raise SweepError(f"has {nx} by {ny} pixels; accepted: a map of at most {MOST_READ:g} pixels")
+        few = f"accepted: a map of at most {MOST_READ:g} pixels"
+        raise MapError(f"{path}: has {nx} by {ny} pixels; {few}")
     stride = 1
     while -(-ny // stride) * -(-nx // stride) > most:
         stride += 1
@@ -71,6 +73,11 @@ def read_map(path: str | Path, *, most: int = MOST_READ) -> OutcomeMap:
         stride=stride,
         **_read(Map(path=path, group=group), tuple(layers), stride, sweep.shape),
     )
+
+
+def is_whole(number: object) -> bool:
+    """Return whether a number is whole, and none that stands for a truth."""
+    return isinstance(number, Integral) and not isinstance(number, bool)
 
 
 def _sweep(path: Path, group: zarr.Group, attributes: dict[str, Any]) -> Sweep:
@@ -95,7 +102,7 @@ def _sweep(path: Path, group: zarr.Group, attributes: dict[str, Any]) -> Sweep:
             if not np.array_equal(axes[dimension].values, values):
                 raise ValueError(f"values of {name} that are not evenly spaced")
     after = attributes["after"]
-    if not (after is None or (isinstance(after, int) and after >= 0)):
+    if not (after is None or (is_whole(after) and after >= 0)):
         raise ValueError(f"after = {shown(after)}")
     return Sweep(
         scenario=scenario,

@@ -32,6 +32,8 @@ def toss_here(sweep: Sweep, tiles: Iterable[Tile]) -> Iterator[tuple[Tile, Pixel
 
 def missing(map_: Map) -> list[Tile]:
     """Give the tiles of a map that are not on disk yet."""
+    if map_.is_empty:
+        return map_.tiles
     return [tile for tile in map_.tiles if not map_.is_tossed(tile)]
 
 

@@ -54,6 +54,11 @@ class Map:
         outcome = self._array("outcome")
         return list(tiles(_pair(outcome.shape), _pair(outcome.chunks)))
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether no tile was tossed yet; only the names of what is on disk are read."""
+        return self._array("outcome").nchunks_initialized == 0
+
     def is_tossed(self, tile: Tile) -> bool:
         """Tell whether a tile is on disk, whole."""
         try:

@@ -9,17 +9,22 @@ import pytest
 from coin_mj import solref
 
 
-def rebound(model, lowest):
+def rebound(model, lowest, *, weight=True, speed=0.0):
     """Return the speed after the first contact over that before, both at the floor, of a model's lone body.
 
     Args:
         model: a body over a plane.
         lowest: the height of its origin at which it touches.
+        weight: whether it has some.
+        speed: downward, of the release [m/s].
     """
+    gravity = 9.81 if weight else 0.0
+    model.opt.gravity[2] = -gravity
     data = mujoco.MjData(model)
+    data.qvel[2] = -speed
 
     def at_floor():
-        return (data.qvel[2] ** 2 + 2 * 9.81 * (data.qpos[2] - lowest)) ** 0.5
+        return (data.qvel[2] ** 2 + 2 * gravity * (data.qpos[2] - lowest)) ** 0.5
 
     before = at_floor()
     while data.ncon == 0:
@@ -42,6 +47,14 @@ def test_the_model_bounces_as_it_says(restitution, spring):
     assert found.error < (0.02 if spring else 1e-11)
 
 
+@pytest.mark.parametrize("restitution", [0.0, 0.1, 0.5, 0.8, 1.0])
+@pytest.mark.parametrize("speed", [0.3, 3.0, 3.1])
+def test_without_weight_a_contact_of_one_step_rebounds_by_the_closed_form(restitution, speed):
+    """v' = -e v: the constraint's reference takes (1 + e) v away within the step."""
+    model = mujoco.MjModel.from_xml_string(solref(restitution, 5e-4).model)
+    assert rebound(model, 0.01, weight=False, speed=speed) == pytest.approx(restitution, abs=1e-11)
+
+
 def test_weight_takes_from_a_rebound_out_of_a_long_contact():
     long = solref(0.1, 1e-3, spring=True)
     assert long.error < 0.01
@@ -60,12 +73,15 @@ def test_weight_takes_from_a_rebound_out_of_a_long_contact():
 def test_what_is_pasted_elsewhere_holds_for_another_body(body, mass):
     found = solref(0.6, 1e-3)
     size, lowest = {"sphere": ("0.1", 0.1), "box": ("0.1 0.2 0.05", 0.05)}[body]
-    model = mujoco.MjModel.from_xml_string(
-        f"""<mujoco>{found.option}<worldbody><geom type="plane" size="0 0 1"/>
+    text = f"""<mujoco>{found.option}<worldbody><geom type="plane" size="0 0 1"/>
         <body pos="0 0 0.4"><freejoint/><geom type="{body}" size="{size}" mass="{mass}" {found.geom}/></body>
         </worldbody></mujoco>"""
-    )
+    model = mujoco.MjModel.from_xml_string(text)
     assert rebound(model, lowest) == pytest.approx(0.6, abs=found.error_with_weight)
+    alone = mujoco.MjModel.from_xml_string(text.replace("solref", 'condim="1" solref'))
+    # Contacts at four corners share a softness of 1 - 0.9999.
+    exactly = {"sphere": 1e-11, "box": 1e-4}[body]
+    assert rebound(alone, lowest, weight=False, speed=2.0) == pytest.approx(0.6, abs=exactly)
 
 
 def test_the_depth_is_that_of_a_spring_or_of_a_step():
@@ -82,6 +98,7 @@ def test_the_depth_is_that_of_a_spring_or_of_a_step():
         ({"restitution": 0, "spring": True}, "restitution = 0: accepted: from 0.01 by a spring"),
         ({"restitution": 1e-3, "spring": True}, "restitution = 0.001: accepted: from 0.01 by a spring"),
         ({"restitution": "x"}, "restitution = x: accepted: a number"),
+        ({"restitution": True}, "restitution = True: accepted: a number"),
         ({"timestep": None}, "timestep = None: accepted: a number"),
         ({"steps": 7.5, "spring": True}, "steps = 7.5: accepted: a whole number from 5 to 500"),
         ({"timestep": 0}, "timestep = 0: accepted: from 1e-7 to 0.1 s"),

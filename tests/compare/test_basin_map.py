@@ -29,7 +29,7 @@ from compare.sweep import grid, run
 from compare.sweep.axes import parse_axis
 from compare.sweep.grid import Sweep
 from compare.sweep.layers import NOT_TOSSED
-from compare.sweep.store import opened, require_place
+from compare.sweep.store import Map, opened, require_place
 from models.reading import parse
 from models.records import Outcome
 from tests.helpers.basin_runs import (
@@ -161,6 +161,21 @@ def test_an_interrupted_map_is_resumed_to_the_same_pixels(
     assert SMALL * whole_tiles(out) - SMALL <= kept <= SMALL * whole_tiles(out)
     assert tossed_tiles(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) <= TILES - 4
     assert_same(out, undisturbed)
+
+
+def test_a_new_map_is_known_to_be_empty_without_reading_its_tiles(tmp_path, monkeypatch):
+    monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, SMALL)
+    read, reads = Map.read, []
+    monkeypatch.setattr(Map, "read", lambda map_, *asked: reads.append(asked) or read(map_, *asked))
+    sweep = sweep_of()
+    with opened(tmp_path / "map.zarr", sweep, SCENARIO, overwrite=False) as map_:
+        assert map_.is_empty
+        assert (run.missing(map_), reads) == (map_.tiles, [])
+        last = map_.tiles[-1]
+        map_.write(last, run.toss_pixels(sweep, last))
+        assert not map_.is_empty
+        assert run.missing(map_) == map_.tiles[:-1]
+        assert reads
 
 
 def test_a_terminal_is_shown_the_rate_and_the_time_left(coin, tmp_path):

@@ -13,9 +13,13 @@ import numpy as np
 import pytest
 import zarr
 
+import cointoss as public
+from compare.engines import Engine
 from compare.explorer.page_map import page_map
 from compare.explorer.server import Explorer
+from compare.film.back_end import BackEndError
 from compare.sweep import reading
+from compare.sweep.grid import tile_shape, tiles
 from compare.sweep.reading import read_map
 from tests.helpers.command_line import HERE, cointoss
 from tests.helpers.explored import AXES, SCENARIO, got, small_map
@@ -66,18 +70,36 @@ def changed(path, **attributes):
     [
         ({"engine": "abacus"}, "is a damaged map (ValueError: 'abacus' is not a valid Engine)"),
         ({"after": "two"}, 'is a damaged map (ValueError: after = "two")'),
+        ({"after": True}, "is a damaged map (ValueError: after = True)"),
         ({"scenario": "gravity = -1"}, "gravity = -1: accepted: a number"),
         ({"scenario": 7}, "is a damaged map"),
         ({"engine_settings": {"contact_steps": -1}}, "is a damaged map (ValueError: contact_steps"),
         ({"margin_along": "height"}, "is a damaged map (KeyError: 'margin')"),
+        ({"margin_along": "luck"}, "is a damaged map (ValueError: luck: accepted: height"),
         ({"cointoss_map": 2}, "is no map of this version"),
     ],
 )
 def test_a_damaged_map_is_refused(copy, attributes, reason):
     changed(copy, **attributes)
     said = refused(copy)
-    assert str(copy) in said
+    assert said.count(str(copy)) == 1
     assert reason in said
+
+
+def test_a_map_that_python_reads_is_named_in_its_error(copy):
+    changed(copy, engine="abacus")
+    with pytest.raises(public.MapError) as raised:
+        public.read_map(copy)
+    assert str(raised.value).startswith(f"{copy}: is a damaged map (ValueError: 'abacus'")
+
+
+def test_a_map_by_mujoco_is_not_to_blame_for_a_back_end_that_is_missing(copy, monkeypatch):
+    def missing():
+        raise BackEndError("MUJOCO_GL = x: MuJoCo can't be used")
+
+    changed(copy, engine=Engine.MUJOCO)
+    monkeypatch.setattr(reading, "require_mujoco", missing)
+    assert refused(copy) == "cointoss: MUJOCO_GL = x: MuJoCo can't be used\n"
 
 
 def test_a_map_without_an_axis_or_of_another_shape_is_refused(copy):
@@ -90,8 +112,16 @@ def test_a_map_of_too_many_pixels_is_refused(whole, monkeypatch):
     assert "has 24 by 18 pixels; accepted: a map of at most 400 pixels" in refused(whole)
 
 
-def test_of_a_large_map_every_so_many_th_pixel_is_shown(whole):
-    full, part = read_map(whole), read_map(whole, most=100)
+@pytest.mark.parametrize("tile", [None, 35, 64])
+def test_of_a_large_map_every_so_many_th_pixel_is_shown(whole, tmp_path, monkeypatch, tile):
+    full, path = read_map(whole), whole
+    if tile is not None:  # whose sides the stride crosses
+        monkeypatch.setattr("compare.sweep.grid.TILE_TOSSES", dict.fromkeys(Engine, tile))
+        path = small_map(tmp_path)
+        cut = list(tiles(full.sweep.shape, tile_shape(full.sweep)))
+        for sides in ([part.rows for part in cut], [part.columns for part in cut]):
+            assert {side.start % 3 for side in sides} == {0, 1, 2}
+    part = read_map(path, most=100)
     assert (full.stride, part.stride) == (1, 3)
     assert part.outcome.shape == (6, 8)
     for name, array in part.layers.items():

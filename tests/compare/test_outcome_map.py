@@ -122,8 +122,9 @@ def test_what_is_no_map_is_refused(found):
         )
     with pytest.raises(cointoss.SweepError, match="palette: 'foo', accepted: safe, paper"):
         found.plot(palette="foo")
-    with pytest.raises(cointoss.SweepError, match="most = 0; accepted: a whole number from 1"):
-        cointoss.read_map("map.zarr", most=0)
+    for most in (0, True, 2.5):
+        with pytest.raises(cointoss.SweepError, match=f"most = {most}; accepted: a whole number from 1"):
+            cointoss.read_map("map.zarr", most=most)  # pyright: ignore[reportArgumentType]
     mine = found.outcome.copy()
     cointoss.OutcomeMap(name="m", sweep=found.sweep, outcome=mine, impacts=found.impacts)
     mine[0, 0] = 1

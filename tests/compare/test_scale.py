@@ -26,7 +26,7 @@ def test_the_tables_follow_from_the_times():
 
 def test_a_map_that_does_not_consist_of_tosses_fails_its_claim():
     assert unexpected(claims(COSTS)) == ()
-    slow = MapCosts(**{**vars(COSTS), "parts": {"check the grid": 5.0, scale.TOSS: 9.5}})
+    slow = MapCosts(**{**vars(COSTS), "parts": {"check the grid": 1.2, scale.TOSS: 9.5}})
     assert "a map of 100000 tosses" in unexpected(claims(slow))[0]
 
 

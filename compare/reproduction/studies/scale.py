@@ -49,7 +49,7 @@ MUJOCO_SIDE = 60
 TILED_SIDE, TILE_SIDES = 100, (10, 32, 100)
 """Pixels along a side of a map that is cut into tiles, and of these: of 1e2, 1e3, 1e4 tosses."""
 TOSS = "toss"
-LEAST_SHARE = 0.8
+LEAST_SHARE = 0.9
 """Of the time of a map that its tosses take, at least."""
 
 
@@ -177,7 +177,7 @@ def claims(costs: MapCosts) -> tuple[Claim, ...]:
                     costs.parts[TOSS] / sum(costs.parts.values()),
                     "≥",
                     LEAST_SHARE,
-                    "a fifth at most for all else",
+                    "a tenth at most for all else",
                 )
             ],
         ),
