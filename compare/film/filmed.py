@@ -21,6 +21,11 @@ class Filmed:
     """The same toss, which ends later where the coin goes on when its face is settled."""
 
 
+def goes_on(toss: Toss) -> bool:
+    """Return whether a film goes on beyond the ending of a toss: its face is settled, and its coin moves."""
+    return toss.ending in _GOES_ON
+
+
 def followed(toss: Toss, settings: EngineSettings | None = None) -> Filmed:
     """Follow a toss until its coin lies still, at most `FOLLOWED_FOR` beyond its ending.
 
@@ -30,7 +35,7 @@ def followed(toss: Toss, settings: EngineSettings | None = None) -> Filmed:
         toss: by either engine.
         settings: of its engine, by default those of one toss.
     """
-    if toss.ending not in _GOES_ON:
+    if not goes_on(toss):
         return Filmed(toss=toss, motion=toss)
     engine, until = Engine(toss.engine).package, toss.end_time + FOLLOWED_FOR
     waiting = toss.scenario.replace("ending.test", "lying", "ending.max_time", until)

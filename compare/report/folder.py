@@ -21,7 +21,7 @@ from models.scenario import Scenario
 
 BEING_DRAWN = (
     "It is being drawn: reload this page when cointoss has ended. "
-    "If that was interrupted, cointoss video draws the film alone."
+    "If that was interrupted, cointoss video --engine {engines} draws the film alone."
 )
 
 
@@ -69,7 +69,7 @@ def write_report(
             states = toss.sample(answer.path_times(toss))
             (aside / f"path-{toss.engine}.csv").write_text(answer.path_csv(states), encoding="utf-8")
 
-        filmed = comparison is not None and no_video is None
+        being_drawn = BEING_DRAWN.format(engines="both" if comparison else "analytic")
         page = Page(
             name=name,
             scenario=scenario,
@@ -78,11 +78,11 @@ def write_report(
             comparison=comparison,
             not_realisable=not_realisable,
             film=None,
-            no_video=BEING_DRAWN if filmed else no_video or not_realisable,
+            no_video=no_video or being_drawn,
             maps=maps,
         )
         (aside / "report.html").write_text(render(page), encoding="utf-8")
-    if filmed:
+    if no_video is None:
         with written_together(folder, OF_THE_FILM) as aside:
             from compare.film.drawing import Camera
             from compare.film.encodings import SMALL

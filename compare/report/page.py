@@ -11,10 +11,10 @@ import jinja2
 import numpy as np
 from pydantic import BaseModel
 
-from compare.film.filmed import FOLLOWED_FOR
 from compare.metrics.comparison import Comparison
 from compare.metrics.sequences import SAFETY
 from compare.output.answer import MOST_SHOWN, counted
+from compare.report.film_caption import film_caption
 from compare.report.map_section import MapSection
 from compare.report.motion import motion_of
 from compare.report.verdict import contact_lines, horizon_sentence, verdict_of
@@ -86,7 +86,7 @@ def render(page: Page) -> str:
         film=[b64encode(part).decode("ascii") for part in page.film] if page.film else None,
         map_picture=b64encode(page.maps.picture).decode("ascii") if page.maps else None,
         safety=SAFETY,
-        followed_for=FOLLOWED_FOR,
+        film_caption=film_caption(tosses),
         versions=versions(),
     )
 

@@ -10,30 +10,20 @@ from models.certificate import law_residuals
 from models.reading import load
 from models.records import Ending, Outcome
 from tests.helpers.draws import ZLOTY, scenario
-
-G = 9.81
+from tests.helpers.flat_fall import flat_fall
 
 
 def test_a_coin_that_falls_flat_stops_after_the_bounces_of_the_closed_form():
-    """It comes down at v₀ χⁿ, so touch number ln(v₀/v)/ln(1/χ), rounded up, is the first plastic one."""
-    chi, threshold, height = 0.9, 1.0, 1.0
-    v0 = (2 * G * height) ** 0.5
-    bounces = int(np.ceil(np.log(v0 / threshold) / np.log(1 / chi)))
-    case = scenario(
-        coin=ZLOTY,
-        floor={"contact": "smooth", "restitution": chi, "restitution_threshold": threshold},
-        release={"position": [0, 0, height + ZLOTY["thickness"] / 2]},
-    )
-    tossed = analytic.toss(case)
+    fall = flat_fall(0.9, 1.0)
+    tossed = analytic.toss(fall.scenario)
     speeds = -tossed.impacts.contact_velocity_before[:, 2]
     after = tossed.impacts.contact_velocity_after[:, 2]
-    assert bounces == 15
-    assert speeds == pytest.approx(v0 * chi ** np.arange(bounces + 1), rel=1e-12)
-    assert after[:-1] == pytest.approx(chi * speeds[:-1], rel=1e-14)
+    assert len(fall.speeds) == 16
+    assert speeds == pytest.approx(fall.speeds, rel=1e-12)
+    assert after[:-1] == pytest.approx(0.9 * speeds[:-1], rel=1e-14)
     assert after[-1] == pytest.approx(0, abs=1e-15)
     assert (tossed.outcome, tossed.ending) == (Outcome.HEADS, Ending.SETTLED)
-    flights = 2 * v0 / G * (chi * (1 - chi**bounces) / (1 - chi))
-    assert tossed.end_time == pytest.approx(v0 / G + flights, rel=1e-12)
+    assert tossed.end_time == pytest.approx(fall.end_time, rel=1e-12)
 
 
 def test_a_touch_is_plastic_at_the_threshold_and_elastic_above_it():

@@ -5,7 +5,7 @@ import pytest
 
 from analytic.automaton import Event, Mode
 from analytic.contact import modes, upright
-from analytic.contact.edge import held_on_edge, rolls, stands
+from analytic.contact.edge import held_on_edge, on_edge, rolls, stands
 from analytic.contact.resistance import FloorFriction
 from analytic.contact.rim_contact import both_rims
 from analytic.contact.upright import rim_forces, start_creep
@@ -133,6 +133,23 @@ def test_a_coin_is_tried_on_either_rim_however_it_leans():
             upright.tilt(leaning, lean)
             assert held_on_edge(body, SMOOTH, Mode.SLIDING, leaning) == held
     assert found == {True, False}
+
+
+@pytest.mark.parametrize("thickness", [2e-3, 8e-3])
+@pytest.mark.parametrize(("part", "is_on_it"), [(0.999e-3, True), (1.001e-3, False)])
+def test_a_coin_is_on_its_edge_by_parts_of_what_tips_it(thickness, part, is_on_it):
+    """Up to a thousandth of h/(2 r), from where its weight no longer turns it back, and of that √(g/r)."""
+    body = scenario(coin={**ZLOTY, "thickness": thickness}).body
+    level, most = upright_coin(body, 0.4, 3.0, 20.0), part * thickness / (2 * R_COIN)
+    assert on_edge(body, level)
+    for side in (-1, 1):
+        leaning, turning = level.copy(), level.copy()
+        upright.tilt(leaning, side * most)
+        assert abs(rotation_matrix(tuple(leaning[6:10]))[2][2]) == pytest.approx(most, rel=1e-6)
+        up = rotation_matrix(tuple(level[6:10]))[2]
+        # The rate of n_z is that at which it turns about the floor's line below it.
+        turning[10:12] += side * most * (G / R_COIN) ** 0.5 * np.array([-up[1], up[0]])
+        assert on_edge(body, leaning) == on_edge(body, turning) == is_on_it
 
 
 def test_without_loss_a_coin_stands_if_it_is_held_in_the_course_of_its_own_roll():

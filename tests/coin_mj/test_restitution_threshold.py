@@ -11,32 +11,24 @@ from coin_mj import Realisation
 from models.certificate import law_residuals
 from models.reading import load
 from models.records import ApproximationWarning, Ending, Outcome
-from tests.helpers.draws import AIR, ZLOTY, draw_coin, draw_release, scenario
+from tests.helpers.draws import AIR, draw_coin, draw_release, scenario
+from tests.helpers.flat_fall import flat_fall
 
 pytestmark = pytest.mark.filterwarnings(f"ignore::{ApproximationWarning.__module__}.ApproximationWarning")
 
-G = 9.81
 BOTH = pytest.mark.parametrize("contact", list(Realisation))
 
 
 @BOTH
 def test_a_coin_that_falls_flat_stops_after_the_bounces_of_the_closed_form(contact):
-    """It comes down at v₀ χⁿ, so touch number ln(v₀/v)/ln(1/χ), rounded up, is the first plastic one."""
-    chi, threshold, height = 0.8, 1.0, 1.0
-    v0 = (2 * G * height) ** 0.5
-    bounces = int(np.ceil(np.log(v0 / threshold) / np.log(1 / chi)))
-    case = scenario(
-        coin=ZLOTY,
-        floor={"contact": "smooth", "restitution": chi, "restitution_threshold": threshold},
-        release={"position": [0, 0, height + ZLOTY["thickness"] / 2]},
-    )
-    tossed = coin_mj.toss(case, settings=replace(coin_mj.FINE, contact=contact))
+    fall = flat_fall(0.8, 1.0)
+    tossed = coin_mj.toss(fall.scenario, settings=replace(coin_mj.FINE, contact=contact))
     speeds, after = (
         -tossed.impacts.contact_velocity_before[:, 2],
         tossed.impacts.contact_velocity_after[:, 2],
     )
-    assert bounces == 7
-    assert speeds == pytest.approx(v0 * chi ** np.arange(bounces + 1), rel=5e-3)
+    assert len(fall.speeds) == 8
+    assert speeds == pytest.approx(fall.speeds, rel=5e-3)
     # Four contacts at once leave 1e-4 of the speed.
     assert after[-1] == pytest.approx(0, abs=5e-4)
     assert (tossed.outcome, tossed.ending) == (Outcome.HEADS, Ending.SETTLED)

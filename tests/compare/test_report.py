@@ -10,6 +10,7 @@ from unittest.mock import patch
 import imageio_ffmpeg
 import pytest
 
+import analytic
 from compare.film.back_end import ADVICE, UNKNOWN, drawing_problem
 from compare.film.encodings import SMALL
 from compare.film.filmed import followed
@@ -134,7 +135,7 @@ def test_the_page_stands_before_the_film_is_drawn_and_after_it_was_interrupted(t
         write_report(parse(SHORT, "short"), SHORT, "short", tmp_path, None, interrupt)
     after = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert said == [after]
-    assert BEING_DRAWN in after
+    assert BEING_DRAWN.format(engines="both") in after
     assert {path.name for path in tmp_path.iterdir()} == set(FILES) - {"toss.mp4"}
 
 
@@ -162,9 +163,27 @@ def test_what_mujoco_cannot_realise_is_a_report_of_one_engine(tmp_path):
     page = write_report(parse(text, "knurled"), text, "knurled", tmp_path, None, lambda *_: None)
     html = page.read_text(encoding="utf-8")
     assert "Not realisable in MuJoCo" in html
-    assert ParsedPage(html).videos == 0
+    assert "No video." not in html
+    assert ParsedPage(html).videos == 1
+    assert 'aria-label="Film of the toss"' in html
+    assert "The toss by the analytic engine, drawn by MuJoCo, which can’t toss it." in html
+    counted: Any = imageio_ffmpeg.count_frames_and_secs(str(tmp_path / "toss.mp4"))
+    assert counted[0] == frame_count([followed(analytic.toss(parse(text, "knurled")))], SMALL)
     assert re.search(r'"not_realisable": ".*knurled', (tmp_path / "numbers.json").read_text(encoding="utf-8"))
-    assert {path.name for path in tmp_path.iterdir()} == {"report.html", "numbers.json", "path-analytic.csv"}
+    assert {path.name for path in tmp_path.iterdir()} == set(FILES) - {"path-mujoco.csv"}
+
+
+def test_before_its_film_a_report_says_which_command_draws_it(tmp_path):
+    said = []
+
+    def interrupt(*_):
+        said.append((tmp_path / "report.html").read_text(encoding="utf-8"))
+        raise KeyboardInterrupt
+
+    text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 1")
+    with pytest.raises(KeyboardInterrupt):
+        write_report(parse(text, "knurled"), text, "knurled", tmp_path, None, interrupt)
+    assert "cointoss video --engine analytic draws the film alone" in said[0]
 
 
 def test_a_report_replaces_an_earlier_one_as_a_whole_and_nothing_else(folder, tmp_path):
@@ -179,7 +198,7 @@ def test_a_report_replaces_an_earlier_one_as_a_whole_and_nothing_else(folder, tm
     with interrupted, pytest.raises(KeyboardInterrupt):
         write_report(case, text, "knurled", earlier, None, lambda *_: None)
     assert {path.name: path.read_bytes() for path in earlier.iterdir()} == before
-    write_report(case, text, "knurled", earlier, None, lambda *_: None)
+    write_report(case, text, "knurled", earlier, ADVICE, lambda *_: None)
     kept = {"report.html", "numbers.json", "path-analytic.csv", "notes.txt"}
     assert {path.name for path in earlier.iterdir()} == kept
 
@@ -237,6 +256,10 @@ def test_a_toss_without_impacts_has_a_report_too(tmp_path):
     text = page.read_text(encoding="utf-8")
     assert "max_time" in text
     assert "The coin does not touch the floor." in text
+    assert "No impact." in text
+    assert "S is the impulse" not in text
+    assert "dots are impacts" not in text
+    assert "Vertical lines are impacts" not in text
 
 
 @pytest.mark.usefixtures("fresh_back_end")

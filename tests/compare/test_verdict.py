@@ -1,44 +1,37 @@
 """The verdict of a report: one sentence for every case, with the numbers of the comparison."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
+import analytic
+import cointoss
 from compare.metrics.comparison import Comparison, Together
 from compare.metrics.impulses import Differences
 from compare.report.verdict import Kind, contact_lines, horizon_sentence, verdict_of
-from models.records import IMPACT_ROW, Ending, Face, Impacts, Outcome, States, Toss
+from models.records import IMPACT_ROW, Ending, Face, Impacts, Outcome
 from tests.helpers.draws import scenario
 
 NOTHING = np.zeros(0)
-
-
-class NoPath:
-    """A path that is not asked for."""
-
-    def sample(self, times) -> States:
-        raise NotImplementedError
-
-    def floor_force(self, times):
-        raise NotImplementedError
+TOSS = analytic.toss(scenario(ending={"max_time": 1.0}))
+"""What the tosses of these tests are made of, with other impacts and endings."""
 
 
 def made(sequence, outcome=Outcome.HEADS, *, engine="analytic", ending=Ending.SETTLED, contacts=()):
     rows = np.zeros(len(sequence), IMPACT_ROW)
     for i, symbol in enumerate(sequence):
         rows[i]["time"], rows[i]["face"] = 0.1 * (i + 1), Face.HEADS if symbol == "H" else Face.TAILS
-    return Toss(
+    return replace(
+        TOSS,
         engine=engine,
-        scenario=scenario(),
         impacts=Impacts.from_rows(rows),
         contacts=np.array(contacts, dtype=float).reshape(-1, 2),
         outcome=outcome,
         ending=ending,
         end_time=1.0,
         trusted_impacts=len(sequence),
-        certificate=(),
-        path=NoPath(),
     )
 
 
@@ -59,6 +52,7 @@ def compared(a, b, prefix, horizon):
 HEADS_TAILS = "Heads by the analytic engine, tails by MuJoCo:"
 HEADS, TAILS = made("HHT"), made("HTT", Outcome.TAILS)
 CAUGHT = made("", ending=Ending.CAUGHT)
+CAUGHT_AFTER = made("HT", ending=Ending.CAUGHT)
 CUT = made("HH", Outcome.UNDECIDED, ending=Ending.MAX_IMPACTS)
 ROLLED = made("HH", contacts=[(0.5, 0.7)])
 
@@ -143,7 +137,7 @@ ROLLED = made("HH", contacts=[(0.5, 0.7)])
             2,
             2,
             Kind.DIFFER,
-            "Heads by the analytic engine, on its edge by MuJoCo: they agree on all 2 impacts, and that is "
+            "Heads by the analytic engine, on its edge by MuJoCo: they agree on both impacts, and that is "
             "certain; what the floor does after that decides.",
         ),
         (
@@ -152,8 +146,35 @@ ROLLED = made("HH", contacts=[(0.5, 0.7)])
             0,
             0,
             Kind.AGREE,
-            "Heads in the hand by both engines: it is caught before it touches the floor, so that nothing "
-            "amplifies small errors.",
+            "Heads in the hand by both engines: the coin is caught before it touches the floor, so that "
+            "nothing amplifies small errors.",
+        ),
+        (
+            CAUGHT,
+            replace(CAUGHT, outcome=Outcome.TAILS),
+            0,
+            0,
+            Kind.FAULT,
+            "Heads in the hand by the analytic engine, tails in the hand by MuJoCo: they differ although the "
+            "coin only flew; one of them is wrong: please report it.",
+        ),
+        (
+            CAUGHT_AFTER,
+            CAUGHT_AFTER,
+            2,
+            2,
+            Kind.AGREE,
+            "Heads in the hand by both engines: they agree on both impacts before it is caught, and that is "
+            "certain.",
+        ),
+        (
+            CAUGHT_AFTER,
+            replace(CAUGHT_AFTER, outcome=Outcome.TAILS),
+            2,
+            2,
+            Kind.DIFFER,
+            "Heads in the hand by the analytic engine, tails in the hand by MuJoCo: they agree on both "
+            "impacts before it is caught, and that is certain; the flight to the hand decides.",
         ),
         (
             CUT,
@@ -161,7 +182,7 @@ ROLLED = made("HH", contacts=[(0.5, 0.7)])
             2,
             2,
             Kind.AGREE,
-            "Undecided by both engines: they agree on all 2 impacts, and that is certain.",
+            "Undecided by both engines: they agree on both impacts, and that is certain.",
         ),
         (
             made("", Outcome.UNDECIDED, ending=Ending.MAX_TIME),
@@ -197,6 +218,35 @@ def test_the_horizon_is_one_sentence(horizon, begins):
     sentence = horizon_sentence(compared(HEADS, HEADS, 3, horizon))
     assert sentence.startswith(begins)
     assert sentence.count(".") == 1
+
+
+def thrown(height, up):
+    """Throw a coin up or down, flat, to be caught at 1.2 m, and compare both engines."""
+    release = {"position": [0, 0, height], "velocity": [0, 0, up]}
+    compared: Any = cointoss.compare(scenario(release=release, ending={"caught": 1.2}))
+    assert compared.analytic.ending == compared.mujoco.ending == Ending.CAUGHT
+    return compared
+
+
+def test_what_the_hand_cuts_short_is_said_of_real_tosses():
+    flown, bounced = thrown(1.0, 3.0), thrown(1.0, -5.0)
+    assert verdict_of(flown.analytic, flown) == (
+        "Heads in the hand by both engines: the coin is caught before it touches the floor, so that nothing "
+        "amplifies small errors.",
+        Kind.AGREE,
+    )
+    assert horizon_sentence(flown) == (
+        "The coin is caught before its first impact: without an impact nothing amplifies small errors."
+    )
+    assert verdict_of(bounced.analytic, bounced) == (
+        "Heads in the hand by both engines: they agree on its only impact before it is caught, and that is "
+        "certain.",
+        Kind.AGREE,
+    )
+    assert horizon_sentence(bounced) == (
+        "The coin is caught before errors as small as the engines’ own change a face: the sequences must be "
+        "the same to the end."
+    )
 
 
 def test_many_contacts_are_summed_in_one_line():

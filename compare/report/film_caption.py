@@ -1,0 +1,47 @@
+"""What stands below the film of a report: which tosses it shows, how fast it runs, and where it ends."""
+
+from collections.abc import Sequence
+
+from compare.film.filmed import FOLLOWED_FOR, goes_on
+from models.records import Ending, Toss
+
+COLORS = "Gold with an H is heads, blue with a T is tails."
+ARROWS = (
+    "Pink arrows are impulses, green arrows the floor’s force in sustained contact; their lengths are "
+    "proportional to their sizes."
+)
+
+
+def film_caption(tosses: Sequence[Toss]) -> str:
+    """Return the caption of a film.
+
+    Args:
+        tosses: by one engine or by both, side by side.
+    """
+    touches = any(len(toss.impacts) or len(toss.contacts) or goes_on(toss) for toss in tosses)
+    return " ".join([_shown(tosses), COLORS, *_slows(tosses), _ends(tosses), *([ARROWS] if touches else [])])
+
+
+def _shown(tosses: Sequence[Toss]) -> str:
+    if len(tosses) > 1:
+        return "Both tosses at the same times, drawn by MuJoCo."
+    return "The toss by the analytic engine, drawn by MuJoCo, which can’t toss it."
+
+
+def _slows(tosses: Sequence[Toss]) -> list[str]:
+    around = [
+        *(["around each strong impact"] if any(len(toss.impacts) for toss in tosses) else []),
+        *(["where the coin is caught"] if any(toss.ending == Ending.CAUGHT for toss in tosses) else []),
+    ]
+    return [f"The film slows down {' and '.join(around)}."] if around else []
+
+
+def _ends(tosses: Sequence[Toss]) -> str:
+    many = len(tosses) > 1
+    if any(goes_on(toss) for toss in tosses):
+        settled = "both faces are settled" if many else "the face is settled"
+        still = "the coins lie still" if many else "the coin lies still"
+        return f"It goes on at real speed when {settled}, until {still} or {FOLLOWED_FOR:g} s have passed."
+    if all(toss.ending == Ending.CAUGHT for toss in tosses):
+        return "It ends with the coin in the hand."
+    return f"It ends as the toss{'es do' if many else ' does'}."
