@@ -16,6 +16,7 @@ from compare.film.encodings import ENCODINGS, Format
 from compare.film.filmed import Filmed
 from compare.film.play import play_of
 from compare.film.slow_motion import film_times
+from compare.output.interruption import raise_interruption_behind
 
 HELD = 1.5
 """How long the last picture stays [s]."""
@@ -88,9 +89,7 @@ def write_video(
                 poster = frame if number == chosen else poster
                 progress(number, count)
     except (RuntimeError, BrokenPipeError) as error:
-        # Ctrl-C ends the encoder too, whose complaint would hide it.
-        if isinstance(error.__context__, KeyboardInterrupt | SystemExit):
-            raise error.__context__ from None
+        raise_interruption_behind(error)
         told = "" if isinstance(error, BrokenPipeError) else str(error).partition("': ")[2].strip()
         reason = told.splitlines()[-1] if told else "stopped, or the disk is full"
         raise OSError(errno.EIO, f"ffmpeg: {reason}", str(path)) from error

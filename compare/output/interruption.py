@@ -10,6 +10,8 @@ from contextlib import contextmanager, suppress
 from typing import NoReturn
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+SOON = 0.1
+"""How long after a child process stopped the signal that stopped it may be heeded here [s]."""
 PATIENCE = 0.3
 """How long the main thread may take to end, before another thread ends the process [s]."""
 
@@ -40,6 +42,25 @@ def undoing(undo: Callable[[], None]) -> Iterator[None]:
     finally:
         undo()
         _pending.remove(undo)
+
+
+def raise_interruption_behind(error: BaseException) -> None:
+    """Raise the interruption that an error arose from; return where there is none.
+
+    Ctrl-C ends a child process too, and its complaint may come before the signal is heeded here.
+
+    Args:
+        error: raised since a child process stopped.
+    """
+    behind: BaseException | None = error
+    while behind is not None:
+        if isinstance(behind, KeyboardInterrupt | SystemExit):
+            raise behind from None
+        behind = behind.__context__
+    try:
+        time.sleep(SOON)
+    except (KeyboardInterrupt, SystemExit) as interruption:
+        raise interruption from None
 
 
 def run_to_exit(command: Callable[[], object]) -> NoReturn:

@@ -1,8 +1,11 @@
 """How a film ends: the coin lies still, or is caught; and the files it is written to."""
 
+import contextlib
+import signal
 from typing import Any
 
 import imageio_ffmpeg
+import mediapy
 import numpy as np
 import pytest
 from PIL import Image
@@ -93,6 +96,90 @@ def test_a_film_is_written_in_every_format(tmp_path, suffix):
     reader.close()
     assert about["source_size"] == (64, 48)
     assert about["codec"].startswith({".mp4": "h264", ".webm": "vp9", ".gif": "gif"}[suffix])
+
+
+@pytest.fixture
+def encoders(monkeypatch):
+    """The encoders that are started, to be stopped."""
+    started = []
+
+    class Writer(mediapy.VideoWriter):
+        def __enter__(self):
+            started.append(self)
+            return super().__enter__()
+
+    monkeypatch.setattr(mediapy, "VideoWriter", Writer)
+    yield started
+    # mediapy leaves the pipes of an encoder that failed to the garbage collector.
+    for writer in started:
+        for pipe in (writer._proc.stdin, writer._proc.stderr) if writer._proc else ():
+            with contextlib.suppress(BrokenPipeError):
+                pipe.close()
+
+
+def stop(encoder):
+    """Stop an encoder as a signal does."""
+    encoder._proc.kill()
+    encoder._proc.wait()
+
+
+def write_small(path, progress=lambda *_: None):
+    """Write a film of few frames."""
+    toss = made(MadePath(position=(0, 0, 0.1)), end=0.3)
+    write_video([shown(toss)], Camera.TOP, TINY, path / "film.mp4", progress)
+
+
+def test_an_encoder_that_stopped_is_an_error_of_the_file(tmp_path, encoders):
+    with pytest.raises(OSError, match="ffmpeg: stopped, or the disk is full"):
+        write_small(tmp_path, lambda *_: stop(encoders[0]))
+
+
+@pytest.mark.parametrize("interruption", [KeyboardInterrupt(), SystemExit(143)])
+def test_an_encoder_that_an_interruption_stopped_is_no_error(tmp_path, encoders, interruption):
+    def interrupt(*_):
+        stop(encoders[0])
+        raise interruption
+
+    with pytest.raises(type(interruption)) as raised:
+        write_small(tmp_path, interrupt)
+    assert raised.value is interruption
+
+
+def test_an_interruption_is_found_behind_several_errors(tmp_path, encoders, monkeypatch):
+    """The pipe breaks as the interruption closes it, and the encoder complains of that."""
+
+    def broken(*_):
+        try:
+            try:
+                raise KeyboardInterrupt
+            finally:
+                raise BrokenPipeError
+        finally:
+            raise RuntimeError("Error writing 'film.mp4': Immediate exit requested")
+
+    monkeypatch.setattr(mediapy.VideoWriter, "add_image", broken)
+    with pytest.raises(KeyboardInterrupt):
+        write_small(tmp_path)
+    assert len(encoders) == 1
+
+
+def test_an_encoder_that_complains_before_the_signal_is_heeded_is_no_error(tmp_path, encoders, monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    def broken(*_):
+        signal.setitimer(signal.ITIMER_REAL, 0.02)
+        raise BrokenPipeError
+
+    former = signal.signal(signal.SIGALRM, interrupt)
+    monkeypatch.setattr(mediapy.VideoWriter, "add_image", broken)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            write_small(tmp_path)
+        assert len(encoders) == 1
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, former)
 
 
 def test_the_command_writes_a_poster_and_refuses_other_suffixes(tmp_path, monkeypatch):
