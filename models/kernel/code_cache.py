@@ -154,6 +154,17 @@ class CodeFiles(IndexDataCacheFile):
     different arguments; then a third would run the one for the other.
     """
 
+    def _load_index(self) -> dict[Any, str]:
+        """Return the names of the code's files by kinds of arguments.
+
+        A function need not import the types of its arguments, so that its folder outlives them. An index that
+        names a type that has gone is of other sources.
+        """
+        try:
+            return super()._load_index()
+        except (AttributeError, ImportError):
+            return {}
+
     def save(self, key: Any, data: Any) -> None:
         """Keep code in a new file, and after that say so in the index."""
         name = f"{Path(self._index_path).stem}.{uuid.uuid4().hex}.nbc"

@@ -176,6 +176,23 @@ def test_named_tuples_with_other_fields_are_other_types(folder):
         assert run(folder, script.format("inner", "(0.0, Pair(1.0, 3.0))")) == [answer]
 
 
+@pytest.mark.parametrize("module", ["models.pair", "models.couple"])
+def test_a_named_tuple_that_has_gone_since_is_no_error(folder, module):
+    """What was kept for it names its type: where that has another name now, or no module, it is kept anew."""
+    tuples = "from typing import NamedTuple\n\n\nclass {}(NamedTuple):\n    a: float\n    b: float\n"
+    write(folder, "analytic.user", IMPORT + "\n\n@compiled\ndef difference(p):\n    return p.a - p.b\n")
+    script = (
+        "from analytic.user import difference\nfrom {} import {} as Two\nprint(difference(Two(1.0, 3.0)))\n"
+        "print(sum(difference.from_python.stats.cache_hits.values()))"
+    )
+    write(folder, "models.pair", tuples.format("Pair"))
+    assert run(folder, script.format("models.pair", "Pair")) == [-2, 0]
+    (folder / "models" / "pair.py").unlink()
+    write(folder, module, tuples.format("Couple"))
+    assert run(folder, script.format(module, "Couple")) == [-2, 0]
+    assert run(folder, script.format(module, "Couple")) == [-2, 1]
+
+
 def all_compiled():
     functions = {
         value
