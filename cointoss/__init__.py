@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     import coin_mj as coin_mj
     from coin_mj.bounce import solref as solref
     from compare.engines import Engine as Engine
+    from compare.film.back_end import BackEndError as BackEndError
     from compare.metrics.comparison import Comparison as Comparison
     from compare.metrics.comparison import compare as compare
     from compare.sweep.errors import MapError as MapError
@@ -49,6 +50,7 @@ _PACKAGES = ("analytic", "coin_mj")
 _NAMES = {
     "coin_mj.bounce": ("solref",),
     "compare.engines": ("Engine",),
+    "compare.film.back_end": ("BackEndError",),
     "compare.metrics.comparison": ("Comparison", "compare"),
     "compare.sweep.errors": ("MapError", "SweepError"),
     "compare.sweep.in_memory": ("basin",),
