@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from analytic.automaton import Event
-from analytic.contact import modes
+from analytic.automaton import Event, Mode
+from analytic.contact import modes, one_rim, smooth, upright
 from analytic.contact.one_rim import lay_flat, lower_rim_of
-from analytic.contact.resistance import FloorFriction
+from analytic.contact.resistance import FloorFriction, is_smooth
 from analytic.flight.integrated_flight import first_step, step_error
 from analytic.flight.state_vector import STATE_SIZE, normalise
 from analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
@@ -73,13 +73,40 @@ def contact_step(body, friction, mode, rim, y, dt, stages, y_new):
     Returns:
         The least margin of the mode at the stages between.
     """
-    inside = np.inf
-    for stage in range(1, STAGES):
-        stage_point(y, dt, stages, stage, y_new)
-        inside = min(inside, modes.rate(body, friction, mode, rim, y_new, stages[stage]))
+    inside = _slopes(body, friction, mode, rim, y, dt, stages, y_new)
     end_point(y, dt, stages, y_new)
     normalise(y_new)
     modes.put_on_floor(body, friction, mode, rim, y_new)
+    return inside
+
+
+@compiled
+def _slopes(body, friction, mode, rim, y, dt, stages, point):
+    """Compute the slopes at the stages of a step, `point` being work space; see `contact_step`.
+
+    Each mode has a loop of its own, in which LLVM keeps what does not change with the state.
+    """
+    inside = np.inf
+    if mode == Mode.UPRIGHT:
+        for stage in range(1, STAGES):
+            stage_point(y, dt, stages, stage, point)
+            inside = min(inside, upright.rate(body, friction, point, stages[stage]))
+    elif mode == Mode.STICKING:
+        for stage in range(1, STAGES):
+            stage_point(y, dt, stages, stage, point)
+            inside = min(inside, one_rim.sticking_rate(body, friction, rim, point, stages[stage]))
+    elif mode == Mode.CREEPING:
+        for stage in range(1, STAGES):
+            stage_point(y, dt, stages, stage, point)
+            inside = min(inside, one_rim.creeping_rate(body, friction, rim, point, stages[stage]))
+    elif is_smooth(friction):
+        for stage in range(1, STAGES):
+            stage_point(y, dt, stages, stage, point)
+            inside = min(inside, smooth.rate(body, rim, point, stages[stage]))
+    else:
+        for stage in range(1, STAGES):
+            stage_point(y, dt, stages, stage, point)
+            inside = min(inside, one_rim.sliding_rate(body, friction, rim, point, stages[stage]))
     return inside
 
 

@@ -5,16 +5,22 @@ import math
 import numpy as np
 
 from analytic.automaton import Event, Mode
-from analytic.contact import creeping, sliding, sticking
+from analytic.contact import creeping, sliding, smooth, sticking
 from analytic.contact.floor_force import friction_holds, holding_force, slip_direction, starting_slip
-from analytic.contact.rim_contact import accelerate, rim_contact, rim_contact_in_flight
+from analytic.contact.resistance import is_smooth
+from analytic.contact.rim_contact import (
+    accelerate,
+    contact_margin,
+    rim_contact,
+    rim_contact_in_flight,
+)
 from analytic.flight.equations_of_motion import flight_of, write_rate
 from analytic.flight.state_vector import attitude_of, normalise, set_attitude, set_height, spin_of
 from analytic.impact.coulomb import coulomb
 from analytic.numerics.tolerances import BORDER, SLOW
 from models.attitude import rotation_matrix
 from models.geometry import FACE_SINE, lower_rim, tilt_sine_of
-from models.kernel.compiled import compiled
+from models.kernel.compiled import compiled, inlined
 from models.kernel.vectors import cross, dot
 from models.laws import RestitutionKind
 
@@ -25,33 +31,71 @@ def lower_rim_of(y):
     return lower_rim(rotation_matrix(attitude_of(y))[2][2])
 
 
-@compiled
-def force(A, mu, mode):
-    """Return the floor's force at A in a mode, space frame, (3,) [N].
+@inlined
+def sliding_rate(body, friction, rim, y, dy):
+    """Write the rate of change of the state y of a coin whose rim point slides into dy; both (13,).
 
-    Args:
-        A: the `RimContact`.
-        mu: coefficient of friction μ, 0 on a smooth floor.
-        mode: number of the `Mode`.
+    Returns:
+        How far the mode is from its end: positive in it, 0 or below past it.
     """
-    if mode == Mode.STICKING:
-        return sticking.force(A)
-    return creeping.force(A, mu) if mode == Mode.CREEPING else sliding.force(A, mu)
+    A = _unheld(body, friction, rim, y, dy)
+    F, left = sliding.force_and_margin(body, A, friction.sliding)
+    return min(_held(body, rim, A, F, dy), left)
+
+
+@inlined
+def sticking_rate(body, friction, rim, y, dy):
+    """As `sliding_rate`, of a coin whose rim point sticks."""
+    A = _unheld(body, friction, rim, y, dy)
+    F = sticking.force(A)
+    return min(_held(body, rim, A, F, dy), sticking.margin(body, F, friction.sliding))
+
+
+@inlined
+def creeping_rate(body, friction, rim, y, dy):
+    """As `sliding_rate`, of a coin whose rim point creeps."""
+    A = _unheld(body, friction, rim, y, dy)
+    F = creeping.force(A, friction.sliding)
+    return min(_held(body, rim, A, F, dy), creeping.margin(body, A, friction.sliding))
+
+
+@inlined
+def _unheld(body, friction, rim, y, dy):
+    """Write the rate of change in flight into dy, and return the `RimContact` there."""
+    flight = flight_of(body, y)
+    write_rate(body, flight, dy)
+    return rim_contact_in_flight(body, friction, flight, rim)
+
+
+@inlined
+def _held(body, rim, A, F, dy):
+    """Add what the floor's force F at A gives to dy, and return the `contact_margin`."""
+    accelerate(body, A, F, dy)
+    return contact_margin(body, A.R[2], F[2], rim)
 
 
 @compiled
 def rate(body, friction, mode, rim, y, dy):
     """Write the rate of change of the state y of a coin in contact at one rim into dy; both (13,).
 
+    Args:
+        body: the coin.
+        friction: `FloorFriction`.
+        mode: number of the `Mode`, at one rim.
+        rim: that is in contact.
+        y: state, (13,).
+        dy: where its rate of change goes, (13,).
+
     Returns:
-        The `margin` of the contact in this state.
+        How far the mode is from its end: positive in it, 0 or below past it.
     """
-    flight = flight_of(body, y)
-    write_rate(body, flight, dy)
-    A = rim_contact_in_flight(body, friction, flight, rim)
-    F = force(A, friction.sliding, mode)
-    accelerate(body, A, F, dy)
-    return margin(body, A, F, friction.sliding, mode, rim)
+    if mode == Mode.STICKING:
+        return sticking_rate(body, friction, rim, y, dy)
+    if mode == Mode.CREEPING:
+        return creeping_rate(body, friction, rim, y, dy)
+    if is_smooth(friction):
+        return smooth.rate(body, rim, y, dy)
+    return sliding_rate(body, friction, rim, y, dy)
 
 
 @compiled
@@ -61,6 +105,9 @@ def put_on_floor(body, friction, mode, rim, y):
     A point that sticks has none; one that slides has v_Az = 0; one that creeps slips in the direction in
     which its slip grows. The impulse is without resistance.
     """
+    if mode == Mode.SLIDING and is_smooth(friction):
+        smooth.put_on_floor(body, rim, y)
+        return
     A, mu = rim_contact(body, y, rim), friction.sliding
     set_height(y, -A.arm[2])
     if mode == Mode.STICKING:
@@ -71,32 +118,6 @@ def put_on_floor(body, friction, mode, rim, y):
     else:
         S = sliding.stopping_impulse(A, mu)
     accelerate(body, A, S, y)
-
-
-@compiled
-def margin(body, A, F, mu, mode, rim):
-    """Return how far a contact is from its end: positive in it, 0 or below past it.
-
-    It ends when the floor would have to pull, when the coin comes upon its edge, so that the other rim lands,
-    or upon a face; and as its mode ends.
-
-    Args:
-        body: the coin.
-        A: the `RimContact`.
-        F: the floor's force there, space frame, (3,) [N].
-        mu: coefficient of friction μ.
-        mode: number of the `Mode`.
-        rim: that is in contact.
-    """
-    up = A.R[2]
-    left = min(F[2] / (body.mass * body.gravity), tilt_sine_of(up) / FACE_SINE - 1)
-    if body.thickness > 0:
-        left = min(left, -rim * up[2])
-    if mode == Mode.STICKING:
-        return min(left, sticking.margin(body, F, mu))
-    if mode == Mode.CREEPING:
-        return min(left, creeping.margin(body, A, mu))
-    return min(left, sliding.margin(body, A, mu))
 
 
 @compiled

@@ -35,6 +35,12 @@ def has_resistance(friction):
 
 
 @compiled
+def is_smooth(friction):
+    """Return whether the floor acts on a coin by its normal force alone."""
+    return friction.sliding == 0 and not has_resistance(friction)
+
+
+@compiled
 def moment_per_force(body, friction, w):
     """Return the floor's moment on a coin for a unit normal force, space frame, (3,) [m].
 

@@ -9,8 +9,8 @@ from typing import NamedTuple
 from analytic.contact.resistance import FRICTIONLESS, has_resistance, moment_per_force
 from analytic.flight.equations_of_motion import flight_of
 from analytic.flight.state_vector import set_spin, set_velocity, spin_of, velocity_of
-from models.geometry import tilt_sine_of
-from models.kernel.compiled import compiled
+from models.geometry import FACE_SINE, tilt_sine_of
+from models.kernel.compiled import compiled, inlined
 from models.kernel.vectors import (
     Matrix,
     Vector,
@@ -64,7 +64,35 @@ def both_rims(body, friction, y):
     )
 
 
-@compiled
+@inlined
+def rim_point(body, up, w, rim):
+    """Return the lowest point A of a rim and how it moves; body frame.
+
+    Args:
+        body: the coin.
+        up: the upward unit vector, (3,), the coin not being flat.
+        w: angular velocity, (3,) [rad/s].
+        rim: -1 for tails' rim, 1 for heads'.
+
+    Returns:
+        a: from C to A, (3,) [m].
+        turn: ω × a, the velocity of the coin's matter at A from C, (3,) [m/s].
+        turn_rate: dω/dt being 0, the change of the velocity at the lowest point, as it moves round the rim,
+            (3,) [m/s²].
+    """
+    sine = tilt_sine_of(up)
+    # Outward to the rim point, and the rate at which that direction turns about ζ.
+    out = (-up[0] / sine, -up[1] / sine)
+    up_rate = cross(up, w)
+    turning = (up[0] * up_rate[1] - up[1] * up_rate[0]) / (sine * sine)
+    r = body.radius
+    a = subtract((r * out[0], r * out[1], rim * body.thickness / 2), body.center)
+    a_rate = (-r * turning * out[1], r * turning * out[0], 0.0)
+    turn = cross(w, a)
+    return a, turn, cross(w, add(turn, a_rate))
+
+
+@inlined
 def rim_contact_in_flight(body, friction, flight, rim):
     """Return the `RimContact` of a rim, with the resistance of the floor.
 
@@ -75,16 +103,8 @@ def rim_contact_in_flight(body, friction, flight, rim):
         rim: -1 for tails' rim, 1 for heads'.
     """
     R, w, up = flight.state.R, flight.state.spin, flight.state.R[2]
-    sine = tilt_sine_of(up)
-    # Outward to the rim point, and the rate at which that direction turns about ζ.
-    out = (-up[0] / sine, -up[1] / sine)
-    up_rate = cross(up, w)
-    turning = (up[0] * up_rate[1] - up[1] * up_rate[0]) / (sine * sine)
-    r = body.radius
-    a = subtract((r * out[0], r * out[1], rim * body.thickness / 2), body.center)
-    a_rate = (-r * turning * out[1], r * turning * out[0], 0.0)
-    turn = cross(w, a)
-    turn_rate = add(cross(flight.spin_rate, a), cross(w, add(turn, a_rate)))
+    a, turn, turn_rate = rim_point(body, up, w, rim)
+    turn_rate = add(cross(flight.spin_rate, a), turn_rate)
     levers = (cross(a, R[0]), cross(a, R[1]), cross(a, R[2]))
     J_inverse = body.inertia_inverse
     spins = (apply(J_inverse, levers[0]), apply(J_inverse, levers[1]), apply(J_inverse, levers[2]))
@@ -115,6 +135,23 @@ def rim_contact_in_flight(body, friction, flight, rim):
         free_acceleration=(b[0], b[1], b[2] - body.gravity),
         velocity=apply(R, add(flight.velocity, turn)),
     )
+
+
+@compiled
+def contact_margin(body, up, N, rim):
+    """Return how far a contact is from what ends it in every mode: positive in it, 0 or below past it.
+
+    It ends when the floor would have to pull, when the coin comes upon its edge, so that the other rim lands,
+    or upon a face.
+
+    Args:
+        body: the coin.
+        up: the upward unit vector, body frame, (3,).
+        N: the floor's vertical force [N].
+        rim: that is in contact.
+    """
+    left = min(N / (body.mass * body.gravity), tilt_sine_of(up) / FACE_SINE - 1)
+    return min(left, -rim * up[2]) if body.thickness > 0 else left
 
 
 @compiled

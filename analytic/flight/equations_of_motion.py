@@ -5,7 +5,7 @@ from typing import NamedTuple
 from analytic.air.force import force_and_moment
 from analytic.flight.state_vector import set_attitude, set_position, set_spin, set_velocity, state_of
 from analytic.numerics.rotation import quaternion_rate
-from models.kernel.compiled import compiled
+from models.kernel.compiled import compiled, inlined
 from models.kernel.vectors import Vector, apply, apply_transposed, cross, subtract
 from models.state import State
 
@@ -22,7 +22,7 @@ class Flight(NamedTuple):
     """dω/dt [rad/s²]."""
 
 
-@compiled
+@inlined
 def flight_of(body, y):
     """Return the `Flight` of a coin in the state y, (13,).
 

@@ -73,7 +73,8 @@ def step_change(body, y, dt, stages, changes):
         for stage in range(STAGES):
             stage_point(change, dt, slopes, stage, inside)
             derivative_change(body, points[stage], inside, slopes[stage])
-        end_point(change, dt, slopes, change)
+        end_point(change, dt, slopes, inside)
+        copy_into(change, inside)
         # The quaternion is brought back to norm 1.
         along = (e[0] * change[6] + e[1] * change[7] + e[2] * change[8] + e[3] * change[9]) / square
         for i in range(4):

@@ -6,7 +6,7 @@ slope at each stage; `stages` holds them, (STAGES, size).
 
 import numpy as np
 
-from analytic.numerics.tableau import E3, E5, STAGES, A, B
+from analytic.numerics.tableau import E3, E5, STAGES, TERMS, WEIGHTED, WEIGHTS
 from models.kernel.compiled import compiled
 
 _SAFETY, _SHRINK_MOST, _GROW_MOST = 0.8, 0.2, 6.0
@@ -14,22 +14,27 @@ _SAFETY, _SHRINK_MOST, _GROW_MOST = 0.8, 0.2, 6.0
 
 @compiled
 def stage_point(y, dt, stages, stage, point):
-    """Write into `point` the place of stage number `stage`, at which its slope is wanted."""
-    for i in range(len(y)):
-        slope = 0.0
-        for j in range(stage):
-            slope += A[stage, j] * stages[j, i]
-        point[i] = y[i] + dt * slope
+    """Write into `point`, an array of its own, the place of stage number `stage`, whose slope is wanted."""
+    _advance(y, dt, stages, stage, point)
 
 
 @compiled
 def end_point(y, dt, stages, point):
-    """Write into `point` the end of the step."""
+    """Write into `point`, an array of its own, the end of the step."""
+    _advance(y, dt, stages, STAGES, point)
+
+
+@compiled
+def _advance(y, dt, stages, row, point):
+    """Write y + dt times the slopes, weighted by a row of the tableau; LLVM vectorises the inner loops."""
     for i in range(len(y)):
-        slope = 0.0
-        for j in range(STAGES):
-            slope += B[j] * stages[j, i]
-        point[i] = y[i] + dt * slope
+        point[i] = 0.0
+    for term in range(TERMS[row]):
+        weight, slopes = WEIGHTS[row, term], stages[WEIGHTED[row, term]]
+        for i in range(len(y)):
+            point[i] += weight * slopes[i]
+    for i in range(len(y)):
+        point[i] = y[i] + dt * point[i]
 
 
 @compiled

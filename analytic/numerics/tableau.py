@@ -3,6 +3,8 @@
 Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, section II.5, and the code DOP853 with it.
 """
 
+from collections.abc import Iterable
+
 import numpy as np
 
 STAGES = 12
@@ -98,6 +100,10 @@ def _row(weights: dict[int, float]) -> list[float]:
     return [weights.get(stage, 0.0) for stage in range(STAGES)]
 
 
+def _packed(numbers: Iterable[float]) -> list[float]:
+    return [*numbers, *[0.0] * STAGES][:STAGES]
+
+
 A = np.array([_row(weights) for weights in _STAGE_WEIGHTS])
 """Weights of the slopes in the point of each stage, (STAGES, STAGES)."""
 B = np.array(_row(_END_WEIGHTS))
@@ -106,3 +112,11 @@ E3 = np.array(_row(_ERROR_3_WEIGHTS))
 """Weights of the slopes in the error estimate of order 3, (STAGES,)."""
 E5 = np.array(_row(_ERROR_5_WEIGHTS))
 """Weights of the slopes in the error estimate of order 5, (STAGES,)."""
+
+_POINTS = (*_STAGE_WEIGHTS, _END_WEIGHTS)
+TERMS = np.array([len(weights) for weights in _POINTS])
+"""How many slopes have a weight in each stage's point, and last in the end of the step, (STAGES + 1,)."""
+WEIGHTED = np.array([_packed(weights) for weights in _POINTS], dtype=np.int64)
+"""Their numbers, row by row, `TERMS` of them in each, (STAGES + 1, STAGES)."""
+WEIGHTS = np.array([_packed(weights.values()) for weights in _POINTS])
+"""Their weights, as `WEIGHTED`."""

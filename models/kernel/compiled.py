@@ -32,11 +32,11 @@ class CompiledFunction(CPUDispatcher):
     See `models.kernel.callee_code`.
     """
 
-    def __init__(self, function: Callable[..., Any]) -> None:
-        """Compile nothing yet."""
+    def __init__(self, function: Callable[..., Any], *, inlined: bool = False) -> None:
+        """Compile nothing yet; an `inlined` function goes into its compiled callers, without a call."""
         # numba asks for it three times.
         function.__dict__["__signature__"] = signature(function)
-        super().__init__(function, targetoptions=_WITHOUT_WRAPPERS)
+        super().__init__(function, targetoptions={**_WITHOUT_WRAPPERS, "forceinline": inlined})
         self._compiler = _ForCallers(self)
         self._from_python: _FromPython | None = None
 
@@ -251,3 +251,12 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     """
     compiling.declared += 1
     return CompiledFunction(function)
+
+
+def inlined(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Compile `function` as `compiled` does, into each of its compiled callers.
+
+    For what is called many times over with many numbers, which a call would pass through memory.
+    """
+    compiling.declared += 1
+    return CompiledFunction(function, inlined=True)

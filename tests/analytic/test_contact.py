@@ -5,6 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from analytic.automaton import Event, Mode
+from analytic.contact import smooth
 from analytic.contact.edge import held_on_edge, stands
 from analytic.contact.floor_force import friction_holds, holding_force, slip_direction, starting_slip
 from analytic.contact.following import (
@@ -13,16 +14,18 @@ from analytic.contact.following import (
     short_contact_step,
     start_following,
 )
+from analytic.contact.modes import floor_force
 from analytic.contact.one_rim import (
-    force,
     lower_rim_of,
     next_event,
     put_on_floor,
     rate,
+    sliding_rate,
     time_to_landing,
 )
 from analytic.contact.resistance import FloorFriction
-from analytic.contact.rim_contact import rim_contact
+from analytic.contact.rim_contact import accelerate, rim_contact
+from analytic.contact.sliding import stopping_impulse
 from analytic.numerics.tolerances import STEP_ERROR
 from models.attitude import quaternion_from_angles, rotation_matrix
 from models.barriers import energy
@@ -56,10 +59,6 @@ def on_floor(body, mode, angles, w, v=(0.0, 0.0)):
     y = np.array([0, 0, 0, *v, 0, *quaternion_from_angles(angles), *w], dtype=float)
     put_on_floor(body, FloorFriction(0.0), mode, lower_rim_of(y), y)
     return y
-
-
-def floor_force(body, friction, mode, y):
-    return np.array(force(rim_contact(body, y, lower_rim_of(y)), friction.sliding, mode))
 
 
 def follow_to_its_end(body, friction, mode, y):
@@ -96,6 +95,25 @@ def test_a_short_step_errs_by_the_third_power_of_its_length(backward):
         rng = np.random.default_rng(12)
     assert errors[0] == pytest.approx(8 * errors[1], rel=0.05)
     assert errors[1] < 1e-5
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_smooth_floor_is_one_whose_friction_is_0(seed):
+    """Its normal force is found by itself, by fewer sums."""
+    rng = np.random.default_rng([seed, 7])
+    coin = {**draw_coin(rng), **({"thickness": 0.0, "center_of_mass": (1e-3, 2e-3, 0)} if seed % 2 else {})}
+    body = scenario(coin=coin, air=AIR).body
+    y = draw_wobble(rng, body, Mode.SLIDING)
+    y[3:6] += rng.uniform(-1, 1, 3)
+    dy, dy_general, rim = np.empty(13), np.empty(13), lower_rim_of(y)
+    left = smooth.rate(body, rim, y, dy)
+    assert left == pytest.approx(sliding_rate(body, SMOOTH, rim, y, dy_general), rel=1e-12)
+    assert dy == pytest.approx(dy_general, rel=1e-12, abs=1e-12)
+    stopped, A = y.copy(), rim_contact(body, y, rim)
+    smooth.put_on_floor(body, rim, stopped)
+    y[2] = -A.arm[2]
+    accelerate(body, A, stopping_impulse(A, 0.0), y)
+    assert stopped == pytest.approx(y, rel=1e-12, abs=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(8))

@@ -11,3 +11,12 @@ def test_the_coefficients_are_those_of_scipy_to_the_bit():
         ours, theirs = getattr(tableau, name), getattr(DOP853, name)
         assert np.array_equal(ours, theirs[..., : tableau.STAGES])
         assert not theirs[..., tableau.STAGES :].any()
+
+
+def test_each_points_weights_are_its_row_without_the_zeros():
+    rows = [*tableau.A, tableau.B]
+    for row, terms, weighted, weights in zip(
+        rows, tableau.TERMS, tableau.WEIGHTED, tableau.WEIGHTS, strict=True
+    ):
+        assert np.array_equal(weighted[:terms], np.flatnonzero(row))
+        assert np.array_equal(weights[:terms], row[row != 0])

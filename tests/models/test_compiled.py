@@ -28,7 +28,7 @@ from models.kernel.code_cache import (
     remove_unused,
     source_hash,
 )
-from models.kernel.compiled import CompiledFunction, compiled
+from models.kernel.compiled import CompiledFunction, compiled, inlined
 from models.kernel.vectors import add
 
 TOP = Path(code_cache.__file__).parents[2]
@@ -337,6 +337,27 @@ def test_no_references_are_counted_across_calls_that_cannot_fail():
     assert summed(np.ones(1)) == 2 + 4 + 8 + 16 + 32 + 64
     (found,) = summed.from_python.overloads.values()
     assert "NRT_incref" not in found.library.get_llvm_str()
+
+
+@pytest.mark.parametrize(("compile_part", "calls"), [(compiled, True), (inlined, False)])
+def test_an_inlined_function_is_never_called(compile_part, calls):
+    """LLVM would call this one, which is long, from two places."""
+
+    @compile_part
+    def part(x):
+        for _ in range(3):
+            for k in (1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0):
+                x = np.sin(k * x) + np.exp(np.cos(x + k)) + np.log(1 + np.tan(x * x) ** 2)
+        return x
+
+    def sum_of_two(x):
+        return part(x) + part(x + 1)
+
+    whole = CompiledFunction(sum_of_two)
+    assert whole(0.5) == pytest.approx(part.py_func(0.5) + part.py_func(1.5))
+    (found,) = whole.from_python.overloads.values()
+    defined = [line for line in found.library.get_llvm_str().splitlines() if line.startswith("define")]
+    assert any("4part" in line for line in defined) is calls
 
 
 @compiled

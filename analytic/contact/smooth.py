@@ -1,0 +1,60 @@
+"""Sliding on a smooth floor, which acts on the rim point A by its normal force alone.
+
+What `analytic.contact.sliding` does without friction, of which nothing but A's vertical motion is left.
+"""
+
+from analytic.contact.rim_contact import contact_margin, rim_point
+from analytic.flight.equations_of_motion import flight_of, write_rate
+from analytic.flight.state_vector import set_height, set_spin, set_velocity, spin_of, state_of, velocity_of
+from models.kernel.compiled import compiled, inlined
+from models.kernel.vectors import add, apply, apply_transposed, cross, dot, scale
+
+
+@inlined
+def rate(body, rim, y, dy):
+    """Write the rate of change of the state y of a coin in contact at one rim into dy; both (13,).
+
+    Returns:
+        How far the contact is from its end, > 0 in it.
+    """
+    flight = flight_of(body, y)
+    write_rate(body, flight, dy)
+    up = flight.state.R[2]
+    a, _, turn_rate = rim_point(body, up, flight.state.spin, rim)
+    turn_rate = add(cross(flight.spin_rate, a), turn_rate)
+    b_z = dot(up, add(scale(1 / body.mass, flight.force), turn_rate)) - body.gravity
+    N = stopping(body, up, a, b_z, dy)
+    return min(contact_margin(body, up, N, rim), -b_z / body.gravity)
+
+
+@compiled
+def put_on_floor(body, rim, y):
+    """Bring A to the floor, and stop its fall or rise by an impulse there; y: state, (13,)."""
+    state = state_of(y)
+    up = state.R[2]
+    a, turn, _ = rim_point(body, up, state.spin, rim)
+    set_height(y, -dot(up, a))
+    stopping(body, up, a, dot(up, add(apply_transposed(state.R, state.velocity), turn)), y)
+
+
+@inlined
+def stopping(body, up, a, motion, change):
+    """Add what takes the vertical motion of A: a force to a rate of change, or an impulse to a state.
+
+    Args:
+        body: the coin.
+        up: the upward unit vector, body frame, (3,).
+        a: from C to A, body frame, (3,) [m].
+        motion: acceleration of A [m/s²], or its velocity [m/s].
+        change: rate of change of a state, or a state, (13,); written to.
+
+    Returns:
+        The force [N], or the impulse [N s].
+    """
+    lever = cross(a, up)
+    spin = apply(body.inertia_inverse, lever)
+    N = -motion / (1 / body.mass + dot(lever, spin))
+    v = velocity_of(change)
+    set_velocity(change, (v[0], v[1], v[2] + N / body.mass))
+    set_spin(change, add(spin_of(change), scale(N, spin)))
+    return N
