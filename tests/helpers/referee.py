@@ -1,4 +1,4 @@
-"""An independent toss, written from the paper with SciPy alone: solve_ivp, Rotation, and quadrature.
+"""An independent toss, written from the paper with SciPy alone: solve_ivp and quadrature.
 
 It shares no line with the engines. Slow, and only for tests.
 """
@@ -9,7 +9,6 @@ from typing import Any, cast
 
 import numpy as np
 from scipy.integrate import cubature, solve_ivp
-from scipy.spatial.transform import Rotation
 
 from models.scenario import Scenario
 
@@ -17,13 +16,16 @@ from models.scenario import Scenario
 def air_on_element(
     ln: float, lt: float, b: float, v: np.ndarray, w: np.ndarray, points: np.ndarray, normals: np.ndarray
 ) -> np.ndarray:
-    """Give force and moment at B on surface elements, per area, from eqs (51)-(58) and (73), (..., 6)."""
+    """Give the force on surface elements, per area, from eqs (51)-(58) and (73), (..., 3)."""
     velocity = v + points @ _skew(w).T
-    normal_speed = np.sum(velocity * normals, axis=-1, keepdims=True)
+    normal_speed = _dot(velocity, normals)[..., None]
     along = velocity - normal_speed * normals
-    friction = -lt * np.linalg.norm(along, axis=-1, keepdims=True) ** b * along
-    force = friction - ln * np.maximum(normal_speed, 0) ** (1 + b) * normals
-    return np.concatenate([force, np.cross(points, force)], axis=-1)
+    friction = -lt * _dot(along, along)[..., None] ** (b / 2) * along
+    return friction - ln * np.maximum(normal_speed, 0) ** (1 + b) * normals
+
+
+def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return np.einsum("...i,...i", a, b)
 
 
 def air_by_cubature(
@@ -46,18 +48,22 @@ def air_by_cubature(
     """
     sizes = np.array([1, 1, 1, r, r, r])
 
+    def pull_of(points: np.ndarray, normals: np.ndarray) -> np.ndarray:
+        force = air_on_element(ln, lt, b, v, w, points, normals)
+        return np.concatenate([force, np.cross(points, force)], axis=-1)
+
     def on_face(side: float) -> Any:
         def pull(x: np.ndarray) -> np.ndarray:
             rho, angle = x[:, 0], x[:, 1]
             points = np.stack([rho * np.cos(angle), rho * np.sin(angle), 0 * rho + side * h / 2], axis=-1)
-            return air_on_element(ln, lt, b, v, w, points, np.array([0, 0, side])) * rho[:, None] / sizes
+            return pull_of(points, np.array([0, 0, side])) * rho[:, None] / sizes
 
         return pull
 
     def on_wall(x: np.ndarray) -> np.ndarray:
         normals = np.stack([np.cos(x[:, 1]), np.sin(x[:, 1]), 0 * x[:, 1]], axis=-1)
         points = r * normals + x[:, :1] * np.array([0, 0, 1.0])
-        return air_on_element(ln, lt, b, v, w, points, normals) * r / sizes
+        return pull_of(points, normals) * r / sizes
 
     total = np.zeros(6)
     for pull, low, high in ((on_face(1.0), 0.0, r), (on_face(-1.0), 0.0, r), (on_wall, -h / 2, h / 2)):
@@ -90,7 +96,10 @@ def air_on_cylinder(
         Force and moment, (6,).
     """
     points, normals, areas = surface(r, h, n, around)
-    return np.sum(air_on_element(ln, lt, b, v, w, points, normals) * areas[:, None], axis=0)
+    force = air_on_element(ln, lt, b, v, w, points, normals) * areas[:, None]
+    products = points.T @ force
+    moment = products - products.T
+    return np.array([*force.sum(axis=0), moment[1, 2], moment[2, 0], moment[0, 1]])
 
 
 @cache
@@ -145,7 +154,9 @@ class Referee:
         return np.array([*release.position, *release.velocity, *release.attitude, *release.angular_velocity])
 
     def rotation(self, y: np.ndarray) -> np.ndarray:
-        return Rotation.from_quat(y[6:10], scalar_first=True).as_matrix()
+        """Give the matrix to the Euler parameters: Rodrigues' formula in their half angle."""
+        E = _skew(y[7:10])
+        return np.eye(3) + 2 * (y[6] * E + E @ E) / (y[6:10] @ y[6:10])
 
     def rate(self, _: float, y: np.ndarray) -> np.ndarray:
         R, w, W = self.rotation(y), y[10:13], _skew(y[10:13])
