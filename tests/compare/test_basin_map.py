@@ -77,6 +77,18 @@ def undisturbed(tmp_path_factory):
     return pixels(folder / "map.zarr")
 
 
+@pytest.fixture(scope="module")
+def in_tiles(tmp_path_factory):
+    """The map, made in small tiles; tests copy it."""
+    folder = tmp_path_factory.mktemp("in_tiles")
+    (folder / "coin.toml").write_text(SCENARIO)
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, SMALL)
+        assert basin(folder / "coin.toml", *AXES, "--out", folder / "map.zarr").exit_code == 0
+    assert whole_tiles(folder / "map.zarr") == TILES
+    return folder / "map.zarr"
+
+
 def tossed_tiles(monkeypatch, resumed):
     """Count the tiles that a call of `resumed` tosses."""
     count, toss = [0], run.toss_pixels
@@ -226,9 +238,8 @@ def test_a_disk_that_is_full_at_the_start_leaves_nothing(coin, tmp_path, monkeyp
 
 @pytest.mark.parametrize("damage", ["empty", "cut", "flipped", "lost"])
 @pytest.mark.parametrize("name", ["outcome", "impacts"])
-def test_a_damaged_tile_is_tossed_again(undisturbed, coin, tmp_path, monkeypatch, name, damage):
-    out = tmp_path / "map.zarr"
-    assert basin(coin, *AXES, "--out", out).exit_code == 0
+def test_a_damaged_tile_is_tossed_again(undisturbed, in_tiles, coin, tmp_path, monkeypatch, name, damage):
+    out = shutil.copytree(in_tiles, tmp_path / "map.zarr")
     part = next((out / name / "c").glob("2/*"))
     whole = part.read_bytes()
     middle = len(whole) // 2
@@ -339,10 +350,9 @@ def test_a_damaged_map_is_one_line(coin, tmp_path, damage, said):
 @pytest.mark.parametrize("value", [-7, 5, 100])
 @pytest.mark.parametrize("name", ["outcome", "impacts"])
 def test_a_tile_with_numbers_that_mean_nothing_is_tossed_again(
-    undisturbed, coin, tmp_path, monkeypatch, name, value
+    undisturbed, in_tiles, coin, tmp_path, monkeypatch, name, value
 ):
-    out = tmp_path / "map.zarr"
-    assert basin(coin, *AXES, "--out", out).exit_code == 0
+    out = shutil.copytree(in_tiles, tmp_path / "map.zarr")
     if name == "impacts":
         value = -abs(value)
     array: Any = zarr.open_group(out, mode="r+", use_consolidated=False)[name]
@@ -351,9 +361,8 @@ def test_a_tile_with_numbers_that_mean_nothing_is_tossed_again(
     assert_same(out, undisturbed)
 
 
-def test_a_map_is_replaced_only_where_asked(coin, tmp_path):
-    out = tmp_path / "map.zarr"
-    assert basin(coin, *AXES, "--out", out).exit_code == 0
+def test_a_map_is_replaced_only_where_asked(in_tiles, coin, tmp_path):
+    out = shutil.copytree(in_tiles, tmp_path / "map.zarr")
     first = pixels(out)
     answered = basin(coin, *AXES, "--after", 0, "--out", out)
     assert answered.exit_code == 2

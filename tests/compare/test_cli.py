@@ -420,11 +420,31 @@ def test_a_closed_pipe_ends_quietly_with_exit_status_1(tmp_path):
     assert done.stderr == "1\n"
 
 
+@pytest.fixture
+def small_films(monkeypatch):
+    """Films of the size of a stamp, of two frames a second."""
+    monkeypatch.setitem(ENCODINGS, ".mp4", ENCODINGS[".mp4"]._replace(form=Format(64, 48, 2)))
+
+
+@pytest.fixture
+def short(tmp_path):
+    """A scenario that ends at its first impact."""
+    source = tmp_path / "short.toml"
+    source.write_text(scenario_text("fig24a") + "\n[ending]\nmax_impacts = 1\n")
+    return source
+
+
 @pytest.mark.parametrize(("sign", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-def test_where_a_film_is_interrupted_the_report_stands_without_it(tmp_path, sign, status):
-    script = "from compare.cli import main; main()"
+def test_where_a_film_is_interrupted_the_report_stands_without_it(tmp_path, short, sign, status):
+    # Frames that take their time, so that the film is met unfinished.
+    script = (
+        "import time\nfrom compare.film import drawing\n"
+        "draw = drawing.Drawer.draw\n"
+        "drawing.Drawer.draw = lambda *frame: time.sleep(0.2) or draw(*frame)\n"
+        "from compare.cli import main; main()"
+    )
     filming = subprocess.Popen(
-        [sys.executable, "-c", script, "compare", "fig24a", "--out", "new/report"],
+        [sys.executable, "-c", script, "compare", short, "--out", "new/report"],
         cwd=tmp_path,
         env=HERE,
         stderr=subprocess.PIPE,
@@ -438,20 +458,6 @@ def test_where_a_film_is_interrupted_the_report_stands_without_it(tmp_path, sign
     _, told = filming.communicate(timeout=60)
     assert (filming.returncode, told) == (status, f"cointoss: interrupted by {sign.name}\n")
     assert {path.name for path in (tmp_path / "new/report").iterdir()} == set(FILES) - {"toss.mp4"}
-
-
-@pytest.fixture
-def small_films(monkeypatch):
-    """Films of the size of a stamp, of two frames a second."""
-    monkeypatch.setitem(ENCODINGS, ".mp4", ENCODINGS[".mp4"]._replace(form=Format(64, 48, 2)))
-
-
-@pytest.fixture
-def short(tmp_path):
-    """A scenario that ends at its first impact."""
-    source = tmp_path / "short.toml"
-    source.write_text(scenario_text("fig24a") + "\n[ending]\nmax_impacts = 1\n")
-    return source
 
 
 @pytest.mark.parametrize(
@@ -533,17 +539,17 @@ def test_progress_is_a_bar_on_a_terminal_alone(monkeypatch):
     assert "4.00/4.00" in shown.getvalue().splitlines()[-1]
 
 
-def test_a_film_that_cannot_be_written_is_one_line(tmp_path):
+def test_a_film_that_cannot_be_written_is_one_line(tmp_path, short):
     small = (
         "from compare.film.encodings import ENCODINGS as e, Format; "
         "e['.mp4'] = e['.mp4']._replace(form=Format(320, 240, 6)); from compare.cli import main; main()"
     )
-    command = f'"{sys.executable}" -c "{small}" video fig24a --out film.mp4'
-    done = in_a_shell(f"ulimit -f 8; {command}; echo $?", tmp_path)
+    command = f'"{sys.executable}" -c "{small}" video short.toml --out film.mp4'
+    done = in_a_shell(f"ulimit -f 1; {command}; echo $?", tmp_path)
     assert done.stdout == "2\n"
     assert done.stderr.startswith("cointoss: film.mp4: can't be written (ffmpeg: ")
     assert len(done.stderr.splitlines()) == 1
-    assert list(tmp_path.iterdir()) == []
+    assert list(tmp_path.iterdir()) == [short]
 
 
 def test_a_path_of_too_many_rows_is_refused(tmp_path):

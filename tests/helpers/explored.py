@@ -49,7 +49,7 @@ def serving(path: Path) -> Iterator[Explorer]:
 
 def sent(port: int, request: bytes) -> tuple[int, dict[str, str], bytes]:
     """Send bytes to a server; return its answer's status, headers and body."""
-    with socket.create_connection(("127.0.0.1", port), timeout=60) as connection:
+    with socket.create_connection(("127.0.0.1", port), timeout=200) as connection:
         connection.sendall(request)
         connection.shutdown(socket.SHUT_WR)
         answer = b"".join(iter(lambda: connection.recv(1 << 16), b""))
