@@ -178,16 +178,15 @@ def test_a_thin_coin_has_the_papers_explicit_forms(b):
     rho, rho_weights = np.polynomial.legendre.leggauss(400)
     rho, rho_weights = R * (rho + 1) / 2, R * rho_weights / 2
     angle = 2 * np.pi * np.arange(2000) / 2000
-    points = rho[:, None, None] * np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=-1)
-    areas = (rho * rho_weights)[:, None, None] * 2 * np.pi / 2000
+    x, y = rho[:, None] * np.cos(angle), rho[:, None] * np.sin(angle)
+    areas = (rho * rho_weights)[:, None] * 2 * np.pi / 2000
     for _ in range(4):
         v, w = rng.normal(size=3), rng.normal(size=3) * 60
-        velocity = v + np.cross(w, points)
-        normal, along = velocity * [0, 0, 1], velocity * [1, 1, 0]
-        force = -LN * np.linalg.norm(normal, axis=-1, keepdims=True) ** b * normal
-        force = force - 2 * LT * np.linalg.norm(along, axis=-1, keepdims=True) ** b * along
-        f = np.sum(force * areas, axis=(0, 1))
-        m = np.sum(np.cross(points, force) * areas, axis=(0, 1))
+        across, along, normal = v[0] - w[2] * y, v[1] + w[2] * x, v[2] + w[0] * y - w[1] * x
+        friction = -2 * LT * np.hypot(across, along) ** b * areas
+        f_x, f_y, f_z = friction * across, friction * along, -LN * np.abs(normal) ** b * normal * areas
+        f = [f_x.sum(), f_y.sum(), f_z.sum()]
+        m = np.array([np.sum(y * f_z), -np.sum(x * f_z), np.sum(x * f_y - y * f_x)])
         # The product rule sees the line at rest of the pressure only to 1e-6.
         error = pull(coin(b, h=0.0), v, w) - np.array([*f, *(m / R)])
         assert np.abs(error).max() < 1e-6 * force_scale(b, v, w)

@@ -11,6 +11,7 @@ import imageio_ffmpeg
 import pytest
 
 import analytic
+from compare.film import encodings
 from compare.film.back_end import ADVICE, UNKNOWN, drawing_problem
 from compare.film.encodings import SMALL
 from compare.film.filmed import followed
@@ -158,7 +159,9 @@ def test_without_opengl_the_report_says_what_to_install(tmp_path):
     assert not (tmp_path / "toss.mp4").exists()
 
 
-def test_what_mujoco_cannot_realise_is_a_report_of_one_engine(tmp_path):
+def test_what_mujoco_cannot_realise_is_a_report_of_one_engine(tmp_path, monkeypatch):
+    stamp = SMALL._replace(width=96, height=54, frames_per_second=4)
+    monkeypatch.setattr(encodings, "SMALL", stamp)
     text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 2")
     page = write_report(parse(text, "knurled"), text, "knurled", tmp_path, None, lambda *_: None)
     html = page.read_text(encoding="utf-8")
@@ -168,7 +171,7 @@ def test_what_mujoco_cannot_realise_is_a_report_of_one_engine(tmp_path):
     assert 'aria-label="Film of the toss"' in html
     assert "The toss by the analytic engine, drawn by MuJoCo, which can’t toss it." in html
     counted: Any = imageio_ffmpeg.count_frames_and_secs(str(tmp_path / "toss.mp4"))
-    assert counted[0] == frame_count([followed(analytic.toss(parse(text, "knurled")))], SMALL)
+    assert counted[0] == frame_count([followed(analytic.toss(parse(text, "knurled")))], stamp)
     assert re.search(r'"not_realisable": ".*knurled', (tmp_path / "numbers.json").read_text(encoding="utf-8"))
     assert {path.name for path in tmp_path.iterdir()} == set(FILES) - {"path-mujoco.csv"}
 
