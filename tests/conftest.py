@@ -2,6 +2,7 @@
 
 import os
 import signal
+from importlib import import_module
 
 import pytest
 from hypothesis import settings
@@ -16,6 +17,13 @@ signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 settings.register_profile("cointoss", deadline=None, derandomize=True, max_examples=100)
 settings.load_profile("cointoss")
+
+
+@pytest.fixture
+def without_horizon(monkeypatch):
+    """Let no toss find out how many of its impacts to trust, which takes longer than the toss."""
+    monkeypatch.setattr(import_module("analytic.toss"), "trusted_impacts", lambda *_: 0)
+    monkeypatch.setattr(import_module("coin_mj.toss"), "SOFTER", ())
 
 
 @pytest.fixture

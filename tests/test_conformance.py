@@ -10,7 +10,10 @@ from models.scenario import Air
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
 from tests.helpers.engines import toss
 
-pytestmark = pytest.mark.parametrize("engine", list(Engine))
+pytestmark = [
+    pytest.mark.parametrize("engine", list(Engine)),
+    pytest.mark.usefixtures("without_horizon"),
+]
 
 IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 TUMBLING = {

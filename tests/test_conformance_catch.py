@@ -14,6 +14,8 @@ from tests.helpers.command_line import cointoss
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 from tests.helpers.engines import toss
 
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
 G, HAND = 9.81, 1.2
 EXACT = {Engine.ANALYTIC: 1e-12, Engine.MUJOCO: 1e-9}
 # A spring's restitution errs by up to 7e-5, at a speed of 4 m/s.

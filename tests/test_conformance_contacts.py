@@ -13,6 +13,8 @@ from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 from tests.helpers.engines import as_releases
 from tests.helpers.symmetries import SYMMETRIES
 
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
 R, H = ZLOTY["radius"], ZLOTY["thickness"]
 BALANCED, IMPERFECT = ZLOTY, {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 LOW = {

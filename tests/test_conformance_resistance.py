@@ -12,6 +12,8 @@ from models.records import Ending, Outcome
 from tests.helpers.draws import AIR, ZLOTY, scenario
 from tests.helpers.engines import toss, toss_many
 
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
 R, G = ZLOTY["radius"], 9.81
 THIN, THICK = {**ZLOTY, "thickness": 0.0}, {**ZLOTY, "thickness": 4e-3}
 RESISTANCE = {"rolling_friction": 5e-4, "pivoting_friction": 1e-4}

@@ -11,7 +11,10 @@ from models.drag import linear_drag
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 from tests.helpers.engines import toss
 
-pytestmark = pytest.mark.parametrize("engine", list(Engine))
+pytestmark = [
+    pytest.mark.parametrize("engine", list(Engine)),
+    pytest.mark.usefixtures("without_horizon"),
+]
 
 M, G, R = ZLOTY["mass"], 9.81, ZLOTY["radius"]
 LEAN = 1.1

@@ -16,6 +16,8 @@ from models.releases import Releases
 from models.scenario import Release, Scenario
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
 IDEAL, OFF_CENTER = [0.0, 0.0, 0.0], np.array(PAPER_OFFSET)
 
 

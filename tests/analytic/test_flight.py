@@ -16,6 +16,8 @@ from models.geometry import gap
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
 from tests.helpers.referee import Referee
 
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
 HIGH = {"max_time": 0.5}
 
 

@@ -21,6 +21,8 @@ from models.records import Ending, Outcome
 from tests.helpers.contacts import follow_for
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, scenario
 
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
 G, R, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
 UNIT = (G / R) ** 0.5
 THIN, THICK = {**ZLOTY, "thickness": 0.0}, {**ZLOTY, "thickness": 4e-3}

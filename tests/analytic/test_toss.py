@@ -79,6 +79,7 @@ def test_a_ball_like_drop_rebounds_as_newton_says():
 
 
 @pytest.mark.parametrize("chi", [0.0, 0.01, 0.3, 0.8])
+@pytest.mark.usefixtures("without_horizon")
 def test_no_recorded_or_sampled_state_is_below_the_floor(chi):
     rng = np.random.default_rng(21)
     for _ in range(40):
@@ -142,6 +143,7 @@ def test_a_coin_that_rattles_between_two_rim_points_lies():
     assert min(gaps) > -1e-12 * 1.25e-2
 
 
+@pytest.mark.usefixtures("without_horizon")
 def test_the_first_contact_is_the_first():
     rng = np.random.default_rng(22)
     for _ in range(30):
@@ -295,6 +297,7 @@ def test_the_horizon_shrinks_as_shadows_part():
 
 @pytest.mark.parametrize("thickness", [0.0, 2e-3])
 @pytest.mark.parametrize("offset", [[0.0, 0.0], [-1e-3, -1e-3]])
+@pytest.mark.usefixtures("without_horizon")
 def test_a_face_settled_early_in_air_is_that_of_the_toss_followed_on(thickness, offset):
     """Under the paper's test the same toss goes on until E < m g r, mostly after: then with the same face."""
     rng, earlier = np.random.default_rng(12), 0
@@ -313,6 +316,7 @@ def test_a_face_settled_early_in_air_is_that_of_the_toss_followed_on(thickness, 
 
 
 @pytest.mark.parametrize(("test", "slide"), [("paper", 0.8), ("paper_smooth", 0.0)])
+@pytest.mark.usefixtures("without_horizon")
 def test_in_vacuum_a_toss_that_never_meets_the_papers_test_ends_as_what_it_is(test, slide):
     """Sliding that nothing takes keeps E above m g r; a coin that turns over for ever meets neither test."""
     named, settled_alike = set(), 0

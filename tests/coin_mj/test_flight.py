@@ -23,6 +23,8 @@ from models.records import Ending, Outcome
 from models.releases import Releases
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
 BALANCED, IMPERFECT = ZLOTY, {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 
 

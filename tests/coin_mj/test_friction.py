@@ -10,6 +10,8 @@ from compare.metrics.impulses import match
 from models.records import ApproximationWarning, Ending, Flag
 from tests.helpers.draws import ZLOTY, draw_coin, draw_release, scenario
 
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
 DOUBLE = 1e-4
 """Where a second rim point lands so soon after the first [s], both are pressed at once."""
 BALL = np.diag([3.5, 3.5, 1.0])

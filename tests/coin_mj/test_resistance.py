@@ -17,7 +17,10 @@ from models.kernel.vectors import cross
 from models.records import ApproximationWarning, Ending, Outcome, UnsupportedError
 from tests.helpers.draws import AIR, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
 
-pytestmark = pytest.mark.filterwarnings(f"ignore::{ApproximationWarning.__module__}.ApproximationWarning")
+pytestmark = [
+    pytest.mark.filterwarnings(f"ignore::{ApproximationWarning.__module__}.ApproximationWarning"),
+    pytest.mark.usefixtures("without_horizon"),
+]
 
 G, R, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
 UNIT = (G / R) ** 0.5

@@ -20,6 +20,8 @@ from models.records import Ending, Outcome
 from models.releases import Releases
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
 M, R, G = ZLOTY["mass"], ZLOTY["radius"], 9.81
 THIN = {**ZLOTY, "thickness": 0.0}
 DECIDED = {Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.PERPETUAL}

@@ -14,7 +14,10 @@ from models.records import ApproximationWarning, Ending, Outcome
 from tests.helpers.draws import AIR, draw_coin, draw_release, scenario
 from tests.helpers.flat_fall import flat_fall
 
-pytestmark = pytest.mark.filterwarnings(f"ignore::{ApproximationWarning.__module__}.ApproximationWarning")
+pytestmark = [
+    pytest.mark.filterwarnings(f"ignore::{ApproximationWarning.__module__}.ApproximationWarning"),
+    pytest.mark.usefixtures("without_horizon"),
+]
 
 BOTH = pytest.mark.parametrize("contact", list(Realisation))
 

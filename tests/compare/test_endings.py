@@ -28,6 +28,8 @@ from compare.reproduction.studies.endings import (
 from models.records import Outcome
 from tests.helpers.pages import pictures, printed, saved
 
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
 SAVED = read_numbers(saved("endings"), EndingCounts)
 
 

@@ -24,6 +24,8 @@ from models.records import Ending, Outcome
 from tests.helpers.command_line import cointoss
 from tests.helpers.films import FLAT, MadePath, drawn, made, shown
 
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
 TINY = Format(64, 48, 4, longest=2.0)
 
 

@@ -17,6 +17,8 @@ from models.reading import load
 from models.releases import Releases
 from tests.helpers.command_line import cointoss
 
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
 
 def by_name(scenario):
     return {margin.quantity.name: margin for margin in margins(scenario)}

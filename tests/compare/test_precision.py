@@ -26,6 +26,8 @@ from compare.reproduction.setups.uncertain_shares import uncertain_shares
 from models.records import Outcome
 from tests.helpers.contacts import follow_step as contact_step
 
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
 COINS = [
     (chi, air, law)
     for chi, air, law in (

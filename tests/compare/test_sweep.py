@@ -21,6 +21,8 @@ from models.records import UnsupportedError
 from models.scenario import Scenario
 from tests.helpers.draws import AIR, scenario
 
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
 HERE = scenario(
     coin={"center_of_mass": [1e-4, 0, 0]},
     air=AIR,

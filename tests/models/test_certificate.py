@@ -1,7 +1,6 @@
 """What a toss measures of itself: rounding where the engine is exact, and the damage done to a record."""
 
 from dataclasses import replace
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -17,6 +16,8 @@ from models.reading import load
 from models.records import Array, Impacts, States, Toss
 from models.scenario import Scenario
 from tests.helpers.draws import AIR, PAPER_OFFSET, draw_coin, draw_release, scenario
+
+pytestmark = pytest.mark.usefixtures("without_horizon")
 
 OF_IMPACTS = (certificate.LAW, certificate.MOMENTUM, certificate.IMPACT_ENERGY)
 
@@ -179,14 +180,7 @@ def test_the_power_of_linear_air_is_that_of_its_force(offset):
     assert linear_air_power(body, v, w) == pytest.approx(expected, rel=1e-12)
 
 
-@pytest.fixture
-def without_softer_contacts(monkeypatch):
-    """They only tell how many impacts to trust."""
-    monkeypatch.setattr(import_module("coin_mj.toss"), "SOFTER", ())
-
-
 @pytest.mark.parametrize("air", [{}, AIR, {**AIR, "exponent": 0.5}])
-@pytest.mark.usefixtures("without_softer_contacts")
 def test_mujoco_measures_the_same(air):
     """A spring's contact takes time: its impacts keep the law to some 1e-3, its flights their energy."""
     case = scenario(
@@ -204,7 +198,6 @@ def test_mujoco_measures_the_same(air):
     assert -1e-4 < found[certificate.GAP] < 1e-4
 
 
-@pytest.mark.usefixtures("without_softer_contacts")
 def test_mujoco_measures_its_contacts():
     rolls = scenario(
         coin={"thickness": 0.0},

@@ -11,6 +11,8 @@ from models.clearance import acceleration_bounds, clear_time, damping_rate, graz
 from models.geometry import contact_velocity, gap, lowest_point
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
 
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
 IMPERFECT = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}).body
 ANGLES = np.linspace(0, 2 * np.pi, 20_001)
 
