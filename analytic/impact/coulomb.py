@@ -30,8 +30,9 @@ AGREES = 1e-13
 TARGET = 0.5**50
 # Slip slower than this part of the speed of A is none.
 NO_SLIP = 1e-12
-# Slip slower than this part of it is followed to the error of slip as fast as this, well below `NO_SLIP`.
-SLOW_SLIP = 1e-2
+# Slip slower than this part of it is followed to the error of slip as fast as this: with `SMALLEST` and
+# `AGREES` well below `NO_SLIP`.
+SLOW_SLIP = 1.0
 # An acceleration of slip across itself, against that which friction makes of slip, that is none.
 STRAIGHT = 1e-11
 # After so many times the impulse in which slip turns, none is left of any other direction.
@@ -59,15 +60,15 @@ def coulomb(K, v_A, chi, mu, kind):
     y[0], y[1], y[V_Z] = v_A
     no_slip = NO_SLIP * norm(v_A)
     if kind == RestitutionKind.KINEMATIC:
-        grow_impulse(K, y, mu, no_slip, V_Z, -chi * v_A[2])
+        grow_impulse(K, y, mu, no_slip, False, V_Z, -chi * v_A[2])
     else:
-        grow_impulse(K, y, mu, no_slip, V_Z, 0.0)
-        grow_impulse(K, y, mu, no_slip, WORK, (1 - chi * chi) * y[WORK])
+        grow_impulse(K, y, mu, no_slip, True, V_Z, 0.0)
+        grow_impulse(K, y, mu, no_slip, True, WORK, (1 - chi * chi) * y[WORK])
     return y[3], y[4], y[5]
 
 
 @compiled
-def grow_impulse(K, y, mu, no_slip, component, target):
+def grow_impulse(K, y, mu, no_slip, with_work, component, target):
     """Let the normal impulse grow until a component of the state has risen to its target.
 
     Args:
@@ -75,10 +76,11 @@ def grow_impulse(K, y, mu, no_slip, component, target):
         y: state of the impact, (7,); advanced.
         mu: coefficient of friction μ.
         no_slip: slip that counts as none [m/s].
+        with_work: whether the work is wanted; else that of slip is left out.
         component: `V_Z` or `WORK`.
         target: its value at the end.
     """
-    if slide(K, y, mu, no_slip, component, target):
+    if slide(K, y, mu, no_slip, with_work, component, target):
         return
     f = friction_without_slip(K, mu)
     gained = apply(K, (f[0], f[1], 1.0))
@@ -123,7 +125,7 @@ def end_straight(y, f, gained, p, stops, component, target):
 
 
 @compiled
-def slide(K, y, mu, no_slip, component, target):
+def slide(K, y, mu, no_slip, with_work, component, target):
     """Follow the slip until it stops or a component has risen to its target; return whether it has risen.
 
     With dp = |v_t| dτ the equations are regular where the slip stops: dS/dτ = (-μ v_t, |v_t|) and
@@ -139,7 +141,7 @@ def slide(K, y, mu, no_slip, component, target):
         if p > 0:
             end_straight(y, f, gained, p, stops, component, target)
             return not stops
-        length, size = expand_slip(K, y, mu, speed, series)
+        length, size = expand_slip(K, y, mu, speed, with_work, series)
         while True:
             slipped(series, length, y_new)
             if abs(y_new[SLIP] - math.hypot(y_new[0], y_new[1])) <= AGREES * size:
@@ -192,7 +194,7 @@ def straight_slip(K, y, mu, component, target):
 
 
 @compiled
-def expand_slip(K, y, mu, speed, series):
+def expand_slip(K, y, mu, speed, with_work, series):
     """Expand the motion of the slipping point as a power series of τ.
 
     dS/dτ = (-μ v_t, q) with q = |v_t|, so the next coefficients of S, and of v_A by K, follow from those of
@@ -203,6 +205,7 @@ def expand_slip(K, y, mu, speed, series):
         y: state at the start, (7,), which slips.
         mu: coefficient of friction μ.
         speed: of A before the impact [m/s].
+        with_work: see `grow_impulse`.
         series: where the coefficients go, (ORDER + 1, COLUMNS).
 
     Returns:
@@ -219,19 +222,35 @@ def expand_slip(K, y, mu, speed, series):
         v = apply(K, S)
         for i in range(3):
             series[k + 1, i], series[k + 1, 3 + i] = v[i], S[i]
-        work, square = 0.0, 2 * (series[0, 0] * v[0] + series[0, 1] * v[1])
-        for j in range(k + 1):
-            work += series[j, V_Z] * series[k - j, SLIP]
-        for j in range(1, k + 1):
-            square += series[j, 0] * series[k + 1 - j, 0] + series[j, 1] * series[k + 1 - j, 1]
-            square -= series[j, SLIP] * series[k + 1 - j, SLIP]
-        series[k + 1, WORK], series[k + 1, SLIP] = work * part, square / (2 * slip)
+        series[k + 1, WORK] = part * _work_term(series, k) if with_work else 0.0
+        # Of q² - v_t², what the coefficients up to k give to the next one.
+        square = _product_term(series, SLIP, k) - _product_term(series, 0, k) - _product_term(series, 1, k)
+        series[k + 1, SLIP] = (series[0, 0] * v[0] + series[0, 1] * v[1] - square / 2) / slip
         if k >= ORDER - 2:
             term = max(abs(v[0]), abs(v[1]), abs(series[k + 1, SLIP])) / size
             term = max(term, abs(v[2]) / speed)
             if term > 0:
                 length = min(length, (SMALLEST / term) ** part)
     return length, size
+
+
+@compiled
+def _work_term(series, k):
+    """Return the coefficient k of v_Az |v_t|."""
+    total = 0.0
+    for j in range(k + 1):
+        total += series[j, V_Z] * series[k - j, SLIP]
+    return total
+
+
+@compiled
+def _product_term(series, column, k):
+    """Return the coefficient k + 1 of a column's square without the first and last of its products."""
+    half = 0.0
+    for j in range(1, (k + 2) // 2):
+        half += series[j, column] * series[k + 1 - j, column]
+    middle = series[(k + 1) // 2, column]
+    return 2 * half + (middle * middle if k % 2 == 1 else 0.0)
 
 
 @compiled
