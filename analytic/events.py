@@ -24,6 +24,7 @@ from models.impact_row import FIRST_ROOM, with_room, write_impact
 from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, apply, scale, subtract
+from models.laws import EndingTest
 from models.perpetual import energy_history, start_history
 from models.records import IMPACT_ROW, Array, Ending, Outcome
 
@@ -268,7 +269,7 @@ def follow_to_event(body, rules, friction, mode, y, time, steps, limits, history
             return Event.ENDS, time, steps, Outcome.EDGE, Ending.AT_REST
         if not over and repeats(tilting, y):
             return Event.ENDS, time, steps, *endless(body, rules, state_of(y))
-        on_edge = modes.edge_event(body, friction, mode, in_mode, y)
+        on_edge = modes.edge_event(body, friction, mode, in_mode, rules.test != EndingTest.LYING, y)
         if on_edge == Event.ENDS:
             return Event.ENDS, time, steps, Outcome.EDGE, Ending.STANDING
         if on_edge == Event.COMES_UPRIGHT:

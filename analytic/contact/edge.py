@@ -20,35 +20,40 @@ from analytic.flight.state_vector import (
     spin_of,
     state_of,
 )
-from analytic.numerics.rotation import quaternion_rate
-from analytic.numerics.tolerances import ON_EDGE, SLOW
+from analytic.numerics.tolerances import ON_EDGE, SLOW, STEADY
 from models.attitude import quaternion_product, rotation_matrix
 from models.body import in_vacuum
 from models.geometry import FLAT_SINE, tilt_sine_of
 from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
-from models.kernel.vectors import apply, cross, dot, scale
+from models.kernel.vectors import apply, cross, dot
 from models.rest import is_slowing
 
-# Half the angle by which a coin on its edge is tipped onto either rim, for trial.
-_TRIAL = 1e-9
-# In so many phases of its roll a coin on its edge is tried.
-_PHASES = 48
+# The angle by which an upright coin is tipped onto either rim, for trial [rad].
+_TRIAL = 2e-9
+# In so many phases of its roll a coin on its edge is tried, and one that rocks there.
+_PHASES, _ROCKING_PHASES = 48, 12
 # An upright coin is tried for whether it stands once in so many steps.
 _BETWEEN_TRIALS = 64
 
 
 @compiled
-def event_at_one_rim(body, friction, mode, y):
+def event_at_one_rim(body, friction, mode, steps, early, y):
     """Return whether a coin in contact at one rim comes upright, or stands for good: `Event.ENDS`.
 
     Args:
         body: the coin.
         friction: `FloorFriction`.
         mode: number of the `Mode`.
+        steps: made in the mode so far.
+        early: whether a coin that still rocks may be said to stand; the trial is costly, and made only at the
+            start of a mode and in some of the steps after.
         y: state, (13,); put upright where the coin comes so.
     """
-    if not (on_edge(body, y) and held_on_edge(body, friction, mode, y)):
+    if not on_edge(body, y):
+        tried = early and steps % _BETWEEN_TRIALS == 1 and not slows(body, friction, y)
+        return Event.ENDS if tried and rocks_on_edge(body, friction, mode, y) else Event.NONE
+    if not held_on_edge(body, friction, mode, y):
         return Event.NONE
     if not slows(body, friction, y) and stands(body, friction, mode, y):
         return Event.ENDS
@@ -75,8 +80,6 @@ def event_of_upright_coin(body, friction, steps, y):
     at_one_rim = Mode.SLIDING.value
     if steps % _BETWEEN_TRIALS != 0 or slows(body, friction, y):
         return Event.NONE
-    if not held_on_edge(body, friction, at_one_rim, y):
-        return Event.NONE
     return Event.ENDS if stands(body, friction, at_one_rim, y) else Event.NONE
 
 
@@ -102,11 +105,28 @@ def lean(body, y):
 
 @compiled
 def on_edge(body, y):
-    """Return whether a coin in contact is on its edge, and does not turn off it."""
-    up = rotation_matrix(attitude_of(y))[2]
-    n_z_rate = cross(up, spin_of(y))[2]
+    """Return whether a coin in contact is on its edge, and does not turn off it; see `ON_EDGE`."""
+    n_z, n_z_rate = lean_and_rate(y)
     most = ON_EDGE * body.thickness / (2 * body.radius)
-    return abs(up[2]) < most and abs(n_z_rate) < most * (body.gravity / body.radius) ** 0.5
+    return abs(n_z) < most and abs(n_z_rate) < most * (body.gravity / body.radius) ** 0.5
+
+
+@compiled
+def lean_and_rate(y):
+    """Return n_z, which is 0 for a coin on its edge, and its rate in the state y, (13,) [1/s]."""
+    up = rotation_matrix(attitude_of(y))[2]
+    return up[2], cross(up, spin_of(y))[2]
+
+
+@compiled
+def steady_lean(body):
+    """Return the lean up to which a coin that rocks on its edge may be lifted by its rocking; see `STEADY`.
+
+    A coin at rest leans by at least 1/`STEADY` of it when C is above its lowest point. It is 0 for a coin
+    that has no thickness, or C beyond a face.
+    """
+    x, y, z = body.center
+    return STEADY * max(body.thickness / 2 - abs(z), 0.0) / (body.radius + math.hypot(x, y))
 
 
 @compiled
@@ -151,7 +171,7 @@ def stands(body, friction, mode, y):
     one_way = lossless
     phases, roll_rates = np.empty((_PHASES, STATE_SIZE)), np.empty(_PHASES)
     for i in range(_PHASES):
-        roll_rates[i] = rolled_on(body, friction, mode, straight, y, math.pi * i / _PHASES, phases[i])
+        roll_rates[i] = rolled_on(body, friction, mode, not straight, y, math.pi * i / _PHASES, phases[i])
         one_way = one_way and roll_rates[i] > 0
     L_z = dot(rotation_matrix(attitude_of(y))[2], apply(body.inertia, spin_of(y)))
     for i in range(_PHASES):
@@ -167,6 +187,46 @@ def stands(body, friction, mode, y):
 
 
 @compiled
+def rocks_on_edge(body, friction, mode, y):
+    """Return whether a coin that rocks on its edge, rim by rim, has too little energy of rocking to leave it.
+
+    In every phase of its roll that it can reach, as `stands` has them, the floor must turn it back from
+    either rim up to `steady_lean`, and the least work of that must be more than the energy of rocking is
+    now: that of n_z's rate, and what the strongest such moment gives it from its lean. As its rims land it
+    loses energy, and on a rough floor L_z: there all of its energy may go into its roll. Nothing is said
+    while friction acts on slip, for across the rim it tips the coin as soon as slip turns there.
+
+    Args:
+        body: the coin.
+        friction: `FloorFriction`.
+        mode: number of the `Mode`, at one rim.
+        y: state, (13,).
+    """
+    n_z, n_z_rate = lean_and_rate(y)
+    most_lean, moving = steady_lean(body), n_z_rate * n_z_rate / 2
+    slips = friction.sliding > 0 and mode != Mode.STICKING
+    if slips or not abs(n_z) < most_lean:
+        return False
+    least_work, strongest, phase = np.inf, 0.0, np.empty(STATE_SIZE)
+    L_z = dot(rotation_matrix(attitude_of(y))[2], apply(body.inertia, spin_of(y)))
+    for i in range(_ROCKING_PHASES):
+        half_angle = math.pi * i / _ROCKING_PHASES
+        roll_rate = rolled_on(body, friction, mode, friction.sliding == 0, y, half_angle, phase)
+        if roll_rate < 0:
+            continue
+        for share in (1.0, -1.0, 0.0):
+            set_rolling(body, L_z, False, share * roll_rate, phase)
+            for side in (-1.0, 1.0):
+                at_edge = turned_back(body, friction, mode, side, _TRIAL, phase)
+                leaning = turned_back(body, friction, mode, side, most_lean, phase)
+                strongest = max(strongest, at_edge)
+                least_work = min(least_work, (at_edge + leaning) / 2 * most_lean)
+                if not (leaning > 0 and moving + abs(n_z) * strongest < least_work):
+                    return False
+    return True
+
+
+@compiled
 def _sticks(body, friction, y):
     """Return whether friction can hold a coin on its edge by either rim; y: state, (13,)."""
     tails, heads = both_rims(body, friction, y)
@@ -176,14 +236,14 @@ def _sticks(body, friction, y):
 
 
 @compiled
-def rolled_on(body, friction, mode, straight, y, half_angle, phase):
+def rolled_on(body, friction, mode, keeps_turning, y, half_angle, phase):
     """Roll a coin on its edge on by an angle.
 
     Args:
         body: the coin.
         friction: `FloorFriction`.
         mode: number of the `Mode`, at one rim.
-        straight: whether it does not turn about the vertical.
+        keeps_turning: whether L_z and the energy that it takes are kept.
         y: state of a coin on its edge, (13,).
         half_angle: half the angle.
         phase: where the state there goes, (13,), its velocities those of y.
@@ -210,7 +270,7 @@ def rolled_on(body, friction, mode, straight, y, half_angle, phase):
     if mode == Mode.STICKING:
         roll_inertia += m * z * z
     left = energy - weight * z
-    if not straight:
+    if keeps_turning:
         moment, product = dot(up, apply(J, up)), dot(up, J[2])
         roll_inertia -= product * product / moment
         left -= L_z * L_z / (2 * moment)
@@ -246,18 +306,27 @@ def held_on_edge(body, friction, mode, y):
         mode: number of the `Mode`, at one rim.
         y: state of a coin on its edge, (13,).
     """
+    on_heads = turned_back(body, friction, mode, -1.0, _TRIAL, y)
+    return on_heads > 0 and turned_back(body, friction, mode, 1.0, _TRIAL, y) > 0
+
+
+@compiled
+def turned_back(body, friction, mode, side, lean, y):
+    """Return how fast n_z accelerates back to 0 of a coin leaning onto a rim [1/s²]; < 0 where it does not.
+
+    Args:
+        body: the coin.
+        friction: `FloorFriction`.
+        mode: number of the `Mode`, at one rim.
+        side: 1 with heads up, on tails' rim, -1 with tails up.
+        lean: |n_z| [rad].
+        y: state that is tried so, (13,).
+    """
     dy, tipped = np.empty(STATE_SIZE), y.copy()
-    # Level the coin, then turn it a little to either side, about the horizontal axis in its plane.
-    upright.tilt(tipped, rotation_matrix(attitude_of(y))[2][2])
-    state = state_of(tipped)
-    e, w = state.attitude, state.spin
-    axis = cross(state.R[2], (0.0, 0.0, 1.0))
-    for side in (-1.0, 1.0):
-        turn = quaternion_rate(e, scale(side * 2 * _TRIAL, axis))
-        set_attitude(tipped, (e[0] + turn[0], e[1] + turn[1], e[2] + turn[2], e[3] + turn[3]))
-        one_rim.rate(body, friction, mode, lower_rim_of(tipped), tipped, dy)
-        up = rotation_matrix(attitude_of(tipped))[2]
-        n_z_acceleration = cross(cross(up, w), w)[2] + cross(up, spin_of(dy))[2]
-        if n_z_acceleration * up[2] >= 0:
-            return False
-    return True
+    # To the first order, the second time from next to nothing.
+    for most in (0.0, side * lean):
+        n_z, _ = lean_and_rate(tipped)
+        upright.tilt(tipped, n_z - most)
+    one_rim.rate(body, friction, mode, lower_rim_of(tipped), tipped, dy)
+    up, w = rotation_matrix(attitude_of(tipped))[2], spin_of(tipped)
+    return -side * (cross(cross(up, w), w)[2] + cross(up, spin_of(dy))[2])

@@ -78,7 +78,7 @@ def next_event(body, friction, mode, y):
 
 
 @compiled
-def edge_event(body, friction, mode, steps, y):
+def edge_event(body, friction, mode, steps, early, y):
     """Return whether a coin on its edge comes upright, or stands for good: `Event.ENDS`.
 
     Args:
@@ -86,8 +86,9 @@ def edge_event(body, friction, mode, steps, y):
         friction: `FloorFriction`.
         mode: number of the `Mode`, in contact.
         steps: made in the mode so far.
+        early: whether a coin that still rocks may be said to stand.
         y: state, (13,); put upright where the coin comes so.
     """
     if mode == Mode.UPRIGHT:
         return edge.event_of_upright_coin(body, friction, steps, y)
-    return edge.event_at_one_rim(body, friction, mode, y)
+    return edge.event_at_one_rim(body, friction, mode, steps, early, y)

@@ -29,3 +29,6 @@ BORDER = 1e-6
 ON_EDGE = 1e-3
 """A thick coin is on its edge where it leans by less than this part of h/(2 r), which tips it over, and turns
 off its edge by less than this part of h/(2 r) √(g/r)."""
+STEADY = 0.25
+"""A coin that rocks on its edge is said to stand if its rocking cannot lift it beyond this part of the lean
+that tips it over."""

@@ -4,10 +4,20 @@ import numpy as np
 import pytest
 
 from analytic.automaton import Event, Mode
-from analytic.contact import modes, upright
-from analytic.contact.edge import held_on_edge, on_edge, rolls, stands
+from analytic.contact import modes, one_rim, upright
+from analytic.contact.edge import (
+    held_on_edge,
+    on_edge,
+    rocks_on_edge,
+    rolls,
+    stands,
+    steady_lean,
+    turned_back,
+)
+from analytic.contact.following import friction_in_contact
+from analytic.contact.one_rim import lower_rim_of
 from analytic.contact.resistance import FloorFriction
-from analytic.contact.rim_contact import both_rims
+from analytic.contact.rim_contact import both_rims, rim_contact
 from analytic.contact.upright import rim_forces, start_creep
 from analytic.events import run
 from analytic.numerics.tolerances import SLOW
@@ -16,6 +26,7 @@ from compare.reproduction.studies.endings import draw_toss
 from models.attitude import quaternion_from_angles, rotation_matrix
 from models.barriers import energy
 from models.geometry import gap
+from models.laws import ContactLaw, EndingTest
 from models.records import Ending, Outcome
 from tests.helpers.contacts import follow_step
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
@@ -152,6 +163,66 @@ def test_a_coin_is_on_its_edge_by_parts_of_what_tips_it(thickness, part, is_on_i
         assert on_edge(body, leaning) == on_edge(body, turning) == is_on_it
 
 
+def rocking(rng, body, rules):
+    """Give a coin that rocks on its edge while it rolls and turns, and the number of its mode."""
+    friction, mode = (
+        friction_in_contact(rules),
+        Mode.SLIDING if rules.law == ContactLaw.SMOOTH else Mode.STICKING,
+    )
+    y = upright_coin(body, rng.uniform(0, 6), rng.normal(0, 6), rng.normal(0, 12))
+    up, most = rotation_matrix(tuple(y[6:10]))[2], steady_lean(body)
+    y[10:12] += rng.uniform(-0.8, 0.8) * most * (G / R_COIN) ** 0.5 * np.array([-up[1], up[0]])
+    upright.tilt(y, rng.uniform(-0.2, 0.2) * most)
+    y[3:5] -= rim_contact(body, y, lower_rim_of(y)).velocity[:2]
+    one_rim.put_on_floor(body, friction, mode.value, lower_rim_of(y), y)
+    return friction, mode.value, y
+
+
+@pytest.mark.parametrize("count", [16, pytest.param(400, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "floor",
+    [
+        {"contact": "smooth"},
+        {"contact": "coulomb", "friction": 0.2},
+        {"contact": "perfectly_rough"},
+    ],
+)
+def test_a_coin_that_is_said_to_stand_while_it_rocks_comes_to_stand(floor, count):
+    """With `test = "lying"` it is followed on until its rocking has died away."""
+    rng, stood, earlier = np.random.default_rng(5), 0, 0
+    for _ in range(count):
+        center = (*rng.uniform(-1e-3, 1e-3, 2), rng.uniform(-1e-4, 1e-4))
+        coin = {"thickness": rng.choice([2e-3, 4e-3]), "center_of_mass": center}
+        case = scenario(coin=coin, floor={**floor, "restitution": rng.uniform(0.2, 0.9)}, air=AIR)
+        body, rules = case.body, case.rules
+        friction, mode, y = rocking(rng, body, rules)
+        if not rocks_on_edge(body, friction, mode, y):
+            continue
+        assert not on_edge(body, y)
+        stood += 1
+        ended = run(body, rules._replace(test=EndingTest.LYING), y)
+        assert ended.outcome == Outcome.EDGE
+        assert on_edge(body, ended.start_states[-1])
+        early = run(body, rules, y)
+        assert early.outcome == Outcome.EDGE
+        assert early.end_time <= ended.end_time
+        earlier += early.ending == Ending.STANDING and not on_edge(body, early.start_states[-1])
+    assert stood >= earlier >= count / 3
+
+
+def test_a_coin_that_rocks_leaves_its_edge_on_the_side_on_which_it_is_hardly_held():
+    """Rolling while it turns, it is held on one rim by more than four times as much as on the other."""
+    case = scenario(coin={"thickness": 1e-3}, floor={"restitution": 0.9}, air=AIR)
+    body = case.body
+    y = upright_coin(body, 0.4, 2.5, -15.4)
+    upright.tilt(y, -0.35 * steady_lean(body))
+    one_rim.put_on_floor(body, SMOOTH, Mode.SLIDING.value, lower_rim_of(y), y)
+    strong, weak = (turned_back(body, SMOOTH, Mode.SLIDING, side, 1e-9, y) for side in (1.0, -1.0))
+    assert strong > 4 * weak > 0
+    assert not rocks_on_edge(body, SMOOTH, Mode.SLIDING.value, y)
+    assert run(body, case.rules, y).outcome in {Outcome.HEADS, Outcome.TAILS}
+
+
 def test_without_loss_a_coin_stands_if_it_is_held_in_the_course_of_its_own_roll():
     """The moment J_ζ ω_ζ Ω presses the rim on one side, for the other sense of turning that on the other."""
     body = scenario(coin={**ZLOTY, "center_of_mass": (0.0, 0.0, 4e-4)}).body
@@ -247,7 +318,7 @@ def test_a_rolling_coin_stands_unless_it_skids_or_its_roll_tips_it(roll_rate, mu
     assert stands(body, FloorFriction(mu), Mode.STICKING, rolling(body, roll_rate)) == held
 
 
-@pytest.mark.parametrize("number", [5496, 4614, 7739])
+@pytest.mark.parametrize("number", [6096, 4614, 7739])
 def test_a_toss_that_comes_upright_on_a_rough_floor_is_followed_to_its_end(number):
     """Tosses of the study of endings in which the coin skids or rolls on both rims for a while."""
     _, case = draw_toss(np.random.default_rng((2008, 1, number)), "imperfect")
