@@ -75,25 +75,35 @@ def write_video(
     encoding = ENCODINGS[path.suffix.lower()]
     count, shape = frame_count(shown, form), (form.height, form.width)
     chosen, poster = _poster_number(shown, form), np.zeros((*shape, 3), np.uint8)
+    writer = mediapy.VideoWriter(
+        str(path),
+        shape,
+        codec=encoding.codec,
+        fps=form.frames_per_second,
+        crf=encoding.rate,
+        ffmpeg_args=encoding.arguments,
+    )
     try:
-        with mediapy.VideoWriter(
-            str(path),
-            shape,
-            codec=encoding.codec,
-            fps=form.frames_per_second,
-            crf=encoding.rate,
-            ffmpeg_args=encoding.arguments,
-        ) as writer:
+        with writer:
             for number, frame in enumerate(frames(shown, camera, form), start=1):
                 writer.add_image(frame)
                 poster = frame if number == chosen else poster
                 progress(number, count)
     except (RuntimeError, BrokenPipeError) as error:
+        told = (_last_words(writer) or str(error).partition("': ")[2]).strip()
         raise_interruption_behind(error)
-        told = "" if isinstance(error, BrokenPipeError) else str(error).partition("': ")[2].strip()
         reason = told.splitlines()[-1] if told else "stopped, or the disk is full"
         raise OSError(errno.EIO, f"ffmpeg: {reason}", str(path)) from error
     return poster
+
+
+def _last_words(writer: mediapy.VideoWriter) -> str:
+    """Wait for an encoder that failed, and return what it said; mediapy leaves it and its pipe behind."""
+    encoder = writer._proc
+    if encoder is None or encoder.stderr is None:
+        return ""
+    with encoder:
+        return encoder.stderr.read().decode(errors="replace")
 
 
 def _poster_number(shown: Sequence[Filmed], form: Format) -> int:
