@@ -31,8 +31,11 @@ from models.rest import is_slowing
 
 # The angle by which an upright coin is tipped onto either rim, for trial [rad].
 _TRIAL = 2e-9
-# In so many phases of its roll a coin on its edge is tried, and one that rocks there.
-_PHASES, _ROCKING_PHASES = 48, 12
+# In so many phases of its roll a coin on its edge is tried.
+_PHASES = 48
+# Where it changes slowly how strongly either rim is turned back, rocking keeps its action, which goes as
+# E^(3/2) (1/a₋ + 1/a₊): its energy E grows by less than this factor until it meets the weaker rim.
+_GROWTH = 2 ** (2 / 3)
 # An upright coin is tried for whether it stands once in so many steps.
 _BETWEEN_TRIALS = 64
 
@@ -51,7 +54,7 @@ def event_at_one_rim(body, friction, mode, steps, early, y):
         y: state, (13,); put upright where the coin comes so.
     """
     if not on_edge(body, y):
-        tried = early and steps % _BETWEEN_TRIALS == 1 and not slows(body, friction, y)
+        tried = early and steps % _BETWEEN_TRIALS == 1 and not has_resistance(friction)
         return Event.ENDS if tried and rocks_on_edge(body, friction, mode, y) else Event.NONE
     if not held_on_edge(body, friction, mode, y):
         return Event.NONE
@@ -120,10 +123,10 @@ def lean_and_rate(y):
 
 @compiled
 def steady_lean(body):
-    """Return the lean up to which a coin that rocks on its edge may be lifted by its rocking; see `STEADY`.
+    """Return the |n_z| up to which a coin may be lifted by its rocking on its edge; see `STEADY`.
 
-    A coin at rest leans by at least 1/`STEADY` of it when C is above its lowest point. It is 0 for a coin
-    that has no thickness, or C beyond a face.
+    A coin at rest has C above its lowest point at about 1/`STEADY` of it, or more. It is 0 for a coin that
+    has no thickness, or C beyond a face.
     """
     x, y, z = body.center
     return STEADY * max(body.thickness / 2 - abs(z), 0.0) / (body.radius + math.hypot(x, y))
@@ -190,11 +193,12 @@ def stands(body, friction, mode, y):
 def rocks_on_edge(body, friction, mode, y):
     """Return whether a coin that rocks on its edge, rim by rim, has too little energy of rocking to leave it.
 
-    In every phase of its roll that it can reach, as `stands` has them, the floor must turn it back from
-    either rim up to `steady_lean`, and the least work of that must be more than the energy of rocking is
-    now: that of n_z's rate, and what the strongest such moment gives it from its lean. As its rims land it
-    loses energy, and on a rough floor L_z: there all of its energy may go into its roll. Nothing is said
-    while friction acts on slip, for across the rim it tips the coin as soon as slip turns there.
+    In every phase of its roll that it can reach, C lowest among them, the floor must turn it back from
+    either rim up to `steady_lean`, and the least work of that must be more than the energy of rocking is now,
+    n_z's rate and what the strongest such moment gives it from its lean, or can become as the coin rolls on.
+    As its rims land it loses energy, and on a rough floor L_z: there all of its energy may go into its roll.
+    Nothing is said while friction acts on slip, for across the rim it tips the coin as soon as slip turns
+    there.
 
     Args:
         body: the coin.
@@ -209,8 +213,8 @@ def rocks_on_edge(body, friction, mode, y):
         return False
     least_work, strongest, phase = np.inf, 0.0, np.empty(STATE_SIZE)
     L_z = dot(rotation_matrix(attitude_of(y))[2], apply(body.inertia, spin_of(y)))
-    for i in range(_ROCKING_PHASES):
-        half_angle = math.pi * i / _ROCKING_PHASES
+    for i in range(_PHASES):
+        half_angle = to_lowest(body, y) / 2 + math.pi * i / _PHASES
         roll_rate = rolled_on(body, friction, mode, friction.sliding == 0, y, half_angle, phase)
         if roll_rate < 0:
             continue
@@ -221,9 +225,17 @@ def rocks_on_edge(body, friction, mode, y):
                 leaning = turned_back(body, friction, mode, side, most_lean, phase)
                 strongest = max(strongest, at_edge)
                 least_work = min(least_work, (at_edge + leaning) / 2 * most_lean)
-                if not (leaning > 0 and moving + abs(n_z) * strongest < least_work):
+                energy = moving + abs(n_z) * strongest
+                if not (min(at_edge, leaning) > 0 and _GROWTH * energy < least_work):
                     return False
-    return True
+    return least_work < np.inf
+
+
+@compiled
+def to_lowest(body, y):
+    """Return the angle by which a coin in the state y, (13,), rolls until C is lowest [rad]."""
+    up, center = rotation_matrix(attitude_of(y))[2], body.center
+    return math.atan2(up[1], up[0]) - math.atan2(-center[1], -center[0])
 
 
 @compiled
@@ -319,7 +331,7 @@ def turned_back(body, friction, mode, side, lean, y):
         friction: `FloorFriction`.
         mode: number of the `Mode`, at one rim.
         side: 1 with heads up, on tails' rim, -1 with tails up.
-        lean: |n_z| [rad].
+        lean: |n_z|.
         y: state that is tried so, (13,).
     """
     dy, tipped = np.empty(STATE_SIZE), y.copy()

@@ -99,7 +99,7 @@ def write_video(
 
 def _last_words(writer: mediapy.VideoWriter) -> str:
     """Wait for an encoder that failed, and return what it said; mediapy leaves it and its pipe behind."""
-    encoder = writer._proc
+    encoder = getattr(writer, "_proc", None)
     if encoder is None or encoder.stderr is None:
         return ""
     with encoder:
