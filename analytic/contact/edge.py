@@ -194,8 +194,8 @@ def rocks_on_edge(body, friction, mode, y):
     """Return whether a coin that rocks on its edge, rim by rim, has too little energy of rocking to leave it.
 
     In every phase of its roll that it can reach, C lowest among them, the floor must turn it back from
-    either rim up to `steady_lean`, and the least work of that must be more than the energy of rocking is now,
-    n_z's rate and what the strongest such moment gives it from its lean, or can become as the coin rolls on.
+    either rim up to `steady_lean`. The least work of that must be more than the energy of its rocking can
+    become: now it is at most that of n_z's rate, and what the strongest turning back gives it from its lean.
     As its rims land it loses energy, and on a rough floor L_z: there all of its energy may go into its roll.
     Nothing is said while friction acts on slip, for across the rim it tips the coin as soon as slip turns
     there.

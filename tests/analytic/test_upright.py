@@ -167,12 +167,11 @@ def test_a_coin_is_on_its_edge_by_parts_of_what_tips_it(thickness, part, is_on_i
 
 
 def rocking(rng, body, rules):
-    """Give a coin that rocks on its edge while it rolls and turns, and the number of its mode."""
-    friction, mode = (
-        friction_in_contact(rules),
-        Mode.SLIDING if rules.law == ContactLaw.SMOOTH else Mode.STICKING,
-    )
-    y = upright_coin(body, rng.uniform(0, 6), rng.normal(0, 6), rng.normal(0, 12))
+    """Give a coin that rocks on its edge while it rolls and turns, with its floor's friction and its mode."""
+    friction = friction_in_contact(rules)
+    mode = Mode.SLIDING if rules.law == ContactLaw.SMOOTH else Mode.STICKING
+    turn, roll = rng.choice([(1, 3), (12, 2.5), (6, 12)])
+    y = upright_coin(body, rng.uniform(0, 6), rng.normal(0, turn), rng.normal(0, roll))
     up, most = rotation_matrix(tuple(y[6:10]))[2], steady_lean(body)
     y[10:12] += rng.uniform(-0.8, 0.8) * most * (G / R_COIN) ** 0.5 * np.array([-up[1], up[0]])
     upright.tilt(y, rng.uniform(-0.2, 0.2) * most)
@@ -220,11 +219,12 @@ def test_a_coin_that_is_hardly_held_where_its_center_is_lowest_is_not_said_to_st
     coin = {"thickness": thickness, "center_of_mass": (1.6e-3, 1.8e-3, 0)}
     case = scenario(coin=coin, floor={"restitution": 0.5}, air=AIR)
     body = case.body
-    y = upright_coin(body, 4.07, turn, 3.0)
-    up = rotation_matrix(tuple(y[6:10]))[2]
-    y[10:12] += 2.2 * steady_lean(body) * (G / R_COIN) ** 0.5 * np.array([-up[1], up[0]])
-    one_rim.put_on_floor(body, SMOOTH, Mode.SLIDING.value, lower_rim_of(y), y)
-    assert not rocks_on_edge(body, SMOOTH, Mode.SLIDING.value, y)
+    for rate in (1.6, 2.2):  # the larger is refused in whichever phases it is tried
+        y = upright_coin(body, 4.07, turn, 3.0)
+        up = rotation_matrix(tuple(y[6:10]))[2]
+        y[10:12] += rate * steady_lean(body) * (G / R_COIN) ** 0.5 * np.array([-up[1], up[0]])
+        one_rim.put_on_floor(body, SMOOTH, Mode.SLIDING.value, lower_rim_of(y), y)
+        assert not rocks_on_edge(body, SMOOTH, Mode.SLIDING.value, y)
     assert run(body, case.rules, y).outcome == Outcome.TAILS
 
 
@@ -345,11 +345,11 @@ def test_a_rolling_coin_stands_unless_it_skids_or_its_roll_tips_it(roll_rate, mu
     assert stands(body, FloorFriction(mu), Mode.STICKING, rolling(body, roll_rate)) == held
 
 
-@pytest.mark.parametrize("number", [6096, 4614, 7739])
+@pytest.mark.parametrize("number", [5496, 6096, 4614, 7739])
 def test_a_toss_that_comes_upright_on_a_rough_floor_is_followed_to_its_end(number):
     """Tosses of the study of endings in which the coin skids or rolls on both rims for a while."""
     _, case = draw_toss(np.random.default_rng((2008, 1, number)), "imperfect")
-    tossed = run(case.body, case.rules, state_of(case.release))
+    tossed = run(case.body, case.rules._replace(test=EndingTest.LYING), state_of(case.release))
     assert Mode.UPRIGHT in tossed.modes
     assert tossed.outcome != Outcome.UNDECIDED
 
