@@ -6,10 +6,11 @@ from analytic.automaton import Event, Mode
 from analytic.contact import modes, one_rim, smooth, upright
 from analytic.contact.one_rim import lay_flat, lower_rim_of
 from analytic.contact.resistance import FloorFriction, is_smooth
-from analytic.flight.integrated_flight import first_step, step_error
+from analytic.flight.integrated_flight import first_step
+from analytic.flight.runge_kutta import end_point, stage_point, step_error, step_factor
 from analytic.flight.state_vector import STATE_SIZE, normalise
 from analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
-from analytic.numerics.runge_kutta import STAGES, end_point, stage_point, step_factor
+from analytic.numerics.tableau import STAGES
 from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
 from models.laws import ContactLaw

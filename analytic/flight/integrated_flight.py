@@ -4,15 +4,9 @@ import numpy as np
 
 from analytic.flight.equations_of_motion import derivative
 from analytic.flight.power_series import COLUMNS, ORDER, expand_flight, state_in_flight
-from analytic.flight.state_vector import STATE_SIZE, normalise, spin_of, velocity_of
-from analytic.numerics.runge_kutta import (
-    STAGES,
-    combined_error,
-    end_point,
-    error_parts,
-    stage_point,
-    step_factor,
-)
+from analytic.flight.runge_kutta import end_point, stage_point, step_error, step_factor
+from analytic.flight.state_vector import STATE_SIZE, normalise, spin_of
+from analytic.numerics.tableau import STAGES
 from analytic.numerics.tolerances import STEP_ERROR
 from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
@@ -35,24 +29,6 @@ def step(body, y, dt, stages, y_new):
         derivative(body, y_new, stages[stage])
     end_point(y, dt, stages, y_new)
     normalise(y_new)
-
-
-@compiled
-def step_error(body, y, dt, stages):
-    """Estimate the error of the step just made, relative to the scales of the coin.
-
-    The scales: r for positions, √(g r) beside |v| for velocities, 1 for Euler parameters, √(g/r) beside
-    |ω| for angular velocities.
-    """
-    speed = (body.gravity * body.radius) ** 0.5 + norm(velocity_of(y))
-    spin = (body.gravity / body.radius) ** 0.5 + norm(spin_of(y))
-    sum_5, sum_3 = 0.0, 0.0
-    for i in range(STATE_SIZE):
-        size = body.radius if i < 3 else speed if i < 6 else 1.0 if i < 10 else spin
-        e5, e3 = error_parts(stages, i)
-        sum_5 += (e5 / size) ** 2
-        sum_3 += (e3 / size) ** 2
-    return combined_error(dt, sum_5, sum_3, STATE_SIZE)
 
 
 @compiled

@@ -9,9 +9,10 @@ import numpy as np
 from analytic.air.force import force_and_moment, force_and_moment_change
 from analytic.flight.equations_of_motion import derivative
 from analytic.flight.integrated_flight import accepted_step, first_step, step
+from analytic.flight.runge_kutta import end_point, stage_point
 from analytic.flight.state_vector import STATE_SIZE, attitude_of, spin_of, velocity_of
 from analytic.numerics.rotation import quaternion_rate, rotation_change
-from analytic.numerics.runge_kutta import STAGES, end_point, stage_point
+from analytic.numerics.tableau import STAGES
 from analytic.numerics.tolerances import STEP_ERROR
 from models.attitude import rotation_matrix
 from models.kernel.arrays import copy_into

@@ -113,10 +113,12 @@ E3 = np.array(_row(_ERROR_3_WEIGHTS))
 E5 = np.array(_row(_ERROR_5_WEIGHTS))
 """Weights of the slopes in the error estimate of order 5, (STAGES,)."""
 
-_POINTS = (*_STAGE_WEIGHTS, _END_WEIGHTS)
-TERMS = np.array([len(weights) for weights in _POINTS])
-"""How many slopes have a weight in each stage's point, and last in the end of the step, (STAGES + 1,)."""
-WEIGHTED = np.array([_packed(weights) for weights in _POINTS], dtype=np.int64)
-"""Their numbers, row by row, `TERMS` of them in each, (STAGES + 1, STAGES)."""
-WEIGHTS = np.array([_packed(weights.values()) for weights in _POINTS])
+_ROWS = (*_STAGE_WEIGHTS, _END_WEIGHTS, _ERROR_5_WEIGHTS, _ERROR_3_WEIGHTS)
+END, ERROR_5, ERROR_3 = range(STAGES, len(_ROWS))
+"""Numbers of the rows after those of the stages: the end of the step, and its error estimates."""
+TERMS = np.array([len(weights) for weights in _ROWS])
+"""How many slopes have a weight in each row, (STAGES + 3,)."""
+WEIGHTED = np.array([_packed(weights) for weights in _ROWS], dtype=np.int64)
+"""Their numbers, row by row, `TERMS` of them in each, (STAGES + 3, STAGES)."""
+WEIGHTS = np.array([_packed(weights.values()) for weights in _ROWS])
 """Their weights, as `WEIGHTED`."""

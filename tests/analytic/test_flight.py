@@ -6,9 +6,10 @@ import pytest
 import analytic
 from analytic.flight.equations_of_motion import derivative
 from analytic.flight.integrated_flight import step
+from analytic.flight.runge_kutta import combined_error
 from analytic.flight.state_vector import STATE_SIZE
 from analytic.flight.touch_search import gap_acceleration
-from analytic.numerics.runge_kutta import STAGES, combined_error
+from analytic.numerics.tableau import STAGES
 from analytic.toss import state_of
 from compare.metrics.trajectories import attitude_angle
 from models.attitude import rotation_matrix

@@ -13,8 +13,8 @@ def test_the_coefficients_are_those_of_scipy_to_the_bit():
         assert not theirs[..., tableau.STAGES :].any()
 
 
-def test_each_points_weights_are_its_row_without_the_zeros():
-    rows = [*tableau.A, tableau.B]
+def test_the_packed_weights_are_the_rows_without_the_zeros():
+    rows = [*tableau.A, tableau.B, tableau.E5, tableau.E3]
     for row, terms, weighted, weights in zip(
         rows, tableau.TERMS, tableau.WEIGHTED, tableau.WEIGHTS, strict=True
     ):

@@ -7,7 +7,7 @@ from analytic.events import run
 from analytic.flight.integrated_flight import accepted_step, first_step, sample_flight
 from analytic.horizon.flight_tangent import flight_tangent
 from analytic.horizon.sensitivity import event_tangent
-from analytic.numerics.runge_kutta import STAGES
+from analytic.numerics.tableau import STAGES
 from analytic.numerics.tolerances import STEP_ERROR
 from analytic.toss import state_of
 from models.laws import ContactLaw

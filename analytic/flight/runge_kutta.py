@@ -1,0 +1,144 @@
+"""One step of Dormand and Prince's Runge-Kutta pair of order 8(5,3), for the state of a coin.
+
+Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, section II.5. The caller computes the
+slope at each stage; `stages` holds them, (STAGES, 13). No slope depends on the position of C.
+"""
+
+import numpy as np
+
+from analytic.flight.state_vector import (
+    STATE_SIZE,
+    attitude_of,
+    position_of,
+    set_attitude,
+    set_position,
+    set_spin,
+    set_velocity,
+    spin_of,
+    velocity_of,
+)
+from analytic.numerics.tableau import END, ERROR_3, ERROR_5, TERMS, WEIGHTED, WEIGHTS
+from models.kernel.compiled import compiled
+from models.kernel.vectors import norm
+
+_SAFETY, _SHRINK_MOST, _GROW_MOST = 0.8, 0.2, 6.0
+
+
+@compiled
+def stage_point(y, dt, stages, stage, point):
+    """Write the place of a stage, whose slope is wanted, into `point`, all but the position of C.
+
+    Args:
+        y: state at the start of the step, (13,).
+        dt: length of the step.
+        stages: slopes at the stages before, (STAGES, 13).
+        stage: its number.
+        point: state, (13,), an array of its own.
+    """
+    _, v, e, w = _weighted_slope(stages, stage)
+    _advance(y, dt, v, e, w, point)
+
+
+@compiled
+def end_point(y, dt, stages, point):
+    """Write into `point`, (13,), the end of the step; for the arguments see `stage_point`."""
+    x, v, e, w = _weighted_slope(stages, END)
+    set_position(point, _plus(position_of(y), dt, x))
+    _advance(y, dt, v, e, w, point)
+
+
+@compiled
+def _advance(y, dt, v, e, w, point):
+    """Write y + dt (v, e, w) into the parts of `point` after the position; LLVM makes vectors of them."""
+    set_velocity(point, _plus(velocity_of(y), dt, v))
+    set_attitude(point, _plus_4(attitude_of(y), dt, e))
+    set_spin(point, _plus(spin_of(y), dt, w))
+
+
+@compiled
+def _weighted_slope(stages, row):
+    """Return the sum of the slopes with the weights of a row of the tableau, part by part of the state."""
+    x, v, w, e = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
+    for term in range(TERMS[row]):
+        weight, slope = WEIGHTS[row, term], stages[WEIGHTED[row, term]]
+        x = _plus(x, weight, position_of(slope))
+        v = _plus(v, weight, velocity_of(slope))
+        e = _plus_4(e, weight, attitude_of(slope))
+        w = _plus(w, weight, spin_of(slope))
+    return x, v, e, w
+
+
+@compiled
+def _plus(a, k, b):
+    """Return a + k b for vectors."""
+    return a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2]
+
+
+@compiled
+def _plus_4(a, k, b):
+    """Return a + k b for Euler parameters."""
+    return a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2], a[3] + k * b[3]
+
+
+@compiled
+def step_error(body, y, dt, stages):
+    """Estimate the error of the step just made, relative to the scales of the coin.
+
+    The scales: r for positions, √(g r) beside |v| for velocities, 1 for Euler parameters, √(g/r) beside
+    |ω| for angular velocities.
+    """
+    speed = (body.gravity * body.radius) ** 0.5 + norm(velocity_of(y))
+    spin = (body.gravity / body.radius) ** 0.5 + norm(spin_of(y))
+    sum_5 = _sum_of_squares(_weighted_slope(stages, ERROR_5), body.radius, speed, spin)
+    sum_3 = _sum_of_squares(_weighted_slope(stages, ERROR_3), body.radius, speed, spin)
+    return combined_error(dt, sum_5, sum_3, STATE_SIZE)
+
+
+@compiled
+def _sum_of_squares(slope, length, speed, spin):
+    """Return the sum of the squares of a slope's components, each relative to its scale."""
+    x, v, e, w = slope
+    total = 0.0
+    for part in x:
+        total += (part / length) ** 2
+    for part in v:
+        total += (part / speed) ** 2
+    for part in e:
+        total += part**2
+    for part in w:
+        total += (part / spin) ** 2
+    return total
+
+
+@compiled
+def combined_error(dt, sum_5, sum_3, size):
+    """Return the error of a step of a system of `size` components, as Hairer's code combines the estimates.
+
+    Args:
+        dt: length of the step.
+        sum_5: of the squares of the estimates of order 5, each relative to its component's scale.
+        sum_3: of those of order 3.
+        size: number of components.
+    """
+    if sum_5 == 0 and sum_3 == 0:
+        return 0.0
+    combined = (sum_5 + 0.01 * sum_3) * size
+    if not combined < np.inf:
+        # Divided by it, any error would be none.
+        return np.inf
+    return abs(dt) * sum_5 / combined**0.5
+
+
+@compiled
+def step_factor(error):
+    """Return the factor from a step to the next, or to its next try.
+
+    Args:
+        error: of the step, relative to the error allowed.
+    """
+    if error == 0:
+        return _GROW_MOST
+    # An error that is not a number comes from an overflow inside the step.
+    if not error >= 0:
+        return _SHRINK_MOST
+    return min(_GROW_MOST, max(_SAFETY * error ** (-1 / 8), _SHRINK_MOST))
