@@ -80,6 +80,24 @@ def _force_and_moment_change(body, b, v, w, dv, dw):
 
 
 @compiled
+def write_jacobian(body, v, w, jacobian):
+    """Write the derivatives of the air's force and moment about C by the motion.
+
+    Args:
+        body: the coin.
+        v: velocity of C, body frame, (3,) [m/s].
+        w: angular velocity, body frame, (3,) [rad/s].
+        jacobian: where they go, (6, 6); row i, column j: of f and then m_C by v and then ω, body frame.
+    """
+    none = (0.0, 0.0, 0.0)
+    for j in range(6):
+        unit = (1.0 if j % 3 == 0 else 0.0, 1.0 if j % 3 == 1 else 0.0, 1.0 if j % 3 == 2 else 0.0)
+        df, dm = force_and_moment_change(body, v, w, unit if j < 3 else none, none if j < 3 else unit)
+        for i in range(3):
+            jacobian[i, j], jacobian[3 + i, j] = df[i], dm[i]
+
+
+@compiled
 def _by_quadrature(body, v, w):
     """Return force and moment for b > 0."""
     v_B, share = subtract(v, cross(w, body.center)), 1 / (1 + body.air.exponent)

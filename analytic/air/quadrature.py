@@ -31,20 +31,20 @@ class Nodes(NamedTuple):
     """The graded rules of one evaluation."""
 
     x: NDArray[np.float64]
-    """Nodes for the integrals over faces, rims and the wall's circles, and for pressure along the wall."""
+    """Nodes for the integrals over faces and rims, and for pressure along the wall."""
     weights: NDArray[np.float64]
-    along_x: NDArray[np.float64]
-    """Nodes along the wall for what is integrated around it already, which is smoother by a power."""
-    along_weights: NDArray[np.float64]
+    around_x: NDArray[np.float64]
+    """Nodes around the wall for what is integrated along it already, which is smoother by a power."""
+    around_weights: NDArray[np.float64]
     digits: float
     """-ln of the error for which plain rules are chosen by their distance from the branch points."""
 
 
-def nodes_of(n: int, n_along: int, digits: float) -> Nodes:
-    """Return graded rules of n and n_along nodes, and plain ones good to exp(-digits)."""
-    return Nodes(*graded_rule(n, 5), *graded_rule(n_along, 2), digits)
+def nodes_of(n: int, n_around: int, digits: float) -> Nodes:
+    """Return graded rules of n and n_around nodes, and plain ones good to exp(-digits)."""
+    return Nodes(*graded_rule(n, 5), *graded_rule(n_around, 4), digits)
 
 
 # The integrand of the change is rougher by a power than that of the force. The tests compare both with finer
 # rules over all kinds of motion.
-FORCE_NODES, CHANGE_NODES = nodes_of(32, 16, 28.0), nodes_of(48, 24, 28.0)
+FORCE_NODES, CHANGE_NODES = nodes_of(32, 28, 28.0), nodes_of(48, 48, 28.0)

@@ -68,10 +68,10 @@ def accepted_step(body, y, dt, tolerance, stages, y_new):
 
 @compiled
 def flight_work(body):
-    """Return the work space of a flight: for its series, or where b > 0 for Runge-Kutta steps."""
+    """Return the work space of a flight: for its series, or where b > 0 a Runge-Kutta step and its end."""
     if body.air.exponent is None:
         return np.empty((ORDER + 1, COLUMNS))
-    return np.empty((STAGES, STATE_SIZE))
+    return np.empty((STAGES + 1, STATE_SIZE))
 
 
 @compiled
@@ -91,7 +91,7 @@ def flight_step(body, y, dt, longest, work):
     if body.air.exponent is None:
         length, order = expand_flight(body, y, longest, work)
         return length, np.inf, order
-    made, dt = accepted_step(body, y, min(dt, longest), STEP_ERROR, work, np.empty(STATE_SIZE))
+    made, dt = accepted_step(body, y, min(dt, longest), STEP_ERROR, work, work[STAGES])
     return made, dt, 0
 
 
@@ -110,8 +110,17 @@ def within_step(body, y, t, order, work, y_new):
     if body.air.exponent is None:
         state_in_flight(body, work, order, t, y, y_new)
     else:
-        derivative(body, y, work[0])
         step(body, y, t, work, y_new)
+
+
+@compiled
+def finish_step(body, made, order, work, y, scratch):
+    """Advance the state y, (13,), to the end of a step of the length `made`; see `within_step`."""
+    if body.air.exponent is None:
+        state_in_flight(body, work, order, made, y, scratch)
+        copy_into(y, scratch)
+    else:
+        copy_into(y, work[STAGES])
 
 
 @compiled
@@ -133,9 +142,8 @@ def sample_flight(body, start, start_time, times, states):
     made, dt, order = flight_step(body, y, first_step(body, y), np.inf, work)
     for i in range(len(times)):
         while times[i] - start_time > elapsed + made:
-            within_step(body, y, made, order, work, y_new)
+            finish_step(body, made, order, work, y, y_new)
             elapsed += made
-            copy_into(y, y_new)
             made, dt, order = flight_step(body, y, dt, np.inf, work)
             steps += 1
         within_step(body, y, times[i] - start_time - elapsed, order, work, states[i])

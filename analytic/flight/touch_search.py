@@ -4,7 +4,7 @@ import numpy as np
 
 from analytic.flight.equations_of_motion import derivative
 from analytic.flight.gap_polynomials import DEGREE, gap_polynomials, time_surely_clear
-from analytic.flight.integrated_flight import first_step, flight_step, flight_work, within_step
+from analytic.flight.integrated_flight import finish_step, first_step, flight_step, flight_work, within_step
 from analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
 from analytic.numerics.tolerances import CHATTERING, SINK, TIME_STEP, TOUCH
 from models.attitude import rotation_matrix
@@ -179,7 +179,6 @@ def fly_by_steps(body, y, longest, with_graze):
             inside += ahead
             if inside < made:
                 within_step(body, y, inside, order, work, y_near)
-        within_step(body, y, made, order, work, y_near)
+        finish_step(body, made, order, work, y, y_near)
         elapsed += made
-        copy_into(y, y_near)
     return longest, False, evaluations, graze

@@ -6,7 +6,7 @@ the derivative of the very numbers that these steps compute, their lengths held.
 
 import numpy as np
 
-from analytic.air.force import force_and_moment, force_and_moment_change
+from analytic.air.force import force_and_moment, write_jacobian
 from analytic.flight.equations_of_motion import derivative
 from analytic.flight.integrated_flight import accepted_step, first_step, step
 from analytic.flight.runge_kutta import end_point, stage_point
@@ -24,23 +24,23 @@ STEP_ERROR_OF_GROWTH = 1e-7
 
 
 @compiled
-def derivative_change(body, y, dy, rate):
+def derivative_change(body, y, force, jacobian, dy, rate):
     """Write the change of `flight.derivative` with the state into `rate`.
 
     Args:
         body: the coin.
         y: state, (13,).
-        dy: its change, (13,).
+        force: of the air there, body frame, (3,) [N].
+        jacobian: of the air's force and moment there, see `analytic.air.force.write_jacobian`, (6, 6).
+        dy: change of the state, (13,).
         rate: where the change of its rate of change goes, (13,).
     """
     v, e, w = velocity_of(y), attitude_of(y), spin_of(y)
     dv, de, dw = velocity_of(dy), attitude_of(dy), spin_of(dy)
     R, dR = rotation_matrix(e), rotation_change(e, de)
-    v_body = apply_transposed(R, v)
     dv_body = add(apply_transposed(dR, v), apply_transposed(R, dv))
-    f, _ = force_and_moment(body, v_body, w)
-    df, dm_C = force_and_moment_change(body, v_body, w, dv_body, dw)
-    df_space = add(apply(dR, f), apply(R, df))
+    df, dm_C = _part(jacobian, 0, dv_body, dw), _part(jacobian, 3, dv_body, dw)
+    df_space = add(apply(dR, force), apply(R, df))
     d_gyroscopic = add(cross(dw, apply(body.inertia, w)), cross(w, apply(body.inertia, dw)))
     by_attitude, by_spin = quaternion_rate(de, w), quaternion_rate(e, dw)
     for i in range(3):
@@ -49,6 +49,14 @@ def derivative_change(body, y, dy, rate):
     for i in range(4):
         rate[6 + i] = by_attitude[i] + by_spin[i]
     rate[10], rate[11], rate[12] = apply(body.inertia_inverse, subtract(dm_C, d_gyroscopic))
+
+
+@compiled
+def _part(jacobian, first, dv, dw):
+    """Return three rows of a jacobian, from this one on, times a change of the motion."""
+    by_v = (jacobian[first, :3], jacobian[first + 1, :3], jacobian[first + 2, :3])
+    by_w = (jacobian[first, 3:], jacobian[first + 1, 3:], jacobian[first + 2, 3:])
+    return add(apply(by_v, dv), apply(by_w, dw))
 
 
 @compiled
@@ -62,9 +70,17 @@ def step_change(body, y, dt, stages, changes):
         stages: the rates of change at its stages, (12, 13).
         changes: one change of the state in each row, (n, 13); become those at the end of the step.
     """
-    points = np.empty((STAGES, STATE_SIZE))
+    points, forces, jacobians = (
+        np.empty((STAGES, STATE_SIZE)),
+        np.empty((STAGES, 3)),
+        np.empty((STAGES, 6, 6)),
+    )
     for stage in range(STAGES):
-        stage_point(y, dt, stages, stage, points[stage])
+        point = points[stage]
+        stage_point(y, dt, stages, stage, point)
+        v, w = apply_transposed(rotation_matrix(attitude_of(point)), velocity_of(point)), spin_of(point)
+        (forces[stage, 0], forces[stage, 1], forces[stage, 2]), _ = force_and_moment(body, v, w)
+        write_jacobian(body, v, w, jacobians[stage])
     end = np.empty(STATE_SIZE)
     end_point(y, dt, stages, end)
     e = attitude_of(end)
@@ -73,7 +89,7 @@ def step_change(body, y, dt, stages, changes):
     for change in changes:
         for stage in range(STAGES):
             stage_point(change, dt, slopes, stage, inside)
-            derivative_change(body, points[stage], inside, slopes[stage])
+            derivative_change(body, points[stage], forces[stage], jacobians[stage], inside, slopes[stage])
         end_point(change, dt, slopes, inside)
         copy_into(change, inside)
         # The quaternion is brought back to norm 1.

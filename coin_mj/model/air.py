@@ -18,7 +18,7 @@ import numpy as np
 from models.kernel.compiled import compiled
 from models.kernel.vectors import Vector
 
-TOLERANCE = 1e-14
+TOLERANCE = 1e-11
 """Largest difference of the two rules on an accepted piece. The error of the finer one is far smaller."""
 NARROWEST = 1e-14
 """A piece is not halved below this [rad, or r]: what it holds is below rounding."""

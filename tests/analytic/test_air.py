@@ -17,7 +17,7 @@ from tests.helpers.referee import air_by_cubature
 
 R, H = ZLOTY["radius"], ZLOTY["thickness"]
 LN, LT = AIR["normal"], AIR["tangential"]
-FINER = nodes_of(96, 64, 60.0)
+FINER = nodes_of(96, 96, 60.0)
 
 
 def coin(b, h=H, ln=LN, lt=LT, c=(0.0, 0.0, 0.0)):

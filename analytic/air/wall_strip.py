@@ -1,0 +1,173 @@
+"""The air's friction on a strip along the wall of a coin: what it changes by, integrated over the strip.
+
+At the height z of a strip the wall moves with the tangential velocity T = (C + D z, B), around and along it.
+Friction is the gradient of -|T|^(b+2)/(b+2), 0 < b <= 1. The integrals of its second derivatives over
+x = C + D z are closed forms but for Φ = ∫ (x² + B²)^(b/2) dx, a hypergeometric function of one variable.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from analytic.air.law import power
+from analytic.air.quadrature import gauss_rule
+from models.kernel.compiled import compiled
+
+_X, _WEIGHTS = gauss_rule(6)
+# Where T vanishes so many half lengths of the strip from its middle, Gauss's rule errs by 1e-12 at most.
+_FAR_ZERO = 6.0
+# Φ is a series of (B/x)² beyond this x/|B|, below it one of x²/(x² + B²); so many terms reach rounding.
+_FAR = 4 / 3
+_FAR_TERMS, _NEAR_TERMS = 64, 80
+
+
+class PhiSeries(NamedTuple):
+    """The coefficients of Φ for one b."""
+
+    near: NDArray[np.float64]
+    """Of F(-b/2, 1; 3/2; y), which is Φ/(x |T|^b), as a series of y = x²/(x² + B²)."""
+    far: NDArray[np.float64]
+    """Of Φ/x^(b+1) as a series of (B/x)², but for the second, which `_logarithm` has."""
+    beyond: float
+    """What Φ has beside that series for B = 1, so that its forms meet."""
+
+
+class StripChange(NamedTuple):
+    """Integrals over z of the second derivatives of |T|^(b+2)/(b+2), T = (T_θ, T_ζ)."""
+
+    around: float
+    """Twice by T_θ."""
+    around_z: float
+    """The same times z."""
+    around_zz: float
+    """The same times z²."""
+    mixed: float
+    """By T_θ and T_ζ."""
+    mixed_z: float
+    """The same times z."""
+    along: float
+    """Twice by T_ζ."""
+
+
+@compiled
+def strip_change(b, series, half, B, C, D):
+    """Return the `StripChange` of the strip from z = -half to half.
+
+    Where T vanishes, at a complex z, far from the strip, Gauss's rule does; near it the closed forms do not
+    cancel.
+
+    Args:
+        b: exponent.
+        series: the `PhiSeries` of b.
+        half: half the length of the strip [m].
+        B: velocity along the wall [m/s].
+        C: velocity around it at z = 0 [m/s].
+        D: its change with z [1/s].
+    """
+    if B == 0 and C == 0 and D == 0:
+        return StripChange(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if C * C + B * B > (_FAR_ZERO * D * half) ** 2:
+        return _by_gauss(b, half, B, C, D)
+    low, high = C - D * half, C + D * half
+    low_square, high_square = low * low + B * B, high * high + B * B
+    P, Q = power(low_square, b), power(high_square, b)
+    F = _phi(b, series, high, B, Q) - _phi(b, series, low, B, P)
+    first, second = high * Q - low * P, high * high * Q - low * low * P
+    third = high * high * high * Q - low * low * low * P
+    # ∫ x |T|^b and ∫ x² |T|^b
+    odd = (high_square * Q - low_square * P) / (b + 2)
+    even = (high * high_square * Q - low * low_square * P - B * B * F) / (b + 3)
+    around, around_x, around_xx = first, second - odd, third - 2 * even
+    mixed, mixed_x = B * (Q - P), B * (first - F)
+    return StripChange(
+        around / D,
+        (around_x - C * around) / (D * D),
+        (around_xx - C * (2 * around_x - C * around)) / (D * D * D),
+        mixed / D,
+        (mixed_x - C * mixed) / (D * D),
+        ((2 + b) * F - first) / D,
+    )
+
+
+@compiled
+def _by_gauss(b, half, B, C, D):
+    """Return the `StripChange` by Gauss's rule; for the arguments see `strip_change`."""
+    around, around_z, around_zz, mixed, mixed_z, along = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(len(_X)):
+        z = half * (2 * _X[i] - 1)
+        x = C + D * z
+        square = x * x + B * B
+        strip = 2 * half * _WEIGHTS[i] * power(square, b)
+        bent = b * strip / square
+        by_around, by_both = strip + bent * x * x, bent * x * B
+        around += by_around
+        around_z += z * by_around
+        around_zz += z * z * by_around
+        mixed += by_both
+        mixed_z += z * by_both
+        along += strip + bent * B * B
+    return StripChange(around, around_z, around_zz, mixed, mixed_z, along)
+
+
+@compiled
+def phi_series(b):
+    """Return the `PhiSeries` of b."""
+    near, far = np.empty(_NEAR_TERMS), np.empty(_FAR_TERMS)
+    term = 1.0
+    for k in range(_NEAR_TERMS):
+        near[k] = term
+        term *= (k - b / 2) / (k + 1.5)
+    term = 1.0
+    for k in range(_FAR_TERMS):
+        far[k] = term / (b + 1 - 2 * k) if k != 1 else 0.0
+        term *= (b / 2 - k) / (k + 1)
+    square = _FAR * _FAR
+    meeting = _FAR * (square + 1) ** (b / 2) * _polynomial(near, square / (square + 1))
+    series = _FAR ** (b + 1) * _polynomial(far, 1 / square) + b / 2 * _logarithm(b, _FAR, 1.0)
+    return PhiSeries(near, far, meeting - series)
+
+
+@compiled
+def _phi(b, series, x, B, speed_power):
+    """Return Φ(x) = ∫_0^x (t² + B²)^(b/2) dt.
+
+    Args:
+        b: exponent.
+        series: the `PhiSeries` of b.
+        x: end of the integral.
+        B: see above.
+        speed_power: (x² + B²)^(b/2).
+    """
+    size, B = abs(x), abs(B)
+    if size <= _FAR * B:
+        if size == 0:
+            return 0.0
+        return x * speed_power * _polynomial(series.near, x * x / (x * x + B * B))
+    inner = B ** (b + 1) * (b / 2 * _logarithm(b, size, B) + series.beyond) if B > 0 else 0.0
+    return math.copysign(size ** (b + 1) * _polynomial(series.far, (B / size) ** 2) + inner, x)
+
+
+@compiled
+def _polynomial(coefficients, x):
+    """Return the value of a polynomial whose coefficients are four times some number.
+
+    Its four sums do not wait for each other.
+    """
+    a, b, c, d = 0.0, 0.0, 0.0, 0.0
+    square = x * x
+    fourth = square * square
+    for k in range(len(coefficients) - 4, -1, -4):
+        a = a * fourth + coefficients[k]
+        b = b * fourth + coefficients[k + 1]
+        c = c * fourth + coefficients[k + 2]
+        d = d * fourth + coefficients[k + 3]
+    return a + x * b + square * (c + x * d)
+
+
+@compiled
+def _logarithm(b, x, B):
+    """Return ((x/B)^(b-1) - 1)/(b - 1), for b = 1 its limit ln(x/B)."""
+    logarithm = math.log(x) - math.log(B)
+    return math.expm1((b - 1) * logarithm) / (b - 1) if b != 1 else logarithm
