@@ -1,5 +1,7 @@
 """The air's friction on a strip of the wall, against adaptive quadrature in 20 digits."""
 
+from typing import Any
+
 import mpmath
 import numpy as np
 import pytest
@@ -33,7 +35,8 @@ def by_quadrature(b, B, C, D):
             )
 
         with mpmath.workdps(20):
-            return float(mpmath.quad(integrand, [mpmath.mpf(z) for z in ends]))
+            found: Any = mpmath.quad(integrand, [mpmath.mpf(z) for z in ends])
+            return float(found)
 
     return np.array(
         [integral(k, "xx") for k in (0, 1, 2)] + [integral(k, "xB") for k in (0, 1)] + [integral(0, "BB")]
