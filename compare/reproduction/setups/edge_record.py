@@ -40,7 +40,7 @@ ANGLE, SOLID_ANGLE = 3**-0.5, 8**-0.5
 """h/D at which C is on the edge's side in a third of all turns about a diameter, and of all attitudes."""
 SQUARE = "h/D = 1,"
 """In the names of the classes of such coins."""
-SQUARES = 20
+SQUARES = 2
 """So many times more of them are tossed by MuJoCo."""
 LAWS = {
     DIAMETRAL: (ANGLE, edge_by_angle, "(2/π) atan(h/D)"),
@@ -87,8 +87,8 @@ class Sizes:
     wobble: int
     touches: int
     ways: int
-    mujoco: int
-    """Tosses of each class by MuJoCo; the analytic engine makes four times as many."""
+    mujoco: dict[str, int]
+    """Tosses of each class by MuJoCo, by hand; the analytic engine makes four times as many."""
     shared: tuple[tuple[str, float, float, bool], ...]
     """Hand, h/D and χ of the coins that both engines toss, and whether the floor resists."""
 
@@ -96,7 +96,7 @@ class Sizes:
 FULL = Sizes(
     aspects=(0.01, 0.05, 0.1, 0.2, 0.3, SOLID_ANGLE, 0.42, 0.5, ANGLE, 0.65, 0.75, 0.85, 1, 1.3, 2, 4),
     chis=(0.0, 0.2, 0.4, 0.6, 0.8),
-    curve={DIAMETRAL: 800, WOBBLING: 120},
+    curve={DIAMETRAL: 2400, WOBBLING: 120},
     nickel={DIAMETRAL: 100_000, WOBBLING: 2000},
     factor={DIAMETRAL: 8000, WOBBLING: 500},
     factors=tuple(FACTORS)[1:],
@@ -104,7 +104,7 @@ FULL = Sizes(
     wobble=1000,
     touches=4000,
     ways=200,
-    mujoco=100,
+    mujoco={DIAMETRAL: 1000, WOBBLING: 100},
     shared=(
         *((DIAMETRAL, aspect, chi, True) for aspect in (NICKEL, 0.35, 0.6) for chi in (0.5, 0.8)),
         (DIAMETRAL, 1.0, 0.2, True),
@@ -123,7 +123,7 @@ QUICK = Sizes(
     wobble=20,
     touches=200,
     ways=10,
-    mujoco=4,
+    mujoco={DIAMETRAL: 4, WOBBLING: 4},
     shared=((DIAMETRAL, 0.6, 0.8, True),),
 )
 SIZE = {DIAMETRAL: 10_000, WOBBLING: 500}
@@ -232,7 +232,7 @@ def _jobs(sizes: Sizes, parts: Path) -> Iterator[tuple[tuple[str, ...], Callable
         kind = EdgeClass(name=name, aspect=aspect, hand=hand_of(wobble), floor=floor)
         for engine, times in ((Engine.ANALYTIC, 4), (Engine.MUJOCO, 1)):
             other = replace(kind, name=f"{name}, {engine}")
-            many = times * sizes.mujoco * (SQUARES if aspect == 1 and engine == Engine.MUJOCO else 1)
+            many = times * sizes.mujoco[wobble] * (SQUARES if aspect == 1 and engine == Engine.MUJOCO else 1)
             yield ("engines", name, engine.value), counted(other, many, 50 * times, engine)
 
 
