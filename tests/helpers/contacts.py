@@ -1,10 +1,12 @@
-"""Sustained contact a step at a time, at the tolerance of flights."""
+"""Sustained contact a step at a time, at the tolerance of flights, and coins upright on the floor."""
 
 import numpy as np
 
+from analytic.contact import upright
 from analytic.contact.following import follow, start_following
 from analytic.contact.resistance import FloorFriction
 from analytic.numerics.tolerances import STEP_ERROR
+from models.attitude import quaternion_from_angles, rotation_matrix
 from models.body import Body
 from models.records import Array
 
@@ -23,3 +25,12 @@ def follow_for(body: Body, friction: FloorFriction, mode: int, y: Array, time: f
         states.append(y.copy())
         times.append(times[-1] + made)
     return np.array(states), np.array(times)
+
+
+def upright_coin(body: Body, phase: float, turn_rate: float, roll_rate: float) -> Array:
+    """Return a coin upright on the floor that turns about the vertical and rolls [rad/s]."""
+    y = np.array([0, 0, 0, 0.1, -0.2, 0, *quaternion_from_angles((0.3, np.pi / 2, phase)), 0, 0, roll_rate])
+    up = rotation_matrix(tuple(y[6:10]))[2]
+    y[10:13] += turn_rate * np.array(up)
+    upright.put_on_floor(body, y)
+    return y

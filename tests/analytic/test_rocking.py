@@ -1,0 +1,114 @@
+"""A coin that rocks on its edge: it is said to stand only where its rocking cannot lift it over."""
+
+import numpy as np
+import pytest
+
+from analytic.automaton import Mode
+from analytic.contact import one_rim, upright
+from analytic.contact.edge import (
+    lean_and_rate,
+    on_edge,
+    rocks_on_edge,
+    rolled_on,
+    steady_lean,
+    to_lowest,
+    turned_back,
+)
+from analytic.contact.following import friction_in_contact
+from analytic.contact.one_rim import lower_rim_of
+from analytic.contact.resistance import FloorFriction
+from analytic.contact.rim_contact import rim_contact
+from analytic.events import run
+from models.attitude import rotation_matrix
+from models.laws import ContactLaw, EndingTest
+from models.records import Ending, Outcome
+from tests.helpers.contacts import upright_coin
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+
+SMOOTH = FloorFriction(0.0)
+G, R_COIN = 9.81, ZLOTY["radius"]
+UNBALANCED = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
+
+
+def rocking(rng, body, rules):
+    """Give a coin that rocks on its edge while it rolls and turns, with its floor's friction and its mode."""
+    friction = friction_in_contact(rules)
+    mode = Mode.SLIDING if rules.law == ContactLaw.SMOOTH else Mode.STICKING
+    turn, roll = rng.choice([(1, 3), (12, 2.5), (6, 12)])
+    y = upright_coin(body, rng.uniform(0, 6), rng.normal(0, turn), rng.normal(0, roll))
+    up, most = rotation_matrix(tuple(y[6:10]))[2], steady_lean(body)
+    y[10:12] += rng.uniform(-0.8, 0.8) * most * (G / R_COIN) ** 0.5 * np.array([-up[1], up[0]])
+    upright.tilt(y, rng.uniform(-0.2, 0.2) * most)
+    y[3:5] -= rim_contact(body, y, lower_rim_of(y)).velocity[:2]
+    one_rim.put_on_floor(body, friction, mode.value, lower_rim_of(y), y)
+    return friction, mode.value, y
+
+
+@pytest.mark.parametrize("count", [16, pytest.param(400, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "floor",
+    [
+        {"contact": "smooth"},
+        {"contact": "coulomb", "friction": 0.2},
+        {"contact": "perfectly_rough"},
+    ],
+)
+def test_a_coin_that_is_said_to_stand_while_it_rocks_comes_to_stand(floor, count):
+    """With `test = "lying"` it is followed on until its rocking has died away."""
+    rng, stood, earlier = np.random.default_rng(5), 0, 0
+    for _ in range(count):
+        center = (*rng.uniform(-1e-3, 1e-3, 2), rng.uniform(-5e-5, 5e-5))
+        coin = {"thickness": rng.choice([6e-4, 1e-3, 2e-3, 4e-3]), "center_of_mass": center}
+        case = scenario(coin=coin, floor={**floor, "restitution": rng.uniform(0.2, 0.9)}, air=AIR)
+        body, rules = case.body, case.rules
+        friction, mode, y = rocking(rng, body, rules)
+        if not rocks_on_edge(body, friction, mode, y):
+            continue
+        assert not on_edge(body, y)
+        stood += 1
+        ended = run(body, rules._replace(test=EndingTest.LYING), y)
+        assert ended.outcome == Outcome.EDGE
+        assert on_edge(body, ended.start_states[-1])
+        assert max(abs(lean_and_rate(state)[0]) for state in ended.start_states) < 4 * steady_lean(body)
+        early = run(body, rules, y)
+        assert early.outcome == Outcome.EDGE
+        assert early.end_time <= ended.end_time
+        earlier += early.ending == Ending.STANDING and not on_edge(body, early.start_states[-1])
+    assert stood >= earlier >= count / 8
+
+
+@pytest.mark.parametrize(("thickness", "turn"), [(6e-4, 9.2), (8e-4, 13.0)])
+def test_a_coin_that_is_hardly_held_where_its_center_is_lowest_is_not_said_to_stand(thickness, turn):
+    """It rolls to and fro near there, through few phases, and fastest between them."""
+    coin = {"thickness": thickness, "center_of_mass": (1.6e-3, 1.8e-3, 0)}
+    case = scenario(coin=coin, floor={"restitution": 0.5}, air=AIR)
+    body = case.body
+    for rate in (1.6, 2.2):  # the larger is refused in whichever phases it is tried
+        y = upright_coin(body, 4.07, turn, 3.0)
+        up = rotation_matrix(tuple(y[6:10]))[2]
+        y[10:12] += rate * steady_lean(body) * (G / R_COIN) ** 0.5 * np.array([-up[1], up[0]])
+        one_rim.put_on_floor(body, SMOOTH, Mode.SLIDING.value, lower_rim_of(y), y)
+        assert not rocks_on_edge(body, SMOOTH, Mode.SLIDING.value, y)
+    assert run(body, case.rules, y).outcome == Outcome.TAILS
+
+
+def test_the_lowest_phase_is_where_the_center_is_below():
+    body = scenario(coin=UNBALANCED).body
+    for phase in (0.3, 2.0, 5.0):
+        y, rolled = upright_coin(body, phase, 3.0, 20.0), np.empty(13)
+        rolled_on(body, SMOOTH, Mode.SLIDING.value, False, y, to_lowest(body, y) / 2, rolled)
+        center = np.array(rotation_matrix(tuple(rolled[6:10]))) @ np.array(body.center)
+        assert center[2] == pytest.approx(-np.hypot(*body.center[:2]), rel=1e-9)
+
+
+def test_a_coin_that_rocks_leaves_its_edge_on_the_side_on_which_it_is_hardly_held():
+    """Rolling while it turns, it is held on one rim by more than four times as much as on the other."""
+    case = scenario(coin={"thickness": 1e-3}, floor={"restitution": 0.9}, air=AIR)
+    body = case.body
+    y = upright_coin(body, 0.4, 2.5, -15.4)
+    upright.tilt(y, -0.35 * steady_lean(body))
+    one_rim.put_on_floor(body, SMOOTH, Mode.SLIDING.value, lower_rim_of(y), y)
+    strong, weak = (turned_back(body, SMOOTH, Mode.SLIDING, side, 1e-9, y) for side in (1.0, -1.0))
+    assert strong > 4 * weak > 0
+    assert not rocks_on_edge(body, SMOOTH, Mode.SLIDING.value, y)
+    assert run(body, case.rules, y).outcome in {Outcome.HEADS, Outcome.TAILS}
