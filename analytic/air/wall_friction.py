@@ -19,7 +19,8 @@ TURN = 96
 """Points of the full rectangle rule around; coarser ones take every second, third, fourth or sixth."""
 _TURN_COS, _TURN_SIN = (part(2 * np.pi * np.arange(TURN) / TURN) for part in (np.cos, np.sin))
 _SHORT_X, _SHORT_WEIGHTS = gauss_rule(16)
-# A point between the rims is at rest only up to a height against h/2 that is surely below this one.
+# Where B = 0 while C + D z vanishes at a height, complex too, above so many h/2, the integral along z is
+# smooth: its path lies between the rims.
 _HIGHEST = 2.0
 _MOST_BREAKS = 6
 _NO_SUMS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

@@ -56,7 +56,7 @@ def strip_change(b, series, half, B, C, D):
     """Return the `StripChange` of the strip from z = -half to half.
 
     Where T vanishes, at a complex z, far from the strip, Gauss's rule does; near it the closed forms do not
-    cancel.
+    cancel. Their squares and cubes must not underflow: of a moving coin the speeds are in parts of its own.
 
     Args:
         b: exponent.

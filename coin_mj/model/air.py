@@ -93,7 +93,7 @@ def _pressure(motion):
     for end in (0.0, math.pi):
         total = _plus(total, 1.0, _integral(PRESSURE_ON_FACES, motion, still, end, 0.0))
     if half > 0:
-        slowest = (v[1] * w[0] - v[0] * w[1]) / (W * W) if W > 0 else 0.0
+        slowest = (v[1] * w[0] - v[0] * w[1]) / (W * W) if W * W > 0 else 0.0
         slowest = min(max(slowest, -half), half)
         least = math.hypot(v[0] + w[1] * slowest, v[1] - w[0] * slowest)
         layer = least / W if W > 0 else 0.0
