@@ -1,1 +1,1 @@
-"""Runge-Kutta steps and rotations; imports nothing of analytic."""
+"""A Runge-Kutta tableau, roots and rotations; imports nothing of analytic."""
