@@ -7,6 +7,8 @@ from analytic.air.wall_friction import wall_friction_change
 from models.kernel.compiled import compiled
 from models.kernel.vectors import add, cross, scale, subtract
 
+_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
 
 @compiled
 def force_and_moment(body, v, w):
@@ -90,11 +92,11 @@ def write_jacobian(body, v, w, jacobian):
         jacobian: where they go, (6, 6); row i, column j: of f and then m_C by v and then ω, body frame.
     """
     none = (0.0, 0.0, 0.0)
-    for j in range(6):
-        unit = (1.0 if j % 3 == 0 else 0.0, 1.0 if j % 3 == 1 else 0.0, 1.0 if j % 3 == 2 else 0.0)
-        df, dm = force_and_moment_change(body, v, w, unit if j < 3 else none, none if j < 3 else unit)
-        for i in range(3):
-            jacobian[i, j], jacobian[3 + i, j] = df[i], dm[i]
+    for j in range(3):
+        for column, dv, dw in ((j, _AXES[j], none), (3 + j, none, _AXES[j])):
+            df, dm = force_and_moment_change(body, v, w, dv, dw)
+            for i in range(3):
+                jacobian[i, column], jacobian[3 + i, column] = df[i], dm[i]
 
 
 @compiled

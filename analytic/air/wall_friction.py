@@ -169,8 +169,8 @@ def _rest_on_rim(body, v, w, z):
 def _rest_between_rims(body, v, w):
     """Find where B vanishes and C + D z at a height of the wall, or near it, for complex θ.
 
-    With α = θ - φ, φ the direction of ω's part across ζ and W its size, B = v_ζ + r W sin α and
-    D = -W cos α; C = r ω_ζ + v_φ' cos α - v_φ sin α, with v's parts along φ and across it.
+    With α = θ - φ, φ the direction of ω's part across ζ and W its size: B = v_ζ + r W sin α, D = -W cos α and
+    C = r ω_ζ + v_⊥ cos α - v_∥ sin α, v_∥ and v_⊥ being the parts of v along that direction and across it.
 
     Returns:
         As `_rest_on_rim`.

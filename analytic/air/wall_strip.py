@@ -56,15 +56,15 @@ def strip_change(b, series, half, B, C, D):
     """Return the `StripChange` of the strip from z = -half to half.
 
     Where T vanishes, at a complex z, far from the strip, Gauss's rule does; near it the closed forms do not
-    cancel. Their squares and cubes must not underflow: of a moving coin the speeds are in parts of its own.
+    cancel. The speeds are in parts of the coin's, lest their cubes underflow.
 
     Args:
         b: exponent.
         series: the `PhiSeries` of b.
         half: half the length of the strip [m].
-        B: velocity along the wall [m/s].
-        C: velocity around it at z = 0 [m/s].
-        D: its change with z [1/s].
+        B: velocity along the wall.
+        C: velocity around it at z = 0.
+        D: its change with z [1/m].
     """
     if B == 0 and C == 0 and D == 0:
         return StripChange(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)

@@ -115,7 +115,16 @@ def within_step(body, y, t, order, work, y_new):
 
 @compiled
 def finish_step(body, made, order, work, y, scratch):
-    """Advance the state y, (13,), to the end of a step of the length `made`; see `within_step`."""
+    """Advance the state y to the end of a step.
+
+    Args:
+        body: the coin.
+        made: length of the step [s].
+        order: see `flight_step`.
+        work: see `flight_work`.
+        y: state at the start of the step, (13,).
+        scratch: work space, (13,).
+    """
     if body.air.exponent is None:
         state_in_flight(body, work, order, made, y, scratch)
         copy_into(y, scratch)

@@ -75,6 +75,12 @@ def test_two_quadratures_give_one_force(b, h):
         assert np.abs(other).max() > 0.01, "the unit should be that of the force"
 
 
+def test_a_spin_whose_square_underflows_is_none():
+    force = {spin: by_both(0.3, H, (0.0, 1.0, 0.0), (0.0, spin, 0.0))[0] for spin in (0.0, 1e-160)}
+    assert np.abs(force[1e-160] - force[0.0]).max() < 1e-15, "but for rounding"
+    assert force[0.0][1] < -0.1
+
+
 @pytest.mark.parametrize("b", [0.2, 0.5, 1.0])
 def test_motions_in_one_direction_have_closed_forms(b):
     v, W, wall = 0.7, 30.0, 2 * np.pi * R * H
