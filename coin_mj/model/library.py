@@ -24,16 +24,19 @@ mj_kinematics: Any = types.ExternalFunction("mj_kinematics", types.void(*_model_
 mj_center: Any = types.ExternalFunction("mj_comPos", types.void(*_model_and_data))
 mj_make_mass: Any = types.ExternalFunction("mj_makeM", types.void(*_model_and_data))
 mj_factor_mass: Any = types.ExternalFunction("mj_factorM", types.void(*_model_and_data))
-mj_transmission: Any = types.ExternalFunction("mj_transmission", types.void(*_model_and_data))
 mj_collision: Any = types.ExternalFunction("mj_collision", types.void(*_model_and_data))
 mj_make_constraint: Any = types.ExternalFunction("mj_makeConstraint", types.void(*_model_and_data))
 mj_project_constraint: Any = types.ExternalFunction("mj_projectConstraint", types.void(*_model_and_data))
-mj_velocity: Any = types.ExternalFunction("mj_fwdVelocity", types.void(*_model_and_data))
-mj_actuation: Any = types.ExternalFunction("mj_fwdActuation", types.void(*_model_and_data))
+mj_center_velocity: Any = types.ExternalFunction("mj_comVel", types.void(*_model_and_data))
+mj_passive: Any = types.ExternalFunction("mj_passive", types.void(*_model_and_data))
+mj_reference_constraint: Any = types.ExternalFunction("mj_referenceConstraint", types.void(*_model_and_data))
 mj_acceleration: Any = types.ExternalFunction("mj_fwdAcceleration", types.void(*_model_and_data))
 mj_constraint: Any = types.ExternalFunction("mj_fwdConstraint", types.void(*_model_and_data))
 """The parts of `mj_forward` that a lone free body needs; each takes addresses as `mj_forward` does."""
 _numbers = types.CPointer(types.float64)
+mj_bias: Any = types.ExternalFunction("mj_rne", types.void(*_model_and_data, types.intc, _numbers))
+"""Newton-Euler's forces; takes the addresses of an mjModel and an mjData, whether with accelerations, and
+where the forces go, (nv,)."""
 mj_solve_mass: Any = types.ExternalFunction(
     "mj_solveM", types.void(*_model_and_data, _numbers, _numbers, types.intc)
 )

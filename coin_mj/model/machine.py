@@ -43,6 +43,7 @@ ADDRESSES = np.dtype(
             "solref",  # of the normal force: minus the contact's stiffness [1/s²] and damping [1/s]
             "solreffriction",  # of MuJoCo's own friction, likewise; 0 where that is not asked for
             "margin",  # height up to which a contact is one [m]
+            "xmat",  # of the coin: its rotation matrix, (3, 3)
             "nefc",  # number of constraint rows
             "efc_J",  # where the arrays of these rows are now, each an address
             "efc_pos",
@@ -148,6 +149,7 @@ def _addresses(model: mujoco.MjModel, data: mujoco.MjData, *, has_pair: bool) ->
         data._address,
         model._address + offset_of("mjModel", "opt.timestep"),
         *(0 if array is None else array.ctypes.data for array in settings),
+        data.body("coin").xmat.ctypes.data,
         *(data._address + offset for offset in rows),
     )
     return np.array([addresses], ADDRESSES)[0]

@@ -36,6 +36,7 @@ _OF_JOINT = (
     "qfrc_constraint",
     "qfrc_actuator",
     "qfrc_passive",
+    "qfrc_bias",
     "qfrc_applied",
 )
 
@@ -121,8 +122,8 @@ def _kind(struct: str, field: str, described: Any) -> Any:
 def joint_arrays(data: mujoco.MjData) -> Any:
     """Return MuJoCo's arrays of the free joint as one record of views, which `data` must outlive.
 
-    They are qpos, (7,), and qvel, qacc, qacc_smooth, qfrc_constraint, qfrc_actuator, qfrc_passive and
-    qfrc_applied, (6,) each. Compiled code passes a record as one number, but an array as seven.
+    They are qpos, (7,), and qvel, qacc, qacc_smooth, qfrc_constraint, qfrc_actuator, qfrc_passive, qfrc_bias
+    and qfrc_applied, (6,) each. Compiled code passes a record as one number, but an array as seven.
     """
     arrays = sorted((getattr(data, name).ctypes.data, name, getattr(data, name).size) for name in _OF_JOINT)
     start = arrays[0][0]

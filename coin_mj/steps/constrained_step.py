@@ -13,18 +13,18 @@ import numpy as np
 
 from coin_mj.model.library import (
     mj_acceleration,
-    mj_actuation,
     mj_collision,
     mj_constraint,
     mj_make_constraint,
     mj_project_constraint,
-    mj_velocity,
+    mj_reference_constraint,
 )
 from coin_mj.model.memory import address_at, integer_at, numbers_at
 from coin_mj.model.state import motion_of, set_motion
 from coin_mj.steps.free_step import place_body, place_body_again
 from coin_mj.steps.mujoco_step import euler_step
 from coin_mj.steps.runge_kutta import CLASSICAL, TSITOURAS, end_motion, stage_motion, write_rate
+from coin_mj.steps.smooth_forces import write_smooth_forces
 from models.attitude import rotation_matrix
 from models.kernel.compiled import compiled
 from models.kernel.vectors import cross
@@ -69,10 +69,10 @@ def _constrained_force(coin, constraint):
     mj_collision(coin.address.model, coin.address.data)
     mj_make_constraint(coin.address.model, coin.address.data)
     mj_project_constraint(coin.address.model, coin.address.data)
-    mj_velocity(coin.address.model, coin.address.data)
+    mj_reference_constraint(coin.address.model, coin.address.data)
     if constraint.frequency > 0:
         _set_rows(coin, constraint)
-    mj_actuation(coin.address.model, coin.address.data)
+    write_smooth_forces(coin)
     mj_acceleration(coin.address.model, coin.address.data)
     mj_constraint(coin.address.model, coin.address.data)
     return coin.joint.qfrc_constraint[2]

@@ -4,16 +4,14 @@ import numpy as np
 
 from coin_mj.model.library import (
     mj_acceleration,
-    mj_actuation,
     mj_center,
     mj_factor_mass,
     mj_kinematics,
     mj_make_mass,
-    mj_transmission,
-    mj_velocity,
 )
 from coin_mj.model.state import motion_of, set_motion
 from coin_mj.steps.runge_kutta import TSITOURAS, end_motion, stage_motion, write_rate
+from coin_mj.steps.smooth_forces import write_smooth_forces
 from models.kernel.compiled import compiled
 
 
@@ -62,8 +60,7 @@ def free_rate(coin, rate):
 
 @compiled
 def _write_rate(coin, rate):
-    mj_velocity(coin.address.model, coin.address.data)
-    mj_actuation(coin.address.model, coin.address.data)
+    write_smooth_forces(coin)
     mj_acceleration(coin.address.model, coin.address.data)
     write_rate(motion_of(coin), coin.joint.qacc_smooth, rate)
 
@@ -75,7 +72,6 @@ def place_body(coin):
     mj_center(coin.address.model, coin.address.data)
     mj_make_mass(coin.address.model, coin.address.data)
     mj_factor_mass(coin.address.model, coin.address.data)
-    mj_transmission(coin.address.model, coin.address.data)
 
 
 @compiled
@@ -86,4 +82,3 @@ def place_body_again(coin):
         return
     mj_kinematics(coin.address.model, coin.address.data)
     mj_center(coin.address.model, coin.address.data)
-    mj_transmission(coin.address.model, coin.address.data)

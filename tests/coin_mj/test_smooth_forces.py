@@ -1,0 +1,39 @@
+"""The forces on MuJoCo's coin but for the floor's, against `mj_forward`."""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
+import mujoco
+import numpy as np
+import pytest
+
+from coin_mj import MANY
+from coin_mj.model.machine import machine_of
+from coin_mj.model.scene import shape_thickness
+from coin_mj.model.state import set_motion
+from coin_mj.steps.free_step import free_rate
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+
+FORCES = ("qfrc_bias", "qfrc_passive", "qfrc_actuator", "qfrc_smooth", "qacc_smooth")
+
+
+@pytest.mark.parametrize("center", [[0, 0, 0], PAPER_OFFSET], ids=["balanced", "imperfect"])
+@pytest.mark.parametrize("air", [{}, AIR], ids=["vacuum", "air"])
+def test_forces_and_accelerations_of_flight_are_those_of_mj_forward(center, air):
+    rng = np.random.default_rng(8)
+    case = scenario(coin={**ZLOTY, "center_of_mass": center}, air=air, release=draw_release(rng))
+    machine = machine_of(case, MANY, shape_thickness(case))
+    reference = mujoco.MjData(machine.model)
+    for _ in range(20):
+        # The stages of a step have Euler parameters whose norm is not quite 1.
+        e = rng.normal(size=4)
+        e *= rng.uniform(0.999, 1.001) / np.linalg.norm(e)
+        motion = np.array([0, 0, 1, *e, *rng.uniform(-2, 2, 3), *rng.uniform(-40, 40, 3)])
+        set_motion(machine.coin, motion)
+        free_rate(machine.coin, np.empty(13))
+        reference.qpos[:], reference.qvel[:] = motion[:7], motion[7:]
+        mujoco.mj_forward(machine.model, reference)
+        for name in FORCES:
+            found, known = getattr(machine.data, name), getattr(reference, name)
+            assert found == pytest.approx(known, rel=1e-13, abs=1e-14 * np.abs(known).max()), name
+        assert np.any(reference.qfrc_actuator != 0) == bool(air), "the actuator is the drag's"
