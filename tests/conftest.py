@@ -1,5 +1,6 @@
 """What all tests share: a back end for drawing, signals that processes heed, and reproducible Hypothesis."""
 
+import gc
 import os
 import signal
 from importlib import import_module
@@ -17,6 +18,12 @@ signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 settings.register_profile("cointoss", deadline=None, derandomize=True, max_examples=100)
 settings.load_profile("cointoss")
+
+
+def pytest_collection_finish():
+    """Leave what was imported and collected, which stays, out of Python's search for garbage."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture

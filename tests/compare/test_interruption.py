@@ -19,22 +19,25 @@ SOON = 10.0
 """A second on a machine of one's own; this much on one that tests of other work keep busy [s]."""
 
 ENDLESS = """
-import sys, numba, analytic, coin_mj
+import hashlib
 from pathlib import Path
-from compare.cli import main
 
-@numba.njit(nogil=True)
-def endless(x):
-    while x > 0:
-        x = x * 1.1 % 7 + 1
-    return x
-
-def toss(*_):
+def endless():
     Path("begun").touch()
-    return endless(1.0)
+    hashlib.pbkdf2_hmac("sha256", b"", b"", (1 << 31) - 1)
 """
-"""For a child process: a compiled call that never ends, as a toss, from when there is a file `begun`."""
-OF_TOSS = ENDLESS + 'sys.modules["analytic.toss"].run = sys.modules["coin_mj.toss"].run = toss\n'
+"""For a child process: a call that, like compiled code, gives Python no chance for minutes, and lets other
+threads run. It leaves a file `begun`."""
+
+
+def of_toss(*engines):
+    """Return the head of a script in which a toss of these engines never ends."""
+    return "".join(
+        [
+            f"{ENDLESS}import sys\nfrom compare.cli import main\n",
+            *(f"import {name}; sys.modules['{name}.toss'].run = lambda *_: endless()\n" for name in engines),
+        ]
+    )
 
 
 def child(folder, script, *arguments, **extra):
@@ -69,14 +72,15 @@ def ended(process, folder, number):
 @pytest.mark.parametrize("number", STATUSES)
 @pytest.mark.parametrize("engine", Engine)
 def test_a_toss_is_interrupted(tmp_path, engine, number):
-    process = child(tmp_path, OF_TOSS + "main()", "toss", "fig24a", "--engine", engine)
+    script = of_toss(engine.package.__name__) + "main()"
+    process = child(tmp_path, script, "toss", "fig24a", "--engine", engine)
     said = f"cointoss: interrupted by {number.name}\n"
     assert ended(process, tmp_path, number) == (STATUSES[number], said)
 
 
 @pytest.mark.parametrize("command", ["compare fig24a --out new/report", "video fig24a --out film.mp4"])
 def test_the_toss_of_a_report_or_a_film_is_interrupted(tmp_path, command):
-    process = child(tmp_path, OF_TOSS + "main()", *command.split())
+    process = child(tmp_path, of_toss("analytic", "coin_mj") + "main()", *command.split())
     assert ended(process, tmp_path, signal.SIGHUP) == (129, "cointoss: interrupted by SIGHUP\n")
     assert [path.name for path in tmp_path.iterdir()] == ["begun"]
 
@@ -87,13 +91,14 @@ def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(tmp_path,
     (tmp_path / "coin.toml").write_text(SCENARIO + "[ending]\nmax_impacts = 1\n")
     asked = ("coin.toml", "--x", f"{AXES[1][:-2]}20", "--y", f"{AXES[3][:-2]}20", "--engine", engine)
     script = (
-        f"{ENDLESS}\nfrom compare.engines import Engine; from compare.sweep import grid\n"
+        f"{ENDLESS}\nfrom compare.cli import main; from compare.engines import Engine\n"
+        "from compare.sweep import grid\n"
         f"grid.TILE_TOSSES[Engine('{engine}')] = {SMALL}\n"
-        f"of_many, left = sys.modules[Engine('{engine}').package.__name__ + '.ensemble'], [5]\n"
-        "in_tiles = of_many.toss_in_tiles\n"
+        f"import {engine.package.__name__}.ensemble as of_many\n"
+        "in_tiles, left = of_many.toss_in_tiles, [5]\n"
         "def some(releases, tile, make):\n"
         "    left[0] -= 1\n"
-        "    return in_tiles(releases, tile, make if left[0] > 0 else toss)\n"
+        "    return in_tiles(releases, tile, make if left[0] > 0 else lambda *_: endless())\n"
         "of_many.toss_in_tiles = some\n"
         "main()"
     )
@@ -113,9 +118,9 @@ def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(tmp_path,
 
 
 def test_in_python_ctrl_c_raises_out_of_a_toss_and_of_many(tmp_path):
-    script = OF_TOSS + (
-        'of_many = sys.modules["analytic.ensemble"]\n'
-        "in_tiles = of_many.toss_in_tiles\n"
+    script = of_toss("analytic", "coin_mj") + (
+        "import analytic.ensemble as of_many\n"
+        "in_tiles, toss = of_many.toss_in_tiles, lambda *_: endless()\n"
         "of_many.toss_in_tiles = lambda releases, tile, make: in_tiles(releases, tile, toss)\n"
         "from models.reading import load\n"
         "from models.releases import Releases\n"

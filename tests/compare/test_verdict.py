@@ -6,16 +6,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-import analytic
 import cointoss
 from compare.metrics.comparison import Comparison, Together
 from compare.metrics.impulses import Differences
 from compare.report.verdict import Kind, contact_lines, horizon_sentence, verdict_of
 from models.records import IMPACT_ROW, Ending, Face, Impacts, Outcome
 from tests.helpers.draws import scenario
+from tests.helpers.films import MadePath
+from tests.helpers.films import made as made_by_formulas
 
 NOTHING = np.zeros(0)
-TOSS = analytic.toss(scenario(ending={"max_time": 1.0}))
+TOSS = made_by_formulas(MadePath(position=(0, 0, 0.4)))
 """What the tosses of these tests are made of, with other impacts and endings."""
 
 
