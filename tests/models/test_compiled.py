@@ -13,6 +13,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from enum import IntEnum
 from pathlib import Path
+from subprocess import PIPE
 from typing import Any, NamedTuple
 
 import numba
@@ -59,27 +60,56 @@ def squares_from(pair, n, kind=Kind.ODD):
     return found + pair.first, kind, "ab"[:1] == "a"
 
 
-def run(folder, script):
-    done = subprocess.run(
-        [sys.executable, "-c", script],
-        cwd=folder,
-        env={"NUMBA_CACHE_DIR": str(folder / "cache"), "PATH": ""},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    return [float(word) for word in done.stdout.split()]
+FORK = """
+import os, sys
+import numba
+
+for line in sys.stdin:
+    process = os.fork()
+    if process == 0:
+        folder, script = eval(line)
+        os.chdir(folder)
+        sys.path.insert(0, folder)
+        os.environ["NUMBA_CACHE_DIR"] = os.path.join(folder, "cache")
+        exec(script, {"__name__": "__main__"})
+        break
+    print("|", os.waitpid(process, 0)[1], flush=True)
+"""
+"""A process with numba, and none of ours, imported, which takes longer than a script: it forks for each."""
 
 
-def run_caller(folder):
+@pytest.fixture(scope="module")
+def run():
+    """Return what runs a script in a folder, in a process of its own, and returns the numbers it prints."""
+    asked = [sys.executable, "-c", FORK]
+    with subprocess.Popen(asked, env={"PATH": ""}, stdin=PIPE, stdout=PIPE, text=True) as forking:
+        questions, answers = forking.stdin, forking.stdout
+        assert questions is not None
+        assert answers is not None
+
+        def run_in(folder, script):
+            print((str(folder), script), file=questions, flush=True)
+            lines = []
+            while not (line := answers.readline()).startswith("|"):
+                assert line, "the process that forks has ended"
+                lines.append(line)
+            assert line == "| 0\n", lines
+            return [float(word) for word in "".join(lines).split()]
+
+        yield run_in
+        questions.close()
+
+
+@pytest.fixture
+def run_caller(run, folder):
     """Return the answer, and what was read from disk: of the caller for Python, and of it and its callee."""
-    return run(
-        folder,
+    script = (
         "from analytic.caller import whole, part\n"
         "print(whole(10.0))\n"
         "for f in (whole.from_python, whole, part):\n"
-        "    print(sum(f.stats.cache_hits.values()))",
+        "    print(sum(f.stats.cache_hits.values()))"
     )
+    return lambda: run(folder, script)
 
 
 @pytest.fixture
@@ -99,25 +129,25 @@ def write(folder, module, source):
 
 
 @pytest.mark.parametrize("callee", ["analytic.callee", "analytic.room.callee", "models.room.deeper.callee"])
-def test_an_edit_compiles_anew_what_it_can_change_and_no_more(folder, callee):
+def test_an_edit_compiles_anew_what_it_can_change_and_no_more(folder, callee, run_caller):
     write(folder, "analytic.caller", CALLER.format(callee, 1))
     write(folder, callee, CALLEE.format(2.0))
-    assert run_caller(folder) == [21, 0, 0, 0]
-    assert run_caller(folder) == [21, 1, 0, 0], "what is kept for Python needs nothing of its callees"
+    assert run_caller() == [21, 0, 0, 0]
+    assert run_caller() == [21, 1, 0, 0], "what is kept for Python needs nothing of its callees"
     write(folder, callee, CALLEE.format(3.0))
-    assert run_caller(folder) == [31, 0, 0, 0]
+    assert run_caller() == [31, 0, 0, 0]
     write(folder, "analytic.caller", CALLER.format(callee, 2))
-    assert run_caller(folder) == [32, 0, 0, 1]
+    assert run_caller() == [32, 0, 0, 1]
     write(folder, "analytic.other", "unused = 1\n")
-    assert run_caller(folder) == [32, 1, 0, 0]
+    assert run_caller() == [32, 1, 0, 0]
 
 
-def test_kept_code_calls_what_another_process_has_compiled_anew(folder):
+def test_kept_code_calls_what_another_process_has_compiled_anew(folder, run, run_caller):
     """A process that compiles the callee alone numbers its functions otherwise."""
     write(folder, "analytic.callee", CALLEE.format(2.0))
     write(folder, "analytic.caller", CALLER.format("analytic.callee", 1))
     write(folder, "analytic.above", CALLER.format("analytic.caller", 5).replace("part", "whole as part", 1))
-    assert run_caller(folder)[0] == 21
+    assert run_caller()[0] == 21
     for kept in folder.glob("cache/cointoss-analytic.callee-*"):
         shutil.rmtree(kept)
     others = "\n".join(f"@compiled\ndef f{i}(x):\n    return x\nf{i}(1.0)" for i in range(5))
@@ -125,7 +155,7 @@ def test_kept_code_calls_what_another_process_has_compiled_anew(folder):
     assert run(folder, "from analytic.above import whole\nprint(whole(10.0))") == [26]
 
 
-def test_a_function_kept_for_python_works_where_it_was_kept_for_callers_too(folder):
+def test_a_function_kept_for_python_works_where_it_was_kept_for_callers_too(folder, run):
     """Python's wrapper makes an array by constants that the code for callers does not have."""
     source = IMPORT + "import numpy as np\n\n\n@compiled\ndef part(x):\n    return np.full(3, x), x\n"
     write(folder, "analytic.callee", source)
@@ -137,7 +167,7 @@ def test_a_function_kept_for_python_works_where_it_was_kept_for_callers_too(fold
     assert run(folder, script.format("two")) == [11, 9]
 
 
-def test_python_calls_what_was_only_kept_for_callers(folder):
+def test_python_calls_what_was_only_kept_for_callers(folder, run):
     """Then nothing is compiled but Python's wrapper, for which numba has not yet read how to make one."""
     part = "\n\n@compiled\ndef part(x, text):\n    return np.full(3, x), text\n"
     write(folder, "analytic.callee", f"{IMPORT}import numpy as np\n{part}")
@@ -154,7 +184,7 @@ def test_python_calls_what_was_only_kept_for_callers(folder):
     assert run(folder, script) == [9, 4, 0, 0]
 
 
-def test_code_kept_for_python_is_read_without_what_numba_can_compile(folder):
+def test_code_kept_for_python_is_read_without_what_numba_can_compile(folder, run):
     write(folder, "analytic.callee", CALLEE.format(2.0))
     write(folder, "analytic.caller", CALLER.format("analytic.callee", 1))
     script = "import sys\nfrom analytic.caller import whole\nprint(whole(1.0))\n"
@@ -163,7 +193,7 @@ def test_code_kept_for_python_is_read_without_what_numba_can_compile(folder):
     assert run(folder, script + imported) == [3, 0]
 
 
-def test_named_tuples_with_other_fields_are_other_types(folder):
+def test_named_tuples_with_other_fields_are_other_types(folder, run):
     """A function need not import the named tuple that it is given, so an edit there is not in its hash."""
     tuples = "from typing import NamedTuple\n\n\nclass Pair(NamedTuple):\n    {}: float\n    {}: float\n"
     write(folder, "analytic.user", IMPORT + "\n\n@compiled\ndef difference(p):\n    return p.a - p.b\n")
@@ -177,7 +207,7 @@ def test_named_tuples_with_other_fields_are_other_types(folder):
 
 
 @pytest.mark.parametrize("module", ["models.pair", "models.couple"])
-def test_a_named_tuple_that_has_gone_since_is_no_error(folder, module):
+def test_a_named_tuple_that_has_gone_since_is_no_error(folder, module, run):
     """What was kept for it names its type: where that has another name now, or no module, it is kept anew."""
     tuples = "from typing import NamedTuple\n\n\nclass {}(NamedTuple):\n    a: float\n    b: float\n"
     write(folder, "analytic.user", IMPORT + "\n\n@compiled\ndef difference(p):\n    return p.a - p.b\n")
