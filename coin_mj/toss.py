@@ -147,7 +147,7 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
         certificate=(
             Setting(name="MuJoCo", value=mujoco.__version__),
             *_contact_certificate(machine),
-            Setting(name="largest turn in a step of flight", value=settings.flight_angle, unit="rad"),
+            Setting(name="largest turn in a step of flight", value=machine.coin.flight_angle, unit="rad"),
             Setting(name="thickness of the shape", value=machine.coin.shape_thickness, unit="m"),
             Setting(name="steps", value=len(answer.knots) - 1),
             *measurements(

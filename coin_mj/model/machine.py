@@ -20,7 +20,7 @@ from coin_mj.model.settings import (
     rebound_of,
 )
 from coin_mj.model.state import of_release
-from models.body import Body, resists
+from models.body import Body, is_ideal, resists
 from models.scenario import Scenario
 
 _Disable = mujoco.mjtDisableBit
@@ -32,6 +32,10 @@ _UNUSED = (
     | int(_Disable.mjDSBL_WARMSTART)
     | int(_Disable.mjDSBL_EULERDAMP)
 )
+
+UNSYMMETRIC = 0.65
+"""Largest turn in a step of flight of a coin that is no balanced symmetric top [rad]: it keeps less nearly to
+the frame of its step, see `coin_mj.steps.turning_frame`."""
 
 ADDRESSES = np.dtype(
     [
@@ -129,7 +133,7 @@ def machine_of(scenario: Scenario, settings: Settings, thickness: float) -> Mach
         has_explicit_friction=settings.friction == Friction.EXPLICIT and mu > 0,
         resists=resists(scenario.rules),
         has_one_step=settings.contact == Realisation.ONE_STEP,
-        flight_angle=settings.flight_angle,
+        flight_angle=settings.flight_angle if is_ideal(body) else min(settings.flight_angle, UNSYMMETRIC),
     )
     plastic = coin._replace(rebound=plastic_rebound(rebound, settings), has_one_step=True)
     return Machine(model, data, settings, coin, plastic)

@@ -62,7 +62,8 @@ class Settings:
     slip_damping: float | None = None
     """With which MuJoCo's own friction damps the slip, by default that of the normal motion [1/s]."""
     flight_angle: float = 0.05
-    """Largest turn of the coin in a step of free flight [rad]."""
+    """Largest turn of the coin in a step of free flight [rad]; of a coin that is no balanced symmetric top at
+    most `coin_mj.model.machine.UNSYMMETRIC`."""
     contact_steps: int = 1_000_000
     """The most steps in the sustained contacts of a toss."""
     flight_steps: int = 1_000_000
@@ -118,7 +119,7 @@ class Settings:
 
 FINE = Settings()
 """Of one toss."""
-MANY = Settings(stiffness=1e11, steps=3, flight_angle=0.5)
+MANY = Settings(stiffness=1e11, steps=3, flight_angle=0.8)
 """Of many tosses: a softer spring, fewer and larger steps."""
 
 

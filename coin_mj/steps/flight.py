@@ -5,8 +5,8 @@ from enum import IntEnum
 import numpy as np
 
 from coin_mj.model.state import motion_of, state_of
-from coin_mj.steps.free_step import free_rate, free_step_from, rates_of_step
-from coin_mj.steps.gap_evaluation import clear_flight, evaluate_gap, longest_step
+from coin_mj.steps.free_step import free_rate, free_rate_again, free_step_from, nudge, rates_of_step
+from coin_mj.steps.gap_evaluation import clear_flight, evaluate_gap, longest_step, turning_rate
 from coin_mj.steps.knots import Step, add_knot
 from coin_mj.steps.touch_search import arc_of, first_touch
 from models.body import is_to_be_caught
@@ -29,6 +29,8 @@ TOUCH_STEP = 1e-4
 """A touch is located to within this part of a contact step."""
 ROUNDS = 8
 """Steps of one flight step that are made to locate it, each nearer than the last."""
+NUDGE = 1e-6
+"""Turn in which the rate of change of the coin's state is constant to within this part of itself [rad]."""
 
 
 @compiled
@@ -63,14 +65,14 @@ def fly(coin, rules, time, steps_left, knots):
         clear = clear_flight(coin, dt) >= dt
         add_knot(coin, time, Step.FLIGHT, knots)
         free_step_from(coin, start, rates, dt)
-        free_rate(coin, end_rate)
+        free_rate_again(coin, end_rate)
         if not clear:
             touch = first_touch(coin, arc_of(start, rates[0], motion_of(coin), end_rate, dt), shortest)
             if touch < dt:
                 dt, touches = _land(coin, start, rates, touch, dt, shortest)
                 if touches:
                     return time + dt, FlightExit.TOUCHES, steps_left
-                free_rate(coin, end_rate)
+                free_rate_again(coin, end_rate)
         copy_into(rates[0], end_rate)
         time += dt
     return time, FlightExit.BUDGET, steps_left
@@ -91,9 +93,13 @@ def _land(coin, start, rates, touch, longest, shortest):
     Returns:
         The length of the step [s], and whether the coin touches after it, moving down.
     """
-    dt, late = touch, np.inf
+    dt, made, late = touch, np.inf, np.inf
     for _ in range(ROUNDS):
-        free_step_from(coin, start, rates, dt)
+        if abs(dt - made) * turning_rate(coin.body, state_of(coin)[3]) < NUDGE:
+            nudge(coin, dt - made)
+        else:
+            free_step_from(coin, start, rates, dt)
+        made = dt
         below = evaluate_gap(coin)
         if below.speed >= 0:
             if late < np.inf:

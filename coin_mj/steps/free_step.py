@@ -10,8 +10,9 @@ from coin_mj.model.library import (
     mj_make_mass,
 )
 from coin_mj.model.state import motion_of, set_motion
-from coin_mj.steps.runge_kutta import TSITOURAS, end_motion, stage_motion, write_rate
+from coin_mj.steps.runge_kutta import TSITOURAS, TSITOURAS_NODES, end_motion, stage_motion, write_rate
 from coin_mj.steps.smooth_forces import write_smooth_forces
+from coin_mj.steps.turning_frame import frame_of, to_motion, turn_after, write_slow_rate
 from models.kernel.compiled import compiled
 
 
@@ -28,13 +29,13 @@ def free_step(coin, dt):
 
 @compiled
 def rates_of_step():
-    """Return room for the rates of the stages of a step, (6, 13)."""
-    return np.empty((len(TSITOURAS) - 1, 13))
+    """Return room for the rate at the start of a step, and those of its stages, (7, 13)."""
+    return np.empty((len(TSITOURAS), 13))
 
 
 @compiled
 def free_step_from(coin, start, rates, dt):
-    """Put the coin dt [s] after a state, in free flight.
+    """Put the coin dt [s] after a state, in free flight; the stages are those of its `TurningFrame`.
 
     Args:
         coin: MuJoCo's, in any state.
@@ -42,27 +43,49 @@ def free_step_from(coin, start, rates, dt):
         rates: their rate in its first row; the others are written, see `rates_of_step`.
         dt: length of the step, of either sign [s].
     """
-    motion = np.empty(13)
+    frame, motion, slow = frame_of(start, rates[0]), np.empty(13), np.empty(13)
+    of_stages = rates[1:]
+    write_slow_rate(frame, turn_after(frame, 0.0), start, rates[0, 7:], of_stages[0])
     for stage in range(1, len(TSITOURAS) - 1):
-        stage_motion(start, rates, TSITOURAS, stage, dt, motion)
+        turn = turn_after(frame, TSITOURAS_NODES[stage] * dt)
+        stage_motion(start, of_stages, TSITOURAS, stage, dt, slow)
+        to_motion(turn, slow, motion)
         set_motion(coin, motion)
         place_body_again(coin)
-        _write_rate(coin, rates[stage])
-    set_motion(coin, end_motion(start, rates, TSITOURAS, dt, motion))
+        _find_acceleration(coin)
+        write_slow_rate(frame, turn, slow, coin.joint.qacc_smooth, of_stages[stage])
+    to_motion(turn_after(frame, dt), end_motion(start, of_stages, TSITOURAS, dt, slow), motion)
+    set_motion(coin, motion)
 
 
 @compiled
 def free_rate(coin, rate):
     """Write the rate of change of the present state without the floor, (13,)."""
     place_body(coin)
-    _write_rate(coin, rate)
+    _find_acceleration(coin)
+    write_rate(motion_of(coin), coin.joint.qacc_smooth, rate)
 
 
 @compiled
-def _write_rate(coin, rate):
+def free_rate_again(coin, rate):
+    """Write the same once more after a motion; see `place_body_again`."""
+    place_body_again(coin)
+    _find_acceleration(coin)
+    write_rate(motion_of(coin), coin.joint.qacc_smooth, rate)
+
+
+@compiled
+def nudge(coin, dt):
+    """Advance by a time dt in which the coin hardly turns [s], of either sign, at a constant rate."""
+    rate, motion = np.empty(13), np.array(motion_of(coin))
+    free_rate_again(coin, rate)
+    set_motion(coin, motion + dt * rate)
+
+
+@compiled
+def _find_acceleration(coin):
     write_smooth_forces(coin)
     mj_acceleration(coin.address.model, coin.address.data)
-    write_rate(motion_of(coin), coin.joint.qacc_smooth, rate)
 
 
 @compiled

@@ -37,6 +37,8 @@ TSITOURAS = np.array(
     ]
 )
 """Tsitouras 2011: of fifth order, in 6 stages."""
+TSITOURAS_NODES = TSITOURAS.sum(axis=1)
+"""When its stages are, in steps."""
 
 
 @compiled

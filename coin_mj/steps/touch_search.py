@@ -6,11 +6,22 @@ from typing import NamedTuple
 import numpy as np
 
 from coin_mj.steps.gap_evaluation import shape_of
+from coin_mj.steps.turning_frame import (
+    TurningFrame,
+    about_axis,
+    about_axis_back,
+    about_normal,
+    about_normal_back,
+    frame_of,
+    left_over,
+    spin_rate,
+    turn_after,
+)
 from models.attitude import rotation_matrix
 from models.clearance import clear_time
 from models.geometry import lowest_point
 from models.kernel.compiled import compiled
-from models.kernel.vectors import add, cross, dot, norm, subtract
+from models.kernel.vectors import add, cross, dot, norm, scale, subtract
 from models.records import Array
 
 _HEIGHT, _UP, _SPIN, _ROWS = 0, 1, 4, 7
@@ -19,14 +30,16 @@ _FINEST = 1e-7
 
 
 class Arc(NamedTuple):
-    """A step of free flight between its ends.
+    """A step of free flight between its ends, in the step's `TurningFrame`.
 
-    Height of B and the upward unit vector in the body frame are of fifth order in the part of the step, and
-    have both ends' values, rates and accelerations; the spin is of third order.
+    Height of B and the upward unit vector in the turning frame are of fifth order in the part of the step,
+    and have both ends' values, rates and accelerations; ω_F is of third order.
     """
 
     coefficients: Array
-    """Of height, upward vector and spin, (7, 6)."""
+    """Of height, upward vector and ω_F, (7, 6)."""
+    frame: TurningFrame
+    """Of the step."""
     duration: float
     """Of the step [s]."""
     fastest: float
@@ -44,9 +57,9 @@ def arc_of(start, start_rate, end, end_rate, duration):
         end_rate: as start_rate.
         duration: of the step [s].
     """
-    ends = np.empty((6, _ROWS))
-    _write_end(start, start_rate, duration, ends[:3])
-    _write_end(end, end_rate, duration, ends[3:])
+    frame, ends = frame_of(start, start_rate), np.empty((6, _ROWS))
+    _write_end(frame, 0.0, start, start_rate, duration, ends[:3])
+    _write_end(frame, duration, end, end_rate, duration, ends[3:])
     table = np.zeros((_ROWS, 6))
     for i in range(_ROWS):
         table[i, 0], table[i, 1] = ends[0, i], ends[1, i]
@@ -61,16 +74,32 @@ def arc_of(start, start_rate, end, end_rate, duration):
         else:
             table[i, 2], table[i, 3] = 3 * change - rate_change, rate_change - 2 * change
     fastest = max(math.hypot(start[7], start[8]), math.hypot(end[7], end[8]))
-    return Arc(table, duration, fastest)
+    return Arc(table, frame, duration, fastest)
 
 
 @compiled
-def _write_end(motion, rate, duration, end):
-    """Write values, rates and accelerations at an end, in units of the step, (3, 7)."""
+def _write_end(frame, time, motion, rate, duration, end):
+    """Write values, rates and accelerations at an end, in units of the step, (3, 7).
+
+    Args:
+        frame: of the step.
+        time: of the end [s].
+        motion: qpos and qvel there, (13,).
+        rate: its rate of change, (13,).
+        duration: of the step [s].
+        end: where they go.
+    """
+    turn = turn_after(frame, time)
+    w = about_normal(turn, (motion[10], motion[11], motion[12]))
+    w_rate = spin_rate(frame, turn, w, (rate[10], rate[11], rate[12]))
     up = rotation_matrix((motion[3], motion[4], motion[5], motion[6]))[2]
-    w, w_rate = (motion[10], motion[11], motion[12]), (rate[10], rate[11], rate[12])
-    up_rate = cross(up, w)
-    up_acceleration = add(cross(up_rate, w), cross(up, w_rate))
+    up = about_axis(turn, about_normal(turn, up))
+    # The frame turns with ω_g = R(exp(W t/2)) (ω_F - s ζ - W).
+    left = left_over(frame, w)
+    w_g = about_axis(turn, left)
+    w_g_rate = about_axis(turn, add(cross(frame.rate, left), w_rate))
+    up_rate = cross(up, w_g)
+    up_acceleration = add(cross(up_rate, w_g), cross(up, w_g_rate))
     end[0, _HEIGHT], end[1, _HEIGHT], end[2, _HEIGHT] = motion[2], rate[2], rate[9]
     for i in range(3):
         end[0, _UP + i], end[1, _UP + i], end[2, _UP + i] = up[i], up_rate[i], up_acceleration[i]
@@ -94,11 +123,11 @@ def first_touch(coin, arc, shortest):
     shape, c, table = shape_of(coin), coin.body.center, arc.coefficients
     time, shortest = 0.0, max(shortest, _FINEST * arc.duration)
     while time < arc.duration:
-        part = time / arc.duration
+        part, turn = time / arc.duration, turn_after(arc.frame, time)
         up = (_value(table[_UP], part), _value(table[_UP + 1], part), _value(table[_UP + 2], part))
-        size = norm(up)
-        up = (up[0] / size, up[1] / size, up[2] / size)
+        up = about_normal_back(turn, about_axis_back(turn, scale(1 / norm(up), up)))
         w = (_value(table[_SPIN], part), _value(table[_SPIN + 1], part), _value(table[_SPIN + 2], part))
+        w = about_normal_back(turn, w)
         z = _value(table[_HEIGHT], part) + dot(up, c) - coin.floor_height
         z_rate = _slope(table[_HEIGHT], part) / arc.duration + dot(up, cross(w, c))
         v = (arc.fastest + norm(w) * norm(c), 0.0, z_rate)

@@ -1,0 +1,155 @@
+"""A frame that turns as a flying coin does, but for what air and a lack of symmetry make of it.
+
+A symmetric top that no moment acts on turns at a constant rate W about an axis fixed in space, and about its
+normal at a constant rate s: e(t) = g exp(W t/2) exp(s ζ t/2), g constant. So the attitude g of the frame, and
+ω_F = R_ζ(s t) ω, change slowly in any flight, and a step of a Runge-Kutta method may be the longer (Lawson
+1967). This is a change of variables: for every W and s the motion is that of MuJoCo's accelerations.
+"""
+
+import math
+from typing import NamedTuple
+
+from models.attitude import Quaternion, quaternion_product
+from models.kernel.compiled import compiled
+from models.kernel.vectors import Vector, add, cross, norm, scale
+
+
+class TurningFrame(NamedTuple):
+    """How the frame turns in a step."""
+
+    rate: Vector
+    """W, in the body frame at the start of the step, (3,) [rad/s]."""
+    spin: float
+    """s [rad/s]."""
+
+
+class Turn(NamedTuple):
+    """How far the coin has turned from the frame at a time."""
+
+    about_axis: Quaternion
+    """exp(W t/2)."""
+    about_normal: Quaternion
+    """exp(s ζ t/2)."""
+
+
+@compiled
+def frame_of(motion, rate):
+    """Return the `TurningFrame` in which the coin is at rest at first, and ω nearly constant.
+
+    Args:
+        motion: qpos and qvel, (13,).
+        rate: their rate of change, (13,).
+    """
+    w = (motion[10], motion[11], motion[12])
+    across = w[0] * w[0] + w[1] * w[1]
+    spin = 0.0
+    if across > 0:
+        # Of a free symmetric top ω̇ = -s ζ × ω, and |s| <= |ω_ζ|.
+        spin = (rate[10] * w[1] - rate[11] * w[0]) / across
+        spin = min(max(spin, -abs(w[2])), abs(w[2]))
+    return TurningFrame((w[0], w[1], w[2] - spin), spin)
+
+
+@compiled
+def turn_after(frame, time):
+    """Return the `Turn` after a time [s]."""
+    size = norm(frame.rate)
+    axis = scale(math.sin(size * time / 2) / size if size > 0 else 0.0, frame.rate)
+    half = frame.spin * time / 2
+    return Turn(
+        (math.cos(size * time / 2), axis[0], axis[1], axis[2]), (math.cos(half), 0.0, 0.0, math.sin(half))
+    )
+
+
+@compiled
+def to_motion(turn, slow, motion):
+    """Write qpos and qvel, (13,), of a state in the turning frame.
+
+    Args:
+        turn: the coin's from the frame.
+        slow: position of B, g, velocity of B and ω_F, (13,).
+        motion: where they go.
+    """
+    g = (slow[3], slow[4], slow[5], slow[6])
+    e = quaternion_product(quaternion_product(g, turn.about_axis), turn.about_normal)
+    w = about_normal_back(turn, (slow[10], slow[11], slow[12]))
+    for i in range(3):
+        motion[i], motion[7 + i], motion[10 + i] = slow[i], slow[7 + i], w[i]
+    for i in range(4):
+        motion[3 + i] = e[i]
+
+
+@compiled
+def write_slow_rate(frame, turn, slow, acceleration, rate):
+    """Write the rate of change of a state in the turning frame.
+
+    Args:
+        frame: how it turns.
+        turn: the coin's from the frame.
+        slow: see `to_motion`.
+        acceleration: rate of qvel there, (6,).
+        rate: where it goes, (13,).
+    """
+    w = (slow[10], slow[11], slow[12])
+    w_rate = spin_rate(frame, turn, w, (acceleration[3], acceleration[4], acceleration[5]))
+    w_g = about_axis(turn, left_over(frame, w))
+    g = (slow[3], slow[4], slow[5], slow[6])
+    g_rate = quaternion_product(g, (0.0, w_g[0] / 2, w_g[1] / 2, w_g[2] / 2))
+    for i in range(3):
+        rate[i], rate[7 + i], rate[10 + i] = slow[7 + i], acceleration[i], w_rate[i]
+    for i in range(4):
+        rate[3 + i] = g_rate[i]
+
+
+@compiled
+def left_over(frame, w):
+    """Return ω_F - s ζ - W, with which g turns, (3,) [rad/s]."""
+    return w[0] - frame.rate[0], w[1] - frame.rate[1], w[2] - frame.spin - frame.rate[2]
+
+
+@compiled
+def spin_rate(frame, turn, w, acceleration):
+    """Return the rate of change of ω_F, R_ζ(s t) ω̇ + s ζ × ω_F, (3,) [rad/s²]."""
+    turned = about_normal(turn, acceleration)
+    return turned[0] - frame.spin * w[1], turned[1] + frame.spin * w[0], turned[2]
+
+
+@compiled
+def about_normal(turn, a):
+    """Return R_ζ(s t) a of a vector, (3,)."""
+    c, s = _cosine_and_sine(turn)
+    return c * a[0] - s * a[1], s * a[0] + c * a[1], a[2]
+
+
+@compiled
+def about_normal_back(turn, a):
+    """Return R_ζ(-s t) a of a vector, (3,)."""
+    c, s = _cosine_and_sine(turn)
+    return c * a[0] + s * a[1], c * a[1] - s * a[0], a[2]
+
+
+@compiled
+def about_axis(turn, a):
+    """Return R(exp(W t/2)) a of a vector, (3,)."""
+    return _turned(turn.about_axis, a)
+
+
+@compiled
+def about_axis_back(turn, a):
+    """Return R(exp(W t/2))ᵀ a of a vector, (3,)."""
+    p = turn.about_axis
+    return _turned((p[0], -p[1], -p[2], -p[3]), a)
+
+
+@compiled
+def _cosine_and_sine(turn):
+    c, s = turn.about_normal[0], turn.about_normal[3]
+    return c * c - s * s, 2 * c * s
+
+
+@compiled
+def _turned(p, a):
+    """Return a vector turned by Euler parameters p of norm 1, (3,)."""
+    axis = (p[1], p[2], p[3])
+    twice = scale(2.0, cross(axis, a))
+    return add(add(a, scale(p[0], twice)), cross(axis, twice))
