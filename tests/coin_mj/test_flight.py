@@ -184,7 +184,7 @@ def test_a_flight_ends_where_the_coin_has_just_touched(coin):
         assert way == FlightExit.TOUCHES
         assert below.speed < 0
         assert 0 <= below.gap / below.speed <= TOUCH_STEP * machine.coin.rebound.step
-        # By steps of 0.5 rad.
+        # By steps of 0.8 and 0.65 rad.
         assert time == pytest.approx(analytic.toss(case).impacts.time[0], abs=2e-6)
 
 
