@@ -44,7 +44,7 @@ def test_settings_of_a_contact_are_those_on_which_it_depends():
         "friction": "explicit",
         "stiffness": 1e11,
         "steps": 3,
-        "flight_angle": 0.5,
+        "flight_angle": 0.8,
         "contact_steps": 1_000_000,
         "flight_steps": 1_000_000,
     }
@@ -54,7 +54,7 @@ def test_settings_of_a_contact_are_those_on_which_it_depends():
         "friction": "explicit",
         "step": 1e-7,
         "slip_damping": 2.0,
-        "flight_angle": 0.5,
+        "flight_angle": 0.8,
         "contact_steps": 1_000_000,
         "flight_steps": 1_000_000,
     }
