@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 
+from analytic.impact.slip_stop import expand_stop, impulse_until, room_for_stop
 from analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
 from models.kernel.arrays import copy_into
 from models.kernel.compiled import compiled
@@ -37,6 +38,8 @@ SLOW_SLIP = 1.0
 STRAIGHT = 1e-11
 # After so many times the impulse in which slip turns, none is left of any other direction.
 SETTLED = 40.0
+# Slip that dies away is followed until x, see `slip_stop`, is e to the minus this.
+TURNED = 40.0
 
 
 @compiled
@@ -134,6 +137,7 @@ def slide(K, y, mu, no_slip, with_work, component, target):
     Arguments as those of `grow_impulse`.
     """
     series, y_new, speed = np.empty((ORDER + 1, COLUMNS)), np.empty(COLUMNS), norm((y[0], y[1], y[2]))
+    to_stop = room_for_stop()
     while y[component] < target:
         if math.hypot(y[0], y[1]) <= no_slip:
             return False
@@ -141,6 +145,9 @@ def slide(K, y, mu, no_slip, with_work, component, target):
         if p > 0:
             end_straight(y, f, gained, p, stops, component, target)
             return not stops
+        if die_away(K, y, mu, with_work, component, target, to_stop, y_new):
+            copy_into(y, y_new[:SIZE])
+            continue
         length, size = expand_slip(K, y, mu, speed, with_work, series)
         while True:
             slipped(series, length, y_new)
@@ -194,6 +201,63 @@ def straight_slip(K, y, mu, component, target):
 
 
 @compiled
+def die_away(K, y, mu, with_work, component, target, series, y_new):
+    """Follow slip that dies away to its stop, or until a component of the state rises to its target.
+
+    Args:
+        K: mobility of A [1/kg].
+        y: state of the impact, (7,), which slips.
+        mu: coefficient of friction μ.
+        with_work: see `grow_impulse`.
+        component: `V_Z` or `WORK`.
+        target: its value at the end.
+        series: see `room_for_stop`; work space.
+        y_new: where the state goes, (8,).
+
+    Returns:
+        Whether slip dies away so, and v_Az rises both now and at the stop.
+    """
+    stop = expand_stop(K, mu, (y[0], y[1]), with_work, series)
+    slip = math.hypot(y[0], y[1])
+    if stop.end == 0 or not min(rise(K, mu, (y[0] / slip, y[1] / slip)), rise(K, mu, stop.direction)) > 0:
+        return False
+    until(K, y, mu, stop, series, 0.0, y_new)
+    if y_new[component] < target:
+        y_new[0], y_new[1] = 0.0, 0.0
+        return True
+    until(K, y, mu, stop, series, math.exp(-TURNED), y_new)
+    if y_new[component] < target:
+        return True
+    tolerance = TARGET * TURNED
+    bracket = bracket_between(0.0, target - y[component], TURNED, target - y_new[component])
+    while not is_narrow(bracket, tolerance):
+        tried = next_try(bracket)
+        until(K, y, mu, stop, series, math.exp(-tried), y_new)
+        bracket = narrowed(bracket, tried, target - y_new[component], tolerance)
+    until(K, y, mu, stop, series, math.exp(-bracket.high), y_new)
+    y_new[component] = target
+    return True
+
+
+@compiled
+def rise(K, mu, s):
+    """Return dv_Az/dp while A slips in the direction s, (2,) [1/kg]."""
+    return K[2][2] - mu * (K[2][0] * s[0] + K[2][1] * s[1])
+
+
+@compiled
+def until(K, y, mu, stop, series, x, y_new):
+    """Write the state at the place x of slip that dies away into y_new; see `impulse_until`."""
+    S, path = impulse_until(stop, series, x)
+    gained = apply(K, S)
+    y_new[WORK] = y[WORK] + mu * path
+    for i in range(3):
+        y_new[i], y_new[3 + i] = y[i] + gained[i], y[3 + i] + S[i]
+        # The work of S, of which friction's is -μ X.
+        y_new[WORK] += (y[i] + gained[i] / 2) * S[i]
+
+
+@compiled
 def expand_slip(K, y, mu, speed, with_work, series):
     """Expand the motion of the slipping point as a power series of τ.
 
@@ -223,9 +287,8 @@ def expand_slip(K, y, mu, speed, with_work, series):
         for i in range(3):
             series[k + 1, i], series[k + 1, 3 + i] = v[i], S[i]
         series[k + 1, WORK] = part * _work_term(series, k) if with_work else 0.0
-        # Of q² - v_t², what the coefficients up to k give to the next one.
-        square = _product_term(series, SLIP, k) - _product_term(series, 0, k) - _product_term(series, 1, k)
-        series[k + 1, SLIP] = (series[0, 0] * v[0] + series[0, 1] * v[1] - square / 2) / slip
+        products = _products(series, k)
+        series[k + 1, SLIP] = (series[0, 0] * v[0] + series[0, 1] * v[1] - products) / slip
         if k >= ORDER - 2:
             term = max(abs(v[0]), abs(v[1]), abs(series[k + 1, SLIP])) / size
             term = max(term, abs(v[2]) / speed)
@@ -244,13 +307,20 @@ def _work_term(series, k):
 
 
 @compiled
-def _product_term(series, column, k):
-    """Return the coefficient k + 1 of a column's square without the first and last of its products."""
-    half = 0.0
+def _products(series, k):
+    """Return half of what the coefficients from 1 up to k give to the next one of q² - v_t²."""
+    q, x, y = 0.0, 0.0, 0.0
     for j in range(1, (k + 2) // 2):
-        half += series[j, column] * series[k + 1 - j, column]
-    middle = series[(k + 1) // 2, column]
-    return 2 * half + (middle * middle if k % 2 == 1 else 0.0)
+        one, other = series[j], series[k + 1 - j]
+        q += one[SLIP] * other[SLIP]
+        x += one[0] * other[0]
+        y += one[1] * other[1]
+    if k % 2 == 1:
+        middle = series[(k + 1) // 2]
+        q += middle[SLIP] ** 2 / 2
+        x += middle[0] ** 2 / 2
+        y += middle[1] ** 2 / 2
+    return q - x - y
 
 
 @compiled

@@ -3,10 +3,20 @@
 import numpy as np
 
 from analytic.events import hit
+from analytic.impact.laws import mobility
 from models.attitude import rotation_matrix
 from models.geometry import contact_velocity, lowest_point
 from models.records import IMPACT_ROW
 from tests.helpers.draws import draw_coin, draw_quaternion, scenario
+
+
+def draw_contact(rng):
+    """The mobility of a coin's lowest point, and a velocity of it that closes."""
+    body = scenario(coin=draw_coin(rng)).body
+    R = rotation_matrix(tuple(draw_quaternion(rng)))
+    point, _ = lowest_point(body, R[2], (1.0, 2.0, 3.0))
+    arm = np.array(R) @ (np.array(point) - body.center)
+    return mobility(body, R, tuple(arm)), (*rng.uniform(-2, 2, 2), -rng.uniform(0.2, 3))
 
 
 def draw_impact(rng, law, restitution=None):
