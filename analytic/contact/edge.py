@@ -44,6 +44,8 @@ _BETWEEN_TRIALS = 64
 def event_at_one_rim(body, friction, mode, steps, early, y):
     """Return whether a coin in contact at one rim comes upright, or stands for good: `Event.ENDS`.
 
+    A coin without thickness does neither.
+
     Args:
         body: the coin.
         friction: `FloorFriction`.
@@ -53,6 +55,8 @@ def event_at_one_rim(body, friction, mode, steps, early, y):
             start of a mode and in some of the steps after.
         y: state, (13,); put upright where the coin comes so.
     """
+    if body.thickness == 0:
+        return Event.NONE
     if not on_edge(body, y):
         tried = early and steps % _BETWEEN_TRIALS == 1 and not has_resistance(friction)
         return Event.ENDS if tried and rocks_on_edge(body, friction, mode, y) else Event.NONE

@@ -58,12 +58,14 @@ def repeats(tilting, y):
         tilting: of the contact; kept up.
         y: state at the end of a step.
     """
+    if not tilting.periodic:
+        return False
     rate = tilt_rate(y)
     if abs(rate) > tilting.slowest:
         if rate * tilting.rate[0] < 0:
             tilting.turns[0] += 1
         tilting.rate[0] = rate
-    return tilting.periodic and tilting.turns[0] == 3
+    return tilting.turns[0] == 3
 
 
 @compiled
