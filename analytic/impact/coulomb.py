@@ -215,38 +215,33 @@ def die_away(K, y, mu, with_work, component, target, series, y_new):
         y_new: where the state goes, (8,).
 
     Returns:
-        Whether slip dies away so, and v_Az rises both now and at the stop.
+        Whether slip dies away so, and v_Az rises whatever its direction.
     """
-    stop = expand_stop(K, mu, (y[0], y[1]), with_work, series)
-    slip = math.hypot(y[0], y[1])
-    if stop.end == 0 or not min(rise(K, mu, (y[0] / slip, y[1] / slip)), rise(K, mu, stop.direction)) > 0:
+    if not K[2][2] > mu * math.hypot(K[2][0], K[2][1]):
         return False
-    until(K, y, mu, stop, series, 0.0, y_new)
+    stop = expand_stop(K, mu, (y[0], y[1]), with_work, series)
+    if stop.end == 0:
+        return False
+    state_at(K, y, mu, stop, series, 0.0, y_new)
     if y_new[component] < target:
         y_new[0], y_new[1] = 0.0, 0.0
         return True
-    until(K, y, mu, stop, series, math.exp(-TURNED), y_new)
+    state_at(K, y, mu, stop, series, math.exp(-TURNED), y_new)
     if y_new[component] < target:
         return True
     tolerance = TARGET * TURNED
     bracket = bracket_between(0.0, target - y[component], TURNED, target - y_new[component])
     while not is_narrow(bracket, tolerance):
         tried = next_try(bracket)
-        until(K, y, mu, stop, series, math.exp(-tried), y_new)
+        state_at(K, y, mu, stop, series, math.exp(-tried), y_new)
         bracket = narrowed(bracket, tried, target - y_new[component], tolerance)
-    until(K, y, mu, stop, series, math.exp(-bracket.high), y_new)
+    state_at(K, y, mu, stop, series, math.exp(-bracket.high), y_new)
     y_new[component] = target
     return True
 
 
 @compiled
-def rise(K, mu, s):
-    """Return dv_Az/dp while A slips in the direction s, (2,) [1/kg]."""
-    return K[2][2] - mu * (K[2][0] * s[0] + K[2][1] * s[1])
-
-
-@compiled
-def until(K, y, mu, stop, series, x, y_new):
+def state_at(K, y, mu, stop, series, x, y_new):
     """Write the state at the place x of slip that dies away into y_new; see `impulse_until`."""
     S, path = impulse_until(stop, series, x)
     gained = apply(K, S)

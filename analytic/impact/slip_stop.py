@@ -22,7 +22,7 @@ from models.kernel.compiled import compiled
 Q, ALONG, ACROSS, NORMAL, SQUARE, PATH, COLUMNS = range(7)
 # Its rows: some of zeros, from which the first terms follow, then at most so many terms.
 BEFORE, MOST_TERMS = 5, 64
-# The last terms are this part of their sum, which is not less than the other part of the largest term.
+# The last terms are at most this part of the first, the largest term so many times the sum.
 _CONVERGED, _LARGEST = 2.0**-56, 8.0
 # No other direction is kept within so many times the slope: so the terms fall by half, or faster.
 _CLEAR = 2.0
@@ -203,20 +203,23 @@ def impulse_until(stop, series, x):
         S: space frame, (3,) [N s].
         X [J].
     """
-    at_x = _sums(series, stop.end, x)
-    now = _sums(series, stop.end, 1.0)
-    power = x**stop.exponent
-    along, across = power * at_x[0] - now[0], power * at_x[1] - now[1]
+    at_x, now, first = _sums(series, stop.end, x), _sums(series, stop.end, 1.0), series[BEFORE]
+    # Of slip that hardly dies away the first terms are large, and change little.
+    logarithm = stop.exponent * math.log(x) if x > 0 else -np.inf
+    power, change = math.exp(logarithm), math.expm1(logarithm)
+    along = first[ALONG] * change + power * at_x[0] - now[0]
+    across = first[ACROSS] * change + power * at_x[1] - now[1]
+    normal = first[NORMAL] * change + power * at_x[2] - now[2]
+    path = first[PATH] * math.expm1(2 * logarithm) + power * power * at_x[3] - now[3]
     s = stop.direction
-    S = (s[0] * along - s[1] * across, s[1] * along + s[0] * across, power * at_x[2] - now[2])
-    return S, power * power * at_x[3] - now[3]
+    return (s[0] * along - s[1] * across, s[1] * along + s[0] * across, normal), path
 
 
 @compiled
 def _sums(series, end, x):
-    """Return the sums of the series of S, along s* and across it and vertical, and of X."""
+    """Return the sums from x on, without x⁰, of S along s*, across it and vertical, and of X."""
     along, across, normal, path = 0.0, 0.0, 0.0, 0.0
-    for row in range(end - 1, BEFORE - 1, -1):
-        along, across = along * x + series[row, ALONG], across * x + series[row, ACROSS]
-        normal, path = normal * x + series[row, NORMAL], path * x + series[row, PATH]
+    for row in range(end - 1, BEFORE, -1):
+        along, across = (along + series[row, ALONG]) * x, (across + series[row, ACROSS]) * x
+        normal, path = (normal + series[row, NORMAL]) * x, (path + series[row, PATH]) * x
     return along, across, normal, path

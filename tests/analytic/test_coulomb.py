@@ -259,6 +259,17 @@ def test_an_impact_whose_slip_dies_a_million_times_slower_than_it_turns_takes_fe
         assert after(K, v, S)[2] == pytest.approx(-0.7 * v[2])
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_an_impact_whose_slip_hardly_dies_away_ends_at_its_target(seed):
+    """S_z to the stop is millions of times what is needed, and of no weight."""
+    rng = np.random.default_rng([seed, 9])
+    for _ in range(100):
+        K, v, mu = draw_critical(rng)
+        mu = max(mu, mu * (1 + 10 ** rng.uniform(-11, -3)))
+        S = coulomb(K, v, 0.7, mu, KINEMATIC)
+        assert after(K, v, S)[2] == pytest.approx(-0.7 * v[2], abs=1e-11 * float(np.linalg.norm(v)))
+
+
 @pytest.mark.parametrize("aside", [1e-3, 1e-6, 1e-9])
 def test_slip_that_passes_near_zero_is_followed_round_it(aside):
     """|v_t| has a kink there in the limit: a series from before would go on as if slip turned negative."""
