@@ -1,7 +1,7 @@
 """Code of compiled functions for their compiled callers: LLVM's, without machine code of its own.
 
 numba optimises every function and makes machine code of it, with a wrapper for Python and one for C, though a
-function that only compiled functions call runs as a copy within them. Here its code stays as numba wrote it.
+function that only compiled functions call runs as a copy within them. Here its code is only tidied up.
 What Python calls is linked with the code of all it calls, optimised as one, and made into machine code once.
 """
 
@@ -15,12 +15,24 @@ from typing import Any, NamedTuple
 from llvmlite import binding
 from numba.core import types
 from numba.core.bytecode import FunctionIdentity
-from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
+from numba.core.codegen import CPUCodegen, JITCodeLibrary, JITCPUCodegen
 from numba.core.compiler import Compiler, CompileResult
+from numba.core.compiler_machinery import PassManager
 from numba.core.funcdesc import default_mangler
 from numba.core.registry import cpu_target
 from numba.core.runtime import rtsys
-from numba.core.untyped_passes import ExtractByteCode
+from numba.core.runtime.context import NRTContext
+from numba.core.typed_passes import AnnotateTypes, DumpParforDiagnostics, InlineOverloads
+from numba.core.untyped_passes import (
+    ExtractByteCode,
+    FindLiterallyCalls,
+    InlineClosureLikes,
+    InlineInlinables,
+    LiteralPropagationSubPipelinePass,
+    LiteralUnroll,
+    MakeFunctionToJitFunction,
+    WithLifting,
+)
 
 from models.kernel.code_cache import PACKAGES, source_hash
 
@@ -77,6 +89,16 @@ class CalleeCode(JITCodeLibrary):
         self._finalize_dynamic_globals()
         self._finalized = True
 
+    def _optimize_functions(self, ll_module: binding.ModuleRef) -> None:
+        # numba runs all of LLVM's passes on each function. What is linked later is optimised as a whole.
+        ll_module.data_layout = self._codegen._data_layout
+        passes = binding.create_new_module_pass_manager()
+        passes.add_sroa_pass()
+        passes.add_instruction_combine_pass()
+        passes.add_simplify_cfg_pass()
+        passes.add_aggressive_dce_pass()
+        passes.run(ll_module, _plain_pass_builder(self._codegen))
+
     @classmethod
     def from_bitcode(cls, name: str, bitcode: bytes, callees: list[Callee]) -> "CalleeCode":
         """Return the code that was kept on disk."""
@@ -128,7 +150,11 @@ def spare_references(module: binding.ModuleRef, codegen: JITCPUCodegen) -> None:
     passes.add_simplify_cfg_pass()
     passes.add_sroa_pass()
     passes.add_refprune_pass()
-    passes.run(module, codegen._pass_builder(opt=0, loop_vectorize=False, slp_vectorize=False))
+    passes.run(module, _plain_pass_builder(codegen))
+
+
+def _plain_pass_builder(codegen: CPUCodegen) -> Any:
+    return codegen._pass_builder(opt=0, loop_vectorize=False, slp_vectorize=False)
 
 
 def _exported(module: binding.ModuleRef) -> set[str]:
@@ -161,6 +187,8 @@ class CalleeCodegen(Codegen):
         self.own_functions: dict[Any, Any] = {}
         """numba's own functions as code for callers."""
         self.typing = _Typing(cpu_target.typing_context)
+        self.holding_arrays: dict[Any, bool] = {}
+        """Whether values of a type hold arrays."""
 
 
 _made: list[CalleeCodegen] = []
@@ -209,6 +237,36 @@ def _mangled(name: str, kinds: Any, **tags: Any) -> str:
     return mangled
 
 
+class _References(NRTContext):
+    """numba's counting of references to arrays, but that only what holds one is taken apart to find it.
+
+    numba takes every tuple apart to its last number, twice for each name it is given: half of all code.
+    """
+
+    def get_meminfos(self, builder: Any, ty: Any, val: Any) -> Any:
+        """Return what counts references to `val`, with types."""
+        holding = callee_codegen().holding_arrays
+        if ty not in holding:
+            holding[ty] = self._context.data_model_manager[ty].contains_nrt_meminfo()
+        return super().get_meminfos(builder, ty, val) if holding[ty] else []
+
+
+# For closures, `with`, `literally` and `literal_unroll`, functions inlined by numba, listings and loops in
+# parallel.
+_NOT_NEEDED = {
+    AnnotateTypes,
+    DumpParforDiagnostics,
+    FindLiterallyCalls,
+    InlineClosureLikes,
+    InlineInlinables,
+    InlineOverloads,
+    LiteralPropagationSubPipelinePass,
+    LiteralUnroll,
+    MakeFunctionToJitFunction,
+    WithLifting,
+}
+
+
 class CalleeCompiler(Compiler):
     """numba's compiler, but that it makes code for callers."""
 
@@ -219,7 +277,16 @@ class CalleeCompiler(Compiler):
         context._internal_codegen = callee_codegen()
         context.cached_internal_func = callee_codegen().own_functions
         context.mangler = _mangled
+        context.nrt = _References(context, True)
         self.state.typingctx = callee_codegen().typing
+
+    def define_pipelines(self) -> list[PassManager]:
+        """Return numba's passes, without those for what compiled functions here do not contain."""
+        (pipeline,) = super().define_pipelines()
+        needed = PassManager(pipeline.pipeline_name)
+        needed.passes = [step for step in pipeline.passes if step[0] not in _NOT_NEEDED]
+        needed.finalize()
+        return [needed]
 
     def compile_extra(self, func: Any) -> CompileResult:
         """Compile a function under the name that it has in every process: code kept on disk calls it so."""

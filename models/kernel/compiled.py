@@ -17,6 +17,7 @@ from numba.core.compiler_lock import global_compiler_lock
 from numba.core.dispatcher import _FunctionCompiler
 from numba.core.environment import Environment, lookup_environment
 from numba.core.registry import CPUDispatcher, cpu_target
+from numba.core.sigutils import normalize_signature
 
 from models.kernel.callee_code import Callee, CalleeCode, CalleeCompiler, Codegen, spare_references
 from models.kernel.code_cache import PACKAGES, CodeCache, LocatedImpl
@@ -26,7 +27,32 @@ _OPTIONS = {"nopython": True, "nogil": True, "error_model": "numpy"}
 _WITHOUT_WRAPPERS = {**_OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
-class CompiledFunction(CPUDispatcher):
+class _Dispatcher(CPUDispatcher):
+    """numba's, but that it does not time what it compiles: each function within others times it anew."""
+
+    def compile(self, sig: Any) -> Any:
+        """Compile for arguments of these types, or read what is kept of an earlier process."""
+        arguments, returned = normalize_signature(sig)
+        with global_compiler_lock:
+            if tuple(arguments) not in self.overloads:
+                self._add(sig, arguments, returned)
+        return self.overloads[tuple(arguments)].entry_point
+
+    def _add(self, sig: Any, arguments: Any, returned: Any) -> None:
+        with self._compiling_counter:
+            result = self._cache.load_overload(sig, self.targetctx)
+            if result:
+                self._cache_hits[sig] += 1
+                self.targetctx.insert_user_function(result.entry_point, result.fndesc, [result.library])
+                self.add_overload(result)
+                return
+            self._cache_misses[sig] += 1
+            result = self._compiler.compile(arguments, returned)
+            self.add_overload(result)
+            self._cache.save_overload(sig, result)
+
+
+class CompiledFunction(_Dispatcher):
     """A function compiled for its compiled callers; called from Python, it is made into machine code.
 
     See `models.kernel.callee_code`.
@@ -171,7 +197,7 @@ class _LinkedCache(CodeCache):
     _impl_class = _LinkedImpl
 
 
-class _FromPython(CPUDispatcher):
+class _FromPython(_Dispatcher):
     """A compiled function as Python calls it."""
 
     def __init__(self, compiled_function: CompiledFunction) -> None:
