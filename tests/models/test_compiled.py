@@ -19,6 +19,7 @@ from typing import Any, NamedTuple
 import numba
 import numpy as np
 import pytest
+from numba.core.runtime.nrt import rtsys
 
 import models.kernel.code_cache as code_cache
 from models.kernel.code_cache import (
@@ -58,6 +59,19 @@ def squares(n):
 def squares_from(pair, n, kind=Kind.ODD):
     found = squares(n)
     return found + pair.first, kind, "ab"[:1] == "a"
+
+
+class Table(NamedTuple):
+    scale: float
+    numbers: np.ndarray
+
+
+@compiled
+def scaled_sum(n):
+    table = Table(2.0, np.ones(n))
+    for row in range(n):
+        table = Table(table.scale, table.numbers + row)
+    return table.scale * table.numbers.sum()
 
 
 FORK = """
@@ -440,3 +454,14 @@ def test_threads_compile_once():
 
 def test_a_function_is_pickled_by_its_name():
     assert pickle.loads(pickle.dumps(add)) is add
+
+
+def test_arrays_within_tuples_are_freed():
+    assert scaled_sum(3) == 2 * 3 * (1 + 0 + 1 + 2)
+    counting = importlib.import_module("numba.core.runtime._nrt_python")
+    counting.memsys_enable_stats()
+    before = rtsys.get_allocation_stats()
+    scaled_sum(3)
+    after = rtsys.get_allocation_stats()
+    counting.memsys_disable_stats()
+    assert after.mi_alloc - before.mi_alloc == after.mi_free - before.mi_free > 0
