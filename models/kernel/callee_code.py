@@ -240,7 +240,8 @@ def _mangled(name: str, kinds: Any, **tags: Any) -> str:
 class _References(NRTContext):
     """numba's counting of references to arrays, but that only what holds one is taken apart to find it.
 
-    numba takes every tuple apart to its last number, twice for each name it is given: half of all code.
+    numba takes every tuple apart to its last number, twice for each name it is given: a quarter of all
+    instructions.
     """
 
     def get_meminfos(self, builder: Any, ty: Any, val: Any) -> Any:

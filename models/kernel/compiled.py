@@ -41,7 +41,7 @@ class _Dispatcher(CPUDispatcher):
     def _add(self, sig: Any, arguments: Any, returned: Any) -> None:
         with self._compiling_counter:
             result = self._cache.load_overload(sig, self.targetctx)
-            if result:
+            if result is not None:
                 self._cache_hits[sig] += 1
                 self.targetctx.insert_user_function(result.entry_point, result.fndesc, [result.library])
                 self.add_overload(result)
