@@ -150,7 +150,7 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
 
 
 def _flight(body: Body) -> str:
-    if not is_ideal(body) or (body.air.exponent is not None and not in_vacuum(body)):
+    if not is_ideal(body) or body.air.exponent is not None:
         return _INTEGRATED
     if in_vacuum(body):
         return "closed form of the symmetric top"

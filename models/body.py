@@ -13,8 +13,8 @@ class AirLaw(NamedTuple):
     """The air's resistance: the force on dA is -λ |v|^b v; see `models.scenario.Air`."""
 
     exponent: float | None
-    """b, above 0 to 1; None for b = 0. To numba None is a type of its own: it compiles linear air apart.
-    Beside the quadrature that b > 0 needs, linear air would not be inlined, and every toss in it slower."""
+    """b, above 0 to 1; None for b = 0 and in vacuum. To numba None is a type of its own: linear air is
+    compiled apart. Beside the quadrature that b > 0 needs, it would not be inlined, and every toss slower."""
     normal: float
     """λ_n [kg m^(-2-b) s^(b-1)]."""
     tangential: float

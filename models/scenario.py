@@ -426,6 +426,7 @@ class Scenario(_Part):
         J = coin.inertia_about_C
         moments = np.linalg.eigvalsh(J)
         drag = linear_drag(coin.radius, coin.thickness, air.normal, air.tangential)
+        is_linear = air.exponent == 0 or air.normal == air.tangential == 0
         return Body(
             mass=coin.mass,
             radius=coin.radius,
@@ -435,7 +436,7 @@ class Scenario(_Part):
             inertia_inverse=_rows(np.linalg.inv(J)),
             inertia_smallest=float(moments[0]),
             inertia_largest=float(moments[-1]),
-            air=AirLaw(exponent=air.exponent or None, normal=air.normal, tangential=air.tangential),
+            air=AirLaw(None if is_linear else air.exponent, normal=air.normal, tangential=air.tangential),
             drag=drag,
             sliding_share=sliding_share(drag, float(np.linalg.norm(coin.center_of_mass))),
             gravity=self.gravity,

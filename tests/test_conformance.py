@@ -250,3 +250,13 @@ def test_first_touches_agree_with_the_other_engine_in_air_that_is_not_linear(eng
     path_a, path_b = a.sample(times), b.sample(times)
     assert distance(path_a, path_b).max() < 1e-6 * case.coin.radius
     assert attitude_angle(path_a, path_b).max() < 1e-6
+
+
+def test_in_vacuum_the_exponent_of_the_air_changes_nothing(engine):
+    case = scenario(
+        coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}, release=TUMBLING, ending={"max_impacts": 3}
+    )
+    known, tossed = toss(engine, case), toss(engine, case.replace("air.exponent", 0.5))
+    assert np.array_equal(tossed.impacts.time, known.impacts.time)
+    assert np.array_equal(tossed.impacts.impulse, known.impacts.impulse)
+    assert tossed.trusted_impacts == known.trusted_impacts

@@ -28,13 +28,7 @@ def force_and_moment(body, v, w):
         f: force, body frame, (3,) [N].
         m_C: moment about C, body frame, (3,) [N m].
     """
-    return _force_and_moment(body, body.air.exponent, v, w)
-
-
-@compiled
-def _force_and_moment(body, b, v, w):
-    """Return force and moment; numba leaves out what None rules out only where it is an argument."""
-    if b is not None:
+    if body.air.exponent is not None:
         return _by_quadrature(body, v, w)
     drag = body.drag
     v_B = subtract(v, cross(w, body.center))
@@ -69,12 +63,7 @@ def force_and_moment_change(body, v, w, dv, dw):
         df: change of the force, body frame, (3,) [N].
         dm_C: change of the moment about C, body frame, (3,) [N m].
     """
-    return _force_and_moment_change(body, body.air.exponent, v, w, dv, dw)
-
-
-@compiled
-def _force_and_moment_change(body, b, v, w, dv, dw):
-    if b is None:
+    if body.air.exponent is None:
         return force_and_moment(body, dv, dw)
     v_B, dv_B = subtract(v, cross(w, body.center)), subtract(dv, cross(dw, body.center))
     df, dm_B = change_about_B(body, v_B, w, dv_B, dw, CHANGE_NODES)

@@ -22,7 +22,7 @@ def fly(body, y, longest):
     Returns:
         The time of flight [s], whether the coin touches, and the number of gap evaluations.
     """
-    if turns_in_closed_form(body, spin_of(y)):
+    if body.air.exponent is None and turns_in_closed_form(body, spin_of(y)):
         return fly_closed(body, y, longest)
     flown, touches, evaluations, _ = fly_by_steps(body, y, longest, False)
     return flown, touches, evaluations
@@ -36,7 +36,7 @@ def fly_with_graze(body, y, longest):
         The time of flight [s], and a graze: a height such that no minimum of the gap on the way is below half
         of it, or infinity [m].
     """
-    if turns_in_closed_form(body, spin_of(y)):
+    if body.air.exponent is None and turns_in_closed_form(body, spin_of(y)):
         start = y.copy()
         flown, _, _ = fly_closed(body, y, longest)
         return flown, closed_graze(body, start, flown)
@@ -51,7 +51,7 @@ def sample(body, start, start_time, times, states):
     Returns:
         The number of steps up to the last time: on a parabola one.
     """
-    if turns_in_closed_form(body, spin_of(start)):
+    if body.air.exponent is None and turns_in_closed_form(body, spin_of(start)):
         return sample_closed(body, start, start_time, times, states)
     return sample_flight(body, start, start_time, times, states)
 

@@ -16,7 +16,7 @@ from analytic.horizon.sensitivity import delay_of, flight_map, impact_map, touch
 from analytic.horizon.touch_derivatives import Touch, touch_derivatives
 from analytic.numerics.tolerances import TIME_STEP, TOUCH
 from models.attitude import rotation_matrix
-from models.body import Body, Rules, in_vacuum
+from models.body import Body, Rules
 from models.geometry import FLAT_SINE
 from models.laws import ContactLaw
 from models.records import Array
@@ -94,7 +94,7 @@ def _turning(body: Body, y: Array, duration: float) -> float:
         duration: of the flight [s].
     """
     turned = duration * ((body.gravity / body.radius) ** 0.5 + float(np.linalg.norm(y[10:13])))
-    return turned if body.air.exponent is None or in_vacuum(body) else DRAG_COST * turned
+    return turned if body.air.exponent is None else DRAG_COST * turned
 
 
 def _flight(

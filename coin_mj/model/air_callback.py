@@ -29,11 +29,10 @@ _WORD = ctypes.sizeof(ctypes.c_int64)
 
 
 def describe_air(spec: mujoco.MjSpec, scenario: Scenario) -> None:
-    """Write the numbers of air with b > 0 into a model's description; nothing for b = 0 and in vacuum."""
+    """Write the numbers of air with b > 0 into a model's description."""
     coin, air = scenario.coin, scenario.air
-    if air.exponent > 0 and (air.normal > 0 or air.tangential > 0):
-        data = (coin.radius, coin.thickness, air.normal, air.tangential, air.exponent)
-        spec.add_numeric(name=NUMERIC, data=data, size=NUMBERS)
+    data = (coin.radius, coin.thickness, air.normal, air.tangential, air.exponent)
+    spec.add_numeric(name=NUMERIC, data=data, size=NUMBERS)
 
 
 class _Users:

@@ -77,7 +77,7 @@ def compile_coin(spec: mujoco.MjSpec, scenario: Scenario) -> mujoco.MjModel:
     apart = mujoco.mjtSameFrame.mjSAMEFRAME_NONE
     model.geom("floor").sameframe[:] = apart
     model.body("coin").sameframe[:] = apart
-    if scenario.air.exponent == 0:
+    if scenario.body.air.exponent is None:
         _damp(model, scenario)
     return model
 
@@ -98,10 +98,10 @@ def described(scenario: Scenario, thickness: float) -> mujoco.MjSpec:
     body.ipos = coin.center_of_mass
     body.fullinertia = (J[0, 0], J[1, 1], J[2, 2], J[0, 1], J[0, 2], J[1, 2])
     spec.geom("coin").size = (coin.radius, thickness / 2, 0.0)
-    if scenario.air.exponent > 0:
-        describe_air(spec, scenario)
-    else:
+    if scenario.body.air.exponent is None:
         _set_linear_drag(spec, scenario)
+    else:
+        describe_air(spec, scenario)
     return spec
 
 

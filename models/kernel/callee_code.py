@@ -31,10 +31,12 @@ from numba.core.untyped_passes import (
     LiteralPropagationSubPipelinePass,
     LiteralUnroll,
     MakeFunctionToJitFunction,
+    RewriteSemanticConstants,
     WithLifting,
 )
 
 from models.kernel.code_cache import PACKAGES, source_hash
+from models.kernel.none_fields import DecideNoneFields
 
 
 class Callee(NamedTuple):
@@ -282,10 +284,11 @@ class CalleeCompiler(Compiler):
         self.state.typingctx = callee_codegen().typing
 
     def define_pipelines(self) -> list[PassManager]:
-        """Return numba's passes, without those for what compiled functions here do not contain."""
+        """Return numba's passes, without those for what compiled functions here do not contain, and ours."""
         (pipeline,) = super().define_pipelines()
         needed = PassManager(pipeline.pipeline_name)
         needed.passes = [step for step in pipeline.passes if step[0] not in _NOT_NEEDED]
+        needed.add_pass_after(DecideNoneFields, RewriteSemanticConstants)
         needed.finalize()
         return [needed]
 

@@ -2,7 +2,6 @@
 
 import math
 from itertools import pairwise
-from typing import Any, cast
 
 import numba
 import numpy as np
@@ -12,6 +11,8 @@ from hypothesis import strategies as st
 
 from analytic.air.force import change_about_B, force_and_moment, force_and_moment_change
 from analytic.air.quadrature import CHANGE_NODES, FORCE_NODES, nodes_of
+from analytic.flight.flying import fly
+from models.kernel.callee_code import Callee
 from tests.helpers.draws import AIR, ZLOTY, scenario
 from tests.helpers.referee import air_by_cubature
 
@@ -276,14 +277,19 @@ def test_vacuum_has_no_force_whatever_the_exponent():
         assert np.all(np.array([*f, *m]) == 0)
 
 
-def test_linear_air_is_compiled_without_the_quadrature():
+def called_in(function, *arguments):
+    """The names of all compiled functions that a compiled function calls, directly or not."""
+    callees = [Callee(function, tuple(map(numba.typeof, arguments)))]
+    for callee in callees:
+        callees += [other for other in callee.code().callees if other not in callees]
+    return {callee.function.__name__ for callee in callees}
+
+
+def test_each_kind_of_air_is_compiled_without_the_others_forms():
     """Beside the quadrature the few lines of linear air are slower: their calls are no longer inlined."""
-    motion = ((0.3, -0.2, 0.1), (10.0, 20.0, 5.0))
-    code, function = {}, cast(Any, force_and_moment_change)
-    for b in (0.0, 0.5):
-        # Machine code from the disk can't be inspected.
-        fresh: Any = numba.njit(function.py_func)
-        fresh(coin(b), *motion, *motion)
-        code[b] = fresh.inspect_llvm(fresh.signatures[0])
-    assert "wall_friction" in code[0.5]
-    assert "wall_friction" not in code[0.0]
+    linear, other = (called_in(fly, coin(b), np.zeros(13), 1.0) for b in (0.0, 0.5))
+    quadrature, series = {"wall_friction_change", "pressure_change"}, {"expand_flight", "fly_closed"}
+    assert series <= linear
+    assert quadrature <= other
+    assert not quadrature & linear
+    assert not series & other

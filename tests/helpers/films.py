@@ -1,7 +1,12 @@
 """Tosses made by formulas, and pictures of them."""
 
+import re
+import subprocess
 from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
 
+import imageio_ffmpeg
 import numpy as np
 
 from compare.film.drawing import Drawer, box_of
@@ -82,3 +87,25 @@ def drawn(toss, times, camera, *, height=48, width=64, box=None):
     play = play_of(shown(toss), np.array(times))
     with Drawer(play, camera, box or box_of([play]), height=height, width=width) as drawer:
         return [drawer.draw(i).astype(int) for i in range(len(times))]
+
+
+class Written(NamedTuple):
+    """A film in a file, played from its first frame to its last."""
+
+    codec: str
+    size: tuple[int, int]
+    """Width and height."""
+    rate: float
+    """Frames a second."""
+    frames: int
+
+
+def film_written(path: Path) -> Written:
+    """Return what ffmpeg tells of a film that it plays to the end."""
+    play = [imageio_ffmpeg.get_ffmpeg_exe(), "-hide_banner", "-i", str(path), "-f", "null", "-"]
+    told = subprocess.run(play, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True).stderr
+    stream = re.search(r"Video: (\w+).*?, (\d+)x(\d+).*?, ([\d.]+) fps", told)
+    assert stream, told
+    codec, width, height, rate = stream.groups()
+    frames = re.findall(r"frame= *(\d+)", told)[-1]
+    return Written(codec, (int(width), int(height)), float(rate), int(frames))

@@ -61,6 +61,24 @@ def squares_from(pair, n, kind=Kind.ODD):
     return found + pair.first, kind, "ab"[:1] == "a"
 
 
+class Disk(NamedTuple):
+    area: float | None
+
+
+class Cylinder(NamedTuple):
+    base: Disk
+    height: float | None
+
+
+@compiled
+def volume(cylinder):
+    """Of a disk 0; numba can multiply no None."""
+    height = cylinder.height
+    if cylinder.base.area is None:
+        return np.inf
+    return cylinder.base.area * height if height is not None and cylinder.base.area is not None else 0.0
+
+
 class Table(NamedTuple):
     scale: float
     numbers: np.ndarray
@@ -465,3 +483,10 @@ def test_arrays_within_tuples_are_freed():
     after = rtsys.get_allocation_stats()
     counting.memsys_disable_stats()
     assert after.mi_alloc - before.mi_alloc == after.mi_free - before.mi_free > 0
+
+
+@pytest.mark.parametrize(
+    ("area", "height", "known"), [(2.0, 3.0, 6.0), (2.0, None, 0.0), (None, 3.0, np.inf)]
+)
+def test_what_a_field_that_is_none_rules_out_is_not_compiled(area, height, known):
+    assert volume(Cylinder(Disk(area), height)) == known
