@@ -141,7 +141,7 @@ def slide(K, y, mu, no_slip, with_work, component, target):
     while y[component] < target:
         if math.hypot(y[0], y[1]) <= no_slip:
             return False
-        f, gained, _, p, stops = straight_slip(K, y, mu, component, target)
+        f, gained, p, stops = straight_slip(K, y, mu, no_slip, component, target)
         if p > 0:
             end_straight(y, f, gained, p, stops, component, target)
             return not stops
@@ -162,42 +162,51 @@ def slide(K, y, mu, no_slip, with_work, component, target):
 
 
 @compiled
-def straight_slip(K, y, mu, component, target):
+def straight_slip(K, y, mu, no_slip, component, target):
     """Return whether slip keeps its direction long enough for all others to turn into it, and where it leads.
 
     Friction turns slip towards the direction s in which it accelerates, s × dv_A/dp = 0, at the rate
     (λ + κ)/|v_t|; λ = s · dv_A/dp is the growth of slip and κ = μ t · K_tt t, t across s. Where λ is small
     against κ, slip goes straight over many times the impulse in which it turns: step by step it would take
-    thousands.
+    thousands. The direction of slow slip is known only to the rounding of v_A: it is turned into the one that
+    it keeps, by Newton's method, where what it has across that counts as none.
 
     Args:
         K: mobility of A [1/kg].
         y: state of the impact, (7,).
         mu: coefficient of friction μ.
+        no_slip: slip that counts as none [m/s].
         component: `V_Z` or `WORK`.
         target: its value at the end.
 
     Returns:
         f: friction per normal impulse, (2,).
         gained: dv_A/dp, (3,) [1/kg].
-        κ [1/kg].
         p: the normal impulse of the straight slip, 0 where slip may turn [N s].
         stops: whether slip stops before the component reaches its target.
     """
-    slip = math.hypot(y[0], y[1])
+    slip, most = math.hypot(y[0], y[1]), no_slip
     s = (y[0] / slip, y[1] / slip)
-    f = (-mu * s[0], -mu * s[1])
-    gained = apply(K, (f[0], f[1], 1.0))
-    turning, growth = s[0] * gained[1] - s[1] * gained[0], s[0] * gained[0] + s[1] * gained[1]
-    kappa = mu * (s[1] * s[1] * K[0][0] - 2 * s[0] * s[1] * K[0][1] + s[0] * s[0] * K[1][1])
-    if abs(turning) > STRAIGHT * kappa:
-        return f, gained, kappa, 0.0, False
+    while True:
+        f = (-mu * s[0], -mu * s[1])
+        gained = apply(K, (f[0], f[1], 1.0))
+        turning, growth = s[0] * gained[1] - s[1] * gained[0], s[0] * gained[0] + s[1] * gained[1]
+        kappa = mu * (s[1] * s[1] * K[0][0] - 2 * s[0] * s[1] * K[0][1] + s[0] * s[0] * K[1][1])
+        if abs(turning) <= STRAIGHT * kappa:
+            break
+        aside = slip * abs(turning)
+        if not aside <= most * (kappa + growth):
+            return f, gained, 0.0, False
+        angle = turning / (kappa + growth)
+        most = slip * abs(angle) / 2
+        length = math.hypot(1.0, angle)
+        s = ((s[0] - angle * s[1]) / length, (s[1] + angle * s[0]) / length)
     to_stop = slip / -growth if growth < 0 else np.inf
     to_target = impulse_to(y, gained[2], component, target) if gained[2] > 0 else np.inf
     p = min(to_stop, to_target)
     if not SETTLED * slip < (kappa + growth) * p < np.inf:
-        return f, gained, kappa, 0.0, False
-    return f, gained, kappa, p, to_stop < to_target
+        return f, gained, 0.0, False
+    return f, gained, p, to_stop < to_target
 
 
 @compiled

@@ -207,11 +207,15 @@ def test_a_turn_about_the_vertical_turns_the_impulse():
     )
 
 
-def draw_critical(rng):
-    """A contact with a friction near that at which it just sticks: slip then keeps its speed as it goes."""
+def draw_critical(rng, nearest=-6.0, farthest=-2.5):
+    """A contact with a friction near that at which it just sticks: slip then keeps its speed as it goes.
+
+    The friction's part beyond that one is 10 to a power between `nearest` and `farthest`.
+    """
     K, v = draw_contact(rng)
     sticks = np.linalg.solve(np.array(K)[:2, :2], np.array(K)[:2, 2])
-    return K, v, float(np.hypot(*sticks)) * (1 + rng.choice([-1, 1]) * 10 ** rng.uniform(-6, -2.5))
+    beyond = rng.choice([-1, 1]) * 10 ** rng.uniform(nearest, farthest)
+    return K, v, float(np.hypot(*sticks)) * (1 + beyond)
 
 
 @pytest.mark.parametrize("kind", list(RestitutionKind))
@@ -257,6 +261,21 @@ def test_an_impact_whose_slip_dies_a_million_times_slower_than_it_turns_takes_fe
         K, v, mu = draw_critical(rng)
         S = coulomb(K, v, 0.7, mu, KINEMATIC)
         assert after(K, v, S)[2] == pytest.approx(-0.7 * v[2])
+
+
+@pytest.mark.parametrize("kind", list(RestitutionKind))
+def test_slow_slip_by_critical_friction_differs_from_none_by_no_more_than_itself(kind):
+    """Step by step until its direction was known, one such impact took seconds: this test would not end."""
+    rng = np.random.default_rng(10)
+    for _ in range(COUNT):
+        K, v, mu = draw_critical(rng, -11.0, -2.5)
+        chi, angle = rng.uniform(0.1, 0.9), rng.uniform(0, 2 * np.pi)
+        slip = 10 ** rng.uniform(-11, -4) * abs(v[2])
+        slow = slip * np.cos(angle), slip * np.sin(angle), v[2]
+        S, expected = (np.array(coulomb(K, start, chi, mu, kind)) for start in (slow, (0.0, 0.0, v[2])))
+        # No mass that K stands for is larger.
+        mass = 1 / np.linalg.eigvalsh(np.array(K))[0]
+        assert np.linalg.norm(S - expected) <= 3 * slip * mass
 
 
 @pytest.mark.parametrize("seed", range(3))
