@@ -23,6 +23,7 @@ PACKAGES = ("models", "analytic", "coin_mj", "compare")
 """Packages with compiled functions; what others compile is not kept."""
 UNUSED = 3 * 24 * 3600.0
 """Folders not used for so long are removed when another is made [s]."""
+_STARTED = time.time()
 _TOP = Path(__file__).parents[2]
 _FOLDER = re.compile(r"cointoss-[\w.]+-[0-9a-f]{16}")
 _IMPORT = re.compile(r"^[ \t]*(?:from[ \t]+([\w.]+)[ \t]+)?import[ \t]+(\([^)]*\)|[^\n]*)", re.MULTILINE)
@@ -84,25 +85,46 @@ def remove_unused(base: Path) -> None:
 def source_hash(module: str) -> str:
     """Return the hash of the sources of a module and of what it imports, directly or not, from `PACKAGES`."""
     digest = hashlib.sha256()
-    found, todo = {module}, [module]
-    while todo:
-        new = imported(todo.pop()) - found
-        found |= new
-        todo += new
-    for name in sorted(found):
+    for name in _hashed(module):
         digest.update(f"{name}\n".encode())
         digest.update(_source(name) or b"")
     return digest.hexdigest()[:16]
 
 
 @cache
-def _source(module: str) -> bytes | None:
-    """Return the source of a module, None where there is none of this name."""
+def is_as_imported(module: str) -> bool:
+    """Return whether none of the sources in a module's hash was written since this process began.
+
+    One that was may not be the source that was imported, and what is compiled of it must not be kept for it.
+    A time of writing that lies ahead is of another clock.
+    """
+    source_hash(module)  # what is written after this no longer matters
+    files = filter(None, map(_file, _hashed(module)))
+    return not any(_STARTED < file.stat().st_mtime <= time.time() for file in files)
+
+
+@cache
+def _hashed(module: str) -> tuple[str, ...]:
+    """Return the modules whose sources are in a module's hash, sorted."""
+    found, todo = {module}, [module]
+    while todo:
+        new = imported(todo.pop()) - found
+        found |= new
+        todo += new
+    return tuple(sorted(found))
+
+
+def _file(module: str) -> Path | None:
+    """Return the file of a module, None where there is none of this name."""
     path = _TOP.joinpath(*module.split("."))
-    for file in (path.with_suffix(".py"), path / "__init__.py"):
-        if file.is_file():
-            return file.read_bytes()
-    return None
+    files = (path.with_suffix(".py"), path / "__init__.py")
+    return next((file for file in files if file.is_file()), None)
+
+
+@cache
+def _source(module: str) -> bytes | None:
+    file = _file(module)
+    return None if file is None else file.read_bytes()
 
 
 @cache

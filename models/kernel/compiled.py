@@ -20,7 +20,7 @@ from numba.core.registry import CPUDispatcher, cpu_target
 from numba.core.sigutils import normalize_signature
 
 from models.kernel.callee_code import Callee, CalleeCode, CalleeCompiler, Codegen, spare_references
-from models.kernel.code_cache import PACKAGES, CodeCache, LocatedImpl
+from models.kernel.code_cache import PACKAGES, CodeCache, LocatedImpl, is_as_imported
 from models.kernel.compiling import compiling
 
 _OPTIONS = {"nopython": True, "nogil": True, "error_model": "numpy"}
@@ -265,8 +265,11 @@ def _result(context: Any, library: Any, description: Any, environment: Any, sign
 
 
 def _keep_code(dispatcher: CPUDispatcher, cache: type[CodeCache]) -> None:
-    """Keep what is compiled of a function from here on, if it is one of ours."""
-    if dispatcher.__module__.partition(".")[0] in PACKAGES and not isinstance(dispatcher._cache, cache):
+    """Keep what is compiled of a function from here on, if it is one of ours and of sources as they are."""
+    module = dispatcher.__module__
+    if isinstance(dispatcher._cache, cache) or module.partition(".")[0] not in PACKAGES:
+        return
+    if is_as_imported(module):
         dispatcher._cache = cache(dispatcher.py_func)
 
 
