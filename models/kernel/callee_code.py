@@ -35,8 +35,8 @@ from numba.core.untyped_passes import (
     WithLifting,
 )
 
-from models.kernel.code_cache import PACKAGES, source_hash
 from models.kernel.none_fields import DecideNoneFields
+from models.kernel.sources import PACKAGES, source_hash
 
 
 class Callee(NamedTuple):

@@ -4,13 +4,13 @@
 # pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
 # pyright: reportIncompatibleMethodOverride=false
 
-import hashlib
 import os
 import re
 import shutil
 import tempfile
 import time
 import uuid
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any, ClassVar
@@ -19,14 +19,11 @@ from numba.core import types
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile, _CacheLocator
 from numba.core.runtime import rtsys
 
-PACKAGES = ("models", "analytic", "coin_mj", "compare")
-"""Packages with compiled functions; what others compile is not kept."""
+from models.kernel.sources import source_hash
+
 UNUSED = 3 * 24 * 3600.0
 """Folders not used for so long are removed when another is made [s]."""
-_STARTED = time.time()
-_TOP = Path(__file__).parents[2]
 _FOLDER = re.compile(r"cointoss-[\w.]+-[0-9a-f]{16}")
-_IMPORT = re.compile(r"^[ \t]*(?:from[ \t]+([\w.]+)[ \t]+)?import[ \t]+(\([^)]*\)|[^\n]*)", re.MULTILINE)
 
 
 @cache
@@ -38,7 +35,7 @@ def cache_folder(module: str) -> Path:
     not, from these packages: an edit in any of them starts a new folder, an edit elsewhere does not.
 
     Args:
-        module: its full name, in one of `PACKAGES`.
+        module: its full name, in one of `models.kernel.sources.PACKAGES`.
 
     Returns:
         A folder below $NUMBA_CACHE_DIR, else below the user's cache, else below the temporary folder.
@@ -79,65 +76,6 @@ def remove_unused(base: Path) -> None:
             continue
         if unused > UNUSED and _FOLDER.fullmatch(folder.name):
             shutil.rmtree(folder, ignore_errors=True)
-
-
-@cache
-def source_hash(module: str) -> str:
-    """Return the hash of the sources of a module and of what it imports, directly or not, from `PACKAGES`."""
-    digest = hashlib.sha256()
-    for name in _hashed(module):
-        digest.update(f"{name}\n".encode())
-        digest.update(_source(name) or b"")
-    return digest.hexdigest()[:16]
-
-
-@cache
-def is_as_imported(module: str) -> bool:
-    """Return whether none of the sources in a module's hash was written since this process began.
-
-    One that was may not be the source that was imported, and what is compiled of it must not be kept for it.
-    A time of writing that lies ahead is of another clock.
-    """
-    source_hash(module)  # what is written after this no longer matters
-    files = filter(None, map(_file, _hashed(module)))
-    return not any(_STARTED < file.stat().st_mtime <= time.time() for file in files)
-
-
-@cache
-def _hashed(module: str) -> tuple[str, ...]:
-    """Return the modules whose sources are in a module's hash, sorted."""
-    found, todo = {module}, [module]
-    while todo:
-        new = imported(todo.pop()) - found
-        found |= new
-        todo += new
-    return tuple(sorted(found))
-
-
-def _file(module: str) -> Path | None:
-    """Return the file of a module, None where there is none of this name."""
-    path = _TOP.joinpath(*module.split("."))
-    files = (path.with_suffix(".py"), path / "__init__.py")
-    return next((file for file in files if file.is_file()), None)
-
-
-@cache
-def _source(module: str) -> bytes | None:
-    file = _file(module)
-    return None if file is None else file.read_bytes()
-
-
-@cache
-def imported(module: str) -> frozenset[str]:
-    """Return the modules of `PACKAGES` that a module imports: a name that it imports may be one."""
-    names = {module.rpartition(".")[0]}
-    for start, listed in _IMPORT.findall((_source(module) or b"").decode()):
-        imported = [words.split()[0] for words in re.sub(r"[()]|#.*", "", listed).split(",") if words.split()]
-        names |= {start, *(f"{start}.{name}" for name in imported)} if start else set(imported)
-    parents = {name.rpartition(".")[0] for name in names}
-    return frozenset(
-        name for name in names | parents if name.partition(".")[0] in PACKAGES and _source(name) is not None
-    )
 
 
 class _Locator(_CacheLocator):
@@ -188,7 +126,14 @@ class CodeFiles(IndexDataCacheFile):
             return {}
 
     def save(self, key: Any, data: Any) -> None:
-        """Keep code in a new file, and after that say so in the index."""
+        """Keep code in a new file, and after that say so in the index.
+
+        Where nothing can be written, as on a full disk, the next process compiles anew.
+        """
+        with suppress(OSError):
+            self._save(key, data)
+
+    def _save(self, key: Any, data: Any) -> None:
         name = f"{Path(self._index_path).stem}.{uuid.uuid4().hex}.nbc"
         self._save_data(name, data)
         overloads = self._load_index()

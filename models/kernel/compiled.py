@@ -20,8 +20,9 @@ from numba.core.registry import CPUDispatcher, cpu_target
 from numba.core.sigutils import normalize_signature
 
 from models.kernel.callee_code import Callee, CalleeCode, CalleeCompiler, Codegen, spare_references
-from models.kernel.code_cache import PACKAGES, CodeCache, LocatedImpl, is_as_imported
+from models.kernel.code_cache import CodeCache, LocatedImpl
 from models.kernel.compiling import compiling
+from models.kernel.sources import PACKAGES, is_as_imported
 
 _OPTIONS = {"nopython": True, "nogil": True, "error_model": "numpy"}
 _WITHOUT_WRAPPERS = {**_OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
@@ -190,7 +191,10 @@ class _LinkedImpl(LocatedImpl):
         for used in environments:
             codegen.set_env(used.env_name, used)
         result = _result(target_context, library, description, environment, signature)
-        return result._replace(entry_point=target_context.get_executable(library, description, environment))
+        return result._replace(
+            entry_point=target_context.get_executable(library, description, environment),
+            referenced_envs=environments,  # the code has their addresses
+        )
 
 
 class _LinkedCache(CodeCache):
@@ -236,6 +240,7 @@ class _Linker(_FunctionCompiler):
         # Nothing else calls these functions here, so LLVM may change them as it likes.
         # Internal ones would still be found by their names.
         callee.library.link_into(library._final_module, "private")
+        _require_all_that_is_called(library._final_module)
         spare_references(library._final_module, context.codegen())
         for variable in library._final_module.global_variables:
             if lookup_environment(variable.name) is not None:
@@ -247,6 +252,16 @@ class _Linker(_FunctionCompiler):
                 context.codegen().set_env(variable.name, used)
         result = _result(context, library, description, environment, callee.signature)
         return result._replace(entry_point=context.get_executable(library, description, environment))
+
+
+def _require_all_that_is_called(module: binding.ModuleRef) -> None:
+    """Raise where a module calls one of our functions that it lacks: LLVM would call address 0 instead."""
+    lacking = [each.name for each in module.functions if each.is_declaration and each.name.startswith("_ZN")]
+    if lacking:
+        raise RuntimeError(
+            f"compiled code calls {', '.join(lacking)}, which was kept under another name; "
+            "remove the folders cointoss-* from $NUMBA_CACHE_DIR, or from cointoss in your cache"
+        )
 
 
 def _result(context: Any, library: Any, description: Any, environment: Any, signature: Any) -> CompileResult:
@@ -276,7 +291,7 @@ def _keep_code(dispatcher: CPUDispatcher, cache: type[CodeCache]) -> None:
 def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compile `function` when it is first called, without the GIL, and keep the code on disk.
 
-    Code of functions outside `models.kernel.code_cache.PACKAGES` is not kept.
+    Code of functions outside `models.kernel.sources.PACKAGES` is not kept.
     """
     compiling.declared += 1
     return CompiledFunction(function)

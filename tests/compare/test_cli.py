@@ -544,7 +544,7 @@ def test_a_film_that_cannot_be_written_is_one_line(tmp_path, short):
         "e['.mp4'] = e['.mp4']._replace(form=Format(320, 240, 6)); from compare.cli import main; main()"
     )
     command = f'"{sys.executable}" -c "{small}" video short.toml --out film.mp4'
-    done = in_a_shell(f"ulimit -f 1; {command}; echo $?", tmp_path)
+    done = in_a_shell(f"ulimit -c 0 -f 1; {command}; echo $?", tmp_path)
     assert done.stdout == "2\n"
     assert done.stderr.startswith("cointoss: film.mp4: can't be written (ffmpeg: ")
     assert len(done.stderr.splitlines()) == 1

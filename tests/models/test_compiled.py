@@ -1,6 +1,7 @@
 """Compiled functions are called by Python, by each other and by numba's, and what is kept is never stale."""
 
 import ast
+import errno
 import importlib
 import inspect
 import os
@@ -22,15 +23,9 @@ import pytest
 from numba.core.runtime.nrt import rtsys
 
 import models.kernel.code_cache as code_cache
-from models.kernel.code_cache import (
-    PACKAGES,
-    UNUSED,
-    CodeFiles,
-    cache_folder,
-    remove_unused,
-    source_hash,
-)
+from models.kernel.code_cache import UNUSED, CodeFiles, cache_folder, remove_unused
 from models.kernel.compiled import CompiledFunction, compiled, inlined
+from models.kernel.sources import PACKAGES, imported, source_hash
 from models.kernel.vectors import add
 
 TOP = Path(code_cache.__file__).parents[2]
@@ -297,7 +292,7 @@ def test_every_compiled_function_that_one_calls_is_in_its_hash():
             callee = names.get(name)
             module = getattr(callee, "__module__", None)
             if isinstance(callee, CompiledFunction) and module != function.__module__:
-                assert module in code_cache.imported(function.__module__), (function, callee)
+                assert module in imported(function.__module__), (function, callee)
 
 
 @pytest.mark.parametrize(
@@ -311,16 +306,14 @@ def test_every_compiled_function_that_one_calls_is_in_its_hash():
         "from models.room.package import a",
     ],
 )
-def test_the_hash_is_of_all_that_is_imported(folder, monkeypatch, source):
-    write(folder, "models.room.package.__init__", "from models.room.far import a\n")
-    write(folder, "models.near", source + "\n")
-    monkeypatch.setattr(code_cache, "_TOP", folder)
+def test_the_hash_is_of_all_that_is_imported(tmp_path, source):
     hashes = []
     for a in (1, 2):
+        folder = tmp_path / str(a)
+        write(folder, "models.room.package.__init__", "from models.room.far import a\n")
+        write(folder, "models.near", source + "\n")
         write(folder, "models.room.far", f"a = b = {a}\n")
-        for cached in (source_hash, code_cache._hashed, code_cache.imported, code_cache._source):
-            cached.cache_clear()
-        hashes.append(source_hash("models.near"))
+        hashes.append(source_hash("models.near", folder))
     assert hashes[0] != hashes[1]
 
 
@@ -384,6 +377,21 @@ def test_two_processes_that_keep_code_at_once_do_not_mix_it_up(tmp_path, monkeyp
     third.save("numbers", "the same once more")
     assert third.load("numbers") == "the same once more"
     assert len(list(tmp_path.glob("*.nbc"))) == 2
+
+
+def test_code_that_cannot_be_written_is_not_kept(tmp_path, monkeypatch):
+    files = CodeFiles(str(tmp_path), "function", "source")
+    files.save("numbers", "code for numbers")
+
+    def save_on_a_full_disk(*_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    for save in ("_save_data", "_save_index"):
+        with monkeypatch.context() as full:
+            full.setattr(files, save, save_on_a_full_disk)
+            files.save("integers", "code for integers")
+        assert files.load("integers") is None
+        assert files.load("numbers") == "code for numbers"
 
 
 def test_python_calls_a_function_with_what_it_calls():
@@ -470,6 +478,21 @@ def test_what_numba_compiles_calls_our_functions():
         return squares_from(Pair(1.0, 0.0), n)[0].sum()
 
     assert plain(3) == pointer.ctypes(3) == 8.0
+
+
+def test_code_that_lacks_what_it_calls_is_refused():
+    def whole(numbers):
+        return first_of_sum(numbers, numbers)
+
+    function, numbers = CompiledFunction(whole), np.ones(2)
+    function.compile((numba.typeof(numbers),))
+    (made,) = function.overloads.values()
+    called = made.library.callees.copy()
+    made.library.callees.clear()
+    with pytest.raises(RuntimeError, match=r"calls .*first_of_sum.*remove the folders"):
+        function(numbers)
+    made.library.callees += called
+    assert function(numbers) == 2.0
 
 
 def test_threads_compile_once():

@@ -22,7 +22,7 @@ from compare.reproduction.parts import Part, kept
 from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.general_coins import CoinClass
 from models.body import Body, Rules, in_vacuum
-from models.kernel.code_cache import source_hash
+from models.kernel.sources import source_hash
 from models.records import Array, Outcome
 
 TESTS = {"E < m g r": BLUE, "eq. (20)": VERMILION}

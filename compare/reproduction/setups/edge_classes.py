@@ -14,7 +14,7 @@ from compare.engines import Engine
 from compare.reproduction.parts import Part, kept
 from models.attitude import quaternion_product
 from models.hand import Hand
-from models.kernel.code_cache import source_hash
+from models.kernel.sources import source_hash
 from models.records import Array, Ending, Outcome
 from models.releases import Releases
 from models.scenario import Scenario

@@ -34,7 +34,7 @@ from compare.reproduction.setups.edge_touches import (
     tossed,
     way_to_rest,
 )
-from models.kernel.code_cache import source_hash
+from models.kernel.sources import source_hash
 
 ANGLE, SOLID_ANGLE = 3**-0.5, 8**-0.5
 """h/D at which C is on the edge's side in a third of all turns about a diameter, and of all attitudes."""

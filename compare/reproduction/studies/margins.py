@@ -19,7 +19,7 @@ from compare.reproduction.parts import Part, kept
 from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.general_coins import CoinClass
 from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
-from models.kernel.code_cache import source_hash
+from models.kernel.sources import source_hash
 from models.reading import load
 from models.records import Array
 from models.releases import Releases

@@ -22,7 +22,7 @@ from compare.reproduction.parts import Part, kept
 from compare.reproduction.runner import Reproduction, Result
 from compare.reproduction.setups.planar_maps import case
 from compare.reproduction.setups.uncertain_shares import uncertain_shares
-from models.kernel.code_cache import source_hash
+from models.kernel.sources import source_hash
 from models.records import Array
 
 SEED = 2014
