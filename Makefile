@@ -9,6 +9,8 @@ MADE := out/docs
 CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path '*/__pycache__/*')
 
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
+# Tests start hundreds of processes, each of which would compile all modules to bytecode.
+unexport PYTHONDONTWRITEBYTECODE
 # What does not wait for each other is made side by side.
 MAKEFLAGS += --jobs=2
 
