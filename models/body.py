@@ -13,8 +13,9 @@ class AirLaw(NamedTuple):
     """The air's resistance: the force on dA is -λ |v|^b v; see `models.scenario.Air`."""
 
     exponent: float | None
-    """b, above 0 to 1; None for b = 0 and in vacuum. To numba None is a type of its own: linear air is
-    compiled apart. Beside the quadrature that b > 0 needs, it would not be inlined, and every toss slower."""
+    """b, from 0 to 1; None or 0 in vacuum as for b = 0. To numba None is a type of its own: linear air is
+    compiled apart. Beside the quadrature that b > 0 needs, it would not be inlined, and every toss slower.
+    MuJoCo's coin, whose air is not compiled with it, has 0 instead, and is compiled once for all air."""
     normal: float
     """λ_n [kg m^(-2-b) s^(b-1)]."""
     tangential: float
@@ -36,7 +37,7 @@ class Body(NamedTuple):
     inertia_largest: float
     air: AirLaw
     drag: Drag
-    """Of linear air: of use where `air.exponent` is None."""
+    """Of linear air: of use where `is_linear`."""
     sliding_share: float
     """See `models.drag.sliding_share`; of use where `drag` is."""
     gravity: float
@@ -77,6 +78,12 @@ def is_ideal(body):
     c, J = body.center, body.inertia
     balanced = c[0] == 0 and c[1] == 0 and c[2] == 0
     return balanced and J[0][0] == J[1][1] and J[0][1] == 0 and J[0][2] == 0 and J[1][2] == 0
+
+
+@compiled
+def is_linear(air):
+    """Return whether the air's force is linear in the velocity, or none."""
+    return air.exponent is None or air.exponent == 0
 
 
 @compiled

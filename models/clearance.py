@@ -17,7 +17,7 @@ def _spin_bound(body, w):
 
 
 @compiled
-def drag_bound(body, b, v, w, window):
+def drag_bound(body, v, w, window):
     """Bound the air's force and moment about C by k p and ℓ k p + d ω̃, with p = |v_C| + ω̃ ℓ, over a window.
 
     For b = 0 p bounds the speed of B: k and d are the largest coefficients, ℓ is B's distance from C.
@@ -27,7 +27,6 @@ def drag_bound(body, b, v, w, window):
 
     Args:
         body: the coin.
-        b: the exponent of its air; None for 0.
         v: velocity of C, (3,) [m/s].
         w: angular velocity, body frame, (3,) [rad/s].
         window: length of the time window [s].
@@ -36,7 +35,8 @@ def drag_bound(body, b, v, w, window):
         k [kg/s], ℓ [m], and d [kg m²/s].
     """
     air, drag, r, h = body.air, body.drag, body.radius, body.thickness
-    if b is None:
+    b = body.air.exponent
+    if b is None or b == 0:
         return (
             max(drag.force_tangential, drag.force_normal),
             norm(body.center),
@@ -60,14 +60,14 @@ def damping_rate(body, v, w, window):
         w: angular velocity, body frame, (3,) [rad/s].
         window: length of the time window [s].
     """
-    k, arm, _ = drag_bound(body, body.air.exponent, v, w, window)
+    k, arm, _ = drag_bound(body, v, w, window)
     return k * (1 / body.mass + arm * arm / body.inertia_smallest)
 
 
 @compiled
 def fastest_motion(body, v, w, window):
     """Bound p = |v_C| + ω̃ ℓ and ω̃ over a time window, and return k, ℓ and d of `drag_bound` before them."""
-    drag, arm, turn_drag = drag_bound(body, body.air.exponent, v, w, window)
+    drag, arm, turn_drag = drag_bound(body, v, w, window)
     spin = _spin_bound(body, w)
     speed = norm(v) + spin * arm
     if drag > 0:

@@ -10,7 +10,7 @@ from models.barriers import (
     spin_barrier,
     spin_barrier_bound,
 )
-from models.body import in_vacuum, is_ideal, is_to_be_caught, resists
+from models.body import in_vacuum, is_ideal, is_linear, is_to_be_caught, resists
 from models.clearance import drag_bound
 from models.geometry import tilt_sine_of
 from models.kernel.compiled import compiled
@@ -184,7 +184,7 @@ def idle_energy(body, rules, v, w):
         v: velocity of C, space frame, (3,) [m/s].
         w: angular velocity, body frame, (3,) [rad/s].
     """
-    if body.air.exponent is not None:
+    if not is_linear(body.air):
         return 0.0
     idle = (1 - body.sliding_share) * body.mass * (v[0] * v[0] + v[1] * v[1]) / 2
     return idle + body.inertia[2][2] * w[2] * w[2] / 2 if is_ideal(body) and not resists(rules) else idle
@@ -236,7 +236,7 @@ def _lies(body, rules, state):
         return False
     # On a face no law but Coulomb's acts on the slip, and resistance to pivoting on the spin.
     mu = rules.friction if rules.law == ContactLaw.COULOMB else 0.0
-    k, arm, turn_drag = drag_bound(body, body.air.exponent, v, w, 0.0)
+    k, arm, turn_drag = drag_bound(body, v, w, 0.0)
     drag = k * (norm(v) + arm * norm(w))
     rubbing = mu * weight * body.radius + rules.pivoting_friction * weight
     slowing = (rubbing + turn_drag * abs(w[2]) + drag * arm) / J[2][2]

@@ -110,7 +110,7 @@ def machine_of(scenario: Scenario, settings: Settings, thickness: float) -> Mach
     """
     rebound, body, mu = (
         rebound_of(scenario.floor.restitution, settings),
-        scenario.body,
+        _with_air_of_any_kind(scenario.body),
         friction_of(scenario.floor),
     )
     native = mu if settings.friction == Friction.NATIVE else 0.0
@@ -137,6 +137,11 @@ def machine_of(scenario: Scenario, settings: Settings, thickness: float) -> Mach
     )
     plastic = coin._replace(rebound=plastic_rebound(rebound, settings), has_one_step=True)
     return Machine(model, data, settings, coin, plastic)
+
+
+def _with_air_of_any_kind(body: Body) -> Body:
+    """Return the body with 0 for an exponent that is None, so that code is compiled once for all air."""
+    return body._replace(air=body.air._replace(exponent=body.air.exponent or 0.0))
 
 
 def _addresses(model: mujoco.MjModel, data: mujoco.MjData, *, has_pair: bool) -> Any:

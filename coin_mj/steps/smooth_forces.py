@@ -2,6 +2,7 @@
 
 from coin_mj.model.library import mj_bias, mj_center_velocity, mj_passive
 from coin_mj.model.memory import numbers_at
+from models.body import is_linear
 from models.kernel.compiled import compiled
 from models.kernel.vectors import dot
 
@@ -15,7 +16,7 @@ def write_smooth_forces(coin):
     """
     mj_center_velocity(coin.address.model, coin.address.data)
     mj_bias(coin.address.model, coin.address.data, 0, coin.joint.qfrc_bias.ctypes)
-    if coin.body.air.exponent is None:
+    if is_linear(coin.body.air):
         _write_linear_drag(coin)
     else:
         mj_passive(coin.address.model, coin.address.data)

@@ -4,6 +4,7 @@
 # pyright: reportAttributeAccessIssue=false
 
 import mujoco
+import numba
 import numpy as np
 import pytest
 
@@ -15,11 +16,12 @@ from coin_mj.model.state import set_motion
 from coin_mj.steps.free_step import free_rate
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
+AIRS = {"vacuum": {}, "linear": AIR, "b = 0.5": {**AIR, "exponent": 0.5}}
 FORCES = ("qfrc_bias", "qfrc_passive", "qfrc_actuator", "qfrc_smooth", "qacc_smooth")
 
 
 @pytest.mark.parametrize("center", [[0, 0, 0], PAPER_OFFSET], ids=["balanced", "imperfect"])
-@pytest.mark.parametrize("air", [{}, AIR, {**AIR, "exponent": 0.5}], ids=["vacuum", "linear", "b = 0.5"])
+@pytest.mark.parametrize("air", AIRS.values(), ids=AIRS.keys())
 def test_forces_and_accelerations_of_flight_are_those_of_mj_forward(center, air):
     rng = np.random.default_rng(8)
     case = scenario(coin={**ZLOTY, "center_of_mass": center}, air=air, release=draw_release(rng))
@@ -40,3 +42,10 @@ def test_forces_and_accelerations_of_flight_are_those_of_mj_forward(center, air)
             assert found == pytest.approx(known, rel=1e-13, abs=1e-14 * np.abs(known).max()), name
         assert np.any(reference.qfrc_passive != 0) == bool(air)
         assert np.any(reference.qfrc_actuator != 0) == (air == AIR), "the actuator is linear drag's"
+
+
+def test_one_code_is_for_all_air():
+    """The air with b > 0 is MuJoCo's callback: else the whole engine would be compiled once more for it."""
+    cases = [scenario(coin=ZLOTY, air=air) for air in AIRS.values()]
+    kinds = {numba.typeof(machine_of(case, MANY, shape_thickness(case)).coin) for case in cases}
+    assert len(kinds) == 1
