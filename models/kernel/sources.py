@@ -4,6 +4,7 @@ import hashlib
 import re
 import time
 from functools import cache
+from itertools import accumulate
 from pathlib import Path
 
 PACKAGES = ("models", "analytic", "coin_mj", "compare")
@@ -28,30 +29,31 @@ def source_hash(module: str, top: Path = _TOP) -> str:
     return digest.hexdigest()[:16]
 
 
-@cache
 def is_as_imported(module: str) -> bool:
     """Return whether none of the sources in a module's hash was written since this process began.
 
     One that was may not be the source that was imported, and what is compiled of it must not be kept for it.
-    A time of writing that lies ahead is of another clock.
     """
-    source_hash(module)  # it reads the sources: what is written later does not matter
-    files = filter(None, (_file(name, _TOP) for name in _hashed(module, _TOP)))
-    return not any(_STARTED < file.stat().st_mtime <= time.time() for file in files)
+    source_hash(module)  # reads the sources: what is written after that does not matter
+    return all(_is_older(name) for name in _hashed(module, _TOP))
 
 
 @cache
 def imported(module: str, top: Path = _TOP) -> frozenset[str]:
-    """Return the modules of `PACKAGES` that a module imports: a name that it imports may be one."""
-    names = {module.rpartition(".")[0]}
+    """Return the modules of `PACKAGES` that a module imports: a name that it imports may be one.
+
+    A package is among them where a name is imported from it, not where it only holds what is imported: else
+    one whose `__init__` imports all its modules would tie each of them to all others.
+    """
+    names = set()
     for start, listed in _IMPORT.findall((_source(module, top) or b"").decode()):
         found = [words.split()[0] for words in re.sub(r"[()]|#.*", "", listed).split(",") if words.split()]
-        names |= {start, *(f"{start}.{name}" for name in found)} if start else set(found)
-    parents = {name.rpartition(".")[0] for name in names}
+        if start:
+            names |= {start, *(f"{start}.{name}" for name in found)}
+        else:
+            names |= {whole for name in found for whole in accumulate(name.split("."), "{}.{}".format)}
     return frozenset(
-        name
-        for name in names | parents
-        if name.partition(".")[0] in PACKAGES and _source(name, top) is not None
+        name for name in names if name.partition(".")[0] in PACKAGES and _source(name, top) is not None
     )
 
 
@@ -77,3 +79,13 @@ def _file(module: str, top: Path) -> Path | None:
 def _source(module: str, top: Path) -> bytes | None:
     file = _file(module, top)
     return None if file is None else file.read_bytes()
+
+
+@cache
+def _is_older(module: str) -> bool:
+    """Return whether a source was written before this process began.
+
+    A time of writing that is still to come is of another clock.
+    """
+    file = _file(module, _TOP)
+    return file is None or not _STARTED < file.stat().st_mtime <= time.time()

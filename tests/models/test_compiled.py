@@ -160,6 +160,8 @@ def write(folder, module, source):
 
 @pytest.mark.parametrize("callee", ["analytic.callee", "analytic.room.callee", "models.room.deeper.callee"])
 def test_an_edit_compiles_anew_what_it_can_change_and_no_more(folder, callee, run_caller):
+    write(folder, "analytic.__init__", "from analytic.other import unused\n")
+    write(folder, "analytic.other", "unused = 0\n")
     write(folder, "analytic.caller", CALLER.format(callee, 1))
     write(folder, callee, CALLEE.format(2.0))
     assert run_caller() == [21, 0, 0, 0]
