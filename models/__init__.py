@@ -3,4 +3,7 @@
 from pathlib import Path
 from runpy import run_path
 
+# Its clock starts before other modules are read.
+from models.kernel import sources as sources
+
 run_path(str(Path(__file__).with_name("siblings.py")))

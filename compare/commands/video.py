@@ -57,10 +57,11 @@ def video(scenario: str, out: Path, engine: str, camera: str, poster: Path | Non
         from compare.film.drawing import Camera
         from compare.film.filmed import followed
         from compare.film.video import write_video
-        from compare.output.progress import bar
+        from compare.output.progress import STILL_TOSSING, bar, elapsed_time
 
         engines = list(Engine) if engine == "both" else [Engine(engine)]
-        shown = [followed(each.package.toss(described)) for each in engines]
+        with elapsed_time(STILL_TOSSING):
+            shown = [followed(each.package.toss(described)) for each in engines]
         form = ENCODINGS[out.suffix.lower()].form
         with written_whole(out) as aside, bar("video", "frames") as progress:
             picture = write_video(shown, Camera(camera), form, aside, progress)

@@ -88,11 +88,10 @@ def run_to_exit(command: Callable[[], object]) -> NoReturn:
             if ending.interruption is None:
                 for number in heeded:
                     signal.signal(number, signal.SIG_DFL)
-    except BaseException:
-        # What a signal raised may have become another error on its way.
+    finally:
+        # What a signal raised may have become another error on its way, or been lost in a call from C.
         if ending.interruption is not None:
             ending.leave(ending.interruption)
-        raise
     sys.exit()
 
 
@@ -107,6 +106,8 @@ class _Ending:
         """Raise the interruption; it is the handler of the signals, of which the first counts."""
         for each in SIGNALS:
             signal.signal(each, signal.SIG_IGN)
+        # A call from C prints what is raised in it, and goes on: `run_to_exit` ends the process all the same.
+        sys.unraisablehook = lambda _: None
         self.interruption = Interruption(number)
         raise self.interruption
 

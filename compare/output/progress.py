@@ -10,6 +10,7 @@ from models.kernel.compiling import compiling
 
 Progress = Callable[[int, int], None]
 """Called after each part of a job with the number of parts done so far and of all."""
+STILL_TOSSING = "still tossing; Ctrl-C ends it"
 
 
 @contextmanager
@@ -24,7 +25,12 @@ def bar(name: str, unit: str, *, done: int = 0) -> Iterator[Progress]:
     from tqdm import tqdm  # takes longer to import than the command line
 
     shown: tqdm | None = None
-    compiled = compiling.seconds
+    compiled, over = compiling.seconds, threading.Event()
+
+    def keep_time() -> None:
+        while not over.wait(1.0):
+            if shown is not None:
+                shown.refresh()
 
     def progress(done_now: int, whole: int) -> None:
         nonlocal shown, compiled
@@ -36,9 +42,12 @@ def bar(name: str, unit: str, *, done: int = 0) -> Iterator[Progress]:
         compiled = compiling.seconds
         shown.update(done_now - shown.n)
 
+    if _shows():
+        threading.Thread(target=keep_time, daemon=True).start()
     try:
         yield progress
     finally:
+        over.set()
         if shown is not None:
             shown.close()
 

@@ -13,6 +13,7 @@ from compare.engines import EngineSettings
 from compare.metrics.comparison import Comparison, compare
 from compare.output import answer
 from compare.output.files import written_together
+from compare.output.progress import STILL_TOSSING, elapsed_time
 from compare.report.contents import FILES, OF_THE_FILM
 from compare.report.map_section import MapSection
 from compare.report.page import Film, Page, render, versions
@@ -59,7 +60,8 @@ def write_report(
         UnwritableError: naming the folder and why.
     """
     with written_together(folder, FILES) as aside:
-        answered = compare(scenario, mujoco)
+        with elapsed_time(STILL_TOSSING):
+            answered = compare(scenario, mujoco)
         comparison = answered if isinstance(answered, Comparison) else None
         analytic, not_realisable = (comparison.analytic, None) if comparison else answered  # pyright: ignore
         tosses = [analytic, *([comparison.mujoco] if comparison else [])]

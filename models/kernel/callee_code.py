@@ -127,6 +127,7 @@ class CalleeCode(JITCodeLibrary):
         for name in _exported(module) - exported:
             module.get_function(name).linkage = linkage
         module.link_in(rtsys.library._get_module_for_linking(), preserve=True)
+        _require_all_that_is_called(module)
 
     def _get_module_for_linking(self) -> binding.ModuleRef:
         whole = callee_codegen().create_library(self.name)._final_module
@@ -139,6 +140,16 @@ class CalleeCode(JITCodeLibrary):
         for name in _exported(module):
             module.get_function(name).linkage = "linkonce_odr"
         return module
+
+
+def _require_all_that_is_called(module: binding.ModuleRef) -> None:
+    """Raise where a module calls one of our functions that it lacks: LLVM would call address 0 instead."""
+    lacking = [each.name for each in module.functions if each.is_declaration and each.name.startswith("_ZN")]
+    if lacking:
+        raise RuntimeError(
+            f"compiled code calls {', '.join(lacking)}, which was kept under another name; "
+            "remove the folders cointoss-* from $NUMBA_CACHE_DIR, or from cointoss in your cache"
+        )
 
 
 def spare_references(module: binding.ModuleRef, codegen: JITCPUCodegen) -> None:

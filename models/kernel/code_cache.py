@@ -10,6 +10,7 @@ import shutil
 import tempfile
 import time
 import uuid
+from collections.abc import Iterator
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
@@ -52,9 +53,7 @@ def cache_folder(module: str) -> Path:
 
 @cache
 def _base() -> Path:
-    chosen = os.environ.get("NUMBA_CACHE_DIR")
-    user = Path(os.environ.get("XDG_CACHE_HOME") or Path("~/.cache").expanduser())
-    for base in (*([Path(chosen)] if chosen else []), user / "cointoss"):
+    for base in _bases():
         try:
             base.mkdir(parents=True, exist_ok=True)
         except OSError:
@@ -62,6 +61,16 @@ def _base() -> Path:
         if os.access(base, os.W_OK):
             return base
     return Path(tempfile.mkdtemp(prefix="cointoss-"))
+
+
+def _bases() -> Iterator[Path]:
+    """Return where code may be kept, the first choice first."""
+    if chosen := os.environ.get("NUMBA_CACHE_DIR"):
+        yield Path(chosen)
+    if caches := os.environ.get("XDG_CACHE_HOME"):
+        yield Path(caches, "cointoss")
+    with suppress(RuntimeError):  # a user without a home
+        yield Path("~/.cache/cointoss").expanduser()
 
 
 def remove_unused(base: Path) -> None:
@@ -118,22 +127,23 @@ class CodeFiles(IndexDataCacheFile):
         """Return the names of the code's files by kinds of arguments.
 
         A function need not import the types of its arguments, so that its folder outlives them. An index that
-        names a type that has gone is of other sources.
+        names a type that has gone is of other sources. Whatever cannot be read is compiled and kept anew: of
+        a damaged file, as after a power cut, pickle may raise any error.
         """
         try:
             return super()._load_index()
-        except (AttributeError, ImportError):
+        except Exception:
             return {}
 
+    def load(self, key: Any) -> Any:
+        """Return what is kept for these kinds of arguments, or None; see `_load_index`."""
+        try:
+            return super().load(key)
+        except Exception:
+            return None
+
     def save(self, key: Any, data: Any) -> None:
-        """Keep code in a new file, and after that say so in the index.
-
-        Where nothing can be written, as on a full disk, the next process compiles anew.
-        """
-        with suppress(OSError):
-            self._save(key, data)
-
-    def _save(self, key: Any, data: Any) -> None:
+        """Keep code in a new file, and after that say so in the index."""
         name = f"{Path(self._index_path).stem}.{uuid.uuid4().hex}.nbc"
         self._save_data(name, data)
         overloads = self._load_index()
@@ -163,6 +173,11 @@ class CodeCache(FunctionCache):
         rtsys.initialize(target_context)
         with self._guard_against_spurious_io_errors():
             return self._load_overload(sig, target_context)
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep what was compiled; where nothing can be written, the next process compiles anew."""
+        with suppress(OSError):
+            super().save_overload(sig, data)
 
     def _index_key(self, sig: Any, codegen: Any) -> tuple[Any, ...]:
         # To numba two named tuples of one name and of the same types are one type.

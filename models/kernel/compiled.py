@@ -5,6 +5,7 @@
 # pyright: reportIncompatibleMethodOverride=false
 
 from collections.abc import Callable
+from contextlib import suppress
 from copy import copy
 from inspect import signature
 from typing import Any
@@ -240,7 +241,6 @@ class _Linker(_FunctionCompiler):
         # Nothing else calls these functions here, so LLVM may change them as it likes.
         # Internal ones would still be found by their names.
         callee.library.link_into(library._final_module, "private")
-        _require_all_that_is_called(library._final_module)
         spare_references(library._final_module, context.codegen())
         for variable in library._final_module.global_variables:
             if lookup_environment(variable.name) is not None:
@@ -252,16 +252,6 @@ class _Linker(_FunctionCompiler):
                 context.codegen().set_env(variable.name, used)
         result = _result(context, library, description, environment, callee.signature)
         return result._replace(entry_point=context.get_executable(library, description, environment))
-
-
-def _require_all_that_is_called(module: binding.ModuleRef) -> None:
-    """Raise where a module calls one of our functions that it lacks: LLVM would call address 0 instead."""
-    lacking = [each.name for each in module.functions if each.is_declaration and each.name.startswith("_ZN")]
-    if lacking:
-        raise RuntimeError(
-            f"compiled code calls {', '.join(lacking)}, which was kept under another name; "
-            "remove the folders cointoss-* from $NUMBA_CACHE_DIR, or from cointoss in your cache"
-        )
 
 
 def _result(context: Any, library: Any, description: Any, environment: Any, signature: Any) -> CompileResult:
@@ -285,7 +275,8 @@ def _keep_code(dispatcher: CPUDispatcher, cache: type[CodeCache]) -> None:
     if isinstance(dispatcher._cache, cache) or module.partition(".")[0] not in PACKAGES:
         return
     if is_as_imported(module):
-        dispatcher._cache = cache(dispatcher.py_func)
+        with suppress(OSError):  # no folder can be made, as on a full disk
+            dispatcher._cache = cache(dispatcher.py_func)
 
 
 def compiled(function: Callable[..., Any]) -> Callable[..., Any]:

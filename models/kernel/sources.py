@@ -9,7 +9,8 @@ from pathlib import Path
 
 PACKAGES = ("models", "analytic", "coin_mj", "compare")
 """Packages with compiled functions; what others compile is not kept."""
-_STARTED = time.time()
+_IMPORTED = time.time()
+"""When modules began to be read: `models` imports this one first [s]."""
 _TOP = Path(__file__).parents[2]
 _IMPORT = re.compile(r"^[ \t]*(?:from[ \t]+([\w.]+)[ \t]+)?import[ \t]+(\([^)]*\)|[^\n]*)", re.MULTILINE)
 
@@ -30,7 +31,7 @@ def source_hash(module: str, top: Path = _TOP) -> str:
 
 
 def is_as_imported(module: str) -> bool:
-    """Return whether none of the sources in a module's hash was written since this process began.
+    """Return whether none of the sources in a module's hash was changed since this process imports modules.
 
     One that was may not be the source that was imported, and what is compiled of it must not be kept for it.
     """
@@ -83,9 +84,9 @@ def _source(module: str, top: Path) -> bytes | None:
 
 @cache
 def _is_older(module: str) -> bool:
-    """Return whether a source was written before this process began.
+    """Return whether a source is older than the first import.
 
-    A time of writing that is still to come is of another clock.
+    An older file that is put in its place keeps the time at which it was written, but not that of its change.
     """
     file = _file(module, _TOP)
-    return file is None or not _STARTED < file.stat().st_mtime <= time.time()
+    return file is None or max(file.stat().st_mtime, file.stat().st_ctime) <= _IMPORTED

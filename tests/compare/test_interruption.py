@@ -198,6 +198,20 @@ def test_another_error_on_the_way_out_is_not_told(tmp_path):
     assert (status, said) == (143, "cointoss: interrupted by SIGTERM\n")
 
 
+def test_what_is_raised_in_a_call_from_c_ends_the_process_with_one_line(tmp_path):
+    """C has no place for it: Python prints a traceback there, and goes on."""
+    script = STUCK + (
+        "import ctypes\n"
+        "@ctypes.CFUNCTYPE(None)\n"
+        "def called():\n"
+        "    Path('begun').touch()\n"
+        "    threading.Event().wait()\n"
+        "run_to_exit(called)"
+    )
+    status, said = ended(child(tmp_path, script), tmp_path, signal.SIGINT)
+    assert (status, said) == (130, "cointoss: interrupted by SIGINT\n")
+
+
 def test_a_signal_that_is_ignored_stays_so(tmp_path):
     script = STUCK + (
         "def command():\n"

@@ -1,6 +1,7 @@
 """While functions are compiled, the terminal says so; a job's rate leaves out the time that this takes."""
 
 import io
+import re
 import sys
 import time
 
@@ -64,6 +65,15 @@ def test_nothing_is_said_of_a_job_that_is_quick_nor_but_to_a_terminal(monkeypatc
     with elapsed_time("still tossing", after=after):
         time.sleep(0.05)
     assert stream is None or stream.getvalue() == ""
+
+
+def test_the_clock_of_a_bar_goes_on_within_a_part(monkeypatch):
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    with bar("map", "tosses") as progress:
+        progress(0, 100)
+        time.sleep(2.7)
+        assert re.search("00:0[12]<", terminal.getvalue())
 
 
 def test_a_rate_leaves_out_the_time_to_compile(monkeypatch):

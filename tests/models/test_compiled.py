@@ -1,7 +1,6 @@
 """Compiled functions are called by Python, by each other and by numba's, and what is kept is never stale."""
 
 import ast
-import errno
 import importlib
 import inspect
 import os
@@ -182,6 +181,28 @@ def test_code_of_a_source_edited_since_it_was_imported_is_not_kept(folder, run):
     editing = f"open('analytic/callee.py', 'w').write({CALLEE.format('3.00')!r})"
     assert run(folder, calling.format(editing)) == [21, 20]
     assert run(folder, calling.format("")) == [31, 30]
+
+
+def test_code_of_a_source_replaced_by_an_older_one_is_not_kept(folder, run):
+    write(folder, "analytic.older", CALLEE.format(3.0))
+    os.utime(folder / "analytic" / "older.py", (1e9, 1e9))
+    write(folder, "analytic.callee", CALLEE.format(2.0))
+    write(folder, "analytic.caller", CALLER.format("analytic.callee", 1))
+    calling = "import os\nfrom analytic.caller import whole\n{}\nprint(whole(10.0))"
+    assert run(folder, calling.format("os.replace('analytic/older.py', 'analytic/callee.py')")) == [21]
+    assert run(folder, calling.format("")) == [31]
+
+
+def test_damaged_files_of_code_are_made_anew(folder, run_caller):
+    write(folder, "analytic.callee", CALLEE.format(2.0))
+    write(folder, "analytic.caller", CALLER.format("analytic.callee", 1))
+    assert run_caller() == [21, 0, 0, 0]
+    for ending in ("nbi", "nbc"):
+        for damaged in (b"", b"garbage"):
+            for file in folder.glob(f"cache/*/*.{ending}"):
+                file.write_bytes(damaged)
+            assert run_caller() == [21, 0, 0, 0]
+            assert run_caller() == [21, 1, 0, 0]
 
 
 def test_kept_code_calls_what_another_process_has_compiled_anew(folder, run, run_caller):
@@ -381,19 +402,18 @@ def test_two_processes_that_keep_code_at_once_do_not_mix_it_up(tmp_path, monkeyp
     assert len(list(tmp_path.glob("*.nbc"))) == 2
 
 
-def test_code_that_cannot_be_written_is_not_kept(tmp_path, monkeypatch):
-    files = CodeFiles(str(tmp_path), "function", "source")
-    files.save("numbers", "code for numbers")
-
-    def save_on_a_full_disk(*_):
-        raise OSError(errno.ENOSPC, "No space left on device")
-
-    for save in ("_save_data", "_save_index"):
-        with monkeypatch.context() as full:
-            full.setattr(files, save, save_on_a_full_disk)
-            files.save("integers", "code for integers")
-        assert files.load("integers") is None
-        assert files.load("numbers") == "code for numbers"
+@pytest.mark.parametrize("written", ["Path.mkdir", "CodeFiles._save_data", "CodeFiles._save_index"])
+def test_code_that_cannot_be_written_is_not_kept(folder, run, run_caller, written):
+    write(folder, "analytic.callee", CALLEE.format(2.0))
+    write(folder, "analytic.caller", CALLER.format("analytic.callee", 1))
+    (folder / "cache").mkdir()
+    full_disk = (
+        "from pathlib import Path\nfrom models.kernel.code_cache import CodeFiles\n"
+        "def full(*_, **__): raise OSError(28, 'No space left on device')\n"
+        f"{written} = full\n"
+    )
+    assert run(folder, full_disk + "from analytic.caller import whole\nprint(whole(10.0))") == [21]
+    assert run_caller() == [21, 0, 0, 0]
 
 
 def test_python_calls_a_function_with_what_it_calls():
@@ -491,8 +511,9 @@ def test_code_that_lacks_what_it_calls_is_refused():
     (made,) = function.overloads.values()
     called = made.library.callees.copy()
     made.library.callees.clear()
-    with pytest.raises(RuntimeError, match=r"calls .*first_of_sum.*remove the folders"):
-        function(numbers)
+    for caller in (function, numba.njit(lambda numbers: function(numbers))):
+        with pytest.raises(RuntimeError, match=r"calls .*first_of_sum.*remove the folders"):
+            caller(numbers)
     made.library.callees += called
     assert function(numbers) == 2.0
 
