@@ -1,0 +1,80 @@
+"""The hash of a module's sources, and what compiled functions must keep to for it to be theirs."""
+
+import ast
+import importlib
+import inspect
+import pkgutil
+from pathlib import Path
+
+import pytest
+
+from models.kernel import sources
+from models.kernel.compiled import CompiledFunction
+from models.kernel.sources import PACKAGES, imported, source_hash
+from tests.helpers.modules import write
+
+TOP = Path(sources.__file__).parents[2]
+
+
+def all_compiled():
+    functions = {
+        value
+        for package in PACKAGES
+        for found in pkgutil.walk_packages(importlib.import_module(package).__path__, f"{package}.")
+        for value in vars(importlib.import_module(found.name)).values()
+        if isinstance(value, CompiledFunction)
+    }
+    assert len(functions) > 200
+    return functions
+
+
+def test_no_compiled_function_assigns_an_array_to_a_slice():
+    """To compile `a[:] = b` takes seconds, for the text of its error: see `copy_into`."""
+    for function in all_compiled():
+        for node in ast.walk(ast.parse(inspect.getsource(function.py_func))):
+            if isinstance(node, ast.Assign) and ast.unparse(node.value) not in ("0", "0.0", "np.inf"):
+                for part in ast.walk(ast.List(node.targets)):
+                    assert not isinstance(part, ast.Slice), (function, ast.unparse(node))
+
+
+def test_every_compiled_function_that_one_calls_is_in_its_hash():
+    """A callee's module is imported, in one of the ways that `source_hash` reads."""
+    for function in all_compiled():
+        names = function.py_func.__globals__
+        for name in function.py_func.__code__.co_names:
+            callee = names.get(name)
+            module = getattr(callee, "__module__", None)
+            if isinstance(callee, CompiledFunction) and module != function.__module__:
+                assert module in imported(function.__module__), (function, callee)
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "import models.room.far",
+        "import os, models.room.far as near",
+        "from models.room.far import a, b",
+        "from models.room import (\n    other,\n    far as near,  # )\n)",
+        "def f():\n    from models.room import far\n",
+        "from models.room.package import a",
+    ],
+)
+def test_the_hash_is_of_all_that_is_imported(tmp_path, source):
+    hashes = []
+    for a in (1, 2):
+        folder = tmp_path / str(a)
+        write(folder, "models.room.package.__init__", "from models.room.far import a\n")
+        write(folder, "models.near", source + "\n")
+        write(folder, "models.room.far", f"a = b = {a}\n")
+        hashes.append(source_hash("models.near", folder))
+    assert hashes[0] != hashes[1]
+
+
+def test_every_package_with_compiled_functions_is_kept():
+    users = {
+        path.relative_to(TOP).parts[0]
+        for package in ("models", "analytic", "coin_mj", "compare")
+        for path in (TOP / package).rglob("*.py")
+        if "@compiled" in path.read_text(encoding="utf-8")
+    }
+    assert users == set(PACKAGES)
