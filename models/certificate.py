@@ -30,7 +30,8 @@ FLIGHTS = 10
 """Flights that are sampled: the longest ones. The energy of every flight in vacuum is measured without it."""
 VACUUM_SAMPLES = 4
 """Samples of a flight in vacuum; in air, where they are also the nodes of a quadrature, there are
-`AIR_SAMPLES` and two more for each radian of turn, at most `MOST_SAMPLES`."""
+`AIR_SAMPLES` and two more for each radian of turn, at most `MOST_SAMPLES`. The energy of a flight that would
+need more of them, for its turning or for the drag that slows it many times over, is not measured."""
 AIR_SAMPLES = 20
 MOST_SAMPLES = 200
 
@@ -65,11 +66,12 @@ def measurements(
         )
         norms = [np.linalg.norm(each.quaternion, axis=1) - 1 for each in (states, touches)]
         lowest = min(gaps(body, each).min(initial=np.inf) for each in (states, touches))
+        of_flights = Setting(name=FLIGHT_ENERGY, value=_largest(drift) / weight, unit="m g r")
         lines += [
             Setting(name=LAW, value=_largest(law_residuals(body, scenario.rules, impacts))),
             Setting(name=MOMENTUM, value=_largest(momentum_residuals(body, impacts))),
             Setting(name=IMPACT_ENERGY, value=_largest(energy_residuals(impacts)) / weight, unit="m g r"),
-            Setting(name=FLIGHT_ENERGY, value=_largest(drift) / weight, unit="m g r"),
+            *([of_flights] if len(drift) else []),
             Setting(name=NORM, value=_largest(np.concatenate(norms))),
             Setting(name=GAP, value=float(lowest) / body.radius, unit="r"),
         ]
@@ -215,8 +217,9 @@ def _flights(
     vacuum = in_vacuum(body)
     sampled = free[np.argsort(starts[free] - ends[free], kind="stable")[:FLIGHTS]]
     durations = (ends - starts)[sampled]
-    turns = np.linalg.norm(impacts.angular_velocity_before[sampled], axis=1) * durations
-    counts = [VACUUM_SAMPLES if vacuum else min(AIR_SAMPLES + int(2 * turn), MOST_SAMPLES) for turn in turns]
+    spins = np.linalg.norm(impacts.angular_velocity_before[sampled], axis=1)
+    needed = AIR_SAMPLES + (2 * spins * durations).astype(int)
+    counts = np.full_like(needed, VACUUM_SAMPLES) if vacuum else np.minimum(needed, MOST_SAMPLES)
     # On [0, 1]: nodes of Gauss's rule, and their weights.
     rules = [(0.5 + x / 2, weights / 2) for x, weights in map(_gauss, counts)]
     begin = starts[sampled]
@@ -225,9 +228,16 @@ def _flights(
     if vacuum:
         return states, change[free]
     v = turned(_conjugate(states.quaternion), states.velocity)
-    rates = np.split(air_power(body, v, states.angular_velocity, air), np.cumsum(counts)[:-1])
-    work = [weights @ rate for (_, weights), rate in zip(rules, rates, strict=True)]
-    return states, change[sampled] - np.array(work) * durations
+    power, w = air_power(body, v, states.angular_velocity, air), states.angular_velocity
+    motion = body.mass * _dot(v, v) + _dot(w, w @ np.array(body.inertia))
+    decay = np.divide(-power, motion, out=np.zeros_like(power), where=motion > 0)
+    of_flight = np.repeat(np.arange(len(counts)), counts)
+    turn = np.linalg.norm(w, axis=1) * durations[of_flight]
+    enough = AIR_SAMPLES + 2 * np.maximum(turn, decay * durations[of_flight]) <= MOST_SAMPLES
+    measured = np.bincount(of_flight, ~enough, len(counts)) == 0
+    weights = np.concatenate([np.empty(0), *(of_rule for _, of_rule in rules)])
+    work = np.bincount(of_flight, weights * power, len(counts)) * durations
+    return states, (change[sampled] - work)[measured]
 
 
 @cache

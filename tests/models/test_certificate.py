@@ -158,6 +158,19 @@ def test_a_toss_without_impacts_measures_none():
     assert measured(toss) == {}
 
 
+@pytest.mark.parametrize(
+    "thrown",
+    [{"velocity": [0, 0, 1e4]}, {"angular_velocity": [0, 1e4, 0]}],
+    ids=["up at 10 km/s", "spinning"],
+)
+@pytest.mark.usefixtures("without_horizon")
+def test_a_flight_that_the_quadrature_cannot_follow_is_not_measured(thrown):
+    case = scenario(air=AIR, release={"velocity": [0, 0, 3], **thrown}, ending={"max_impacts": 1})
+    assert certificate.FLIGHT_ENERGY not in measured(analytic.toss(case))
+    gentle = case.replace("release.velocity", [0, 0, 3], "release.angular_velocity", [0, 100, 0])
+    assert measured(analytic.toss(gentle))[certificate.FLIGHT_ENERGY] < 1e-10
+
+
 def test_a_flat_landing_is_measured_as_vertical():
     toss = analytic.toss(scenario(floor={"contact": "perfectly_rough"}, release={"velocity": [0.3, 0, 0]}))
     found = measured(toss)
