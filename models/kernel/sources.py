@@ -31,7 +31,7 @@ def source_hash(module: str, top: Path = _TOP) -> str:
 
 
 def is_as_imported(module: str) -> bool:
-    """Return whether none of the sources in a module's hash was changed since this process imports modules.
+    """Return whether none of the sources in a module's hash was changed since this process began to import.
 
     One that was may not be the source that was imported, and what is compiled of it must not be kept for it.
     """
@@ -84,9 +84,9 @@ def _source(module: str, top: Path) -> bytes | None:
 
 @cache
 def _is_older(module: str) -> bool:
-    """Return whether a source is older than the first import.
+    """Return whether a source was last changed before the first import.
 
     An older file that is put in its place keeps the time at which it was written, but not that of its change.
     """
     file = _file(module, _TOP)
-    return file is None or max(file.stat().st_mtime, file.stat().st_ctime) <= _IMPORTED
+    return file is None or file.stat().st_ctime <= _IMPORTED
