@@ -36,6 +36,7 @@ def drag_bound(body, v, w, window):
     """
     air, drag, r, h = body.air, body.drag, body.radius, body.thickness
     b = body.air.exponent
+    # `is_linear`, spelt out: only so does a type say that the power below is not to be compiled.
     if b is None or b == 0:
         return (
             max(drag.force_tangential, drag.force_normal),
