@@ -7,7 +7,8 @@ import analytic
 from analytic.events import run
 from analytic.toss import state_of
 from models.attitude import rotation_matrix
-from models.clearance import acceleration_bounds, clear_time, damping_rate, grazing_time
+from models.clearance import acceleration_bounds, clear_time, damping_rate, drag_bound, grazing_time
+from models.ending import idle_energy
 from models.geometry import contact_velocity, gap, lowest_point
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
 
@@ -193,3 +194,12 @@ def test_a_grazing_coin_hardly_sinks_in_its_grazing_time(tilt, seed):
     ]
     # Rounding of heights near 1 m.
     assert max(sunk) <= 3 * sink + 1e-14
+
+
+def test_linear_air_is_the_same_whether_its_exponent_is_none_or_0():
+    """The engines differ in that: see `AirLaw`."""
+    case = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}, air=AIR)
+    with_zero = case.body._replace(air=case.body.air._replace(exponent=0.0))
+    v, w = (0.3, -0.2, 1.0), (5.0, 30.0, -8.0)
+    assert drag_bound(with_zero, v, w, 0.1) == drag_bound(case.body, v, w, 0.1)
+    assert idle_energy(with_zero, case.rules, v, w) == idle_energy(case.body, case.rules, v, w) > 0
