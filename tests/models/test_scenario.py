@@ -92,13 +92,13 @@ def test_the_packages_scenarios_read(name):
     assert isinstance(load(name), Scenario)
 
 
-def test_the_papers_scenarios_are_there():
+def test_the_named_scenarios_are_there():
     fig24 = {f"fig24{letter}" for letter in "abcdef"}
     fig18 = {f"fig18_{coin}" for coin in ("3d_imperfect", "3d_ideal", "2d_imperfect", "2d_ideal")}
     laws = {f"contact_{law.label}" for law in ContactLaw}
     fig3 = {f"fig3_{drop}{coin}" for drop in ("flat", "tilted") for coin in ("", "_imperfect")}
     pairs = {f"{figure}_{coin}" for figure in ("fig4", "fig12") for coin in ("ideal", "imperfect")}
-    others = {"zloty", "fig2", "fig5", "fig13", "fig21", "fig27", "fig29"}
+    others = {"table", "zloty", "fig2", "fig5", "fig13", "fig21", "fig27", "fig29"}
     assert fig3 | fig18 | fig24 | laws | pairs | others == set(named_scenarios())
     heights = [load(name).release.position[2] for name in sorted(fig24)]
     assert heights == pytest.approx([0.40001, 0.40002, 0.40003, 0.40004, 0.40005, 0.40006], rel=1e-15)
