@@ -1,6 +1,7 @@
 """Make a map in memory, from Python."""
 
 from os import PathLike
+from pathlib import Path
 
 from compare.engines import Engine
 from compare.sweep.axes import parse_axis
@@ -62,6 +63,7 @@ def basin(
         settings=Engine(engine).package.MANY,
         after=None if after is None else int(after),
         margin=_margin(margin, engine),
+        name="" if isinstance(scenario, Scenario) else Path(scenario).stem,
     )
     ny, nx = sweep.shape
     if ny * nx > MOST_READ:
