@@ -250,8 +250,9 @@ def test_without_a_command_it_prints_its_help():
 def test_the_scenarios_that_come_along_are_listed_with_what_they_are():
     lines = cointoss("scenarios").stdout.splitlines()
     assert [line.split()[0] for line in lines] == named_scenarios()
-    assert "fig24a                    Fig. 24(a): one of six tosses released 0.01 mm apart" in lines
     titles = [line[26:] for line in lines]
+    assert "Fig. 24(c): released from 0.40003 m, 0.02 mm above fig24a" in titles
+    assert len(set(titles)) == len(titles)
     assert all(
         20 < len(title) <= 90 and "Strzalko" not in title and title[-1] not in ",." for title in titles
     )
