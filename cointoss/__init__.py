@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from models.scenario import Floor as Floor
     from models.scenario import Release as Release
     from models.scenario import Scenario as Scenario
+    from models.unused import UnusedFieldWarning as UnusedFieldWarning
 
     __version__: str
 
@@ -76,6 +77,7 @@ _NAMES = {
     ),
     "models.releases": ("Releases",),
     "models.scenario": ("Air", "Coin", "EndingCriteria", "Floor", "Release", "Scenario"),
+    "models.unused": ("UnusedFieldWarning",),
 }
 _HOMES = {name: home for home, names in _NAMES.items() for name in names}
 

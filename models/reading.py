@@ -9,6 +9,7 @@ from pydantic import ValidationError
 
 from models.errors import ScenarioError, describe
 from models.scenario import Scenario
+from models.unused import warn_of_unused_fields
 
 ScenarioSource = Scenario | str | PathLike[str]
 """A scenario, the path of its file, or the name of one that comes with the package."""
@@ -74,8 +75,13 @@ def load(source: str | PathLike[str]) -> Scenario:
 
     Raises:
         ScenarioError: naming file, field, value and what is accepted.
+
+    Warns:
+        UnusedFieldWarning: for a field that nothing uses.
     """
-    return parse(scenario_text(source), str(source))
+    scenario = parse(scenario_text(source), str(source))
+    warn_of_unused_fields(scenario)
+    return scenario
 
 
 def parse(text: str, source: str) -> Scenario:

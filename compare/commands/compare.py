@@ -22,9 +22,11 @@ def compare(scenario: str, out: Path, no_video: bool) -> None:
     with plain_errors(scenario):
         from compare.report.contents import require_folder
         from models.reading import parse, scenario_text
+        from models.unused import warn_of_unused_fields
 
         text = scenario_text(scenario)
         described = parse(text, scenario)
+        warn_of_unused_fields(described)
         require_folder(out, scenario)
 
         from compare.film.back_end import drawing_problem

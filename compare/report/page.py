@@ -20,6 +20,7 @@ from compare.report.motion import motion_of
 from compare.report.verdict import contact_lines, horizon_sentence, verdict_of
 from compare.web.scripts import POLICY, data_element, import_map, shared_files
 from models import certificate
+from models.fields import WORDS, printed_unit
 from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.meanings import meanings
 from models.records import Face, Toss
@@ -85,6 +86,8 @@ def render(page: Page) -> str:
         impacts=_impact_rows(page.analytic, comparison),
         film=[b64encode(part).decode("ascii") for part in page.film] if page.film else None,
         map_picture=b64encode(page.maps.picture).decode("ascii") if page.maps else None,
+        words=WORDS,
+        printed_unit=printed_unit,
         safety=SAFETY,
         film_caption=film_caption(tosses),
         versions=versions(),

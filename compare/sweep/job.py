@@ -84,6 +84,7 @@ def sweeps_of(job: Job, scenario: Scenario, x: Axis, y: Axis) -> dict[Path, Swee
             settings=replace(engine.package.MANY, **chosen.get(engine, {})),
             after=job.after,
             margin=job.margin and _margin(job.margin).name,
+            name=Path(job.source).stem,
         )
         for path, engine in _engines_of(job).items()
     }

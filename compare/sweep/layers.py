@@ -47,4 +47,4 @@ def bytes_per_pixel(sweep: Sweep) -> int:
 
 def axis_attributes(axis: Axis) -> dict[str, Any]:
     """Return the attributes of an axis, from which plots take its label."""
-    return {"long_name": axis.field.replace(".", " ").replace("_", " "), "units": axis.unit}
+    return {"long_name": axis.word, "units": axis.unit}

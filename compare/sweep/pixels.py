@@ -17,6 +17,7 @@ from models.outcomes import Outcomes
 from models.records import Array
 from models.releases import Releases, check_releases
 from models.scenario import Scenario
+from models.unused import warn_of_unused_fields
 
 _ENDS_SUFFICE = (
     "gravity",
@@ -135,11 +136,15 @@ def groups(sweep: Sweep, y: Array, x: Array) -> Iterator[Group]:
 def check(sweep: Sweep) -> None:
     """Refuse a sweep with a pixel that is no valid scenario, or that its engine can't toss.
 
-    Every value of an axis is tried, or its two ends where these suffice.
+    Every value of an axis is tried, or its two ends where these suffice. Whether a field is used is asked of
+    the pixel where both axes are farthest from 0.
 
     Raises:
         SweepError: naming field, value, and what is accepted.
         UnsupportedError: likewise.
+
+    Warns:
+        UnusedFieldWarning: for a field that nothing uses.
     """
     y, x = _tried(sweep.y), _tried(sweep.x)
     rows_at_once = max(1, (1 << 14) // len(x))
@@ -147,6 +152,7 @@ def check(sweep: Sweep) -> None:
         some = y[top : top + rows_at_once]
         for rows, columns in _blocks(sweep, len(some), len(x)):
             _check_together(sweep, some[rows], x[columns])
+    warn_of_unused_fields(pixel_scenario(sweep, *(max(part.tolist(), key=abs) for part in (y, x))))
 
 
 def _check_together(sweep: Sweep, y: Array, x: Array) -> None:

@@ -23,6 +23,8 @@ from models.reading import parse
 
 MOST_READ = 100_000_000
 """Pixels of a map that is read."""
+MOST_NAME = 255
+"""Characters of a scenario's name, as of a file's."""
 _ACCEPTED = "accepted: a map that cointoss basin made"
 
 
@@ -104,6 +106,9 @@ def _sweep(path: Path, group: zarr.Group, attributes: dict[str, Any]) -> Sweep:
     after = attributes["after"]
     if not (after is None or (is_whole(after) and after >= 0)):
         raise ValueError(f"after = {shown(after)}")
+    name = attributes.get("name", "")
+    if not (isinstance(name, str) and len(name) <= MOST_NAME):
+        raise ValueError(f"name = {shown(name)}")
     return Sweep(
         scenario=scenario,
         engine=engine,
@@ -112,6 +117,7 @@ def _sweep(path: Path, group: zarr.Group, attributes: dict[str, Any]) -> Sweep:
         settings=_settings(engine, attributes["engine_settings"]),
         after=after,
         margin=attributes.get("margin_along"),
+        name=name,
     )
 
 

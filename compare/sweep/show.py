@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import xarray
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties, findfont, get_font
 from numpy.typing import NDArray
 
 from compare.basins import picture
@@ -91,6 +92,14 @@ def figure_of(
     maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle, margins: Array | None = None
 ) -> Figure:
     """Draw one map, its margins beside it, or those of both engines; see `write` for the arguments."""
+    figure = _panels(maps, sweep, style, margins)
+    glyphs = get_font(findfont(FontProperties())).get_charmap()
+    title = "".join(char if ord(char) in glyphs else "?" for char in sweep.title)
+    figure.suptitle(title, parse_math=False)  # a file's name may hold anything
+    return figure
+
+
+def _panels(maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle, margins: Array | None) -> Figure:
     x, y = _drawn(sweep.x), _drawn(sweep.y)
     common: Any = {"x": x, "y": y, "palette": style.palette, "boundaries": style.boundaries}
     if len(maps) > 1:
@@ -116,6 +125,4 @@ def figure_of(
 
 
 def _drawn(axis: Axis) -> picture.MapAxis:
-    return picture.MapAxis(
-        name=axis.field, unit=axis.unit.replace("**", "^"), start=axis.start, stop=axis.stop
-    )
+    return picture.MapAxis(name=axis.word, unit=axis.printed_unit, start=axis.start, stop=axis.stop)

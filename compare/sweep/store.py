@@ -208,6 +208,7 @@ def _write_empty(folder: Path, sweep: Sweep, scenario_text: str) -> None:
 def _attributes(sweep: Sweep, scenario_text: str) -> dict[str, Any]:
     return {
         "cointoss_map": FORMAT,
+        "name": sweep.name,
         "scenario": scenario_text,
         "engine": sweep.engine.value,
         "engine_settings": sweep.settings.as_dict(),

@@ -119,14 +119,14 @@ def test_the_map_has_the_agreed_form(undisturbed, coin, tmp_path):
         np.linspace(0.2, 0.6, 40).tolist(),
     )
     assert (eta.dims, eta.attrs["units"]) == (("x",), "rad/s")
-    assert eta.attrs["long_name"] == "release angular velocity eta"
+    assert eta.attrs["long_name"] == "spin about η"
     meanings = dict(
         zip(found.outcome.attrs["flag_values"], found.outcome.attrs["flag_meanings"].split(), strict=True)
     )
     assert meanings == {-1: "not_tossed", **{item.value: item.label for item in Outcome}}
     axes = found.outcome.plot(x=eta.name, y=z.name, ax=Figure().add_subplot()).axes
     labels = [" ".join(label.split()) for label in (axes.get_xlabel(), axes.get_ylabel())]  # they are wrapped
-    assert labels == ["release angular velocity eta [rad/s]", "release position z [m]"]
+    assert labels == ["spin about η [rad/s]", "height [m]"]
     assert (eta.to_numpy() == np.linspace(20, 60, 48)).all()
     assert found.attrs["scenario"] == SCENARIO
     assert (found.attrs["engine"], found.attrs["after"]) == ("analytic", None)

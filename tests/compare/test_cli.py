@@ -184,6 +184,22 @@ def test_a_floor_that_mujoco_comes_near_to_is_told_in_one_line(tmp_path):
     assert cointoss("toss", source, "--max-impacts", 1).stderr == ""
 
 
+def test_a_field_that_nothing_uses_is_named_in_one_line_by_every_command(tmp_path):
+    source = tmp_path / "slippery.toml"
+    source.write_text(scenario_text("fig24a").replace('"smooth"', '"smooth"\nfriction = 0.3'))
+    axes = ("--x", "release.position.z=0.4:0.5:2", "--y", "gravity=9:10:2")
+    for arguments in (
+        ("toss", source, "--max-impacts", 1),
+        ("compare", source, "--out", source),
+        ("video", source, "--out", source),
+        ("hands", source, "--tosses", 1),
+        ("basin", source, *axes, "--after", 0, "--out", tmp_path / "map.zarr"),
+    ):
+        told = [line for line in cointoss(*arguments).stderr.splitlines() if "floor.friction" in line]
+        assert len(told) == 1
+        assert told[0].startswith(f"cointoss: {source}: floor.friction = 0.3: not used with contact = ")
+
+
 def test_a_contact_may_take_one_step(tmp_path):
     source = tmp_path / "dead.toml"
     source.write_text(scenario_text("fig24a").replace("restitution = 0.8", "restitution = 0"))
@@ -234,8 +250,9 @@ def test_without_a_command_it_prints_its_help():
 def test_the_scenarios_that_come_along_are_listed_with_what_they_are():
     lines = cointoss("scenarios").stdout.splitlines()
     assert [line.split()[0] for line in lines] == named_scenarios()
-    assert "fig24a                    Fig. 24(a): one of six tosses released 0.01 mm apart" in lines
     titles = [line[26:] for line in lines]
+    assert "Fig. 24(c): released from 0.40003 m, 0.02 mm above fig24a" in titles
+    assert len(set(titles)) == len(titles)
     assert all(
         20 < len(title) <= 90 and "Strzalko" not in title and title[-1] not in ",." for title in titles
     )

@@ -74,6 +74,8 @@ def changed(path, **attributes):
         ({"scenario": "gravity = -1"}, "gravity = -1: accepted: a number"),
         ({"scenario": 7}, "is a damaged map"),
         ({"engine_settings": {"contact_steps": -1}}, "is a damaged map (ValueError: contact_steps"),
+        ({"name": 7}, "is a damaged map (ValueError: name = 7)"),
+        ({"name": 300 * "a"}, "is a damaged map (ValueError: name = "),
         ({"margin_along": "height"}, "is a damaged map (KeyError: 'margin')"),
         ({"margin_along": "luck"}, "is a damaged map (ValueError: luck: accepted: height"),
         ({"cointoss_map": 2}, "is no map of this version"),

@@ -233,6 +233,7 @@ def test_the_map_is_told_pixel_by_pixel(server, map_path):
             assert np.array_equal(array, found[name].to_numpy())
     assert told["axes"]["x"] == {
         "field": FIELDS[0],
+        "word": "spin about η",
         "unit": "rad/s",
         "start": 20.0,
         "stop": 60.0,
