@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties, findfont, get_font
 from numpy.typing import NDArray
@@ -21,18 +20,6 @@ from compare.sweep.axes import Axis
 from compare.sweep.describe import AWAY, measure, percent
 from compare.sweep.grid import Sweep
 from models.records import Array
-
-
-def outcomes_of(path: Path) -> NDArray[np.int8]:
-    """Read the outcomes of a map, (y, x)."""
-    with xarray.open_dataset(path, engine="zarr", consolidated=True) as dataset:
-        return dataset["outcome"].to_numpy()
-
-
-def margins_of(path: Path) -> Array:
-    """Read the margins of a map, (y, x)."""
-    with xarray.open_dataset(path, engine="zarr", consolidated=True) as dataset:
-        return dataset["margin"].to_numpy()
 
 
 def write(
