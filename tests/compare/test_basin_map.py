@@ -140,12 +140,11 @@ def test_the_map_has_the_agreed_form(undisturbed, coin, tmp_path):
 
 def test_a_killed_map_is_resumed_to_the_same_pixels(undisturbed, coin, tmp_path, monkeypatch):
     out = tmp_path / "map.zarr"
-    process = begun(coin, out)
-    wait_for(process, out, 6)
-    meanwhile = basin(coin, *AXES, "--out", out, "--resume")
-    overwritten = basin(coin, *AXES, "--out", out, "--overwrite")
-    os.kill(process.pid, signal.SIGKILL)
-    process.communicate()
+    with begun(coin, out) as process:
+        wait_for(process, out, 6)
+        meanwhile = basin(coin, *AXES, "--out", out, "--resume")
+        overwritten = basin(coin, *AXES, "--out", out, "--overwrite")
+        process.kill()
     for refused in (meanwhile, overwritten):
         assert refused.exit_code == 2
         assert (
@@ -164,10 +163,10 @@ def test_an_interrupted_map_is_resumed_to_the_same_pixels(
     undisturbed, coin, tmp_path, monkeypatch, sign, status
 ):
     out = tmp_path / "map.zarr"
-    process = begun(coin, out)
-    wait_for(process, out, 4)
-    process.send_signal(sign)
-    said = process.communicate(timeout=60)[1]
+    with begun(coin, out) as process:
+        wait_for(process, out, 4)
+        process.send_signal(sign)
+        said = process.communicate(timeout=60)[1]
     assert process.returncode == status
     kept = int(said.split("map.zarr: ")[1].split(" of 1920 tosses are saved; --resume continues")[0])
     assert SMALL * whole_tiles(out) - SMALL <= kept <= SMALL * whole_tiles(out)
@@ -193,14 +192,14 @@ def test_a_new_map_is_known_to_be_empty_without_reading_its_tiles(tmp_path, monk
 def test_a_terminal_is_shown_the_rate_and_the_time_left(coin, tmp_path):
     ours, terminal = pty.openpty()
     fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 100, 0, 0))
-    process = begun(coin, tmp_path / "map.zarr", stderr=terminal)
-    os.close(terminal)
-    said = b""
-    with contextlib.suppress(OSError):  # that is how a terminal ends
-        while more := os.read(ours, 1 << 16):
-            said += more
-    os.close(ours)
-    assert process.communicate()[0].startswith("map  ")
+    with begun(coin, tmp_path / "map.zarr", stderr=terminal) as process:
+        os.close(terminal)
+        said = b""
+        with contextlib.suppress(OSError):  # that is how a terminal ends
+            while more := os.read(ours, 1 << 16):
+                said += more
+        os.close(ours)
+        assert process.communicate()[0].startswith("map  ")
     bars = said.decode().split("\r")
     assert "map.zarr:   0%" in bars[1]
     assert re.search(r"100%\|.*1\.92k/1\.92k \[\d\d:\d\d<00:00, .* tosses/s\]", bars[-2])

@@ -31,6 +31,7 @@ from models.reading import load, named_scenarios, scenario_text
 from models.scenario import Scenario
 from tests.helpers.command_line import HERE, cointoss
 from tests.helpers.films import film_written
+from tests.helpers.processes import started
 
 WRONG = {
     "syntax": "gravity = = 3",
@@ -460,19 +461,14 @@ def test_where_a_film_is_interrupted_the_report_stands_without_it(tmp_path, shor
         "drawing.Drawer.draw = lambda *frame: time.sleep(0.2) or draw(*frame)\n"
         "from compare.cli import main; main()"
     )
-    filming = subprocess.Popen(
-        [sys.executable, "-c", script, "compare", short, "--out", "new/report"],
-        cwd=tmp_path,
-        env=HERE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    deadline = time.monotonic() + 120
-    while not list(tmp_path.glob("new/report/.cointoss-*/toss.mp4")) and time.monotonic() < deadline:
-        time.sleep(0.05)
-    os.killpg(filming.pid, sign)  # the encoder is stopped too, as by Ctrl-C
-    _, told = filming.communicate(timeout=60)
+    command = ("compare", short, "--out", "new/report")
+    how = {"cwd": tmp_path, "stderr": subprocess.PIPE, "start_new_session": True}
+    with started("-c", script, *command, **how) as filming:
+        deadline = time.monotonic() + 120
+        while not list(tmp_path.glob("new/report/.cointoss-*/toss.mp4")) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        os.killpg(filming.pid, sign)  # the encoder is stopped too, as by Ctrl-C
+        _, told = filming.communicate(timeout=60)
     assert (filming.returncode, told) == (status, f"cointoss: interrupted by {sign.name}\n")
     assert {path.name for path in (tmp_path / "new/report").iterdir()} == set(FILES) - {"toss.mp4"}
 

@@ -5,7 +5,6 @@ import shutil
 import signal
 import socket
 import subprocess
-import sys
 import time
 import webbrowser
 
@@ -21,8 +20,9 @@ from compare.film.back_end import BackEndError
 from compare.sweep import reading
 from compare.sweep.grid import tile_shape, tiles
 from compare.sweep.reading import read_map
-from tests.helpers.command_line import HERE, cointoss
+from tests.helpers.command_line import cointoss
 from tests.helpers.explored import AXES, SCENARIO, got, small_map
+from tests.helpers.processes import started
 
 
 @pytest.fixture(scope="module")
@@ -192,18 +192,14 @@ def test_the_address_is_printed_and_opened(whole, monkeypatch, opens, options, a
 
 def test_ctrl_c_ends_it_within_a_second(whole):
     """A second on a machine of one's own; ten on one that is busy."""
-    process = subprocess.Popen(
-        [sys.executable, "-c", "from compare.cli import main; main()", "explore", whole, "--no-browser"],
-        env=HERE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    assert process.stdout
-    port = int(process.stdout.readline().rstrip("/\n").rpartition(":")[2])
-    assert got(port, "/")[0] == 200
-    started = time.monotonic()
-    process.send_signal(signal.SIGINT)
-    _, said = process.communicate(timeout=60)
-    assert time.monotonic() - started < 10
+    script = "from compare.cli import main; main()"
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with started("-c", script, "explore", whole, "--no-browser", **pipes) as process:
+        assert process.stdout
+        port = int(process.stdout.readline().rstrip("/\n").rpartition(":")[2])
+        assert got(port, "/")[0] == 200
+        sent = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=60)
+        assert time.monotonic() - sent < 10
     assert (process.returncode, said) == (130, "cointoss: interrupted by SIGINT\n")

@@ -3,7 +3,7 @@
 import os
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import product
 from typing import Any, NamedTuple
@@ -78,14 +78,14 @@ def compute(count: int, count_mujoco: int, seed: int, progress: Progress) -> End
     mujoco: dict[str, Counter[str]] = {}
     most, longest = 0, 0.0
     whole = len(jobs) + len(jobs_mujoco)
-    with ProcessPoolExecutor(os.cpu_count()) as pool:
-        ended = pool.map(_toss, jobs, chunksize=20)
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        ended = pool.map(_toss, jobs)
         for done, (kind, outcome, ending, impacts, time) in enumerate(ended, start=1):
             outcomes.setdefault(_name(kind), Counter())[f"{outcome}, {ending}"] += 1
             if outcome not in ("undecided", "perpetual"):
                 most, longest = max(most, impacts), max(longest, time)
             progress(done, whole)
-        ended = pool.map(toss_by_mujoco, jobs_mujoco, chunksize=20)
+        ended = pool.map(toss_by_mujoco, jobs_mujoco)
         for done, (kind, outcome, ending) in enumerate(ended, start=len(jobs) + 1):
             mujoco.setdefault(_name(kind), Counter())[f"{outcome}, {ending}"] += 1
             progress(done, whole)
