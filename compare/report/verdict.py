@@ -67,18 +67,6 @@ def horizon_sentence(comparison: Comparison) -> str:
     )
 
 
-def contact_lines(toss: Toss, most: int = 5) -> list[str]:
-    """Return what is said of a toss's sustained contacts: a line each, or one for all of many."""
-    contacts = toss.contacts.tolist()
-    if len(contacts) <= most:
-        return [f"In contact from {start:.6f} s to {end:.6f} s." for start, end in contacts]
-    total = sum(end - start for start, end in contacts)
-    return [
-        f"In contact {len(contacts)} times, for {total:.4f} s in all, "
-        f"between {contacts[0][0]:.6f} s and {contacts[-1][1]:.6f} s."
-    ]
-
-
 def _agreement(comparison: Comparison, same_outcome: bool) -> tuple[str, Kind]:
     a, b = comparison.analytic, comparison.mujoco
     prefix, horizon, count = comparison.common_prefix, comparison.horizon, _most_impacts(comparison)

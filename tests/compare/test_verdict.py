@@ -9,7 +9,7 @@ import pytest
 import cointoss
 from compare.metrics.comparison import Comparison, Together
 from compare.metrics.impulses import Differences
-from compare.report.verdict import Kind, contact_lines, horizon_sentence, verdict_of
+from compare.report.verdict import Kind, horizon_sentence, verdict_of
 from models.records import IMPACT_ROW, Ending, Face, Impacts, Outcome
 from tests.helpers.draws import scenario
 from tests.helpers.films import MadePath
@@ -248,12 +248,3 @@ def test_what_the_hand_cuts_short_is_said_of_real_tosses():
         "The coin is caught before errors as small as the engines’ own change a face: the sequences must be "
         "the same to the end."
     )
-
-
-def test_many_contacts_are_summed_in_one_line():
-    few = [(0.1 * i, 0.1 * i + 0.01) for i in range(5)]
-    assert len(contact_lines(made("H", contacts=few))) == 5
-    many = [*few, (0.5, 0.75)]
-    assert contact_lines(made("H", contacts=many)) == [
-        "In contact 6 times, for 0.3000 s in all, between 0.000000 s and 0.750000 s."
-    ]
