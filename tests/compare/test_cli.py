@@ -235,7 +235,7 @@ def test_a_contact_may_take_one_step(tmp_path):
         ["toss", "fig24a", "--contact-steps", "0"],
         ["toss", "fig24a", "--max-impact", "3", "--jsn"],
         ["toss"],
-        ["compare", "fig24a"],
+        ["compare"],
         ["solref", "--restitution", "1.5", "--dt", "0.001"],
         ["solref", "--restitution", "0", "--dt", "0.001", "--spring"],
         ["solref", "--restitution", "0.5", "--dt", "0"],
