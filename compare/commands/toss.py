@@ -90,7 +90,7 @@ def toss(
                 "settings": settings.as_dict(),
                 "versions": Engine(engine).versions,
             }
-            whole = {**answer.as_json(result), **made, **({"margin": told} if margin else {})}
-            click.echo(json.dumps(whole, indent=1, allow_nan=False))
+            fields = {**answer.as_json(result), **made, **({"margin": told} if margin else {})}
+            click.echo(json.dumps(fields, indent=1, allow_nan=False))
         else:
             click.echo("\n".join([answer.as_lines(result, whole=whole), *(item.line for item in extra)]))
