@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from compare.commands.common import SCENARIO_HELP, Count, contact_option, plain_errors, say
+from compare.commands.common import SCENARIO_HELP, Count, contact_option, no_video_option, plain_errors, say
 from compare.commands.names import axis_option, scenario_argument
 from compare.output.interruption import Interruption
 
@@ -74,6 +74,7 @@ class _Size(click.ParamType):
     type=click.Path(path_type=Path),
     help="Folder of a report as by `cointoss compare`, with both maps; requires --compare.",
 )
+@no_video_option
 def basin(
     scenario: str,
     x: str,
@@ -93,6 +94,7 @@ def basin(
     size: tuple[float, float] | None,
     dpi: int | None,
     report: Path | None,
+    no_video: bool,
 ) -> None:
     """Map the outcome over two fields of a scenario.
 
@@ -111,6 +113,8 @@ def basin(
         raise click.UsageError(f"--margin {margin} {beside}: accepted: only by the analytic engine alone")
     if report is not None and not both:
         raise click.UsageError(f"--report {report}: accepted: only beside --compare")
+    if no_video and report is None:
+        raise click.UsageError("--no-video: accepted: only beside --report")
     if png is None and report is None and (palette or boundaries or size or dpi):
         raise click.UsageError(
             "--palette, --boundaries, --size and --dpi: accepted: only beside --png or --report"
@@ -140,6 +144,7 @@ def basin(
                 palette=Palette(palette or "safe"), boundaries=boundaries, size=size, dpi=dpi or DPI
             ),
             report=report,
+            no_video=no_video,
         )
         with bar("video", "frames") as progress:
             for result in make(job, _watched, progress, say):

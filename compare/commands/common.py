@@ -85,3 +85,5 @@ engine_option = click.option(
     show_default=True,
     help="The engine.",
 )
+
+no_video_option = click.option("--no-video", is_flag=True, help="Draw no video, which takes longest.")

@@ -1,6 +1,7 @@
 """`cointoss reproduce`: the paper's figures and the studies."""
 
 import os
+import shutil
 import sys
 from pathlib import Path
 
@@ -22,14 +23,14 @@ from compare.commands.names import reproductions_argument
 def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quick: bool) -> None:
     """Compute the paper's figures and the studies anew.
 
-    Each NAME writes its data and pictures and checks its claims; `all` computes all figures of the paper and
-    writes REPRODUCTION.md and gallery.html. Without NAME, list the names. Exit status 1: a claim comes out
-    otherwise than known.
+    Each NAME writes its data, tables and pictures and checks its claims; `all` computes all figures of the
+    paper and writes REPRODUCTION.md and gallery.html. Without NAME, list the names. Exit status 1: a claim
+    comes out otherwise than known.
     """
     from compare.film.back_end import drawing_problem, require_mujoco
     from compare.output.files import require_folder
     from compare.output.progress import bar
-    from compare.reproduction import gallery, runner
+    from compare.reproduction import gallery, printing, runner
     from compare.reproduction.claim import unexpected
 
     with plain_errors("reproduce"):
@@ -59,11 +60,14 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
         require_folder(out, gallery.PAGES if pages else ())
         for name in names:
             runner.require_writable(name, out)
+        width = min(shutil.get_terminal_size((100, 24)).columns, 120)
         failed = []
         for name in names:
             with bar(name, "parts") as progress:
                 result = runner.reproduce(name, out, progress, quick=quick)
-            click.echo(result.text)
+            if name != names[0]:
+                click.echo()
+            click.echo(printing.page(name, result, runner.folder_of(name, out), width))
             failed += [f"{name}: {claim}" for claim in unexpected(result.claims, quick=quick)]
         if pages:
             gallery.write(out, names, quick=quick)

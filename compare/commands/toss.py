@@ -25,6 +25,7 @@ from compare.commands.names import scenario_argument
     type=Count(1, 1_000_000_000),
     help="Stop after this number of steps of flight, in MuJoCo; by default 1,000,000.",
 )
+@click.option("--all", "whole", is_flag=True, help="Print every impact and contact, not the first ones.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
 @click.option("--trajectory", type=click.Path(path_type=Path), help="Also write the path to this .csv file.")
 @click.option(
@@ -37,6 +38,7 @@ def toss(
     max_impacts: int | None,
     contact_steps: int | None,
     flight_steps: int | None,
+    whole: bool,
     as_json: bool,
     trajectory: Path | None,
     margin: bool,
@@ -88,7 +90,7 @@ def toss(
                 "settings": settings.as_dict(),
                 "versions": Engine(engine).versions,
             }
-            whole = {**answer.as_json(result), **made, **({"margin": told} if margin else {})}
-            click.echo(json.dumps(whole, indent=1, allow_nan=False))
+            fields = {**answer.as_json(result), **made, **({"margin": told} if margin else {})}
+            click.echo(json.dumps(fields, indent=1, allow_nan=False))
         else:
-            click.echo("\n".join([answer.as_lines(result), *(item.line for item in extra)]))
+            click.echo("\n".join([answer.as_lines(result, whole=whole), *(item.line for item in extra)]))

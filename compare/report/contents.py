@@ -9,6 +9,9 @@ from compare.output.files import UnwritableError
 OF_THE_FILM = ("report.html", "toss.mp4")
 FILES = (*OF_THE_FILM, "numbers.json", "path-analytic.csv", "path-mujoco.csv")
 
+NOT_ASKED = "None was asked for; cointoss video draws one."
+"""Why a report has no video where its command was told so."""
+
 
 def require_folder(folder: Path, source: str) -> None:
     """Check that a report in `folder` would replace nothing but an earlier report.

@@ -13,11 +13,11 @@ from pydantic import BaseModel
 
 from compare.metrics.comparison import Comparison
 from compare.metrics.sequences import SAFETY
-from compare.output.answer import MOST_SHOWN, counted
+from compare.output.answer import contact_line, counted
 from compare.report.film_caption import film_caption
 from compare.report.map_section import MapSection
 from compare.report.motion import motion_of
-from compare.report.verdict import contact_lines, horizon_sentence, verdict_of
+from compare.report.verdict import horizon_sentence, verdict_of
 from compare.web.scripts import POLICY, data_element, import_map, shared_files
 from models import certificate
 from models.fields import WORDS, printed_unit
@@ -26,6 +26,8 @@ from models.meanings import meanings
 from models.records import Face, Toss
 from models.scenario import Scenario
 
+MOST_SHOWN = 200
+"""Symbols of a sequence, and impacts, that the page shows."""
 PACKAGES = ("cointoss", "mujoco", "numpy", "scipy", "numba", "matplotlib", "mediapy")
 
 
@@ -79,7 +81,7 @@ def render(page: Page) -> str:
         about=_about(page.scenario_text),
         verdict=verdict_of(page.analytic, comparison),
         horizon=horizon_sentence(comparison) if comparison else "",
-        contact_lines=contact_lines,
+        contact_line=contact_line,
         counted=counted,
         rows=list(zip_longest(*(toss.sequence for toss in tosses), fillvalue="")),
         most_shown=MOST_SHOWN,

@@ -65,7 +65,13 @@ class Reproduction:
     @property
     def files(self) -> tuple[str, ...]:
         """Names of all files that it may write."""
-        return ("claims.json", "data.npz", "numbers.json", *(f"{name}.png" for name in self.draw))
+        return (
+            "claims.json",
+            "data.npz",
+            "numbers.json",
+            "tables.md",
+            *(f"{name}.png" for name in self.draw),
+        )
 
 
 def names() -> list[str]:

@@ -12,7 +12,7 @@ from compare.basins.picture_style import PictureStyle
 from compare.engines import Engine
 from compare.film.back_end import drawing_problem, require_mujoco
 from compare.output.files import UnwritableError, require_file
-from compare.report.contents import require_folder
+from compare.report.contents import NOT_ASKED, require_folder
 from compare.sweep import describe, run, store
 from compare.sweep.axes import Axis, parse_axis
 from compare.sweep.errors import SweepError
@@ -66,6 +66,8 @@ class Job:
     """How to draw."""
     report: Path | None
     """Folder of a report on both engines' maps and tosses; accepted for both engines only."""
+    no_video: bool
+    """Whether that report is to have no video."""
 
 
 def sweeps_of(job: Job, scenario: Scenario, x: Axis, y: Axis) -> dict[Path, Sweep]:
@@ -124,7 +126,7 @@ def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
     no_video = None
     if job.report is not None:
         _require_report(job.report, engines, job.source)
-        no_video = drawing_problem()
+        no_video = NOT_ASKED if job.no_video else drawing_problem()
     # From here on MuJoCo is imported: its back end is chosen.
     if Engine.MUJOCO in engines.values():
         require_mujoco()
@@ -188,6 +190,7 @@ def _command(job: Job) -> str:
     if job.after is not None:
         words += ["--after", job.after]
     words += ["--compare", "--contact", job.contact, "--out", job.out, "--report", job.report, "--resume"]
+    words += ["--no-video"] * job.no_video
     style = job.style
     words += ["--palette", style.palette, "--dpi", style.dpi] + ["--boundaries"] * style.boundaries
     if style.size is not None:

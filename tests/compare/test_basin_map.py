@@ -492,6 +492,7 @@ def test_what_was_not_tossed_is_told_from_every_outcome(tmp_path):
         ([*AXES, "--engine", "analytic", "--contact", "spring"], "only beside --engine mujoco or --compare"),
         ([*AXES, "--engine", "mujoco", "--contact", "hard"], "'spring', 'one_step'"),
         ([*AXES, "--report", "report"], "only beside --compare"),
+        ([*AXES, "--compare", "--no-video"], "--no-video: accepted: only beside --report"),
         ([*AXES, "--engine", "mujoco", "--report", "report"], "only beside --compare"),
         ([*AXES, "--compare", "--report", "coin.toml"], "accepted: a folder"),
         ([*AXES, "--compare", "--report", "coin.toml/report"], "can't be written"),

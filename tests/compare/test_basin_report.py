@@ -19,7 +19,7 @@ from compare.basins.picture_style import PictureStyle
 from compare.engines import Engine
 from compare.film.back_end import ADVICE
 from compare.metrics.comparison import Comparison, compare
-from compare.report.contents import require_folder
+from compare.report.contents import FILES, NOT_ASKED, require_folder
 from compare.report.folder import write_report
 from compare.sweep import job, show
 from compare.sweep.axes import parse_axis
@@ -151,6 +151,17 @@ def test_a_share_of_no_pixels_is_a_dash(tmp_path):
     text = shown_of(section_of([halves(2, 2), halves(2, 2)]), tmp_path)
     assert "shows the final outcome." in text
     assert "boundaries of the analytic map 0 – nearer to the boundaries 4 100.000 %" in text
+
+
+def test_a_report_without_a_video_is_made_by_the_command_that_it_names(coin, tmp_path, monkeypatch):
+    monkeypatch.setattr(job, "drawing_problem", lambda: pytest.fail("no video is asked for"))
+    asked = ("--x", X, "--y", Y, "--compare", "--out", tmp_path / "map.zarr", "--report", tmp_path / "report")
+    answered = basin(coin, *asked, "--no-video")
+    assert answered.exit_code == 0, answered.stderr
+    assert set(FILES) - {path.name for path in (tmp_path / "report").iterdir()} == {"toss.mp4"}
+    assert NOT_ASKED in (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
+    numbers = json.loads((tmp_path / "report" / "numbers.json").read_text(encoding="utf-8"))
+    assert "--no-video" in shlex.split(numbers["map"]["command"])
 
 
 def test_a_folder_that_is_no_reports_is_refused_before_any_map(coin, tmp_path):

@@ -9,12 +9,14 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from importlib.metadata import version
 from io import StringIO
 from pathlib import Path
 from unittest.mock import patch
 
 import imageio_ffmpeg
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
@@ -23,7 +25,7 @@ from compare.cli import main
 from compare.film.back_end import drawing_problem
 from compare.film.drawing import Drawer
 from compare.film.encodings import ENCODINGS, Format
-from compare.output.answer import as_lines
+from compare.output.answer import as_lines, contact_line
 from compare.output.files import UnwritableError, require_file, write_text
 from compare.output.progress import bar
 from compare.report.contents import FILES
@@ -117,7 +119,7 @@ def test_a_number_of_flight_steps_ends_a_toss_in_mujoco_that_flies_on():
 def test_text_shows_sequence_outcome_and_horizon():
     text = cointoss("toss", "fig24a").stdout
     assert "outcome   heads" in text
-    assert "settled: The energy is below the pass" in text
+    assert "settled: The coin can no longer turn over" in text
     assert "|" in text.split("sequence")[1].splitlines()[0]
 
 
@@ -134,13 +136,41 @@ def test_text_shows_what_the_toss_measured_of_itself():
     assert "checked" not in as_lines(in_the_air)
 
 
+ROW = re.compile(r"^ *(\d+) +\d+\.\d+ +[HT]", re.MULTILINE)
+
+
 def test_text_shows_the_first_of_thousands_of_impacts():
     text = cointoss("toss", "zloty").stdout
-    sequence = text.split("sequence")[1].splitlines()[0]
-    assert re.fullmatch(r" +[HT|]{200} \.\.\. and \d+ more", sequence)
-    rows = re.findall(r"^ *(\d+) +\d+\.\d+ +[HT]", text, re.MULTILINE)
-    assert rows == [str(number) for number in range(1, 201)]
-    assert text.rstrip().endswith("more; --json gives them all")
+    assert len(text.splitlines()) < 40
+    assert re.search(r"^sequence  [HT|]{60} \.\.\. and 1251 more$", text, re.MULTILINE)
+    assert ROW.findall(text) == [str(number) for number in range(1, 21)]
+    assert text.endswith("\n... and 1290 more; --all prints all 1310\n")
+
+
+def test_all_impacts_and_contacts_are_printed_where_they_are_asked_for():
+    toss = analytic.toss(load("zloty"))
+    text = as_lines(toss, whole=True)
+    assert ROW.findall(text) == [str(number) for number in range(1, len(toss.impacts) + 1)]
+    assert " more" not in text
+    spells = re.findall(r"^contact   from (\S+) s to (\S+) s$", text, re.MULTILINE)
+    assert [[float(start), float(end)] for start, end in spells] == toss.contacts.round(6).tolist()
+    assert cointoss("toss", "zloty", "--all").stdout == f"{text}\n"
+
+
+def test_contacts_are_summed_in_one_line():
+    toss = analytic.toss(load("fig24a").replace("ending.max_impacts", 1))
+    spells = np.array([(0.1, 0.15), (0.2, toss.end_time)])
+    assert contact_line(toss) == ""
+    assert contact_line(replace(toss, contacts=spells[:1])) == "from 0.100000 s to 0.150000 s"
+    end = f"{toss.end_time - 0.15:.6f} s in all, the last from 0.200000 s to the end"
+    assert contact_line(replace(toss, contacts=spells)) == f"2 times, {end}"
+    assert f"\ncontact   2 times, {end}\n\n" in as_lines(replace(toss, contacts=spells))
+
+
+def test_what_rounds_to_zero_has_no_sign():
+    toss = analytic.toss(load("fig24a").replace("ending.max_impacts", 1))
+    tiny = replace(toss.impacts, impulse=np.array([[-1e-12, 1e-12, 0.01]]))
+    assert "   0.00000     0.00000    10.00000" in as_lines(replace(toss, impacts=tiny))
 
 
 def test_the_trajectory_is_written_as_csv(tmp_path):
@@ -222,7 +252,7 @@ def test_a_contact_may_take_one_step(tmp_path):
         ["toss", "fig24a", "--contact-steps", "0"],
         ["toss", "fig24a", "--max-impact", "3", "--jsn"],
         ["toss"],
-        ["compare", "fig24a"],
+        ["compare"],
         ["solref", "--restitution", "1.5", "--dt", "0.001"],
         ["solref", "--restitution", "0", "--dt", "0.001", "--spring"],
         ["solref", "--restitution", "0.5", "--dt", "0"],

@@ -16,7 +16,7 @@ from compare.film.filmed import followed
 from compare.film.video import frame_count
 from compare.metrics.comparison import Comparison, compare
 from compare.output.files import UnwritableError
-from compare.report.contents import FILES, require_folder
+from compare.report.contents import FILES, NOT_ASKED, require_folder
 from compare.report.folder import BEING_DRAWN, write_report
 from compare.report.page import versions
 from models import certificate
@@ -144,7 +144,22 @@ def test_no_video_is_drawn_where_none_is_asked_for(tmp_path):
         cointoss("compare", tmp_path / "short.toml", "--out", tmp_path / "out", "--no-video").exit_code == 0
     )
     assert {path.name for path in (tmp_path / "out").iterdir()} == set(FILES) - {"toss.mp4"}
-    assert "None was asked for" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert NOT_ASKED in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_report_has_a_default_folder_named_as_its_scenario(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "euros").mkdir()
+    (tmp_path / "euros" / "short.toml").write_text(SHORT)
+    for _ in range(2):
+        answered = cointoss("compare", "euros/short.toml", "--no-video")
+        assert (answered.exit_code, answered.stdout) == (0, "short-report/report.html\n")
+    assert {path.name for path in tmp_path.iterdir()} == {"euros", "short-report"}
+    (tmp_path / "short-report" / "numbers.json").write_text("mine")
+    refused = cointoss("compare", "euros/short.toml", "--no-video")
+    assert refused.exit_code == 2
+    assert "belongs to no report; accepted: a new or empty folder" in refused.stderr
+    assert (tmp_path / "short-report" / "numbers.json").read_text() == "mine"
 
 
 def test_without_opengl_the_report_says_what_to_install(tmp_path):

@@ -23,15 +23,27 @@ def make(progress):
     return Result(
         claims=[Claim(claim="two and two are five", criteria=[Criterion("sum", {sum}, "=", 5, "five")])],
         data=Numbers({sum}),
-        tables="as drawn",
+        tables="as **drawn**",
     )
 
 REPRODUCTION = Reproduction(title="a fake", seconds=0, make=make, draw={{}})
 """
-PRINTED = (
-    "as drawn\n\n| claim | measured (threshold: reason) | verdict |\n| --- | --- | --- |\n"
-    "| two and two are five | sum: {sum} (= 5: five) | {verdict} |\n"
-)
+PRINTED = """\
+as drawn
+
+{mark} {verdict}: two and two are five
+    measured  sum: {sum} (= 5: five)
+
+{name}: {verdict}
+{folder}
+"""
+TABLES = """\
+as **drawn**
+
+| claim | measured (threshold: reason) | verdict |
+| --- | --- | --- |
+| two and two are five | sum: 5 (= 5: five) | holds |
+"""
 SUMS = {
     "good": "5",
     "doubtful": "4",
@@ -105,10 +117,12 @@ def test_files_are_written_and_the_results_printed(tmp_path):
     answered = cointoss("reproduce", "fake-good", "--out", tmp_path / "out")
     assert (answered.exit_code, answered.stdout, answered.stderr) == (
         0,
-        PRINTED.format(sum=5, verdict="holds"),
+        PRINTED.format(name="fake-good", sum=5, mark="✓", verdict="holds", folder=old),
         "",
     )
-    assert sorted(path.name for path in old.iterdir()) == ["claims.json", "mine.txt", "numbers.json"]
+    names = ["claims.json", "mine.txt", "numbers.json", "tables.md"]
+    assert sorted(path.name for path in old.iterdir()) == names
+    assert (old / "tables.md").read_text(encoding="utf-8") == TABLES
     assert json.loads((old / "numbers.json").read_text()) == {"sum": 5}
     assert (old / "mine.txt").read_text() == "old"
 
@@ -117,8 +131,16 @@ def test_files_are_written_and_the_results_printed(tmp_path):
 def test_a_claim_that_fails_is_exit_status_1_and_keeps_the_evidence(tmp_path):
     answered = cointoss("reproduce", "fake-doubtful", "fake-good", "--out", tmp_path / "out")
     assert answered.exit_code == 1
-    failed, held = (PRINTED.format(sum=n, verdict=v) for n, v in ((4, "does not hold"), (5, "holds")))
-    assert answered.stdout == failed + held
+    failed, held = (
+        PRINTED.format(
+            name=name, sum=n, mark=mark, verdict=verdict, folder=runner.folder_of(name, tmp_path / "out")
+        )
+        for name, n, mark, verdict in (
+            ("fake-doubtful", 4, "✗", "does not hold"),
+            ("fake-good", 5, "✓", "holds"),
+        )
+    )
+    assert answered.stdout == f"{failed}\n{held}"
     assert (
         answered.stderr
         == "cointoss: fake-doubtful: two and two are five: another verdict than the known one\n"

@@ -9,9 +9,9 @@ DOCS = Path(__file__).parents[2] / "docs"
 
 
 def printed(page: str, study: str) -> str:
-    """Return the part of a page that `cointoss reproduce` printed."""
+    """Return the part of a page that quotes the tables.md of `cointoss reproduce`."""
     text = (DOCS / page).read_text(encoding="utf-8")
-    begin, end = f"<!-- printed by: cointoss reproduce {study} -->\n\n", "\n\n<!-- end -->\n"
+    begin, end = f"<!-- written by: cointoss reproduce {study} -->\n\n", "\n\n<!-- end -->\n"
     return text.split(begin)[1].split(end)[0]
 
 
