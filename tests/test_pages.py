@@ -5,6 +5,7 @@ import shlex
 from contextlib import redirect_stdout
 from dataclasses import dataclass
 from io import StringIO
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -168,9 +169,15 @@ def test_each_command_of_the_pages_writes_to_a_name_of_its_own():
             for command in commands(block.text):
                 words = shlex.split(command)
                 if not is_synopsis(command) and words[1] != "reproduce":
-                    named += [new for option, new in zip(words, words[1:], strict=False) if option in WRITES]
+                    named += [new for option, new in pairwise(words) if option in WRITES]
     assert len(named) > 8
     assert sorted(named) == sorted(set(named))
+
+
+def test_no_two_pages_have_one_heading():
+    pages = [page for page in DOCS.rglob("*.md") if page.name not in ("index.md", "OVERVIEW.md")]
+    headings = [re.findall(r"^# (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE)[0] for page in pages]
+    assert sorted(headings) == sorted(set(headings))
 
 
 def test_no_line_of_a_page_is_a_comment_or_a_break_to_the_site():
