@@ -19,6 +19,7 @@ from compare.output.style import GREY, OUTCOMES
 from compare.output.tables import table
 from compare.reproduction.claim import Claim, Criterion
 from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.saving import read_numbers
 from models.records import Ending, Outcome
 from models.releases import Releases
 from models.scenario import Release, Scenario
@@ -301,5 +302,6 @@ REPRODUCTION = Reproduction(
     title="how thousands of random tosses end, and whether both engines end them alike",
     seconds=3200,
     make=lambda progress: result(compute(COUNT, COUNT_MUJOCO, SEED, progress)),
+    read=lambda folder: result(read_numbers(folder, EndingCounts)),
     draw={"endings": draw},
 )

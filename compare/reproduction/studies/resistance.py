@@ -16,6 +16,7 @@ from compare.output.tables import table
 from compare.reproduction.claim import Claim, Criterion, Estimate
 from compare.reproduction.estimates import share
 from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.saving import read_numbers
 from compare.reproduction.setups.hands import releases_of_hands
 from models.attitude import quaternion_from_angles
 from models.certificate import energies, turned
@@ -356,5 +357,6 @@ REPRODUCTION = Reproduction(
     title="what resistance to rolling and pivoting does: where a coin stops, how Euler's disk falls",
     seconds=300,
     make=lambda progress: result(compute(COUNT, SEED, progress)),
+    read=lambda folder: result(read_numbers(folder, ResistanceRecord)),
     draw={"disk": draw},
 )
