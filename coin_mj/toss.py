@@ -79,13 +79,13 @@ def require_supported(scenario: Scenario, *, settings: Settings) -> None:
     """
     floor = scenario.floor
     if floor.contact not in REALISABLE:
-        accepted = ", ".join(f'"{law.label}"' for law in REALISABLE)
+        accepted = ", ".join(f'"{law}"' for law in REALISABLE)
         raise UnsupportedError(
-            f'floor.contact = "{floor.contact.label}": accepted by the MuJoCo engine: {accepted}'
+            f'floor.contact = "{floor.contact}": accepted by the MuJoCo engine: {accepted}'
         )
     if floor.restitution_kind != RestitutionKind.KINEMATIC:
         raise UnsupportedError(
-            f'floor.restitution_kind = "{floor.restitution_kind.label}": accepted by the MuJoCo engine: '
+            f'floor.restitution_kind = "{floor.restitution_kind}": accepted by the MuJoCo engine: '
             '"kinematic" (its contacts prescribe how the normal speed changes, whatever the work)'
         )
     for name in RESISTANCES if settings.friction == Friction.NATIVE else ():

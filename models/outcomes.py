@@ -65,7 +65,7 @@ class Outcomes:
     def counts(self) -> dict[str, int]:
         """How many tosses had each outcome that there was."""
         numbers = np.bincount(self.outcome, minlength=len(Outcome)).tolist()
-        return {outcome.label: numbers[outcome] for outcome in Outcome if numbers[outcome]}
+        return {str(outcome): numbers[outcome] for outcome in Outcome if numbers[outcome]}
 
     def __repr__(self) -> str:
         """Return how many tosses there are, and how many of each outcome."""
@@ -103,9 +103,9 @@ class Outcomes:
 
     def _columns(self) -> dict[str, Column]:
         words = {
-            "outcome": {item.value: item.label for item in Outcome},
-            "ending": {item.value: item.label for item in Ending},
-            "last_face": {0: "none", **{item.value: item.label for item in Face}},
+            "outcome": {item.value: str(item) for item in Outcome},
+            "ending": {item.value: str(item) for item in Ending},
+            "last_face": {0: "none", **{item.value: str(item) for item in Face}},
         }
         units = {"end_time": {"units": "s"}}
         columns = {"toss": Column(np.arange(len(self)), {"long_name": "toss"})}

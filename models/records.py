@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
-from enum import IntEnum, StrEnum
+from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -12,6 +12,7 @@ from models import notebook
 from models.interruptible import interruptible
 from models.labelled import AXES, Column, dataset, meanings_of, table
 from models.scenario import Scenario
+from models.words import Word
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -24,7 +25,7 @@ _DRAWN = 600
 """Times at which a path is drawn."""
 
 
-class Face(IntEnum):
+class Face(Word):
     """The face that is up. Heads is the face ζ = +h/2; it is up when n_z > 0, eq. (4)."""
 
     HEADS = 1
@@ -35,13 +36,8 @@ class Face(IntEnum):
         """H or T."""
         return self.name[0]
 
-    @property
-    def label(self) -> str:
-        """The face's name in answers."""
-        return self.name.lower()
 
-
-class Outcome(IntEnum):
+class Outcome(Word):
     """How the coin lies in the end."""
 
     UNDECIDED = 0
@@ -50,13 +46,8 @@ class Outcome(IntEnum):
     EDGE = 3
     PERPETUAL = 4
 
-    @property
-    def label(self) -> str:
-        """The outcome's name in answers."""
-        return self.name.lower()
 
-
-class Ending(IntEnum):
+class Ending(Word):
     """Why a toss stopped."""
 
     NONE = 0
@@ -76,11 +67,6 @@ class Ending(IntEnum):
     ROLLING = 14
     CAUGHT = 15
     NOT_CAUGHT = 16
-
-    @property
-    def label(self) -> str:
-        """The ending's name in answers."""
-        return self.name.lower()
 
     @property
     def sentence(self) -> str:
@@ -200,7 +186,7 @@ class Impacts:
         return table("impact", self._columns())
 
     def _columns(self) -> dict[str, Column]:
-        faces = meanings_of({face.value: face.label for face in Face})
+        faces = meanings_of({face.value: str(face) for face in Face})
         number = Column(np.arange(1, len(self) + 1), {"long_name": "impact"})
         return {
             "impact": number,
@@ -348,7 +334,7 @@ class Toss:
         """Return how the toss ended, and the faces up at its touches."""
         sequence = notebook.shortened(notebook.with_bar(self.sequence, self.trusted_impacts))
         return (
-            f"<Toss by {self.engine}: {self.outcome.label}, {self.ending.label} at {self.end_time:.6g} s; "
+            f"<Toss by {self.engine}: {self.outcome}, {self.ending} at {self.end_time:.6g} s; "
             f"{len(self.impacts)} impacts: {sequence}>"
         )
 
@@ -357,18 +343,18 @@ class Toss:
         times = np.linspace(0, self.end_time, _DRAWN)
         heights = self.sample(times).position[:, 2]
         impacts, trusted = self.impacts, self.trusted_impacts
-        labels = [Face(face).label for face in impacts.face]
+        labels = [str(Face(face)) for face in impacts.face]
         touches = list(zip(impacts.time.tolist(), impacts.position[:, 2].tolist(), labels, strict=True))
         sequence = notebook.with_bar(self.sequence, trusted)
         return notebook.block(
-            f"{self.outcome.label}, by the engine {self.engine}",
+            f"{self.outcome}, by the engine {self.engine}",
             notebook.path_picture(
                 zip(times.tolist(), heights.tolist(), strict=True),
                 touches,
                 float(impacts.time[trusted]) if trusted < len(impacts) else None,
             ),
             {
-                "ending": f"{self.ending.label}: {self.ending.sentence}",
+                "ending": f"{self.ending}: {self.ending.sentence}",
                 "end": f"{self.end_time:.6g} s, after {len(impacts)} impacts",
                 "sequence": notebook.shortened(sequence),
                 "trusted": f"{trusted} impacts" + ("" if trusted >= len(impacts) else ", before the bar"),
@@ -382,8 +368,8 @@ class Toss:
         """
         about = {
             "engine": self.engine,
-            "outcome": self.outcome.label,
-            "ending": self.ending.label,
+            "outcome": str(self.outcome),
+            "ending": str(self.ending),
             "end_time": self.end_time,
             "trusted_impacts": self.trusted_impacts,
             "sequence": self.sequence,
@@ -411,10 +397,10 @@ class Toss:
         impacts, axes = self.impacts, line.axes
         for face in Face:
             up = impacts.face == face
-            color = notebook.COLORS[face.label]
-            label = f"{face.label} up at the touch"
+            color = notebook.COLORS[str(face)]
+            label = f"{face} up at the touch"
             axes.plot(impacts.time[up], impacts.position[up, 2], "o", color=color, label=label)
-        axes.set_title(f"{self.outcome.label}, by the engine {self.engine}")
+        axes.set_title(f"{self.outcome}, by the engine {self.engine}")
         axes.legend()
         return axes
 

@@ -38,7 +38,7 @@ def _played(toss: Toss) -> dict[str, Any]:
     impacts = toss.impacts
     return {
         "engine": toss.engine,
-        "outcome": toss.outcome.label,
+        "outcome": str(toss.outcome),
         "end_time": toss.end_time,
         "times": rounded(impacts.time[:MOST_TOUCHES], 7),
         "heights": rounded(impacts.position[:MOST_TOUCHES, 2], 5),

@@ -20,7 +20,6 @@ from compare.report.motion import motion_of
 from compare.report.verdict import contact_lines, horizon_sentence, verdict_of
 from compare.web.scripts import POLICY, data_element, import_map, shared_files
 from models import certificate
-from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.meanings import meanings
 from models.records import Face, Toss
 from models.scenario import Scenario
@@ -120,8 +119,6 @@ def _parameters(scenario: Scenario) -> list[tuple[str, str, str]]:
 
 
 def _shown(value: Any) -> str:
-    if isinstance(value, ContactLaw | EndingTest | RestitutionKind):
-        return value.label
     if isinstance(value, tuple):
         return "(" + ", ".join(_shown(item) for item in value) + ")"
     return f"{value:.10g}" if isinstance(value, float) else str(value)

@@ -123,11 +123,11 @@ def _without_impact(a: Toss, b: Toss, in_contact: bool) -> str:
 
 def _outcome(toss: Toss) -> str:
     if toss.ending == Ending.CAUGHT:
-        return f"{toss.outcome.label} in the hand"
+        return f"{toss.outcome} in the hand"
     if toss.ending == Ending.NOT_CAUGHT:
         return "not caught"
     return {Outcome.EDGE: "on its edge", Outcome.PERPETUAL: "moving for ever"}.get(
-        toss.outcome, toss.outcome.label
+        toss.outcome, str(toss.outcome)
     )
 
 

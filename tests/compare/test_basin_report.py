@@ -89,7 +89,7 @@ def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path,
         }
     for engine, store, outcomes in zip(("analytic", "mujoco"), stores, maps, strict=True):
         assert numbers["settings"][engine] == store.attrs["engine_settings"]
-        shares = {Outcome(code).label: np.mean(outcomes == code) for code in Outcome}
+        shares = {str(Outcome(code)): np.mean(outcomes == code) for code in Outcome}
         assert numbers["fractions"][engine] == pytest.approx(shares, abs=1e-15)
     assert numbers["settings"]["mujoco"]["contact"] == contact
     alike, undecided = int(np.sum(maps[0] == maps[1])), numbers["agreement"]["undecided"]

@@ -287,4 +287,4 @@ def test_the_papers_scenario_says_what_it_assumes():
     assert "not which coin, which floor, or g. Here: the ideal coin with h = 2 mm on a smooth floor" in said
     case = load("fig24a")
     assert (case.coin.center_of_mass, case.coin.thickness) == ((0, 0, 0), 2e-3)
-    assert (case.floor.contact.label, case.gravity) == ("smooth", 9.81)
+    assert (str(case.floor.contact), case.gravity) == ("smooth", 9.81)
