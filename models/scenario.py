@@ -36,6 +36,7 @@ from models.kernel.vectors import Matrix, Vector
 from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.units import in_si
 from models.words import Word
+from models.writing import toml
 
 
 def _named(kind: type[Word]) -> Callable[[Any], Any]:
@@ -417,6 +418,10 @@ class Scenario(_Part):
     def as_tables(self) -> dict[str, Any]:
         """Return the scenario as a file has it: numbers in SI, lists, words for what has a name."""
         return _as_in_a_file(self.model_dump(exclude_none=True))
+
+    def to_toml(self) -> str:
+        """Return the text of a scenario file, defaults included, that `parse` reads as this very scenario."""
+        return toml(self.as_tables())
 
     @cached_property
     def body(self) -> Body:
