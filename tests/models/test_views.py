@@ -99,7 +99,12 @@ def test_impacts_become_a_table(tossed):
     assert found.index.tolist() == list(range(1, len(tossed.impacts) + 1))
     assert (found["impulse_z"] == tossed.impacts.impulse[:, 2]).all()
     assert "".join(face[0].upper() for face in found["face"]) == tossed.sequence
-    assert tossed.sample([0, 0.1]).to_dataframe().loc[0.0, "position_z"] == 0.40001
+    path = tossed.sample([0, 0.1]).to_dataframe()
+    assert path.loc[0.0, "position_z"] == 0.40001
+    arrays = tossed.to_xarray()
+    assert found.attrs["units"]["impulse_z"] == arrays.impulse.attrs["units"] == "N s"
+    assert set(found) - set(found.attrs["units"]) == {"face", *(f"quaternion_e{i}" for i in range(4))}
+    assert path.attrs["units"]["time"] == "s"
 
 
 def test_outcomes_become_labelled_arrays_and_a_table(outcomes):
@@ -110,6 +115,7 @@ def test_outcomes_become_labelled_arrays_and_a_table(outcomes):
     assert table["outcome"].tolist() == ["heads", "tails", "heads"]
     assert table["last_face"].tolist() == ["heads", "tails", "none"]
     assert table["impacts"].tolist() == [3, 1, 0]
+    assert table.attrs["units"] == {"end_time": "s"}
 
 
 def test_plots_are_labelled(tossed, outcomes):
