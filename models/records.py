@@ -11,12 +11,15 @@ from numpy.typing import ArrayLike, NDArray
 from models import notebook
 from models.interruptible import interruptible
 from models.labelled import AXES, Column, dataset, meanings_of, table
+from models.plots import axes_or_new, draw_height
 from models.scenario import Scenario
 from models.words import Word
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+
+    from models.plots import Axes
 
 Array = NDArray[np.float64]
 
@@ -380,28 +383,21 @@ class Toss:
         """Return the impacts as a table of pandas, a row each."""
         return self.impacts.to_dataframe()
 
-    def plot(self, **options: Any) -> Any:
+    def plot(self, ax: "Axes | None" = None, **line: Any) -> "Axes":
         """Plot the height of the mass centre over time, marked where the coin touches the floor.
 
         Args:
-            options: of xarray's line plot, such as `ax`, `figsize` or `color`.
+            ax: where to draw, by default in a new figure of pyplot.
+            line: of matplotlib's line, such as `color` or `label`.
 
         Returns:
-            Matplotlib's axes.
+            The axes.
         """
-        states = self.sample(np.linspace(0, self.end_time, _DRAWN)).to_xarray()
-        height = (
-            states["position"].sel(axis="z", drop=True).assign_attrs(long_name="height of the mass centre")
-        )
-        (line, *_) = height.plot.line(**options)
-        impacts, axes = self.impacts, line.axes
-        for face in Face:
-            up = impacts.face == face
-            color = notebook.COLORS[str(face)]
-            label = f"{face} up at the touch"
-            axes.plot(impacts.time[up], impacts.position[up, 2], "o", color=color, label=label)
+        times, impacts, axes = np.linspace(0, self.end_time, _DRAWN), self.impacts, axes_or_new(ax)
+        up = {str(face): impacts.face == face for face in Face}
+        touches = {face: (impacts.time[one], impacts.position[one, 2]) for face, one in up.items()}
+        draw_height(axes, (times, self.sample(times).position[:, 2]), touches, **line)
         axes.set_title(f"{self.outcome}, by the engine {self.engine}")
-        axes.legend()
         return axes
 
     def sample(self, times: ArrayLike) -> States:
