@@ -1,6 +1,9 @@
 """The public names of this project, each brought from its home when it is first used; nothing lives here."""
 
+from functools import cache
 from importlib import import_module
+from pathlib import Path
+from runpy import run_path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -83,11 +86,16 @@ _HOMES = {name: home for home, names in _NAMES.items() for name in names}
 def __getattr__(name: str) -> Any:
     if name == "__version__":
         return import_module("importlib.metadata").version("cointoss")
-    if name in _PACKAGES:
-        return import_module(name)
-    if name in _HOMES:
-        return getattr(import_module(_HOMES[name]), name)
-    raise AttributeError(f"cointoss has no {name}; accepted: {', '.join(__dir__())}")
+    if name not in (*_PACKAGES, *_HOMES):
+        raise AttributeError(f"cointoss has no {name}; accepted: {', '.join(__dir__())}")
+    _require_siblings()
+    return import_module(name) if name in _PACKAGES else getattr(import_module(_HOMES[name]), name)
+
+
+@cache
+def _require_siblings() -> None:
+    """Refuse a foreign package that stands for one of ours, once."""
+    run_path(str(Path(__file__).parents[1] / "models" / "siblings.py"))
 
 
 def __dir__() -> list[str]:
