@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     import coin_mj as coin_mj
     from coin_mj.bounce import solref as solref
     from compare.engines import Engine as Engine
+    from compare.engines import toss as toss
     from compare.film.back_end import BackEndError as BackEndError
     from compare.metrics.comparison import Comparison as Comparison
     from compare.metrics.comparison import compare as compare
@@ -52,7 +53,7 @@ if TYPE_CHECKING:
 _PACKAGES = ("analytic", "coin_mj")
 _NAMES = {
     "coin_mj.bounce": ("solref",),
-    "compare.engines": ("Engine",),
+    "compare.engines": ("Engine", "toss"),
     "compare.film.back_end": ("BackEndError",),
     "compare.metrics.comparison": ("Comparison", "compare"),
     "compare.sweep.errors": ("MapError", "SweepError"),
@@ -87,7 +88,9 @@ def __getattr__(name: str) -> Any:
     if name == "__version__":
         return import_module("importlib.metadata").version("cointoss")
     if name not in (*_PACKAGES, *_HOMES):
-        raise AttributeError(f"cointoss has no {name}; accepted: {', '.join(__dir__())}")
+        near = import_module("difflib").get_close_matches(name, __dir__(), n=1)
+        hint = f" (did you mean {near[0]}?)" if near else ""
+        raise AttributeError(f"cointoss has no {name}; accepted: {', '.join(__dir__())}{hint}")
     _require_siblings()
     return import_module(name) if name in _PACKAGES else getattr(import_module(_HOMES[name]), name)
 
