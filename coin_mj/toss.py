@@ -19,6 +19,7 @@ from coin_mj.model.settings import FINE, ROUGH, Friction, Realisation, Settings
 from coin_mj.path import Knots
 from models.body import Body, Rules
 from models.certificate import energies, measurements
+from models.errors import require_type
 from models.impact_row import FIRST_ROOM
 from models.interruptible import interruptible
 from models.kernel.vectors import Vector, cross, subtract
@@ -124,6 +125,7 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     Warns:
         ApproximationWarning: for a perfectly rough floor, which is one of friction `ROUGH`.
     """
+    require_type("settings", settings, Settings, "coin_mj.Settings, such as coin_mj.FINE")
     described = scenario_of(scenario)
     require_supported(described, settings=settings)
     warn_of_approximation(described)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from models.attitude import quaternion_from_angles, rotation_matrix
 from models.clearance import damping_rate
-from models.errors import shown
+from models.errors import require_type, shown
 from models.fields import UNITS, split
 from models.geometry import gap
 from models.kernel.compiled import compiled
@@ -166,8 +166,10 @@ def check_releases(scenario: Scenario, releases: Releases) -> None:
     """Refuse releases that a `Scenario` with this coin, air and gravity would refuse.
 
     Raises:
+        TypeError: for what are none.
         ValueError: for a coin below the floor, and for a spin or a drag too fast to follow.
     """
+    require_type("releases", releases, Releases, "Releases, as of Releases.of(scenario, n, height=...)")
     body, n = scenario.body, len(releases)
     clearance, damping = np.empty(n), np.empty(n)
     _clearance_and_damping(

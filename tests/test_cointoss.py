@@ -59,6 +59,17 @@ def test_either_engine_tosses_by_its_name():
         cointoss.toss(few, "paper")
 
 
+@pytest.mark.parametrize("engine", ["analytic", "coin_mj"])
+@pytest.mark.parametrize("wrong", [3, None, {"steps": 2}], ids=str)
+def test_settings_of_another_type_are_refused(engine, wrong):
+    package, releases = getattr(cointoss, engine), cointoss.Releases.of("fig24a", 1)
+    for toss in (package.toss, lambda one, **more: package.toss_many(one, releases, **more)):
+        with pytest.raises(TypeError, match=f"^settings: of type .*, accepted: {engine}.Settings, such as"):
+            toss("fig24a", settings=wrong)
+    with pytest.raises(TypeError, match=r"^releases: of type list, accepted: Releases, as of Releases.of"):
+        package.toss_many("fig24a", [0, 0, 1])
+
+
 def test_import_cointoss_imports_next_to_nothing():
     script = "import sys; before = set(sys.modules); import cointoss; print(*set(sys.modules) - before)"
     done = subprocess.run(
