@@ -76,7 +76,7 @@ def table(row: str, columns: Mapping[str, Column]) -> "pd.DataFrame":
         )
         plain |= parts
         if unit := column.attributes.get("units"):
-            units |= dict.fromkeys(parts, unit)
+            units |= dict.fromkeys(parts, str(unit))
     index = {row: plain.pop(row)}
     frame = xarray.Dataset({name: (row, values) for name, values in plain.items()}, index).to_dataframe()
     frame.attrs["units"] = units

@@ -1,7 +1,7 @@
 """Plots of tosses and of outcomes in matplotlib, which is imported when one is drawn."""
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
@@ -23,8 +23,8 @@ def axes_or_new(ax: "Axes | None") -> "Axes":
 def draw_height(
     ax: "Axes",
     path: tuple[ArrayLike, ArrayLike],
-    touches: Mapping[str, tuple[Sequence[float], Sequence[float]]],
-    **line: str,
+    touches: Mapping[str, tuple[ArrayLike, ArrayLike]],
+    **line: Any,
 ) -> None:
     """Draw the height of a coin's mass centre over time, and a dot at each touch of the floor.
 

@@ -38,10 +38,10 @@ class Word(IntEnum):
         """Return the hash of the word."""
         return hash(str(self))
 
-    def __eq__(self, other: Any) -> bool:
-        """Return whether the other is this word, or a number equal to its integer."""
+    def __eq__(self, other: Any) -> Any:
+        """Return whether the other is this word, or a number equal to its integer; of an array, for each."""
         return str(self) == str(other) if isinstance(other, str | Word) else int(self) == other
 
-    def __ne__(self, other: Any) -> bool:
+    def __ne__(self, other: Any) -> Any:
         """Return the opposite of `==`."""
         return str(self) != str(other) if isinstance(other, str | Word) else int(self) != other
