@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from compare.engines import Engine as Engine
     from compare.engines import toss as toss
     from compare.film.back_end import BackEndError as BackEndError
-    from compare.metrics.comparison import Comparison as Comparison
-    from compare.metrics.comparison import compare as compare
+    from compare.report.comparison import Comparison as Comparison
+    from compare.report.comparison import compare as compare
     from compare.sweep.errors import MapError as MapError
     from compare.sweep.errors import SweepError as SweepError
     from compare.sweep.in_memory import basin as basin
@@ -55,7 +55,7 @@ _NAMES = {
     "coin_mj.bounce": ("solref",),
     "compare.engines": ("Engine", "toss"),
     "compare.film.back_end": ("BackEndError",),
-    "compare.metrics.comparison": ("Comparison", "compare"),
+    "compare.report.comparison": ("Comparison", "compare"),
     "compare.sweep.errors": ("MapError", "SweepError"),
     "compare.sweep.in_memory": ("basin",),
     "compare.sweep.outcome_map": ("OutcomeMap",),
