@@ -37,8 +37,14 @@ def scenario_text(source: str | PathLike[str]) -> str:
     """Give the text of a scenario file, or of a scenario of the package by its name.
 
     Raises:
-        ScenarioError: if there is no such file or it can't be read as text.
+        ScenarioError: if there is no such file, it can't be read as text, or `source` is of another type.
     """
+    if not isinstance(source, str | PathLike):
+        way_out = "; Scenario(**tables) makes one of a dict" if isinstance(source, dict) else ""
+        raise ScenarioError(
+            f"scenario: of type {type(source).__name__}, accepted: a Scenario, the path of its file, or a "
+            f"name such as fig24a{way_out}"
+        )
     names = named_scenarios()
     path, source = Path(source), str(source)
     try:

@@ -15,7 +15,7 @@ class UnusedFieldWarning(UserWarning):
 def unused_fields(scenario: Scenario) -> list[str]:
     """Return a line for each field that has no effect: its name, its value, and what would use it."""
     floor, air = scenario.floor, scenario.air
-    law, laws = floor.contact.label, " and ".join(f'"{law.label}"' for law in _WITH_FRICTION)
+    law, laws = floor.contact, " and ".join(f'"{law}"' for law in _WITH_FRICTION)
     has_friction = floor.contact in _WITH_FRICTION
     lines = {
         f'floor.friction = {floor.friction:g}: not used with contact = "{law}"; {laws} use it': (

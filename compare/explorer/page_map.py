@@ -30,7 +30,7 @@ def page_map(found: OutcomeMap) -> dict[str, Any]:
         "tossed": float(np.mean(found.outcome != NOT_TOSSED)),
         "axes": {name: _axis(axis) for name, axis in (("x", sweep.x), ("y", sweep.y))},
         "outcomes": {
-            int(outcome): {"label": outcome.label, "color": color} for outcome, color in OUTCOMES.items()
+            int(outcome): {"label": str(outcome), "color": color} for outcome, color in OUTCOMES.items()
         },
         "margin": margin and {"along": margin.name, "unit": margin.unit},
         "arrays": {

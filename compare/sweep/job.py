@@ -162,18 +162,15 @@ def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
         show.write(job.png, maps, first, job.style, margins=margins)
         yield f"picture    {job.png}"
     if job.report is not None:
+        from compare.output.progress import STILL_TOSSING, elapsed_time
+        from compare.report.comparison import compared
         from compare.report.folder import write_report
 
-        page = write_report(
-            first.scenario,
-            job.text,
-            Path(job.source).stem,
-            job.report,
-            no_video,
-            frames,
-            mujoco=replace(Engine.MUJOCO.package.FINE, contact=job.contact),
-            maps=show.section(maps, list(sweeps.values()), job.style, _command(job)),
-        )
+        fine = replace(Engine.MUJOCO.package.FINE, contact=job.contact)
+        with elapsed_time(STILL_TOSSING):
+            both = compared(first.scenario, job.text, Path(job.source).stem, fine)
+        shown = show.section(maps, list(sweeps.values()), job.style, _command(job))
+        page = write_report(both, job.report, no_video, frames, maps=shown)
         yield f"report     {page}"
 
 

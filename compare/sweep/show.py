@@ -59,7 +59,7 @@ def section(
     drawn, sweep = io.BytesIO(), sweeps[0]
     figure_of(maps, sweep, style).savefig(drawn, format="png", dpi=style.dpi)
     shares = {
-        sweep.engine.value: {outcome.label: share for outcome, share in fractions(outcomes).items()}
+        sweep.engine.value: {str(outcome): share for outcome, share in fractions(outcomes).items()}
         for sweep, outcomes in zip(sweeps, maps, strict=True)
     }
     return MapSection(

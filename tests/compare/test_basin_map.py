@@ -123,7 +123,7 @@ def test_the_map_has_the_agreed_form(undisturbed, coin, tmp_path):
     meanings = dict(
         zip(found.outcome.attrs["flag_values"], found.outcome.attrs["flag_meanings"].split(), strict=True)
     )
-    assert meanings == {-1: "not_tossed", **{item.value: item.label for item in Outcome}}
+    assert meanings == {-1: "not_tossed", **{item.value: str(item) for item in Outcome}}
     axes = found.outcome.plot(x=eta.name, y=z.name, ax=Figure().add_subplot()).axes
     labels = [" ".join(label.split()) for label in (axes.get_xlabel(), axes.get_ylabel())]  # they are wrapped
     assert labels == ["spin about η [rad/s]", "height [m]"]

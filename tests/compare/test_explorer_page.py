@@ -102,7 +102,7 @@ def test_a_click_tosses_a_pixel_by_both_engines(page, server, map_path, width, s
         len(toss.sequence) - min(toss.trusted_impacts, len(toss.sequence)),
     )
     assert found["MuJoCo"][0][:2] == toss.sequence[:2]
-    assert f"analytic: {toss.outcome.label} after {len(toss.impacts)} impacts" in page.text("outcome")
+    assert f"analytic: {toss.outcome} after {len(toss.impacts)} impacts" in page.text("outcome")
     assert "The map shows touch 2, framed." in page.text("horizon")
     assert page.value("document.querySelector('#sequences .mapped').dataset.touch") == "1"
     assert page.value("document.querySelectorAll('#energy polyline').length") == 2

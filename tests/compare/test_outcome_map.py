@@ -51,7 +51,7 @@ def test_a_map_is_that_which_the_command_writes(found, tmp_path):
 
 
 def test_what_a_person_sees_of_a_map(found):
-    counts = {item.label: np.count_nonzero(found.outcome == item) for item in Outcome}
+    counts = {str(item): np.count_nonzero(found.outcome == item) for item in Outcome}
     assert {name: round(35 * share) for name, share in found.shares.items()} == {
         name: count for name, count in counts.items() if count
     }
