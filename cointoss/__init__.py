@@ -84,7 +84,7 @@ _HOMES = {name: home for home, names in _NAMES.items() for name in names}
 
 def __getattr__(name: str) -> Any:
     if name == "__version__":
-        return import_module("importlib.metadata").version("cointoss")
+        return import_module("importlib.metadata").version(import_module("models.distribution").DISTRIBUTION)
     if name in _PACKAGES:
         return import_module(name)
     if name in _HOMES:

@@ -20,13 +20,14 @@ from compare.report.motion import motion_of
 from compare.report.verdict import contact_lines, horizon_sentence, verdict_of
 from compare.web.scripts import POLICY, data_element, import_map, shared_files
 from models import certificate
+from models.distribution import DISTRIBUTION
 from models.fields import WORDS, printed_unit
 from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.meanings import meanings
 from models.records import Face, Toss
 from models.scenario import Scenario
 
-PACKAGES = ("cointoss", "mujoco", "numpy", "scipy", "numba", "matplotlib", "mediapy")
+PACKAGES = (DISTRIBUTION, "mujoco", "numpy", "scipy", "numba", "matplotlib", "mediapy")
 
 
 class Film(NamedTuple):
