@@ -88,7 +88,7 @@ _HOMES = {name: home for home, names in _NAMES.items() for name in names}
 
 def __getattr__(name: str) -> Any:
     if name == "__version__":
-        return import_module("importlib.metadata").version("cointoss")
+        return import_module("importlib.metadata").version(import_module("models.distribution").DISTRIBUTION)
     if name not in (*_PACKAGES, *_HOMES):
         near = import_module("difflib").get_close_matches(name, __dir__(), n=1)
         hint = f" (did you mean {near[0]}?)" if near else ""

@@ -36,7 +36,11 @@ class _Size(click.ParamType):
 @axis_option("--x", "The field that varies along x, and its N values.")
 @axis_option("--y", "The field that varies along y.")
 @click.option(
-    "--out", type=click.Path(path_type=Path), required=True, help="The Zarr store to write, MAP.zarr."
+    "--out",
+    type=click.Path(path_type=Path),
+    required=True,
+    metavar="MAP.zarr",
+    help="The Zarr store to write.",
 )
 @click.option("--engine", type=click.Choice(["analytic", "mujoco"]), help="The engine; by default analytic.")
 @click.option(

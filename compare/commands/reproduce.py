@@ -39,7 +39,7 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
             drawing_problem()
         require_mujoco()
     known = runner.names()
-    pages = names == ("all",)
+    pages, asked = names == ("all",), " ".join(names)
     if pages:
         names = tuple(gallery.of_paper())
     for name in names:
@@ -52,10 +52,10 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
             place = f"{found.paper}: " if found.paper else ""
             click.echo(f"{name:{width}}{place}{found.title} ({found.seconds:g} s)")
         return
-    if not names or out is None:
-        ctx.fail(
-            f"accepted: NAME ... --out DIR, NAME one of: {', '.join(known)}, or all; or neither, for a list"
-        )
+    if out is None:
+        ctx.fail(f"--out: missing; accepted: {ctx.command_path} {asked} --out DIR")
+    if not names:
+        ctx.fail(f"NAME: missing; accepted: all, or one of: {', '.join(known)}")
     with plain_errors(str(out)):
         require_folder(out, gallery.PAGES if pages else ())
         for name in names:

@@ -10,6 +10,7 @@ from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile
 from compare.sweep.pixels import Pixels, toss_pixels
 from compare.sweep.run import Tosser
+from models.distribution import DISTRIBUTION
 
 AHEAD = 2
 """Tiles given out for each thread of a worker: one that it tosses, and one that waits."""
@@ -36,7 +37,7 @@ def cluster(address: str, say: Callable[[str], None]) -> Iterator[Tosser]:
         import distributed
     except ImportError:
         raise SweepError(
-            f'--scheduler {address}: needs dask.distributed; accepted: pip install "cointoss[cluster]"'
+            f'--scheduler {address}: needs dask.distributed; accepted: pip install "{DISTRIBUTION}[cluster]"'
         ) from None
     say(f"--scheduler {address}: connecting, for up to {PATIENCE} s")
     try:

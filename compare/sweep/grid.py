@@ -53,7 +53,9 @@ class Sweep:
         if len(fields) == 1:
             raise SweepError(f"{self.x.field}: on both axes; accepted: two fields")
         if self.after is not None and "ending.max_impacts" in fields:
-            raise SweepError("ending.max_impacts: accepted as an axis only without a number of impacts")
+            raise SweepError(
+                f"ending.max_impacts: an axis beside after = {self.after}; accepted: one of the two"
+            )
 
     @property
     def title(self) -> str:

@@ -178,7 +178,7 @@ def _require_report(folder: Path, maps: Iterable[Path], source: str) -> None:
     require_folder(folder, source)
     for path in maps:
         if Path(os.path.realpath(folder)).is_relative_to(os.path.realpath(path)):
-            raise UnwritableError(f"{folder}: accepted: a folder outside of the map {path}")
+            raise UnwritableError(f"{folder}: lies in the map {path}; accepted: a folder outside of it")
 
 
 def _command(job: Job) -> str:

@@ -123,21 +123,22 @@ def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
         UnwritableError: naming the path and why.
     """
     if path.suffix != ".zarr":
-        raise UnwritableError(f"{path}: accepted: a folder's name that ends in .zarr")
+        raise UnwritableError(f"{path}: another kind of name; accepted: one that ends in .zarr")
     with naming(path):
         target = Path(os.path.realpath(path))
         if not target.parent.is_dir():
-            raise UnwritableError(f"{path}: accepted: a name in a folder that exists")
+            raise UnwritableError(
+                f"{path}: no folder {path.parent}; accepted: a name in a folder that exists"
+            )
         if not target.exists() or (target.is_dir() and not any(target.iterdir())):
             probe = beside(target)
             with undoing(lambda: remove(probe)):
                 probe.mkdir()
         elif not is_map(target):
-            raise UnwritableError(f"{path}: accepted: a new name, or a map of cointoss (this is none)")
+            raise UnwritableError(f"{path}: is no map; accepted: a new name, or a map of cointoss")
         elif not (resume or overwrite):
             raise UnwritableError(
-                f"{path}: accepted: a new name (this map exists: --resume continues it, --overwrite "
-                "replaces it)"
+                f"{path}: exists; accepted: a new name, --resume to continue it, or --overwrite to replace it"
             )
 
 

@@ -331,7 +331,7 @@ X = AXES[1].partition("=")[0]
             "fields of its axes: ['release.position.z'], not two",
         ),
         (edited(lambda all_: all_.update(zarr_format=9)), "zarr_format = 9, not 3"),
-        (lambda out: (out / "zarr.json").write_text("{"), "this is none"),
+        (lambda out: (out / "zarr.json").write_text("{"), "is no map; "),
     ],
 )
 def test_a_damaged_map_is_one_line(coin, tmp_path, damage, said):
@@ -366,7 +366,10 @@ def test_a_map_is_replaced_only_where_asked(in_tiles, coin, tmp_path):
     first = pixels(out)
     answered = basin(coin, *AXES, "--after", 0, "--out", out)
     assert answered.exit_code == 2
-    assert "this map exists: --resume continues it, --overwrite replaces it" in answered.stderr
+    assert (
+        ": exists; accepted: a new name, --resume to continue it, or --overwrite to replace it"
+        in answered.stderr
+    )
     assert_same(out, first)
     assert basin(coin, *AXES, "--after", 0, "--out", out, "--overwrite").exit_code == 0
     assert np.all(pixels(out)["impacts"] == 1)
@@ -447,11 +450,11 @@ def test_only_a_place_for_a_map_is_accepted(tmp_path):
     (tmp_path / "file.zarr").write_text("mine")
     for name, said in (
         ("map", "ends in .zarr"),
-        ("nowhere/map.zarr", "a folder that exists"),
-        ("mine.zarr", "this is none"),
-        ("half.zarr", "this is none"),
-        ("other.zarr", "this is none"),
-        ("file.zarr", "this is none"),
+        ("nowhere/map.zarr", "no folder .*nowhere; accepted: a name in a folder that exists"),
+        ("mine.zarr", "is no map; "),
+        ("half.zarr", "is no map; "),
+        ("other.zarr", "is no map; "),
+        ("file.zarr", "is no map; "),
         ("file.zarr/map.zarr", "a folder that exists"),
         (300 * "a" + ".zarr", "name too long"),
     ):
@@ -494,10 +497,10 @@ def test_what_was_not_tossed_is_told_from_every_outcome(tmp_path):
         ([*AXES, "--report", "report"], "only beside --compare"),
         ([*AXES, "--compare", "--no-video"], "--no-video: accepted: only beside --report"),
         ([*AXES, "--engine", "mujoco", "--report", "report"], "only beside --compare"),
-        ([*AXES, "--compare", "--report", "coin.toml"], "accepted: a folder"),
+        ([*AXES, "--compare", "--report", "coin.toml"], "coin.toml: is no folder; accepted: a folder"),
         ([*AXES, "--compare", "--report", "coin.toml/report"], "can't be written"),
-        ([*AXES, "--compare", "--report", "map.zarr"], "outside of the map map.zarr"),
-        ([*AXES, "--compare", "--report", "map-mujoco.zarr/report"], "outside of the map map-mujoco.zarr"),
+        ([*AXES, "--compare", "--report", "map.zarr"], "lies in the map map.zarr; "),
+        ([*AXES, "--compare", "--report", "map-mujoco.zarr/report"], "lies in the map map-mujoco.zarr; "),
         ([*AXES, "--png", "map.gif"], "ends in .png"),
         ([*AXES, "--png", "map.png", "--size", "6"], "WIDTHxHEIGHT"),
         ([*AXES, "--png", "map.png", "--size", "0x4"], "WIDTHxHEIGHT"),

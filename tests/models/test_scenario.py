@@ -109,7 +109,7 @@ WRONG = {
     "wrong type": ('mass = "2 g"', "mass = true", ["coin.mass", "True", "number"]),
     "a list for a number": ('mass = "2 g"', "mass = [2]", ["coin.mass", "[2]", "number"]),
     "a date for a number": ('mass = "2 g"', "mass = 2008-08-14", ["coin.mass", "2008-08-14", "number"]),
-    "negative mass": ('mass = "2 g"', "mass = -1", ["coin.mass", "-1", ">= 1e-09"]),
+    "negative mass": ('mass = "2 g"', "mass = -1", ["coin.mass", "-1", ">= 1e-09 and <= 1e+09 in kg"]),
     "zero mass": ('mass = "2 g"', "mass = 0", ["coin.mass", "0", ">= 1e-09"]),
     "NaN": ('mass = "2 g"', "mass = nan", ["coin.mass", "nan", "finite"]),
     "infinity": ('mass = "2 g"', "mass = inf", ["coin.mass", "inf", "finite"]),
@@ -178,13 +178,85 @@ WRONG = {
     "exponent above one": ("normal = 0.8", "exponent = 2", ["air.exponent", "2", "<= 1"]),
     "negative air": ("normal = 0.8", "normal = -0.8", ["air.normal", "-0.8", ">= 0"]),
     "zero gravity": ("gravity = 9.81", "gravity = 0", ["gravity", "0", ">= 1e-09"]),
-    "two numbers for three": ('[0, "1 mm", 0.4]', "[0, 0.4]", ["release.position[2]", "missing"]),
+    "two numbers for three": (
+        '[0, "1 mm", 0.4]',
+        "[0, 0.4]",
+        ["release.position = [0, 0.4]", "a list of 3 lengths, such as [0, 0, 0.4]"],
+    ),
     "four numbers for three": (
         '[0, "1 mm", 0.4]',
         "[0, 0, 0, 0.4]",
         ["release.position", "[0, 0, 0, 0.4]", "3"],
     ),
-    "a number for three": ('[0, "1 mm", 0.4]', "0.4", ["release.position", "0.4", "list"]),
+    "a number for three": (
+        '[0, "1 mm", 0.4]',
+        "0.4",
+        ["release.position = 0.4", "a list of 3 lengths, such as [0, 0, 0.4]"],
+    ),
+    "a list in a list": (
+        '[0, "1 mm", 0.4]',
+        "[0, 0, [1]]",
+        ["release.position[2] = [1]", "in m, or a string with"],
+    ),
+    "no list of angles": (
+        '[0, "7 deg", 0]',
+        '"7 deg"',
+        ["release.angles", 'a list of 3 angles, such as [0, "7 deg", 0]'],
+    ),
+    "a quaternion of three": (
+        'angles = [0, "7 deg", 0]',
+        "quaternion = [1, 0, 0]",
+        ["release.quaternion = [1, 0, 0]", "a list of 4 numbers of norm 1, such as [1, 0, 0, 0]"],
+    ),
+    "a spin for three": (
+        '["1 rad/s", 40.15, 0]',
+        "40.15",
+        ["angular_velocity = 40.15", "a list of 3 spins, such as [0, "],
+    ),
+    "no position": (
+        'position = [0, "1 mm", 0.4]\n',
+        "",
+        ["release.position: missing", "a list of 3 lengths, such as [0, 0, 0.4]"],
+    ),
+    "no law": (
+        'contact = "smooth"\n',
+        "",
+        ["floor.contact: missing", 'accepted: one of "sharp_edge", ', '"coulomb"'],
+    ),
+    "no mass": ('mass = "2 g"\n', "", ["coin.mass: missing", "in kg, or a string with a unit like", '"2 g"']),
+    "an inertia that is a number": (
+        COIN,
+        COIN + "\ninertia = 3",
+        [
+            "coin.inertia = 3",
+            "a list of 3 lists of 3 moments of inertia, such as [[8e-8, 0, 0], [0, 8e-8, 0], ",
+        ],
+    ),
+    "an inertia of rows that are none": (
+        COIN,
+        COIN + "\ninertia = [1, 2, 3]",
+        ["coin.inertia[0] = 1", "a list of 3 moments of inertia, such as [8e-8, 0, 0]"],
+    ),
+    "an inertia of two rows": (
+        COIN,
+        COIN + "\ninertia = [[1, 0], [0, 1]]",
+        ["coin.inertia = [[", "3 lists of 3"],
+    ),
+    "a truth for a gravity": (
+        "gravity = 9.81",
+        "gravity = true",
+        ["gravity = True", "a number in m/s**2, or"],
+    ),
+    "a list of a threshold": (
+        "restitution = 0.8",
+        "restitution = 0.8\nrestitution_threshold = [1]",
+        ["floor.restitution_threshold = [1]", '"2 m/s"'],
+    ),
+    "a number for a table": (
+        "[air]\nnormal = 0.8",
+        "[[air]]\nnormal = 0.8",
+        ["air = [{", "a table [air] with exponent, "],
+    ),
     "below the floor": (
         '[0, "1 mm", 0.4]',
         "[0, 0, 0.001]",
@@ -240,7 +312,11 @@ WRONG = {
     "a position beyond the world": ("0.4]", "1e12]", ["release.position[2]", "<= 1e+09"]),
     "unknown key": ("angles =", "angels =", ["release.angels", "unknown key", "did you mean angles?"]),
     "unknown table": ("[floor]", "[flor]", ["flor", "unknown key", "did you mean floor?"]),
-    "missing key": ("restitution = 0.8\n", "", ["floor.restitution", "missing"]),
+    "missing key": (
+        "restitution = 0.8\n",
+        "",
+        ["floor.restitution: missing", "a number >= 0 and <= 1, or a string"],
+    ),
     "missing table": ("[floor]\nrestitution", "[air.x]\nrestitution", ["air.x", "unknown key", "exponent"]),
     "two attitudes": (
         "angles = [0,",
@@ -255,7 +331,7 @@ WRONG = {
     "part of an impact": (
         "max_impacts = 20",
         "max_impacts = 2.5",
-        ["ending.max_impacts", "2.5", "whole number"],
+        ["ending.max_impacts", "2.5", "a whole number >= 1 and <= 30000000"],
     ),
     "no impacts": ("max_impacts = 20", "max_impacts = 0", ["ending.max_impacts", "0", ">= 1"]),
     "no time": ("max_impacts = 20", "max_time = 0", ["ending.max_time", "0", ">= 1e-09"]),
