@@ -41,6 +41,8 @@ class _Commands(click.Group):
         except click.Abort:  # KeyboardInterrupt
             refuse("interrupted", status=130)
         except OSError as error:
+            if error.errno is None:  # not of a file, as where a connection is lost
+                refuse(str(error) or type(error).__name__, status=1)
             _lose_stdout()
             refuse(f"{error.filename or 'standard output'}: can't be written ({error.strerror})", status=1)
         sys.exit(status)

@@ -9,6 +9,9 @@ from pydantic import BaseModel, BeforeValidator, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
+MOST_NAMED = 8
+"""Fields that a message names beside the first."""
+
 
 class ScenarioError(ValueError):
     """A scenario that can't be used; the message names file, field, value and what is accepted."""
@@ -42,8 +45,9 @@ def describe(error: ValidationError, model: type[BaseModel]) -> str:
     """
     # A misspelt key comes first: it explains the key that is missing.
     details = sorted(error.errors(include_url=False), key=lambda detail: detail["type"] != "extra_forbidden")
-    others = [_field(detail) for detail in details[1:]]
-    more = f" (also wrong: {', '.join(dict.fromkeys(others))})" if others else ""
+    others = list(dict.fromkeys(_field(detail) for detail in details[1:]))
+    named = [*others[:MOST_NAMED], *([f"and {len(others) - MOST_NAMED} more"] if others[MOST_NAMED:] else [])]
+    more = f" (also wrong: {', '.join(named)})" if others else ""
     return _line(details[0], model) + more
 
 

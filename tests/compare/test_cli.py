@@ -427,6 +427,15 @@ def test_what_cannot_be_written_is_one_line(tmp_path, command, status, named):
     assert {path.name for path in tmp_path.iterdir()} <= {"full"}
 
 
+def test_what_is_lost_without_an_error_of_the_system_is_said_as_it_is(monkeypatch):
+    def lost():
+        raise OSError("the connection was lost")
+
+    monkeypatch.setattr("models.reading.named_scenarios", lost)
+    answered = cointoss("scenarios")
+    assert (answered.exit_code, answered.stderr) == (1, "cointoss: the connection was lost\n")
+
+
 def test_a_closed_pipe_ends_quietly_with_exit_status_1(tmp_path):
     done = in_a_shell("(sleep 0.1; cointoss --help; echo $? >&2) | true", tmp_path)
     assert done.stderr == "1\n"
