@@ -39,10 +39,10 @@ docs: $(VENV)/.ready-docs chromium compiled $(MADE)/pages/explorer.html
 	$(BIN)/pytest tests/site
 
 # What docs/ has that is made of other files there: nothing is computed.
-pages: $(READY)
+pages: $(VENV)/.ready-docs
 	$(BIN)/python docs/extensions/written.py
 
-$(MADE)/pages/explorer.html: $(READY) $(CODE) docs/conf.py | compiled
+$(MADE)/pages/explorer.html: $(READY) $(CODE) docs/conf.py $(wildcard docs/extensions/*.py) | compiled
 	rm -rf $(MADE)
 	mkdir -p $(@D)
 	$(BIN)/cointoss basin fig24a --x release.angular_velocity.eta=20:60:160 --y release.position.z=0.2:0.6:120 \

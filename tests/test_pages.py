@@ -190,14 +190,17 @@ def test_no_line_of_a_page_is_a_comment_or_a_break_to_the_site():
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda page: page.stem)
-def test_a_notebook_has_code_that_parses_and_ends_with_exercises(notebook):
+def test_a_notebook_has_code_that_parses_and_ends_with_exercises_and_solutions(notebook):
     """`make docs` runs them; a cell may begin with options between two lines of dashes."""
     cells = [block.text for block in written(notebook) if block.language == "{code-cell}"]
     code = [re.sub(r"\A---\n.*?\n---\n", "", cell, flags=re.DOTALL) for cell in cells]
     assert len([compile(cell, notebook.name, "exec") for cell in code]) >= 4
     assert max(len(line) for cell in code for line in cell.splitlines()) <= 88
     _, _, exercises = notebook.read_text(encoding="utf-8").partition("\n## Exercises\n")
-    assert len(re.findall(r"^\d\. ", exercises, flags=re.MULTILINE)) >= 3
+    texts = re.split(r"^\d\. ", exercises, flags=re.MULTILINE)[1:]
+    assert len(texts) >= 3
+    solutions = [text.partition("<summary>Solution</summary>")[2] for text in texts]
+    assert all("{code-cell}" in solution for solution in solutions)
     assert "\n## " not in exercises
 
 
