@@ -23,6 +23,7 @@ from models.interruptible import interruptible
 from models.reading import ScenarioSource, scenario_of
 from models.records import Array, Impacts, Setting, States, Toss
 from models.scenario import Release, Scenario
+from models.stages import stage
 
 _INTEGRATED = "Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"
 
@@ -107,7 +108,8 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
         ScenarioError: for a file or a name that can't be used.
     """
     described = scenario_of(scenario)
-    return interruptible(lambda: _toss(described, settings))
+    with stage("tossing by the analytic engine"):
+        return interruptible(lambda: _toss(described, settings))
 
 
 def _toss(scenario: Scenario, settings: Settings) -> Toss:

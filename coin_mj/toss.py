@@ -36,6 +36,7 @@ from models.records import (
     UnsupportedError,
 )
 from models.scenario import RESISTANCES, Scenario
+from models.stages import stage
 
 REALISABLE = (ContactLaw.SMOOTH, ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH)
 SOFTER = (10.0, 30.0)
@@ -127,7 +128,8 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     described = scenario_of(scenario)
     require_supported(described, settings=settings)
     warn_of_approximation(described)
-    return interruptible(lambda: _toss(described, settings))
+    with stage("tossing by MuJoCo"):
+        return interruptible(lambda: _toss(described, settings))
 
 
 def _toss(scenario: Scenario, settings: Settings) -> Toss:

@@ -83,6 +83,9 @@ _HOMES = {name: home for home, names in _NAMES.items() for name in names}
 def __getattr__(name: str) -> Any:
     if name == "__version__":
         return import_module("importlib.metadata").version("cointoss")
+    if name in _PACKAGES or name in _HOMES:
+        # What takes long says so in a terminal or a notebook.
+        import_module("compare.output.progress")
     if name in _PACKAGES:
         return import_module(name)
     if name in _HOMES:

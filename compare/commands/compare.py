@@ -31,9 +31,6 @@ def compare(scenario: str, out: Path, no_video: bool) -> None:
 
         problem = "None was asked for; cointoss video draws one." if no_video else drawing_problem()
 
-        from compare.output.progress import bar
         from compare.report.folder import write_report
 
-        with bar("video", "frames") as progress:
-            page = write_report(described, text, Path(scenario).stem, out, problem, progress)
-        click.echo(page)
+        click.echo(write_report(described, text, Path(scenario).stem, out, problem))

@@ -28,9 +28,9 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
     """
     from compare.film.back_end import drawing_problem, require_mujoco
     from compare.output.files import require_folder
-    from compare.output.progress import bar
     from compare.reproduction import gallery, runner
     from compare.reproduction.claim import unexpected
+    from models.stages import stage
 
     with plain_errors("reproduce"):
         # Figures may hold stills: the back end is chosen before MuJoCo is imported.
@@ -61,7 +61,7 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
             runner.require_writable(name, out)
         failed = []
         for name in names:
-            with bar(name, "parts") as progress:
+            with stage(name, "parts") as progress:
                 result = runner.reproduce(name, out, progress, quick=quick)
             click.echo(result.text)
             failed += [f"{name}: {claim}" for claim in unexpected(result.claims, quick=quick)]

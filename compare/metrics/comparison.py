@@ -11,6 +11,7 @@ from compare.metrics.trajectories import attitude_angle, distance, parting_time
 from models.reading import ScenarioSource, scenario_of
 from models.records import Array, Toss, UnsupportedError
 from models.scenario import Scenario
+from models.stages import stage
 
 TIMES = 2400
 PARTED = 0.1
@@ -79,17 +80,18 @@ def compare(scenario: ScenarioSource, mujoco: EngineSettings | None = None) -> C
         b = engine.toss(described, settings=mujoco or engine.FINE)
     except UnsupportedError as error:
         return a, str(error)
-    errors = errors_of_impacts(b)
-    return Comparison(
-        scenario=described,
-        analytic=a,
-        mujoco=b,
-        differences=match(a.impacts, b.impacts),
-        together=_together(a, b),
-        common_prefix=common_prefix(a.sequence, b.sequence),
-        errors=errors,
-        horizon=min(b.trusted_impacts, agreement_horizon(a, errors)),
-    )
+    with stage("comparing the tosses"):
+        errors = errors_of_impacts(b)
+        return Comparison(
+            scenario=described,
+            analytic=a,
+            mujoco=b,
+            differences=match(a.impacts, b.impacts),
+            together=_together(a, b),
+            common_prefix=common_prefix(a.sequence, b.sequence),
+            errors=errors,
+            horizon=min(b.trusted_impacts, agreement_horizon(a, errors)),
+        )
 
 
 def _together(a: Toss, b: Toss) -> Together:

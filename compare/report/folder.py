@@ -2,7 +2,6 @@
 
 import io
 import json
-from collections.abc import Callable
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -13,12 +12,12 @@ from compare.engines import EngineSettings
 from compare.metrics.comparison import Comparison, compare
 from compare.output import answer
 from compare.output.files import written_together
-from compare.output.progress import STILL_TOSSING, elapsed_time
 from compare.report.contents import FILES, OF_THE_FILM
 from compare.report.map_section import MapSection
 from compare.report.page import Film, Page, render, versions
 from models.records import Array, Toss
 from models.scenario import Scenario
+from models.stages import stage
 
 BEING_DRAWN = (
     "It is being drawn: reload this page when cointoss has ended. "
@@ -32,7 +31,6 @@ def write_report(
     name: str,
     folder: Path,
     no_video: str | None,
-    progress: Callable[[int, int], None],
     *,
     mujoco: EngineSettings | None = None,
     maps: MapSection | None = None,
@@ -48,7 +46,6 @@ def write_report(
         folder: where to write, made if missing; an earlier report there is replaced as a whole before the
             film is drawn.
         no_video: why no video can be drawn, or None.
-        progress: called after each frame of the video with their number so far and in all.
         mujoco: MuJoCo's settings, by default those of one toss.
         maps: what the report also shows.
 
@@ -60,8 +57,7 @@ def write_report(
         UnwritableError: naming the folder and why.
     """
     with written_together(folder, FILES) as aside:
-        with elapsed_time(STILL_TOSSING):
-            answered = compare(scenario, mujoco)
+        answered = compare(scenario, mujoco)
         comparison = answered if isinstance(answered, Comparison) else None
         analytic, not_realisable = (comparison.analytic, None) if comparison else answered  # pyright: ignore
         tosses = [analytic, *([comparison.mujoco] if comparison else [])]
@@ -93,7 +89,8 @@ def write_report(
 
             settings = {"analytic": None, "mujoco": mujoco}
             shown = [followed(toss, settings[toss.engine]) for toss in tosses]
-            poster = write_video(shown, Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress)
+            with stage("drawing the film", "frames") as progress:
+                poster = write_video(shown, Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress)
             film = Film((aside / "toss.mp4").read_bytes(), _jpeg(poster))
             with_film = replace(page, film=film, no_video=None)
             (aside / "report.html").write_text(render(with_film), encoding="utf-8")

@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 Watch = Callable[[str, int, int], AbstractContextManager[run.Tossed]]
 """Called with a map's name, the pixels that it has, and how many it will have; gives what to tell of more."""
-Frames = Callable[[int, int], None]
-"""Called with the number of the video's frames that are drawn, and of all."""
 Say = Callable[[str], None]
 """Called with what is waited for."""
 
@@ -103,7 +101,7 @@ def _engines_of(job: Job) -> dict[Path, Engine]:
     return {job.out: job.engine or Engine.ANALYTIC} | ({} if job.engine else {second: Engine.MUJOCO})
 
 
-def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
+def make(job: Job, watch: Watch, say: Say) -> Iterator[str]:
     """Make what is asked for, and give the results as text, each as soon as it is there.
 
     Nothing is begun before all is checked that can be.
@@ -164,7 +162,6 @@ def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
             Path(job.source).stem,
             job.report,
             no_video,
-            frames,
             mujoco=replace(Engine.MUJOCO.package.FINE, contact=job.contact),
             maps=show.section(maps, list(sweeps.values()), job.style, _command(job)),
         )
