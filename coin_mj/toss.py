@@ -65,7 +65,8 @@ class MujocoRun(NamedTuple):
 def run(machine: Machine, rules: Rules) -> MujocoRun:
     """Toss the coin from its present state until the toss is decided."""
     room = np.zeros(FIRST_ROOM, IMPACT_ROW)
-    with air_of(machine.model), clock_stopped():
+    so_far = stage("a toss", detail=lambda: f"{machine.data.time:.3g} s of the coin's time")
+    with so_far, air_of(machine.model), clock_stopped():
         n, rows, knots, contacts, outcome, ending, end_time = toss_coin(
             machine.coin, machine.plastic, rules, machine.settings.budgets, room, True
         )

@@ -14,11 +14,11 @@ from models.stages import Stage, Stages, stages
 
 Progress = Callable[[int, int], None]
 """Called after each part of a job with the number of parts done so far and of all."""
-AFTER = 2.0
+AFTER = 3.0
 """What takes longer is shown on a terminal [s]."""
 FIRST, EVERY = 5.0, 10.0
 """A log has a line when nothing was said of a stage for as long, and then of each stage as often [s]."""
-INNER = 1.0
+INNER = 3.0
 """A stage within another is named when it has run for as long [s]."""
 PAUSE = 2.0
 """Functions that are compiled within such a time of each other are compiled at one go [s]."""
@@ -62,12 +62,13 @@ class Display:
                 self._show(self._compiled, self._compiled.seconds, self._compiling)
                 return
             self._tell_of_compiled()
-            if not self._work.open or self._work.open[0].seconds < INNER:
+            if not self._work.open or self._work.open[0].seconds < 1:
                 self._draw("")
                 return
             outer, *inner = list(self._work.open)
             visible = [outer, *(each for each in inner if each.seconds > INNER)]
-            self._show(visible[-1], outer.seconds, partial(self._working, visible))
+            subject = visible[-1] if outer.total is None else outer
+            self._show(subject, outer.seconds, partial(self._working, visible))
 
     def ended(self, stage: Stage) -> None:
         """Leave the bar of a stage whose parts were counted."""
