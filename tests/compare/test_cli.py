@@ -10,7 +10,6 @@ import subprocess
 import sys
 import time
 from importlib.metadata import version
-from io import StringIO
 from pathlib import Path
 from unittest.mock import patch
 
