@@ -94,6 +94,7 @@ def __getattr__(name: str) -> Any:
         hint = f" (did you mean {near[0]}?)" if near else ""
         raise AttributeError(f"cointoss has no {name}; accepted: {', '.join(__dir__())}{hint}")
     _require_siblings()
+    import_module("compare.output.progress")  # What takes long says so in a terminal or a notebook.
     return import_module(name) if name in _PACKAGES else getattr(import_module(_HOMES[name]), name)
 
 

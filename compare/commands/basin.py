@@ -126,7 +126,6 @@ def basin(
     with plain_errors(scenario):
         from compare.basins.picture_style import DPI, Palette, PictureStyle
         from compare.engines import Engine
-        from compare.output.progress import bar
         from compare.sweep.job import Job, make
         from models.reading import scenario_text
 
@@ -150,15 +149,14 @@ def basin(
             report=report,
             no_video=no_video,
         )
-        with bar("video", "frames") as progress:
-            for result in make(job, _watched, progress, say):
-                click.echo(result)
+        for result in make(job, _watched, say):
+            click.echo(result)
 
 
 @contextmanager
 def _watched(name: str, done: int, count: int) -> Iterator[Callable[[int], None]]:
-    """Yield a function to report tosses to; show their number, rate and time left on the terminal."""
-    from compare.output.progress import bar
+    """Yield a function to report tosses to, which shows how many there are."""
+    from models.stages import stage
 
     kept = done
 
@@ -168,8 +166,7 @@ def _watched(name: str, done: int, count: int) -> Iterator[Callable[[int], None]
         progress(kept, count)
 
     try:
-        with bar(name, "tosses", done=done) as progress:
-            progress(kept, count)
+        with stage(name, "tosses", total=count, done=done) as progress:
             yield more
     except Interruption as interruption:
         interruption.message = f"{name}: {kept} of {count} tosses are saved; --resume continues"

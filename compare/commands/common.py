@@ -93,7 +93,7 @@ def plain_errors(source: str) -> Iterator[None]:
     """Turn the errors of bad input into one line and exit status 2, and warnings into one line each."""
     from compare.film.back_end import BackEndError
     from compare.output.files import UnwritableError
-    from compare.output.progress import compile_bar
+    from compare.output.progress import progress_shown
     from compare.sweep.errors import MapError, SweepError
     from models.errors import ScenarioError
     from models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
@@ -109,7 +109,7 @@ def plain_errors(source: str) -> Iterator[None]:
         else:
             show(message, category, *where, **extra)
 
-    with compile_bar(), warnings.catch_warnings():
+    with progress_shown(in_logs=True), warnings.catch_warnings():
         for kind in told:
             warnings.simplefilter("always", kind)
         show, warnings.showwarning = warnings.showwarning, report

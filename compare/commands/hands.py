@@ -73,7 +73,6 @@ def hands(
         from compare.engines import Engine
         from compare.film.back_end import require_mujoco
         from compare.metrics.first_side import TOUCHES, caught_side, first_side
-        from compare.output.progress import elapsed_time
         from compare.reproduction.estimates import share
         from models.errors import ScenarioError
         from models.hand import Hand
@@ -98,13 +97,12 @@ def hands(
             check_releases(described, start)
         except ValueError as error:
             refuse(f"{scenario}: {error}")
-        with elapsed_time("still tossing; fewer --tosses are sooner"):
-            if described.ending.caught is not None:
-                counted = {"caught": caught_side(described, start, Engine(engine))}
-            else:
-                found = first_side(described, start, Engine(engine))
-                counted = {f"touch {n + 1}": up for n, up in zip(TOUCHES, found.touches, strict=True)}
-                counted["at rest"] = found.at_rest
+        if described.ending.caught is not None:
+            counted = {"caught": caught_side(described, start, Engine(engine))}
+        else:
+            found = first_side(described, start, Engine(engine))
+            counted = {f"touch {n + 1}": up for n, up in zip(TOUCHES, found.touches, strict=True)}
+            counted["at rest"] = found.at_rest
         shares = {name: share(up) for name, up in counted.items() if len(up)}
         if as_json:
             told = {"hand": hand, "caught": described.ending.caught}

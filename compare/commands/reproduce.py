@@ -29,9 +29,9 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
     """
     from compare.film.back_end import drawing_problem, require_mujoco
     from compare.output.files import require_folder
-    from compare.output.progress import bar
     from compare.reproduction import gallery, printing, runner
     from compare.reproduction.claim import unexpected
+    from models.stages import stage
 
     with plain_errors("reproduce"):
         # Figures may hold stills: the back end is chosen before MuJoCo is imported.
@@ -63,7 +63,7 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
         width = min(shutil.get_terminal_size((100, 24)).columns, 120)
         failed = []
         for name in names:
-            with bar(name, "parts") as progress:
+            with stage(name, "parts") as progress:
                 result = runner.reproduce(name, out, progress, quick=quick)
             if name != names[0]:
                 click.echo()

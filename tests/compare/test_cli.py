@@ -11,7 +11,6 @@ import sys
 import time
 from dataclasses import replace
 from importlib.metadata import version
-from io import StringIO
 from pathlib import Path
 from unittest.mock import patch
 
@@ -27,7 +26,6 @@ from compare.film.drawing import Drawer
 from compare.film.encodings import ENCODINGS, Format
 from compare.output.answer import as_lines, contact_line
 from compare.output.files import UnwritableError, require_file, write_text
-from compare.output.progress import bar
 from compare.report.contents import FILES
 from models.reading import load, named_scenarios, scenario_text
 from models.scenario import Scenario
@@ -535,23 +533,6 @@ def test_a_back_end_that_is_none_is_one_line_and_exit_status_2(tmp_path, command
     assert len(done.stderr.splitlines()) == 1
     assert "accepted as MUJOCO_GL: egl" in done.stderr
     assert list(tmp_path.iterdir()) == []
-
-
-def test_progress_is_a_bar_on_a_terminal_alone(monkeypatch):
-    shown = StringIO()
-    monkeypatch.setattr("sys.stderr", shown)
-    with bar("video", "frames") as progress:
-        progress(1, 2)
-    assert shown.getvalue() == ""
-    monkeypatch.setattr(shown, "isatty", lambda: True)
-    with bar("video", "frames"):
-        pass
-    assert shown.getvalue() == ""
-    with bar("video", "frames", done=1) as progress:
-        for done in (1, 2, 4):
-            progress(done, 4)
-    assert shown.getvalue().startswith("\rvideo:  25%|")
-    assert "4.00/4.00" in shown.getvalue().splitlines()[-1]
 
 
 def test_a_film_that_cannot_be_written_is_one_line(tmp_path, short):
