@@ -65,10 +65,9 @@ def write_report(
             from compare.film.encodings import SMALL
             from compare.film.video import write_video
 
+            filmed = comparison.filmed()
             with stage("drawing the film", "frames") as progress:
-                poster = write_video(
-                    comparison.filmed(), Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress
-                )
+                poster = write_video(filmed, Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress)
             film = Film((aside / "toss.mp4").read_bytes(), _jpeg(poster))
             with_film = replace(page, film=film, no_video=None)
             (aside / "report.html").write_text(render(with_film), encoding="utf-8")
