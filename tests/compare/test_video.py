@@ -19,7 +19,7 @@ from compare.film.play import SHOWN_FOR, WEAKEST, play_of
 from compare.film.slow_motion import FAST, LONGEST, SLOW, SLOW_FOR, WEAK, film_times
 from compare.film.video import HELD, frame_count, frames, write_video
 from compare.film.visual_model import build_visual_model
-from models.records import Outcome
+from models.records import Ending, Outcome
 from tests.helpers.draws import ZLOTY, scenario
 from tests.helpers.films import FLAT, TURNED, UPRIGHT, MadePath, Written, drawn, film_written, made, shown
 
@@ -228,6 +228,15 @@ def test_a_force_is_an_arrow_as_long_as_the_contact_lasts():
     seen = [green(picture).sum() for picture in pictures]
     assert seen[0] == seen[2] == 0
     assert seen[1] > 10
+
+
+@pytest.mark.parametrize("end", [Ending.LYING, Ending.STANDING, Ending.AT_REST])
+def test_the_floor_shows_no_action_on_a_coin_that_is_still(end):
+    path = MadePath(position=(0, 0, 0.001), force=(0, 0, np.nan))
+    toss = made(path, impacts=[(0.99, 1e-3)], contacts=[(0.995, 1.0)], ending=end)
+    play = play_of(shown(toss), np.array([1.0, 1.1]))
+    assert not play.forces.any()
+    assert play.impulses(0) == play.impulses(1) == []
 
 
 # Words.
