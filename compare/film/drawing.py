@@ -13,6 +13,7 @@ import mujoco
 import numpy as np
 
 from compare.film.play import Play
+from compare.film.shadow import add_shadow
 from compare.film.visual_model import build_visual_model
 from models.records import Array, Ending
 
@@ -35,9 +36,6 @@ MARGIN = 1.1
 """A camera at rest sees so many times what it must."""
 FIELD_OF_VIEW = 40.0
 """Of coin.xml's cameras, up and down [deg]."""
-
-NO_SHADOW = mujoco.mjtCatBit.mjCAT_DECOR
-"""What is decoration casts no shadow; the floor's own would be specks of rounding."""
 
 Color = tuple[float, float, float]
 
@@ -98,7 +96,6 @@ class Drawer:
         self._model.vis.global_.offwidth, self._model.vis.global_.offheight = width, height
         self._model.vis.quality.offsamples = samples if samples > 1 else 0
         self._data = mujoco.MjData(self._model)
-        self._light_distance = 10 * r
         self._trail_times = np.linspace(0, play.toss.end_time, TRAIL_CORNERS)
         self._trail = play.toss.sample(self._trail_times).position
         self._renderer = mujoco.Renderer(self._model, height, width)
@@ -115,14 +112,11 @@ class Drawer:
         """Draw the picture at one of the times, (height, width, 3) of uint8."""
         position = self._play.states.position[i]
         self._data.qpos[:] = self._play.qpos(i)
-        # The light moves with the coin: the map of its shadow is small, and so fine.
-        light = self._model.light("sun")
-        light.pos[:] = position - self._light_distance * light.dir
         mujoco.mj_forward(self._model, self._data)
         if self._follows:
             self._camera.lookat[:] = position
         self._renderer.update_scene(self._data, self._camera)
-        self._renderer.scene.geoms[self._model.geom("floor").id].category = NO_SHADOW
+        add_shadow(self._renderer.scene, self._data, self._play.toss.scenario.coin)
         if not self._follows:
             self._add_trail(i)
         self._add_hand(i)
@@ -184,7 +178,6 @@ class Drawer:
             rgba = np.array([*color, alpha], np.float32)
             mujoco.mjv_initGeom(geom, kind, np.zeros(3), np.zeros(3), np.eye(3).ravel(), rgba)
             mujoco.mjv_connector(geom, kind, thickness, start, end)
-            geom.category = NO_SHADOW
             scene.ngeom += 1
 
 

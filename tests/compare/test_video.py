@@ -16,6 +16,7 @@ from compare.film.captions import caption_of, written
 from compare.film.drawing import LONGEST_FAR, LONGEST_NEAR, MARGIN, Box, Camera, Drawer, box_of
 from compare.film.encodings import FULL, SMALL, Format
 from compare.film.play import SHOWN_FOR, WEAKEST, play_of
+from compare.film.shadow import add_shadow
 from compare.film.slow_motion import FAST, LONGEST, SLOW, SLOW_FOR, WEAK, film_times
 from compare.film.video import HELD, frame_count, frames, write_video
 from compare.film.visual_model import build_visual_model
@@ -112,6 +113,25 @@ def test_the_face_that_is_up_shows_its_colour(thickness, quaternion, color):
     # Of the disc a ring of 12 % and a letter of 10 to 15 % have other colours; some pixels hold several.
     disc = np.pi * (48 * R / (4 * R * MARGIN)) ** 2
     assert color(picture).sum() / disc == pytest.approx(0.76, abs=0.1)
+
+
+def test_a_shadow_is_what_the_coin_hides_of_the_light_from_above():
+    case, rng = scenario(coin={"center_of_mass": [1e-3, -2e-3, 2e-4]}), np.random.default_rng(1)
+    model = build_visual_model(case, extent=1.0, tile=0.1)
+    data, scene = mujoco.MjData(model), mujoco.MjvScene(model, maxgeom=1)
+    turns = np.linspace(0, 2 * np.pi, 721)
+    R_, H = ZLOTY["radius"], ZLOTY["thickness"]
+    rims = [[R_ * np.cos(a), R_ * np.sin(a), z] for a in turns for z in (-H / 2, H / 2)]
+    for quaternion in (FLAT, UPRIGHT, *rng.normal(size=(5, 4))):
+        data.qpos[:] = [0.3, -0.2, 0.5, *quaternion / np.linalg.norm(quaternion)]
+        mujoco.mj_forward(model, data)
+        scene.ngeom = 0
+        add_shadow(scene, data, case.coin)
+        shadow = scene.geoms[0]
+        assert shadow.pos == pytest.approx([0.3, -0.2, 0])
+        axes = shadow.mat[:2, :2]
+        below = (rims @ data.body("coin").xmat.reshape(3, 3).T)[:, :2] @ axes
+        assert np.abs(below).max(axis=0) == pytest.approx(shadow.size[:2], rel=1e-4)
 
 
 def test_the_faces_and_their_letters_differ_in_brightness_too():
