@@ -71,9 +71,7 @@ def box_of(plays: Sequence[Play]) -> Box:
 class Drawer:
     """Draws one toss; it holds an OpenGL context until its `with` statement ends."""
 
-    def __init__(
-        self, play: Play, camera: Camera, box: Box, *, height: int, width: int, samples: int = 2
-    ) -> None:
+    def __init__(self, play: Play, camera: Camera, box: Box, *, height: int, width: int) -> None:
         """Prepare to draw.
 
         Args:
@@ -82,7 +80,6 @@ class Drawer:
             box: what a camera at rest sees.
             height: of the pictures [pixels].
             width: of the pictures [pixels].
-            samples: of each pixel.
         """
         scenario, r = play.toss.scenario, play.toss.scenario.coin.radius
         self._play = play
@@ -94,7 +91,6 @@ class Drawer:
         if self._camera.orthographic:
             self._model.vis.global_.fovy = view
         self._model.vis.global_.offwidth, self._model.vis.global_.offheight = width, height
-        self._model.vis.quality.offsamples = samples if samples > 1 else 0
         self._data = mujoco.MjData(self._model)
         self._trail_times = np.linspace(0, play.toss.end_time, TRAIL_CORNERS)
         self._trail = play.toss.sample(self._trail_times).position

@@ -30,8 +30,9 @@ def build_visual_model(scenario: Scenario, *, extent: float, tile: float) -> muj
     spec.stat.extent = extent
     # In extents: what is nearer to the camera is not drawn.
     spec.visual.map.znear = min(0.01, r / extent)
-    # A map of shadows takes half the time of a picture: see `add_shadow`.
+    # What is not seen takes time: a map of shadows (see `add_shadow`), and facets smaller than a pixel.
     spec.light("sun").castshadow = False
+    spec.visual.quality.numslices, spec.visual.quality.numstacks = 48, 2
     spec.material("floor").texrepeat = (0.5 / tile, 0.5 / tile)
     body = spec.body("coin")
     skin = max(0.04 * half, 0.004 * r)

@@ -14,7 +14,7 @@ import pytest
 
 from compare.film.captions import caption_of, written
 from compare.film.drawing import LONGEST_FAR, LONGEST_NEAR, MARGIN, Box, Camera, Drawer, box_of
-from compare.film.encodings import FULL, SMALL, Format
+from compare.film.encodings import Format
 from compare.film.play import SHOWN_FOR, WEAKEST, play_of
 from compare.film.shadow import add_shadow
 from compare.film.slow_motion import FAST, LONGEST, SLOW, SLOW_FOR, WEAK, film_times
@@ -74,17 +74,6 @@ def test_the_film_is_not_slowed_down_for_weak_impacts_which_show_no_arrow():
     times, speeds = film_times([shown(toss)], 60)
     assert min(speeds[times > 0.5]) == pytest.approx(FAST, rel=1e-12)
     assert [len(play_of(shown(toss), np.array([t])).impulses(0)) for t in (0.301, 0.601, 0.801)] == [1, 1, 0]
-
-
-def test_only_the_film_of_a_page_leaves_the_border_jagged():
-    """With more samples of a pixel its colours mix along the coin's border."""
-    toss = made(MadePath(position=(0, 0, 0.1)))
-    colors = []
-    for form in (FULL, SMALL):
-        still = form._replace(width=160, height=120, frames_per_second=2)
-        picture = next(frames([shown(toss)], Camera.CLOSE_UP, still))
-        colors.append(len(np.unique(picture[:100].reshape(-1, 3), axis=0)))
-    assert colors[0] > 1.1 * colors[1]
 
 
 @pytest.mark.parametrize("impacts", [0, 2000])
