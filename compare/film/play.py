@@ -42,7 +42,7 @@ class Play:
     states: States
     """At these times, (n,)."""
     forces: Array
-    """Of the floor in sustained contacts, 0 elsewhere and where the coin is still, space frame, (n, 3) [N]."""
+    """Of the floor in sustained contacts; elsewhere, and on a still coin, 0; space frame, (n, 3) [N]."""
     largest_impulse: float
     """Of the toss [N s]."""
 

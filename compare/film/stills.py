@@ -38,7 +38,7 @@ def stills(scenario: Scenario, states: States) -> Stills | str:
     positions = states.position
     low, high = positions.min(axis=0), positions.max(axis=0)
     span = float(np.linalg.norm(high - low)) + 4 * body.radius
-    model = build_visual_model(scenario, extent=4 * span, tile=2 * body.radius)
+    model = build_visual_model(scenario, extent=span, tile=2 * body.radius)
     data = mujoco.MjData(model)
     camera = mujoco.MjvCamera()
     camera.lookat[:] = (low + high) / 2
