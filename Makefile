@@ -14,7 +14,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # What does not wait for each other is made side by side.
 MAKEFLAGS += --jobs=2
 
-.PHONY: report test test-all bench docs lint opengl chromium compiled clean
+.PHONY: report test test-all bench docs pages lint opengl chromium compiled clean
 
 report: $(READY) opengl compiled
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
@@ -37,6 +37,10 @@ docs: $(VENV)/.ready-docs chromium compiled $(MADE)/pages/explorer.html
 	rm -rf out/site
 	$(BIN)/sphinx-build -q -W --keep-going -d $(MADE)/doctrees docs out/site
 	$(BIN)/pytest tests/site
+
+# What docs/ has that is made of other files there: nothing is computed.
+pages: $(READY)
+	$(BIN)/python docs/extensions/written.py
 
 $(MADE)/pages/explorer.html: $(READY) $(CODE) docs/conf.py | compiled
 	rm -rf $(MADE)

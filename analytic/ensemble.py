@@ -4,6 +4,7 @@ import numpy as np
 
 from analytic.events import toss_coin
 from analytic.settings import MANY, Settings, contact_limits
+from models.errors import require_type
 from models.kernel.compiled import compiled
 from models.outcomes import Outcomes
 from models.reading import ScenarioSource, scenario_of
@@ -29,6 +30,7 @@ def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Setting
     Raises:
         ValueError: for a release that a scenario with this coin and air would refuse.
     """
+    require_type("settings", settings, Settings, "analytic.Settings, such as analytic.MANY")
     described = scenario_of(scenario)
     check_releases(described, releases)
     body, rules = described.body, described.rules

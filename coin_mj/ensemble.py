@@ -14,6 +14,7 @@ from coin_mj.model.scene import shape_thickness
 from coin_mj.model.settings import MANY, Settings
 from coin_mj.model.state import put_at
 from coin_mj.toss import require_supported, warn_of_approximation
+from models.errors import require_type
 from models.kernel.compiled import compiled
 from models.outcomes import Outcomes
 from models.reading import ScenarioSource, scenario_of
@@ -46,6 +47,7 @@ def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Setting
     Warns:
         ApproximationWarning: as `toss`.
     """
+    require_type("settings", settings, Settings, "coin_mj.Settings, such as coin_mj.MANY")
     described = scenario_of(scenario)
     require_supported(described, settings=settings)
     warn_of_approximation(described)

@@ -19,6 +19,7 @@ from coin_mj.model.settings import FINE, ROUGH, Friction, Realisation, Settings
 from coin_mj.path import Knots
 from models.body import Body, Rules
 from models.certificate import energies, measurements
+from models.errors import require_type
 from models.impact_row import FIRST_ROOM
 from models.interruptible import interruptible
 from models.kernel.vectors import Vector, cross, subtract
@@ -79,13 +80,13 @@ def require_supported(scenario: Scenario, *, settings: Settings) -> None:
     """
     floor = scenario.floor
     if floor.contact not in REALISABLE:
-        accepted = ", ".join(f'"{law.label}"' for law in REALISABLE)
+        accepted = ", ".join(f'"{law}"' for law in REALISABLE)
         raise UnsupportedError(
-            f'floor.contact = "{floor.contact.label}": accepted by the MuJoCo engine: {accepted}'
+            f'floor.contact = "{floor.contact}": accepted by the MuJoCo engine: {accepted}'
         )
     if floor.restitution_kind != RestitutionKind.KINEMATIC:
         raise UnsupportedError(
-            f'floor.restitution_kind = "{floor.restitution_kind.label}": accepted by the MuJoCo engine: '
+            f'floor.restitution_kind = "{floor.restitution_kind}": accepted by the MuJoCo engine: '
             '"kinematic" (its contacts prescribe how the normal speed changes, whatever the work)'
         )
     for name in RESISTANCES if settings.friction == Friction.NATIVE else ():
@@ -124,6 +125,7 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     Warns:
         ApproximationWarning: for a perfectly rough floor, which is one of friction `ROUGH`.
     """
+    require_type("settings", settings, Settings, "coin_mj.Settings, such as coin_mj.FINE")
     described = scenario_of(scenario)
     require_supported(described, settings=settings)
     warn_of_approximation(described)

@@ -15,7 +15,7 @@ author = copyright = "The cointoss authors"
 version = release = version_of("cointoss")
 root_doc = "index"
 extensions = ["myst_nb", "sphinx_design", "sphinx.ext.autodoc", "docstrings", "pages"]
-exclude_patterns = ["extensions", "reproduction"]
+exclude_patterns = ["extensions"]
 # Quotes stay as they are written.
 smartquotes_action = "D"
 nitpicky = True

@@ -23,6 +23,16 @@ class FieldError(ValueError):
         self.field, self.value, self.accepted = field, value, accepted
 
 
+def require_type(name: str, value: object, kind: type, accepted: str) -> None:
+    """Refuse an argument of another type.
+
+    Raises:
+        TypeError: naming the argument, its type and what is accepted.
+    """
+    if not isinstance(value, kind):
+        raise TypeError(f"{name}: of type {type(value).__name__}, accepted: {accepted}")
+
+
 def describe(error: ValidationError, model: type[BaseModel]) -> str:
     """Return what is wrong in one line: the first field, its value, what is accepted, and which others fail.
 

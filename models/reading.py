@@ -9,6 +9,7 @@ from pydantic import ValidationError
 
 from models.errors import ScenarioError, describe
 from models.scenario import Scenario
+from models.unused import warn_of_unused_fields
 
 ScenarioSource = Scenario | str | PathLike[str]
 """A scenario, the path of its file, or the name of one that comes with the package."""
@@ -36,8 +37,14 @@ def scenario_text(source: str | PathLike[str]) -> str:
     """Give the text of a scenario file, or of a scenario of the package by its name.
 
     Raises:
-        ScenarioError: if there is no such file or it can't be read as text.
+        ScenarioError: if there is no such file, it can't be read as text, or `source` is of another type.
     """
+    if not isinstance(source, str | PathLike):
+        way_out = "; Scenario(**tables) makes one of a dict" if isinstance(source, dict) else ""
+        raise ScenarioError(
+            f"scenario: of type {type(source).__name__}, accepted: a Scenario, the path of its file, or a "
+            f"name such as fig24a{way_out}"
+        )
     names = named_scenarios()
     path, source = Path(source), str(source)
     try:
@@ -74,8 +81,13 @@ def load(source: str | PathLike[str]) -> Scenario:
 
     Raises:
         ScenarioError: naming file, field, value and what is accepted.
+
+    Warns:
+        UnusedFieldWarning: for a field that nothing uses.
     """
-    return parse(scenario_text(source), str(source))
+    scenario = parse(scenario_text(source), str(source))
+    warn_of_unused_fields(scenario)
+    return scenario
 
 
 def parse(text: str, source: str) -> Scenario:

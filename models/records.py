@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
-from enum import IntEnum, StrEnum
+from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -11,11 +11,15 @@ from numpy.typing import ArrayLike, NDArray
 from models import notebook
 from models.interruptible import interruptible
 from models.labelled import AXES, Column, dataset, meanings_of, table
+from models.plots import axes_or_new, draw_height
 from models.scenario import Scenario
+from models.words import Word
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+
+    from models.plots import Axes
 
 Array = NDArray[np.float64]
 
@@ -24,7 +28,7 @@ _DRAWN = 600
 """Times at which a path is drawn."""
 
 
-class Face(IntEnum):
+class Face(Word):
     """The face that is up. Heads is the face ζ = +h/2; it is up when n_z > 0, eq. (4)."""
 
     HEADS = 1
@@ -35,13 +39,8 @@ class Face(IntEnum):
         """H or T."""
         return self.name[0]
 
-    @property
-    def label(self) -> str:
-        """The face's name in answers."""
-        return self.name.lower()
 
-
-class Outcome(IntEnum):
+class Outcome(Word):
     """How the coin lies in the end."""
 
     UNDECIDED = 0
@@ -50,13 +49,8 @@ class Outcome(IntEnum):
     EDGE = 3
     PERPETUAL = 4
 
-    @property
-    def label(self) -> str:
-        """The outcome's name in answers."""
-        return self.name.lower()
 
-
-class Ending(IntEnum):
+class Ending(Word):
     """Why a toss stopped."""
 
     NONE = 0
@@ -76,11 +70,6 @@ class Ending(IntEnum):
     ROLLING = 14
     CAUGHT = 15
     NOT_CAUGHT = 16
-
-    @property
-    def label(self) -> str:
-        """The ending's name in answers."""
-        return self.name.lower()
 
     @property
     def sentence(self) -> str:
@@ -200,7 +189,7 @@ class Impacts:
         return table("impact", self._columns())
 
     def _columns(self) -> dict[str, Column]:
-        faces = meanings_of({face.value: face.label for face in Face})
+        faces = meanings_of({face.value: str(face) for face in Face})
         number = Column(np.arange(1, len(self) + 1), {"long_name": "impact"})
         return {
             "impact": number,
@@ -348,7 +337,7 @@ class Toss:
         """Return how the toss ended, and the faces up at its touches."""
         sequence = notebook.shortened(notebook.with_bar(self.sequence, self.trusted_impacts))
         return (
-            f"<Toss by {self.engine}: {self.outcome.label}, {self.ending.label} at {self.end_time:.6g} s; "
+            f"<Toss by {self.engine}: {self.outcome}, {self.ending} at {self.end_time:.6g} s; "
             f"{len(self.impacts)} impacts: {sequence}>"
         )
 
@@ -357,18 +346,18 @@ class Toss:
         times = np.linspace(0, self.end_time, _DRAWN)
         heights = self.sample(times).position[:, 2]
         impacts, trusted = self.impacts, self.trusted_impacts
-        labels = [Face(face).label for face in impacts.face]
+        labels = [str(Face(face)) for face in impacts.face]
         touches = list(zip(impacts.time.tolist(), impacts.position[:, 2].tolist(), labels, strict=True))
         sequence = notebook.with_bar(self.sequence, trusted)
         return notebook.block(
-            f"{self.outcome.label}, by the engine {self.engine}",
+            f"{self.outcome}, by the engine {self.engine}",
             notebook.path_picture(
                 zip(times.tolist(), heights.tolist(), strict=True),
                 touches,
                 float(impacts.time[trusted]) if trusted < len(impacts) else None,
             ),
             {
-                "ending": f"{self.ending.label}: {self.ending.sentence}",
+                "ending": f"{self.ending}: {self.ending.sentence}",
                 "end": f"{self.end_time:.6g} s, after {len(impacts)} impacts",
                 "sequence": notebook.shortened(sequence),
                 "trusted": f"{trusted} impacts" + ("" if trusted >= len(impacts) else ", before the bar"),
@@ -382,8 +371,8 @@ class Toss:
         """
         about = {
             "engine": self.engine,
-            "outcome": self.outcome.label,
-            "ending": self.ending.label,
+            "outcome": str(self.outcome),
+            "ending": str(self.ending),
             "end_time": self.end_time,
             "trusted_impacts": self.trusted_impacts,
             "sequence": self.sequence,
@@ -394,28 +383,21 @@ class Toss:
         """Return the impacts as a table of pandas, a row each."""
         return self.impacts.to_dataframe()
 
-    def plot(self, **options: Any) -> Any:
+    def plot(self, ax: "Axes | None" = None, **line: Any) -> "Axes":
         """Plot the height of the mass centre over time, marked where the coin touches the floor.
 
         Args:
-            options: of xarray's line plot, such as `ax`, `figsize` or `color`.
+            ax: where to draw, by default in a new figure of pyplot.
+            line: of matplotlib's line, such as `color` or `label`.
 
         Returns:
-            Matplotlib's axes.
+            The axes.
         """
-        states = self.sample(np.linspace(0, self.end_time, _DRAWN)).to_xarray()
-        height = (
-            states["position"].sel(axis="z", drop=True).assign_attrs(long_name="height of the mass centre")
-        )
-        (line, *_) = height.plot.line(**options)
-        impacts, axes = self.impacts, line.axes
-        for face in Face:
-            up = impacts.face == face
-            color = notebook.COLORS[face.label]
-            label = f"{face.label} up at the touch"
-            axes.plot(impacts.time[up], impacts.position[up, 2], "o", color=color, label=label)
-        axes.set_title(f"{self.outcome.label}, by the engine {self.engine}")
-        axes.legend()
+        times, impacts, axes = np.linspace(0, self.end_time, _DRAWN), self.impacts, axes_or_new(ax)
+        up = {str(face): impacts.face == face for face in Face}
+        touches = {face: (impacts.time[one], impacts.position[one, 2]) for face, one in up.items()}
+        draw_height(axes, (times, self.sample(times).position[:, 2]), touches, **line)
+        axes.set_title(f"{self.outcome}, by the engine {self.engine}")
         return axes
 
     def sample(self, times: ArrayLike) -> States:

@@ -35,16 +35,16 @@ from models.inertia import (
 from models.kernel.vectors import Matrix, Vector
 from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.units import in_si
+from models.words import Word
+from models.writing import toml
 
 
-def _named(kind: type[ContactLaw | EndingTest | RestitutionKind]) -> Callable[[Any], Any]:
+def _named(kind: type[Word]) -> Callable[[Any], Any]:
     def member(value: Any) -> Any:
-        if isinstance(value, kind):
-            return value
         for item in kind:
-            if value == item.label:
+            if isinstance(value, str | kind) and value == item:
                 return item
-        raise ValueError("one of " + ", ".join(f'"{item.label}"' for item in kind))
+        raise ValueError("one of " + ", ".join(f'"{item}"' for item in kind))
 
     return member
 
@@ -245,8 +245,8 @@ class Floor(_Part):
         if self.restitution_kind == RestitutionKind.ENERGETIC and self.contact != ContactLaw.COULOMB:
             raise FieldError(
                 "restitution_kind",
-                self.restitution_kind.label,
-                f'"kinematic" with contact = "{self.contact.label}"; "energetic" only with "coulomb"',
+                str(self.restitution_kind),
+                f'"kinematic" with contact = "{self.contact}"; "energetic" only with "coulomb"',
             )
         return self
 
@@ -254,11 +254,11 @@ class Floor(_Part):
     def _resistance_of_a_law_in_contact(self) -> Self:
         for name in RESISTANCES:
             if getattr(self, name) > 0 and self.contact not in _IN_CONTACT:
-                accepted = ", ".join(f'"{law.label}"' for law in _IN_CONTACT)
+                accepted = ", ".join(f'"{law}"' for law in _IN_CONTACT)
                 raise FieldError(
                     name,
                     getattr(self, name),
-                    f'0 with contact = "{self.contact.label}", which is not followed into sustained contact; '
+                    f'0 with contact = "{self.contact}", which is not followed into sustained contact; '
                     f"a length with {accepted}",
                 )
         return self
@@ -419,6 +419,10 @@ class Scenario(_Part):
         """Return the scenario as a file has it: numbers in SI, lists, words for what has a name."""
         return _as_in_a_file(self.model_dump(exclude_none=True))
 
+    def to_toml(self) -> str:
+        """Return the text of a scenario file, defaults included, that `parse` reads as this very scenario."""
+        return toml(self.as_tables())
+
     @cached_property
     def body(self) -> Body:
         """The coin in its air and gravity, for compiled code."""
@@ -469,7 +473,7 @@ def _as_in_a_file(value: Any) -> Any:
         return {name: _as_in_a_file(entry) for name, entry in value.items()}
     if isinstance(value, tuple):
         return [_as_in_a_file(entry) for entry in value]
-    return value.label if isinstance(value, ContactLaw | EndingTest | RestitutionKind) else value
+    return str(value) if isinstance(value, Word) else value
 
 
 def _rows(M: NDArray[np.floating]) -> Matrix:

@@ -5,6 +5,7 @@ import shlex
 from contextlib import redirect_stdout
 from dataclasses import dataclass
 from io import StringIO
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -22,8 +23,11 @@ PAGES = [TOP / "README.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("howto
 NOTEBOOKS = sorted(DOCS.glob("examples/*.md"))
 MOST_TOSSES = 150_000
 """Of a map that is made here; where the page shows an answer, it takes a second or two."""
+MOST_TOSSES_BY_BOTH = 5_000
 FEW = 20
 """Of an axis of a map whose answer no page shows: a coin that bounces on and on takes minutes for all."""
+WRITES = ("--out", "--png", "--static", "--report", "--poster", "--trajectory")
+"""Options that name what a command writes."""
 PLACEHOLDER = re.compile(r"\[|\.\.\.|\b(?!T\b|H+\b)[A-Z]{2,}\b(?![-.\w]*[a-z])")
 """What a line of a synopsis has and a command that can be run has not."""
 
@@ -79,8 +83,9 @@ def options(command: click.Command) -> set[str]:
 def runs_here(words: list[str]) -> bool:
     """Tell whether a command takes but a few seconds and needs nothing but a folder."""
     tosses = [int(count) for count in re.findall(r"=[^ ]*:(\d+)\b", " ".join(words))]
-    few = len(tosses) == 2 and tosses[0] * tosses[1] <= MOST_TOSSES
-    slow = {"--engine", "--compare", "--scheduler", "--resume", "--margin"}
+    most = MOST_TOSSES_BY_BOTH if "--compare" in words else MOST_TOSSES
+    few = len(tosses) == 2 and tosses[0] * tosses[1] <= most
+    slow = {"--engine", "--scheduler", "--resume", "--margin"}
     return words[0] == "toss" or (words[0] == "basin" and few and not slow & set(words))
 
 
@@ -154,6 +159,34 @@ def is_same(shown: list[str], told: list[str]) -> bool:
 
 def is_number(text: str) -> bool:
     return re.fullmatch(r"[-+]?\d+(\.\d*)?(e[-+]?\d+)?", text) is not None
+
+
+def test_each_command_of_the_pages_writes_to_a_name_of_its_own():
+    """Followed one after the other in one folder, no command is refused what another has written."""
+    named = []
+    for page in PAGES:
+        for block in written(page):
+            for command in commands(block.text):
+                words = shlex.split(command)
+                if not is_synopsis(command) and words[1] != "reproduce":
+                    named += [new for option, new in pairwise(words) if option in WRITES]
+    assert len(named) > 8
+    assert sorted(named) == sorted(set(named))
+
+
+def test_no_two_pages_have_one_heading():
+    pages = [page for page in DOCS.rglob("*.md") if page.name not in ("index.md", "OVERVIEW.md")]
+    headings = [re.findall(r"^# (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE)[0] for page in pages]
+    assert sorted(headings) == sorted(set(headings))
+
+
+def test_no_line_of_a_page_is_a_comment_or_a_break_to_the_site():
+    """MyST drops a line that begins with a per cent sign, which GitHub shows."""
+    pages = [*PAGES, *NOTEBOOKS, *DOCS.glob("reproduction/*/*.md")]
+    dropped = re.compile(r"^ {0,3}(?:%|\+\+\+).*", re.MULTILINE)
+    assert [(page.name, dropped.findall(page.read_text(encoding="utf-8"))) for page in pages] == [
+        (page.name, []) for page in pages
+    ]
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda page: page.stem)

@@ -36,11 +36,12 @@ def plain_errors(source: str) -> Iterator[None]:
     from compare.sweep.errors import MapError, SweepError
     from models.errors import ScenarioError
     from models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
+    from models.unused import UnusedFieldWarning
 
-    reported = set()
+    told, reported = (ApproximationWarning, UnusedFieldWarning), set()
 
     def report(message: Warning | str, category: type[Warning], *where: Any, **extra: Any) -> None:
-        if issubclass(category, ApproximationWarning):
+        if issubclass(category, told):
             if str(message) not in reported:
                 say(f"{source}: {message}")
             reported.add(str(message))
@@ -48,7 +49,8 @@ def plain_errors(source: str) -> Iterator[None]:
             show(message, category, *where, **extra)
 
     with compile_bar(), warnings.catch_warnings():
-        warnings.simplefilter("always", ApproximationWarning)
+        for kind in told:
+            warnings.simplefilter("always", kind)
         show, warnings.showwarning = warnings.showwarning, report
         try:
             yield

@@ -24,9 +24,11 @@ def compare(scenario: str, out: Path | None, no_video: bool) -> None:
     with plain_errors(scenario):
         from compare.report.contents import NOT_ASKED, require_folder
         from models.reading import parse, scenario_text
+        from models.unused import warn_of_unused_fields
 
         text = scenario_text(scenario)
         described = parse(text, scenario)
+        warn_of_unused_fields(described)
         name = Path(scenario).stem
         folder = out or Path(f"{name}-report")
         require_folder(folder, scenario)
@@ -35,9 +37,12 @@ def compare(scenario: str, out: Path | None, no_video: bool) -> None:
 
         problem = NOT_ASKED if no_video else drawing_problem()
 
-        from compare.output.progress import bar
+        from compare.output.progress import STILL_TOSSING, bar, elapsed_time
+        from compare.report.comparison import compared
         from compare.report.folder import write_report
 
+        with elapsed_time(STILL_TOSSING):
+            both = compared(described, text, Path(scenario).stem)
         with bar("video", "frames") as progress:
-            page = write_report(described, text, name, folder, problem, progress)
+            page = write_report(both, folder, problem, progress)
         click.echo(page)

@@ -79,11 +79,11 @@ def caption_of(play: Play, i: int) -> Caption:
     height = 100 * states.position[i, 2]
     lines = [Line(f"{count} impact{'' if count == 1 else 's'}, height {height:.1f} cm")]
     outcome = {Face.HEADS: Outcome.HEADS, Face.TAILS: Outcome.TAILS}[face_up(states.normal[i, 2])]
-    label = f"{outcome.label} up"
+    label = f"{outcome} up"
     told = play.filmed.toss
     if play.times[i] >= told.end_time:
-        outcome, label = told.outcome, told.outcome.label
-        how = _ENDED.get(told.ending, f"ended: {told.ending.label.replace('_', ' ')},")
+        outcome, label = told.outcome, str(told.outcome)
+        how = _ENDED.get(told.ending, f"ended: {str(told.ending).replace('_', ' ')},")
         at_last = told is not toss and play.times[i] == toss.end_time
         then = f", {_ENDED.get(toss.ending, 'still moves')}" if at_last else ""
         lines.append(Line(f"{how} at {told.end_time:.3f} s{then}"))

@@ -43,8 +43,8 @@ def as_json(toss: Toss) -> dict[str, Any]:
     return {
         "engine": toss.engine,
         "sequence": toss.sequence,
-        "outcome": toss.outcome.label,
-        "ending": toss.ending.label,
+        "outcome": str(toss.outcome),
+        "ending": str(toss.ending),
         "end_time": toss.end_time,
         "trusted_impacts": toss.trusted_impacts,
         "impacts": [
@@ -113,8 +113,8 @@ def as_lines(toss: Toss, *, whole: bool = False) -> str:
     shown = with_bar(sequence, trusted)
     lines = [
         f"engine    {toss.engine}",
-        f"outcome   {toss.outcome.label}",
-        f"ending    {toss.ending.label}: {toss.ending.sentence}",
+        f"outcome   {toss.outcome}",
+        f"ending    {toss.ending}: {toss.ending.sentence}",
         f"end       {toss.end_time:.6f} s after {counted(len(impacts), 'impact')}",
         f"sequence  {shown if whole else shortened(shown)}",
         f"trusted   {counted(trusted, 'impact')}" + ("" if trusted >= len(sequence) else ", before the bar"),

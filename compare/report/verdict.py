@@ -3,8 +3,8 @@
 from enum import StrEnum
 from typing import NamedTuple
 
-from compare.metrics.comparison import Comparison
 from compare.output.answer import counted
+from compare.report.comparison import Comparison
 from models.records import Ending, Outcome, Toss
 
 REPORT_IT = "One engine is wrong: please report it"
@@ -31,17 +31,12 @@ class Verdict(NamedTuple):
     kind: Kind
 
 
-def verdict_of(analytic: Toss, comparison: Comparison | None) -> Verdict:
-    """Return the verdict.
-
-    Args:
-        analytic: the toss by the analytic engine.
-        comparison: with MuJoCo's, None where MuJoCo can't toss the scenario.
-    """
-    if comparison is None:
-        says = f"{_outcome(analytic)} by the analytic engine alone"
+def verdict_of(comparison: Comparison) -> Verdict:
+    """Return the verdict."""
+    if comparison.mujoco is None:
+        says = f"{_outcome(comparison.analytic)} by the analytic engine alone"
         return Verdict(_sentence(f"{says}: MuJoCo can't toss this coin on this floor"), Kind.ALONE)
-    a, b = _outcome(analytic), _outcome(comparison.mujoco)
+    a, b = (_outcome(toss) for toss in comparison.both)
     says = f"{a} by both engines" if a == b else f"{a} by the analytic engine, {b} by MuJoCo"
     agreement, kind = _agreement(comparison, a == b)
     return Verdict(_sentence(f"{says}: {agreement}"), kind)
@@ -69,7 +64,7 @@ def horizon_sentence(comparison: Comparison) -> str:
 
 
 def _agreement(comparison: Comparison, same_outcome: bool) -> tuple[str, Kind]:
-    a, b = comparison.analytic, comparison.mujoco
+    a, b = comparison.both
     prefix, horizon, count = comparison.common_prefix, comparison.horizon, _most_impacts(comparison)
     in_contact, caught = len(a.contacts) + len(b.contacts) > 0, _is_caught(comparison)
     # Bounces that die out have no last one: each engine takes the smallest for contact from its own on.
@@ -119,11 +114,11 @@ def _without_impact(a: Toss, b: Toss, in_contact: bool) -> str:
 
 def _outcome(toss: Toss) -> str:
     if toss.ending == Ending.CAUGHT:
-        return f"{toss.outcome.label} in the hand"
+        return f"{toss.outcome} in the hand"
     if toss.ending == Ending.NOT_CAUGHT:
         return "not caught"
     return {Outcome.EDGE: "on its edge", Outcome.PERPETUAL: "moving for ever"}.get(
-        toss.outcome, toss.outcome.label
+        toss.outcome, str(toss.outcome)
     )
 
 
@@ -136,11 +131,11 @@ def _first(count: int) -> str:
 
 
 def _is_caught(comparison: Comparison) -> bool:
-    return comparison.analytic.ending == comparison.mujoco.ending == Ending.CAUGHT
+    return all(toss.ending == Ending.CAUGHT for toss in comparison.both)
 
 
 def _most_impacts(comparison: Comparison) -> int:
-    return max(len(comparison.analytic.impacts), len(comparison.mujoco.impacts))
+    return max(len(toss.impacts) for toss in comparison.both)
 
 
 def _sentence(text: str) -> str:

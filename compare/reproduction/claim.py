@@ -84,17 +84,29 @@ class Criterion:
         return (self.threshold, -self.threshold) if self.relation == "within ±" else (self.threshold,)
 
     @property
+    def value(self) -> str:
+        """The measured value in words, with its interval."""
+        if not isinstance(self.measured, Estimate):
+            return _number(self.measured)
+        value, low, high = _alike(self.measured.value, self.measured.low, self.measured.high)
+        return f"{value} [{low}, {high}]"
+
+    @property
     def found(self) -> str:
         """The measured quantity in words, with its interval."""
-        if not isinstance(self.measured, Estimate):
-            return f"{self.quantity}: {_number(self.measured)}"
-        value, low, high = _alike(self.measured.value, self.measured.low, self.measured.high)
-        return f"{self.quantity}: {value} [{low}, {high}]"
+        return f"{self.quantity}: {self.value}"
 
     @property
     def accepted(self) -> str:
         """The threshold in words."""
         return f"{self.relation} {_number(self.threshold)}"
+
+    @property
+    def row(self) -> tuple[str, ...]:
+        """The quantity, its value and interval, the relation, the threshold and its reason."""
+        it = self.measured
+        values = (it.value, it.low, it.high) if isinstance(it, Estimate) else (it, "", "")
+        return (self.quantity, *map(str, values), self.relation, str(self.threshold), self.reason)
 
     @property
     def wanted(self) -> str:
@@ -147,9 +159,7 @@ class Claim:
     @property
     def verdict(self) -> str:
         """The verdict in words, with what would make it one where there is none."""
-        if self.holds is not None:
-            return VERDICTS[self.holds]
-        return f"{VERDICTS[None]}: {self.wanted}"
+        return VERDICTS[self.holds] if self.holds is not None else f"{VERDICTS[None]}: {self.wanted}"
 
     @property
     def wanted(self) -> str:

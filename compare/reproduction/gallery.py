@@ -1,4 +1,4 @@
-"""All reproduced figures of the paper on one page: in Markdown for the reader, in HTML for the classroom."""
+"""All reproduced figures of the paper: a table of verdicts for the reader, one page for the classroom."""
 
 import re
 from base64 import b64encode
@@ -11,12 +11,13 @@ from pathlib import Path
 import jinja2
 
 from compare.output.files import written_together
-from compare.output.tables import table
+from compare.output.tables import sheet, table
 from compare.reproduction import runner
-from compare.reproduction.claim import MARKS, VERDICTS, Claim, criteria_of, read_claims, table_of
+from compare.reproduction.claim import MARKS, VERDICTS, Claim, criteria_of, read_claims
+from compare.reproduction.pages import verdicts_of
 from compare.reproduction.runner import Reproduction
 
-PAGES = ("REPRODUCTION.md", "gallery.html")
+PAGES = ("REPRODUCTION.md", "claims.csv", "gallery.html")
 _ORDER = ("Table", "Fig", "Section", "Claims")
 SKETCHES = {
     "Fig. 1": "Keller's coin and its axis",
@@ -56,22 +57,33 @@ MAIN = (
     ),
 )
 _INTRODUCTION = """\
-# Is coin tossing predictable?
+# What holds of the paper
 
-J. Strzalko, J. Grabski, A. Stefanski, P. Perlikowski and T. Kapitaniak, "Dynamics of coin tossing is
-predictable", Physics Reports 469 (2008) 59-92, make three main claims. What we find is below each.
+*Do the figures and claims of "Dynamics of coin tossing is predictable" hold when they are computed again?*
+
+Of {count} claims of the paper, and of papers that it cites, {verdicts}.
+
+Its main claims, and what we find:
 
 {main}
 
-Of {count} claims of the paper, and of papers that it cites, {held} hold, {failed} do not, and {open} cannot
-be tested: the paper leaves out what they need, or more tosses would be needed to tell. Measured quantities
-and thresholds decide it. What comes from random tosses has its 99 % confidence interval in brackets, and a
-threshold inside it decides nothing. One command makes this page, its pictures and a gallery to project; a
-name in the place of `all` makes one figure again:
+![{pictured}]({picture})
+
+A claim has thresholds, which measured quantities must meet. An estimate from random tosses has its 99 %
+confidence interval in brackets; a threshold inside it decides nothing. A claim cannot be tested where the
+paper leaves out what it needs, or where more tosses would be needed to tell.
+
+The paper is J. Strzalko, J. Grabski, A. Stefanski, P. Perlikowski and T. Kapitaniak, "Dynamics of coin
+tossing is predictable", Physics Reports 469 (2008) 59-92. One command makes its figures, all pages and a
+gallery to project again:
 
     cointoss reproduce all {quick}--out docs
 
-## All figures and claims
+## Verdicts
+
+Each row leads to a page with the figure, its claims and what was measured. All claims, measured quantities,
+thresholds and reasons are there [as CSV](claims.csv), too.
+
 """
 
 
@@ -103,15 +115,16 @@ def _place(paper: str) -> tuple[int, list[int], str]:
 
 
 def write(out: Path, names: Sequence[str], *, quick: bool) -> None:
-    """Write `PAGES` over the figures `names` into the folder `out`; both or none.
+    """Write `PAGES` over the figures `names` into the folder `out`; all or none.
 
     Raises:
         UnwritableError: naming the folder and why.
     """
     shown = entries(out, names)
+    texts = (markdown(out, shown, quick=quick), claims_sheet(shown), html(out, shown))
     with written_together(out, PAGES) as aside:
-        (aside / PAGES[0]).write_text(markdown(out, shown, quick=quick), encoding="utf-8")
-        (aside / PAGES[1]).write_text(html(out, shown), encoding="utf-8")
+        for page, text in zip(PAGES, texts, strict=True):
+            (aside / page).write_text(text, encoding="utf-8")
 
 
 def entries(out: Path, names: Sequence[str]) -> list[Entry]:
@@ -135,47 +148,59 @@ def markdown(out: Path, shown: Sequence[Entry], *, quick: bool) -> str:
         shown: the figures.
         quick: whether they were made at their quick size.
     """
-    claims = [claim for entry in shown for claim in entry.claims]
-    verdicts = Counter(claim.holds for claim in claims)
-    size = "--quick " if quick else ""
-    lines = [
-        _INTRODUCTION.format(
-            main=_main_table(out),
-            count=len(claims),
-            held=verdicts[True],
-            failed=verdicts[False],
-            open=verdicts[None],
-            quick=size,
-        ),
-        _contents(shown),
-    ]
-    for entry in shown:
-        title, folder = entry.found.title, runner.folder_of(entry.name, Path())
-        lines += ["", f'## <a id="{entry.name}"></a>{entry.found.paper}: {title}', ""]
-        if entry.found.assumed:
-            lines += [f"Assumed: {entry.found.assumed}", ""]
-        lines += [table_of(entry.claims), "", f"![{title}]({folder.as_posix()}/figure.png)", ""]
-        lines += [f"    cointoss reproduce {entry.name} {size}--out docs"]
-    return "\n".join(lines) + "\n"
-
-
-def _main_table(out: Path) -> str:
-    """Return the main claims side by side, each over its picture and what was found."""
     opened = opening(out)
-    pictures = [f"![{main.says}]({picture.relative_to(out).as_posix()})" for main, _, picture in opened]
-    heads, found = [f"**{main.says}**" for main, _, _ in opened], [found for _, found, _ in opened]
-    return table(heads, [pictures, found], words=True)
+    main = (f"- **{one.says}** {found}" for one, found, _ in opened)
+    rows = [
+        (entry.found.paper, f"[{entry.found.title}]({page_in(entry.name)})", verdicts_of(entry.claims))
+        for entry in shown
+    ]
+    return (
+        _INTRODUCTION.format(
+            count=sum(len(entry.claims) for entry in shown),
+            verdicts=verdicts_of(claim for entry in shown for claim in entry.claims),
+            main="\n".join(main),
+            pictured=opened[0][0].says,
+            picture=opened[0][2].relative_to(out).as_posix(),
+            quick="--quick " if quick else "",
+        )
+        + table(["the paper", "what it shows", "its claims"], [*rows], words=True)
+        + f"\n\n{_sketches()}\n"
+    )
 
 
-def _contents(shown: Sequence[Entry]) -> str:
-    """Return the table of all figures, with how many of their claims have which verdict."""
-    rows: list[tuple[str, ...]] = []
-    for entry in shown:
-        numbers = (str(count or "") for count in entry.verdicts.values())
-        rows.append((entry.found.paper, f"[{entry.found.title}](#{entry.name})", *numbers))
-    rows += [(place, f"{shows}: a sketch", "", "", "") for place, shows in SKETCHES.items()]
-    rows.sort(key=lambda row: _place(row[0]))
-    return table(["the paper", "what it shows", *VERDICTS.values()], rows, words=True)
+def page_in(name: str) -> str:
+    """Return where the page of a figure lies, from the folder of all that is reproduced."""
+    return (runner.folder_of(name, Path()) / runner.PAGE).as_posix()
+
+
+def _sketches() -> str:
+    """Return which figures have no page, and why."""
+    listed = "; ".join(f"{place}, {shows}" for place, shows in SKETCHES.items())
+    return f"Nothing is computed where the paper sketches a definition: {listed}."
+
+
+def claims_sheet(shown: Sequence[Entry]) -> str:
+    """Return all claims as comma-separated values, a row for each criterion."""
+    head = (
+        "name",
+        "paper",
+        "claim",
+        "verdict",
+        "measured",
+        "value",
+        "low",
+        "high",
+        "relation",
+        "threshold",
+        "reason",
+    )
+    rows = [
+        (entry.name, entry.found.paper, claim.claim, VERDICTS[claim.holds], *criterion)
+        for entry in shown
+        for claim in entry.claims
+        for criterion in [each.row for each in claim.criteria] or [("", "", "", "", "", "", claim.missing)]
+    ]
+    return sheet(head, rows)
 
 
 def opening(out: Path) -> list[tuple[MainClaim, str, Path]]:

@@ -1,12 +1,12 @@
 """What a run found, as text for a terminal."""
 
 import textwrap
-from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 
 from compare.output.terminal import laid_out
 from compare.reproduction.claim import MARKS, VERDICTS, Claim, criterion_of
+from compare.reproduction.pages import verdicts_of
 from compare.reproduction.runner import Result
 
 
@@ -21,7 +21,7 @@ def page(name: str, result: Result, folder: Path, width: int) -> str:
     """
     tables = [laid_out(result.tables, width)] if result.tables else []
     claims = ["\n".join(_claim(claim, width)) for claim in result.claims]
-    return "\n\n".join([*tables, *claims, f"{name}: {_counted(result.claims)}\n{folder}"])
+    return "\n\n".join([*tables, *claims, f"{name}: {verdicts_of(result.claims)}\n{folder}"])
 
 
 def _claim(claim: Claim, width: int) -> Iterator[str]:
@@ -38,14 +38,3 @@ def _claim(claim: Claim, width: int) -> Iterator[str]:
 def _wrapped(label: str, text: str, width: int) -> list[str]:
     """Return the lines of a text behind a label, those that follow indented as far."""
     return textwrap.wrap(text, width, initial_indent=label, subsequent_indent=" " * len(label))
-
-
-def _counted(claims: Sequence[Claim]) -> str:
-    """Return how many claims have each verdict, as in `2 of 3 claims hold, 1 does not`."""
-    found = Counter(claim.holds for claim in claims)
-    parts = [f"{found[True]} of {len(claims)} claims hold" if len(claims) > 1 else VERDICTS[claims[0].holds]]
-    if len(claims) > 1 and found[False]:
-        parts.append(f"{found[False]} {'does' if found[False] == 1 else 'do'} not")
-    if len(claims) > 1 and found[None]:
-        parts.append(f"{found[None]} cannot be tested")
-    return ", ".join(parts)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from compare.output.files import remove, require_folder, written_together
 from compare.output.progress import Progress
 from compare.reproduction import claims, paper, studies
-from compare.reproduction.claim import Claim, table_of
+from compare.reproduction.claim import Claim, read_claims, table_of
 
 if TYPE_CHECKING:  # names are listed without it
     from matplotlib.figure import Figure
@@ -21,6 +21,10 @@ FOLDER = "reproduction"
 """Holds the folders of all that was reproduced."""
 PARTS = "parts"
 """Holds what an interrupted run had done."""
+PAGE = "index.md"
+"""The page of a figure of the paper."""
+SHEETS = tuple(f"table-{number}.csv" for number in range(1, 20))
+"""Long tables that a page shows."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,6 +53,8 @@ class Reproduction:
     """Roughly how long it takes on two cores [s]."""
     make: Callable[..., Result]
     """Computes it, from a `Progress`; one that `resumes` from a folder `parts` too."""
+    read: Callable[[Path], Result] | None = None
+    """Reads what a run of it left in its folder, where that is more than claims."""
     draw: "Mapping[str, Callable[[Any], Figure]]"
     """Its pictures, by name, each drawn from the data."""
     quick: Callable[..., Result] | None = None
@@ -65,13 +71,8 @@ class Reproduction:
     @property
     def files(self) -> tuple[str, ...]:
         """Names of all files that it may write."""
-        return (
-            "claims.json",
-            "data.npz",
-            "numbers.json",
-            "tables.md",
-            *(f"{name}.png" for name in self.draw),
-        )
+        pictures = (f"{name}.png" for name in self.draw)
+        return ("claims.json", "data.npz", "numbers.json", PAGE, *SHEETS, *pictures)
 
 
 def names() -> list[str]:
@@ -118,6 +119,7 @@ def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) 
     Raises:
         UnwritableError: naming the folder and why.
     """
+    from compare.reproduction.pages import write
     from compare.reproduction.saving import save
 
     found = find(name)
@@ -129,5 +131,12 @@ def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) 
     with written_together(folder, found.files) as aside:
         result = make(progress)
         save(aside, result, found.draw)
+        write(aside, name, found, result, quick=quick)
     remove(folder / PARTS)
     return result
+
+
+def kept(name: str, out: Path) -> Result:
+    """Return what an earlier run of one of the `names` left below `out`: its claims, a study's all."""
+    found, folder = find(name), folder_of(name, out)
+    return found.read(folder) if found.read else Result(claims=read_claims(folder / "claims.json"), data={})

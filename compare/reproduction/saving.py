@@ -1,4 +1,4 @@
-"""What a run leaves in its folder: claims, tables, data, and pictures drawn from the data."""
+"""What a run leaves in its folder: claims, data, and pictures drawn from the data."""
 
 import json
 from collections.abc import Callable, Mapping
@@ -21,8 +21,7 @@ Numbers = TypeVar("Numbers")
 
 
 def save(folder: Path, result: Result, draw: Mapping[str, Callable[[Any], Figure]]) -> None:
-    """Write the claims, the tables in Markdown, the data and the pictures into a folder that exists."""
-    (folder / "tables.md").write_text(f"{result.text}\n", encoding="utf-8")
+    """Write the claims, the data and the pictures into a folder that exists."""
     (folder / "claims.json").write_text(to_json(result.claims), encoding="utf-8")
     data = result.data
     if isinstance(data, Mapping):

@@ -9,6 +9,7 @@ from compare.engines import Engine, EngineSettings
 from compare.sweep.axes import Axis
 from compare.sweep.errors import SweepError
 from models.scenario import Scenario
+from models.title import title_of_toss
 
 TILE_TOSSES = {Engine.ANALYTIC: 1 << 14, Engine.MUJOCO: 1 << 10}
 """Most tosses in a tile: seconds of work, so that little is lost with one and many workers have some."""
@@ -39,6 +40,8 @@ class Sweep:
     """The map shows the face at the touch after so many impacts; None for the final outcome."""
     margin: str | None = None
     """Name of the quantity of the release, one of `QUANTITIES`, along which each pixel has its margin."""
+    name: str = ""
+    """What its scenario is called; empty for one without a name."""
 
     def __post_init__(self) -> None:
         """Check that the axes and `after` go together.
@@ -51,6 +54,11 @@ class Sweep:
             raise SweepError(f"{self.x.field}: on both axes; accepted: two fields")
         if self.after is not None and "ending.max_impacts" in fields:
             raise SweepError("ending.max_impacts: accepted as an axis only without a number of impacts")
+
+    @property
+    def title(self) -> str:
+        """Which coin is tossed, in a few words, but for what varies."""
+        return title_of_toss(self.scenario, self.name, varied=(self.x.field, self.y.field))
 
     @property
     def shape(self) -> tuple[int, int]:

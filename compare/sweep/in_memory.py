@@ -1,6 +1,7 @@
 """Make a map in memory, from Python."""
 
 from os import PathLike
+from pathlib import Path
 
 from compare.engines import Engine
 from compare.sweep.axes import parse_axis
@@ -9,7 +10,7 @@ from compare.sweep.grid import Sweep, Tile
 from compare.sweep.outcome_map import OutcomeMap
 from compare.sweep.pixels import check, toss_pixels
 from compare.sweep.reading import MOST_READ, is_whole
-from models.reading import ScenarioSource, scenario_of
+from models.reading import ScenarioSource, parse, scenario_text
 from models.scenario import Scenario
 
 MOST_AFTER = 999_999
@@ -49,7 +50,7 @@ def basin(
             raise SweepError(f"{name}: {text!r}, accepted: text")
     if not isinstance(scenario, Scenario | str | PathLike):
         raise SweepError(f"scenario: {scenario!r}, accepted: a Scenario, a name or a path")
-    found = scenario_of(scenario)
+    found = scenario if isinstance(scenario, Scenario) else parse(scenario_text(scenario), str(scenario))
     if engine not in list(Engine):
         raise SweepError(f"engine: {engine!r}, accepted: {', '.join(Engine)}")
     if after is not None and not (is_whole(after) and 0 <= after <= MOST_AFTER):
@@ -62,6 +63,7 @@ def basin(
         settings=Engine(engine).package.MANY,
         after=None if after is None else int(after),
         margin=_margin(margin, engine),
+        name="" if isinstance(scenario, Scenario) else Path(scenario).stem,
     )
     ny, nx = sweep.shape
     if ny * nx > MOST_READ:

@@ -86,6 +86,7 @@ def sweeps_of(job: Job, scenario: Scenario, x: Axis, y: Axis) -> dict[Path, Swee
             settings=replace(engine.package.MANY, **chosen.get(engine, {})),
             after=job.after,
             margin=job.margin and _margin(job.margin).name,
+            name=Path(job.source).stem,
         )
         for path, engine in _engines_of(job).items()
     }
@@ -133,9 +134,9 @@ def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
     if job.resume:
         for path, sweep in sweeps.items():
             store.require_same(path, sweep)
+    drawn, maps, margins = len(sweeps) > 1 or job.png is not None, [], None
     for sweep in sweeps.values():
         check(sweep)
-        drawn = len(sweeps) > 1 or job.png is not None
         run.require_room(sweep, job.out.parent, maps=len(sweeps), drawn=drawn)
     with _tosser(job.scheduler, say) as tosser:
         for path, sweep in sweeps.items():
@@ -147,29 +148,29 @@ def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
                 if margin is not None:
                     sizes = run.margins_of(map_)
                     yield describe.describe_margins(margin.name, margin.unit, margin.factor, sizes)
-    if len(sweeps) == 1 and job.png is None:
+                    margins = map_.whole("margin") if drawn else None
+                if drawn:
+                    maps.append(map_.whole("outcome"))
+    if not drawn:
         return
     from compare.sweep import show
 
-    maps, first = [show.outcomes_of(path) for path in sweeps], next(iter(sweeps.values()))
+    first = next(iter(sweeps.values()))
     if len(maps) > 1:
         yield describe.describe_agreement(describe.measure(*maps))
     if job.png is not None:
-        show.write(job.png, maps, first, job.style, margins=margin and show.margins_of(job.out))
+        show.write(job.png, maps, first, job.style, margins=margins)
         yield f"picture    {job.png}"
     if job.report is not None:
+        from compare.output.progress import STILL_TOSSING, elapsed_time
+        from compare.report.comparison import compared
         from compare.report.folder import write_report
 
-        page = write_report(
-            first.scenario,
-            job.text,
-            Path(job.source).stem,
-            job.report,
-            no_video,
-            frames,
-            mujoco=replace(Engine.MUJOCO.package.FINE, contact=job.contact),
-            maps=show.section(maps, list(sweeps.values()), job.style, _command(job)),
-        )
+        fine = replace(Engine.MUJOCO.package.FINE, contact=job.contact)
+        with elapsed_time(STILL_TOSSING):
+            both = compared(first.scenario, job.text, Path(job.source).stem, fine)
+        shown = show.section(maps, list(sweeps.values()), job.style, _command(job))
+        page = write_report(both, job.report, no_video, frames, maps=shown)
         yield f"report     {page}"
 
 

@@ -80,7 +80,7 @@ class OutcomeMap:
     def shares(self) -> dict[str, float]:
         """The share of the pixels that each outcome has, and those not tossed yet, of what there is."""
         codes, counts = np.unique(self.outcome, return_counts=True)
-        labels = {NOT_TOSSED: "not tossed", **{int(item): item.label for item in Outcome}}
+        labels = {NOT_TOSSED: "not tossed", **{int(item): str(item) for item in Outcome}}
         return {
             labels[code]: count / self.outcome.size
             for code, count in zip(codes.tolist(), counts.tolist(), strict=True)
@@ -130,7 +130,7 @@ class OutcomeMap:
 
     def to_dataframe(self) -> "pd.DataFrame":
         """Return the map as a table of pandas, a row a pixel, its outcome in words."""
-        labels = {NOT_TOSSED: "not_tossed", **{int(item): item.label for item in Outcome}}
+        labels = {NOT_TOSSED: "not_tossed", **{int(item): str(item) for item in Outcome}}
         frame = self.to_xarray().to_dataframe().reset_index(drop=True)
         words = [labels[code] for code in self.outcome.ravel().tolist()]
         return frame[[self.sweep.y.field, self.sweep.x.field, *self.layers]].assign(outcome=words)

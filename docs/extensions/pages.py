@@ -1,4 +1,4 @@
-"""Pages of docs/ as Sphinx must read them, where GitHub reads them as they are."""
+"""Pages of docs/ as Sphinx must read them, where GitHub reads them as they are; the way back to the site."""
 
 import re
 from pathlib import Path
@@ -7,15 +7,21 @@ from sphinx.application import Sphinx
 
 from compare.reproduction import gallery, runner
 
+BACK = '<a href="{}" style="display: block; padding: 0.5rem 1rem; color: inherit">← cointoss</a>'
+"""The first line of a page that the site takes as it is."""
 ANCHOR = re.compile(r'^(#+ )<a id="([\w-]+)"></a>', re.MULTILINE)
 
 
 def read(app: Sphinx, docname: str, source: list[str]) -> None:
     """Change the text of a page before it is parsed."""
     if docname == "OVERVIEW":
-        source[0] = readme(Path(app.srcdir).parent / "README.md")
+        path = Path(app.srcdir).parent / "README.md"
+        app.env.note_dependency(str(path))
+        source[0] = readme(path)
     if docname == "GALLERY":
         source[0] += cards()
+    if docname == "REPRODUCTION":
+        source[0] += contents()
     source[0] = ANCHOR.sub(r"(\2)=\n\1", source[0]).replace("](../README.md", "](OVERVIEW.md")
 
 
@@ -34,12 +40,18 @@ def cards() -> str:
             f":::{{grid-item-card}} {found.paper}",
             f":img-top: reproduction/{name}/figure.png",
             f":img-alt: {found.paper}, {found.title}",
-            f":link: {name}",
-            ":link-type: ref",
+            f":link: {runner.folder_of(name, Path()).as_posix()}/index",
+            ":link-type: doc",
             found.title,
             ":::",
         ]
     return "\n".join([*lines, "::::", ""])
+
+
+def contents() -> str:
+    """Return the contents of REPRODUCTION: a page for each figure."""
+    names = (f"{runner.find(name).paper} <reproduction/{name}/index>" for name in gallery.of_paper())
+    return "\n".join(["", "```{toctree}", ":hidden:", "", *names, "```", ""])
 
 
 def write_gallery(app: Sphinx) -> None:
@@ -50,8 +62,19 @@ def write_gallery(app: Sphinx) -> None:
     (made / "gallery.html").write_text(gallery.html(docs, shown), encoding="utf-8")
 
 
+def lead_back(app: Sphinx, error: Exception | None) -> None:
+    """Begin each page that the site takes as it is with a link back."""
+    for page in sorted(Path(app.outdir).glob("**/*.html")) if error is None else ():
+        relative = page.relative_to(app.outdir)
+        if (Path(app.config.html_extra_path[0]) / relative).exists():
+            text = page.read_text(encoding="utf-8")
+            top = f"{'../' * (len(relative.parts) - 1)}index.html"
+            page.write_text(text.replace("<body>\n", f"<body>\n{BACK.format(top)}\n", 1), encoding="utf-8")
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
-    """Connect to the reading of a page."""
+    """Connect to the reading of a page, and to the end."""
     app.connect("builder-inited", write_gallery)
     app.connect("source-read", read)
+    app.connect("build-finished", lead_back)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -152,12 +152,8 @@ def test_a_run_leaves_its_claims_its_data_and_its_pictures(tmp_path, monkeypatch
     answer = runner.reproduce("sum", tmp_path, unseen)
     assert answer.text == f"a table\n\n{table_of((KNOWN, REFUTED))}"
     folder = tmp_path / "reproduction" / "sum"
-    assert sorted(path.name for path in folder.iterdir()) == [
-        "claims.json",
-        "data.npz",
-        "figure.png",
-        "tables.md",
-    ]
+    written = sorted(path.name for path in folder.iterdir())
+    assert written == ["claims.json", "data.npz", "figure.png", "index.md"]
     assert read_claims(folder / "claims.json") == (KNOWN, REFUTED)
     assert np.load(folder / "data.npz")["sum"] == [4.0]
     runner.reproduce("sum", tmp_path, unseen, quick=True)

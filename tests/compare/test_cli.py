@@ -33,6 +33,7 @@ from models.reading import load, named_scenarios, scenario_text
 from models.scenario import Scenario
 from tests.helpers.command_line import HERE, cointoss
 from tests.helpers.films import film_written
+from tests.helpers.processes import started
 
 WRONG = {
     "syntax": "gravity = = 3",
@@ -214,6 +215,22 @@ def test_a_floor_that_mujoco_comes_near_to_is_told_in_one_line(tmp_path):
     assert cointoss("toss", source, "--max-impacts", 1).stderr == ""
 
 
+def test_a_field_that_nothing_uses_is_named_in_one_line_by_every_command(tmp_path):
+    source = tmp_path / "slippery.toml"
+    source.write_text(scenario_text("fig24a").replace('"smooth"', '"smooth"\nfriction = 0.3'))
+    axes = ("--x", "release.position.z=0.4:0.5:2", "--y", "gravity=9:10:2")
+    for arguments in (
+        ("toss", source, "--max-impacts", 1),
+        ("compare", source, "--out", source),
+        ("video", source, "--out", source),
+        ("hands", source, "--tosses", 1),
+        ("basin", source, *axes, "--after", 0, "--out", tmp_path / "map.zarr"),
+    ):
+        told = [line for line in cointoss(*arguments).stderr.splitlines() if "floor.friction" in line]
+        assert len(told) == 1
+        assert told[0].startswith(f"cointoss: {source}: floor.friction = 0.3: not used with contact = ")
+
+
 def test_a_contact_may_take_one_step(tmp_path):
     source = tmp_path / "dead.toml"
     source.write_text(scenario_text("fig24a").replace("restitution = 0.8", "restitution = 0"))
@@ -264,8 +281,9 @@ def test_without_a_command_it_prints_its_help():
 def test_the_scenarios_that_come_along_are_listed_with_what_they_are():
     lines = cointoss("scenarios").stdout.splitlines()
     assert [line.split()[0] for line in lines] == named_scenarios()
-    assert "fig24a                    Fig. 24(a): one of six tosses released 0.01 mm apart" in lines
     titles = [line[26:] for line in lines]
+    assert "Fig. 24(c): released from 0.40003 m, 0.02 mm above fig24a" in titles
+    assert len(set(titles)) == len(titles)
     assert all(
         20 < len(title) <= 90 and "Strzalko" not in title and title[-1] not in ",." for title in titles
     )
@@ -473,19 +491,14 @@ def test_where_a_film_is_interrupted_the_report_stands_without_it(tmp_path, shor
         "drawing.Drawer.draw = lambda *frame: time.sleep(0.2) or draw(*frame)\n"
         "from compare.cli import main; main()"
     )
-    filming = subprocess.Popen(
-        [sys.executable, "-c", script, "compare", short, "--out", "new/report"],
-        cwd=tmp_path,
-        env=HERE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    deadline = time.monotonic() + 120
-    while not list(tmp_path.glob("new/report/.cointoss-*/toss.mp4")) and time.monotonic() < deadline:
-        time.sleep(0.05)
-    os.killpg(filming.pid, sign)  # the encoder is stopped too, as by Ctrl-C
-    _, told = filming.communicate(timeout=60)
+    command = ("compare", short, "--out", "new/report")
+    how = {"cwd": tmp_path, "stderr": subprocess.PIPE, "start_new_session": True}
+    with started("-c", script, *command, **how) as filming:
+        deadline = time.monotonic() + 120
+        while not list(tmp_path.glob("new/report/.cointoss-*/toss.mp4")) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        os.killpg(filming.pid, sign)  # the encoder is stopped too, as by Ctrl-C
+        _, told = filming.communicate(timeout=60)
     assert (filming.returncode, told) == (status, f"cointoss: interrupted by {sign.name}\n")
     assert {path.name for path in (tmp_path / "new/report").iterdir()} == set(FILES) - {"toss.mp4"}
 

@@ -2,8 +2,6 @@
 
 import importlib
 import json
-import os
-import signal
 import socket
 import subprocess
 import sys
@@ -14,36 +12,29 @@ import distributed
 import pytest
 
 from tests.helpers.basin_runs import AXES, SCENARIO, assert_same, basin, begun, pixels, wait_for, whole_tiles
-from tests.helpers.command_line import HERE
+from tests.helpers.processes import started
 
 
 @pytest.fixture
 def cluster(tmp_path):
     """A scheduler and two workers as processes; gives its address and the workers."""
     address = tmp_path / "scheduler.json"
-    local = ["--scheduler-file", str(address), "--no-dashboard"]
-    scheduler = _started("dask_scheduler", *local, "--host", "127.0.0.1", "--port", "0")
-    deadline = time.monotonic() + 100
-    while not address.exists() and time.monotonic() < deadline:
-        time.sleep(0.1)
-    worker = ("dask_worker", *local, "--nthreads", "1", "--no-nanny", "--local-directory", str(tmp_path))
-    workers = [_started(*worker), _started(*worker)]
-    where = json.loads(address.read_text())["address"]
-    with distributed.Client(where, set_as_default=False) as client:
-        client.wait_for_workers(2, timeout=100)
-    yield where, workers
-    for process in (*workers, scheduler):
-        process.kill()
-        process.communicate()
+    local = ("--scheduler-file", address, "--no-dashboard")
+    worker = ("worker", *local, "--nthreads", "1", "--no-nanny", "--local-directory", tmp_path)
+    with _started("scheduler", *local, "--host", "127.0.0.1", "--port", "0"):
+        deadline = time.monotonic() + 100
+        while not address.exists() and time.monotonic() < deadline:
+            time.sleep(0.1)
+        with _started(*worker) as one, _started(*worker) as other:
+            where = json.loads(address.read_text())["address"]
+            with distributed.Client(where, set_as_default=False) as client:
+                client.wait_for_workers(2, timeout=100)
+            yield where, (one, other)
 
 
-def _started(module, *arguments):
-    return subprocess.Popen(
-        [sys.executable, "-m", f"distributed.cli.{module}", *arguments],
-        env=HERE,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
+def _started(part, *arguments):
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    return started("-m", f"distributed.cli.dask_{part}", *arguments, **quiet)
 
 
 @pytest.mark.slow
@@ -51,11 +42,11 @@ def test_a_worker_lost_on_the_way_changes_no_pixel(cluster, tmp_path):
     address, workers = cluster
     coin, out = tmp_path / "coin.toml", tmp_path / "map.zarr"
     coin.write_text(SCENARIO)
-    process = begun(coin, out, "--scheduler", address)
-    wait_for(process, out, 4)
-    os.kill(workers[0].pid, signal.SIGKILL)
-    at_the_loss = whole_tiles(out)
-    _, said = process.communicate(timeout=200)
+    with begun(coin, out, "--scheduler", address) as process:
+        wait_for(process, out, 4)
+        workers[0].kill()
+        at_the_loss = whole_tiles(out)
+        _, said = process.communicate(timeout=200)
     assert process.returncode == 0, said
     assert at_the_loss < whole_tiles(out)
     assert workers[1].poll() is None

@@ -74,24 +74,27 @@ def result(progress, holds):
     return Result(claims=(claim,), data={"one": np.ones(1)})
 
 
-def test_all_makes_both_pages(made):
+def test_all_makes_a_table_of_verdicts_and_a_gallery(made):
     page = (made / "REPRODUCTION.md").read_text(encoding="utf-8")
     rows = [
-        "| the paper | what it shows | holds | does not hold | cannot be tested |",
-        "| Fig. 1 | Keller's coin and its axis: a sketch |  |  |  |",
-        "| Fig. 9 | [a <sum> of Fig. 9](#first) | 1 |  |  |",
-        "| Fig. 10 | [a <sum> of Fig. 10](#second) |  | 1 |  |",
-        "| Fig. 11 | [a <sum> of Fig. 11](#third) |  |  | 1 |",
+        "| the paper | what it shows | its claims |",
+        "| Fig. 9 | [a <sum> of Fig. 9](reproduction/first/index.md) | 1 holds |",
+        "| Fig. 10 | [a <sum> of Fig. 10](reproduction/second/index.md) | 1 does not hold |",
+        "| Fig. 11 | [a <sum> of Fig. 11](reproduction/third/index.md) | 1 cannot be tested |",
     ]
     assert sorted(rows, key=page.index) == rows
-    assert page.count("(< 2: it <is> so)") == 1
-    assert "| 1 < 2 | so it is | one: 1 (< 2: it <is> so) | holds |" in page
-    assert "it cites, 1 hold, 1 do not, and 1 cannot be tested: the paper" in " ".join(page.split())
-    says = "two is more"
-    assert f"| **{says}** |\n| --- |\n| ![{says}](reproduction/first/figure.png) |\n| So it is. |\n" in page
+    assert "it cites, 1 holds, 1 does not hold and 1 cannot be tested." in " ".join(page.split())
+    assert "- **two is more** So it is.\n\n![two is more](reproduction/first/figure.png)" in page
     assert "cointoss reproduce all --quick --out docs" in page
-    assert "![a <sum> of Fig. 9](reproduction/first/figure.png)" in page
-    assert "Assumed: that it rains" in page
+    assert "definition: Fig. 1, Keller's coin" in page
+    assert (made / "claims.csv").read_text(encoding="utf-8").splitlines() == [
+        "name,paper,claim,verdict,measured,value,low,high,relation,threshold,reason",
+        "first,Fig. 9,1 < 2,holds,one,1,,,<,2,it <is> so",
+        "second,Fig. 10,1 < 2,does not hold,one,1,,,<,0,it <is> so",
+        "third,Fig. 11,1 < 2,cannot be tested,one,1,,,<,0,it <is> so",
+    ]
+    for name in ("first", "second", "third"):
+        assert "cointoss reproduce" in (made / "reproduction" / name / "index.md").read_text(encoding="utf-8")
     shown = (made / "gallery.html").read_text(encoding="utf-8")
     assert "a &lt;sum&gt; of Fig. 9" in shown
     assert "(&lt; 2: it &lt;is&gt; so)" in shown
@@ -110,9 +113,9 @@ def test_a_page_in_the_way_is_refused_before_any_work(made, tmp_path):
 
 def test_the_page_in_docs_shows_the_saved_findings():
     shown = gallery.entries(DOCS, gallery.of_paper())
-    assert (DOCS / "REPRODUCTION.md").read_text(encoding="utf-8") == gallery.markdown(
-        DOCS, shown, quick=False
-    )
+    table, sheet = ((DOCS / page).read_text(encoding="utf-8") for page in gallery.PAGES[:2])
+    assert table == gallery.markdown(DOCS, shown, quick=False)
+    assert sheet == gallery.claims_sheet(shown)
     for entry in shown:
         assert entry.picture.stat().st_size < 150_000
         assert unexpected(entry.claims) == ()

@@ -7,14 +7,13 @@ from compare.reproduction.claim import unexpected
 from compare.reproduction.estimates import quantile
 from compare.reproduction.saving import read_numbers
 from compare.reproduction.studies import margins
-from compare.reproduction.studies.margins import Margins, below, claims, compute, result
-from tests.helpers.pages import pictures, printed, saved
+from compare.reproduction.studies.margins import Margins, below, claims, compute
+from tests.helpers.pages import pictures, saved
 
 SAVED = read_numbers(saved("margins"), Margins)
 
 
-def test_the_page_shows_the_saved_numbers():
-    assert printed("PREDICTABILITY.md", "margins") == result(SAVED).text
+def test_the_saved_claims_come_out_as_known():
     assert pictures("PREDICTABILITY.md", "margins") == {"margins.png"}
     assert unexpected(claims(SAVED)) == ()
     for accuracy, flags in SAVED.uncertain.items():

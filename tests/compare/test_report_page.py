@@ -6,7 +6,7 @@ from base64 import b64decode
 import numpy as np
 import pytest
 
-from compare.metrics.comparison import Comparison, compare
+from compare.report.comparison import compared
 from compare.report.folder import write_report
 from compare.report.page import Film, render
 from compare.report.page import Page as Contents
@@ -23,7 +23,7 @@ PLOTS = ["height", "tilt", "energy", "apart", "spin", "place"]
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     target = tmp_path_factory.mktemp("report")
-    write_report(parse(TEXT, "made"), TEXT, "made", target, "none here", lambda *_: None)
+    write_report(compared(parse(TEXT, "made"), TEXT, "made"), target, "none here", lambda *_: None)
     return target
 
 
@@ -143,19 +143,9 @@ def test_the_coins_play_when_the_page_is_opened_and_stand_at_the_end_where_motio
 
 
 def test_a_film_can_be_saved_from_the_page(page, tmp_path):
-    compared = compare(parse(TEXT, "made"))
-    assert isinstance(compared, Comparison)
     film = Film(b"a film", b"a frame")
     shown = Contents(
-        name="made",
-        scenario=compared.scenario,
-        scenario_text=TEXT,
-        analytic=compared.analytic,
-        comparison=compared,
-        not_realisable=None,
-        film=film,
-        no_video=None,
-        maps=None,
+        comparison=compared(parse(TEXT, "made"), TEXT, "made"), film=film, no_video=None, maps=None
     )
     (tmp_path / "report.html").write_text(render(shown), encoding="utf-8")
     page.open((tmp_path / "report.html").as_uri())
@@ -214,7 +204,7 @@ def test_a_click_on_a_plot_shows_the_coins_then_and_the_clock_marks_the_plots(pa
 
 def test_the_page_of_one_engine_shows_one_coin(page, tmp_path):
     text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 2")
-    write_report(parse(text, "knurled"), text, "knurled", tmp_path, "none here", lambda *_: None)
+    write_report(compared(parse(text, "knurled"), text, "knurled"), tmp_path, "none here", lambda *_: None)
     page.open((tmp_path / "report.html").as_uri())
     assert page.value("document.querySelector('.panel.mujoco').hidden")
     assert faces(picture(page, "coins")) > 500

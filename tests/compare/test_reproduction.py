@@ -34,15 +34,8 @@ as drawn
 {mark} {verdict}: two and two are five
     measured  sum: {sum} (= 5: five)
 
-{name}: {verdict}
+{name}: 1 {verdict}
 {folder}
-"""
-TABLES = """\
-as **drawn**
-
-| claim | measured (threshold: reason) | verdict |
-| --- | --- | --- |
-| two and two are five | sum: 5 (= 5: five) | holds |
 """
 SUMS = {
     "good": "5",
@@ -120,9 +113,7 @@ def test_files_are_written_and_the_results_printed(tmp_path):
         PRINTED.format(name="fake-good", sum=5, mark="✓", verdict="holds", folder=old),
         "",
     )
-    names = ["claims.json", "mine.txt", "numbers.json", "tables.md"]
-    assert sorted(path.name for path in old.iterdir()) == names
-    assert (old / "tables.md").read_text(encoding="utf-8") == TABLES
+    assert sorted(path.name for path in old.iterdir()) == ["claims.json", "mine.txt", "numbers.json"]
     assert json.loads((old / "numbers.json").read_text()) == {"sum": 5}
     assert (old / "mine.txt").read_text() == "old"
 

@@ -1,5 +1,6 @@
 """Sweeps: axes are read, tiles cover the map, and each pixel is the toss of its own scenario, to the bit."""
 
+import warnings
 from dataclasses import replace
 from typing import Any
 
@@ -19,6 +20,7 @@ from compare.sweep.pixels import check, pixel_scenario, toss_pixels
 from models.fields import UNITS, split
 from models.records import UnsupportedError
 from models.scenario import Scenario
+from models.unused import UnusedFieldWarning
 from tests.helpers.draws import AIR, scenario
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
@@ -254,6 +256,18 @@ def test_what_mujoco_cannot_toss_is_refused_at_either_end_of_an_axis():
         check(sweep_of(*axes, engine=Engine.MUJOCO))
     one_step = replace(coin_mj.MANY, contact=Realisation.ONE_STEP)
     check(sweep_of(*axes, engine=Engine.MUJOCO, settings=one_step))
+
+
+def test_a_field_that_a_map_varies_is_one_that_is_used():
+    rough = scenario(floor={"contact": "coulomb"})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check(sweep_of("floor.friction=0:0.5:3", "release.position.z=0.3:0.4:3", rough))
+        check(sweep_of("floor.friction=-0.0:0.5:2", "floor.restitution=0.5:0:2", rough))
+    z = "release.position.z=0.3:0.4:3"
+    for case, x, y in ((HERE, "floor.friction=0.5:0:3", z), (rough, "gravity=9:10:2", z)):
+        with pytest.warns(UnusedFieldWarning, match=r"^floor\.friction = "):
+            check(sweep_of(x, y, case))
 
 
 @pytest.mark.parametrize("contact", ["spring", "one_step"])

@@ -1,21 +1,19 @@
 """The verdict of a report: its words in every case, with the numbers of the comparison."""
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
 
+import coin_mj
 import cointoss
-from compare.metrics.comparison import Comparison, Together
-from compare.metrics.impulses import Differences
+from compare.report.comparison import Comparison
 from compare.report.verdict import Kind, horizon_sentence, verdict_of
 from models.records import IMPACT_ROW, Ending, Face, Impacts, Outcome
 from tests.helpers.draws import scenario
 from tests.helpers.films import MadePath
 from tests.helpers.films import made as made_by_formulas
 
-NOTHING = np.zeros(0)
 TOSS = made_by_formulas(MadePath(position=(0, 0, 0.4)))
 """What the tosses of these tests are made of, with other impacts and endings."""
 
@@ -37,17 +35,12 @@ def made(sequence, outcome=Outcome.HEADS, *, engine="analytic", ending=Ending.SE
 
 
 def compared(a, b, prefix, horizon):
-    together = Together(time=NOTHING, distance=NOTHING, attitude_angle=NOTHING, parting_time=None)
-    return Comparison(
-        scenario=a.scenario,
-        analytic=a,
-        mujoco=replace(b, engine="mujoco"),
-        differences=Differences(time=NOTHING, impulse=NOTHING, angular_velocity=NOTHING),
-        together=together,
-        common_prefix=prefix,
-        errors=NOTHING,
-        horizon=horizon,
+    """Return a comparison of which two numbers are as given."""
+    found = Comparison(
+        name="made", text="", analytic=a, mujoco=replace(b, engine="mujoco"), settings=coin_mj.FINE
     )
+    vars(found).update(common_prefix=prefix, horizon=horizon)
+    return found
 
 
 DECIDE = "tiny errors decide, and neither engine is wrong."
@@ -211,12 +204,14 @@ ROLLED_ON = made("HHH", Outcome.TAILS, contacts=[(0.5, 0.7)])
     ],
 )
 def test_the_verdict_of_every_case(a, b, prefix, horizon, kind, text):
-    assert verdict_of(a, compared(a, b, prefix, horizon)) == (text, kind)
+    assert verdict_of(compared(a, b, prefix, horizon)) == (text, kind)
 
 
 def test_what_mujoco_cannot_toss_is_said():
-    verdict = verdict_of(HEADS, None)
-    assert verdict == (
+    alone = Comparison(
+        name="made", text="", analytic=HEADS, mujoco=None, not_realisable="no", settings=coin_mj.FINE
+    )
+    assert verdict_of(alone) == (
         "Heads by the analytic engine alone: MuJoCo can't toss this coin on this floor.",
         Kind.ALONE,
     )
@@ -240,14 +235,14 @@ def test_the_horizon_is_told_in_plain_words(horizon, begins):
 def thrown(height, up):
     """Throw a coin up or down, flat, to be caught at 1.2 m, and compare both engines."""
     release = {"position": [0, 0, height], "velocity": [0, 0, up]}
-    compared: Any = cointoss.compare(scenario(release=release, ending={"caught": 1.2}))
-    assert compared.analytic.ending == compared.mujoco.ending == Ending.CAUGHT
+    compared = cointoss.compare(scenario(release=release, ending={"caught": 1.2}))
+    assert [toss.ending for toss in compared.both] == [Ending.CAUGHT, Ending.CAUGHT]
     return compared
 
 
 def test_what_the_hand_cuts_short_is_said_of_real_tosses():
     flown, bounced = thrown(1.0, 3.0), thrown(1.0, -5.0)
-    assert verdict_of(flown.analytic, flown) == (
+    assert verdict_of(flown) == (
         "Heads in the hand by both engines: the coin is caught before it touches the floor, so that nothing "
         "amplifies small errors.",
         Kind.AGREE,
@@ -255,7 +250,7 @@ def test_what_the_hand_cuts_short_is_said_of_real_tosses():
     assert horizon_sentence(flown) == (
         "The coin is caught before its first impact: without an impact nothing amplifies small errors."
     )
-    assert verdict_of(bounced.analytic, bounced) == (
+    assert verdict_of(bounced) == (
         "Heads in the hand by both engines: they agree on its only impact before it is caught, as they must.",
         Kind.AGREE,
     )

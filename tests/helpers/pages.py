@@ -8,13 +8,6 @@ from compare.reproduction.runner import folder_of
 DOCS = Path(__file__).parents[2] / "docs"
 
 
-def printed(page: str, study: str) -> str:
-    """Return the part of a page that quotes the tables.md of `cointoss reproduce`."""
-    text = (DOCS / page).read_text(encoding="utf-8")
-    begin, end = f"<!-- written by: cointoss reproduce {study} -->\n\n", "\n\n<!-- end -->\n"
-    return text.split(begin)[1].split(end)[0]
-
-
 def pictures(page: str, study: str) -> set[str]:
     """Return the names of a study's pictures that a page shows."""
     text = (DOCS / page).read_text(encoding="utf-8")

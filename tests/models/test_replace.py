@@ -34,7 +34,7 @@ def test_several_fields_are_replaced_and_no_other():
 
 @pytest.mark.parametrize("law", ContactLaw)
 def test_a_law_by_its_name_is_the_law(law):
-    changed = HERE.replace("floor.contact", law.label)
+    changed = HERE.replace("floor.contact", str(law))
     assert changed.floor.contact is law
     assert changed == HERE.replace("floor.contact", law)
     assert changed.rules.law is law

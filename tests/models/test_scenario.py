@@ -95,7 +95,7 @@ def test_the_packages_scenarios_read(name):
 def test_the_named_scenarios_are_there():
     fig24 = {f"fig24{letter}" for letter in "abcdef"}
     fig18 = {f"fig18_{coin}" for coin in ("3d_imperfect", "3d_ideal", "2d_imperfect", "2d_ideal")}
-    laws = {f"contact_{law.label}" for law in ContactLaw}
+    laws = {f"contact_{law}" for law in ContactLaw}
     fig3 = {f"fig3_{drop}{coin}" for drop in ("flat", "tilted") for coin in ("", "_imperfect")}
     pairs = {f"{figure}_{coin}" for figure in ("fig4", "fig12") for coin in ("ideal", "imperfect")}
     others = {"table", "zloty", "fig2", "fig5", "fig13", "fig21", "fig27", "fig29"}
@@ -351,3 +351,41 @@ def test_a_scenario_made_in_python_is_refused_as_its_file_is():
         Coin(**tables["coin"] | {"radius": "-1 cm"})
     with pytest.raises(ScenarioError, match="did you mean angles"):
         Release(**tables["release"] | {"angels": (0, 0, 0)})
+
+
+@pytest.mark.parametrize("name", named_scenarios())
+def test_a_scenario_is_written_as_a_file_that_is_read_as_the_same(name):
+    assert parse(load(name).to_toml(), name) == load(name)
+
+
+def test_every_digit_of_a_scenario_is_written():
+    awkward = load("fig24a").replace(
+        "gravity",
+        10,
+        "coin.inertia",
+        np.diag([1e-7 / 3, 1e-7 / 3, 2e-7 / 3]),
+        "release.quaternion",
+        [0.1, 0.2, 0.3, -(0.86**0.5)],
+        "release.position.z",
+        np.float64(1e5),
+        "ending.max_impacts",
+        7,
+        "ending.caught",
+        0.3,
+    )
+    written = awkward.to_toml()
+    assert parse(written, "written") == awkward
+    assert written.startswith("gravity = 10.0\n\n[coin]\nmass = 0.002\n")
+    assert 'contact = "smooth"\n' in written
+    assert "\nmax_impacts = 7\n" in written
+
+
+@pytest.mark.parametrize(
+    "wrong", [None, 3, {"coin": {}}, np.zeros(3)], ids=lambda wrong: type(wrong).__name__
+)
+def test_what_is_no_scenario_is_refused_by_its_type(wrong):
+    kind = type(wrong).__name__
+    with pytest.raises(
+        ScenarioError, match=f"^scenario: of type {kind}, accepted: a Scenario, the path of it"
+    ):
+        load(wrong)

@@ -4,19 +4,26 @@ from pathlib import Path
 
 import pytest
 
-from tests.helpers.site import problems
+from tests.helpers.site import problems, read
 
 TOP = Path(__file__).parents[2]
 SITE = TOP / "out" / "site"
 
 
 def test_the_site_has_a_page_for_each_source_and_what_it_takes_along():
-    sources = [*(TOP / "docs").glob("*.md"), *(TOP / "docs").glob("*/*.md")]
-    assert len(sources) > 30
+    sources = list((TOP / "docs").rglob("*.md"))
+    assert len(sources) > 60
     pages = [SITE / source.relative_to(TOP / "docs").with_suffix(".html") for source in sources]
     assert [
         page for page in [*pages, SITE / "explorer.html", SITE / "gallery.html"] if not page.is_file()
     ] == []
+
+
+@pytest.mark.parametrize("name", ["explorer.html", "gallery.html", "report/report.html"])
+def test_a_page_that_the_site_takes_as_it_is_leads_back(name):
+    """`problems` follows the link."""
+    links = [address for address in read(SITE / name).linked if address.endswith("index.html")]
+    assert links == [f"{'../' * name.count('/')}index.html"]
 
 
 def test_every_link_leads_somewhere_and_nothing_comes_from_the_network():

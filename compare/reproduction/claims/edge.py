@@ -10,6 +10,7 @@ from compare.output.progress import Progress
 from compare.reproduction.claim import Claim, Criterion, Estimate
 from compare.reproduction.estimates import difference, share
 from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.saving import read_numbers
 from compare.reproduction.setups.edge_classes import DIAMETRAL, HANDS, WOBBLING, Ends, ended_as, tosses
 from compare.reproduction.setups.edge_pages import PUBLISHED, alike, draw, fair, on_edge, percent, tables
 from compare.reproduction.setups.edge_record import (
@@ -251,6 +252,7 @@ REPRODUCTION = Reproduction(
     seconds=1500,
     make=make,
     resumes=True,
+    read=lambda folder: result(read_numbers(folder, EdgeRecord)),
     draw={"figure": draw},
     quick_seconds=6,
     quick=partial(make, sizes=QUICK),

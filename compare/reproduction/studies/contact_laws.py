@@ -9,6 +9,7 @@ from compare.output.style import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION
 from compare.output.tables import table
 from compare.reproduction.claim import Claim, Criterion
 from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.saving import read_numbers
 from compare.reproduction.setups.contact_study import (
     COINS,
     FRICTIONS_OF_ONSETS,
@@ -360,5 +361,6 @@ REPRODUCTION = Reproduction(
     title="when each contact law adds energy, pulls, leaves the friction cone, or has no solution",
     seconds=60,
     make=lambda progress: result(compute(COUNT, SEED, progress)),
+    read=lambda folder: result(read_numbers(folder, ContactRecord)),
     draw={"energy": _energy, "friction": _friction, "onset": _onset},
 )

@@ -21,6 +21,7 @@ from compare.output.progress import Progress
 from compare.output.tables import table
 from compare.reproduction.claim import Claim, Criterion
 from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.saving import read_numbers
 from compare.reproduction.setups.general_coins import CLASSES, CoinClass
 from compare.reproduction.setups.map_times import map_times
 from models.body import Body, Rules
@@ -161,7 +162,7 @@ def timed_toss(body: Body, rules: Rules, start: Array) -> tuple[float, str]:
     y, rows = start.copy(), np.zeros(2, IMPACT_ROW)
     began = process_time()
     _, _, _, outcome, ending, _ = toss_coin(body, rules, contact_limits(MANY), y, rows, False)
-    return process_time() - began, f"{Outcome(outcome).label}, {Ending(ending).label}"
+    return process_time() - began, f"{Outcome(outcome)}, {Ending(ending)}"
 
 
 def call_time(scenario: Scenario, start: Array) -> float:
@@ -370,6 +371,7 @@ REPRODUCTION = Reproduction(
     title="what a toss of a general coin costs, in 16 classes, and where the time goes",
     seconds=600,
     make=lambda progress: result(compute(COUNT, progress)),
+    read=lambda folder: result(read_numbers(folder, GeneralCosts)),
     draw={},
     quick=lambda progress: result(compute(QUICK, progress)),
     quick_seconds=60,

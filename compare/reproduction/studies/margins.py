@@ -17,6 +17,7 @@ from compare.reproduction.claim import Claim, Criterion, Estimate
 from compare.reproduction.estimates import quantile, share
 from compare.reproduction.parts import Part, kept
 from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.saving import read_numbers
 from compare.reproduction.setups.general_coins import CoinClass
 from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
 from models.kernel.sources import source_hash
@@ -292,6 +293,7 @@ REPRODUCTION = Reproduction(
     title="the smallest change of a release that changes its outcome, over random tosses",
     seconds=240,
     make=lambda progress, parts: result(compute(progress, parts, count=COUNT, planar=PLANAR, proofs=PROOFS)),
+    read=lambda folder: result(read_numbers(folder, Margins)),
     draw={"margins": draw},
     quick=lambda progress, parts: result(
         compute(progress, parts, count=QUICK, planar=QUICK_PLANAR, proofs=QUICK_PROOFS)

@@ -10,6 +10,7 @@ from compare.output.progress import Progress
 from compare.output.tables import table
 from compare.reproduction.claim import Claim, Criterion
 from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.saving import read_numbers
 from compare.reproduction.setups.mujoco_bodies import SHAPES, SIZE, Rebounds, Touch, rebounds, resting_depth
 from compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
 
@@ -331,5 +332,6 @@ REPRODUCTION = Reproduction(
     title="the restitution of bodies of other mass and shape in MuJoCo, and of several contacts at once",
     seconds=60,
     make=lambda progress: result(compute(progress)),
+    read=lambda folder: result(read_numbers(folder, Bodies)),
     draw={"errors": draw},
 )

@@ -18,6 +18,7 @@ from compare.output.progress import Progress
 from compare.output.tables import table
 from compare.reproduction.claim import Claim, Criterion
 from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.saving import read_numbers
 from compare.reproduction.setups.mujoco_fixed_steps import loop_model, restitutions_of_coins
 from compare.reproduction.setups.mujoco_impacts import (
     by_law,
@@ -253,5 +254,6 @@ REPRODUCTION = Reproduction(
     title="how fast MuJoCo makes many tosses, how exactly, and beside a loop of fixed steps",
     seconds=200,
     make=lambda progress: result(compute(TOSSES, TOUCHES, SEED, progress)),
+    read=lambda folder: result(read_numbers(folder, TossSpeeds)),
     draw={},
 )

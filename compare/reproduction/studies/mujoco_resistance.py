@@ -17,6 +17,7 @@ from compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
 from compare.output.tables import table
 from compare.reproduction.claim import Claim, Criterion
 from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.saving import read_numbers
 from compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
 from models.scenario import Scenario
 
@@ -369,5 +370,6 @@ REPRODUCTION = Reproduction(
     title="what MuJoCo's own torsional and rolling friction does, against moments applied explicitly",
     seconds=60,
     make=lambda progress: result(compute(progress)),
+    read=lambda folder: result(read_numbers(folder, NativeResistance)),
     draw={"ball": draw},
 )

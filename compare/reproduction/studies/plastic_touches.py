@@ -10,6 +10,7 @@ from compare.output.tables import table
 from compare.reproduction.claim import Claim, Criterion
 from compare.reproduction.estimates import difference, share
 from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.saving import read_numbers
 from compare.reproduction.setups.hands import releases_of_hands
 from models.reading import load
 from models.records import Outcome
@@ -64,7 +65,7 @@ def zloty(threshold: float) -> Scenario:
 def one_toss(threshold: float) -> OneToss:
     """Toss the zloty as its scenario says."""
     tossed = analytic.toss(zloty(threshold))
-    end = f"{tossed.outcome.label}, {tossed.ending.label}"
+    end = f"{tossed.outcome}, {tossed.ending}"
     return OneToss(len(tossed.impacts), len(tossed.contacts), tossed.end_time, end)
 
 
@@ -149,5 +150,6 @@ REPRODUCTION = Reproduction(
     title="what a threshold of restitution does: how many impacts are left of a rattle",
     seconds=120,
     make=lambda progress: result(compute(COUNT, SEED, progress)),
+    read=lambda folder: result(read_numbers(folder, PlasticTouchesRecord)),
     draw={},
 )

@@ -20,6 +20,7 @@ from compare.reproduction.claim import Claim, Criterion, Estimate
 from compare.reproduction.estimates import jackknife
 from compare.reproduction.parts import Part, kept
 from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.saving import read_numbers
 from compare.reproduction.setups.planar_maps import case
 from compare.reproduction.setups.uncertain_shares import uncertain_shares
 from models.kernel.sources import source_hash
@@ -487,6 +488,7 @@ REPRODUCTION = Reproduction(
     title="the share of tosses that stay uncertain, down to 1e-24 m, by restitution, floor and air",
     seconds=600,
     make=_make,
+    read=lambda folder: result(read_numbers(folder, Predictability)),
     draw={"predictability": draw},
     quick_seconds=60,
     quick=_quick,

@@ -15,6 +15,7 @@ from compare.output.tables import table
 from compare.reproduction.claim import Claim, Criterion, Estimate
 from compare.reproduction.estimates import jackknife, share
 from compare.reproduction.runner import Reproduction, Result
+from compare.reproduction.saving import read_numbers
 from compare.reproduction.setups.general_coins import CoinClass
 from compare.reproduction.setups.same_side_fit import (
     NODES,
@@ -327,6 +328,7 @@ REPRODUCTION = Reproduction(
     title="whether a coin lands on the side it started from: 350,757 flips, and what bounces do to it",
     seconds=240,
     make=make,
+    read=lambda folder: result(read_numbers(folder, SameSide)),
     draw={"same-side": draw},
     quick_seconds=20,
     quick=partial(make, count=200, people=300, mujoco=20),

@@ -1,0 +1,87 @@
+"""Results as pages show them, in Markdown: each claim unfolds to its numbers, long tables fold."""
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from html import escape
+from pathlib import Path
+
+from compare.output.files import write_text
+from compare.output.tables import folded, sheets, table, unfolding
+from compare.reproduction.claim import VERDICTS, Claim
+from compare.reproduction.runner import PAGE, Reproduction, Result, folder_of
+
+_PLURAL = {True: "hold", False: "do not hold", None: "cannot be tested"}
+
+
+def write(folder: Path, name: str, found: Reproduction, result: Result, *, quick: bool = False) -> None:
+    """Write the page of a figure of the paper, and the long tables of every result, into its folder."""
+    for sheet, text in sheets(result.tables).items():
+        (folder / sheet).write_text(text, encoding="utf-8")
+    if found.paper:
+        (folder / PAGE).write_text(page_of(name, found, result, quick=quick), encoding="utf-8")
+
+
+def page_of(name: str, found: Reproduction, result: Result, *, quick: bool = False) -> str:
+    """Return the page of a figure of the paper, which lies beside its pictures.
+
+    Args:
+        name: of the figure.
+        found: what can be reproduced.
+        result: what a run found.
+        quick: whether it was made at its quick size.
+    """
+    return "\n\n".join(
+        [
+            f"# {found.paper}: {found.title}",
+            *(f"![{found.title}]({picture}.png)" for picture in found.draw),
+            *([f"**Assumed.** {found.assumed}"] if found.assumed else []),
+            claims_of(result.claims),
+            "One command computes this page again:",
+            f"    cointoss reproduce {name} {'--quick ' if quick else ''}--out docs",
+            "[All figures and claims](../../REPRODUCTION.md)\n",
+        ]
+    )
+
+
+def block_of(name: str, result: Result) -> str:
+    """Return what a page in the folder of all that is reproduced shows of a study."""
+    tables = folded(result.tables, folder_of(name, Path()).as_posix())
+    return "\n\n".join([*filter(None, [tables]), claims_of(result.claims)])
+
+
+def write_blocks(out: Path, name: str, result: Result) -> None:
+    """Write a study's results into the pages in `out` that have a place for them.
+
+    Raises:
+        UnwritableError: naming the page and why.
+    """
+    place = rf"(<!-- written by: cointoss reproduce {name} -->\n\n).*?(\n\n<!-- end -->\n)"
+    block = block_of(name, result)
+    for path in sorted(out.glob("*.md")):
+        page = path.read_text(encoding="utf-8")
+        written = re.sub(place, lambda found: found[1] + block + found[2], page, flags=re.DOTALL)
+        if written != page:
+            write_text(path, written)
+
+
+def claims_of(claims: Sequence[Claim]) -> str:
+    """Return the claims and their verdicts, each unfolding to what decides it."""
+    return "\n\n".join([f"**Claims:** {verdicts_of(claims)}.", *map(_unfolding, claims)])
+
+
+def verdicts_of(claims: Iterable[Claim]) -> str:
+    """Return how many of the claims have each of the verdicts, in words."""
+    counted = Counter(claim.holds for claim in claims)
+    words = {kind: VERDICTS[kind] if counted[kind] == 1 else plural for kind, plural in _PLURAL.items()}
+    *most, last = (f"{counted[kind]} {word}" for kind, word in words.items() if counted[kind])
+    return " and ".join(filter(None, [", ".join(most), last]))
+
+
+def _unfolding(claim: Claim) -> str:
+    told = {"Analytic": claim.analytic, "MuJoCo": claim.mujoco, "Open": claim.wanted or "-"}
+    words = "\n".join(f"- {who}: {what}" for who, what in told.items() if what != "-")
+    rows = [[each.quantity, each.value, each.accepted, each.reason] for each in claim.criteria]
+    criteria = table(["measured", "found", "threshold", "its reason"], rows, words=True) if rows else ""
+    summary = f"<b>{VERDICTS[claim.holds]}:</b> {escape(claim.claim, quote=False)}"
+    return unfolding(summary, *filter(None, [words, criteria]))
