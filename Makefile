@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
-SCENARIOS := fig24a zloty
+SCENARIOS := table fig24a
 # What the site computes, made again where the code has changed.
 MADE := out/docs
 CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path '*/__pycache__/*')

@@ -14,6 +14,7 @@ from pydantic import BaseModel
 from compare.metrics.sequences import SAFETY
 from compare.output.answer import contact_line, counted
 from compare.report.comparison import Comparison
+from compare.report.counts import counts_sentence
 from compare.report.film_caption import film_caption
 from compare.report.map_section import MapSection
 from compare.report.motion import motion_of
@@ -57,7 +58,7 @@ def render(page: Page) -> str:
     template = (folder / "report.html.j2").read_text(encoding="utf-8")
     shared = {name: content.decode("utf-8") for name, content in shared_files().items()}
     modules = {name: text for name, text in shared.items() if name.endswith(".js")}
-    modules["report.js"] = (folder / "report.js").read_text(encoding="utf-8")
+    modules |= {name: (folder / name).read_text(encoding="utf-8") for name in ("report.js", "present.js")}
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
     comparison = page.comparison
     return environment.from_string(template).render(
@@ -77,6 +78,7 @@ def render(page: Page) -> str:
         horizon=horizon_sentence(comparison) if comparison.mujoco else "",
         contact_line=contact_line,
         counted=counted,
+        counts=counts_sentence(comparison.tosses),
         rows=list(zip_longest(*(toss.sequence for toss in comparison.tosses), fillvalue="")),
         most_shown=MOST_SHOWN,
         impacts=_impact_rows(comparison),

@@ -3,6 +3,7 @@
 from enum import StrEnum
 from typing import NamedTuple
 
+from compare.output.answer import counted
 from compare.report.comparison import Comparison
 from models.records import Ending, Outcome, Toss
 
@@ -66,14 +67,16 @@ def _agreement(comparison: Comparison, same_outcome: bool) -> tuple[str, Kind]:
     a, b = comparison.both
     prefix, horizon, count = comparison.common_prefix, comparison.horizon, _most_impacts(comparison)
     in_contact, caught = len(a.contacts) + len(b.contacts) > 0, _is_caught(comparison)
-    agree = prefix == len(a.impacts) == len(b.impacts)
+    # Bounces that die out have no last one: each engine takes the smallest for contact from its own on.
+    dies_out = len(a.contacts) > 0 < len(b.contacts) and 0 < prefix == min(len(a.impacts), len(b.impacts))
+    agree = prefix == len(a.impacts) == len(b.impacts) or (dies_out and same_outcome)
     kind = Kind.AGREE if agree and same_outcome else Kind.DIFFER
     if prefix < horizon:
         return (
             f"they differ at impact {prefix + 1}, although {_first(horizon)} must agree. {REPORT_IT}",
             Kind.FAULT,
         )
-    certain = agree and horizon == count
+    certain = agree and horizon == prefix
     decided = Outcome.UNDECIDED not in (a.outcome, b.outcome)
     # The face in a hand may differ where the coin comes to it on its edge, unless it has flown only.
     leads_to_it = not in_contact and not (caught and count)
@@ -85,7 +88,8 @@ def _agreement(comparison: Comparison, same_outcome: bool) -> tuple[str, Kind]:
     if not agree and prefix == 0:
         return f"they differ from the first impact on. Not even that must agree: {TINY_ERRORS}", kind
     before = " before it is caught" if caught else ""
-    first = f"they agree on {_all(count)}{before}" if agree else f"they agree on {_first(prefix)}"
+    shared = _all(count) if prefix == count else f"the {counted(prefix, 'impact')} that both count"
+    first = f"they agree on {shared}{before}" if agree else f"they agree on {_first(prefix)}"
     if certain:
         decides = "the flight to the hand" if caught else "what the floor does after that"
         follows = "" if same_outcome else f"; {decides} decides"

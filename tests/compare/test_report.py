@@ -78,9 +78,9 @@ def test_the_page_stands_alone_and_has_its_parts(folder):
     assert "url(" not in text.replace("url(#", "")
     assert page.videos == 1
     expected = [
-        "One coin, two engines: short",
-        "The toss",
+        "short: do two engines toss this coin alike?",
         "Heads and tails",
+        "Film",
         "Motion",
         "Impacts",
         "Scenario",

@@ -50,6 +50,7 @@ CAUGHT = made("", ending=Ending.CAUGHT)
 CAUGHT_AFTER = made("HT", ending=Ending.CAUGHT)
 CUT = made("HH", Outcome.UNDECIDED, ending=Ending.MAX_IMPACTS)
 ROLLED = made("HH", contacts=[(0.5, 0.7)])
+ROLLED_ON = made("HHH", Outcome.TAILS, contacts=[(0.5, 0.7)])
 
 
 @pytest.mark.parametrize(
@@ -130,6 +131,23 @@ ROLLED = made("HH", contacts=[(0.5, 0.7)])
             Kind.DIFFER,
             "Heads by the analytic engine, on its edge by MuJoCo: they agree on both impacts, as they "
             "must; what the floor does after that decides.",
+        ),
+        (
+            ROLLED,
+            replace(ROLLED_ON, outcome=Outcome.HEADS),
+            2,
+            2,
+            Kind.AGREE,
+            "Heads by both engines: they agree on the 2 impacts that both count, as they must.",
+        ),
+        (
+            ROLLED_ON,
+            ROLLED,
+            2,
+            1,
+            Kind.DIFFER,
+            "Tails by the analytic engine, heads by MuJoCo: they agree on the first 2 impacts. The first "
+            f"must agree; after that {DECIDE}",
         ),
         (
             CAUGHT,
