@@ -35,6 +35,7 @@ from models.inertia import (
 from models.kernel.vectors import Matrix, Vector
 from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.units import in_si
+from models.unused import warn_of_unused_fields
 from models.words import Word
 from models.writing import toml
 
@@ -345,6 +346,21 @@ class Scenario(_Part):
     floor: Floor
     release: Release
     ending: EndingCriteria = EndingCriteria()
+
+    def __init__(self, **fields: Any) -> None:
+        """Make it of its parts, checked as a scenario file is.
+
+        Raises:
+            ScenarioError: naming field, value and what is accepted.
+
+        Warns:
+            UnusedFieldWarning: for a field that nothing uses.
+        """
+        super().__init__(**fields)
+        warn_of_unused_fields(self)
+
+    # A map's scenario, and one that `replace` returns, are validated without it.
+    __init__.__dict__["__pydantic_base_init__"] = True
 
     @model_validator(mode="after")
     def _above_the_floor(self) -> Self:
