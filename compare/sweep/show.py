@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import xarray
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -113,6 +114,25 @@ def figure_of(
             most=quantity.factor,
         )
     return picture.draw_map(maps[0], **common, size=style.size or picture.PANEL_SIZE)
+
+
+def draw_layer(axes: Axes, layer: Array | NDArray[np.int8], sweep: Sweep, style: PictureStyle) -> None:
+    """Draw the outcomes of a map, or its margins, into `axes`, with a legend below.
+
+    Args:
+        axes: where.
+        layer: outcomes, of int8, or margins, (y, x).
+        sweep: what the map is made of.
+        style: how to draw.
+    """
+    x, y = _drawn(sweep.x), _drawn(sweep.y)
+    if layer.dtype == np.int8:
+        shown = picture.draw_panel(axes, layer, x=x, y=y, palette=style.palette, boundaries=style.boundaries)
+    else:
+        quantity = quantity_of(sweep.margin or "")
+        about: Any = {"quantity": quantity.name, "unit": quantity.unit, "most": quantity.factor}
+        shown = picture.draw_margin_panel(axes, layer, x=x, y=y, **about)
+    picture.legend_below(axes, shown)
 
 
 def _drawn(axis: Axis) -> picture.MapAxis:

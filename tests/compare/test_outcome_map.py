@@ -1,11 +1,16 @@
 """Maps from Python: the same as the command's, and what a notebook, xarray and pandas see of them."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import xarray
+from matplotlib import pyplot
+from matplotlib.figure import Figure
 
 import cointoss
 from compare.sweep.layers import NOT_TOSSED
+from models.reading import parse
 from models.records import Outcome
 from tests.helpers.command_line import cointoss as command
 
@@ -15,6 +20,13 @@ X, Y = "release.angular_velocity.eta=20:60:7", "release.position.z=20 cm:60 cm:5
 @pytest.fixture(scope="module")
 def found():
     return cointoss.basin("fig24a", x=X, y=Y)
+
+
+@pytest.fixture(scope="module")
+def margins():
+    return cointoss.basin(
+        "fig24a", x="release.angular_velocity.eta=20:60:3", y="release.position.z=0.2:0.6:2", margin="height"
+    )
 
 
 def test_a_map_has_the_tosses_of_its_pixels(found):
@@ -45,6 +57,7 @@ def test_a_map_is_that_which_the_command_writes(found, tmp_path):
             assert ours[name].dims == on_disk[name].dims
             assert np.array_equal(ours[name], on_disk[name])
     assert ours.attrs["engine"] == on_disk.attrs["engine"]
+    assert parse(ours.attrs["scenario"], "ours") == parse(on_disk.attrs["scenario"], "theirs")
 
 
 def test_what_a_person_sees_of_a_map(found):
@@ -66,16 +79,71 @@ def test_what_a_person_sees_of_a_map(found):
     assert frame["outcome"].tolist().count("heads") == counts["heads"]
     assert frame["release.angular_velocity.eta"].tolist() == np.tile(found.x, 5).tolist()
     assert frame["impacts"].tolist() == found.impacts.ravel().tolist()
+    assert frame.attrs["units"] == {"release.position.z": "m", "release.angular_velocity.eta": "rad/s"}
 
 
-def test_a_plot_shows_the_map_and_its_margins(found):
-    (panel,) = found.plot().axes
+def test_a_plot_shows_the_map_or_its_margins(found, margins):
+    panel = found.plot(given := Figure().add_subplot(), boundaries=True)
+    assert panel is given
     assert panel.get_images()[0].get_array().shape[:2] == found.outcome.shape
-    with_margins = cointoss.basin(
-        "fig24a", x="release.angular_velocity.eta=20:60:3", y="release.position.z=0.2:0.6:2", margin="height"
+    legend = [text.get_text() for text in panel.get_legend().get_texts()]
+    assert legend == [*found.shares, "boundary"]
+    assert margins.to_dataframe().attrs["units"]["margin"] == "mm"
+    panel = margins.plot(Figure().add_subplot(), layer="margin")
+    assert panel.get_images()[0].get_array().shape[:2] == margins.outcome.shape
+    assert (panel.get_xlabel(), panel.get_ylabel()) == tuple(
+        f"{axis.field} [{axis.unit}]" for axis in (margins.sweep.x, margins.sweep.y)
     )
-    assert with_margins.margin is not None
-    assert len(with_margins.plot(palette="paper").axes) > 2
+    assert panel.figure.axes[1].get_ylabel() == "smallest change of height [mm]"
+    own = found.plot(palette="paper").figure
+    assert own.number in pyplot.get_fignums()
+    pyplot.close(own)
+
+
+def test_a_map_is_saved_as_the_command_saves_it(found, margins, tmp_path):
+    for name, made, more in (("plain", found, ()), ("margins", margins, ("--margin", "height"))):
+        path = tmp_path / f"{name}.zarr"
+        assert made.save(str(path)) == path
+        read = cointoss.read_map(path)
+        assert read.sweep == made.sweep
+        for layer, array in made.layers.items():
+            assert np.array_equal(read.layers[layer], array)
+        x, y = (
+            f"{axis.field}={axis.start}:{axis.stop}:{axis.count}" for axis in (made.sweep.x, made.sweep.y)
+        )
+        answered = command("basin", "fig24a", "--x", x, "--y", y, "--out", path, "--resume", *more)
+        assert answered.exit_code == 0, answered.stderr
+        theirs = tmp_path / "theirs.zarr"
+        command("basin", "fig24a", "--x", x, "--y", y, "--out", theirs, "--overwrite", *more)
+        files = {part.relative_to(path) for part in path.rglob("*")}
+        assert files == {part.relative_to(theirs) for part in theirs.rglob("*")}
+        for file in files - {Path("zarr.json")}:  # which has the scenario's text
+            assert (path / file).is_dir() or (path / file).read_bytes() == (theirs / file).read_bytes()
+
+
+def test_a_part_of_a_map_is_saved_and_gone_on_with(found, tmp_path):
+    outcome, impacts = found.outcome.copy(), found.impacts.copy()
+    outcome[:], impacts[:] = NOT_TOSSED, NOT_TOSSED
+    part = cointoss.OutcomeMap(name="m", sweep=found.sweep, outcome=outcome, impacts=impacts)
+    path = part.save(tmp_path / "m.zarr")
+    assert cointoss.read_map(path).shares == {"not tossed": 1}
+    command("basin", "fig24a", "--x", X, "--y", Y, "--out", path, "--resume")
+    assert np.array_equal(cointoss.read_map(path).outcome, found.outcome)
+
+
+def test_a_map_is_saved_over_no_other_and_only_whole(found, tmp_path):
+    path = found.save(tmp_path / "m.zarr")
+    with pytest.raises(OSError, match=r"m\.zarr: accepted: a new name \(this map exists"):
+        found.save(path)
+    found.save(path, overwrite=True)
+    with pytest.raises(OSError, match=r"accepted: a folder's name that ends in \.zarr"):
+        found.save(tmp_path / "m.txt")
+    coarse = cointoss.read_map(path, most=12)
+    with pytest.raises(
+        cointoss.SweepError, match=r"m\.zarr: one pixel of every 2 is here; accepted: a whole"
+    ):
+        coarse.save(tmp_path / "coarse.zarr")
+    assert [entry.name for entry in tmp_path.iterdir()] == ["m.zarr"]
 
 
 def test_a_map_that_is_not_finished_says_so(found):
@@ -122,6 +190,8 @@ def test_what_is_no_map_is_refused(found):
         )
     with pytest.raises(cointoss.SweepError, match="palette: 'foo', accepted: safe, paper"):
         found.plot(palette="foo")
+    with pytest.raises(cointoss.SweepError, match="layer: 'margin', accepted: outcome"):
+        found.plot(layer="margin")
     for most in (0, True, 2.5):
         with pytest.raises(cointoss.SweepError, match=f"most = {most}; accepted: a whole number from 1"):
             cointoss.read_map("map.zarr", most=most)  # pyright: ignore[reportArgumentType]
