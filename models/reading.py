@@ -7,7 +7,7 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from models.errors import ScenarioError, describe
+from models.errors import ScenarioError, describe, require_type
 from models.scenario import Scenario
 
 ScenarioSource = Scenario | str | PathLike[str]
@@ -93,7 +93,9 @@ def parse(text: str, source: str) -> Scenario:
 
     Raises:
         ScenarioError: naming file, field, value and what is accepted.
+        TypeError: for what is no text.
     """
+    require_type("text", text, str, "TOML as text, such as scenario.to_toml() returns")
     try:
         return Scenario.model_validate(tomllib.loads(text))
     except ValidationError as error:

@@ -165,7 +165,9 @@ def test_a_map_that_is_not_finished_says_so(found):
         ({"after": "2"}, "after: '2', accepted: a whole number"),
         ({"after": True}, "after: True, accepted: a whole number"),
         ({"after": 1.5}, "after: 1.5, accepted: a whole number"),
-        ({"x": None}, "x: None, accepted: text"),
+        ({"x": None}, "x: None, accepted: FIELD=START:STOP:N, such as"),
+        ({"y": (1, 2)}, r"y: \(1, 2\), accepted: FIELD=START:STOP:N, such as"),
+        ({"engine": None}, "engine: None, accepted: analytic, mujoco"),
         ({"margin": 3}, "margin: 3, accepted: text"),
         (
             {"x": "release.position.z=0.1:1:100000", "y": "gravity=1:9:100000"},
@@ -181,6 +183,17 @@ def test_a_map_that_is_not_finished_says_so(found):
 def test_what_makes_no_map_is_refused(wrong, named):
     with pytest.raises(ValueError, match=named):
         cointoss.basin("fig24a", **{"x": X, "y": Y, **wrong})
+
+
+@pytest.mark.parametrize("wrong", [None, {}, np.zeros(3)], ids=lambda wrong: type(wrong).__name__)
+def test_what_is_no_scenario_is_refused(wrong):
+    for use in (lambda one: cointoss.basin(one, x=X, y=Y), cointoss.compare, cointoss.toss):
+        with pytest.raises(
+            cointoss.ScenarioError, match=r"^scenario: of type .*, accepted: a Scenario, the pa"
+        ):
+            use(wrong)
+    with pytest.raises(TypeError, match=r"^text: of type .*, accepted: TOML as text"):
+        cointoss.parse(wrong, "wrong")
 
 
 def test_what_is_no_map_is_refused(found):
