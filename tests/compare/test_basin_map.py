@@ -140,7 +140,7 @@ def test_the_map_has_the_agreed_form(undisturbed, coin, tmp_path):
 
 def test_a_killed_map_is_resumed_to_the_same_pixels(undisturbed, coin, tmp_path, monkeypatch):
     out = tmp_path / "map.zarr"
-    with begun(coin, out) as process:
+    with begun(coin, out, most=6) as process:
         wait_for(process, out, 6)
         meanwhile = basin(coin, *AXES, "--out", out, "--resume")
         overwritten = basin(coin, *AXES, "--out", out, "--overwrite")
@@ -160,7 +160,7 @@ def test_a_killed_map_is_resumed_to_the_same_pixels(undisturbed, coin, tmp_path,
 
 def test_an_interrupted_map_is_resumed_to_the_same_pixels(undisturbed, coin, tmp_path, monkeypatch):
     out = tmp_path / "map.zarr"
-    with begun(coin, out) as process:
+    with begun(coin, out, most=4) as process:
         wait_for(process, out, 4)
         process.send_signal(signal.SIGINT)
         said = process.communicate(timeout=60)[1]
