@@ -24,6 +24,7 @@ from models.interruptible import interruptible
 from models.reading import ScenarioSource, scenario_of
 from models.records import Array, Impacts, Setting, States, Toss
 from models.scenario import Release, Scenario
+from models.stages import stage
 
 _INTEGRATED = "Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"
 
@@ -109,7 +110,8 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     """
     require_type("settings", settings, Settings, "analytic.Settings, such as analytic.FINE")
     described = scenario_of(scenario)
-    return interruptible(lambda: _toss(described, settings))
+    with stage("tossing by the analytic engine"):
+        return interruptible(lambda: _toss(described, settings))
 
 
 def _toss(scenario: Scenario, settings: Settings) -> Toss:

@@ -20,10 +20,11 @@ from models.outcomes import Outcomes
 from models.reading import ScenarioSource, scenario_of
 from models.records import IMPACT_ROW
 from models.releases import Releases, check_releases
+from models.stages import stage
 from models.tiles import toss_in_tiles
 
 TILE = 8
-"""Tosses that a thread makes at a time."""
+"""Most tosses that a thread makes at a time."""
 
 
 def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Settings = MANY) -> Outcomes:
@@ -62,7 +63,8 @@ def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Setting
         with air_of(of_thread.machine.model), clock_stopped():
             _toss_each(of_thread.machine.coin, of_thread.machine.plastic, rules, settings.budgets, *columns)
 
-    return toss_in_tiles(releases, TILE, toss_tile)
+    with stage("tossing by MuJoCo", "tosses") as progress:
+        return toss_in_tiles(releases, TILE, toss_tile, progress)
 
 
 @compiled

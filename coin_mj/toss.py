@@ -37,6 +37,7 @@ from models.records import (
     UnsupportedError,
 )
 from models.scenario import RESISTANCES, Scenario
+from models.stages import stage
 
 REALISABLE = (ContactLaw.SMOOTH, ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH)
 SOFTER = (10.0, 30.0)
@@ -65,7 +66,8 @@ class MujocoRun(NamedTuple):
 def run(machine: Machine, rules: Rules) -> MujocoRun:
     """Toss the coin from its present state until the toss is decided."""
     room = np.zeros(FIRST_ROOM, IMPACT_ROW)
-    with air_of(machine.model), clock_stopped():
+    so_far = stage("a toss", detail=lambda: f"{machine.data.time:.3g} s of the coin's time")
+    with so_far, air_of(machine.model), clock_stopped():
         n, rows, knots, contacts, outcome, ending, end_time = toss_coin(
             machine.coin, machine.plastic, rules, machine.settings.budgets, room, True
         )
@@ -129,7 +131,8 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     described = scenario_of(scenario)
     require_supported(described, settings=settings)
     warn_of_approximation(described)
-    return interruptible(lambda: _toss(described, settings))
+    with stage("tossing by MuJoCo"):
+        return interruptible(lambda: _toss(described, settings))
 
 
 def _toss(scenario: Scenario, settings: Settings) -> Toss:

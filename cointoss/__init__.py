@@ -88,12 +88,13 @@ _HOMES = {name: home for home, names in _NAMES.items() for name in names}
 
 def __getattr__(name: str) -> Any:
     if name == "__version__":
-        return import_module("importlib.metadata").version("cointoss")
+        return import_module("importlib.metadata").version(import_module("models.distribution").DISTRIBUTION)
     if name not in (*_PACKAGES, *_HOMES):
         near = import_module("difflib").get_close_matches(name, __dir__(), n=1)
         hint = f" (did you mean {near[0]}?)" if near else ""
         raise AttributeError(f"cointoss has no {name}; accepted: {', '.join(__dir__())}{hint}")
     _require_siblings()
+    import_module("compare.output.progress")  # What takes long says so in a terminal or a notebook.
     return import_module(name) if name in _PACKAGES else getattr(import_module(_HOMES[name]), name)
 
 

@@ -5,6 +5,7 @@ from importlib import import_module
 from importlib.metadata import version
 from typing import Any, Protocol, cast
 
+from models.distribution import DISTRIBUTION
 from models.outcomes import Outcomes
 from models.reading import ScenarioSource
 from models.records import Toss
@@ -63,7 +64,7 @@ class Engine(StrEnum):
 
 
 _PACKAGES = {Engine.ANALYTIC: "analytic", Engine.MUJOCO: "coin_mj"}
-_COMPILED = ("cointoss", "numba", "numpy")
+_COMPILED = (DISTRIBUTION, "numba", "numpy")
 _MADE_OF = {Engine.ANALYTIC: _COMPILED, Engine.MUJOCO: (*_COMPILED, "mujoco")}
 
 

@@ -418,7 +418,8 @@ class Toss:
     def floor_force(self, times: ArrayLike) -> Array:
         """Return the floor's force on the coin in its sustained contacts, space frame, (n, 3) [N].
 
-        Elsewhere it is 0; what the floor does in an impact is the impact's impulse.
+        Elsewhere it is 0; what the floor does in an impact is the impact's impulse. It is 0 in a contact that
+        takes no time, too, such as that in which a coin comes to lie flat.
 
         Args:
             times: one time, or (n,), each from 0 to `end_time` [s].
@@ -429,8 +430,9 @@ class Toss:
         t = self._required(times)
         force = np.zeros((len(t), 3))
         contact = np.searchsorted(self.contacts[:, 0], t, side="right") - 1
-        ends = np.append(self.contacts[:, 1], -np.inf)  # the last is that of contact -1, before the first
-        held = t <= ends[contact]
+        # The last is that of contact -1, before the first.
+        starts, ends = np.append(self.contacts, [[-np.inf, -np.inf]], axis=0).T
+        held = (t <= ends[contact]) & (starts[contact] < ends[contact])
         if held.any():
             force[held] = interruptible(lambda: self.path.floor_force(t[held]))
         return force

@@ -1,9 +1,12 @@
 """The fields of a scenario that nothing uses."""
 
 import warnings
+from typing import TYPE_CHECKING
 
 from models.laws import ContactLaw
-from models.scenario import Scenario
+
+if TYPE_CHECKING:
+    from models.scenario import Scenario
 
 _WITH_FRICTION = (ContactLaw.SLIDING_FRICTION, ContactLaw.COULOMB)
 
@@ -12,7 +15,7 @@ class UnusedFieldWarning(UserWarning):
     """A field of a scenario that nothing uses; the message names it, its value and what would use it."""
 
 
-def unused_fields(scenario: Scenario) -> list[str]:
+def unused_fields(scenario: "Scenario") -> list[str]:
     """Return a line for each field that has no effect: its name, its value, and what would use it."""
     floor, air = scenario.floor, scenario.air
     law, laws = floor.contact, " and ".join(f'"{law}"' for law in _WITH_FRICTION)
@@ -31,7 +34,7 @@ def unused_fields(scenario: Scenario) -> list[str]:
     return [line for line, is_so in lines.items() if is_so]
 
 
-def warn_of_unused_fields(scenario: Scenario) -> None:
+def warn_of_unused_fields(scenario: "Scenario") -> None:
     """Warn of each field that has no effect.
 
     Warns:

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 import cointoss
+from models.distribution import DISTRIBUTION
 from tests.helpers.command_line import HERE
 
 TOP = Path(__file__).parents[1]
@@ -36,7 +37,12 @@ def test_each_name_is_that_of_its_home_and_a_type_checker_knows_it():
     for name, home in homes.items():
         assert getattr(cointoss, name) is getattr(import_module(home), name)
     assert [getattr(cointoss, name) for name in PACKAGES] == [sys.modules[name] for name in PACKAGES]
-    assert cointoss.__version__ == version("cointoss")
+    assert cointoss.__version__ == version(DISTRIBUTION)
+
+
+def test_the_name_that_pip_installs_is_that_of_the_project():
+    project = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert project["name"] == DISTRIBUTION
 
 
 def test_each_public_name_says_what_it_is():

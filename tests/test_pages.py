@@ -174,6 +174,21 @@ def test_each_command_of_the_pages_writes_to_a_name_of_its_own():
     assert sorted(named) == sorted(set(named))
 
 
+def test_long_tables_of_numbers_are_folded():
+    """All but the table of verdicts, which is the contents of its pages."""
+    found = []
+    for page in DOCS.rglob("*.md"):
+        text = re.sub(r"<details>.*?</details>", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+        for rows in re.findall(r"^\|[ |:-]+\|\n((?:\|.*\n){6,})", text, re.MULTILINE):
+            cells = [cell for row in rows.splitlines() for cell in row.split("|")[2:-1]]
+            found += [page.name] if sum(map(begins_with_digit, cells)) > len(cells) / 5 else []
+    assert found == ["REPRODUCTION.md"]
+
+
+def begins_with_digit(cell: str) -> bool:
+    return re.match(r"\s*-?\d", cell) is not None
+
+
 def test_no_two_pages_have_one_heading():
     pages = [page for page in DOCS.rglob("*.md") if page.name not in ("index.md", "OVERVIEW.md")]
     headings = [re.findall(r"^# (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE)[0] for page in pages]
@@ -190,14 +205,17 @@ def test_no_line_of_a_page_is_a_comment_or_a_break_to_the_site():
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda page: page.stem)
-def test_a_notebook_has_code_that_parses_and_ends_with_exercises(notebook):
+def test_a_notebook_has_code_that_parses_and_ends_with_exercises_and_solutions(notebook):
     """`make docs` runs them; a cell may begin with options between two lines of dashes."""
     cells = [block.text for block in written(notebook) if block.language == "{code-cell}"]
     code = [re.sub(r"\A---\n.*?\n---\n", "", cell, flags=re.DOTALL) for cell in cells]
     assert len([compile(cell, notebook.name, "exec") for cell in code]) >= 4
     assert max(len(line) for cell in code for line in cell.splitlines()) <= 88
     _, _, exercises = notebook.read_text(encoding="utf-8").partition("\n## Exercises\n")
-    assert len(re.findall(r"^\d\. ", exercises, flags=re.MULTILINE)) >= 3
+    texts = re.split(r"^\d\. ", exercises, flags=re.MULTILINE)[1:]
+    assert len(texts) >= 3
+    solutions = [text.partition("<summary>Solution</summary>")[2] for text in texts]
+    assert all("{code-cell}" in solution for solution in solutions)
     assert "\n## " not in exercises
 
 

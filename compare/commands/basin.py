@@ -36,7 +36,11 @@ class _Size(click.ParamType):
 @axis_option("--x", "The field that varies along x, and its N values.")
 @axis_option("--y", "The field that varies along y.")
 @click.option(
-    "--out", type=click.Path(path_type=Path), required=True, help="The Zarr store to write, MAP.zarr."
+    "--out",
+    type=click.Path(path_type=Path),
+    required=True,
+    metavar="MAP.zarr",
+    help="The Zarr store to write.",
 )
 @click.option("--engine", type=click.Choice(["analytic", "mujoco"]), help="The engine; by default analytic.")
 @click.option(
@@ -122,7 +126,6 @@ def basin(
     with plain_errors(scenario):
         from compare.basins.picture_style import DPI, Palette, PictureStyle
         from compare.engines import Engine
-        from compare.output.progress import bar
         from compare.sweep.job import Job, make
         from models.reading import scenario_text
 
@@ -146,15 +149,14 @@ def basin(
             report=report,
             no_video=no_video,
         )
-        with bar("video", "frames") as progress:
-            for result in make(job, _watched, progress, say):
-                click.echo(result)
+        for result in make(job, _watched, say):
+            click.echo(result)
 
 
 @contextmanager
 def _watched(name: str, done: int, count: int) -> Iterator[Callable[[int], None]]:
-    """Yield a function to report tosses to; show their number, rate and time left on the terminal."""
-    from compare.output.progress import bar
+    """Yield a function to report tosses to, which shows how many there are."""
+    from models.stages import stage
 
     kept = done
 
@@ -164,8 +166,7 @@ def _watched(name: str, done: int, count: int) -> Iterator[Callable[[int], None]
         progress(kept, count)
 
     try:
-        with bar(name, "tosses", done=done) as progress:
-            progress(kept, count)
+        with stage(name, "tosses", total=count, done=done) as progress:
             yield more
     except Interruption as interruption:
         interruption.message = f"{name}: {kept} of {count} tosses are saved; --resume continues"

@@ -37,12 +37,7 @@ def compare(scenario: str, out: Path | None, no_video: bool) -> None:
 
         problem = NOT_ASKED if no_video else drawing_problem()
 
-        from compare.output.progress import STILL_TOSSING, bar, elapsed_time
         from compare.report.comparison import compared
         from compare.report.folder import write_report
 
-        with elapsed_time(STILL_TOSSING):
-            both = compared(described, text, Path(scenario).stem)
-        with bar("video", "frames") as progress:
-            page = write_report(both, folder, problem, progress)
-        click.echo(page)
+        click.echo(write_report(compared(described, text, name), folder, problem))

@@ -29,9 +29,9 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
     """
     from compare.film.back_end import drawing_problem, require_mujoco
     from compare.output.files import require_folder
-    from compare.output.progress import bar
     from compare.reproduction import gallery, printing, runner
     from compare.reproduction.claim import unexpected
+    from models.stages import stage
 
     with plain_errors("reproduce"):
         # Figures may hold stills: the back end is chosen before MuJoCo is imported.
@@ -39,7 +39,7 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
             drawing_problem()
         require_mujoco()
     known = runner.names()
-    pages = names == ("all",)
+    pages, asked = names == ("all",), " ".join(names)
     if pages:
         names = tuple(gallery.of_paper())
     for name in names:
@@ -52,10 +52,10 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
             place = f"{found.paper}: " if found.paper else ""
             click.echo(f"{name:{width}}{place}{found.title} ({found.seconds:g} s)")
         return
-    if not names or out is None:
-        ctx.fail(
-            f"accepted: NAME ... --out DIR, NAME one of: {', '.join(known)}, or all; or neither, for a list"
-        )
+    if out is None:
+        ctx.fail(f"--out: missing; accepted: {ctx.command_path} {asked} --out DIR")
+    if not names:
+        ctx.fail(f"NAME: missing; accepted: all, or one of: {', '.join(known)}")
     with plain_errors(str(out)):
         require_folder(out, gallery.PAGES if pages else ())
         for name in names:
@@ -63,7 +63,7 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
         width = min(shutil.get_terminal_size((100, 24)).columns, 120)
         failed = []
         for name in names:
-            with bar(name, "parts") as progress:
+            with stage(name, "parts") as progress:
                 result = runner.reproduce(name, out, progress, quick=quick)
             if name != names[0]:
                 click.echo()

@@ -55,7 +55,6 @@ def toss(
         from compare.film.back_end import require_mujoco
         from compare.output import answer
         from compare.output.files import is_stream, require_file, write_text
-        from compare.output.progress import STILL_TOSSING, elapsed_time
         from models.reading import load
 
         described = load(scenario)
@@ -69,8 +68,7 @@ def toss(
         given = {"contact": contact, "contact_steps": contact_steps, "flight_steps": flight_steps}
         chosen = {name: value for name, value in given.items() if value is not None}
         settings = replace(package.FINE, **chosen)
-        with elapsed_time(f"{STILL_TOSSING}, --max-impacts N a toss sooner"):
-            result = package.toss(described, settings=settings)
+        result = package.toss(described, settings=settings)
         if trajectory is not None:
             times = answer.path_times(result)
             write_text(trajectory, answer.path_csv(result.sample(times)))
@@ -78,8 +76,7 @@ def toss(
         if margin:
             from compare.metrics.margin import margins
 
-            with elapsed_time("still looking for margins; Ctrl-C ends it"):
-                extra = margins(described)
+            extra = margins(described)
         if as_json:
             told = {
                 item.quantity.name: {"change": item.finite, "proved": item.proved, "unit": item.quantity.unit}

@@ -40,10 +40,7 @@ def frames(shown: Sequence[Filmed], camera: Camera, form: Format) -> Iterator[np
     box, width = box_of(plays), form.width // len(shown)
     with ExitStack() as stack:
         drawers = [
-            stack.enter_context(
-                Drawer(play, camera, box, height=form.height, width=width, samples=form.samples)
-            )
-            for play in plays
+            stack.enter_context(Drawer(play, camera, box, height=form.height, width=width)) for play in plays
         ]
         for i, (time, speed) in enumerate(zip(times, speeds, strict=True)):
             picture = np.concatenate([drawer.draw(i) for drawer in drawers], axis=1)

@@ -19,6 +19,7 @@ from models.plots import axes_or_new
 from models.reading import ScenarioSource, parse, scenario_text
 from models.records import Array, Toss, UnsupportedError
 from models.scenario import Scenario
+from models.stages import stage
 
 if TYPE_CHECKING:
     from models.plots import Axes
@@ -185,7 +186,7 @@ class Comparison:
         from compare.report.folder import write_report
 
         require_folder(Path(out), self.name)
-        return write_report(self, Path(out), drawing_problem(), lambda *_: None)
+        return write_report(self, Path(out), drawing_problem())
 
     def film(self, out: str | PathLike[str]) -> Path:
         """Write the film that `cointoss video` draws, and return its path.
@@ -207,9 +208,9 @@ class Comparison:
         problem = drawing_problem()
         if problem is not None:
             raise BackEndError(problem)
-        with written_whole(path) as aside:
-            form = ENCODINGS[path.suffix.lower()].form
-            write_video(self.filmed(), Camera.CLOSE_UP, form, aside, lambda *_: None)
+        filmed, form = self.filmed(), ENCODINGS[path.suffix.lower()].form
+        with written_whole(path) as aside, stage("drawing the film", "frames") as progress:
+            write_video(filmed, Camera.CLOSE_UP, form, aside, progress)
         return path
 
 

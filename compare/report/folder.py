@@ -2,7 +2,6 @@
 
 import io
 import json
-from collections.abc import Callable
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -16,6 +15,7 @@ from compare.report.contents import FILES, OF_THE_FILM
 from compare.report.map_section import MapSection
 from compare.report.page import Film, Page, render, versions
 from models.records import Array
+from models.stages import stage
 
 BEING_DRAWN = (
     "It is being drawn: reload this page when cointoss has ended. "
@@ -27,7 +27,6 @@ def write_report(
     comparison: Comparison,
     folder: Path,
     no_video: str | None,
-    progress: Callable[[int, int], None],
     *,
     maps: MapSection | None = None,
 ) -> Path:
@@ -40,7 +39,6 @@ def write_report(
         folder: where to write, made if missing; an earlier report there is replaced as a whole before the
             film is drawn.
         no_video: why no video can be drawn, or None.
-        progress: called after each frame of the video with their number so far and in all.
         maps: what the report also shows.
 
     Returns:
@@ -51,7 +49,8 @@ def write_report(
         UnwritableError: naming the folder and why.
     """
     with written_together(folder, FILES) as aside:
-        numbers = _numbers(comparison) | ({"map": maps.numbers} if maps else {})
+        with stage("comparing the tosses"):
+            numbers = _numbers(comparison) | ({"map": maps.numbers} if maps else {})
         (aside / "numbers.json").write_text(json.dumps(numbers, indent=1, allow_nan=False), encoding="utf-8")
         for toss in comparison.tosses:
             states = toss.sample(answer.path_times(toss))
@@ -66,7 +65,9 @@ def write_report(
             from compare.film.encodings import SMALL
             from compare.film.video import write_video
 
-            poster = write_video(comparison.filmed(), Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress)
+            filmed = comparison.filmed()
+            with stage("drawing the film", "frames") as progress:
+                poster = write_video(filmed, Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress)
             film = Film((aside / "toss.mp4").read_bytes(), _jpeg(poster))
             with_film = replace(page, film=film, no_video=None)
             (aside / "report.html").write_text(render(with_film), encoding="utf-8")

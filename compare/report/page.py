@@ -21,6 +21,7 @@ from compare.report.motion import motion_of
 from compare.report.verdict import horizon_sentence, verdict_of
 from compare.web.scripts import POLICY, data_element, import_map, shared_files
 from models import certificate
+from models.distribution import DISTRIBUTION
 from models.fields import WORDS, printed_unit
 from models.meanings import meanings
 from models.records import Face, Toss
@@ -28,7 +29,7 @@ from models.scenario import Scenario
 
 MOST_SHOWN = 200
 """Symbols of a sequence, and impacts, that the page shows."""
-PACKAGES = ("cointoss", "mujoco", "numpy", "scipy", "numba", "matplotlib", "mediapy")
+PACKAGES = (DISTRIBUTION, "mujoco", "numpy", "scipy", "numba", "matplotlib", "mediapy")
 
 
 class Film(NamedTuple):

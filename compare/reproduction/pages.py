@@ -78,9 +78,15 @@ def verdicts_of(claims: Iterable[Claim]) -> str:
     return " and ".join(filter(None, [", ".join(most), last]))
 
 
+def _listed(who: str, what: str) -> str:
+    """Return an item of a list, with an item below it for each of several findings."""
+    parts = re.split(r"; (?![^(]*\))", what)
+    return f"- {who}: {what}" if len(parts) == 1 else "\n  - ".join([f"- {who}:", *parts])
+
+
 def _unfolding(claim: Claim) -> str:
     told = {"Analytic": claim.analytic, "MuJoCo": claim.mujoco, "Open": claim.wanted or "-"}
-    words = "\n".join(f"- {who}: {what}" for who, what in told.items() if what != "-")
+    words = "\n".join(_listed(who, what) for who, what in told.items() if what != "-")
     rows = [[each.quantity, each.value, each.accepted, each.reason] for each in claim.criteria]
     criteria = table(["measured", "found", "threshold", "its reason"], rows, words=True) if rows else ""
     summary = f"<b>{VERDICTS[claim.holds]}:</b> {escape(claim.claim, quote=False)}"

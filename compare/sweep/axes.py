@@ -72,7 +72,7 @@ def parse_axis(text: str, scenario: Scenario) -> Axis:
         raise SweepError(f"{text}: N = {parts[2]}; accepted: a whole number from 2 to {MOST_VALUES}")
     axis = Axis(field=field, unit=unit, start=start, stop=stop, count=count)
     if field == "ending.max_impacts" and not np.all(np.mod(axis.values, 1) == 0):
-        raise SweepError(f"{text}: accepted: START, STOP and N that give whole numbers only")
+        raise SweepError(f"{text}: accepted: START, STOP and N that give whole numbers only, such as 1:9:9")
     return axis
 
 

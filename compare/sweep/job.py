@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 Watch = Callable[[str, int, int], AbstractContextManager[run.Tossed]]
 """Called with a map's name, the pixels that it has, and how many it will have; gives what to tell of more."""
-Frames = Callable[[int, int], None]
-"""Called with the number of the video's frames that are drawn, and of all."""
 Say = Callable[[str], None]
 """Called with what is waited for."""
 
@@ -106,7 +104,7 @@ def _engines_of(job: Job) -> dict[Path, Engine]:
     return {job.out: job.engine or Engine.ANALYTIC} | ({} if job.engine else {second: Engine.MUJOCO})
 
 
-def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
+def make(job: Job, watch: Watch, say: Say) -> Iterator[str]:
     """Make what is asked for, and give the results as text, each as soon as it is there.
 
     Nothing is begun before all is checked that can be.
@@ -162,15 +160,13 @@ def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
         show.write(job.png, maps, first, job.style, margins=margins)
         yield f"picture    {job.png}"
     if job.report is not None:
-        from compare.output.progress import STILL_TOSSING, elapsed_time
         from compare.report.comparison import compared
         from compare.report.folder import write_report
 
         fine = replace(Engine.MUJOCO.package.FINE, contact=job.contact)
-        with elapsed_time(STILL_TOSSING):
-            both = compared(first.scenario, job.text, Path(job.source).stem, fine)
+        both = compared(first.scenario, job.text, Path(job.source).stem, fine)
         shown = show.section(maps, list(sweeps.values()), job.style, _command(job))
-        page = write_report(both, job.report, no_video, frames, maps=shown)
+        page = write_report(both, job.report, no_video, maps=shown)
         yield f"report     {page}"
 
 
@@ -178,7 +174,7 @@ def _require_report(folder: Path, maps: Iterable[Path], source: str) -> None:
     require_folder(folder, source)
     for path in maps:
         if Path(os.path.realpath(folder)).is_relative_to(os.path.realpath(path)):
-            raise UnwritableError(f"{folder}: accepted: a folder outside of the map {path}")
+            raise UnwritableError(f"{folder}: lies in the map {path}; accepted: a folder outside of it")
 
 
 def _command(job: Job) -> str:

@@ -89,7 +89,9 @@ class OutcomeMap:
     def __repr__(self) -> str:
         """Return what the map is of, and the shares of its outcomes."""
         told = ", ".join(f"{share:.1%} {name}" for name, share in self.shares.items())
-        return f"<OutcomeMap {self.name} by {self.sweep.engine}: {self._size}: {told}>"
+        x, y = self.sweep.x, self.sweep.y
+        size = f"{len(self.x)} x {len(self.y)} over {x.field} and {y.field}"
+        return f"<OutcomeMap {self.name} by {self.sweep.engine}: {size}: {told}>"
 
     def _repr_html_(self) -> str:
         """Return what `repr` says, with a picture."""
@@ -99,8 +101,7 @@ class OutcomeMap:
 
     @property
     def _size(self) -> str:
-        x, y = self.sweep.x, self.sweep.y
-        return f"{len(self.x)} x {len(self.y)} over {x.field} and {y.field}"
+        return f"{len(self.x)} x {len(self.y)} over {self.sweep.x.word} and {self.sweep.y.word}"
 
     def _picture(self) -> str:
         if NOT_TOSSED in self.outcome:

@@ -15,6 +15,7 @@ from models.outcomes import Outcomes
 from models.records import Array
 from models.releases import Releases, changed_releases, check_releases
 from models.scenario import Scenario
+from models.stages import counted
 from models.unused import warn_of_unused_fields
 
 _ENDS_SUFFICE = (
@@ -146,7 +147,7 @@ def check(sweep: Sweep) -> None:
     """
     y, x = _tried(sweep.y), _tried(sweep.x)
     rows_at_once = max(1, (1 << 14) // len(x))
-    for top in range(0, len(y), rows_at_once):
+    for top in counted("checking the grid", "parts", range(0, len(y), rows_at_once)):
         some = y[top : top + rows_at_once]
         for rows, columns in _blocks(sweep, len(some), len(x)):
             _check_together(sweep, some[rows], x[columns])

@@ -129,10 +129,11 @@ def _read(map_: Map, form: Form, names: Iterable[str], stride: int) -> dict[str,
     kinds = {"outcome": np.int8, "impacts": np.int32, "margin": np.float64}
     arrays = {name: np.full((ny, nx), fills[name], kinds[name]) for name in names}
     for tile in tiles(form.shape, form.tile):
-        if not map_.is_tossed(tile):
+        tossed = map_.tossed(tile)
+        if not tossed.any():
             continue
         kept = tuple(slice(-(-part.start // stride), -(-part.stop // stride)) for part in tile)
         first = tuple(slice(-part.start % stride, None, stride) for part in tile)
         for name, array in arrays.items():
-            array[kept] = map_.read(tile, name)[first]
+            array[kept] = np.where(tossed, map_.read(tile, name), fills[name])[first]
     return arrays

@@ -56,18 +56,19 @@ class Map:
         """Whether no tile was tossed yet; only the names of what is on disk are read."""
         return self._array("outcome").nchunks_initialized == 0
 
-    def is_tossed(self, tile: Tile) -> bool:
-        """Tell whether a tile is on disk, whole."""
+    def tossed(self, tile: Tile) -> NDArray[np.bool_]:
+        """Return which pixels of a tile are on disk; none of one that is damaged, (y, x)."""
+        none = np.zeros([part.stop - part.start for part in tile], dtype=bool)
         if not (self.path / next(self._files("outcome", tile))).exists():
-            return False
+            return none
         try:
             outcome, impacts = (self.read(tile, name) for name in ("outcome", "impacts"))
-            margin_found = not self.has_margin or not np.isnan(self.read(tile, "margin")).any()
+            margin = self.read(tile, "margin") if self.has_margin else np.zeros(outcome.shape)
         except OSError:
             raise
         except Exception:  # its checksum is wrong, or it breaks off; each codec fails in its own way
-            return False
-        return bool(np.isin(outcome, list(Outcome)).all() and (impacts >= 0).all() and margin_found)
+            return none
+        return np.isin(outcome, list(Outcome)) & (impacts >= 0) & ~np.isnan(margin)
 
     @property
     def has_margin(self) -> bool:
@@ -83,23 +84,43 @@ class Map:
         return self._read(name, tuple(slice(0, count) for count in self._array(name).shape))
 
     def write(self, tile: Tile, pixels: Pixels) -> None:
-        """Keep what is known of a tile.
+        """Keep what is known of a tile, or of a part of one.
 
         Raises:
             UnwritableError: naming the map and why, for every error of the system.
         """
         with naming(self.path):
             if pixels.margin is not None:
-                self._array("margin")[tile.rows, tile.columns] = pixels.margin
-            self._array("impacts")[tile.rows, tile.columns] = pixels.impacts
-            self._array("outcome")[tile.rows, tile.columns] = pixels.outcome
+                self._put("margin", tile, pixels.margin)
+            self._put("impacts", tile, pixels.impacts)
+            self._put("outcome", tile, pixels.outcome)
+
+    def _put(self, name: str, part: Tile, values: NDArray[Any]) -> None:
+        """Write a part of a tile; a file around it that is damaged holds nothing else."""
+        array = self._array(name)
+        try:
+            self._require_chunks(name, part)  # zarr reads what is around the part
+            array[part.rows, part.columns] = values
+        except OSError:
+            raise
+        except Exception:  # see `tossed`
+            around = (
+                slice(side.start // length * length, (side.start // length + 1) * length)
+                for side, length in zip(part, array.chunks, strict=True)
+            )
+            array[tuple(around)] = array.fill_value
+            array[part.rows, part.columns] = values
 
     def _read(self, name: str, part: tuple[slice, ...]) -> NDArray[Any]:
+        self._require_chunks(name, part)
+        return self._array(name)[part]
+
+    def _require_chunks(self, name: str, part: tuple[slice, ...]) -> None:
+        """Refuse chunks of a part of an array that decode to another size than they should."""
         array = self._array(name)
         size = array.dtype.itemsize * math.prod(array.chunks)
         for file in self._files(name, part):
             require_chunk(self.path, file, size)
-        return array[part]
 
     def _files(self, name: str, part: tuple[slice, ...]) -> Iterator[Path]:
         """Yield the files of the chunks of a part of an array, as they are named in the map."""
@@ -123,21 +144,22 @@ def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
         UnwritableError: naming the path and why.
     """
     if path.suffix != ".zarr":
-        raise UnwritableError(f"{path}: accepted: a folder's name that ends in .zarr")
+        raise UnwritableError(f"{path}: another kind of name; accepted: one that ends in .zarr")
     with naming(path):
         target = Path(os.path.realpath(path))
         if not target.parent.is_dir():
-            raise UnwritableError(f"{path}: accepted: a name in a folder that exists")
+            raise UnwritableError(
+                f"{path}: no folder {path.parent}; accepted: a name in a folder that exists"
+            )
         if not target.exists() or (target.is_dir() and not any(target.iterdir())):
             probe = beside(target)
             with undoing(lambda: remove(probe)):
                 probe.mkdir()
         elif not is_map(target):
-            raise UnwritableError(f"{path}: accepted: a new name, or a map of cointoss (this is none)")
+            raise UnwritableError(f"{path}: is no map; accepted: a new name, or a map of cointoss")
         elif not (resume or overwrite):
             raise UnwritableError(
-                f"{path}: accepted: a new name (this map exists: --resume continues it, --overwrite "
-                "replaces it)"
+                f"{path}: exists; accepted: a new name, --resume to continue it, or --overwrite to replace it"
             )
 
 

@@ -10,6 +10,8 @@ from compare.reproduction import gallery, runner
 BACK = '<a href="{}" style="display: block; padding: 0.5rem 1rem; color: inherit">← cointoss</a>'
 """The first line of a page that the site takes as it is."""
 ANCHOR = re.compile(r'^(#+ )<a id="([\w-]+)"></a>', re.MULTILINE)
+NOTEBOOK = re.compile(r"\[([^\]]+)\]\(([^)\s]+\.ipynb)\)")
+"""A link that Sphinx would take for one to the page beside the notebook."""
 
 
 def read(app: Sphinx, docname: str, source: list[str]) -> None:
@@ -22,6 +24,7 @@ def read(app: Sphinx, docname: str, source: list[str]) -> None:
         source[0] += cards()
     if docname == "REPRODUCTION":
         source[0] += contents()
+    source[0] = NOTEBOOK.sub(r"{download}`\1 <\2>`", source[0])
     source[0] = ANCHOR.sub(r"(\2)=\n\1", source[0]).replace("](../README.md", "](OVERVIEW.md")
 
 

@@ -1,6 +1,9 @@
-"""Write what docs/ holds that is made from other files, as `make pages` does: the pages of kept results."""
+"""Write what docs/ holds that is made from other files, as `make pages` does: pages of results, notebooks."""
 
 from pathlib import Path
+
+import nbformat
+from myst_nb.core.read import read_myst_markdown_notebook
 
 from compare.output.files import written_together
 from compare.reproduction import gallery, pages, runner
@@ -22,5 +25,21 @@ def write_results(out: Path) -> None:
     gallery.write(out, gallery.of_paper(), quick=False)
 
 
+def notebook_of(page: Path) -> str:
+    """Return a page with cells of code as a notebook for Jupyter, without what its cells show."""
+    notebook = read_myst_markdown_notebook(page.read_text(encoding="utf-8"), path=page)
+    del notebook.metadata["jupytext"]
+    for number, cell in enumerate(notebook.cells):
+        cell.id = f"cell-{number}"
+    return nbformat.writes(notebook) + "\n"
+
+
+def write_notebooks(examples: Path) -> None:
+    """Write a notebook for Jupyter beside each page in a folder."""
+    for page in examples.glob("*.md"):
+        page.with_suffix(".ipynb").write_text(notebook_of(page), encoding="utf-8")
+
+
 if __name__ == "__main__":
     write_results(DOCS)
+    write_notebooks(DOCS / "examples")

@@ -57,9 +57,7 @@ def section_of(maps, after=None):
 
 def shown_of(section, folder):
     """Give the text of the section on a report's page."""
-    page = write_report(
-        compared(parse(COIN, "coin"), COIN, "coin"), folder, ADVICE, lambda *_: None, maps=section
-    )
+    page = write_report(compared(parse(COIN, "coin"), COIN, "coin"), folder, ADVICE, maps=section)
     html = page.read_text(encoding="utf-8").split(">Basin map</h2>")[1].split("<h2>")[0]
     return " ".join(unescape(re.sub(r"<[^>]+>", " ", html)).split())
 

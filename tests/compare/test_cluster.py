@@ -10,18 +10,31 @@ import time
 
 import distributed
 import pytest
+from distributed.comm.core import CommClosedError
 
-from tests.helpers.basin_runs import AXES, SCENARIO, assert_same, basin, begun, pixels, wait_for, whole_tiles
+from compare.sweep.cluster import naming_loss
+from compare.sweep.errors import SweepError
+from tests.helpers.basin_runs import (
+    AXES,
+    SCENARIO,
+    TILES,
+    assert_same,
+    basin,
+    begun,
+    pixels,
+    wait_for,
+    whole_tiles,
+)
 from tests.helpers.processes import started
 
 
 @pytest.fixture
 def cluster(tmp_path):
-    """A scheduler and two workers as processes; gives its address and the workers."""
+    """A scheduler and two workers as processes; gives its address, the workers and the scheduler."""
     address = tmp_path / "scheduler.json"
     local = ("--scheduler-file", address, "--no-dashboard")
     worker = ("worker", *local, "--nthreads", "1", "--no-nanny", "--local-directory", tmp_path)
-    with _started("scheduler", *local, "--host", "127.0.0.1", "--port", "0"):
+    with _started("scheduler", *local, "--host", "127.0.0.1", "--port", "0") as scheduler:
         deadline = time.monotonic() + 100
         while not address.exists() and time.monotonic() < deadline:
             time.sleep(0.1)
@@ -29,7 +42,7 @@ def cluster(tmp_path):
             where = json.loads(address.read_text())["address"]
             with distributed.Client(where, set_as_default=False) as client:
                 client.wait_for_workers(2, timeout=100)
-            yield where, (one, other)
+            yield where, (one, other), scheduler
 
 
 def _started(part, *arguments):
@@ -39,7 +52,7 @@ def _started(part, *arguments):
 
 @pytest.mark.slow
 def test_a_worker_lost_on_the_way_changes_no_pixel(cluster, tmp_path):
-    address, workers = cluster
+    address, workers, _ = cluster
     coin, out = tmp_path / "coin.toml", tmp_path / "map.zarr"
     coin.write_text(SCENARIO)
     with begun(coin, out, "--scheduler", address) as process:
@@ -87,3 +100,37 @@ def test_without_dask_the_extra_is_named(tmp_path, monkeypatch):
     assert answered.exit_code == 2
     assert 'pip install "cointoss[cluster]"' in answered.stderr
     assert not (tmp_path / "map.zarr").exists()
+
+
+@pytest.mark.parametrize(
+    "lost",
+    [
+        CommClosedError("in <TCP>: Stream is closed"),
+        OSError("Timed out trying to connect"),
+        TimeoutError(),
+        distributed.CancelledError("future"),
+    ],
+)
+def test_a_connection_that_is_lost_is_named_with_the_way_on(lost):
+    why = str(lost) or "TimeoutError"
+    with pytest.raises(SweepError) as raised, naming_loss("tcp://h:1"):
+        raise lost
+    assert str(raised.value) == (
+        f"--scheduler tcp://h:1: the cluster was lost, or a tile there ({why}); --resume goes on"
+    )
+
+
+@pytest.mark.slow
+def test_a_scheduler_lost_on_the_way_is_one_line_and_the_map_is_gone_on_with(cluster, tmp_path):
+    address, _, scheduler = cluster
+    coin, out = tmp_path / "coin.toml", tmp_path / "map.zarr"
+    coin.write_text(SCENARIO)
+    with begun(coin, out, "--scheduler", address) as process:
+        wait_for(process, out, 4)
+        scheduler.kill()
+        _, said = process.communicate(timeout=200)
+    assert process.returncode == 2, said
+    assert f"cointoss: {coin}: --scheduler {address}: the cluster was lost, or a tile there (" in said
+    assert said.endswith("); --resume goes on\n")
+    assert len(said.splitlines()) == 2
+    assert 4 <= whole_tiles(out) < TILES

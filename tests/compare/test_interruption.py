@@ -91,9 +91,9 @@ def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(tmp_path,
         f"grid.TILE_TOSSES[Engine('{engine}')] = {SMALL}\n"
         f"import {engine.package.__name__}.ensemble as of_many\n"
         "in_tiles, left = of_many.toss_in_tiles, [5]\n"
-        "def some(releases, tile, make):\n"
+        "def some(releases, tile, make, progress):\n"
         "    left[0] -= 1\n"
-        "    return in_tiles(releases, tile, make if left[0] > 0 else lambda *_: endless())\n"
+        "    return in_tiles(releases, tile, make if left[0] > 0 else lambda *_: endless(), progress)\n"
         "of_many.toss_in_tiles = some\n"
         "main()"
     )
@@ -115,7 +115,7 @@ def test_in_python_ctrl_c_raises_out_of_a_toss_and_of_many(tmp_path):
     script = of_toss("analytic", "coin_mj") + (
         "import analytic.ensemble as of_many\n"
         "in_tiles, toss = of_many.toss_in_tiles, lambda *_: endless()\n"
-        "of_many.toss_in_tiles = lambda releases, tile, make: in_tiles(releases, tile, toss)\n"
+        "of_many.toss_in_tiles = lambda some, tile, _, progress: in_tiles(some, tile, toss, progress)\n"
         "from models.reading import load\n"
         "from models.releases import Releases\n"
         "fig = load('fig24a')\n"

@@ -63,7 +63,7 @@ def test_what_a_person_sees_of_a_map(found):
     assert len(told) < 200
     html = found._repr_html_()
     assert 'src="data:image/png;base64,' in html
-    assert 'alt="map of the outcome: 7 x 5' in html
+    assert 'alt="map of the outcome: 7 x 5 over spin about η and height"' in html
     frame = found.to_dataframe()
     assert list(frame) == ["release.position.z", "release.angular_velocity.eta", "outcome", "impacts"]
     assert frame["outcome"].tolist().count("heads") == counts["heads"]

@@ -62,14 +62,7 @@ class ParsedPage(HTMLParser):
 def folder(tmp_path_factory):
     target = tmp_path_factory.mktemp("report")
     assert drawing_problem() is None, ADVICE
-    shown = []
-    write_report(
-        compared(parse(SHORT, "short"), SHORT, "short"),
-        target,
-        None,
-        lambda done, count: shown.append((done, count)),
-    )
-    assert shown[-1][0] == shown[-1][1] == len(shown)
+    write_report(compared(parse(SHORT, "short"), SHORT, "short"), target, None)
     return target
 
 
@@ -131,8 +124,8 @@ def test_the_page_stands_before_the_film_is_drawn_and_after_it_was_interrupted(t
         said.append((tmp_path / "report.html").read_text(encoding="utf-8"))
         raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt):
-        write_report(compared(parse(SHORT, "short"), SHORT, "short"), tmp_path, None, interrupt)
+    with patch("compare.film.video.write_video", interrupt), pytest.raises(KeyboardInterrupt):
+        write_report(compared(parse(SHORT, "short"), SHORT, "short"), tmp_path, None)
     after = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert said == [after]
     assert BEING_DRAWN.format(engines="both") in after
@@ -165,7 +158,7 @@ def test_a_report_has_a_default_folder_named_as_its_scenario(tmp_path, monkeypat
 
 def test_without_opengl_the_report_says_what_to_install(tmp_path):
     text = SHORT.replace("max_impacts = 2", "max_impacts = 1")
-    page = write_report(compared(parse(text, "short"), text, "short"), tmp_path, ADVICE, lambda *_: None)
+    page = write_report(compared(parse(text, "short"), text, "short"), tmp_path, ADVICE)
     html = page.read_text(encoding="utf-8")
     assert "No video." in html
     assert "libegl1" in html
@@ -177,7 +170,7 @@ def test_what_mujoco_cannot_realise_is_a_report_of_one_engine(tmp_path, monkeypa
     stamp = SMALL._replace(width=96, height=54, frames_per_second=4)
     monkeypatch.setattr(encodings, "SMALL", stamp)
     text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 2")
-    page = write_report(compared(parse(text, "knurled"), text, "knurled"), tmp_path, None, lambda *_: None)
+    page = write_report(compared(parse(text, "knurled"), text, "knurled"), tmp_path, None)
     html = page.read_text(encoding="utf-8")
     assert "Not realisable in MuJoCo" in html
     assert "No video." not in html
@@ -217,8 +210,8 @@ def test_before_its_film_a_report_says_which_command_draws_it(tmp_path):
         raise KeyboardInterrupt
 
     text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 1")
-    with pytest.raises(KeyboardInterrupt):
-        write_report(compared(parse(text, "knurled"), text, "knurled"), tmp_path, None, interrupt)
+    with patch("compare.film.video.write_video", interrupt), pytest.raises(KeyboardInterrupt):
+        write_report(compared(parse(text, "knurled"), text, "knurled"), tmp_path, None)
     assert "cointoss video --engine analytic draws the film alone" in said[0]
 
 
@@ -232,9 +225,9 @@ def test_a_report_replaces_an_earlier_one_as_a_whole_and_nothing_else(folder, tm
     case = parse(text, "knurled")
     interrupted = patch("compare.report.folder.render", side_effect=KeyboardInterrupt)
     with interrupted, pytest.raises(KeyboardInterrupt):
-        write_report(compared(case, text, "knurled"), earlier, None, lambda *_: None)
+        write_report(compared(case, text, "knurled"), earlier, None)
     assert {path.name: path.read_bytes() for path in earlier.iterdir()} == before
-    write_report(compared(case, text, "knurled"), earlier, ADVICE, lambda *_: None)
+    write_report(compared(case, text, "knurled"), earlier, ADVICE)
     kept = {"report.html", "numbers.json", "path-analytic.csv", "notes.txt"}
     assert {path.name for path in earlier.iterdir()} == kept
 
@@ -243,7 +236,7 @@ def test_a_report_that_fails_leaves_no_folder(tmp_path):
     case = scenario(ending={"max_time": 0.05})
     full = patch("compare.report.folder.render", side_effect=OSError(28, "No space left"))
     with full, pytest.raises(UnwritableError, match=r"new.deep: can't be written \(No space"):
-        write_report(compared(case, "", "failing"), tmp_path / "new" / "deep", ADVICE, lambda *_: None)
+        write_report(compared(case, "", "failing"), tmp_path / "new" / "deep", ADVICE)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -264,20 +257,18 @@ def test_what_is_no_file_of_a_report_is_refused(folder, tmp_path):
     shutil.copytree(folder, earlier)
     (earlier / "report.html").unlink()
     (earlier / "report.html").mkdir()
-    with pytest.raises(UnwritableError, match=r"report\.html: accepted.*folder"):
+    with pytest.raises(UnwritableError, match=r"report\.html: is a folder; accepted"):
         require_folder(earlier, "fig24a")
     (earlier / "report.html").rmdir()
-    with pytest.raises(UnwritableError, match="another file than the scenario"):
+    with pytest.raises(UnwritableError, match="is the scenario; accepted: another file"):
         require_folder(earlier, str(earlier / "path-mujoco.csv"))
-    with pytest.raises(UnwritableError, match="accepted: a folder"):
+    with pytest.raises(UnwritableError, match="is no folder; accepted: a folder"):
         require_folder(earlier / "numbers.json", "fig24a")
 
 
 @pytest.mark.parametrize("max_time", [1e-9, 1e-3])
 def test_the_shortest_toss_has_a_report(tmp_path, max_time):
-    page = write_report(
-        compared(scenario(ending={"max_time": max_time}), "", "short"), tmp_path, ADVICE, lambda *_: None
-    )
+    page = write_report(compared(scenario(ending={"max_time": max_time}), "", "short"), tmp_path, ADVICE)
     assert "max_time" in page.read_text(encoding="utf-8")
     numbers = json.loads((tmp_path / "numbers.json").read_text(encoding="utf-8"))
     assert [(toss["ending"], toss["impacts"]) for toss in numbers["tosses"]] == [("max_time", [])] * 2
@@ -288,7 +279,7 @@ def test_the_shortest_toss_has_a_report(tmp_path, max_time):
 
 def test_a_toss_without_impacts_has_a_report_too(tmp_path):
     case = scenario(air=AIR, ending={"max_time": 0.05})
-    page = write_report(compared(case, "# made", "falling"), tmp_path, ADVICE, lambda *_: None)
+    page = write_report(compared(case, "# made", "falling"), tmp_path, ADVICE)
     text = page.read_text(encoding="utf-8")
     assert "max_time" in text
     assert "The coin does not touch the floor." in text

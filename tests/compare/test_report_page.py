@@ -23,7 +23,7 @@ PLOTS = ["height", "tilt", "energy", "apart", "spin", "place"]
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     target = tmp_path_factory.mktemp("report")
-    write_report(compared(parse(TEXT, "made"), TEXT, "made"), target, "none here", lambda *_: None)
+    write_report(compared(parse(TEXT, "made"), TEXT, "made"), target, "none here")
     return target
 
 
@@ -204,7 +204,7 @@ def test_a_click_on_a_plot_shows_the_coins_then_and_the_clock_marks_the_plots(pa
 
 def test_the_page_of_one_engine_shows_one_coin(page, tmp_path):
     text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 2")
-    write_report(compared(parse(text, "knurled"), text, "knurled"), tmp_path, "none here", lambda *_: None)
+    write_report(compared(parse(text, "knurled"), text, "knurled"), tmp_path, "none here")
     page.open((tmp_path / "report.html").as_uri())
     assert page.value("document.querySelector('.panel.mujoco').hidden")
     assert faces(picture(page, "coins")) > 500

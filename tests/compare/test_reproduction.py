@@ -87,7 +87,7 @@ def test_names_are_found_without_importing_what_they_name():
         (["contact-laws", "no-such"], "no-such: no such name; accepted: "),
         (["contact_laws"], "contact_laws: no such name; accepted: "),
         (["contact-laws"], "--out DIR"),
-        ([], "NAME one of: "),
+        ([], "NAME: missing; accepted: all, or one of: accuracy-and-stripes, "),
     ],
 )
 def test_wrong_names_and_missing_arguments_are_exit_status_2(tmp_path, arguments, told):
@@ -154,9 +154,9 @@ def test_what_is_in_the_way_is_refused_before_any_work(tmp_path):
     (tmp_path / "out" / "reproduction" / "fake-broken").write_text("mine")
     (tmp_path / "taken" / "reproduction" / "fake-broken" / "data.npz").mkdir(parents=True)
     for out, named in (
-        (tmp_path / "file", "file: accepted: a folder"),
-        (tmp_path / "out", "fake-broken: accepted: a folder"),
-        (tmp_path / "taken", "data.npz: accepted: a new name or a regular file"),
+        (tmp_path / "file", "file: is no folder; accepted: a folder"),
+        (tmp_path / "out", "fake-broken: is no folder; accepted: a folder"),
+        (tmp_path / "taken", "data.npz: is a folder; accepted: a new name or a regular file"),
     ):
         # Run, the good one would print and the broken one would abort.
         answered = cointoss("reproduce", "fake-good", "fake-broken", "--out", out)

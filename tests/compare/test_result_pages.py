@@ -44,7 +44,7 @@ CLAIMS = (
     Claim(claim="1 < 2", analytic="so it is", criteria=[Criterion("one [m]", 1, "<", 2, "it <is> so")]),
     Claim(claim="2 < 1", criteria=[Criterion("two", 2, "<", 1, "no"), Criterion("one", 1, "<", 2, "yes")]),
     Claim(claim="heads", criteria=[Criterion("share", Estimate(0.4, 0.3, 0.5, 100), "<", 0.45, "less")]),
-    Claim(claim="tails", mujoco="who knows", missing="a coin"),
+    Claim(claim="tails", mujoco="one (of it; all); two", missing="a coin"),
 )
 
 
@@ -58,7 +58,9 @@ def test_a_claim_unfolds_to_what_decides_it():
     ) in text
     assert f"2 &lt; 1</summary>\n\n{head}| two | 2 | < 1 | no |\n| one | 1 | < 2 | yes |" in text
     assert "- Open: about 400 tosses would tell, not 100\n\n" in text
-    assert text.endswith("tails</summary>\n\n- MuJoCo: who knows\n- Open: a coin\n\n</details>")
+    assert text.endswith(
+        "tails</summary>\n\n- MuJoCo:\n  - one (of it; all)\n  - two\n- Open: a coin\n\n</details>"
+    )
 
 
 def test_results_are_written_into_the_pages_that_have_a_place_for_them(tmp_path):

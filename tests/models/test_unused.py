@@ -5,6 +5,7 @@ import warnings
 import pytest
 
 from models.reading import load, parse
+from models.scenario import Scenario
 from models.unused import UnusedFieldWarning, unused_fields
 from tests.helpers.draws import scenario
 
@@ -37,12 +38,17 @@ def test_a_field_that_nothing_uses_is_named_with_its_value_and_what_uses_it(floo
     assert [line[: len(start)] for line, start in zip(lines, said, strict=True)] == said
 
 
-def test_it_is_said_where_a_scenario_is_loaded_and_neither_where_it_is_read_nor_where_it_changes(tmp_path):
+def test_it_is_said_where_a_scenario_is_loaded_or_made_and_neither_where_it_is_read_nor_where_it_changes(
+    tmp_path,
+):
     text = COIN + '[floor]\nrestitution = 0.8\ncontact = "smooth"\nfriction = 0.3\n'
     source = tmp_path / "coin.toml"
     source.write_text(text)
     with pytest.warns(UnusedFieldWarning, match=r"^floor\.friction = 0\.3: not used"):
         loaded = load(source)
+    with pytest.warns(UnusedFieldWarning, match=r"^floor\.friction = 0\.3: not used") as warned:
+        assert Scenario(**loaded.as_tables()) == loaded
+    assert [warning.filename for warning in warned] == [__file__]
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert parse(text, "coin.toml") == loaded

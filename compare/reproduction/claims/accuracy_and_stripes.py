@@ -64,9 +64,9 @@ def make(progress: Progress, centers: int = 200, count: int = 60) -> Result:
         Claim(
             claim="if ε ≪ W the outcome is predictable",
             headline=(
-                f"So it is: released within W/100 of the aim, {bounced[0].value:.1%} of the bouncing tosses "
+                f"So it is. Released within W/100 of the aim, {bounced[0].value:.1%} of the bouncing tosses "
                 f"end as meant. But half of the releases lie in stripes below "
-                f"{1e3 * np.median(bouncing):.1g} mm, a tenth below "
+                f"{1e3 * np.median(bouncing):.1g} mm, and a tenth in stripes below "
                 f"{1e6 * np.quantile(bouncing, 0.1):.1g} µm."
             ),
             analytic=f"with ε = W/100 {bounced[0].value:.1%} of the bouncing tosses end as the one aimed at",
@@ -79,9 +79,9 @@ def make(progress: Progress, centers: int = 200, count: int = 60) -> Result:
         Claim(
             claim="if ε ≫ W heads and tails are as likely",
             headline=(
-                f"So it is for a coin that bounces: released within 10 W, {bounced[ten].value:.0%} end as "
-                f"meant, and with a hand's {1e3 * HAND:g} mm {at_hand['bouncing'].value:.0%}. On a "
-                f"soft floor {at_hand['soft floor'].value:.0%} do: there a toss is no chance."
+                f"So it is for a coin that bounces. Released within 10 W, {bounced[ten].value:.0%} end as "
+                f"meant; with a hand's {1e3 * HAND:g} mm, {at_hand['bouncing'].value:.0%}. On a soft floor "
+                f"{at_hand['soft floor'].value:.0%} do: there a toss is no chance."
             ),
             analytic=f"with ε = {_listed(data['bouncing, alike'])} end as the one aimed at",
             criteria=[

@@ -459,12 +459,12 @@ def _headline(found: Predictability, one: Case) -> str:
     f, fine = mean_shares(one), accuracy_for(one, PREDICTABLE)
     end = _last(found)
     return (
-        f"Smooth, but nobody can see it: at χ = {one.chi:g} the share of uncertain tosses falls as "
-        f"ε^{slope_from(one, 1e-6).value:.2f} at 1 µm and still as "
-        f"ε^{slope_from(one, end * 10**WINDOW).value:.2f} at {end:.0e} m, where smooth boundaries have ε^1. "
-        f"Released within 1 mm {f[_level(HAND)]:.0%} of the tosses are uncertain, within 1 nm "
-        f"{f[_level(FINE)]:.2g}, and that 99 % be predictable takes {fine:.0e} m. On a floor without "
-        "restitution the boundaries are smooth at every accuracy."
+        f"They are smooth, but nobody can see it. At χ = {one.chi:g} the share of uncertain tosses falls as "
+        f"ε^{slope_from(one, 1e-6).value:.2f} at 1 µm, and at {end:.0e} m still as "
+        f"ε^{slope_from(one, end * 10**WINDOW).value:.2f}; smooth boundaries have ε^1. Released within 1 mm, "
+        f"{f[_level(HAND)]:.0%} of the tosses are uncertain; within 1 nm, {f[_level(FINE)]:.1%}. For 99% of "
+        f"them to be predictable the release must be exact to {fine:.0e} m. On a floor without restitution "
+        "the boundaries are smooth at every accuracy."
     )
 
 
