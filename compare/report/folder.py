@@ -56,7 +56,7 @@ def write_report(
         UnsupportedError: for what the analytic engine doesn't model, and a path of too many rows.
         UnwritableError: naming the folder and why.
     """
-    with written_together(folder, FILES) as aside:
+    with written_together(folder, FILES) as aside, stage("making the report"):
         answered = compare(scenario, mujoco)
         comparison = answered if isinstance(answered, Comparison) else None
         analytic, not_realisable = (comparison.analytic, None) if comparison else answered  # pyright: ignore
