@@ -23,8 +23,8 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
     """Compute the paper's figures and the studies anew.
 
     Each NAME writes its data, pictures and page and checks its claims; `all` computes all figures of the
-    paper and writes REPRODUCTION.md, claims.csv and gallery.html. Without NAME, list the names. Exit status 1: a claim comes out
-    otherwise than known.
+    paper and writes REPRODUCTION.md, claims.csv and gallery.html. Without NAME, list the names. Exit status
+    1: a claim comes out otherwise than known.
     """
     from compare.film.back_end import drawing_problem, require_mujoco
     from compare.output.files import require_folder
