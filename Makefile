@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
-SCENARIOS := fig24a zloty
+SCENARIOS := table fig24a
 # What the site computes, made again where the code has changed.
 MADE := out/docs
 CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path '*/__pycache__/*')
@@ -13,6 +13,11 @@ export PIP_DISABLE_PIP_VERSION_CHECK = 1
 unexport PYTHONDONTWRITEBYTECODE
 # What does not wait for each other is made side by side.
 MAKEFLAGS += --jobs=2
+
+# A step that says nothing itself: what it does, and every ten seconds that its shell still runs.
+told = echo "$(1)"; \
+  while sleep 10 >/dev/null 2>&1 && kill -0 $$$$; do s=$$(($$s + 10)); echo "$(1): $$s s"; done & \
+  trap "kill $$!" EXIT; $(2)
 
 .PHONY: report test test-all bench docs pages lint opengl chromium compiled clean
 
@@ -35,7 +40,7 @@ bench: $(READY)
 # The pages of docs/ as a site, out/site/index.html; its links and its pages in the browser are tested.
 docs: $(VENV)/.ready-docs chromium compiled $(MADE)/pages/explorer.html
 	rm -rf out/site
-	$(BIN)/sphinx-build -q -W --keep-going -d $(MADE)/doctrees docs out/site
+	@$(call told,making the site of docs/,$(BIN)/sphinx-build -q -W --keep-going -d $(MADE)/doctrees docs out/site)
 	$(BIN)/pytest tests/site
 
 # What docs/ has that is made of other files there: nothing is computed.
@@ -53,18 +58,18 @@ $(MADE)/pages/explorer.html: $(READY) $(CODE) docs/conf.py $(wildcard docs/exten
 lint: $(READY)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/pyright --pythonpath $(BIN)/python
+	@$(call told,pyright: checking types,$(BIN)/pyright --pythonpath $(BIN)/python)
 	PYTHONPATH=. $(BIN)/lint-imports
 
 $(READY): pyproject.toml
 	$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'cointoss needs Python >= 3.11')"
-	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet "pip>=25.1"
-	$(BIN)/python -m pip install --quiet --editable . --group dev
+	@$(call told,making $(VENV),$(PYTHON) -m venv $(VENV))
+	@$(call told,pip: updating itself,$(BIN)/python -m pip install --quiet "pip>=25.1")
+	@$(call told,pip: installing cointoss and what it needs,$(BIN)/python -m pip install --quiet --editable . --group dev)
 	touch $@
 
 $(VENV)/.ready-docs: $(READY)
-	$(BIN)/python -m pip install --quiet --group docs
+	@$(call told,pip: installing what makes the site,$(BIN)/python -m pip install --quiet --group docs)
 	touch $@
 
 # MuJoCo draws without a screen through EGL. Debian's packages are installed where that is allowed; elsewhere

@@ -4,15 +4,17 @@ import numpy as np
 
 from analytic.events import toss_coin
 from analytic.settings import MANY, Settings, contact_limits
+from models.errors import require_type
 from models.kernel.compiled import compiled
 from models.outcomes import Outcomes
 from models.reading import ScenarioSource, scenario_of
 from models.records import IMPACT_ROW
 from models.releases import Releases, check_releases
+from models.stages import stage
 from models.tiles import toss_in_tiles
 
 TILE, SLOW_TILE = 512, 8
-"""Tosses that a thread makes at a time, in air with b > 0 the second."""
+"""Most tosses that a thread makes at a time, in air with b > 0 the second."""
 
 
 def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Settings = MANY) -> Outcomes:
@@ -29,12 +31,16 @@ def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Setting
     Raises:
         ValueError: for a release that a scenario with this coin and air would refuse.
     """
+    require_type("settings", settings, Settings, "analytic.Settings, such as analytic.MANY")
     described = scenario_of(scenario)
     check_releases(described, releases)
     body, rules = described.body, described.rules
     limits = contact_limits(settings)
     tile = TILE if body.air.exponent is None else SLOW_TILE
-    return toss_in_tiles(releases, tile, lambda *columns: _toss_each(body, rules, limits, *columns))
+    with stage("tossing by the analytic engine", "tosses") as progress:
+        return toss_in_tiles(
+            releases, tile, lambda *columns: _toss_each(body, rules, limits, *columns), progress
+        )
 
 
 @compiled

@@ -19,10 +19,12 @@ from models.attitude import rotation_matrix
 from models.barriers import barrier, energy
 from models.body import Body, in_vacuum, is_ideal
 from models.certificate import energies, measurements
+from models.errors import require_type
 from models.interruptible import interruptible
 from models.reading import ScenarioSource, scenario_of
 from models.records import Array, Impacts, Setting, States, Toss
 from models.scenario import Release, Scenario
+from models.stages import stage
 
 _INTEGRATED = "Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"
 
@@ -106,8 +108,10 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     Raises:
         ScenarioError: for a file or a name that can't be used.
     """
+    require_type("settings", settings, Settings, "analytic.Settings, such as analytic.FINE")
     described = scenario_of(scenario)
-    return interruptible(lambda: _toss(described, settings))
+    with stage("tossing by the analytic engine"):
+        return interruptible(lambda: _toss(described, settings))
 
 
 def _toss(scenario: Scenario, settings: Settings) -> Toss:

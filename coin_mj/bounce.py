@@ -11,6 +11,7 @@ import mujoco
 import numpy as np
 
 from coin_mj.model.settings import Realisation, Settings, rebound_of
+from models.errors import FieldError
 from models.records import Array
 
 MODEL = """<mujoco>
@@ -95,14 +96,21 @@ def solref(restitution: float, timestep: float, *, spring: bool = False, steps: 
         steps: of the simulation in the contact of a spring.
 
     Raises:
-        ValueError: naming the argument, its value and what is accepted.
+        FieldError: naming the argument, its value and what is accepted.
     """
     numbers = {"restitution": restitution, "timestep": timestep, "steps": steps}
     for name, value in numbers.items():
         _require(name, value, isinstance(value, Real) and not isinstance(value, bool), "a number")
     _require("restitution", restitution, 0 <= restitution <= 1, "a number from 0 to 1")
-    _require("restitution", restitution, restitution >= LEAST or not spring, f"from {LEAST} by a spring")
-    _require("timestep", timestep, 1e-7 <= timestep <= 0.1, "from 1e-7 to 0.1 s")
+    _require(
+        "restitution",
+        restitution,
+        restitution >= LEAST or not spring,
+        f"a number from {LEAST} to 1 by a spring",
+    )
+    _require(
+        "timestep", timestep, 1e-7 <= timestep <= 0.1, "a number of seconds from 1e-7 to 0.1, such as 0.002"
+    )
     whole = isinstance(steps, Integral) and 5 <= steps <= LONGEST // 4
     _require("steps", steps, whole, f"a whole number from 5 to {LONGEST // 4}")
     found = spring_solref(restitution, timestep, steps) if spring else one_step_solref(restitution, timestep)
@@ -123,7 +131,7 @@ def solref(restitution: float, timestep: float, *, spring: bool = False, steps: 
 
 def _require(name: str, value: object, holds: bool, accepted: str) -> None:
     if not holds:
-        raise ValueError(f"{name} = {value}: accepted: {accepted}")
+        raise FieldError(name, value, accepted)
 
 
 def one_step_solref(restitution: float, dt: float) -> tuple[float, float]:

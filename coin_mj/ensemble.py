@@ -14,15 +14,17 @@ from coin_mj.model.scene import shape_thickness
 from coin_mj.model.settings import MANY, Settings
 from coin_mj.model.state import put_at
 from coin_mj.toss import require_supported, warn_of_approximation
+from models.errors import require_type
 from models.kernel.compiled import compiled
 from models.outcomes import Outcomes
 from models.reading import ScenarioSource, scenario_of
 from models.records import IMPACT_ROW
 from models.releases import Releases, check_releases
+from models.stages import stage
 from models.tiles import toss_in_tiles
 
 TILE = 8
-"""Tosses that a thread makes at a time."""
+"""Most tosses that a thread makes at a time."""
 
 
 def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Settings = MANY) -> Outcomes:
@@ -46,6 +48,7 @@ def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Setting
     Warns:
         ApproximationWarning: as `toss`.
     """
+    require_type("settings", settings, Settings, "coin_mj.Settings, such as coin_mj.MANY")
     described = scenario_of(scenario)
     require_supported(described, settings=settings)
     warn_of_approximation(described)
@@ -60,7 +63,8 @@ def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Setting
         with air_of(of_thread.machine.model), clock_stopped():
             _toss_each(of_thread.machine.coin, of_thread.machine.plastic, rules, settings.budgets, *columns)
 
-    return toss_in_tiles(releases, TILE, toss_tile)
+    with stage("tossing by MuJoCo", "tosses") as progress:
+        return toss_in_tiles(releases, TILE, toss_tile, progress)
 
 
 @compiled

@@ -19,6 +19,7 @@ from coin_mj.model.settings import FINE, ROUGH, Friction, Realisation, Settings
 from coin_mj.path import Knots
 from models.body import Body, Rules
 from models.certificate import energies, measurements
+from models.errors import require_type
 from models.impact_row import FIRST_ROOM
 from models.interruptible import interruptible
 from models.kernel.vectors import Vector, cross, subtract
@@ -36,6 +37,7 @@ from models.records import (
     UnsupportedError,
 )
 from models.scenario import RESISTANCES, Scenario
+from models.stages import stage
 
 REALISABLE = (ContactLaw.SMOOTH, ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH)
 SOFTER = (10.0, 30.0)
@@ -64,7 +66,8 @@ class MujocoRun(NamedTuple):
 def run(machine: Machine, rules: Rules) -> MujocoRun:
     """Toss the coin from its present state until the toss is decided."""
     room = np.zeros(FIRST_ROOM, IMPACT_ROW)
-    with air_of(machine.model), clock_stopped():
+    so_far = stage("a toss", detail=lambda: f"{machine.data.time:.3g} s of the coin's time")
+    with so_far, air_of(machine.model), clock_stopped():
         n, rows, knots, contacts, outcome, ending, end_time = toss_coin(
             machine.coin, machine.plastic, rules, machine.settings.budgets, room, True
         )
@@ -79,13 +82,13 @@ def require_supported(scenario: Scenario, *, settings: Settings) -> None:
     """
     floor = scenario.floor
     if floor.contact not in REALISABLE:
-        accepted = ", ".join(f'"{law.label}"' for law in REALISABLE)
+        accepted = ", ".join(f'"{law}"' for law in REALISABLE)
         raise UnsupportedError(
-            f'floor.contact = "{floor.contact.label}": accepted by the MuJoCo engine: {accepted}'
+            f'floor.contact = "{floor.contact}": accepted by the MuJoCo engine: {accepted}'
         )
     if floor.restitution_kind != RestitutionKind.KINEMATIC:
         raise UnsupportedError(
-            f'floor.restitution_kind = "{floor.restitution_kind.label}": accepted by the MuJoCo engine: '
+            f'floor.restitution_kind = "{floor.restitution_kind}": accepted by the MuJoCo engine: '
             '"kinematic" (its contacts prescribe how the normal speed changes, whatever the work)'
         )
     for name in RESISTANCES if settings.friction == Friction.NATIVE else ():
@@ -124,10 +127,12 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     Warns:
         ApproximationWarning: for a perfectly rough floor, which is one of friction `ROUGH`.
     """
+    require_type("settings", settings, Settings, "coin_mj.Settings, such as coin_mj.FINE")
     described = scenario_of(scenario)
     require_supported(described, settings=settings)
     warn_of_approximation(described)
-    return interruptible(lambda: _toss(described, settings))
+    with stage("tossing by MuJoCo"):
+        return interruptible(lambda: _toss(described, settings))
 
 
 def _toss(scenario: Scenario, settings: Settings) -> Toss:

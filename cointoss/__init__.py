@@ -1,6 +1,9 @@
 """The public names of this project, each brought from its home when it is first used; nothing lives here."""
 
+from functools import cache
 from importlib import import_module
+from pathlib import Path
+from runpy import run_path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -8,9 +11,10 @@ if TYPE_CHECKING:
     import coin_mj as coin_mj
     from coin_mj.bounce import solref as solref
     from compare.engines import Engine as Engine
+    from compare.engines import toss as toss
     from compare.film.back_end import BackEndError as BackEndError
-    from compare.metrics.comparison import Comparison as Comparison
-    from compare.metrics.comparison import compare as compare
+    from compare.report.comparison import Comparison as Comparison
+    from compare.report.comparison import compare as compare
     from compare.sweep.errors import MapError as MapError
     from compare.sweep.errors import SweepError as SweepError
     from compare.sweep.in_memory import basin as basin
@@ -43,15 +47,16 @@ if TYPE_CHECKING:
     from models.scenario import Floor as Floor
     from models.scenario import Release as Release
     from models.scenario import Scenario as Scenario
+    from models.unused import UnusedFieldWarning as UnusedFieldWarning
 
     __version__: str
 
 _PACKAGES = ("analytic", "coin_mj")
 _NAMES = {
     "coin_mj.bounce": ("solref",),
-    "compare.engines": ("Engine",),
+    "compare.engines": ("Engine", "toss"),
     "compare.film.back_end": ("BackEndError",),
-    "compare.metrics.comparison": ("Comparison", "compare"),
+    "compare.report.comparison": ("Comparison", "compare"),
     "compare.sweep.errors": ("MapError", "SweepError"),
     "compare.sweep.in_memory": ("basin",),
     "compare.sweep.outcome_map": ("OutcomeMap",),
@@ -76,18 +81,27 @@ _NAMES = {
     ),
     "models.releases": ("Releases",),
     "models.scenario": ("Air", "Coin", "EndingCriteria", "Floor", "Release", "Scenario"),
+    "models.unused": ("UnusedFieldWarning",),
 }
 _HOMES = {name: home for home, names in _NAMES.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:
     if name == "__version__":
-        return import_module("importlib.metadata").version("cointoss")
-    if name in _PACKAGES:
-        return import_module(name)
-    if name in _HOMES:
-        return getattr(import_module(_HOMES[name]), name)
-    raise AttributeError(f"cointoss has no {name}; accepted: {', '.join(__dir__())}")
+        return import_module("importlib.metadata").version(import_module("models.distribution").DISTRIBUTION)
+    if name not in (*_PACKAGES, *_HOMES):
+        near = import_module("difflib").get_close_matches(name, __dir__(), n=1)
+        hint = f" (did you mean {near[0]}?)" if near else ""
+        raise AttributeError(f"cointoss has no {name}; accepted: {', '.join(__dir__())}{hint}")
+    _require_siblings()
+    import_module("compare.output.progress")  # What takes long says so in a terminal or a notebook.
+    return import_module(name) if name in _PACKAGES else getattr(import_module(_HOMES[name]), name)
+
+
+@cache
+def _require_siblings() -> None:
+    """Refuse a foreign package that stands for one of ours, once."""
+    run_path(str(Path(__file__).parents[1] / "models" / "siblings.py"))
 
 
 def __dir__() -> list[str]:

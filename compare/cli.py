@@ -7,7 +7,7 @@ from typing import Any, NoReturn
 import click
 
 from compare.commands.basin import basin
-from compare.commands.common import refuse
+from compare.commands.common import ARGUMENTS, refuse
 from compare.commands.compare import compare
 from compare.commands.explore import explore
 from compare.commands.hands import hands
@@ -17,6 +17,7 @@ from compare.commands.solref import solref
 from compare.commands.toss import toss
 from compare.commands.video import video
 from compare.output.interruption import run_to_exit
+from models.distribution import DISTRIBUTION
 
 # The commands' modules import little: `cointoss --help` answers at once, a command brings what it needs.
 
@@ -32,12 +33,16 @@ class _Commands(click.Group):
             status = super().main(*args, **{"prog_name": "cointoss", **extra, "standalone_mode": False})
             if sys.stdout is not None:  # None where the shell has closed it
                 sys.stdout.flush()
+        except click.MissingParameter as error:
+            refuse(_missing(error))
         except click.UsageError as error:
             command = error.ctx.command_path if error.ctx else "cointoss"
             refuse(f"{error.format_message().rstrip('.')} (see {command} --help)")
         except click.Abort:  # KeyboardInterrupt
             refuse("interrupted", status=130)
         except OSError as error:
+            if error.errno is None:  # not of a file, as where a connection is lost
+                refuse(str(error) or type(error).__name__, status=1)
             _lose_stdout()
             refuse(f"{error.filename or 'standard output'}: can't be written ({error.strerror})", status=1)
         sys.exit(status)
@@ -55,12 +60,24 @@ class _Commands(click.Group):
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     invoke_without_command=True,
 )
-@click.version_option(package_name="cointoss", prog_name="cointoss")
+@click.version_option(package_name=DISTRIBUTION, prog_name="cointoss")
 @click.pass_context
 def main(ctx: click.Context) -> None:
     """Toss a coin by two engines, the analytic one of Strzalko et al. (2008) and MuJoCo, and compare."""
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())
+
+
+def _missing(error: click.MissingParameter) -> str:
+    """Return which parameter is missing, and what it takes."""
+    parameter, command = error.param, error.ctx.command_path if error.ctx else "cointoss"
+    assert parameter is not None
+    name, accepted = parameter.human_readable_name, ARGUMENTS.get(parameter.human_readable_name)
+    if isinstance(parameter, click.Option):
+        name, about = parameter.opts[0], (parameter.help or "").rstrip(".")
+        form = parameter.metavar or parameter.type.name.upper()
+        accepted = f"{name} {form}, {about[:1].lower()}{about[1:]}"
+    return f"{name}: missing; accepted: {accepted} (see {command} --help)"
 
 
 def _lose_stdout() -> None:

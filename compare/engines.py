@@ -5,6 +5,7 @@ from importlib import import_module
 from importlib.metadata import version
 from typing import Any, Protocol, cast
 
+from models.distribution import DISTRIBUTION
 from models.outcomes import Outcomes
 from models.reading import ScenarioSource
 from models.records import Toss
@@ -47,6 +48,10 @@ class Engine(StrEnum):
     ANALYTIC = "analytic"
     MUJOCO = "mujoco"
 
+    @classmethod
+    def _missing_(cls, value: object) -> "Engine":
+        raise ValueError(f"engine: {value!r}, accepted: {', '.join(cls)}")
+
     @property
     def package(self) -> Package:
         """The package that tosses, imported when first asked for."""
@@ -59,5 +64,23 @@ class Engine(StrEnum):
 
 
 _PACKAGES = {Engine.ANALYTIC: "analytic", Engine.MUJOCO: "coin_mj"}
-_COMPILED = ("cointoss", "numba", "numpy")
+_COMPILED = (DISTRIBUTION, "numba", "numpy")
 _MADE_OF = {Engine.ANALYTIC: _COMPILED, Engine.MUJOCO: (*_COMPILED, "mujoco")}
+
+
+def toss(scenario: ScenarioSource, engine: Engine | str = "analytic", *, settings: Any = None) -> Toss:
+    """Toss a coin by one engine.
+
+    Args:
+        scenario: what to toss; or a file's path, or a name such as "fig24a".
+        engine: "analytic" or "mujoco".
+        settings: of that engine, `analytic.Settings` or `coin_mj.Settings`; by default those of one toss.
+
+    Raises:
+        ScenarioError: for a scenario, a file or a name that can't be used.
+        UnsupportedError: for a scenario that the engine can't toss.
+        ValueError: for another engine.
+        TypeError: for settings of another engine.
+    """
+    package = Engine(engine).package
+    return package.toss(scenario, settings=package.FINE if settings is None else settings)

@@ -46,7 +46,8 @@ PROFILE = MADE / "ipython" / "profile_default" / "ipython_kernel_config.py"
 PROFILE.parent.mkdir(parents=True, exist_ok=True)
 PROFILE.write_text('c.IPKernelApp.log_level = "ERROR"\nc.InlineBackend.figure_formats = {"retina"}\n')
 os.environ["IPYTHONDIR"] = str(MADE / "ipython")
-# What a notebook writes to its standard error is a warning, and so ends `make docs`.
+# What a notebook writes to its standard error is a warning, and so ends `make docs`: no progress there.
+os.environ["TQDM_DISABLE"] = "1"
 nb_output_stderr = "warn"
 # No widgets: their scripts would come from the network.
 nb_ipywidgets_js: dict[str, dict[str, str]] = {}

@@ -1,13 +1,16 @@
 """What is wrong with a scenario, in one line that names the field, its value and what is accepted."""
 
 import difflib
-from types import SimpleNamespace
-from typing import Any, cast
+from types import UnionType
+from typing import Annotated, Any, Union, cast, get_args, get_origin
 
-from pydantic import BaseModel, ValidationError
+import numpy as np
+from pydantic import BaseModel, BeforeValidator, ValidationError
+from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
-from models.meanings import meanings
+MOST_NAMED = 8
+"""Fields that a message names beside the first."""
 
 
 class ScenarioError(ValueError):
@@ -19,8 +22,18 @@ class FieldError(ValueError):
 
     def __init__(self, field: str, value: Any, accepted: str) -> None:
         """Keep the field's dotted path below the part that refuses it, its value, and what is accepted."""
-        super().__init__(accepted)
+        super().__init__(f"{field} = {shown(value)}: accepted: {accepted}")
         self.field, self.value, self.accepted = field, value, accepted
+
+
+def require_type(name: str, value: object, kind: type, accepted: str) -> None:
+    """Refuse an argument of another type.
+
+    Raises:
+        TypeError: naming the argument, its type and what is accepted.
+    """
+    if not isinstance(value, kind):
+        raise TypeError(f"{name}: of type {type(value).__name__}, accepted: {accepted}")
 
 
 def describe(error: ValidationError, model: type[BaseModel]) -> str:
@@ -32,8 +45,9 @@ def describe(error: ValidationError, model: type[BaseModel]) -> str:
     """
     # A misspelt key comes first: it explains the key that is missing.
     details = sorted(error.errors(include_url=False), key=lambda detail: detail["type"] != "extra_forbidden")
-    others = [_field(detail) for detail in details[1:]]
-    more = f" (also wrong: {', '.join(dict.fromkeys(others))})" if others else ""
+    others = list(dict.fromkeys(_field(detail) for detail in details[1:]))
+    named = [*others[:MOST_NAMED], *([f"and {len(others) - MOST_NAMED} more"] if others[MOST_NAMED:] else [])]
+    more = f" (also wrong: {', '.join(named)})" if others else ""
     return _line(details[0], model) + more
 
 
@@ -71,6 +85,8 @@ def shown(value: Any) -> str:
         value = value.model_dump(exclude_none=True)
     if isinstance(value, tuple):
         value = list(value)
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
     try:
         text = f'"{value}"' if isinstance(value, str) else str(value)
     except (ValueError, RecursionError):  # an integer of too many digits, a table nested too deeply
@@ -79,56 +95,63 @@ def shown(value: Any) -> str:
 
 
 def _accepted(detail: ErrorDetails, model: type[BaseModel]) -> str:
-    ctx = detail.get("ctx", {})
+    kind, rules = _described(detail["loc"], model)
+    form, bounds = _form(rules), _bounds(rules)
     match detail["type"]:
         case "value_error":
-            return str(ctx["error"])
+            return str(_cause(detail))
+        case "missing" | "model_type" if issubclass(kind, BaseModel):
+            return f"a table [{_field(detail)}] with {', '.join(kind.model_fields)}"
+        case "missing":
+            return form.replace("a number", f"a number{bounds}", 1)
+        case "greater_than" | "greater_than_equal" | "less_than_equal" if kind is int:
+            return f"a whole number{bounds}"
         case "greater_than" | "greater_than_equal" | "less_than_equal":
-            return f"a number {_range(detail, model)}"
+            return form.partition(",")[0].replace("a number", f"a number{bounds}", 1)
         case "finite_number":
             return "a finite number"
         case "float_type":
-            return 'a number, or a string with a number and a unit like "2 m"'
+            return form
         case "int_type":
-            return "a whole number"
-        case "tuple_type":
-            return "a list"
-        case "too_long":
-            return f"a list of {ctx['max_length']}"
-        case "missing":
-            return (
-                "one more entry of the list"
-                if isinstance(detail["loc"][-1], int)
-                else _meaning(detail, model)
-            )
-        case "model_type":
-            return f"a table [{_field(detail)}]"
+            return f"a whole number{bounds}"
         case _:
             return detail["msg"]
 
 
-def _meaning(detail: ErrorDetails, model: type[BaseModel]) -> str:
-    part, name = _model_at(detail["loc"][:-1], model), cast("str", detail["loc"][-1])
-    annotation = part.model_fields[name].annotation
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return f"a table [{name}] with {', '.join(annotation.model_fields)}"
-    return meanings(part)[name]
+def _described(loc: tuple[int | str, ...], model: type[BaseModel]) -> tuple[type, list[Any]]:
+    """Return the type of a field, or of an entry of a list, and its rules."""
+    kind, rules = cast("Any", model), []
+    for step in loc:
+        if isinstance(step, int):
+            kind, rules = get_args(kind)[step], []
+        elif step in kind.model_fields:
+            kind, rules = kind.model_fields[step].annotation, list(kind.model_fields[step].metadata)
+        while get_origin(kind) in (Annotated, Union, UnionType):
+            kind, *more = get_args(kind)
+            rules += more
+    return get_origin(kind) or kind, rules
 
 
-def _range(detail: ErrorDetails, model: type[BaseModel]) -> str:
+def _form(rules: list[Any]) -> str:
+    """Return what a value may be, as the rule for it says of an empty text."""
+    for rule in rules:
+        if isinstance(rule, BeforeValidator):
+            try:
+                cast("Any", rule.func)("")
+            except ValueError as error:
+                return str(error)
+    return "a number"
+
+
+def _bounds(rules: list[Any]) -> str:
+    """Return the bounds of a number, with a space before."""
     signs = {"gt": ">", "ge": ">=", "le": "<="}
-    name = detail["loc"][-1]
-    if isinstance(name, int):  # an entry of a list: pydantic tells the bound that is broken
-        rules: list[Any] = [SimpleNamespace(**detail.get("ctx", {}))]
-    else:
-        rules = _model_at(detail["loc"][:-1], model).model_fields[name].metadata
+    flat = [one for rule in rules for one in (rule.metadata if isinstance(rule, FieldInfo) else [rule])]
     bounds = [
-        f"{sign} {getattr(rule, key):g}"
-        for key, sign in signs.items()
-        for rule in rules
-        if hasattr(rule, key)
+        (sign, getattr(rule, key)) for key, sign in signs.items() for rule in flat if hasattr(rule, key)
     ]
-    return " and ".join(bounds)
+    shown_bounds = (f"{sign} {bound if isinstance(bound, int) else f'{bound:g}'}" for sign, bound in bounds)
+    return " " * bool(bounds) + " and ".join(shown_bounds)
 
 
 def _known(detail: ErrorDetails, model: type[BaseModel]) -> str:

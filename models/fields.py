@@ -1,5 +1,6 @@
-"""What a dotted field of a scenario means: its table, its key, its component by name, and its unit."""
+"""What a dotted field of a scenario means: its table, key and component, its word and its unit."""
 
+import re
 from typing import Any
 
 import numpy as np
@@ -27,10 +28,6 @@ _DEFAULTS = {
 _OTHER_ATTITUDE = {"release.angles": "quaternion", "release.quaternion": "angles"}
 
 
-def _components(path: str, unit: str) -> dict[str, str]:
-    return {f"{path}.{name}": unit for name in _COMPONENTS[path]}
-
-
 def lambda_unit(exponent: float) -> str:
     """Return the SI unit of λ_n and λ_τ, in pint's spelling.
 
@@ -40,30 +37,50 @@ def lambda_unit(exponent: float) -> str:
     return f"kg*m**{-2 - exponent:.15g}*s**{exponent - 1:.15g}"
 
 
-UNITS = {
-    "gravity": "m/s**2",
-    "coin.mass": "kg",
-    "coin.radius": "m",
-    "coin.thickness": "m",
-    **_components("coin.center_of_mass", "m"),
-    "air.exponent": "",
-    "air.normal": lambda_unit(0),
-    "air.tangential": lambda_unit(0),
-    "floor.restitution": "",
-    "floor.restitution_threshold": "m/s",
-    "floor.friction": "",
-    "floor.rolling_friction": "m",
-    "floor.pivoting_friction": "m",
-    **_components("release.position", "m"),
-    **_components("release.velocity", "m/s"),
-    **_components("release.angles", "rad"),
-    **_components("release.quaternion", ""),
-    **_components("release.angular_velocity", "rad/s"),
-    "ending.max_impacts": "",
-    "ending.max_time": "s",
-    "ending.caught": "m",
+def _components(path: str, unit: str, *words: str) -> dict[str, tuple[str, str]]:
+    return {f"{path}.{name}": (word, unit) for name, word in zip(_COMPONENTS[path], words, strict=True)}
+
+
+_NUMBERS = {
+    "gravity": ("gravity g", "m/s**2"),
+    "coin.mass": ("mass", "kg"),
+    "coin.radius": ("radius", "m"),
+    "coin.thickness": ("thickness", "m"),
+    **_components("coin.center_of_mass", "m", *(f"mass centre {axis}" for axis in "ξηζ")),
+    "air.exponent": ("exponent b of the air", ""),
+    "air.normal": ("pressure λ_n of the air", lambda_unit(0)),
+    "air.tangential": ("friction λ_τ of the air", lambda_unit(0)),
+    "floor.restitution": ("restitution χ", ""),
+    "floor.restitution_threshold": ("restitution threshold", "m/s"),
+    "floor.friction": ("friction μ", ""),
+    "floor.rolling_friction": ("rolling friction δ", "m"),
+    "floor.pivoting_friction": ("pivoting friction p", "m"),
+    **_components("release.position", "m", "position x", "position y", "height"),
+    **_components("release.velocity", "m/s", "velocity x", "velocity y", "velocity z"),
+    **_components("release.angles", "rad", "angle ψ", "tilt θ", "angle φ"),
+    **_components(
+        "release.quaternion", "", *(f"Euler parameter {name}" for name in ("e₀", "e₁", "e₂", "e₃"))
+    ),
+    **_components("release.angular_velocity", "rad/s", *(f"spin about {axis}" for axis in "ξηζ")),
+    "ending.max_impacts": ("most impacts", ""),
+    "ending.max_time": ("time limit", "s"),
+    "ending.caught": ("height of the catch", "m"),
 }
-"""SI units, in pint's spelling, of the fields that are one number; those of λ are for b = 0."""
+WORDS = {field: word for field, (word, _) in _NUMBERS.items()}
+"""What a person calls the fields that are one number."""
+UNITS = {field: unit for field, (_, unit) in _NUMBERS.items()}
+"""SI units of these fields, in pint's spelling; those of λ are for b = 0."""
+_RAISED = str.maketrans("-.0123456789", "⁻·⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def printed_unit(unit: str) -> str:
+    """Return a unit as a person writes it, such as "kg m⁻² s⁻¹".
+
+    Args:
+        unit: in pint's spelling.
+    """
+    raised = re.sub(r"\*\*(-?[0-9.]+)", lambda power: power[1].translate(_RAISED), unit)
+    return raised.replace("*", " ")
 
 
 def split(field: str) -> tuple[str, str, int | None]:

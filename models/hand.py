@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from models.body import Body
+from models.errors import FieldError
 from models.records import Array
 from models.releases import Releases
 
@@ -35,19 +36,19 @@ class Hand:
         """Refuse what no hand does.
 
         Raises:
-            ValueError: naming the field, its value and what is accepted.
+            FieldError: naming the field, its value and what is accepted.
         """
         accepted = {
-            "height": (self.height > 0, "a height above 0"),
-            "speed": (self.speed >= 0, "a speed of 0 or more"),
-            "spin": (self.spin >= 0, "a spin of 0 or more"),
+            "height": (self.height > 0, "a length above 0, such as 1 m"),
+            "speed": (self.speed >= 0, "a speed of 0 or more, such as 2 m/s"),
+            "spin": (self.spin >= 0, "a spin of 0 or more, such as 120 rad/s"),
             "psi": (0 <= self.psi <= math.pi / 2, "an angle from 0 to 90 deg"),
-            "scatter": (0 <= self.scatter <= 0.3, "a part from 0 to 0.3"),
+            "scatter": (0 <= self.scatter <= 0.3, "a part from 0 to 30 %"),
             "psi_scatter": (0 <= self.psi_scatter <= math.pi / 2, "an angle from 0 to 90 deg"),
         }
         for name, (is_so, what) in accepted.items():
             if not is_so or not math.isfinite(getattr(self, name)):
-                raise ValueError(f"{name}: {getattr(self, name)}, accepted: {what}")
+                raise FieldError(name, getattr(self, name), what)
 
     def releases(self, body: Body, rng: np.random.Generator, count: int) -> Releases:
         """Draw releases; L is as likely to point to any side.

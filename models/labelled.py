@@ -58,6 +58,8 @@ def dataset(row: str, columns: Mapping[str, Column], about: Mapping[str, Any]) -
 def table(row: str, columns: Mapping[str, Column]) -> "pd.DataFrame":
     """Return columns as a table of pandas: a column for each component, words for values that mean one.
 
+    Its `attrs["units"]` has the unit of each column that has one.
+
     Args:
         row: the column that is the table's index.
         columns: by name.
@@ -65,14 +67,20 @@ def table(row: str, columns: Mapping[str, Column]) -> "pd.DataFrame":
     import xarray
 
     plain: dict[str, Any] = {}
+    units: dict[str, str] = {}
     for name, column in columns.items():
-        if column.axes:
-            for number, component in enumerate(AXES[column.axes][1]):
-                plain[f"{name}_{component}"] = column.values[:, number]
-        else:
-            plain[name] = _words(column)
+        parts = (
+            {f"{name}_{part}": column.values[:, i] for i, part in enumerate(AXES[column.axes][1])}
+            if column.axes
+            else {name: _words(column)}
+        )
+        plain |= parts
+        if unit := column.attributes.get("units"):
+            units |= dict.fromkeys(parts, str(unit))
     index = {row: plain.pop(row)}
-    return xarray.Dataset({name: (row, values) for name, values in plain.items()}, index).to_dataframe()
+    frame = xarray.Dataset({name: (row, values) for name, values in plain.items()}, index).to_dataframe()
+    frame.attrs["units"] = units
+    return frame
 
 
 def _words(column: Column) -> NDArray[Any]:

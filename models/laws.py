@@ -1,9 +1,9 @@
 """The names of the contact laws, of the kinds of restitution, and of the tests that end a toss."""
 
-from enum import IntEnum
+from models.words import Word
 
 
-class ContactLaw(IntEnum):
+class ContactLaw(Word):
     """How the contact point A leaves the floor; Strzalko et al. 2008, Fig. 17, and Coulomb friction."""
 
     SHARP_EDGE = 1
@@ -14,13 +14,8 @@ class ContactLaw(IntEnum):
     SLIDING_FRICTION = 6
     COULOMB = 7
 
-    @property
-    def label(self) -> str:
-        """The law's name in a scenario file."""
-        return self.name.lower()
 
-
-class EndingTest(IntEnum):
+class EndingTest(Word):
     """When the face that is up counts as final."""
 
     RIGOROUS = 1
@@ -32,21 +27,11 @@ class EndingTest(IntEnum):
     LYING = 4
     """The coin lies on a face, still to the eye, or stays on its edge."""
 
-    @property
-    def label(self) -> str:
-        """The test's name in a scenario file."""
-        return self.name.lower()
 
-
-class RestitutionKind(IntEnum):
+class RestitutionKind(Word):
     """What the restitution χ compares, before and after an impact of the law `coulomb`."""
 
     KINEMATIC = 1
     """The normal speeds of A: Newton's v_Az' = -χ v_Az."""
     ENERGETIC = 2
     """The work of the normal impulse: χ² of that taken in compression is given back (Stronge)."""
-
-    @property
-    def label(self) -> str:
-        """The kind's name in a scenario file."""
-        return self.name.lower()

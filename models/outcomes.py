@@ -1,18 +1,21 @@
 """How many tosses ended."""
 
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from models import notebook
 from models.labelled import Column, dataset, meanings_of, table
+from models.plots import axes_or_new, draw_counts
 from models.records import Array, Ending, Face, Outcome
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+
+    from models.plots import Axes
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -65,7 +68,7 @@ class Outcomes:
     def counts(self) -> dict[str, int]:
         """How many tosses had each outcome that there was."""
         numbers = np.bincount(self.outcome, minlength=len(Outcome)).tolist()
-        return {outcome.label: numbers[outcome] for outcome in Outcome if numbers[outcome]}
+        return {str(outcome): numbers[outcome] for outcome in Outcome if numbers[outcome]}
 
     def __repr__(self) -> str:
         """Return how many tosses there are, and how many of each outcome."""
@@ -86,26 +89,24 @@ class Outcomes:
         """Return the outcomes as a table of pandas, a row each, in words."""
         return table("toss", self._columns())
 
-    def plot(self, **options: Any) -> Any:
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Plot how many tosses had each outcome.
 
         Args:
-            options: of the bar plot of pandas, such as `ax`, `figsize` or `color`.
+            ax: where to draw, by default in a new figure of pyplot.
 
         Returns:
-            Matplotlib's axes.
+            The axes.
         """
-        colors = [notebook.COLORS.get(name, "grey") for name in self.counts]
-        counts = self.to_dataframe()["outcome"].value_counts().reindex(list(self.counts))
-        return counts.plot.bar(
-            **{"color": colors, "rot": 0, "xlabel": "outcome", "ylabel": "tosses", **options}
-        )
+        axes = axes_or_new(ax)
+        draw_counts(axes, self.counts)
+        return axes
 
     def _columns(self) -> dict[str, Column]:
         words = {
-            "outcome": {item.value: item.label for item in Outcome},
-            "ending": {item.value: item.label for item in Ending},
-            "last_face": {0: "none", **{item.value: item.label for item in Face}},
+            "outcome": {item.value: str(item) for item in Outcome},
+            "ending": {item.value: str(item) for item in Ending},
+            "last_face": {0: "none", **{item.value: str(item) for item in Face}},
         }
         units = {"end_time": {"units": "s"}}
         columns = {"toss": Column(np.arange(len(self)), {"long_name": "toss"})}

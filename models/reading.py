@@ -7,8 +7,15 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
+from models.bounded import TooLargeError, read_bounded
 from models.errors import ScenarioError, describe
 from models.scenario import Scenario
+from models.unused import warn_of_unused_fields
+
+MOST_BYTES = 1 << 16
+"""Of a scenario's file."""
+LONGEST_LINE = 2000
+"""Characters: what takes one line, as a key, could be nested too deeply for the memory."""
 
 ScenarioSource = Scenario | str | PathLike[str]
 """A scenario, the path of its file, or the name of one that comes with the package."""
@@ -36,14 +43,23 @@ def scenario_text(source: str | PathLike[str]) -> str:
     """Give the text of a scenario file, or of a scenario of the package by its name.
 
     Raises:
-        ScenarioError: if there is no such file or it can't be read as text.
+        ScenarioError: if there is no such file, it can't be read as text, or `source` is of another type.
     """
+    if not isinstance(source, str | PathLike):
+        way_out = "; Scenario(**tables) makes one of a dict" if isinstance(source, dict) else ""
+        raise ScenarioError(
+            f"scenario: of type {type(source).__name__}, accepted: a Scenario, the path of its file, or a "
+            f"name such as fig24a{way_out}"
+        )
     names = named_scenarios()
     path, source = Path(source), str(source)
     try:
         if source in names and (not path.exists() or path.is_dir()):
             return (resources.files("models") / "scenarios" / f"{source}.toml").read_text(encoding="utf-8")
-        return path.read_text(encoding="utf-8-sig")
+        text = read_bounded(path, MOST_BYTES).decode("utf-8-sig")
+        return text.replace("\r\n", "\n").replace("\r", "\n")
+    except TooLargeError as error:
+        raise ScenarioError(f"{source}: {error}; accepted: at most {MOST_BYTES} bytes of text") from None
     except UnicodeDecodeError as error:
         raise ScenarioError(
             f"{source}: {error.reason} at byte {error.start}; accepted: a text file in UTF-8"
@@ -74,8 +90,13 @@ def load(source: str | PathLike[str]) -> Scenario:
 
     Raises:
         ScenarioError: naming file, field, value and what is accepted.
+
+    Warns:
+        UnusedFieldWarning: for a field that nothing uses.
     """
-    return parse(scenario_text(source), str(source))
+    scenario = parse(scenario_text(source), str(source))
+    warn_of_unused_fields(scenario)
+    return scenario
 
 
 def parse(text: str, source: str) -> Scenario:
@@ -88,6 +109,10 @@ def parse(text: str, source: str) -> Scenario:
     Raises:
         ScenarioError: naming file, field, value and what is accepted.
     """
+    for number, line in enumerate(text.split("\n"), start=1):
+        if len(line) > LONGEST_LINE:
+            few = f"accepted: at most {LONGEST_LINE}"
+            raise ScenarioError(f"{source}: line {number} has {len(line)} characters; {few}")
     try:
         return Scenario.model_validate(tomllib.loads(text))
     except ValidationError as error:
@@ -96,5 +121,3 @@ def parse(text: str, source: str) -> Scenario:
         raise ScenarioError(f"{source}: nested too deeply; accepted: tables of numbers and lists") from None
     except tomllib.TOMLDecodeError as error:
         raise ScenarioError(f"{source}: not TOML: {error}") from None
-    except ValueError:  # the one that tomllib lets through
-        raise ScenarioError(f"{source}: an integer of too many digits; accepted: at most 4300") from None

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
-from enum import IntEnum, StrEnum
+from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -11,11 +11,15 @@ from numpy.typing import ArrayLike, NDArray
 from models import notebook
 from models.interruptible import interruptible
 from models.labelled import AXES, Column, dataset, meanings_of, table
+from models.plots import axes_or_new, draw_height
 from models.scenario import Scenario
+from models.words import Word
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+
+    from models.plots import Axes
 
 Array = NDArray[np.float64]
 
@@ -24,7 +28,7 @@ _DRAWN = 600
 """Times at which a path is drawn."""
 
 
-class Face(IntEnum):
+class Face(Word):
     """The face that is up. Heads is the face ζ = +h/2; it is up when n_z > 0, eq. (4)."""
 
     HEADS = 1
@@ -35,13 +39,8 @@ class Face(IntEnum):
         """H or T."""
         return self.name[0]
 
-    @property
-    def label(self) -> str:
-        """The face's name in answers."""
-        return self.name.lower()
 
-
-class Outcome(IntEnum):
+class Outcome(Word):
     """How the coin lies in the end."""
 
     UNDECIDED = 0
@@ -50,13 +49,8 @@ class Outcome(IntEnum):
     EDGE = 3
     PERPETUAL = 4
 
-    @property
-    def label(self) -> str:
-        """The outcome's name in answers."""
-        return self.name.lower()
 
-
-class Ending(IntEnum):
+class Ending(Word):
     """Why a toss stopped."""
 
     NONE = 0
@@ -78,11 +72,6 @@ class Ending(IntEnum):
     NOT_CAUGHT = 16
 
     @property
-    def label(self) -> str:
-        """The ending's name in answers."""
-        return self.name.lower()
-
-    @property
     def sentence(self) -> str:
         """What the ending means."""
         return _SENTENCES[self]
@@ -90,22 +79,22 @@ class Ending(IntEnum):
 
 _SENTENCES = {
     Ending.NONE: "The toss goes on.",
-    Ending.SETTLED: "The energy is below the pass to the other face, and no impact of this law adds energy.",
-    Ending.PAPER: "The energy is too low to turn over, unless a later impact adds some.",
-    Ending.PAPER_SMOOTH: "The energy that can turn the coin over is below m g r, eq. (20).",
-    Ending.MAX_IMPACTS: "The toss made as many impacts as [ending] max_impacts allows; raise it to go on.",
-    Ending.MAX_TIME: "The toss lasted as long as [ending] max_time allows; raise it to go on.",
-    Ending.CHATTER: "The impacts chatter: the coin stays in contact, where this contact law is not followed.",
-    Ending.NO_SOLUTION: "The contact law has no solution in this state.",
-    Ending.LYING: "The coin lies on a face; it only slides and spins, which can't tip it.",
-    Ending.STANDING: "The coin stands on its edge: tipped onto either rim, it is turned back by the floor.",
-    Ending.PERPETUAL: "The energy loss converges: the coin keeps enough energy to turn over for ever.",
-    Ending.CONTACT_STEPS: "Contact took as many steps as contact_steps allows; raise it: --contact-steps N.",
-    Ending.FLIGHT_STEPS: "Flights took as many steps as flight_steps allows; raise it: --flight-steps N.",
-    Ending.AT_REST: "The coin rests on its edge, where the floor's resistance to rolling holds it.",
-    Ending.CAUGHT: "The mass centre came down to the hand, [ending] caught: the face up there counts.",
-    Ending.NOT_CAUGHT: "The coin ends on the floor: it never comes down to [ending] caught.",
-    Ending.ROLLING: "The coin rolls upright, held on its edge; to go on raise max_time or contact_steps.",
+    Ending.SETTLED: "The coin can no longer turn over, and this floor gives it no energy.",
+    Ending.PAPER: "The coin can no longer turn over, unless a later impact gives it energy.",
+    Ending.PAPER_SMOOTH: "The energy that can turn the coin over is below m g r: the paper's eq. (20).",
+    Ending.MAX_IMPACTS: "The toss stopped at [ending] max_impacts; raise it to go on.",
+    Ending.MAX_TIME: "The toss stopped at [ending] max_time; raise it to go on.",
+    Ending.CHATTER: "Ever faster impacts bring the coin into contact, where this law is not followed.",
+    Ending.NO_SOLUTION: "The contact law has no solution at this impact.",
+    Ending.LYING: "The coin lies on a face. It may still slide or spin, but that can't tip it.",
+    Ending.STANDING: "The coin stands on its edge: the floor turns it back from either rim.",
+    Ending.PERPETUAL: "The coin keeps enough energy to turn over for ever: its losses die away.",
+    Ending.CONTACT_STEPS: "The toss stopped at contact_steps; raise it to go on: --contact-steps N.",
+    Ending.FLIGHT_STEPS: "The toss stopped at flight_steps; raise it to go on: --flight-steps N.",
+    Ending.AT_REST: "The coin rests on its edge, held by the floor's resistance to rolling.",
+    Ending.CAUGHT: "A hand caught the coin at the height [ending] caught; the face up there counts.",
+    Ending.NOT_CAUGHT: "The coin never came down to the hand at the height [ending] caught.",
+    Ending.ROLLING: "The coin still rolls on its edge; to go on raise max_time or contact_steps.",
 }
 
 
@@ -200,7 +189,7 @@ class Impacts:
         return table("impact", self._columns())
 
     def _columns(self) -> dict[str, Column]:
-        faces = meanings_of({face.value: face.label for face in Face})
+        faces = meanings_of({face.value: str(face) for face in Face})
         number = Column(np.arange(1, len(self) + 1), {"long_name": "impact"})
         return {
             "impact": number,
@@ -348,7 +337,7 @@ class Toss:
         """Return how the toss ended, and the faces up at its touches."""
         sequence = notebook.shortened(notebook.with_bar(self.sequence, self.trusted_impacts))
         return (
-            f"<Toss by {self.engine}: {self.outcome.label}, {self.ending.label} at {self.end_time:.6g} s; "
+            f"<Toss by {self.engine}: {self.outcome}, {self.ending} at {self.end_time:.6g} s; "
             f"{len(self.impacts)} impacts: {sequence}>"
         )
 
@@ -357,18 +346,18 @@ class Toss:
         times = np.linspace(0, self.end_time, _DRAWN)
         heights = self.sample(times).position[:, 2]
         impacts, trusted = self.impacts, self.trusted_impacts
-        labels = [Face(face).label for face in impacts.face]
+        labels = [str(Face(face)) for face in impacts.face]
         touches = list(zip(impacts.time.tolist(), impacts.position[:, 2].tolist(), labels, strict=True))
         sequence = notebook.with_bar(self.sequence, trusted)
         return notebook.block(
-            f"{self.outcome.label}, by the engine {self.engine}",
+            f"{self.outcome}, by the engine {self.engine}",
             notebook.path_picture(
                 zip(times.tolist(), heights.tolist(), strict=True),
                 touches,
                 float(impacts.time[trusted]) if trusted < len(impacts) else None,
             ),
             {
-                "ending": f"{self.ending.label}: {self.ending.sentence}",
+                "ending": f"{self.ending}: {self.ending.sentence}",
                 "end": f"{self.end_time:.6g} s, after {len(impacts)} impacts",
                 "sequence": notebook.shortened(sequence),
                 "trusted": f"{trusted} impacts" + ("" if trusted >= len(impacts) else ", before the bar"),
@@ -382,8 +371,8 @@ class Toss:
         """
         about = {
             "engine": self.engine,
-            "outcome": self.outcome.label,
-            "ending": self.ending.label,
+            "outcome": str(self.outcome),
+            "ending": str(self.ending),
             "end_time": self.end_time,
             "trusted_impacts": self.trusted_impacts,
             "sequence": self.sequence,
@@ -394,28 +383,21 @@ class Toss:
         """Return the impacts as a table of pandas, a row each."""
         return self.impacts.to_dataframe()
 
-    def plot(self, **options: Any) -> Any:
+    def plot(self, ax: "Axes | None" = None, **line: Any) -> "Axes":
         """Plot the height of the mass centre over time, marked where the coin touches the floor.
 
         Args:
-            options: of xarray's line plot, such as `ax`, `figsize` or `color`.
+            ax: where to draw, by default in a new figure of pyplot.
+            line: of matplotlib's line, such as `color` or `label`.
 
         Returns:
-            Matplotlib's axes.
+            The axes.
         """
-        states = self.sample(np.linspace(0, self.end_time, _DRAWN)).to_xarray()
-        height = (
-            states["position"].sel(axis="z", drop=True).assign_attrs(long_name="height of the mass centre")
-        )
-        (line, *_) = height.plot.line(**options)
-        impacts, axes = self.impacts, line.axes
-        for face in Face:
-            up = impacts.face == face
-            color = notebook.COLORS[face.label]
-            label = f"{face.label} up at the touch"
-            axes.plot(impacts.time[up], impacts.position[up, 2], "o", color=color, label=label)
-        axes.set_title(f"{self.outcome.label}, by the engine {self.engine}")
-        axes.legend()
+        times, impacts, axes = np.linspace(0, self.end_time, _DRAWN), self.impacts, axes_or_new(ax)
+        up = {str(face): impacts.face == face for face in Face}
+        touches = {face: (impacts.time[one], impacts.position[one, 2]) for face, one in up.items()}
+        draw_height(axes, (times, self.sample(times).position[:, 2]), touches, **line)
+        axes.set_title(f"{self.outcome}, by the engine {self.engine}")
         return axes
 
     def sample(self, times: ArrayLike) -> States:
@@ -436,7 +418,8 @@ class Toss:
     def floor_force(self, times: ArrayLike) -> Array:
         """Return the floor's force on the coin in its sustained contacts, space frame, (n, 3) [N].
 
-        Elsewhere it is 0; what the floor does in an impact is the impact's impulse.
+        Elsewhere it is 0; what the floor does in an impact is the impact's impulse. It is 0 in a contact that
+        takes no time, too, such as that in which a coin comes to lie flat.
 
         Args:
             times: one time, or (n,), each from 0 to `end_time` [s].
@@ -447,8 +430,9 @@ class Toss:
         t = self._required(times)
         force = np.zeros((len(t), 3))
         contact = np.searchsorted(self.contacts[:, 0], t, side="right") - 1
-        ends = np.append(self.contacts[:, 1], -np.inf)  # the last is that of contact -1, before the first
-        held = t <= ends[contact]
+        # The last is that of contact -1, before the first.
+        starts, ends = np.append(self.contacts, [[-np.inf, -np.inf]], axis=0).T
+        held = (t <= ends[contact]) & (starts[contact] < ends[contact])
         if held.any():
             force[held] = interruptible(lambda: self.path.floor_force(t[held]))
         return force

@@ -1,17 +1,28 @@
 """Many releases of one coin, as arrays."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from models.attitude import rotation_matrix
+from models.attitude import quaternion_from_angles, rotation_matrix
 from models.clearance import damping_rate
+from models.errors import require_type, shown
+from models.fields import UNITS, split
 from models.geometry import gap
 from models.kernel.compiled import compiled
+from models.reading import ScenarioSource, scenario_of
 from models.records import Array
-from models.scenario import FASTEST_DRAG, FASTEST_SPIN, LARGEST, NORM_ROUNDING, Scenario
+from models.scenario import FASTEST_DRAG, FASTEST_SPIN, LARGEST, NORM_ROUNDING, Release, Scenario
+from models.units import in_si
+
+HEIGHT, SPIN = "release.position.z", "release.angular_velocity"
+QUANTITIES = {"height": HEIGHT, "spin": SPIN} | {
+    field.removeprefix("release.").replace(".", "_"): field for field in UNITS if field.startswith("release.")
+}
+"""What `Releases.of` may change, and its field: `height` is `position_z`, `spin` the size of ω."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -34,11 +45,13 @@ class Releases:
             ValueError: for a wrong shape, a number that is not finite or beyond all coins, or Euler
                 parameters whose norm is not 1 within 1e-3.
         """
-        n = len(self.position)
+        n = None
         for item, columns in zip(fields(self), (3, 3, 4, 3), strict=True):
             array = np.array(getattr(self, item.name), dtype=float, order="C")
-            if array.shape != (n, columns):
-                raise ValueError(f"Releases.{item.name}: shape {array.shape}, expected {(n, columns)}")
+            if array.ndim != 2 or array.shape != (len(array) if n is None else n, columns):
+                expected = f"({'n' if n is None else n}, {columns}), a row for each toss"
+                raise ValueError(f"Releases.{item.name}: shape {array.shape}, expected {expected}")
+            n = len(array)
             _refuse(item.name, array, ~(np.abs(array) <= LARGEST).all(axis=1), f"numbers within {LARGEST:g}")
             if item.name == "quaternion":
                 # In a map the attitude is often one; numpy's own norm rounds otherwise than math.hypot.
@@ -49,6 +62,41 @@ class Releases:
             array.setflags(write=False)
             object.__setattr__(self, item.name, array)
 
+    @classmethod
+    def of(cls, scenario: ScenarioSource, n: int, **quantities: ArrayLike) -> "Releases":
+        """Return `n` copies of a scenario's release, some of its quantities changed.
+
+            Releases.of("fig24a", 1000, height=("20 cm", "60 cm"), spin=40)
+
+        Args:
+            scenario: a `Scenario`, the path of its file, or a name such as "fig24a".
+            n: number of tosses.
+            quantities: each a number for all, a pair (start, stop) from which the n values run evenly, both
+                included, or n values; in SI, or texts with a unit. `height` is that of C; `spin` is the size
+                of ω, about the scenario's own axis of rotation. Others are the numbers of a release, named as
+                in tables: `velocity_z`, `angular_velocity_eta`, `angles_theta`. Two pairs run together.
+
+        Raises:
+            TypeError: for another name.
+            ValueError: for values that are none of these, and for a release that this coin can't have.
+        """
+        described = scenario_of(scenario)
+        if isinstance(n, bool) or not isinstance(n, int | np.integer) or n < 1:
+            raise ValueError(f"Releases.of: n = {n!r}, accepted: a whole number from 1")
+        changed: dict[str, Array] = {}
+        for name, given in quantities.items():
+            if name not in QUANTITIES:
+                raise TypeError(f"Releases.of: {name}: unknown; accepted: {', '.join(QUANTITIES)}")
+            values = _spread(name, given, int(n))
+            new = _along_spin(described.release, values) if name == "spin" else {QUANTITIES[name]: values}
+            twice = [field for field in new if field in changed]
+            if twice:
+                raise ValueError(f"Releases.of: {name}: sets {twice[0]} again; accepted: each number once")
+            changed |= new
+        releases = changed_releases(described.release, int(n), changed)
+        check_releases(described, releases)
+        return releases
+
     def __len__(self) -> int:
         """Return the number of releases."""
         return len(self.position)
@@ -58,12 +106,70 @@ class Releases:
         return f"<Releases: {len(self)}>"
 
 
+def changed_releases(release: Release, n: int, changed: Mapping[str, Array]) -> Releases:
+    """Return copies of a release with some of its numbers changed.
+
+    Args:
+        release: what is copied; its angles take the place of its quaternion where they are changed.
+        n: number of copies.
+        changed: by the dotted field of a number, (n,) each.
+    """
+    numbers = {
+        "position": release.position,
+        "velocity": release.velocity,
+        "angles": release.angles or (0.0, 0.0, 0.0),
+        "quaternion": release.attitude,
+        "angular_velocity": release.angular_velocity,
+    }
+    columns = {name: np.tile(row, (n, 1)) for name, row in numbers.items()}
+    for field, values in changed.items():
+        _, key, index = split(field)
+        columns[key][:, index] = values
+    angles = columns.pop("angles")
+    if any(field.startswith("release.angles.") for field in changed):
+        columns["quaternion"] = np.array([quaternion_from_angles((a, b, c)) for a, b, c in angles.tolist()])
+    return Releases(**columns)
+
+
+def _spread(name: str, given: ArrayLike, n: int) -> Array:
+    """Return n values of a quantity, from one, from a pair, or from n."""
+    unit = UNITS.get(QUANTITIES[name], "rad/s")
+    try:
+        entries = [given] if np.ndim(given) == 0 else list(given)  # pyright: ignore[reportArgumentType]
+        values = np.array([in_si(one, unit) if isinstance(one, str) else one for one in entries], dtype=float)
+    except (TypeError, ValueError):
+        values = np.empty(0)
+    if values.ndim != 1 or len(values) not in (1, 2, n) or not np.isfinite(values).all():
+        size = f"shape {np.shape(given)}" if isinstance(given, np.ndarray) else shown(given)
+        raise ValueError(
+            f"Releases.of: {name} = {size}, accepted: a number [{unit}] or a text with its unit, "
+            f"a pair (start, stop), or {n} of them"
+        )
+    if len(values) == n:
+        return values
+    return np.linspace(values[0], values[-1], n)
+
+
+def _along_spin(release: Release, values: Array) -> dict[str, Array]:
+    """Return the components of ω along that of a release, of the sizes `values`."""
+    size = math.hypot(*release.angular_velocity)
+    if size == 0:
+        raise ValueError(
+            "Releases.of: spin: this scenario's coin does not spin, so about no axis; accepted: "
+            "angular_velocity_xi, angular_velocity_eta, angular_velocity_zeta"
+        )
+    axis = zip(("xi", "eta", "zeta"), release.angular_velocity, strict=True)
+    return {f"{SPIN}.{name}": w / size * values for name, w in axis}
+
+
 def check_releases(scenario: Scenario, releases: Releases) -> None:
     """Refuse releases that a `Scenario` with this coin, air and gravity would refuse.
 
     Raises:
+        TypeError: for what are none.
         ValueError: for a coin below the floor, and for a spin or a drag too fast to follow.
     """
+    require_type("releases", releases, Releases, "Releases, as of Releases.of(scenario, n, height=...)")
     body, n = scenario.body, len(releases)
     clearance, damping = np.empty(n), np.empty(n)
     _clearance_and_damping(

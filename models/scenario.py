@@ -35,16 +35,17 @@ from models.inertia import (
 from models.kernel.vectors import Matrix, Vector
 from models.laws import ContactLaw, EndingTest, RestitutionKind
 from models.units import in_si
+from models.unused import warn_of_unused_fields
+from models.words import Word
+from models.writing import toml
 
 
-def _named(kind: type[ContactLaw | EndingTest | RestitutionKind]) -> Callable[[Any], Any]:
+def _named(kind: type[Word]) -> Callable[[Any], Any]:
     def member(value: Any) -> Any:
-        if isinstance(value, kind):
-            return value
         for item in kind:
-            if value == item.label:
+            if isinstance(value, str | kind) and value == item:
                 return item
-        raise ValueError("one of " + ", ".join(f'"{item.label}"' for item in kind))
+        raise ValueError("one of " + ", ".join(f'"{item}"' for item in kind))
 
     return member
 
@@ -53,11 +54,14 @@ def _quantity(unit: str) -> BeforeValidator:
     return BeforeValidator(lambda value: in_si(value, unit) if isinstance(value, str) else value)
 
 
-def _as_tuple(value: Any) -> Any:
-    return tuple(value) if isinstance(value, list | np.ndarray) else value
+def _list_of(count: int, accepted: str) -> BeforeValidator:
+    def as_tuple(value: Any) -> Any:
+        entries = value.tolist() if isinstance(value, np.ndarray) else value
+        if not isinstance(entries, list | tuple) or len(entries) != count:
+            raise ValueError(f"a list of {count} {accepted}")
+        return tuple(entries)
 
-
-_Sequence = BeforeValidator(_as_tuple)
+    return BeforeValidator(as_tuple)
 
 
 # Sizes beyond all coins, within which products of powers stay far from the range of floating-point numbers.
@@ -83,12 +87,20 @@ Speed = Annotated[float, _quantity("m/s"), _within]
 Angle = Annotated[float, _quantity("rad"), Field(ge=-LARGEST_ANGLE, le=LARGEST_ANGLE)]
 Spin = Annotated[float, _quantity("rad/s")]
 Inertia = Annotated[float, _quantity("kg*m**2"), _within]
-Lengths = Annotated[tuple[Length, Length, Length], _Sequence]
-Speeds = Annotated[tuple[Speed, Speed, Speed], _Sequence]
-Angles = Annotated[tuple[Angle, Angle, Angle], _Sequence]
-Spins = Annotated[tuple[Spin, Spin, Spin], _Sequence]
-EulerParameters = Annotated[tuple[Number, Number, Number, Number], _Sequence]
-_Row = Annotated[tuple[Inertia, Inertia, Inertia], _Sequence]
+_Lengths = tuple[Length, Length, Length]
+Offset = Annotated[_Lengths, _list_of(3, 'lengths, such as [0, 0, "0.1 mm"]')]
+Position = Annotated[_Lengths, _list_of(3, "lengths, such as [0, 0, 0.4]")]
+Speeds = Annotated[tuple[Speed, Speed, Speed], _list_of(3, 'speeds, such as [0, 0, "2 m/s"]')]
+Angles = Annotated[tuple[Angle, Angle, Angle], _list_of(3, 'angles, such as [0, "7 deg", 0]')]
+Spins = Annotated[tuple[Spin, Spin, Spin], _list_of(3, 'spins, such as [0, "40 rad/s", 0]')]
+EulerParameters = Annotated[
+    tuple[Number, Number, Number, Number], _list_of(4, "numbers of norm 1, such as [1, 0, 0, 0]")
+]
+_Row = Annotated[tuple[Inertia, Inertia, Inertia], _list_of(3, "moments of inertia, such as [8e-8, 0, 0]")]
+_Rows = Annotated[
+    tuple[_Row, _Row, _Row],
+    _list_of(3, "lists of 3 moments of inertia, such as [[8e-8, 0, 0], [0, 8e-8, 0], [0, 0, 1.6e-7]]"),
+]
 _ZERO = (0.0, 0.0, 0.0)
 # Up to this kinematic restitution `coulomb` and its limit add energy in hardly an impact.
 _ROUTHS, _TAKING = (ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH), 0.7
@@ -136,9 +148,9 @@ class Coin(_Part):
     """r [m]."""
     thickness: Annotated[float, _quantity("m"), _not_negative]
     """h [m]; 0 for the thin coin."""
-    center_of_mass: Lengths = _ZERO
+    center_of_mass: Offset = _ZERO
     """c, from B to C, body frame (ξ, η, ζ) [m]."""
-    inertia: Annotated[tuple[_Row, _Row, _Row], _Sequence] | None = None
+    inertia: _Rows | None = None
     """J_C about C, body frame, products of inertia with their minus sign [kg m²]; by default the uniform
     cylinder's about B, moved to C."""
 
@@ -245,8 +257,8 @@ class Floor(_Part):
         if self.restitution_kind == RestitutionKind.ENERGETIC and self.contact != ContactLaw.COULOMB:
             raise FieldError(
                 "restitution_kind",
-                self.restitution_kind.label,
-                f'"kinematic" with contact = "{self.contact.label}"; "energetic" only with "coulomb"',
+                str(self.restitution_kind),
+                f'"kinematic" with contact = "{self.contact}"; "energetic" only with "coulomb"',
             )
         return self
 
@@ -254,11 +266,11 @@ class Floor(_Part):
     def _resistance_of_a_law_in_contact(self) -> Self:
         for name in RESISTANCES:
             if getattr(self, name) > 0 and self.contact not in _IN_CONTACT:
-                accepted = ", ".join(f'"{law.label}"' for law in _IN_CONTACT)
+                accepted = ", ".join(f'"{law}"' for law in _IN_CONTACT)
                 raise FieldError(
                     name,
                     getattr(self, name),
-                    f'0 with contact = "{self.contact.label}", which is not followed into sustained contact; '
+                    f'0 with contact = "{self.contact}", which is not followed into sustained contact; '
                     f"a length with {accepted}",
                 )
         return self
@@ -274,7 +286,7 @@ class Floor(_Part):
 class Release(_Part):
     """The state at time 0."""
 
-    position: Lengths
+    position: Position
     """Of C, space frame [m]."""
     velocity: Speeds = _ZERO
     """Of C, space frame [m/s]."""
@@ -334,6 +346,21 @@ class Scenario(_Part):
     floor: Floor
     release: Release
     ending: EndingCriteria = EndingCriteria()
+
+    def __init__(self, **fields: Any) -> None:
+        """Make it of its parts, checked as a scenario file is.
+
+        Raises:
+            ScenarioError: naming field, value and what is accepted.
+
+        Warns:
+            UnusedFieldWarning: for a field that nothing uses.
+        """
+        super().__init__(**fields)
+        warn_of_unused_fields(self)
+
+    # A map's scenario, and one that `replace` returns, are validated without it.
+    __init__.__dict__["__pydantic_base_init__"] = True
 
     @model_validator(mode="after")
     def _above_the_floor(self) -> Self:
@@ -419,6 +446,10 @@ class Scenario(_Part):
         """Return the scenario as a file has it: numbers in SI, lists, words for what has a name."""
         return _as_in_a_file(self.model_dump(exclude_none=True))
 
+    def to_toml(self) -> str:
+        """Return the text of a scenario file, defaults included, that `parse` reads as this very scenario."""
+        return toml(self.as_tables())
+
     @cached_property
     def body(self) -> Body:
         """The coin in its air and gravity, for compiled code."""
@@ -469,7 +500,7 @@ def _as_in_a_file(value: Any) -> Any:
         return {name: _as_in_a_file(entry) for name, entry in value.items()}
     if isinstance(value, tuple):
         return [_as_in_a_file(entry) for entry in value]
-    return value.label if isinstance(value, ContactLaw | EndingTest | RestitutionKind) else value
+    return str(value) if isinstance(value, Word) else value
 
 
 def _rows(M: NDArray[np.floating]) -> Matrix:

@@ -1,5 +1,6 @@
 """A number with its unit, written as a string, in SI."""
 
+import math
 import re
 from functools import cache
 from typing import TYPE_CHECKING
@@ -7,7 +8,16 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from pint import UnitRegistry
 
-_NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\s*(.*?)\s*")
+LONGEST = 200
+"""Characters of a quantity."""
+_NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
+# Pint works out what it is given: the power of a power could take for ever. So a name has one small power.
+_SIZE = r"[+-]?[0-9]{1,2}(?:\.[0-9]+)?"
+_POWER = rf"\s*(?:\*\*|\^)\s*(?:{_SIZE}|\({_SIZE}(?:/[0-9]{{1,2}})?\))|⁻?[¹²³⁴-⁹]{{1,2}}"
+_NAME = r"(?!sq(?:uared?)?\b|cub(?:ic|ed)\b)[^\W\d_][^\W⁰-⁹¹²³]*|[%‰°]|1(?=\s*/)"
+_TERM = rf"\(?(?:{_NAME})(?:{_POWER})?\)?"
+_UNIT = rf"{_TERM}(?:(?:\s*[*/·]\s*|\s+){_TERM})*"
+_NUMBER_AND_UNIT = re.compile(rf"\s*({_NUMBER})\s*((?:{_UNIT})?)\s*")
 
 _COMMON = {
     "": {"%": 0.01},
@@ -31,8 +41,8 @@ def in_si(text: str, unit: str) -> float:
     Raises:
         ValueError: if the text is no quantity, or not one of the dimension of `unit`.
     """
-    parts = _NUMBER_AND_UNIT.fullmatch(text)
-    if parts is None or (unit and not parts[2]):
+    parts = _NUMBER_AND_UNIT.fullmatch(text) if len(text) <= LONGEST else None
+    if parts is None or (unit and not parts[2]) or not math.isfinite(float(parts[1])):
         raise ValueError(_accepted(unit))
     factor = _COMMON.get(unit, {}).get(parts[2])
     if factor is not None:

@@ -11,6 +11,8 @@ from hypothesis import settings
 from compare.film.back_end import drawing_problem
 
 os.environ.setdefault("MUJOCO_GL", "egl")
+# A busy machine is slow, and of what is slow the commands speak.
+os.environ["TQDM_DISABLE"] = "1"
 
 # Runs in the background ignore Ctrl-C, and what they start would too.
 signal.signal(signal.SIGINT, signal.default_int_handler)

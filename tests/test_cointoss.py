@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 import cointoss
+from models.distribution import DISTRIBUTION
 from tests.helpers.command_line import HERE
 
 TOP = Path(__file__).parents[1]
@@ -36,7 +37,12 @@ def test_each_name_is_that_of_its_home_and_a_type_checker_knows_it():
     for name, home in homes.items():
         assert getattr(cointoss, name) is getattr(import_module(home), name)
     assert [getattr(cointoss, name) for name in PACKAGES] == [sys.modules[name] for name in PACKAGES]
-    assert cointoss.__version__ == version("cointoss")
+    assert cointoss.__version__ == version(DISTRIBUTION)
+
+
+def test_the_name_that_pip_installs_is_that_of_the_project():
+    project = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert project["name"] == DISTRIBUTION
 
 
 def test_each_public_name_says_what_it_is():
@@ -46,8 +52,28 @@ def test_each_public_name_says_what_it_is():
 
 
 def test_an_unknown_name_is_answered_with_the_names_there_are():
-    with pytest.raises(AttributeError, match=r"no Coins; accepted: Air, .* Coin, .*, load,"):
+    with pytest.raises(AttributeError, match=r"no Coins; accepted: Air, .* Coin, .*, load,.*mean Coin\?\)"):
         _ = cointoss.Coins
+
+
+def test_either_engine_tosses_by_its_name():
+    few = cointoss.load("fig24a").replace("ending.max_impacts", 1)
+    assert [cointoss.toss(few).engine, cointoss.toss(few, "mujoco").engine] == ["analytic", "mujoco"]
+    finer = cointoss.toss(few, engine="mujoco", settings=cointoss.coin_mj.Settings(stiffness=1e13))
+    assert ("contact stiffness", 1e13) in [(one.name, one.value) for one in finer.certificate]
+    with pytest.raises(ValueError, match=r"^engine: 'paper', accepted: analytic, mujoco$"):
+        cointoss.toss(few, "paper")
+
+
+@pytest.mark.parametrize("engine", ["analytic", "coin_mj"])
+@pytest.mark.parametrize("wrong", [3, None, {"steps": 2}], ids=str)
+def test_settings_of_another_type_are_refused(engine, wrong):
+    package, releases = getattr(cointoss, engine), cointoss.Releases.of("fig24a", 1)
+    for toss in (package.toss, lambda one, **more: package.toss_many(one, releases, **more)):
+        with pytest.raises(TypeError, match=f"^settings: of type .*, accepted: {engine}.Settings, such as"):
+            toss("fig24a", settings=wrong)
+    with pytest.raises(TypeError, match=r"^releases: of type list, accepted: Releases, as of Releases.of"):
+        package.toss_many("fig24a", [0, 0, 1])
 
 
 def test_import_cointoss_imports_next_to_nothing():

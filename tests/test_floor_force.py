@@ -8,6 +8,7 @@ from analytic.toss import Pieces
 from compare.engines import Engine
 from models.attitude import rotation_matrix
 from models.drag import linear_drag
+from models.records import Ending
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 from tests.helpers.engines import toss
 
@@ -115,6 +116,16 @@ def test_at_the_end_of_a_contact_the_floor_holds_the_coin_still(engine):
     start, end = tossed.contacts[-1]
     at_end, before = tossed.floor_force([end, end - 1e-6 * (end - start)])
     assert at_end == pytest.approx(before, abs=1e-2 * M * G)
+
+
+def test_a_coin_that_has_come_to_lie_flat_has_a_force_that_is_a_number(engine):
+    """The analytic engine lays it flat in a contact that takes no time, where no rim point is lowest."""
+    resistance = {"rolling_friction": 5e-4, "pivoting_friction": 1e-4}
+    floor = {"restitution": 0.5, "contact": "coulomb", "friction": 0.3, **resistance}
+    release = {"position": [0, 0, 0.02], "angles": [0, 0.1, 0], "angular_velocity": [0, 0, 5]}
+    tossed = toss(engine, scenario(air=AIR, floor=floor, release=release, ending={"test": "lying"}))
+    assert tossed.ending is Ending.LYING
+    assert np.isfinite(tossed.floor_force([tossed.end_time])).all()
 
 
 def test_times_outside_a_toss_are_refused(engine):

@@ -1,4 +1,4 @@
-"""Where tests keep what they share: in tests/helpers, and no test imports a test."""
+"""Tests keep what they share in tests/helpers, no test imports a test, and no process is left behind."""
 
 import ast
 from pathlib import Path
@@ -7,6 +7,11 @@ import pytest
 
 TESTS = Path(__file__).parent
 SOURCES = sorted(TESTS.rglob("*.py"))
+PACKAGES = [
+    path
+    for name in ("models", "analytic", "coin_mj", "compare")
+    for path in (TESTS.parent / name).rglob("*.py")
+]
 SHARED = (TESTS / "helpers", TESTS / "benchmarks")
 
 
@@ -53,3 +58,25 @@ def test_what_is_shared_lies_in_helpers():
         for path in elsewhere
         if not path.match("test_*.py") and path.name not in ("__init__.py", "conftest.py")
     ] == []
+
+
+def unwaited(source: str) -> list[int]:
+    """Return the lines that start a process which neither `subprocess.run` nor a `with` statement ends."""
+    tree = ast.parse(source)
+    ended = {
+        id(item.context_expr) for node in ast.walk(tree) if isinstance(node, ast.With) for item in node.items
+    }
+    calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and id(node) not in ended]
+    starting = {"Popen", "Process", "Pool", "ProcessPoolExecutor", "fork", "system", "popen"}
+    return [call.lineno for call in calls if ast.unparse(call.func).rpartition(".")[2] in starting]
+
+
+@pytest.mark.parametrize(
+    "line", ["a = subprocess.Popen(b)", "return Popen(b)", "os.fork()", "with x(Pool()): pass"]
+)
+def test_a_process_left_behind_is_seen(line):
+    assert unwaited(line) == [1]
+
+
+def test_every_process_is_waited_for():
+    assert [path for path in [*PACKAGES, *SOURCES] if unwaited(path.read_text(encoding="utf-8"))] == []

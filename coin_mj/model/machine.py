@@ -43,6 +43,7 @@ ADDRESSES = np.dtype(
         for name in (
             "model",
             "data",
+            "time",  # of mjData, for those who wait [s]; no step reads it
             "timestep",
             "solref",  # of the normal force: minus the contact's stiffness [1/s²] and damping [1/s]
             "solreffriction",  # of MuJoCo's own friction, likewise; 0 where that is not asked for
@@ -156,6 +157,7 @@ def _addresses(model: mujoco.MjModel, data: mujoco.MjData, *, has_pair: bool) ->
     addresses = (
         model._address,
         data._address,
+        data._address + offset_of("mjData", "time"),
         model._address + offset_of("mjModel", "opt.timestep"),
         *(0 if array is None else array.ctypes.data for array in settings),
         data.body("coin").xmat.ctypes.data,

@@ -2,6 +2,7 @@
 
 from enum import IntEnum
 
+from coin_mj.model.memory import numbers_at
 from coin_mj.model.state import motion_of
 from models.kernel.compiled import compiled
 
@@ -17,7 +18,7 @@ class Step(IntEnum):
 
 @compiled
 def add_knot(coin, time, step, knots):
-    """Add the present state to the path.
+    """Add the present state to the path, and set MuJoCo's time.
 
     Args:
         coin: MuJoCo's.
@@ -25,6 +26,7 @@ def add_knot(coin, time, step, knots):
         step: the `Step` that starts there.
         knots: the path so far, (time, step, qpos, qvel) each; empty where the path is not kept.
     """
+    numbers_at(coin.address.time, (1,))[0] = time
     if len(knots) > 0:
         knots.append(knot_of(coin, time, step))
 

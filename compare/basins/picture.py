@@ -250,7 +250,7 @@ def _label(axis: MapAxis) -> str:
 def _outcome_patches(maps: list[OutcomeCodes], palette: Palette, boundaries: bool) -> list[Patch]:
     present = [outcome for outcome in Outcome if any((codes == outcome).any() for codes in maps)]
     present.sort(key=lambda outcome: outcome is Outcome.UNDECIDED)
-    patches = [_patch(_COLORS[palette][outcome], outcome.label) for outcome in present]
+    patches = [_patch(_COLORS[palette][outcome], str(outcome)) for outcome in present]
     return [*patches, *([_patch(_BOUNDARY[palette], "boundary")] if boundaries else [])]
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from compare.commands.common import SCENARIO_HELP, Count, contact_option, plain_errors, say
+from compare.commands.common import SCENARIO_HELP, Count, contact_option, no_video_option, plain_errors, say
 from compare.commands.names import axis_option, scenario_argument
 from compare.output.interruption import Interruption
 
@@ -36,7 +36,11 @@ class _Size(click.ParamType):
 @axis_option("--x", "The field that varies along x, and its N values.")
 @axis_option("--y", "The field that varies along y.")
 @click.option(
-    "--out", type=click.Path(path_type=Path), required=True, help="The Zarr store to write, MAP.zarr."
+    "--out",
+    type=click.Path(path_type=Path),
+    required=True,
+    metavar="MAP.zarr",
+    help="The Zarr store to write.",
 )
 @click.option("--engine", type=click.Choice(["analytic", "mujoco"]), help="The engine; by default analytic.")
 @click.option(
@@ -74,6 +78,7 @@ class _Size(click.ParamType):
     type=click.Path(path_type=Path),
     help="Folder of a report as by `cointoss compare`, with both maps; requires --compare.",
 )
+@no_video_option
 def basin(
     scenario: str,
     x: str,
@@ -93,6 +98,7 @@ def basin(
     size: tuple[float, float] | None,
     dpi: int | None,
     report: Path | None,
+    no_video: bool,
 ) -> None:
     """Map the outcome over two fields of a scenario.
 
@@ -111,6 +117,8 @@ def basin(
         raise click.UsageError(f"--margin {margin} {beside}: accepted: only by the analytic engine alone")
     if report is not None and not both:
         raise click.UsageError(f"--report {report}: accepted: only beside --compare")
+    if no_video and report is None:
+        raise click.UsageError("--no-video: accepted: only beside --report")
     if png is None and report is None and (palette or boundaries or size or dpi):
         raise click.UsageError(
             "--palette, --boundaries, --size and --dpi: accepted: only beside --png or --report"
@@ -118,7 +126,6 @@ def basin(
     with plain_errors(scenario):
         from compare.basins.picture_style import DPI, Palette, PictureStyle
         from compare.engines import Engine
-        from compare.output.progress import bar
         from compare.sweep.job import Job, make
         from models.reading import scenario_text
 
@@ -140,16 +147,16 @@ def basin(
                 palette=Palette(palette or "safe"), boundaries=boundaries, size=size, dpi=dpi or DPI
             ),
             report=report,
+            no_video=no_video,
         )
-        with bar("video", "frames") as progress:
-            for result in make(job, _watched, progress, say):
-                click.echo(result)
+        for result in make(job, _watched, say):
+            click.echo(result)
 
 
 @contextmanager
 def _watched(name: str, done: int, count: int) -> Iterator[Callable[[int], None]]:
-    """Yield a function to report tosses to; show their number, rate and time left on the terminal."""
-    from compare.output.progress import bar
+    """Yield a function to report tosses to, which shows how many there are."""
+    from models.stages import stage
 
     kept = done
 
@@ -159,8 +166,7 @@ def _watched(name: str, done: int, count: int) -> Iterator[Callable[[int], None]
         progress(kept, count)
 
     try:
-        with bar(name, "tosses", done=done) as progress:
-            progress(kept, count)
+        with stage(name, "tosses", total=count, done=done) as progress:
             yield more
     except Interruption as interruption:
         interruption.message = f"{name}: {kept} of {count} tosses are saved; --resume continues"

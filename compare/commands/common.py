@@ -2,8 +2,9 @@
 
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import Any, NoReturn
 
 import click
@@ -12,6 +13,13 @@ SCENARIO_HELP = (
     "SCENARIO is a TOML file, or the name of a scenario that comes with the package, such as fig24a. "
     "An unknown name prints the names that exist."
 )
+
+
+ARGUMENTS = {
+    "SCENARIO": "a TOML file, or a name that cointoss scenarios lists, such as fig24a",
+    "MAP.zarr": "a map that cointoss basin made",
+}
+"""What the arguments of commands take."""
 
 
 class Count(click.IntRange):
@@ -27,28 +35,83 @@ class Count(click.IntRange):
             self.fail(f"{value}; accepted: an integer >= {self.min} and <= {self.max}", param, ctx)
 
 
+@dataclass(frozen=True)
+class Given:
+    """A number and how it was typed."""
+
+    text: str
+    value: float
+
+    def __str__(self) -> str:
+        """Return it as it was typed."""
+        return self.text
+
+
+class Quantity(click.ParamType):
+    """A number in SI, or with its unit."""
+
+    name = "quantity"
+
+    def __init__(self, unit: str) -> None:
+        """Keep the unit of the values, in pint's spelling."""
+        self.unit = unit
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Given:
+        """Return the number, or refuse the value with what is accepted."""
+        from models.units import in_si
+
+        if isinstance(value, Given):
+            return value
+        try:
+            return Given(value, float(value))
+        except ValueError:
+            pass
+        try:
+            return Given(value, in_si(value, self.unit))
+        except ValueError as error:
+            self.fail(f"{value}; accepted: {error}", param, ctx)
+
+
+@contextmanager
+def naming_options(options: Mapping[str, tuple[str, object]]) -> Iterator[None]:
+    """Name the option, and what was typed for it, in what is wrong with a field.
+
+    Args:
+        options: for each field the option, and what was typed.
+    """
+    from models.errors import FieldError
+
+    try:
+        yield
+    except FieldError as error:
+        option, typed = options[error.field]
+        refuse(f"{option} {typed}: accepted: {error.accepted}")
+
+
 @contextmanager
 def plain_errors(source: str) -> Iterator[None]:
     """Turn the errors of bad input into one line and exit status 2, and warnings into one line each."""
     from compare.film.back_end import BackEndError
     from compare.output.files import UnwritableError
-    from compare.output.progress import compile_bar
+    from compare.output.progress import progress_shown
     from compare.sweep.errors import MapError, SweepError
     from models.errors import ScenarioError
     from models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
+    from models.unused import UnusedFieldWarning
 
-    reported = set()
+    told, reported = (ApproximationWarning, UnusedFieldWarning), set()
 
     def report(message: Warning | str, category: type[Warning], *where: Any, **extra: Any) -> None:
-        if issubclass(category, ApproximationWarning):
+        if issubclass(category, told):
             if str(message) not in reported:
                 say(f"{source}: {message}")
             reported.add(str(message))
         else:
             show(message, category, *where, **extra)
 
-    with compile_bar(), warnings.catch_warnings():
-        warnings.simplefilter("always", ApproximationWarning)
+    with progress_shown(in_logs=True), warnings.catch_warnings():
+        for kind in told:
+            warnings.simplefilter("always", kind)
         show, warnings.showwarning = warnings.showwarning, report
         try:
             yield
@@ -83,3 +146,5 @@ engine_option = click.option(
     show_default=True,
     help="The engine.",
 )
+
+no_video_option = click.option("--no-video", is_flag=True, help="Draw no video, which takes longest.")

@@ -4,36 +4,40 @@ from pathlib import Path
 
 import click
 
-from compare.commands.common import SCENARIO_HELP, plain_errors
+from compare.commands.common import SCENARIO_HELP, no_video_option, plain_errors
 from compare.commands.names import scenario_argument
 
 
 @click.command(epilog=SCENARIO_HELP)
 @scenario_argument
 @click.option(
-    "--out", type=click.Path(path_type=Path), required=True, help="Folder of the report; made if missing."
+    "--out",
+    type=click.Path(path_type=Path),
+    help="Folder of the report, made if missing; by default NAME-report, as in fig24a-report.",
 )
-@click.option("--no-video", is_flag=True, help="Draw no video, which takes longest.")
-def compare(scenario: str, out: Path, no_video: bool) -> None:
+@no_video_option
+def compare(scenario: str, out: Path | None, no_video: bool) -> None:
     """Toss one coin by both engines and write a report.
 
     The report shows both tosses side by side, with a video. The page is there before the video is drawn.
     """
     with plain_errors(scenario):
-        from compare.report.contents import require_folder
+        from compare.report.contents import NOT_ASKED, require_folder
         from models.reading import parse, scenario_text
+        from models.unused import warn_of_unused_fields
 
         text = scenario_text(scenario)
         described = parse(text, scenario)
-        require_folder(out, scenario)
+        warn_of_unused_fields(described)
+        name = Path(scenario).stem
+        folder = out or Path(f"{name}-report")
+        require_folder(folder, scenario)
 
         from compare.film.back_end import drawing_problem
 
-        problem = "None was asked for; cointoss video draws one." if no_video else drawing_problem()
+        problem = NOT_ASKED if no_video else drawing_problem()
 
-        from compare.output.progress import bar
+        from compare.report.comparison import compared
         from compare.report.folder import write_report
 
-        with bar("video", "frames") as progress:
-            page = write_report(described, text, Path(scenario).stem, out, problem, progress)
-        click.echo(page)
+        click.echo(write_report(compared(described, text, name), folder, problem))

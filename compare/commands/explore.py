@@ -29,11 +29,9 @@ def explore(map_path: Path, port: int | None, no_browser: bool, static: Path | N
         if static is not None:
             from compare.explorer.static import write_static
             from compare.output.files import require_file
-            from compare.output.progress import bar
 
             require_file(static, ".html", str(map_path))
-            with bar("tosses", "pixels") as progress:
-                write_static(map_path, static, progress)
+            write_static(map_path, static)
             click.echo(static)
             return
         import webbrowser

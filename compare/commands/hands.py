@@ -2,64 +2,51 @@
 
 import json
 from dataclasses import asdict
-from typing import Any
 
 import click
 
-from compare.commands.common import SCENARIO_HELP, Count, engine_option, plain_errors, refuse
+from compare.commands.common import (
+    SCENARIO_HELP,
+    Count,
+    Given,
+    Quantity,
+    engine_option,
+    naming_options,
+    plain_errors,
+    refuse,
+)
 from compare.commands.names import scenario_argument
-
-
-class _Quantity(click.ParamType):
-    """A number in SI, or with its unit."""
-
-    name = "quantity"
-
-    def __init__(self, unit: str) -> None:
-        self.unit = unit
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        from models.units import in_si
-
-        try:
-            return float(value)
-        except ValueError:
-            pass
-        try:
-            return in_si(value, self.unit)
-        except ValueError as error:
-            self.fail(f"{value}; accepted: {error}", param, ctx)
 
 
 @click.command(epilog=SCENARIO_HELP)
 @scenario_argument
-@click.option("--height", type=_Quantity("m"), default="1 m", show_default=True, help="Of the release.")
-@click.option("--speed", type=_Quantity("m/s"), default="2 m/s", show_default=True, help="Upwards.")
+@click.option("--height", type=Quantity("m"), default="1 m", show_default=True, help="Of the release.")
+@click.option("--speed", type=Quantity("m/s"), default="2 m/s", show_default=True, help="Upwards.")
 @click.option(
     "--spin",
-    type=_Quantity("rad/s"),
+    type=Quantity("rad/s"),
     default="120 rad/s",
     show_default=True,
     help="Rate at which the coin's normal goes round the angular momentum.",
 )
 @click.option(
     "--psi",
-    type=_Quantity("rad"),
+    type=Quantity("rad"),
     default="90 deg",
     show_default=True,
     help="Angle between normal and angular momentum; less than 90 deg: the coin wobbles.",
 )
-@click.option("--psi-scatter", type=_Quantity("rad"), default="0 deg", show_default=True, help="Its scatter.")
+@click.option("--psi-scatter", type=Quantity("rad"), default="0 deg", show_default=True, help="Its scatter.")
 @click.option(
     "--scatter",
-    type=_Quantity(""),
+    type=Quantity(""),
     default="10 %",
     show_default=True,
     help="Standard deviation of height, speed and spin.",
 )
 @click.option(
     "--caught",
-    type=_Quantity("m"),
+    type=Quantity("m"),
     help="Height at which a hand catches the coin; by default the scenario's [ending] caught, if it has one.",
 )
 @click.option("--tosses", type=Count(1, 10_000_000), default=1000, show_default=True, help="How many.")
@@ -68,12 +55,12 @@ class _Quantity(click.ParamType):
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
 def hands(
     scenario: str,
-    caught: float | None,
+    caught: Given | None,
     tosses: int,
     seed: int,
     engine: str,
     as_json: bool,
-    **hand: float,
+    **given: Given,
 ) -> None:
     """Toss a scenario's coin many times as a hand does, and count the side that was up at first.
 
@@ -86,29 +73,36 @@ def hands(
         from compare.engines import Engine
         from compare.film.back_end import require_mujoco
         from compare.metrics.first_side import TOUCHES, caught_side, first_side
-        from compare.output.progress import elapsed_time
         from compare.reproduction.estimates import share
+        from models.errors import ScenarioError
         from models.hand import Hand
         from models.reading import load
         from models.releases import check_releases
 
         described = load(scenario)
+        hand = {name: number.value for name, number in given.items()}
         if caught is not None:
-            described = described.replace("ending.caught", caught)
+            try:
+                described = described.replace("ending.caught", caught.value)
+            except ScenarioError as error:
+                refuse(f"--caught {caught}: accepted: {str(error).partition('accepted: ')[2]}")
         if engine == Engine.MUJOCO:
             require_mujoco()
+        with naming_options(
+            {name: (f"--{name.replace('_', '-')}", number) for name, number in given.items()}
+        ):
+            chosen = Hand(**hand)
         try:
-            start = Hand(**hand).releases(described.body, np.random.default_rng(seed), tosses)
+            start = chosen.releases(described.body, np.random.default_rng(seed), tosses)
             check_releases(described, start)
         except ValueError as error:
             refuse(f"{scenario}: {error}")
-        with elapsed_time("still tossing; fewer --tosses are sooner"):
-            if described.ending.caught is not None:
-                counted = {"caught": caught_side(described, start, Engine(engine))}
-            else:
-                found = first_side(described, start, Engine(engine))
-                counted = {f"touch {n + 1}": up for n, up in zip(TOUCHES, found.touches, strict=True)}
-                counted["at rest"] = found.at_rest
+        if described.ending.caught is not None:
+            counted = {"caught": caught_side(described, start, Engine(engine))}
+        else:
+            found = first_side(described, start, Engine(engine))
+            counted = {f"touch {n + 1}": up for n, up in zip(TOUCHES, found.touches, strict=True)}
+            counted["at rest"] = found.at_rest
         shares = {name: share(up) for name, up in counted.items() if len(up)}
         if as_json:
             told = {"hand": hand, "caught": described.ending.caught}

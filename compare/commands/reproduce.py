@@ -1,6 +1,7 @@
 """`cointoss reproduce`: the paper's figures and the studies."""
 
 import os
+import shutil
 import sys
 from pathlib import Path
 
@@ -22,15 +23,15 @@ from compare.commands.names import reproductions_argument
 def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quick: bool) -> None:
     """Compute the paper's figures and the studies anew.
 
-    Each NAME writes its data, pictures and page and checks its claims; `all` computes all figures of the
-    paper and writes REPRODUCTION.md, claims.csv and gallery.html. Without NAME, list the names. Exit status
-    1: a claim comes out otherwise than known.
+    Each NAME writes its data, tables, pictures and page and checks its claims; `all` computes all figures of
+    the paper and writes REPRODUCTION.md, claims.csv and gallery.html. Without NAME, list the names. Exit
+    status 1: a claim comes out otherwise than known.
     """
     from compare.film.back_end import drawing_problem, require_mujoco
     from compare.output.files import require_folder
-    from compare.output.progress import bar
-    from compare.reproduction import gallery, runner
+    from compare.reproduction import gallery, printing, runner
     from compare.reproduction.claim import unexpected
+    from models.stages import stage
 
     with plain_errors("reproduce"):
         # Figures may hold stills: the back end is chosen before MuJoCo is imported.
@@ -38,7 +39,7 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
             drawing_problem()
         require_mujoco()
     known = runner.names()
-    pages = names == ("all",)
+    pages, asked = names == ("all",), " ".join(names)
     if pages:
         names = tuple(gallery.of_paper())
     for name in names:
@@ -51,19 +52,22 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
             place = f"{found.paper}: " if found.paper else ""
             click.echo(f"{name:{width}}{place}{found.title} ({found.seconds:g} s)")
         return
-    if not names or out is None:
-        ctx.fail(
-            f"accepted: NAME ... --out DIR, NAME one of: {', '.join(known)}, or all; or neither, for a list"
-        )
+    if out is None:
+        ctx.fail(f"--out: missing; accepted: {ctx.command_path} {asked} --out DIR")
+    if not names:
+        ctx.fail(f"NAME: missing; accepted: all, or one of: {', '.join(known)}")
     with plain_errors(str(out)):
         require_folder(out, gallery.PAGES if pages else ())
         for name in names:
             runner.require_writable(name, out)
+        width = min(shutil.get_terminal_size((100, 24)).columns, 120)
         failed = []
         for name in names:
-            with bar(name, "parts") as progress:
+            with stage(name, "parts") as progress:
                 result = runner.reproduce(name, out, progress, quick=quick)
-            click.echo(result.text)
+            if name != names[0]:
+                click.echo()
+            click.echo(printing.page(name, result, runner.folder_of(name, out), width))
             failed += [f"{name}: {claim}" for claim in unexpected(result.claims, quick=quick)]
         if pages:
             gallery.write(out, names, quick=quick)

@@ -5,18 +5,24 @@ from dataclasses import asdict
 
 import click
 
-from compare.commands.common import plain_errors, refuse
+from compare.commands.common import Count, Given, Quantity, naming_options, plain_errors
 
 
 @click.command()
-@click.option("--restitution", type=float, required=True, metavar="E", help="From 0 to 1.")
-@click.option("--dt", type=float, required=True, help="The model's timestep, in seconds.")
+@click.option("--restitution", type=Quantity(""), required=True, metavar="E", help="From 0 to 1.")
+@click.option(
+    "--dt",
+    type=Quantity("s"),
+    required=True,
+    metavar="DT",
+    help="The model's timestep, such as 0.002 or 2ms.",
+)
 @click.option("--spring", is_flag=True, help="By a spring that lasts several steps, instead of in one.")
-@click.option("--steps", type=int, help="Steps in the contact of a spring; by default 40.")
+@click.option("--steps", type=Count(5, 500), help="Steps in the contact of a spring; by default 40.")
 @click.option("--model", is_flag=True, help="Print a whole model instead: a ball over a plane.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
 def solref(
-    restitution: float, dt: float, spring: bool, steps: int | None, model: bool, as_json: bool
+    restitution: Given, dt: Given, spring: bool, steps: int | None, model: bool, as_json: bool
 ) -> None:
     """Print the settings with which a body bounces in MuJoCo.
 
@@ -33,12 +39,10 @@ def solref(
         import coin_mj
         from coin_mj.bounce import SPEED, SPRING_STEPS
 
-        try:
+        with naming_options({"restitution": ("--restitution", restitution), "timestep": ("--dt", dt)}):
             found = coin_mj.solref(
-                restitution, dt, spring=spring, steps=SPRING_STEPS if steps is None else steps
+                restitution.value, dt.value, spring=spring, steps=SPRING_STEPS if steps is None else steps
             )
-        except ValueError as error:
-            refuse(f"solref: {error}")
     if as_json:
         click.echo(json.dumps(asdict(found), indent=1))
     elif model:

@@ -25,6 +25,7 @@ from compare.commands.names import scenario_argument
     type=Count(1, 1_000_000_000),
     help="Stop after this number of steps of flight, in MuJoCo; by default 1,000,000.",
 )
+@click.option("--all", "whole", is_flag=True, help="Print every impact and contact, not the first ones.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
 @click.option("--trajectory", type=click.Path(path_type=Path), help="Also write the path to this .csv file.")
 @click.option(
@@ -37,6 +38,7 @@ def toss(
     max_impacts: int | None,
     contact_steps: int | None,
     flight_steps: int | None,
+    whole: bool,
     as_json: bool,
     trajectory: Path | None,
     margin: bool,
@@ -53,7 +55,6 @@ def toss(
         from compare.film.back_end import require_mujoco
         from compare.output import answer
         from compare.output.files import is_stream, require_file, write_text
-        from compare.output.progress import STILL_TOSSING, elapsed_time
         from models.reading import load
 
         described = load(scenario)
@@ -67,8 +68,7 @@ def toss(
         given = {"contact": contact, "contact_steps": contact_steps, "flight_steps": flight_steps}
         chosen = {name: value for name, value in given.items() if value is not None}
         settings = replace(package.FINE, **chosen)
-        with elapsed_time(f"{STILL_TOSSING}, --max-impacts N a toss sooner"):
-            result = package.toss(described, settings=settings)
+        result = package.toss(described, settings=settings)
         if trajectory is not None:
             times = answer.path_times(result)
             write_text(trajectory, answer.path_csv(result.sample(times)))
@@ -76,8 +76,7 @@ def toss(
         if margin:
             from compare.metrics.margin import margins
 
-            with elapsed_time("still looking for margins; Ctrl-C ends it"):
-                extra = margins(described)
+            extra = margins(described)
         if as_json:
             told = {
                 item.quantity.name: {"change": item.finite, "proved": item.proved, "unit": item.quantity.unit}
@@ -88,7 +87,7 @@ def toss(
                 "settings": settings.as_dict(),
                 "versions": Engine(engine).versions,
             }
-            whole = {**answer.as_json(result), **made, **({"margin": told} if margin else {})}
-            click.echo(json.dumps(whole, indent=1, allow_nan=False))
+            fields = {**answer.as_json(result), **made, **({"margin": told} if margin else {})}
+            click.echo(json.dumps(fields, indent=1, allow_nan=False))
         else:
-            click.echo("\n".join([answer.as_lines(result), *(item.line for item in extra)]))
+            click.echo("\n".join([answer.as_lines(result, whole=whole), *(item.line for item in extra)]))

@@ -57,13 +57,12 @@ def video(scenario: str, out: Path, engine: str, camera: str, poster: Path | Non
         from compare.film.drawing import Camera
         from compare.film.filmed import followed
         from compare.film.video import write_video
-        from compare.output.progress import STILL_TOSSING, bar, elapsed_time
+        from models.stages import stage
 
         engines = list(Engine) if engine == "both" else [Engine(engine)]
-        with elapsed_time(STILL_TOSSING):
-            shown = [followed(each.package.toss(described)) for each in engines]
+        shown = [followed(each.package.toss(described)) for each in engines]
         form = ENCODINGS[out.suffix.lower()].form
-        with written_whole(out) as aside, bar("video", "frames") as progress:
+        with written_whole(out) as aside, stage("drawing the film", "frames") as progress:
             picture = write_video(shown, Camera(camera), form, aside, progress)
         if poster is not None:
             with written_whole(poster) as aside:

@@ -8,6 +8,7 @@ import numpy as np
 
 from compare.metrics.margin import quantity_of
 from compare.output.style import OUTCOMES
+from compare.sweep.axes import Axis
 from compare.sweep.layers import NOT_TOSSED
 from compare.sweep.outcome_map import OutcomeMap
 
@@ -22,13 +23,14 @@ def page_map(found: OutcomeMap) -> dict[str, Any]:
     margin = quantity_of(sweep.margin) if sweep.margin else None
     return {
         "name": found.name,
+        "title": sweep.title,
         "engine": sweep.engine.value,
         "after": sweep.after,
         "stride": found.stride,
         "tossed": float(np.mean(found.outcome != NOT_TOSSED)),
-        "axes": {name: asdict(axis) for name, axis in (("x", sweep.x), ("y", sweep.y))},
+        "axes": {name: _axis(axis) for name, axis in (("x", sweep.x), ("y", sweep.y))},
         "outcomes": {
-            int(outcome): {"label": outcome.label, "color": color} for outcome, color in OUTCOMES.items()
+            int(outcome): {"label": str(outcome), "color": color} for outcome, color in OUTCOMES.items()
         },
         "margin": margin and {"along": margin.name, "unit": margin.unit},
         "arrays": {
@@ -36,3 +38,7 @@ def page_map(found: OutcomeMap) -> dict[str, Any]:
             for name, array in found.layers.items()
         },
     }
+
+
+def _axis(axis: Axis) -> dict[str, Any]:
+    return asdict(axis) | {"word": axis.word, "unit": axis.printed_unit}

@@ -1,6 +1,5 @@
 """The explorer as one file: the page, its map, and the tosses of some pixels; it needs no server."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +12,7 @@ from compare.output.files import write_text
 from compare.sweep.outcome_map import OutcomeMap
 from compare.sweep.reading import read_map
 from compare.web.scripts import POLICY, data_element, import_map
+from models.stages import counted
 
 MOST_BYTES = 10_000_000
 """Of the file."""
@@ -24,13 +24,12 @@ SAMPLES = 300
 """Of the path of each toss."""
 
 
-def write_static(map_path: Path, out: Path, progress: Callable[[int, int], None]) -> None:
+def write_static(map_path: Path, out: Path) -> None:
     """Write a page with a map and the tosses of a grid of its pixels, by both engines.
 
     Args:
         map_path: of the map.
         out: the .html file.
-        progress: called after each pixel with their number so far and in all.
 
     Raises:
         MapError, ScenarioError: for what is no map.
@@ -41,12 +40,11 @@ def write_static(map_path: Path, out: Path, progress: Callable[[int, int], None]
     columns, rows = _spread(sweep.x.count, COLUMNS), _spread(sweep.y.count, ROWS)
     pixels = [(column, row) for row in rows for column in columns]
     x, y, tosses = sweep.x.values, sweep.y.values, {}
-    for done, (column, row) in enumerate(pixels, start=1):
+    for column, row in counted("tossing by both engines", "pixels", pixels):
         at = float(x[column]), float(y[row])
         tosses[f"{column},{row}"] = [
             toss_pixel(sweep, *at, engine, samples=SAMPLES, most_symbols=SAMPLES // 4) for engine in Engine
         ]
-        progress(done, len(pixels))
     write_text(out, _page(found, {"columns": columns, "rows": rows, "tosses": tosses}))
 
 

@@ -58,7 +58,7 @@ def toss_pixel(
     cut = len(toss.impacts) == most < scenario.rules.max_impacts
     return {
         "engine": engine.value,
-        "outcome": toss.outcome.label,
+        "outcome": str(toss.outcome),
         "ending": f"It is shown up to impact {most}." if cut else toss.ending.sentence,
         "end_time": toss.end_time,
         "count": len(toss.impacts),

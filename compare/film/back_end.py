@@ -11,6 +11,8 @@ import sys
 from functools import cache
 from importlib import import_module
 
+from models.stages import stage
+
 _DRAW_ONE_FRAME = """
 import mujoco
 model = mujoco.MjModel.from_xml_string("<mujoco><worldbody><geom size='1'/></worldbody></mujoco>")
@@ -74,7 +76,8 @@ def _drawing_complaint() -> str | None:
     # -P: a module of the current folder must not stand in for one of Python's.
     command = [sys.executable, "-P", "-c", _DRAW_ONE_FRAME]
     try:
-        tried = subprocess.run(command, capture_output=True, check=False, timeout=120, errors="replace")
+        with stage("trying whether MuJoCo can draw here"):
+            tried = subprocess.run(command, capture_output=True, check=False, timeout=120, errors="replace")
     except (OSError, subprocess.TimeoutExpired) as error:
         return str(error)
     if tried.returncode == 0:

@@ -1,6 +1,7 @@
 """What a film says in words: the face that is up, the time, what the floor does."""
 
 from collections.abc import Sequence
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -79,11 +80,11 @@ def caption_of(play: Play, i: int) -> Caption:
     height = 100 * states.position[i, 2]
     lines = [Line(f"{count} impact{'' if count == 1 else 's'}, height {height:.1f} cm")]
     outcome = {Face.HEADS: Outcome.HEADS, Face.TAILS: Outcome.TAILS}[face_up(states.normal[i, 2])]
-    label = f"{outcome.label} up"
+    label = f"{outcome} up"
     told = play.filmed.toss
     if play.times[i] >= told.end_time:
-        outcome, label = told.outcome, told.outcome.label
-        how = _ENDED.get(told.ending, f"ended: {told.ending.label.replace('_', ' ')},")
+        outcome, label = told.outcome, str(told.outcome)
+        how = _ENDED.get(told.ending, f"ended: {str(told.ending).replace('_', ' ')},")
         at_last = told is not toss and play.times[i] == toss.end_time
         then = f", {_ENDED.get(toss.ending, 'still moves')}" if at_last else ""
         lines.append(Line(f"{how} at {told.end_time:.3f} s{then}"))
@@ -111,21 +112,27 @@ def written(frame: np.ndarray, captions: Sequence[Caption], below: str) -> np.nd
     """
     image = Image.fromarray(frame)
     draw = ImageDraw.Draw(image)
-    size = max(image.height / 21, 6)
-    font, large = ImageFont.load_default(size), ImageFont.load_default(1.5 * size)
+    size = max(image.height / 22, 6)
+    font, large = _font(size), _font(1.5 * size)
     for number, caption in enumerate(captions):
         left = number * image.width / len(captions) + size / 2
-        _write(draw, (left, size), caption.title, font, "lm")
-        right = left + draw.textlength(caption.label, font=large) + size
-        draw.rounded_rectangle((left, 1.8 * size, right, 4 * size), size / 3, fill=caption.ground)
-        draw.text((left + size / 2, 2.9 * size), caption.label, font=large, fill=caption.ink, anchor="lm")
+        _write(draw, (left, 1.5 * size), caption.title, font, "lm")
+        start = left + draw.textlength(caption.title.text, font=font) + size / 2
+        end = start + draw.textlength(caption.label, font=large) + size
+        draw.rounded_rectangle((start, 0.4 * size, end, 2.6 * size), size / 3, fill=caption.ground)
+        draw.text((start + size / 2, 1.5 * size), caption.label, font=large, fill=caption.ink, anchor="lm")
         for i, line in enumerate(caption.lines):
-            _write(draw, (left, (4.8 + 1.3 * i) * size), line, font, "lm")
+            _write(draw, (left, (3.5 + 1.3 * i) * size), line, font, "lm")
         if number > 0:
             x = number * image.width // len(captions)
             draw.line((x, 0, x, image.height), fill=WHITE, width=max(2, image.width // 400))
     _write(draw, (image.width / 2, image.height - size), Line(below), font, "mm")
     return np.asarray(image)
+
+
+@cache
+def _font(size: float) -> Font:
+    return ImageFont.load_default(size)
 
 
 def _write(

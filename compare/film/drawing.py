@@ -13,14 +13,15 @@ import mujoco
 import numpy as np
 
 from compare.film.play import Play
+from compare.film.shadow import add_shadow
 from compare.film.visual_model import build_visual_model
 from models.records import Array, Ending
 
 IMPULSE_COLOR, FORCE_COLOR = (0.80, 0.15, 0.50), (0.00, 0.55, 0.40)
 """Of the arrows: red, green and blue, from 0 to 1."""
-LONGEST_NEAR, LONGEST_FAR = 0.3, 0.15
-"""Length of the arrow of the toss's largest impulse, and of twice the coin's weight, in heights of the
-picture: where the camera follows the coin, and where it is at rest."""
+LONGEST_NEAR, LONGEST_FAR = 0.23, 0.15
+"""Length of the arrow of the toss's largest impulse, and of a force of twice the coin's weight or more, in
+heights of the picture: where the camera follows the coin, and where it is at rest."""
 THICKEST, THICKNESS = 0.04, 0.15
 """Of an arrow: in longest arrows, and in its own length."""
 HAND_COLOR, HAND_SIZE = (0.88, 0.68, 0.55), (1.5, 0.1)
@@ -36,14 +37,11 @@ MARGIN = 1.1
 FIELD_OF_VIEW = 40.0
 """Of coin.xml's cameras, up and down [deg]."""
 
-NO_SHADOW = mujoco.mjtCatBit.mjCAT_DECOR
-"""What is decoration casts no shadow; the floor's own would be specks of rounding."""
-
 Color = tuple[float, float, float]
 
 
 class Camera(StrEnum):
-    """From where a toss is looked at."""
+    """From where a toss is looked at; always so far from above that no sky is seen."""
 
     OVERVIEW = "overview"
     """At rest, from the side; it sees the whole path."""
@@ -51,6 +49,24 @@ class Camera(StrEnum):
     """From the side; it follows the coin."""
     TOP = "top"
     """At rest, from straight above and from afar; it sees the whole path."""
+
+
+class View(NamedTuple):
+    """How a camera looks at what it must show."""
+
+    elevation: float
+    """How far it looks down, negative [deg]."""
+    aim: float
+    """How far below the middle of the picture stands what it aims at, under the captions [heights]."""
+    part: float
+    """Of the picture's height that the coin fills, or its whole path where the camera is at rest."""
+
+
+VIEWS = {
+    Camera.OVERVIEW: View(-30.0, aim=0.07, part=0.72),
+    Camera.CLOSE_UP: View(-50.0, aim=0.18, part=1 / 3),
+    Camera.TOP: View(-90.0, aim=0.15, part=0.54),
+}
 
 
 class Box(NamedTuple):
@@ -73,9 +89,7 @@ def box_of(plays: Sequence[Play]) -> Box:
 class Drawer:
     """Draws one toss; it holds an OpenGL context until its `with` statement ends."""
 
-    def __init__(
-        self, play: Play, camera: Camera, box: Box, *, height: int, width: int, samples: int = 2
-    ) -> None:
+    def __init__(self, play: Play, camera: Camera, box: Box, *, height: int, width: int) -> None:
         """Prepare to draw.
 
         Args:
@@ -84,11 +98,11 @@ class Drawer:
             box: what a camera at rest sees.
             height: of the pictures [pixels].
             width: of the pictures [pixels].
-            samples: of each pixel.
         """
         scenario, r = play.toss.scenario, play.toss.scenario.coin.radius
         self._play = play
         self._follows = camera == Camera.CLOSE_UP
+        self._aim = VIEWS[camera].aim
         self._camera, view = _aimed(camera, box, r, width / height)
         self._longest = (LONGEST_NEAR if self._follows else LONGEST_FAR) * view
         far = float(np.linalg.norm(box.high - box.low)) + view
@@ -96,9 +110,7 @@ class Drawer:
         if self._camera.orthographic:
             self._model.vis.global_.fovy = view
         self._model.vis.global_.offwidth, self._model.vis.global_.offheight = width, height
-        self._model.vis.quality.offsamples = samples if samples > 1 else 0
         self._data = mujoco.MjData(self._model)
-        self._light_distance = 10 * r
         self._trail_times = np.linspace(0, play.toss.end_time, TRAIL_CORNERS)
         self._trail = play.toss.sample(self._trail_times).position
         self._renderer = mujoco.Renderer(self._model, height, width)
@@ -115,14 +127,15 @@ class Drawer:
         """Draw the picture at one of the times, (height, width, 3) of uint8."""
         position = self._play.states.position[i]
         self._data.qpos[:] = self._play.qpos(i)
-        # The light moves with the coin: the map of its shadow is small, and so fine.
-        light = self._model.light("sun")
-        light.pos[:] = position - self._light_distance * light.dir
         mujoco.mj_forward(self._model, self._data)
         if self._follows:
             self._camera.lookat[:] = position
         self._renderer.update_scene(self._data, self._camera)
-        self._renderer.scene.geoms[self._model.geom("floor").id].category = NO_SHADOW
+        # What a camera sees moves up, and so the coin in its picture down.
+        for eye in self._renderer.scene.camera:
+            up = self._aim * (eye.frustum_top - eye.frustum_bottom)
+            eye.frustum_top, eye.frustum_bottom = eye.frustum_top + up, eye.frustum_bottom + up
+        add_shadow(self._renderer.scene, self._data, self._play.toss.scenario.coin)
         if not self._follows:
             self._add_trail(i)
         self._add_hand(i)
@@ -158,7 +171,9 @@ class Drawer:
             self._add_arrow(shown.point, shown.impulse / play.largest_impulse, IMPULSE_COLOR, shown.freshness)
         if play.forces[i].any():
             weight = play.toss.scenario.coin.mass * play.toss.scenario.gravity
-            self._add_arrow(play.lowest_point(i), play.forces[i] / (2 * weight), FORCE_COLOR, 1.0)
+            part = play.forces[i] / (2 * weight)
+            part /= max(1.0, float(np.linalg.norm(part)))
+            self._add_arrow(play.lowest_point(i), part, FORCE_COLOR, 1.0)
 
     def _add_arrow(self, start: Array, part: Array, color: Color, alpha: float) -> None:
         """Add an arrow that is `part` of the longest, (3,)."""
@@ -184,30 +199,26 @@ class Drawer:
             rgba = np.array([*color, alpha], np.float32)
             mujoco.mjv_initGeom(geom, kind, np.zeros(3), np.zeros(3), np.eye(3).ravel(), rgba)
             mujoco.mjv_connector(geom, kind, thickness, start, end)
-            geom.category = NO_SHADOW
             scene.ngeom += 1
 
 
 def _aimed(camera: Camera, box: Box, r: float, aspect: float) -> tuple[mujoco.MjvCamera, float]:
     """Aim a camera; give it, and the height that it sees where it looks [m]."""
-    aimed = mujoco.MjvCamera()
-    wide, deep, high = (box.high - box.low).tolist()
-    aimed.azimuth = 90.0
+    aimed, view, tangent = mujoco.MjvCamera(), VIEWS[camera], math.tan(math.radians(FIELD_OF_VIEW / 2))
+    aimed.azimuth, aimed.elevation = 90.0, view.elevation
     aimed.lookat[:] = (box.low + box.high) / 2
+    if camera == Camera.CLOSE_UP:
+        seen = 2 * r / view.part * max(1.0, 1 / aspect)
+        aimed.distance = seen / 2 / tangent
+        return aimed, seen
+    # The box's corners from its middle: to the right, to the back, up.
+    x, y, z = (np.array(list(itertools.product((-1, 1), repeat=3))) * (box.high - box.low) / 2).T
+    c, s = math.cos(math.radians(view.elevation)), math.sin(math.radians(view.elevation))
+    above, nearer = z * c - y * s, -y * c - z * s
+    half = np.maximum(np.abs(above) / view.part, np.abs(x) / aspect)
     if camera == Camera.TOP:
         # From afar, or the coin would look the larger the higher it is.
-        view = MARGIN * max(deep, wide / aspect)
-        aimed.elevation, aimed.distance, aimed.orthographic = -90.0, high, 1
-        return aimed, view
-    if camera == Camera.OVERVIEW:
-        view = MARGIN * max(high, wide / aspect)
-        aimed.elevation, aimed.distance = -10.0, _distance(view) + deep / 2
-    else:
-        view = 5 * r * max(1.0, 1 / aspect)
-        aimed.elevation, aimed.distance = -22.0, _distance(view)
-    return aimed, view
-
-
-def _distance(view: float) -> float:
-    """Return from how far a camera sees a height [m]."""
-    return view / 2 / math.tan(math.radians(FIELD_OF_VIEW / 2))
+        aimed.distance, aimed.orthographic = np.ptp(nearer), 1
+        return aimed, 2 * MARGIN * half.max()
+    aimed.distance = MARGIN * float(np.max(nearer + half / tangent))
+    return aimed, 2 * aimed.distance * tangent

@@ -15,11 +15,9 @@ class Format(NamedTuple):
     frames_per_second: int
     longest: float = LONGEST
     """A film that would take longer is sped up to this length [s]."""
-    samples: int = 2
-    """Points of a pixel at which the coin's border is looked for; two take twice the time of one."""
 
 
-FULL, SMALL = Format(1280, 720, 60), Format(960, 540, 24, longest=12.5, samples=1)
+FULL, SMALL = Format(1280, 720, 30), Format(960, 540, 30, longest=12.5)
 """Of a film that stands alone, and of one in a page, whose reader waits for it."""
 GIF = Format(640, 360, 20, longest=15.0)
 """Of a film without compression in time."""
@@ -38,7 +36,7 @@ class Encoding(NamedTuple):
 
 
 ENCODINGS = {
-    ".mp4": Encoding("h264", FULL, 21, "-movflags +faststart"),
+    ".mp4": Encoding("h264", FULL, 21, "-preset veryfast -movflags +faststart"),
     ".webm": Encoding("libvpx-vp9", FULL, 31, "-deadline good -cpu-used 5 -row-mt 1"),
     ".gif": Encoding("gif", GIF, None),
 }

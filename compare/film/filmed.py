@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from compare.engines import Engine, EngineSettings
 from models.records import ApproximationWarning, Ending, Toss
+from models.stages import stage
 
 FOLLOWED_FOR = 2.0
 """A coin that does not come to lie is followed so long after its face is settled [s]."""
@@ -39,7 +40,7 @@ def followed(toss: Toss, settings: EngineSettings | None = None) -> Filmed:
         return Filmed(toss=toss, motion=toss)
     engine, until = Engine(toss.engine).package, toss.end_time + FOLLOWED_FOR
     waiting = toss.scenario.replace("ending.test", "lying", "ending.max_time", until)
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), stage("following the coin until it lies still"):
         warnings.simplefilter("ignore", ApproximationWarning)
         motion = engine.toss(waiting, settings=settings or engine.FINE)
     return Filmed(toss=toss, motion=motion if motion.end_time > toss.end_time else toss)

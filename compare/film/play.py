@@ -4,17 +4,19 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from coin_mj.model.state import of_release
 from compare.film.filmed import Filmed
 from models.attitude import rotation_matrix
 from models.geometry import lowest_point
 from models.kernel.vectors import add, apply, subtract
-from models.records import Array, States, Toss
+from models.records import Array, Ending, States, Toss
 from models.scenario import Release, euler_parameters, vector
 
 SHOWN_FOR = 0.015
 """How long after an impact its impulse is shown [s]."""
+_STILL = (Ending.LYING, Ending.STANDING, Ending.AT_REST)
 WEAKEST = 0.02
 """An impulse below this part of its toss's largest is not shown."""
 
@@ -40,7 +42,7 @@ class Play:
     states: States
     """At these times, (n,)."""
     forces: Array
-    """Of the floor in sustained contacts, 0 elsewhere, space frame, (n, 3) [N]."""
+    """Of the floor in sustained contacts; elsewhere, and on a still coin, 0; space frame, (n, 3) [N]."""
     largest_impulse: float
     """Of the toss [N s]."""
 
@@ -50,8 +52,13 @@ class Play:
         return self.filmed.motion
 
     def impulses(self, i: int) -> list[Shown]:
-        """Return the impulses of the impacts of the last `SHOWN_FOR` before one of the times."""
+        """Return the impulses of the impacts of the last `SHOWN_FOR` before one of the times.
+
+        There are none on a coin that lies or stands still.
+        """
         impacts, time = self.toss.impacts, self.times[i]
+        if _is_still(self.toss, time):
+            return []
         first, last = np.searchsorted(impacts.time, (time - SHOWN_FOR, time), side="right")
         size = np.linalg.norm(impacts.impulse[first:last], axis=1)
         return [
@@ -84,6 +91,11 @@ class Play:
         return np.array(add(vector(position), apply(R, from_C)))
 
 
+def _is_still(motion: Toss, times: Array) -> NDArray[np.bool_]:
+    """Return at which times the coin moves no more, (n,)."""
+    return (times >= motion.end_time) & (motion.ending in _STILL)
+
+
 def play_of(filmed: Filmed, times: Array) -> Play:
     """Sample a toss for a film.
 
@@ -93,10 +105,13 @@ def play_of(filmed: Filmed, times: Array) -> Play:
     """
     motion = filmed.motion
     times = np.minimum(times, motion.end_time)
+    moves = ~_is_still(motion, times)
+    forces = np.zeros((len(times), 3))
+    forces[moves] = motion.floor_force(times[moves])
     return Play(
         filmed=filmed,
         times=times,
         states=motion.sample(times),
-        forces=motion.floor_force(times),
+        forces=forces,
         largest_impulse=float(np.linalg.norm(motion.impacts.impulse, axis=1).max(initial=0.0)),
     )

@@ -31,14 +31,14 @@ def stills(scenario: Scenario, states: States) -> Stills | str:
     import mujoco
 
     from coin_mj.model.state import of_release
+    from compare.film.shadow import add_shadow
     from compare.film.visual_model import build_visual_model
 
     body = scenario.body
     positions = states.position
     low, high = positions.min(axis=0), positions.max(axis=0)
     span = float(np.linalg.norm(high - low)) + 4 * body.radius
-    # Shadows are ragged at the border of the scene, so that is put out of sight.
-    model = build_visual_model(scenario, extent=4 * span, tile=2 * body.radius)
+    model = build_visual_model(scenario, extent=span, tile=2 * body.radius)
     data = mujoco.MjData(model)
     camera = mujoco.MjvCamera()
     camera.lookat[:] = (low + high) / 2
@@ -50,5 +50,6 @@ def stills(scenario: Scenario, states: States) -> Stills | str:
             data.qpos[:], data.qvel[:] = of_release(body, release)
             mujoco.mj_forward(model, data)
             renderer.update_scene(data, camera)
+            add_shadow(renderer.scene, data, scenario.coin)
             drawn.append(renderer.render())
     return np.array(drawn)

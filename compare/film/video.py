@@ -3,7 +3,7 @@
 import errno
 import itertools
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 import imageio_ffmpeg
@@ -40,10 +40,7 @@ def frames(shown: Sequence[Filmed], camera: Camera, form: Format) -> Iterator[np
     box, width = box_of(plays), form.width // len(shown)
     with ExitStack() as stack:
         drawers = [
-            stack.enter_context(
-                Drawer(play, camera, box, height=form.height, width=width, samples=form.samples)
-            )
-            for play in plays
+            stack.enter_context(Drawer(play, camera, box, height=form.height, width=width)) for play in plays
         ]
         for i, (time, speed) in enumerate(zip(times, speeds, strict=True)):
             picture = np.concatenate([drawer.draw(i) for drawer in drawers], axis=1)
@@ -83,27 +80,36 @@ def write_video(
         crf=encoding.rate,
         ffmpeg_args=encoding.arguments,
     )
+    with _encoding(writer):
+        for number, frame in enumerate(frames(shown, camera, form), start=1):
+            writer.add_image(frame)
+            poster = frame if number == chosen else poster
+            progress(number, count)
+    return poster
+
+
+@contextmanager
+def _encoding(writer: mediapy.VideoWriter) -> Iterator[None]:
+    """Run an encoder, and wait for it however the film ends; mediapy leaves one that fails running."""
     try:
         with writer:
-            for number, frame in enumerate(frames(shown, camera, form), start=1):
-                writer.add_image(frame)
-                poster = frame if number == chosen else poster
-                progress(number, count)
+            yield
     except (RuntimeError, BrokenPipeError) as error:
         told = (_last_words(writer) or str(error).partition("': ")[2]).strip()
         raise_interruption_behind(error)
         reason = told.splitlines()[-1] if told else "stopped, or the disk is full"
-        raise OSError(errno.EIO, f"ffmpeg: {reason}", str(path)) from error
-    return poster
+        raise OSError(errno.EIO, f"ffmpeg: {reason}", str(writer.path)) from error
+    finally:
+        if (encoder := writer._popen) is not None:
+            encoder.kill()
+            with suppress(BrokenPipeError), encoder:
+                pass
 
 
 def _last_words(writer: mediapy.VideoWriter) -> str:
-    """Wait for an encoder that failed, and return what it said; mediapy leaves it and its pipe behind."""
-    encoder = getattr(writer, "_proc", None)
-    if encoder is None or encoder.stderr is None:
-        return ""
-    with encoder:
-        return encoder.stderr.read().decode(errors="replace")
+    """Return what an encoder that failed says to its end."""
+    encoder = writer._popen
+    return "" if encoder is None or encoder.stderr is None else encoder.stderr.read().decode(errors="replace")
 
 
 def _poster_number(shown: Sequence[Filmed], form: Format) -> int:

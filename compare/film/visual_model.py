@@ -21,16 +21,20 @@ def build_visual_model(scenario: Scenario, *, extent: float, tile: float) -> muj
 
     Args:
         scenario: what is tossed.
-        extent: how far the camera sees [m].
+        extent: of the scene that the camera sees [m].
         tile: side of the floor's tiles [m].
     """
     spec = described(scenario, shape_thickness(scenario))
     r, half = scenario.coin.radius, shape_thickness(scenario) / 2
     spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
     spec.stat.extent = extent
-    # In extents: what is nearer to the camera is not drawn, nor shadows farther from the coin.
-    spec.visual.map.znear = min(0.01, r / extent)
-    spec.visual.map.shadowclip = 4 * r / extent
+    # In extents: what is nearer to the camera, or farther, is not drawn.
+    spec.visual.map.znear, spec.visual.map.zfar = min(0.01, r / extent), 20
+    # What is not seen takes time: the sky, of which no camera sees anything, a map of shadows (see
+    # `add_shadow`), and facets smaller than a pixel.
+    spec.delete(spec.texture("sky"))
+    spec.light("sun").castshadow = False
+    spec.visual.quality.numslices, spec.visual.quality.numstacks = 48, 2
     spec.material("floor").texrepeat = (0.5 / tile, 0.5 / tile)
     body = spec.body("coin")
     skin = max(0.04 * half, 0.004 * r)

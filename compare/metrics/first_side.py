@@ -9,6 +9,7 @@ from compare.engines import Engine
 from models.records import Ending, Outcome
 from models.releases import Releases
 from models.scenario import Scenario
+from models.stages import stage
 
 TOUCHES = (0, 1, 2, 3)
 """Impacts before each touch that is counted."""
@@ -33,11 +34,12 @@ def first_side(scenario: Scenario, start: Releases, engine: Engine) -> FirstSide
         engine: that tosses.
     """
     toss_many = engine.package.toss_many
-    faces = [
-        toss_many(scenario.replace("ending.max_impacts", impacts + 1), start).after(impacts)
-        for impacts in TOUCHES
-    ]
-    outcome = toss_many(scenario, start).outcome
+    with stage("sides up", "counts", total=len(TOUCHES) + 1) as progress:
+        faces = []
+        for impacts in TOUCHES:
+            faces.append(toss_many(scenario.replace("ending.max_impacts", impacts + 1), start).after(impacts))
+            progress(len(faces), len(TOUCHES) + 1)
+        outcome = toss_many(scenario, start).outcome
     ended = outcome[(outcome == Outcome.HEADS) | (outcome == Outcome.TAILS)]
     return FirstSide(tuple(face == Outcome.HEADS for face in faces), ended == Outcome.HEADS)
 

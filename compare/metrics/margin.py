@@ -14,6 +14,7 @@ from compare.precision.planar_coin import planar_coin, units
 from models.records import Array
 from models.releases import Releases, check_releases
 from models.scenario import Scenario
+from models.stages import counted
 
 Codes = NDArray[np.int8]
 """Codes of `Outcome`."""
@@ -155,16 +156,13 @@ def margins(scenario: Scenario) -> tuple[Margin, ...]:
     def outcomes(releases: Releases) -> Codes:
         return analytic.toss_many(scenario, releases).outcome
 
-    changes = [
-        float(smallest_changes(scenario, start, quantity, outcomes=outcomes, search=FINE)[0])
-        for quantity in QUANTITIES
-    ]
-    return tuple(
-        Margin(
-            quantity, change * quantity.factor, proved_change(scenario, quantity, change) * quantity.factor
-        )
-        for quantity, change in zip(QUANTITIES, changes, strict=True)
-    )
+    def margin_along(quantity: Quantity) -> Margin:
+        found = smallest_changes(scenario, start, quantity, outcomes=outcomes, search=FINE)
+        change = float(found[0])
+        proved = proved_change(scenario, quantity, change)
+        return Margin(quantity, change * quantity.factor, proved * quantity.factor)
+
+    return tuple(map(margin_along, counted("margins", "quantities", QUANTITIES)))
 
 
 PROVED = {"height": "height", "attitude about ξ": "tilt", "spin about ξ": "spin"}

@@ -31,8 +31,8 @@ PATH_COLUMNS = {
     "angular_velocity": ("w_xi [rad/s]", "w_eta [rad/s]", "w_zeta [rad/s]"),
 }
 """Columns of a path's CSV file, by the fields of `States`."""
-MOST_SHOWN = 200
-"""Symbols of a sequence, and impacts, that are shown to a person; a coin may bounce thousands of times."""
+MOST_LINES = 20
+"""Impacts that are printed for a person who did not ask for all; a coin may bounce thousands of times."""
 ROWS_PER_SECOND = 1000
 MOST_ROWS = 1_000_000
 """Beyond it a path's CSV file has hundreds of megabytes."""
@@ -43,8 +43,8 @@ def as_json(toss: Toss) -> dict[str, Any]:
     return {
         "engine": toss.engine,
         "sequence": toss.sequence,
-        "outcome": toss.outcome.label,
-        "ending": toss.ending.label,
+        "outcome": str(toss.outcome),
+        "ending": str(toss.ending),
         "end_time": toss.end_time,
         "trusted_impacts": toss.trusted_impacts,
         "impacts": [
@@ -89,42 +89,62 @@ def counted(number: int, thing: str) -> str:
     return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
 
 
-def as_lines(toss: Toss) -> str:
-    """Return a toss as text for a person."""
-    sequence, trusted = toss.sequence, toss.trusted_impacts
-    shown = shortened(with_bar(sequence, trusted), MOST_SHOWN)
+def contact_line(toss: Toss) -> str:
+    """Return when a toss is in sustained contact, in one line; empty for a toss that never is."""
+    contacts = toss.contacts.tolist()
+    if not contacts:
+        return ""
+    start, end = contacts[-1]
+    last = f"from {start:.6f} s to {'the end' if end == toss.end_time else f'{end:.6f} s'}"
+    if len(contacts) == 1:
+        return last
+    total = sum(end - start for start, end in contacts)
+    return f"{len(contacts)} times, {total:.6f} s in all, the last {last}"
+
+
+def as_lines(toss: Toss, *, whole: bool = False) -> str:
+    """Return a toss as text for a person.
+
+    Args:
+        toss: by either engine.
+        whole: whether every impact and contact has its line, and the sequence all its symbols.
+    """
+    sequence, trusted, impacts = toss.sequence, toss.trusted_impacts, toss.impacts
+    shown = with_bar(sequence, trusted)
     lines = [
         f"engine    {toss.engine}",
-        f"outcome   {toss.outcome.label}",
-        f"ending    {toss.ending.label}: {toss.ending.sentence}",
-        f"end       {toss.end_time:.6f} s after {counted(len(toss.impacts), 'impact')}",
-        f"sequence  {shown}",
+        f"outcome   {toss.outcome}",
+        f"ending    {toss.ending}: {toss.ending.sentence}",
+        f"end       {toss.end_time:.6f} s after {counted(len(impacts), 'impact')}",
+        f"sequence  {shown if whole else shortened(shown)}",
         f"trusted   {counted(trusted, 'impact')}" + ("" if trusted >= len(sequence) else ", before the bar"),
     ]
-    if len(toss.impacts):
+    if len(impacts):
         lines.append(f"checked   {_checked(toss)}")
-    contacts = toss.contacts.tolist()
     if toss.outcome == Outcome.PERPETUAL:
         energies = [
             f"{item.name}: {1e3 * float(item.value):.4f} mJ" for item in toss.certificate if item.unit == "J"
         ]
         lines.append(f"evidence  {'; '.join(energies)}")
-    lines += [f"contact   from {start:.6f} to {end:.6f} s" for start, end in contacts[:MOST_SHOWN]]
-    if len(contacts) > MOST_SHOWN:
-        lines.append(f"contact   ... and {len(contacts) - MOST_SHOWN} more")
-    if len(toss.impacts):
+    if in_contact := contact_line(toss):
+        lines.append(f"contact   {in_contact}")
+    if whole and len(toss.contacts) > 1:
+        lines += [f"contact   from {start:.6f} s to {end:.6f} s" for start, end in toss.contacts.tolist()]
+    if len(impacts):
         lines += ["", "  n      t [s]  up  S_x [mN s]  S_y [mN s]  S_z [mN s]    E [mJ]  rim [deg]"]
-    impacts = toss.impacts
+    most = len(impacts) if whole else MOST_LINES
     angles = np.degrees(np.arctan2(impacts.point[:, 1], impacts.point[:, 0]))
-    for i, flags in enumerate(toss.flags[:MOST_SHOWN]):
-        S = 1e3 * impacts.impulse[i]
+    # What rounds to zero has no sign.
+    impulses = np.round(1e3 * impacts.impulse, 5) + 0.0
+    for i, flags in enumerate(toss.flags[:most]):
+        S = impulses[i]
         lines.append(
             f"{i + 1:3d} {impacts.time[i]:10.6f}   {Face(impacts.face[i]).symbol} "
             f"{S[0]:11.5f} {S[1]:11.5f} {S[2]:11.5f} {1e3 * impacts.energy[i]:9.4f} {angles[i]:10.2f}"
             + "".join(f"  {flag.replace('_', ' ')}" for flag in sorted(flags))
         )
-    if len(impacts) > MOST_SHOWN:
-        lines.append(f"... and {len(impacts) - MOST_SHOWN} more; --json gives them all")
+    if len(impacts) > most:
+        lines.append(f"... and {len(impacts) - most} more; --all prints all {len(impacts)}")
     return "\n".join(lines)
 
 

@@ -30,10 +30,14 @@ def require_file(path: Path, suffix: str | tuple[str, ...], source: str) -> None
     """
     suffixes = (suffix,) if isinstance(suffix, str) else suffix
     if path.suffix.lower() not in suffixes:
-        raise UnwritableError(f"{path}: accepted: a file name that ends in {' or '.join(suffixes)}")
+        raise UnwritableError(
+            f"{path}: another kind of file; accepted: a name that ends in {' or '.join(suffixes)}"
+        )
     with naming(path):
         if not path.parent.is_dir():
-            raise UnwritableError(f"{path}: accepted: a file in a folder that exists")
+            raise UnwritableError(
+                f"{path}: no folder {path.parent}; accepted: a file in a folder that exists"
+            )
         target = _target(path)
         if target.exists():
             require_replaceable(target, source)
@@ -57,7 +61,7 @@ def require_folder(folder: Path, names: tuple[str, ...], source: str | None = No
     """
     with naming(folder):
         if os.path.lexists(folder) and not folder.is_dir():
-            raise UnwritableError(f"{folder}: accepted: a folder (this is not one)")
+            raise UnwritableError(f"{folder}: is no folder; accepted: a folder")
         there = next(part for part in (folder, *folder.parents) if os.path.lexists(part))
         with tempfile.TemporaryFile(dir=there):
             pass
@@ -79,14 +83,12 @@ def require_replaceable(path: Path, source: str | None = None) -> None:
     """
     if path.is_symlink() or not path.is_file():
         kind = "folder" if path.is_dir() else "link or a device"
-        raise UnwritableError(f"{path}: accepted: a new name or a regular file (this is a {kind})")
+        raise UnwritableError(f"{path}: is a {kind}; accepted: a new name or a regular file")
     # The bits are asked too: the superuser may write everything.
     if not (path.stat().st_mode & 0o222 and os.access(path, os.W_OK)):
-        raise UnwritableError(
-            f"{path}: accepted: a new name or a file that can be written (this is read-only)"
-        )
+        raise UnwritableError(f"{path}: is read-only; accepted: a new name or a file that can be written")
     if source is not None and Path(source).exists() and path.samefile(source):
-        raise UnwritableError(f"{path}: accepted: another file than the scenario itself")
+        raise UnwritableError(f"{path}: is the scenario; accepted: another file")
 
 
 def is_stream(path: Path) -> bool:

@@ -1,133 +1,243 @@
-"""Bars that show on the terminal how far a job is."""
+"""Progress on standard error: a line that is rewritten on a terminal or in a notebook, lines in a log."""
 
+import os
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
-from models.kernel.compiling import compiling
+from models.kernel.compiling import Compiling, compiling
+from models.stages import Stage, Stages, stages
 
 Progress = Callable[[int, int], None]
 """Called after each part of a job with the number of parts done so far and of all."""
-STILL_TOSSING = "still tossing; Ctrl-C ends it"
+AFTER = 3.0
+"""What takes longer is shown on a terminal [s]."""
+FIRST, EVERY = 5.0, 10.0
+"""A log has a line when nothing was said of a stage for as long, and then of each stage as often [s]."""
+INNER = 3.0
+"""A stage within another is named when it has run for as long [s]."""
+PAUSE = 2.0
+"""Functions that are compiled within such a time of each other are compiled at one go [s]."""
+WIDTH = 100
+"""Columns of a line where the terminal has no width."""
 
 
-@contextmanager
-def bar(name: str, unit: str, *, done: int = 0) -> Iterator[Progress]:
-    """Return a function that shows progress as a bar on standard error, if that is a terminal.
+class Display:
+    """Shows on a stream what this process is at, whenever `tick` is called."""
 
-    Args:
-        name: of the job.
-        unit: what its parts are.
-        done: parts that were done before, which say nothing of its speed; nor does the time to compile.
-    """
-    from tqdm import tqdm  # takes longer to import than the command line
+    def __init__(
+        self,
+        stream: Any,
+        *,
+        rewrites: bool,
+        work: Stages = stages,
+        compiled: Compiling = compiling,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Show nothing yet.
 
-    shown: tqdm | None = None
-    compiled, over = compiling.seconds, threading.Event()
+        Args:
+            stream: where to write.
+            rewrites: whether one line is written again and again, as on a terminal; else lines now and then.
+            work: whose stages are shown.
+            compiled: what is compiled meanwhile.
+            clock: of the wall [s].
+        """
+        self._stream, self._rewrites, self._work, self._compiled = stream, rewrites, work, compiled
+        self._clock, self._lock = clock, threading.Lock()
+        self._last_line, self._named = clock(), None
+        self._drawn, self._drawn_stage = "", None
+        self._last_compiled, self._told_of_compiling = -PAUSE, False
 
-    def keep_time() -> None:
-        while not over.wait(1.0):
-            if shown is not None:
-                shown.refresh()
+    def tick(self) -> None:
+        """Show what is due."""
+        with self._lock:
+            if self._compiled.now:
+                self._last_compiled = self._clock()
+            if self._clock() - self._last_compiled < PAUSE:
+                self._show(self._compiled, self._compiled.seconds, self._compiling)
+                return
+            self._tell_of_compiled()
+            if not self._work.open or self._work.open[0].seconds < 1:
+                self._draw("")
+                return
+            outer, *inner = list(self._work.open)
+            visible = [outer, *(each for each in inner if each.seconds > INNER)]
+            subject = visible[-1] if outer.total is None else outer
+            self._show(subject, outer.seconds, partial(self._working, visible))
 
-    def progress(done_now: int, whole: int) -> None:
-        nonlocal shown, compiled
-        if shown is None:
-            shown = tqdm(desc=name, initial=done, total=whole, unit=f" {unit}", unit_scale=True, disable=None)
-        elif not shown.disable:
-            shown.start_t += compiling.seconds - compiled
-            shown.last_print_t += compiling.seconds - compiled
-        compiled = compiling.seconds
-        shown.update(done_now - shown.n)
+    def ended(self, stage: Stage) -> None:
+        """Leave the bar of a stage whose parts were counted."""
+        with self._lock:
+            if stage is self._drawn_stage and stage.total is not None:
+                self._draw(self._bar([stage]))
+                self._stream.write("\n")
+                self._drawn, self._drawn_stage = "", None
 
-    if _shows():
-        threading.Thread(target=keep_time, daemon=True).start()
+    def close(self) -> None:
+        """Leave nothing half-written."""
+        with self._lock:
+            self._tell_of_compiled()
+            self._draw("")
+
+    def _show(self, subject: Any, seconds: float, text: Callable[[], str]) -> None:
+        """Show something, if it is due, that has run for so long [s]."""
+        if self._rewrites:
+            if seconds > AFTER or self._drawn:
+                self._told_of_compiling |= subject is self._compiled
+                self._drawn_stage = None if subject is self._compiled else self._work.open[0]
+                self._draw(text())
+        elif self._clock() - self._last_line > (EVERY if subject is self._named else FIRST):
+            self._told_of_compiling |= subject is self._compiled
+            self._named = subject
+            self._line(text())
+
+    def _compiling(self) -> str:
+        found = self._compiled
+        if found.waits:
+            return f"waiting for another process, which compiles the same: {_duration(found.seconds)}"
+        name = f"compiling {found.what}, once"
+        if self._rewrites:
+            return self._meter(name, found.begun, found.total, "functions", found.seconds, found.seconds_left)
+        return (
+            f"{name} for this version: {found.begun} of {found.total} functions{_about(found.seconds_left)}"
+        )
+
+    def _tell_of_compiled(self) -> None:
+        if self._told_of_compiling:
+            self._told_of_compiling = False
+            self._draw("")
+            own = f"compiled {self._compiled.what}"
+            done = own if self._compiled.begun else "waited for the other process"
+            self._line(f"{done}: {_duration(self._compiled.seconds)}")
+
+    def _working(self, visible: list[Stage]) -> str:
+        return self._bar(visible) if self._rewrites else "; ".join(map(_phrase, visible))
+
+    def _bar(self, visible: list[Stage]) -> str:
+        """Return the bar of the innermost stage that is counted, those around it before it, others after."""
+        counted = max((i for i, each in enumerate(visible) if each.total is not None), default=None)
+        if counted is None:
+            return "; ".join(map(_phrase, visible))
+        before, own, after = visible[:counted], visible[counted], visible[counted + 1 :]
+        name = ", ".join([*(f"{each.name}{_counted(each)}" for each in before), own.name])
+        rate = "" if own.rate is None else f", {own.rate:.3g} {own.unit}/s"
+        also = rate + "".join(f"; {_phrase(each)}" for each in after)
+        return self._meter(name, own.done, own.total or 0, own.unit, own.seconds, own.seconds_left, also)
+
+    def _meter(
+        self,
+        name: str,
+        done: int,
+        total: int,
+        unit: str,
+        elapsed: float,
+        left: float | None,
+        also: str = "",
+    ) -> str:
+        from tqdm import tqdm  # takes longer to import than the command line
+
+        clocks = f"{tqdm.format_interval(elapsed)}<{'?' if left is None else tqdm.format_interval(left)}"
+        counts = f"{done:,}/{total:,} {unit} [{clocks}{also}]"
+        return tqdm.format_meter(
+            done,
+            total,
+            elapsed,
+            ncols=_width(self._stream) - 1,
+            prefix=name,
+            bar_format="{l_bar}{bar}| " + counts.replace("{", "{{").replace("}", "}}"),
+        )
+
+    def _draw(self, text: str) -> None:
+        """Write the one line again, or remove it."""
+        if self._rewrites and text != self._drawn:
+            text = text[: _width(self._stream) - 1]
+            self._stream.write("\r" + text.ljust(len(self._drawn)) + ("" if text else "\r"))
+            self._stream.flush()
+            self._drawn = text
+
+    def _line(self, text: str) -> None:
+        self._stream.write(f"cointoss: {text}\n")
+        self._stream.flush()
+        self._last_line = self._clock()
+
+
+def _phrase(stage: Stage) -> str:
+    """Return a stage in words: how far it is, or for how long it has run."""
+    detail = f", {stage.detail}" if stage.detail else ""
+    if stage.total is None:
+        return f"{stage.name}: {_duration(stage.seconds)}{detail}"
+    return f"{stage.name}:{_counted(stage)} {stage.unit}{_about(stage.seconds_left)}{detail}"
+
+
+def _counted(stage: Stage) -> str:
+    return "" if stage.total is None else f" {stage.done:,} of {stage.total:,}"
+
+
+def _about(seconds: float | None) -> str:
+    """Return the time that is left, in words; empty where it is not known."""
+    return "" if seconds is None else f", about {_duration(seconds)} left"
+
+
+def _duration(seconds: float) -> str:
+    if seconds < 100:
+        return f"{seconds:.0f} s"
+    minutes = round(seconds / 60)
+    return f"{minutes} min" if minutes < 100 else f"{minutes / 60:.1f} h"
+
+
+def _width(stream: Any) -> int:
     try:
-        yield progress
-    finally:
-        over.set()
-        if shown is not None:
-            shown.close()
+        return os.get_terminal_size(stream.fileno()).columns or WIDTH
+    except (OSError, ValueError, AttributeError):  # a notebook, or a window of Python's own
+        return WIDTH
+
+
+_shown = threading.Lock()
+"""Held while something is shown: one display is enough."""
 
 
 @contextmanager
-def elapsed_time(name: str, after: float = 5.0) -> Iterator[None]:
-    """Show within, on standard error if that is a terminal, for how long a job has run.
+def progress_shown(*, in_logs: bool) -> Iterator[None]:
+    """Show on standard error what this process is at within.
 
     Args:
-        name: of the job.
-        after: as soon as it takes longer than this [s].
+        in_logs: whether it is shown too where that is no terminal and no notebook.
     """
-    if not _shows():
+    rewrites = _rewrites(sys.stderr)
+    is_wanted = rewrites or (in_logs and sys.stderr is not None)
+    if os.environ.get("TQDM_DISABLE") or not is_wanted or not _shown.acquire(blocking=False):
         yield
         return
-    over = threading.Event()
+    display, over = Display(sys.stderr, rewrites=rewrites), threading.Event()
 
-    def show() -> None:
-        if over.wait(after):
-            return
-        from tqdm import tqdm
+    def keep_showing() -> None:
+        while not over.wait(0.25 if rewrites else 1.0):
+            display.tick()
 
-        with tqdm(desc=name, bar_format="{desc}: {elapsed}", leave=False, delay=after) as shown:
-            shown.start_t -= after
-            while not over.wait(1.0):
-                shown.refresh()
-
-    shower = threading.Thread(target=show, daemon=True)
+    shower = threading.Thread(target=keep_showing, daemon=True)
     shower.start()
+    stages.ended.append(display.ended)
     try:
         yield
     finally:
+        stages.ended.remove(display.ended)
         over.set()
         shower.join()
+        display.close()
+        _shown.release()
 
 
-@contextmanager
-def compile_bar(after: float = 1.0) -> Iterator[None]:
-    """Say within, on standard error if that is a terminal, that functions are compiled, and how many.
-
-    Args:
-        after: as soon as it takes longer than this [s].
-    """
-    shown: Any = None
-    said = False
-
-    def watch() -> None:
-        nonlocal shown, said
-        if not compiling.now:
-            if shown is not None:
-                shown.close()
-            shown = None
-        elif shown is not None:
-            shown.update(compiling.begun - shown.n)
-        elif compiling.seconds > after:
-            from tqdm import tqdm
-
-            if not said:
-                tqdm.write("cointoss: compiling, once and for up to a minute", file=sys.stderr)
-            said = True
-            shown = tqdm(
-                desc="compiling",
-                initial=compiling.begun,
-                total=max(compiling.declared, compiling.begun),
-                unit=" functions",
-                leave=False,
-            )
-
-    if not _shows():
-        yield
-        return
-    compiling.watchers.append(watch)
-    try:
-        yield
-    finally:
-        compiling.watchers.remove(watch)
-        if shown is not None:
-            shown.close()
+def _rewrites(stream: Any) -> bool:
+    """Return whether a stream is a terminal's or a notebook's."""
+    if stream is None or stream.closed:
+        return False
+    return stream.isatty() or type(stream).__module__.startswith("ipykernel.")
 
 
-def _shows() -> bool:
-    """Return whether standard error is a terminal."""
-    return sys.stderr is not None and not sys.stderr.closed and sys.stderr.isatty()
+# In Python what takes long is shown in a terminal or a notebook alone.
+stages.shown = partial(progress_shown, in_logs=False)

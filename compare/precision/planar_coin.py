@@ -51,7 +51,7 @@ def planar_coin(scenario: Scenario) -> PlanarCoin:
         f"coin.thickness: {coin.thickness}, accepted: 0": coin.thickness != 0,
         f"coin.center_of_mass: {coin.center_of_mass}, accepted: [0, 0, 0]": any(coin.center_of_mass),
         f"air.exponent: {air.exponent}, accepted: 0": air.exponent != 0,
-        f"floor.contact: {scenario.floor.contact.label}, accepted: {', '.join(law.label for law in LAWS)}": (
+        f"floor.contact: {scenario.floor.contact}, accepted: {', '.join(str(law) for law in LAWS)}": (
             scenario.floor.contact not in LAWS
         ),
         **{

@@ -5,9 +5,13 @@ from pathlib import Path
 
 from compare.output import files
 from compare.output.files import UnwritableError
+from models.distribution import DISTRIBUTION
 
 OF_THE_FILM = ("report.html", "toss.mp4")
 FILES = (*OF_THE_FILM, "numbers.json", "path-analytic.csv", "path-mujoco.csv")
+
+NOT_ASKED = "None was asked for; cointoss video draws one."
+"""Why a report has no video where its command was told so."""
 
 
 def require_folder(folder: Path, source: str) -> None:
@@ -31,6 +35,6 @@ def require_folder(folder: Path, source: str) -> None:
 def _is_of_a_report(numbers: Path) -> bool:
     """Return whether numbers.json is a report's: one names the versions that computed it."""
     try:
-        return "cointoss" in json.loads(numbers.read_bytes())["versions"]
+        return DISTRIBUTION in json.loads(numbers.read_bytes())["versions"]
     except (OSError, ValueError, RecursionError, LookupError, TypeError):
         return False

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from compare.metrics.comparison import PARTED, Comparison
+from compare.report.comparison import PARTED, Comparison
 from compare.web.playable import coin_of, path_of, rounded
 from models.records import Array, Toss
 
@@ -16,21 +16,20 @@ ROUNDING = 1e-16
 """Zero has no place on a logarithmic axis; a difference of rounding is drawn as this."""
 
 
-def motion_of(tosses: list[Toss], comparison: Comparison | None) -> dict[str, Any]:
+def motion_of(comparison: Comparison) -> dict[str, Any]:
     """Return the motion of the tosses, for JSON.
 
     Args:
-        tosses: by one engine or both.
-        comparison: of both, where there are both.
+        comparison: of them.
 
     Returns:
         `tosses`; `apart`, how the differences between the engines grow, or None; and `horizon`, the time of
         the last impact whose face must be shared where others follow, or None [s].
     """
     return {
-        "tosses": [_played(toss) for toss in tosses],
-        "apart": _apart(comparison) if comparison else None,
-        "horizon": _horizon_time(comparison) if comparison else None,
+        "tosses": [_played(toss) for toss in comparison.tosses],
+        "apart": _apart(comparison) if comparison.mujoco else None,
+        "horizon": comparison.horizon_time if comparison.mujoco else None,
     }
 
 
@@ -38,7 +37,7 @@ def _played(toss: Toss) -> dict[str, Any]:
     impacts = toss.impacts
     return {
         "engine": toss.engine,
-        "outcome": toss.outcome.label,
+        "outcome": str(toss.outcome),
         "end_time": toss.end_time,
         "times": rounded(impacts.time[:MOST_TOUCHES], 7),
         "heights": rounded(impacts.position[:MOST_TOUCHES, 2], 5),
@@ -60,9 +59,3 @@ def _apart(comparison: Comparison) -> dict[str, Any]:
 
 def _above_rounding(differences: Array) -> list[float]:
     return rounded(np.maximum(differences, ROUNDING), 4)
-
-
-def _horizon_time(comparison: Comparison) -> float | None:
-    impacts, horizon = comparison.analytic.impacts, comparison.horizon
-    follows = horizon < max(len(impacts), len(comparison.mujoco.impacts))
-    return float(impacts.time[horizon - 1]) if 0 < horizon and follows else None

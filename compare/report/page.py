@@ -11,21 +11,25 @@ import jinja2
 import numpy as np
 from pydantic import BaseModel
 
-from compare.metrics.comparison import Comparison
 from compare.metrics.sequences import SAFETY
-from compare.output.answer import MOST_SHOWN, counted
+from compare.output.answer import contact_line, counted
+from compare.report.comparison import Comparison
+from compare.report.counts import counts_sentence
 from compare.report.film_caption import film_caption
 from compare.report.map_section import MapSection
 from compare.report.motion import motion_of
-from compare.report.verdict import contact_lines, horizon_sentence, verdict_of
+from compare.report.verdict import horizon_sentence, verdict_of
 from compare.web.scripts import POLICY, data_element, import_map, shared_files
 from models import certificate
-from models.laws import ContactLaw, EndingTest, RestitutionKind
+from models.distribution import DISTRIBUTION
+from models.fields import WORDS, printed_unit
 from models.meanings import meanings
 from models.records import Face, Toss
 from models.scenario import Scenario
 
-PACKAGES = ("cointoss", "mujoco", "numpy", "scipy", "numba", "matplotlib", "mediapy")
+MOST_SHOWN = 200
+"""Symbols of a sequence, and impacts, that the page shows."""
+PACKAGES = (DISTRIBUTION, "mujoco", "numpy", "scipy", "numba", "matplotlib", "mediapy")
 
 
 class Film(NamedTuple):
@@ -41,13 +45,7 @@ class Film(NamedTuple):
 class Page:
     """What the page shows."""
 
-    name: str
-    scenario: Scenario
-    scenario_text: str
-    analytic: Toss
-    comparison: Comparison | None
-    not_realisable: str | None
-    """Why MuJoCo can't toss the scenario, where it can't."""
+    comparison: Comparison
     film: Film | None
     no_video: str | None
     """Why there is no video, where there is none."""
@@ -60,33 +58,36 @@ def render(page: Page) -> str:
     template = (folder / "report.html.j2").read_text(encoding="utf-8")
     shared = {name: content.decode("utf-8") for name, content in shared_files().items()}
     modules = {name: text for name, text in shared.items() if name.endswith(".js")}
-    modules["report.js"] = (folder / "report.js").read_text(encoding="utf-8")
+    modules |= {name: (folder / name).read_text(encoding="utf-8") for name in ("report.js", "present.js")}
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
     comparison = page.comparison
-    tosses = [page.analytic, *([comparison.mujoco] if comparison else [])]
     return environment.from_string(template).render(
         page=page,
-        tosses=tosses,
+        compared=comparison,
+        tosses=comparison.tosses,
         measured=certificate.NAMES,
         labels={"analytic": "analytic", "mujoco": "MuJoCo"},
-        parameters=_parameters(page.scenario),
+        parameters=_parameters(comparison.scenario),
         policy=POLICY,
         style=shared["shared.css"],
         licence=shared["LICENSE"],
         scripts=import_map(modules),
-        data=data_element(motion_of(tosses, comparison), id_="data"),
-        about=_about(page.scenario_text),
-        verdict=verdict_of(page.analytic, comparison),
-        horizon=horizon_sentence(comparison) if comparison else "",
-        contact_lines=contact_lines,
+        data=data_element(motion_of(comparison), id_="data"),
+        about=_about(comparison.text),
+        verdict=verdict_of(comparison),
+        horizon=horizon_sentence(comparison) if comparison.mujoco else "",
+        contact_line=contact_line,
         counted=counted,
-        rows=list(zip_longest(*(toss.sequence for toss in tosses), fillvalue="")),
+        counts=counts_sentence(comparison.tosses),
+        rows=list(zip_longest(*(toss.sequence for toss in comparison.tosses), fillvalue="")),
         most_shown=MOST_SHOWN,
-        impacts=_impact_rows(page.analytic, comparison),
+        impacts=_impact_rows(comparison),
         film=[b64encode(part).decode("ascii") for part in page.film] if page.film else None,
         map_picture=b64encode(page.maps.picture).decode("ascii") if page.maps else None,
+        words=WORDS,
+        printed_unit=printed_unit,
         safety=SAFETY,
-        film_caption=film_caption(tosses),
+        film_caption=film_caption(comparison.tosses),
         versions=versions(),
     )
 
@@ -120,27 +121,25 @@ def _parameters(scenario: Scenario) -> list[tuple[str, str, str]]:
 
 
 def _shown(value: Any) -> str:
-    if isinstance(value, ContactLaw | EndingTest | RestitutionKind):
-        return value.label
     if isinstance(value, tuple):
         return "(" + ", ".join(_shown(item) for item in value) + ")"
     return f"{value:.10g}" if isinstance(value, float) else str(value)
 
 
-def _impact_rows(analytic: Toss, comparison: Comparison | None) -> list[dict[str, Any]]:
+def _impact_rows(comparison: Comparison) -> list[dict[str, Any]]:
     """Return the rows of the table of impacts: as many as the longer toss has, at most `MOST_SHOWN`."""
-    b = comparison.mujoco if comparison else None
-    count = max(len(analytic.impacts), len(b.impacts) if b else 0)
-    matched = len(comparison.differences.time) if comparison else 0
+    analytic, b = comparison.analytic, comparison.mujoco
+    count = max(len(toss.impacts) for toss in comparison.tosses)
+    matched, errors = (len(comparison.differences.time), len(comparison.errors)) if b else (0, 0)
     return [
         {
             "number": i + 1,
-            "within": comparison is None or i < comparison.horizon,
+            "within": b is None or i < comparison.horizon,
             "analytic": _impact(analytic, i),
             "mujoco": _impact(b, i) if b else None,
-            "time_difference": comparison.differences.time[i] if comparison and i < matched else None,
-            "error": comparison.errors[i] if comparison and i < len(comparison.errors) else None,
-            "impulse_difference": comparison.differences.impulse[i] if comparison and i < matched else None,
+            "time_difference": comparison.differences.time[i] if i < matched else None,
+            "error": comparison.errors[i] if i < errors else None,
+            "impulse_difference": comparison.differences.impulse[i] if i < matched else None,
         }
         for i in range(min(count, MOST_SHOWN))
     ]

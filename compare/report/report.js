@@ -2,6 +2,7 @@
 
 import { energyOf, heightOf, placeOf, spinOf, tiltsOf } from "./motion.js";
 import { makePlot, makeSpan } from "./plot.js";
+import { makePresentation } from "./present.js";
 import { makeStage } from "./stage.js";
 
 const { tosses, apart, horizon } = JSON.parse(document.getElementById("data").textContent);
@@ -27,13 +28,16 @@ const bars = horizon === null ? [] : [{ time: horizon, text: "horizon" }];
 for (const [name, about] of Object.entries(plots)) makePlot(byId(`plot-${name}`), { ...about, bars }, span);
 
 const stage = makeStage(byId("played"), { without: "The plots work without it.", onTime: span.play });
-stage.show(tosses, tosses.map((toss) => toss.outcome), false);
+stage.show(tosses, tosses.map((toss) => toss.outcome), true);
 span.pick = (time) => {
   byId("played").scrollIntoView({ block: "nearest" });
   stage.seek(time);
 };
 
-if (!matchMedia("(prefers-reduced-motion: reduce)").matches) byId("film")?.play().catch(() => {});
+makePresentation(byId("present"), byId("play"));
+byId("present").hidden = false;
+// The film is on the page once: it is its own download.
+if (byId("save")) byId("save").href = byId("film").src;
 
 byId("zoom-in").addEventListener("click", () => span.zoom(0.5));
 byId("zoom-out").addEventListener("click", () => span.zoom(2));

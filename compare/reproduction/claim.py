@@ -23,6 +23,7 @@ _COMPARE: dict[Relation, Callable[[float, float], bool]] = {
 _MOST = 1e12
 """Nobody makes so many tosses."""
 VERDICTS = {True: "holds", False: "does not hold", None: "cannot be tested"}
+MARKS = {True: "✓", False: "✗", None: "?"}
 
 
 @dataclass(frozen=True)
@@ -162,7 +163,7 @@ class Claim:
 
     @property
     def wanted(self) -> str:
-        """What would make it a verdict, in words; empty where it is one."""
+        """What would make a verdict possible, in words; empty where there is one."""
         return self.missing or "; ".join(filter(None, (criterion.wanted for criterion in self.criteria)))
 
 
@@ -195,9 +196,12 @@ def table_of(claims: Sequence[Claim]) -> str:
 
 def criteria_of(claim: Claim, *, reasons: bool = True) -> str:
     """Return what was measured for a claim and what is accepted, with or without the reasons."""
-    return "; ".join(
-        f"{each.found} ({each.accepted}{': ' + each.reason if reasons else ''})" for each in claim.criteria
-    )
+    return "; ".join(criterion_of(each, reasons=reasons) for each in claim.criteria)
+
+
+def criterion_of(criterion: Criterion, *, reasons: bool = True) -> str:
+    """Return what was measured and what is accepted, with or without the reason."""
+    return f"{criterion.found} ({criterion.accepted}{': ' + criterion.reason if reasons else ''})"
 
 
 def to_json(claims: Sequence[Claim]) -> str:

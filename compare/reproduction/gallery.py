@@ -13,7 +13,7 @@ import jinja2
 from compare.output.files import written_together
 from compare.output.tables import sheet, table
 from compare.reproduction import runner
-from compare.reproduction.claim import VERDICTS, Claim, criteria_of, read_claims
+from compare.reproduction.claim import MARKS, VERDICTS, Claim, criteria_of, read_claims
 from compare.reproduction.pages import verdicts_of
 from compare.reproduction.runner import Reproduction
 
@@ -27,7 +27,6 @@ SKETCHES = {
 """Figures that show definitions: there is nothing to reproduce."""
 _KINDS = {True: "holds", False: "fails", None: "open"}
 """The classes of the verdicts in the gallery."""
-_MARKS = {True: "✓", False: "✗", None: "?"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -239,7 +238,7 @@ def html(out: Path, shown: Sequence[Entry]) -> str:
     pictures = {entry.name: _embedded(entry.picture) for entry in shown}
     opened = [(main.says, found, _embedded(picture)) for main, found, picture in opening(out)]
     return environment.from_string(template).render(
-        entries=shown, pictures=pictures, kinds=_KINDS, marks=_MARKS, words=VERDICTS, opened=opened
+        entries=shown, pictures=pictures, kinds=_KINDS, marks=MARKS, words=VERDICTS, opened=opened
     )
 
 

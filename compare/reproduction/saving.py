@@ -21,7 +21,7 @@ Numbers = TypeVar("Numbers")
 
 
 def save(folder: Path, result: Result, draw: Mapping[str, Callable[[Any], Figure]]) -> None:
-    """Write claims.json, the data, and the pictures into a folder that exists."""
+    """Write the claims, the data and the pictures into a folder that exists."""
     (folder / "claims.json").write_text(to_json(result.claims), encoding="utf-8")
     data = result.data
     if isinstance(data, Mapping):

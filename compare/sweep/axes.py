@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from compare.sweep.errors import SweepError
-from models.fields import UNITS, lambda_unit
+from models.fields import UNITS, WORDS, lambda_unit, printed_unit
 from models.records import Array
 from models.scenario import Scenario
 from models.units import in_si
@@ -32,6 +32,16 @@ class Axis:
     def is_of_release(self) -> bool:
         """Whether its field is of the release, which may differ between the tosses of one coin."""
         return self.field.startswith("release.")
+
+    @property
+    def word(self) -> str:
+        """What a person calls its field."""
+        return WORDS[self.field]
+
+    @property
+    def printed_unit(self) -> str:
+        """Its unit as a person writes it."""
+        return printed_unit(self.unit)
 
     @property
     def values(self) -> Array:
@@ -62,7 +72,7 @@ def parse_axis(text: str, scenario: Scenario) -> Axis:
         raise SweepError(f"{text}: N = {parts[2]}; accepted: a whole number from 2 to {MOST_VALUES}")
     axis = Axis(field=field, unit=unit, start=start, stop=stop, count=count)
     if field == "ending.max_impacts" and not np.all(np.mod(axis.values, 1) == 0):
-        raise SweepError(f"{text}: accepted: START, STOP and N that give whole numbers only")
+        raise SweepError(f"{text}: accepted: START, STOP and N that give whole numbers only, such as 1:9:9")
     return axis
 
 

@@ -1,6 +1,7 @@
 """Toss tiles on the workers of a Dask cluster."""
 
 import asyncio
+import logging
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from itertools import islice
@@ -10,6 +11,7 @@ from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile
 from compare.sweep.pixels import Pixels, toss_pixels
 from compare.sweep.run import Tosser
+from models.distribution import DISTRIBUTION
 
 AHEAD = 2
 """Tiles given out for each thread of a worker: one that it tosses, and one that waits."""
@@ -36,7 +38,7 @@ def cluster(address: str, say: Callable[[str], None]) -> Iterator[Tosser]:
         import distributed
     except ImportError:
         raise SweepError(
-            f'--scheduler {address}: needs dask.distributed; accepted: pip install "cointoss[cluster]"'
+            f'--scheduler {address}: needs dask.distributed; accepted: pip install "{DISTRIBUTION}[cluster]"'
         ) from None
     say(f"--scheduler {address}: connecting, for up to {PATIENCE} s")
     try:
@@ -47,6 +49,8 @@ def cluster(address: str, say: Callable[[str], None]) -> Iterator[Tosser]:
         raise SweepError(
             f"--scheduler {address}: accepted: the address of a running Dask scheduler ({why})"
         ) from None
+    # A scheduler that is lost is told of in one line.
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
     with client:
         if not client.nthreads():
             say(f"--scheduler {address}: waiting for a first worker, for up to {PATIENCE_FOR_WORKERS} s")
@@ -63,19 +67,30 @@ def cluster(address: str, say: Callable[[str], None]) -> Iterator[Tosser]:
                 for tile in islice(waiting, count):
                     running.add(client.submit(_toss_there, sweep, tile, here, pure=False))
 
-            give_out(_room(client))
+            with naming_loss(address):
+                give_out(_room(client))
             for future in running:
-                # Workers may have come since.
-                give_out(max(1, _room(client) - running.count()))
-                try:
+                with naming_loss(address):
+                    # Workers may have come since.
+                    give_out(max(1, _room(client) - running.count()))
                     tossed = future.result()
-                except (distributed.CancelledError, distributed.KilledWorker) as error:
-                    raise SweepError(
-                        f"--scheduler {address}: the cluster lost a tile ({error}); --resume goes on"
-                    ) from None
                 yield tossed
 
         yield toss
+
+
+@contextmanager
+def naming_loss(address: str) -> Iterator[None]:
+    """Name the cluster in what is raised where it is lost, or what it was asked for."""
+    from distributed import CancelledError, KilledWorker
+
+    try:
+        yield
+    except (CancelledError, KilledWorker, OSError) as error:
+        why = str(error) or type(error).__name__
+        raise SweepError(
+            f"--scheduler {address}: the cluster was lost, or a tile there ({why}); --resume goes on"
+        ) from None
 
 
 async def _reach(address: str) -> None:

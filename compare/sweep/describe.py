@@ -22,7 +22,7 @@ def describe_map(path: Path, sweep: Sweep, fractions: dict[Outcome, float]) -> s
         f"engine     {sweep.engine}",
         f"tosses     {nx} by {ny}: {shown}final outcome",
         *(
-            f"{outcome.label:11}{100 * share:.3f} %"
+            f"{outcome:11}{100 * share:.3f} %"
             for outcome, share in fractions.items()
             if share > 0 or outcome in (Outcome.HEADS, Outcome.TAILS)
         ),

@@ -1,16 +1,23 @@
 """Make a map in memory, from Python."""
 
 from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from compare.engines import Engine
 from compare.sweep.axes import parse_axis
 from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile
+from compare.sweep.layers import layers_of
 from compare.sweep.outcome_map import OutcomeMap
-from compare.sweep.pixels import check, toss_pixels
+from compare.sweep.pixels import check
 from compare.sweep.reading import MOST_READ, is_whole
-from models.reading import ScenarioSource, scenario_of
+from compare.sweep.run import toss_here
+from models.reading import ScenarioSource, parse, scenario_text
 from models.scenario import Scenario
+from models.stages import stage
 
 MOST_AFTER = 999_999
 """Impacts after which a face is shown, as of the command."""
@@ -49,7 +56,7 @@ def basin(
             raise SweepError(f"{name}: {text!r}, accepted: text")
     if not isinstance(scenario, Scenario | str | PathLike):
         raise SweepError(f"scenario: {scenario!r}, accepted: a Scenario, a name or a path")
-    found = scenario_of(scenario)
+    found = scenario if isinstance(scenario, Scenario) else parse(scenario_text(scenario), str(scenario))
     if engine not in list(Engine):
         raise SweepError(f"engine: {engine!r}, accepted: {', '.join(Engine)}")
     if after is not None and not (is_whole(after) and 0 <= after <= MOST_AFTER):
@@ -62,6 +69,7 @@ def basin(
         settings=Engine(engine).package.MANY,
         after=None if after is None else int(after),
         margin=_margin(margin, engine),
+        name="" if isinstance(scenario, Scenario) else Path(scenario).stem,
     )
     ny, nx = sweep.shape
     if ny * nx > MOST_READ:
@@ -70,14 +78,17 @@ def basin(
             "cointoss basin makes larger maps on disk"
         )
     check(sweep)
-    pixels = toss_pixels(sweep, Tile(slice(0, ny), slice(0, nx)))
-    return OutcomeMap(
-        name="map" if isinstance(scenario, Scenario) else f"map of {scenario}",
-        sweep=sweep,
-        outcome=pixels.outcome,
-        impacts=pixels.impacts,
-        margin=pixels.margin,
-    )
+    arrays: dict[str, Any] = {
+        name: np.full(sweep.shape, layer.fill_value, layer.kind) for name, layer in layers_of(sweep).items()
+    }
+    name, done = "map" if isinstance(scenario, Scenario) else f"map of {scenario}", 0
+    with stage(name, "tosses", total=ny * nx) as progress:
+        for part, pixels in toss_here(sweep, [Tile(slice(0, ny), slice(0, nx))]):
+            for layer, array in arrays.items():
+                array[part.rows, part.columns] = getattr(pixels, layer)
+            done += pixels.outcome.size
+            progress(done, ny * nx)
+    return OutcomeMap(name=name, sweep=sweep, **arrays)
 
 
 def _margin(name: str | None, engine: str) -> str | None:

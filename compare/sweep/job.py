@@ -12,7 +12,7 @@ from compare.basins.picture_style import PictureStyle
 from compare.engines import Engine
 from compare.film.back_end import drawing_problem, require_mujoco
 from compare.output.files import UnwritableError, require_file
-from compare.report.contents import require_folder
+from compare.report.contents import NOT_ASKED, require_folder
 from compare.sweep import describe, run, store
 from compare.sweep.axes import Axis, parse_axis
 from compare.sweep.errors import SweepError
@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 Watch = Callable[[str, int, int], AbstractContextManager[run.Tossed]]
 """Called with a map's name, the pixels that it has, and how many it will have; gives what to tell of more."""
-Frames = Callable[[int, int], None]
-"""Called with the number of the video's frames that are drawn, and of all."""
 Say = Callable[[str], None]
 """Called with what is waited for."""
 
@@ -66,6 +64,8 @@ class Job:
     """How to draw."""
     report: Path | None
     """Folder of a report on both engines' maps and tosses; accepted for both engines only."""
+    no_video: bool
+    """Whether that report is to have no video."""
 
 
 def sweeps_of(job: Job, scenario: Scenario, x: Axis, y: Axis) -> dict[Path, Sweep]:
@@ -84,6 +84,7 @@ def sweeps_of(job: Job, scenario: Scenario, x: Axis, y: Axis) -> dict[Path, Swee
             settings=replace(engine.package.MANY, **chosen.get(engine, {})),
             after=job.after,
             margin=job.margin and _margin(job.margin).name,
+            name=Path(job.source).stem,
         )
         for path, engine in _engines_of(job).items()
     }
@@ -103,7 +104,7 @@ def _engines_of(job: Job) -> dict[Path, Engine]:
     return {job.out: job.engine or Engine.ANALYTIC} | ({} if job.engine else {second: Engine.MUJOCO})
 
 
-def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
+def make(job: Job, watch: Watch, say: Say) -> Iterator[str]:
     """Make what is asked for, and give the results as text, each as soon as it is there.
 
     Nothing is begun before all is checked that can be.
@@ -123,7 +124,7 @@ def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
     no_video = None
     if job.report is not None:
         _require_report(job.report, engines, job.source)
-        no_video = drawing_problem()
+        no_video = NOT_ASKED if job.no_video else drawing_problem()
     # From here on MuJoCo is imported: its back end is chosen.
     if Engine.MUJOCO in engines.values():
         require_mujoco()
@@ -131,9 +132,9 @@ def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
     if job.resume:
         for path, sweep in sweeps.items():
             store.require_same(path, sweep)
+    drawn, maps, margins = len(sweeps) > 1 or job.png is not None, [], None
     for sweep in sweeps.values():
         check(sweep)
-        drawn = len(sweeps) > 1 or job.png is not None
         run.require_room(sweep, job.out.parent, maps=len(sweeps), drawn=drawn)
     with _tosser(job.scheduler, say) as tosser:
         for path, sweep in sweeps.items():
@@ -145,29 +146,27 @@ def make(job: Job, watch: Watch, frames: Frames, say: Say) -> Iterator[str]:
                 if margin is not None:
                     sizes = run.margins_of(map_)
                     yield describe.describe_margins(margin.name, margin.unit, margin.factor, sizes)
-    if len(sweeps) == 1 and job.png is None:
+                    margins = map_.whole("margin") if drawn else None
+                if drawn:
+                    maps.append(map_.whole("outcome"))
+    if not drawn:
         return
     from compare.sweep import show
 
-    maps, first = [show.outcomes_of(path) for path in sweeps], next(iter(sweeps.values()))
+    first = next(iter(sweeps.values()))
     if len(maps) > 1:
         yield describe.describe_agreement(describe.measure(*maps))
     if job.png is not None:
-        show.write(job.png, maps, first, job.style, margins=margin and show.margins_of(job.out))
+        show.write(job.png, maps, first, job.style, margins=margins)
         yield f"picture    {job.png}"
     if job.report is not None:
+        from compare.report.comparison import compared
         from compare.report.folder import write_report
 
-        page = write_report(
-            first.scenario,
-            job.text,
-            Path(job.source).stem,
-            job.report,
-            no_video,
-            frames,
-            mujoco=replace(Engine.MUJOCO.package.FINE, contact=job.contact),
-            maps=show.section(maps, list(sweeps.values()), job.style, _command(job)),
-        )
+        fine = replace(Engine.MUJOCO.package.FINE, contact=job.contact)
+        both = compared(first.scenario, job.text, Path(job.source).stem, fine)
+        shown = show.section(maps, list(sweeps.values()), job.style, _command(job))
+        page = write_report(both, job.report, no_video, maps=shown)
         yield f"report     {page}"
 
 
@@ -175,7 +174,7 @@ def _require_report(folder: Path, maps: Iterable[Path], source: str) -> None:
     require_folder(folder, source)
     for path in maps:
         if Path(os.path.realpath(folder)).is_relative_to(os.path.realpath(path)):
-            raise UnwritableError(f"{folder}: accepted: a folder outside of the map {path}")
+            raise UnwritableError(f"{folder}: lies in the map {path}; accepted: a folder outside of it")
 
 
 def _command(job: Job) -> str:
@@ -184,6 +183,7 @@ def _command(job: Job) -> str:
     if job.after is not None:
         words += ["--after", job.after]
     words += ["--compare", "--contact", job.contact, "--out", job.out, "--report", job.report, "--resume"]
+    words += ["--no-video"] * job.no_video
     style = job.style
     words += ["--palette", style.palette, "--dpi", style.dpi] + ["--boundaries"] * style.boundaries
     if style.size is not None:

@@ -25,7 +25,7 @@ class Layer(NamedTuple):
 
 def layers_of(sweep: Sweep) -> dict[str, Layer]:
     """Return the arrays of a sweep's map, by name."""
-    meanings = meanings_of({NOT_TOSSED: "not_tossed", **{int(item): item.label for item in Outcome}})
+    meanings = meanings_of({NOT_TOSSED: "not_tossed", **{int(item): str(item) for item in Outcome}})
     layers = {
         "outcome": Layer(np.int8, NOT_TOSSED, {"long_name": "outcome", **meanings}),
         "impacts": Layer(np.int32, NOT_TOSSED, {"long_name": "number of impacts"}),
@@ -47,4 +47,4 @@ def bytes_per_pixel(sweep: Sweep) -> int:
 
 def axis_attributes(axis: Axis) -> dict[str, Any]:
     """Return the attributes of an axis, from which plots take its label."""
-    return {"long_name": axis.field.replace(".", " ").replace("_", " "), "units": axis.unit}
+    return {"long_name": axis.word, "units": axis.unit}

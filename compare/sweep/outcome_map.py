@@ -80,7 +80,7 @@ class OutcomeMap:
     def shares(self) -> dict[str, float]:
         """The share of the pixels that each outcome has, and those not tossed yet, of what there is."""
         codes, counts = np.unique(self.outcome, return_counts=True)
-        labels = {NOT_TOSSED: "not tossed", **{int(item): item.label for item in Outcome}}
+        labels = {NOT_TOSSED: "not tossed", **{int(item): str(item) for item in Outcome}}
         return {
             labels[code]: count / self.outcome.size
             for code, count in zip(codes.tolist(), counts.tolist(), strict=True)
@@ -89,7 +89,9 @@ class OutcomeMap:
     def __repr__(self) -> str:
         """Return what the map is of, and the shares of its outcomes."""
         told = ", ".join(f"{share:.1%} {name}" for name, share in self.shares.items())
-        return f"<OutcomeMap {self.name} by {self.sweep.engine}: {self._size}: {told}>"
+        x, y = self.sweep.x, self.sweep.y
+        size = f"{len(self.x)} x {len(self.y)} over {x.field} and {y.field}"
+        return f"<OutcomeMap {self.name} by {self.sweep.engine}: {size}: {told}>"
 
     def _repr_html_(self) -> str:
         """Return what `repr` says, with a picture."""
@@ -99,8 +101,7 @@ class OutcomeMap:
 
     @property
     def _size(self) -> str:
-        x, y = self.sweep.x, self.sweep.y
-        return f"{len(self.x)} x {len(self.y)} over {x.field} and {y.field}"
+        return f"{len(self.x)} x {len(self.y)} over {self.sweep.x.word} and {self.sweep.y.word}"
 
     def _picture(self) -> str:
         if NOT_TOSSED in self.outcome:
@@ -130,7 +131,7 @@ class OutcomeMap:
 
     def to_dataframe(self) -> "pd.DataFrame":
         """Return the map as a table of pandas, a row a pixel, its outcome in words."""
-        labels = {NOT_TOSSED: "not_tossed", **{int(item): item.label for item in Outcome}}
+        labels = {NOT_TOSSED: "not_tossed", **{int(item): str(item) for item in Outcome}}
         frame = self.to_xarray().to_dataframe().reset_index(drop=True)
         words = [labels[code] for code in self.outcome.ravel().tolist()]
         return frame[[self.sweep.y.field, self.sweep.x.field, *self.layers]].assign(outcome=words)

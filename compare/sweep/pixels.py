@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from compare.sweep.axes import Axis
 from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile
-from models.attitude import quaternion_from_angles
 from models.errors import ScenarioError
-from models.fields import split
 from models.outcomes import Outcomes
 from models.records import Array
-from models.releases import Releases, check_releases
+from models.releases import Releases, changed_releases, check_releases
 from models.scenario import Scenario
+from models.stages import counted
+from models.unused import warn_of_unused_fields
 
 _ENDS_SUFFICE = (
     "gravity",
@@ -129,24 +129,29 @@ def groups(sweep: Sweep, y: Array, x: Array) -> Iterator[Group]:
     """
     for rows, columns in _blocks(sweep, len(y), len(x)):
         first = pixel_scenario(sweep, float(y[rows][0]), float(x[columns][0]))
-        yield Group(first, _releases(sweep, first, y[rows], x[columns]), rows, columns)
+        yield Group(first, _releases(sweep, y[rows], x[columns]), rows, columns)
 
 
 def check(sweep: Sweep) -> None:
     """Refuse a sweep with a pixel that is no valid scenario, or that its engine can't toss.
 
-    Every value of an axis is tried, or its two ends where these suffice.
+    Every value of an axis is tried, or its two ends where these suffice. Whether a field is used is asked of
+    the pixel where both axes are farthest from 0.
 
     Raises:
         SweepError: naming field, value, and what is accepted.
         UnsupportedError: likewise.
+
+    Warns:
+        UnusedFieldWarning: for a field that nothing uses.
     """
     y, x = _tried(sweep.y), _tried(sweep.x)
     rows_at_once = max(1, (1 << 14) // len(x))
-    for top in range(0, len(y), rows_at_once):
+    for top in counted("checking the grid", "parts", range(0, len(y), rows_at_once)):
         some = y[top : top + rows_at_once]
         for rows, columns in _blocks(sweep, len(some), len(x)):
             _check_together(sweep, some[rows], x[columns])
+    warn_of_unused_fields(pixel_scenario(sweep, *(max(part.tolist(), key=abs) for part in (y, x))))
 
 
 def _check_together(sweep: Sweep, y: Array, x: Array) -> None:
@@ -154,7 +159,7 @@ def _check_together(sweep: Sweep, y: Array, x: Array) -> None:
     first = pixel_scenario(sweep, float(y[0]), float(x[0]))
     sweep.engine.package.require_supported(first, settings=sweep.settings)
     try:
-        check_releases(first, _releases(sweep, first, y, x))
+        check_releases(first, _releases(sweep, y, x))
     except ValueError:
         # One by one, as scenarios, which name the field.
         for at_y, at_x in product(y.tolist(), x.tolist()):
@@ -175,25 +180,7 @@ def _parts(axis: Axis, count: int) -> list[slice]:
     return [slice(0, count)] if axis.is_of_release else [slice(i, i + 1) for i in range(count)]
 
 
-def _releases(sweep: Sweep, first: Scenario, y: Array, x: Array) -> Releases:
-    count = len(y) * len(x)
-    release = first.release
-    numbers = {
-        "position": release.position,
-        "velocity": release.velocity,
-        "angles": release.angles or (0.0, 0.0, 0.0),
-        "quaternion": release.attitude,
-        "angular_velocity": release.angular_velocity,
-    }
-    varied = {split(axis.field)[1] for axis in (sweep.y, sweep.x) if axis.is_of_release}
-    if "quaternion" in varied:  # the first pixel's is brought to norm 1 as a whole
-        numbers["quaternion"] = sweep.scenario.release.attitude
-    columns = {name: np.tile(row, (count, 1)) for name, row in numbers.items()}
-    for axis, values in ((sweep.y, np.repeat(y, len(x))), (sweep.x, np.tile(x, len(y)))):
-        if axis.is_of_release:
-            _, key, index = split(axis.field)
-            columns[key][:, index] = values
-    angles = columns.pop("angles")
-    if "angles" in varied:
-        columns["quaternion"] = np.array([quaternion_from_angles((a, b, c)) for a, b, c in angles.tolist()])
-    return Releases(**columns)
+def _releases(sweep: Sweep, y: Array, x: Array) -> Releases:
+    varied = ((sweep.y, np.repeat(y, len(x))), (sweep.x, np.tile(x, len(y))))
+    changed = {axis.field: values for axis, values in varied if axis.is_of_release}
+    return changed_releases(sweep.scenario.release, len(y) * len(x), changed)

@@ -1,28 +1,34 @@
 """Read a map from disk: what it is of, and the pixels that are tossed."""
 
+from collections.abc import Iterable
 from dataclasses import fields, replace
 from numbers import Integral
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import zarr
 from numpy.typing import NDArray
 
 from compare.engines import Engine, EngineSettings
 from compare.film.back_end import BackEndError, require_mujoco
 from compare.sweep.axes import Axis
 from compare.sweep.errors import MapError, SweepError
-from compare.sweep.grid import Sweep
+from compare.sweep.form import MARGIN_ALONG, Form, read_form
+from compare.sweep.grid import Sweep, tiles
 from compare.sweep.layers import NOT_TOSSED, layers_of
 from compare.sweep.outcome_map import OutcomeMap
-from compare.sweep.store import FORMAT, Map
+from compare.sweep.store import Map
 from models.errors import ScenarioError, shown
 from models.fields import UNITS, lambda_unit
 from models.reading import parse
+from models.scenario import Scenario
 
 MOST_READ = 100_000_000
 """Pixels of a map that is read."""
+MOST_NAME = 255
+"""Characters of a scenario's name, as of a file's."""
+MOST_TILES = 1_000_000
+"""Tiles of one."""
 _ACCEPTED = "accepted: a map that cointoss basin made"
 
 
@@ -45,34 +51,25 @@ def read_map(path: str | Path, *, most: int = MOST_READ) -> OutcomeMap:
     if not path.is_dir():
         raise MapError(f"{path}: no such folder; {_ACCEPTED}")
     try:
-        group = zarr.open_group(path, mode="r", use_consolidated=False)
-        attributes: dict[str, Any] = dict(group.attrs)
-    except Exception as error:  # zarr raises errors of any kind
-        raise MapError(f"{path}: can't be read as a map ({type(error).__name__}); {_ACCEPTED}") from None
-    if attributes.get("cointoss_map") != FORMAT:
-        raise MapError(f"{path}: is no map of this version of cointoss; {_ACCEPTED}")
-    try:
-        sweep = _sweep(path, group, attributes)
-        layers: dict[str, Any] = {name: group[name] for name in layers_of(sweep)}
-        if any(layer.shape != sweep.shape for layer in layers.values()):
-            raise ValueError("arrays whose shapes are not that of the axes")
+        form = read_form(path)
+        map_ = Map.at(path, "r")
+        sweep = _sweep(path, form, map_)
+        layers = layers_of(sweep)
     except (ScenarioError, BackEndError):
         raise
-    except Exception as error:
-        raise MapError(f"{path}: is a damaged map ({type(error).__name__}: {error}); {_ACCEPTED}") from None
-    ny, nx = sweep.shape
+    except Exception as error:  # zarr raises errors of any kind
+        raise MapError(f"{path}: is no map of cointoss ({error}); {_ACCEPTED}") from None
+    ny, nx = form.shape
     if ny * nx > MOST_READ:
         few = f"accepted: a map of at most {MOST_READ:g} pixels"
         raise MapError(f"{path}: has {nx} by {ny} pixels; {few}")
+    if -(-ny // form.tile[0]) * -(-nx // form.tile[1]) > MOST_TILES:
+        few = f"accepted: a map of at most {MOST_TILES:g} tiles"
+        raise MapError(f"{path}: has tiles of {form.tile[1]} by {form.tile[0]} pixels; {few}")
     stride = 1
     while -(-ny // stride) * -(-nx // stride) > most:
         stride += 1
-    return OutcomeMap(
-        name=path.name,
-        sweep=sweep,
-        stride=stride,
-        **_read(Map(path=path, group=group), tuple(layers), stride, sweep.shape),
-    )
+    return OutcomeMap(name=path.name, sweep=sweep, stride=stride, **_read(map_, form, layers, stride))
 
 
 def is_whole(number: object) -> bool:
@@ -80,39 +77,43 @@ def is_whole(number: object) -> bool:
     return isinstance(number, Integral) and not isinstance(number, bool)
 
 
-def _sweep(path: Path, group: zarr.Group, attributes: dict[str, Any]) -> Sweep:
+def _sweep(path: Path, form: Form, map_: Map) -> Sweep:
+    attributes = form.attributes
     scenario = parse(attributes["scenario"], str(path))
     engine = Engine(attributes["engine"])
     if engine == Engine.MUJOCO:
         require_mujoco()
-    axes: dict[str, Axis] = {}
-    for name, array in group.arrays():
-        if name in UNITS:
-            is_lambda = name in ("air.normal", "air.tangential")
-            values: Any = array[:]
-            metadata: Any = array.metadata
-            (dimension,) = metadata.dimension_names
-            axes[dimension] = Axis(
-                field=name,
-                unit=lambda_unit(scenario.air.exponent) if is_lambda else UNITS[name],
-                start=float(values[0]),
-                stop=float(values[-1]),
-                count=len(values),
-            )
-            if not np.array_equal(axes[dimension].values, values):
-                raise ValueError(f"values of {name} that are not evenly spaced")
     after = attributes["after"]
     if not (after is None or (is_whole(after) and after >= 0)):
         raise ValueError(f"after = {shown(after)}")
+    name = attributes.get("name", "")
+    if not (isinstance(name, str) and len(name) <= MOST_NAME):
+        raise ValueError(f"name = {shown(name)}")
     return Sweep(
         scenario=scenario,
         engine=engine,
-        x=axes["x"],
-        y=axes["y"],
+        x=_axis(form.x, map_, scenario),
+        y=_axis(form.y, map_, scenario),
         settings=_settings(engine, attributes["engine_settings"]),
         after=after,
-        margin=attributes.get("margin_along"),
+        margin=attributes.get(MARGIN_ALONG),
+        name=name,
     )
+
+
+def _axis(field: str, map_: Map, scenario: Scenario) -> Axis:
+    values = map_.whole(field)
+    is_lambda = field in ("air.normal", "air.tangential")
+    axis = Axis(
+        field=field,
+        unit=lambda_unit(scenario.air.exponent) if is_lambda else UNITS[field],
+        start=float(values[0]),
+        stop=float(values[-1]),
+        count=len(values),
+    )
+    if not np.array_equal(axis.values, values):
+        raise ValueError(f"values of {field} that are not evenly spaced")
+    return axis
 
 
 def _settings(engine: Engine, found: dict[str, Any]) -> EngineSettings:
@@ -122,16 +123,17 @@ def _settings(engine: Engine, found: dict[str, Any]) -> EngineSettings:
     return replace(settings, **{name: value for name, value in found.items() if name in chosen})
 
 
-def _read(map_: Map, names: tuple[str, ...], stride: int, shape: tuple[int, int]) -> dict[str, NDArray[Any]]:
-    ny, nx = (-(-count // stride) for count in shape)
+def _read(map_: Map, form: Form, names: Iterable[str], stride: int) -> dict[str, NDArray[Any]]:
+    ny, nx = (-(-count // stride) for count in form.shape)
     fills = {"outcome": NOT_TOSSED, "impacts": NOT_TOSSED, "margin": np.nan}
     kinds = {"outcome": np.int8, "impacts": np.int32, "margin": np.float64}
     arrays = {name: np.full((ny, nx), fills[name], kinds[name]) for name in names}
-    for tile in map_.tiles:
-        if not map_.is_tossed(tile):
+    for tile in tiles(form.shape, form.tile):
+        tossed = map_.tossed(tile)
+        if not tossed.any():
             continue
         kept = tuple(slice(-(-part.start // stride), -(-part.stop // stride)) for part in tile)
         first = tuple(slice(-part.start % stride, None, stride) for part in tile)
         for name, array in arrays.items():
-            array[kept] = map_.read(tile, name)[first]
+            array[kept] = np.where(tossed, map_.read(tile, name), fills[name])[first]
     return arrays

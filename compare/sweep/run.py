@@ -2,6 +2,7 @@
 
 import os
 import shutil
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
@@ -9,36 +10,54 @@ import numpy as np
 
 from compare.output.files import UnwritableError
 from compare.sweep.errors import SweepError
-from compare.sweep.grid import Sweep, Tile
+from compare.sweep.grid import Sweep, Tile, cut, gaps
 from compare.sweep.layers import bytes_per_pixel
 from compare.sweep.pixels import Pixels, toss_pixels
 from compare.sweep.store import Map
+from models.kernel.compiling import compiling
 from models.records import Array, Outcome
 
 Tosser = Callable[[Sweep, Iterable[Tile]], Iterator[tuple[Tile, Pixels]]]
-"""Tosses all pixels of tiles and gives the tiles, in any order."""
+"""Tosses all pixels of tiles and gives these or parts of them, in any order."""
 Tossed = Callable[[int], None]
 """Called with the number of pixels that were just tossed."""
 
+FIRST, GROWTH, SECOND = 8, 8, 1.0
+"""Pixels of the first part that is tossed; how many times as many the next may have; and its time [s]."""
 DRAWING_BYTES_PER_PIXEL = 80
 """Memory that measuring and drawing a map takes, at most."""
 
 
 def toss_here(sweep: Sweep, tiles: Iterable[Tile]) -> Iterator[tuple[Tile, Pixels]]:
-    """Toss tiles one after the other, each on all cores of this machine."""
-    for tile in tiles:
-        yield tile, toss_pixels(sweep, tile)
+    """Toss tiles one after the other, on all cores of this machine, in parts of about a second.
+
+    What a toss costs is known from the part before: some cost a thousand times what others do.
+    """
+    left, pixels = deque(tiles), FIRST
+    while left:
+        # Tosses of one coin are made together, so such pixels are kept together.
+        part, rest = cut(left.popleft(), pixels, along_x=sweep.x.is_of_release or not sweep.y.is_of_release)
+        left.extendleft(reversed(rest))
+        start = compiling.working_time
+        tossed = toss_pixels(sweep, part)
+        pixels = next_pixels(tossed.outcome.size, compiling.working_time - start)
+        yield part, tossed
+
+
+def next_pixels(pixels: int, seconds: float) -> int:
+    """Return how many pixels to toss next, where so many took so long [s]."""
+    return max(1, int(pixels * min(GROWTH, SECOND / max(seconds, 1e-9))))
 
 
 def missing(map_: Map) -> list[Tile]:
-    """Give the tiles of a map that are not on disk yet."""
+    """Return the parts of a map that are not on disk yet."""
     if map_.is_empty:
         return map_.tiles
-    return [tile for tile in map_.tiles if not map_.is_tossed(tile)]
+    return [part for tile in map_.tiles for part in gaps(tile, map_.tossed(tile))]
 
 
 def fill(map_: Map, sweep: Sweep, tiles: Iterable[Tile], tosser: Tosser, tossed: Tossed) -> None:
-    """Toss tiles and keep each as soon as it is whole.
+    """Toss tiles and keep each part as soon as it is tossed.
 
     Raises:
         UnwritableError: naming the map and why.

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties, findfont, get_font
 from numpy.typing import NDArray
 
 from compare.basins import picture
@@ -20,18 +20,6 @@ from compare.sweep.axes import Axis
 from compare.sweep.describe import AWAY, measure, percent
 from compare.sweep.grid import Sweep
 from models.records import Array
-
-
-def outcomes_of(path: Path) -> NDArray[np.int8]:
-    """Read the outcomes of a map, (y, x)."""
-    with xarray.open_dataset(path, engine="zarr", consolidated=True) as dataset:
-        return dataset["outcome"].to_numpy()
-
-
-def margins_of(path: Path) -> Array:
-    """Read the margins of a map, (y, x)."""
-    with xarray.open_dataset(path, engine="zarr", consolidated=True) as dataset:
-        return dataset["margin"].to_numpy()
 
 
 def write(
@@ -71,7 +59,7 @@ def section(
     drawn, sweep = io.BytesIO(), sweeps[0]
     figure_of(maps, sweep, style).savefig(drawn, format="png", dpi=style.dpi)
     shares = {
-        sweep.engine.value: {outcome.label: share for outcome, share in fractions(outcomes).items()}
+        sweep.engine.value: {str(outcome): share for outcome, share in fractions(outcomes).items()}
         for sweep, outcomes in zip(sweeps, maps, strict=True)
     }
     return MapSection(
@@ -91,6 +79,14 @@ def figure_of(
     maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle, margins: Array | None = None
 ) -> Figure:
     """Draw one map, its margins beside it, or those of both engines; see `write` for the arguments."""
+    figure = _panels(maps, sweep, style, margins)
+    glyphs = get_font(findfont(FontProperties())).get_charmap()
+    title = "".join(char if ord(char) in glyphs else "?" for char in sweep.title)
+    figure.suptitle(title, parse_math=False)  # a file's name may hold anything
+    return figure
+
+
+def _panels(maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle, margins: Array | None) -> Figure:
     x, y = _drawn(sweep.x), _drawn(sweep.y)
     common: Any = {"x": x, "y": y, "palette": style.palette, "boundaries": style.boundaries}
     if len(maps) > 1:
@@ -116,6 +112,4 @@ def figure_of(
 
 
 def _drawn(axis: Axis) -> picture.MapAxis:
-    return picture.MapAxis(
-        name=axis.field, unit=axis.unit.replace("**", "^"), start=axis.start, stop=axis.stop
-    )
+    return picture.MapAxis(name=axis.word, unit=axis.printed_unit, start=axis.start, stop=axis.stop)

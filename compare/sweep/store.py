@@ -2,14 +2,16 @@
 
 import fcntl
 import json
+import math
 import os
 import warnings
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import version
+from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import zarr
@@ -20,33 +22,28 @@ from zarr.errors import ZarrUserWarning
 from compare.output.files import UnwritableError, beside, naming, remove, written_whole
 from compare.output.interruption import undoing
 from compare.sweep.axes import Axis
+from compare.sweep.form import DESCRIPTION, FORMAT, MARGIN_ALONG, is_map, read_form, require_chunk
 from compare.sweep.grid import Sweep, Tile, tile_shape, tiles
-from compare.sweep.layers import Layer, axis_attributes, layers_of
+from compare.sweep.layers import axis_attributes, layers_of
 from compare.sweep.pixels import Pixels
-from models.errors import ScenarioError, shown
+from models.errors import ScenarioError
 from models.reading import parse
 from models.records import Outcome
 
-FORMAT = 1
-"""Of a map, under the attribute `cointoss_map`."""
-_ATTRIBUTES = {
-    "scenario": str,
-    "engine": str,
-    "engine_settings": dict,
-    "after": int | None,
-    "versions": dict,
-}
-_MARGIN = "margin_along"
-"""Attribute of a map with margins: their quantity."""
 _WAYS_OUT = "accepted: a new name, or --overwrite"
 
 
 @dataclass(frozen=True, kw_only=True)
 class Map:
-    """A map that this process may fill."""
+    """A map on disk whose form is accepted; what does not decode to its size raises `FormError`."""
 
     path: Path
     group: zarr.Group
+
+    @classmethod
+    def at(cls, path: Path, mode: Literal["r", "r+"]) -> "Map":
+        """Open a map whose form is accepted, for reading alone or to be filled."""
+        return cls(path=path, group=zarr.open_group(path, mode=mode, zarr_format=3, use_consolidated=False))
 
     @property
     def tiles(self) -> list[Tile]:
@@ -59,16 +56,19 @@ class Map:
         """Whether no tile was tossed yet; only the names of what is on disk are read."""
         return self._array("outcome").nchunks_initialized == 0
 
-    def is_tossed(self, tile: Tile) -> bool:
-        """Tell whether a tile is on disk, whole."""
+    def tossed(self, tile: Tile) -> NDArray[np.bool_]:
+        """Return which pixels of a tile are on disk; none of one that is damaged, (y, x)."""
+        none = np.zeros([part.stop - part.start for part in tile], dtype=bool)
+        if not (self.path / next(self._files("outcome", tile))).exists():
+            return none
         try:
             outcome, impacts = (self.read(tile, name) for name in ("outcome", "impacts"))
-            margin_found = not self.has_margin or not np.isnan(self.read(tile, "margin")).any()
+            margin = self.read(tile, "margin") if self.has_margin else np.zeros(outcome.shape)
         except OSError:
             raise
         except Exception:  # its checksum is wrong, or it breaks off; each codec fails in its own way
-            return False
-        return bool(np.isin(outcome, list(Outcome)).all() and (impacts >= 0).all() and margin_found)
+            return none
+        return np.isin(outcome, list(Outcome)) & (impacts >= 0) & ~np.isnan(margin)
 
     @property
     def has_margin(self) -> bool:
@@ -77,19 +77,56 @@ class Map:
 
     def read(self, tile: Tile, name: str = "outcome") -> NDArray[Any]:
         """Return a tile of an array, (y, x)."""
-        return self._array(name)[tile.rows, tile.columns]
+        return self._read(name, tile)
+
+    def whole(self, name: str) -> NDArray[Any]:
+        """Return all values of an array, (y, x), or of an axis by its field, (n,)."""
+        return self._read(name, tuple(slice(0, count) for count in self._array(name).shape))
 
     def write(self, tile: Tile, pixels: Pixels) -> None:
-        """Keep what is known of a tile.
+        """Keep what is known of a tile, or of a part of one.
 
         Raises:
             UnwritableError: naming the map and why, for every error of the system.
         """
         with naming(self.path):
             if pixels.margin is not None:
-                self._array("margin")[tile.rows, tile.columns] = pixels.margin
-            self._array("impacts")[tile.rows, tile.columns] = pixels.impacts
-            self._array("outcome")[tile.rows, tile.columns] = pixels.outcome
+                self._put("margin", tile, pixels.margin)
+            self._put("impacts", tile, pixels.impacts)
+            self._put("outcome", tile, pixels.outcome)
+
+    def _put(self, name: str, part: Tile, values: NDArray[Any]) -> None:
+        """Write a part of a tile; a file around it that is damaged holds nothing else."""
+        array = self._array(name)
+        try:
+            self._require_chunks(name, part)  # zarr reads what is around the part
+            array[part.rows, part.columns] = values
+        except OSError:
+            raise
+        except Exception:  # see `tossed`
+            around = (
+                slice(side.start // length * length, (side.start // length + 1) * length)
+                for side, length in zip(part, array.chunks, strict=True)
+            )
+            array[tuple(around)] = array.fill_value
+            array[part.rows, part.columns] = values
+
+    def _read(self, name: str, part: tuple[slice, ...]) -> NDArray[Any]:
+        self._require_chunks(name, part)
+        return self._array(name)[part]
+
+    def _require_chunks(self, name: str, part: tuple[slice, ...]) -> None:
+        """Refuse chunks of a part of an array that decode to another size than they should."""
+        array = self._array(name)
+        size = array.dtype.itemsize * math.prod(array.chunks)
+        for file in self._files(name, part):
+            require_chunk(self.path, file, size)
+
+    def _files(self, name: str, part: tuple[slice, ...]) -> Iterator[Path]:
+        """Yield the files of the chunks of a part of an array, as they are named in the map."""
+        spans = zip(part, self._array(name).chunks, strict=True)
+        for place in product(*(range(one.start // side, -(-one.stop // side)) for one, side in spans)):
+            yield Path(name, "c", *map(str, place))
 
     def _array(self, name: str) -> Any:
         return self.group[name]
@@ -107,21 +144,22 @@ def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
         UnwritableError: naming the path and why.
     """
     if path.suffix != ".zarr":
-        raise UnwritableError(f"{path}: accepted: a folder's name that ends in .zarr")
+        raise UnwritableError(f"{path}: another kind of name; accepted: one that ends in .zarr")
     with naming(path):
         target = Path(os.path.realpath(path))
         if not target.parent.is_dir():
-            raise UnwritableError(f"{path}: accepted: a name in a folder that exists")
+            raise UnwritableError(
+                f"{path}: no folder {path.parent}; accepted: a name in a folder that exists"
+            )
         if not target.exists() or (target.is_dir() and not any(target.iterdir())):
             probe = beside(target)
             with undoing(lambda: remove(probe)):
                 probe.mkdir()
-        elif not _is_map(target):
-            raise UnwritableError(f"{path}: accepted: a new name, or a map of cointoss (this is none)")
+        elif not is_map(target):
+            raise UnwritableError(f"{path}: is no map; accepted: a new name, or a map of cointoss")
         elif not (resume or overwrite):
             raise UnwritableError(
-                f"{path}: accepted: a new name (this map exists: --resume continues it, --overwrite "
-                "replaces it)"
+                f"{path}: exists; accepted: a new name, --resume to continue it, or --overwrite to replace it"
             )
 
 
@@ -133,9 +171,8 @@ def require_same(path: Path, sweep: Sweep) -> None:
     """
     with naming(path):
         target = Path(os.path.realpath(path))
-        if _is_map(target):
-            with _readable(path):
-                _require_same(path, zarr.open_group(target, mode="r", use_consolidated=False), sweep)
+        if is_map(target):
+            _same(path, target, "r", sweep)
 
 
 @contextmanager
@@ -154,18 +191,16 @@ def opened(path: Path, sweep: Sweep, scenario_text: str, *, overwrite: bool) -> 
     target = Path(os.path.realpath(path))
     with ExitStack() as kept:
         with naming(path):
-            if overwrite and _is_map(target):
+            if overwrite and is_map(target):
                 with _locked(path, target):
                     _remove(target)
-            if not _is_map(target):
+            if not is_map(target):
                 _create(target, sweep, scenario_text)
             kept.enter_context(_locked(path, target))
-            with _readable(path):
-                group = zarr.open_group(target, mode="r+", use_consolidated=False)
-                _require_same(path, group, sweep)
+            map_ = _same(path, target, "r+", sweep)
             for left in target.rglob("*.partial"):  # by a process that was killed
                 left.unlink()
-        yield Map(path=path, group=group)
+        yield map_
 
 
 def _create(target: Path, sweep: Sweep, scenario_text: str) -> None:
@@ -174,7 +209,7 @@ def _create(target: Path, sweep: Sweep, scenario_text: str) -> None:
         with written_whole(target) as aside:
             _write_empty(aside, sweep, scenario_text)
     except UnwritableError:
-        if not _is_map(target):
+        if not is_map(target):
             raise
 
 
@@ -196,6 +231,8 @@ def _write_empty(folder: Path, sweep: Sweep, scenario_text: str) -> None:
         group.create_array(
             axis.field,
             data=axis.values,
+            chunks=(axis.count,),
+            compressors=ZstdCodec(checksum=True),
             dimension_names=(dimension,),
             attributes=axis_attributes(axis),
         )
@@ -208,64 +245,49 @@ def _write_empty(folder: Path, sweep: Sweep, scenario_text: str) -> None:
 def _attributes(sweep: Sweep, scenario_text: str) -> dict[str, Any]:
     return {
         "cointoss_map": FORMAT,
+        "name": sweep.name,
         "scenario": scenario_text,
         "engine": sweep.engine.value,
         "engine_settings": sweep.settings.as_dict(),
         "after": sweep.after,
-        **({} if sweep.margin is None else {_MARGIN: sweep.margin}),
+        **({} if sweep.margin is None else {MARGIN_ALONG: sweep.margin}),
         "versions": {**sweep.engine.versions, "zarr": version("zarr")},
     }
 
 
-def _require_same(path: Path, group: zarr.Group, sweep: Sweep) -> None:
-    """Refuse to go on with a map of another sweep, or of other versions: its pixels would be of two kinds."""
-    found: dict[str, Any] = dict(group.attrs)
-    for name, kind in _ATTRIBUTES.items():
-        if name not in found or not isinstance(found[name], kind):
-            given = f"= {shown(found[name])}" if name in found else "missing"
-            raise _damaged(path, f"attribute {name} {given}")
-    made_by = {name: found["versions"].get(name) for name in sweep.engine.versions}
+def _same(path: Path, target: Path, mode: Literal["r", "r+"], sweep: Sweep) -> Map:
+    """Open the map of a sweep.
+
+    One of another sweep or of other versions is refused: its pixels would be of two kinds.
+    """
+    with _readable(path):
+        form, found = read_form(target), Map.at(target, mode)
+        values = {name: found.whole(name) for name in (form.x, form.y)}
+    attributes = form.attributes
+    made_by = {name: attributes["versions"].get(name) for name in sweep.engine.versions}
+    settings = attributes["engine_settings"]
     try:
-        same_scenario = parse(found["scenario"], str(path)) == sweep.scenario
+        same_scenario = parse(attributes["scenario"], str(path)) == sweep.scenario
     except ScenarioError:
         same_scenario = False
+
+    def is_axis(name: str, axis: Axis) -> bool:
+        return name == axis.field and np.array_equal(values[name], axis.values)
+
     for what, same in (
         ("scenario", same_scenario),
-        ("engine", found["engine"] == sweep.engine),
-        (
-            f"engine's settings, {json.dumps(found['engine_settings'])}",
-            found["engine_settings"] == sweep.settings.as_dict(),
-        ),
-        ("number of impacts (--after)", found["after"] == sweep.after),
-        ("quantity of its margins (--margin)", found.get(_MARGIN) == sweep.margin),
-        ("grid in x", _is_axis(group, "x", sweep.x)),
-        ("grid in y", _is_axis(group, "y", sweep.y)),
+        ("engine", attributes["engine"] == sweep.engine),
+        (f"engine's settings, {json.dumps(settings)}", settings == sweep.settings.as_dict()),
+        ("number of impacts (--after)", attributes["after"] == sweep.after),
+        ("quantity of its margins (--margin)", attributes.get(MARGIN_ALONG) == sweep.margin),
+        ("grid in x", is_axis(form.x, sweep.x)),
+        ("grid in y", is_axis(form.y, sweep.y)),
         (f"versions, {json.dumps(made_by)}", made_by == sweep.engine.versions),
+        (f"size of its tiles, {form.tile}", form.tile == tile_shape(sweep)),
     ):
         if not same:
             raise UnwritableError(f"{path}: is a map with another {what}; {_WAYS_OUT}")
-    consolidated = zarr.open_group(group.store, mode="r", use_consolidated=True)
-    for read in (group, consolidated):
-        for name, layer in layers_of(sweep).items():
-            _require_array(path, read, name, layer, sweep)
-    for name, axis in (("x", sweep.x), ("y", sweep.y)):
-        if not _is_axis(consolidated, name, axis):
-            raise _damaged(path, f"array {axis.field}: not in the consolidated metadata")
-
-
-def _require_array(path: Path, group: zarr.Group, name: str, layer: Layer, sweep: Sweep) -> None:
-    """Refuse an array that is none of a map of a sweep."""
-    array: Any = group.get(name)
-    if not isinstance(array, zarr.Array):
-        raise _damaged(path, f"array {name} missing")
-    for what, there, due in (
-        ("type", array.dtype.name, np.dtype(layer.kind).name),
-        ("shape", array.shape, sweep.shape),
-        ("tile", array.chunks, tile_shape(sweep)),
-        ("fill value", array.fill_value, layer.fill_value),
-    ):
-        if there != due and not (there != there and due != due):  # two NaN are alike
-            raise _damaged(path, f"array {name}: {what} {there}, not {due}")
+    return replace(found, path=path)
 
 
 @contextmanager
@@ -276,35 +298,16 @@ def _readable(path: Path) -> Iterator[None]:
     except OSError:
         raise
     except Exception as error:
-        raise _damaged(path, f"{type(error).__name__}: {error}") from None
-
-
-def _damaged(path: Path, what: str) -> UnwritableError:
-    return UnwritableError(f"{path}: is a damaged map ({what}); {_WAYS_OUT}")
-
-
-def _is_axis(group: zarr.Group, dimension: str, axis: Axis) -> bool:
-    if axis.field not in group:
-        return False
-    array: Any = group[axis.field]
-    return array.metadata.dimension_names == (dimension,) and np.array_equal(array[:], axis.values)
-
-
-def _is_map(path: Path) -> bool:
-    try:
-        description = json.loads((path / "zarr.json").read_text(encoding="utf-8"))
-        return description["attributes"]["cointoss_map"] == FORMAT
-    except (OSError, ValueError, KeyError, TypeError):
-        return False
+        raise UnwritableError(f"{path}: is no map of cointoss ({error}); {_WAYS_OUT}") from None
 
 
 @contextmanager
 def _locked(path: Path, target: Path) -> Iterator[None]:
     """Keep a map for this process; the system lets go of it when the process ends, however it ends."""
-    with (target / "zarr.json").open("r+b") as description:
+    with (target / DESCRIPTION).open("r+b") as description:
         try:
             fcntl.flock(description, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            still_there = os.path.samestat(os.fstat(description.fileno()), (target / "zarr.json").stat())
+            still_there = os.path.samestat(os.fstat(description.fileno()), (target / DESCRIPTION).stat())
         except (BlockingIOError, FileNotFoundError):
             still_there = False
         if not still_there:

@@ -4,6 +4,8 @@
 # pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
 # pyright: reportIncompatibleMethodOverride=false
 
+import fcntl
+import hashlib
 import os
 import re
 import shutil
@@ -11,7 +13,7 @@ import tempfile
 import time
 import uuid
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import AbstractContextManager, contextmanager, suppress
 from functools import cache
 from pathlib import Path
 from typing import Any, ClassVar
@@ -20,10 +22,15 @@ from numba.core import types
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile, _CacheLocator
 from numba.core.runtime import rtsys
 
-from models.kernel.sources import source_hash
+from models.kernel.compiling import compiling
+from models.kernel.sources import PACKAGES, source_hash
 
 UNUSED = 3 * 24 * 3600.0
 """Folders not used for so long are removed when another is made [s]."""
+PATIENCE = 600.0
+"""How long to wait at most while another process compiles the same function [s]."""
+CALLEE = "callee-"
+"""How the names of files begin that keep code for compiled callers."""
 _FOLDER = re.compile(r"cointoss-[\w.]+-[0-9a-f]{16}")
 
 
@@ -61,6 +68,54 @@ def _base() -> Path:
         if os.access(base, os.W_OK):
             return base
     return Path(tempfile.mkdtemp(prefix="cointoss-"))
+
+
+@cache
+def _turns() -> int:
+    """Return the file whose bytes stand for functions that are compiled; closed, it would lose all locks."""
+    return os.open(_base() / "compiling.lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+
+
+@contextmanager
+def turn(name: str) -> Iterator[bool]:
+    """Wait while another process is within this for the same name; return whether one was.
+
+    Where nothing can be locked, or the other takes longer than `PATIENCE`, nothing more is waited for. The
+    system lets go of the lock of a process that ends, however it ends.
+    """
+    place = int(hashlib.sha256(name.encode()).hexdigest()[:15], 16)
+    is_busy = not _locked(place)
+    if is_busy:
+        deadline = time.monotonic() + PATIENCE
+        with compiling.waiting():
+            while not _locked(place) and time.monotonic() < deadline:
+                time.sleep(0.05)
+    try:
+        yield is_busy
+    finally:
+        with suppress(OSError):
+            fcntl.lockf(_turns(), fcntl.LOCK_UN, 1, place)
+
+
+def _locked(place: int) -> bool:
+    """Lock a byte; return whether no other process has it."""
+    try:
+        fcntl.lockf(_turns(), fcntl.LOCK_EX | fcntl.LOCK_NB, 1, place)
+    except (BlockingIOError, PermissionError):
+        return False
+    except OSError:  # a file system without locks
+        return True
+    return True
+
+
+def kept_functions(module: str) -> int:
+    """Return how many functions of a module are kept for compiled callers."""
+    if module.partition(".")[0] not in PACKAGES:
+        return 0
+    try:
+        return len(list(cache_folder(module).glob(f"{CALLEE}*.nbi")))
+    except OSError:  # no folder can be made, as on a full disk
+        return 0
 
 
 def _bases() -> Iterator[Path]:
@@ -164,6 +219,10 @@ class CodeCache(FunctionCache):
         self._cache_file = CodeFiles(
             self._cache_path, self._impl.filename_base, self._impl.locator.get_source_stamp()
         )
+
+    def turn(self) -> AbstractContextManager[bool]:
+        """Let one process at a time compile this function; see `turn`."""
+        return turn(str(Path(self._cache_path, self._impl.filename_base)))
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """Return what is kept for these types of arguments, or None.

@@ -5,7 +5,7 @@
 # pyright: reportIncompatibleMethodOverride=false
 
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from copy import copy
 from inspect import signature
 from typing import Any
@@ -21,7 +21,7 @@ from numba.core.registry import CPUDispatcher, cpu_target
 from numba.core.sigutils import normalize_signature
 
 from models.kernel.callee_code import Callee, CalleeCode, CalleeCompiler, Codegen, spare_references
-from models.kernel.code_cache import CodeCache, LocatedImpl
+from models.kernel.code_cache import CALLEE, CodeCache, LocatedImpl, kept_functions
 from models.kernel.compiling import compiling
 from models.kernel.sources import PACKAGES, is_as_imported
 
@@ -42,16 +42,25 @@ class _Dispatcher(CPUDispatcher):
 
     def _add(self, sig: Any, arguments: Any, returned: Any) -> None:
         with self._compiling_counter:
-            result = self._cache.load_overload(sig, self.targetctx)
-            if result is not None:
-                self._cache_hits[sig] += 1
-                self.targetctx.insert_user_function(result.entry_point, result.fndesc, [result.library])
-                self.add_overload(result)
+            if self._is_found(sig):
                 return
-            self._cache_misses[sig] += 1
-            result = self._compiler.compile(arguments, returned)
+            turn = self._cache.turn() if isinstance(self._cache, CodeCache) else nullcontext(False)
+            with turn as was_waited_for:
+                if was_waited_for and self._is_found(sig):
+                    return
+                self._cache_misses[sig] += 1
+                result = self._compiler.compile(arguments, returned)
+                self.add_overload(result)
+                self._cache.save_overload(sig, result)
+
+    def _is_found(self, sig: Any) -> bool:
+        """Read what is kept for these types of arguments, if anything is."""
+        result = self._cache.load_overload(sig, self.targetctx)
+        if result is not None:
+            self._cache_hits[sig] += 1
+            self.targetctx.insert_user_function(result.entry_point, result.fndesc, [result.library])
             self.add_overload(result)
-            self._cache.save_overload(sig, result)
+        return result is not None
 
 
 class CompiledFunction(_Dispatcher):
@@ -110,7 +119,7 @@ class _ForCallers(_FunctionCompiler):
         return flags
 
     def _compile_core(self, args: Any, return_type: Any) -> CompileResult:
-        with compiling.one():
+        with compiling.one(self.py_func.__module__, kept_functions):
             result = super()._compile_core(args, return_type)
         result.library.callee = Callee(self._dispatcher, result.signature.args)
         result.library.finalize()
@@ -137,7 +146,7 @@ class _CalleeImpl(LocatedImpl):
     """How a function compiled for callers is kept: its own code, and the names of those it calls."""
 
     def get_filename_base(self, fullname: str, abiflags: str) -> str:
-        return "callee-" + super().get_filename_base(fullname, abiflags)
+        return CALLEE + super().get_filename_base(fullname, abiflags)
 
     def reduce(self, data: CompileResult) -> Any:
         code = data.library
@@ -222,12 +231,12 @@ class _Linker(_FunctionCompiler):
         self._function = compiled_function
 
     def _compile_core(self, args: Any, *_: Any) -> CompileResult:
-        with compiling.one():
-            return self._linked(args)
+        with compiling.one(self.py_func.__module__, kept_functions):
+            self._function.compile(args)
+            with compiling.linking():
+                return self._linked(self._function.overloads[args])
 
-    def _linked(self, args: Any) -> CompileResult:
-        self._function.compile(args)
-        callee = self._function.overloads[args]
+    def _linked(self, callee: CompileResult) -> CompileResult:
         # The wrapper keeps constants of its own, lest one who knew the function without them has too few.
         description = copy(callee.fndesc)
         description.env_name += "_from_python"
@@ -284,7 +293,7 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
 
     Code of functions outside `models.kernel.sources.PACKAGES` is not kept.
     """
-    compiling.declared += 1
+    compiling.declared[function.__module__] += 1
     return CompiledFunction(function)
 
 
@@ -293,5 +302,5 @@ def inlined(function: Callable[..., Any]) -> Callable[..., Any]:
 
     For what is called many times over with many numbers, which a call would pass through memory.
     """
-    compiling.declared += 1
+    compiling.declared[function.__module__] += 1
     return CompiledFunction(function, inlined=True)

@@ -55,7 +55,7 @@ def test_each_toss_is_that_of_toss_to_the_bit(law, air, thickness, offset, n):
     case = scenario(
         coin={**ZLOTY, "thickness": thickness, "center_of_mass": center.tolist()},
         air=air,
-        floor={"restitution": 0.5, "contact": law.label, "friction": 0.3},
+        floor={"restitution": 0.5, "contact": str(law), "friction": 0.3},
         ending={"max_impacts": 30, "max_time": 2.0},
     )
     drawn, releases = draw_releases(rng, n)

@@ -21,7 +21,7 @@ def draw_toss(rng: np.random.Generator, number: int) -> Scenario:
         coin=draw_coin(rng),
         air=AIR if rng.integers(2) else {},
         floor={
-            "contact": PAPER_LAWS[number % len(PAPER_LAWS)].label,
+            "contact": str(PAPER_LAWS[number % len(PAPER_LAWS)]),
             "friction": rng.uniform(0, 0.5),
             "restitution": rng.uniform(0.2, 0.95),
         },

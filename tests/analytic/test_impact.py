@@ -110,7 +110,7 @@ def test_friction_without_coefficient_is_smooth():
 def test_a_flat_coin_bounces_flat_whatever_the_law(law, up):
     case = scenario(
         coin={"center_of_mass": [-1e-3, -1e-3, -2e-4]},
-        floor={"restitution": 0.6, "contact": law.label, "friction": 0.2},
+        floor={"restitution": 0.6, "contact": str(law), "friction": 0.2},
     )
     e = [1.0, 0, 0, 0] if up > 0 else [0, 1.0, 0, 0]
     y = np.array([0, 0, 0.001 - up * 2e-4, 0.3, 0.1, -2.0, *e, 0, 0, 4.0])

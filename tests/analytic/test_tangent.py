@@ -158,7 +158,7 @@ def test_the_tangent_map_of_impacts_is_their_derivative(law, number):
     case = scenario(
         coin={**ZLOTY, "thickness": thickness, "center_of_mass": offset},
         air=AIR if number % 2 else {},
-        floor={"contact": law.label, "friction": 0.2, "restitution": 0.7},
+        floor={"contact": str(law), "friction": 0.2, "restitution": 0.7},
         release=draw_release(rng),
         ending={"max_impacts": 3, "test": "paper"},
     )

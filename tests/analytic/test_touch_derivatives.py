@@ -14,9 +14,9 @@ from tests.helpers.draws import PAPER_OFFSET, ZLOTY, draw_quaternion, scenario
 from tests.helpers.impacts import struck
 
 LAWS = [
-    *({"contact": law.label, "friction": 0.2} for law in ContactLaw),
+    *({"contact": str(law), "friction": 0.2} for law in ContactLaw),
     *(
-        {"contact": "coulomb", "friction": friction, "restitution_kind": kind.label}
+        {"contact": "coulomb", "friction": friction, "restitution_kind": str(kind)}
         for friction in (0.05, 0.3, 3.0)
         for kind in RestitutionKind
     ),

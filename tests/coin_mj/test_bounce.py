@@ -95,13 +95,19 @@ def test_the_depth_is_that_of_a_spring_or_of_a_step():
     ("wrong", "named"),
     [
         ({"restitution": 1.1}, "restitution = 1.1: accepted: a number from 0 to 1"),
-        ({"restitution": 0, "spring": True}, "restitution = 0: accepted: from 0.01 by a spring"),
-        ({"restitution": 1e-3, "spring": True}, "restitution = 0.001: accepted: from 0.01 by a spring"),
-        ({"restitution": "x"}, "restitution = x: accepted: a number"),
+        (
+            {"restitution": 0, "spring": True},
+            "restitution = 0: accepted: a number from 0.01 to 1 by a spring",
+        ),
+        (
+            {"restitution": 1e-3, "spring": True},
+            "restitution = 0.001: accepted: a number from 0.01 to 1 by a spring",
+        ),
+        ({"restitution": "x"}, 'restitution = "x": accepted: a number'),
         ({"restitution": True}, "restitution = True: accepted: a number"),
         ({"timestep": None}, "timestep = None: accepted: a number"),
         ({"steps": 7.5, "spring": True}, "steps = 7.5: accepted: a whole number from 5 to 500"),
-        ({"timestep": 0}, "timestep = 0: accepted: from 1e-7 to 0.1 s"),
+        ({"timestep": 0}, "timestep = 0: accepted: a number of seconds from 1e-7 to 0.1"),
         ({"timestep": float("nan")}, "timestep = nan: accepted"),
         ({"steps": 2, "spring": True}, "steps = 2: accepted: a whole number from 5 to 500"),
     ],

@@ -18,8 +18,8 @@ from coin_mj import Realisation, Settings
 from compare.basins.picture_style import PictureStyle
 from compare.engines import Engine
 from compare.film.back_end import ADVICE
-from compare.metrics.comparison import Comparison, compare
-from compare.report.contents import require_folder
+from compare.report.comparison import compare, compared
+from compare.report.contents import FILES, NOT_ASKED, require_folder
 from compare.report.folder import write_report
 from compare.sweep import job, show
 from compare.sweep.axes import parse_axis
@@ -57,7 +57,7 @@ def section_of(maps, after=None):
 
 def shown_of(section, folder):
     """Give the text of the section on a report's page."""
-    page = write_report(parse(COIN, "coin"), COIN, "coin", folder, ADVICE, lambda *_: None, maps=section)
+    page = write_report(compared(parse(COIN, "coin"), COIN, "coin"), folder, ADVICE, maps=section)
     html = page.read_text(encoding="utf-8").split(">Basin map</h2>")[1].split("<h2>")[0]
     return " ".join(unescape(re.sub(r"<[^>]+>", " ", html)).split())
 
@@ -89,7 +89,7 @@ def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path,
         }
     for engine, store, outcomes in zip(("analytic", "mujoco"), stores, maps, strict=True):
         assert numbers["settings"][engine] == store.attrs["engine_settings"]
-        shares = {Outcome(code).label: np.mean(outcomes == code) for code in Outcome}
+        shares = {str(Outcome(code)): np.mean(outcomes == code) for code in Outcome}
         assert numbers["fractions"][engine] == pytest.approx(shares, abs=1e-15)
     assert numbers["settings"]["mujoco"]["contact"] == contact
     alike, undecided = int(np.sum(maps[0] == maps[1])), numbers["agreement"]["undecided"]
@@ -112,9 +112,8 @@ def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path,
         assert np.array_equal(np.asarray(ours), np.asarray(theirs))
 
     # The report's own toss is by the contact of the maps.
-    compared = compare(parse(COIN, "coin"), Settings(contact=Realisation(contact)))
-    assert isinstance(compared, Comparison)
-    assert found["tosses"][1]["impacts"][1]["impulse"] == compared.mujoco.impacts.impulse[1].tolist()
+    mujoco = compare(parse(COIN, "coin"), Settings(contact=Realisation(contact))).both[1]
+    assert found["tosses"][1]["impacts"][1]["impulse"] == mujoco.impacts.impulse[1].tolist()
 
 
 def test_the_section_tells_what_is_on_made_maps(tmp_path):
@@ -137,8 +136,8 @@ def test_the_section_tells_what_is_on_made_maps(tmp_path):
         "more than 2 pixels from the boundaries of the analytic map 192 99.479 %",
         "nearer to the boundaries 207 100.000 %",
         "undecided by one or both, not compared 1 –",
-        "x release.angular_velocity.eta 20 rad/s 60 rad/s 5",
-        "y release.position.z 0.2 m 0.6 m 4",
+        "x spin about η release.angular_velocity.eta 20 rad/s 60 rad/s 5",
+        "y height release.position.z 0.2 m 0.6 m 4",
         "tolerance 1e-13",
         "stiffness 1e+11 1/s²",
         "cointoss basin",
@@ -151,6 +150,17 @@ def test_a_share_of_no_pixels_is_a_dash(tmp_path):
     text = shown_of(section_of([halves(2, 2), halves(2, 2)]), tmp_path)
     assert "shows the final outcome." in text
     assert "boundaries of the analytic map 0 – nearer to the boundaries 4 100.000 %" in text
+
+
+def test_a_report_without_a_video_is_made_by_the_command_that_it_names(coin, tmp_path, monkeypatch):
+    monkeypatch.setattr(job, "drawing_problem", lambda: pytest.fail("no video is asked for"))
+    asked = ("--x", X, "--y", Y, "--compare", "--out", tmp_path / "map.zarr", "--report", tmp_path / "report")
+    answered = basin(coin, *asked, "--no-video")
+    assert answered.exit_code == 0, answered.stderr
+    assert set(FILES) - {path.name for path in (tmp_path / "report").iterdir()} == {"toss.mp4"}
+    assert NOT_ASKED in (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
+    numbers = json.loads((tmp_path / "report" / "numbers.json").read_text(encoding="utf-8"))
+    assert "--no-video" in shlex.split(numbers["map"]["command"])
 
 
 def test_a_folder_that_is_no_reports_is_refused_before_any_map(coin, tmp_path):

@@ -2,8 +2,6 @@
 
 import importlib
 import json
-import os
-import signal
 import socket
 import subprocess
 import sys
@@ -12,50 +10,56 @@ import time
 
 import distributed
 import pytest
+from distributed.comm.core import CommClosedError
 
-from tests.helpers.basin_runs import AXES, SCENARIO, assert_same, basin, begun, pixels, wait_for, whole_tiles
-from tests.helpers.command_line import HERE
+from compare.sweep.cluster import naming_loss
+from compare.sweep.errors import SweepError
+from tests.helpers.basin_runs import (
+    AXES,
+    SCENARIO,
+    TILES,
+    assert_same,
+    basin,
+    begun,
+    pixels,
+    wait_for,
+    whole_tiles,
+)
+from tests.helpers.processes import started
 
 
 @pytest.fixture
 def cluster(tmp_path):
-    """A scheduler and two workers as processes; gives its address and the workers."""
+    """A scheduler and two workers as processes; gives its address, the workers and the scheduler."""
     address = tmp_path / "scheduler.json"
-    local = ["--scheduler-file", str(address), "--no-dashboard"]
-    scheduler = _started("dask_scheduler", *local, "--host", "127.0.0.1", "--port", "0")
-    deadline = time.monotonic() + 100
-    while not address.exists() and time.monotonic() < deadline:
-        time.sleep(0.1)
-    worker = ("dask_worker", *local, "--nthreads", "1", "--no-nanny", "--local-directory", str(tmp_path))
-    workers = [_started(*worker), _started(*worker)]
-    where = json.loads(address.read_text())["address"]
-    with distributed.Client(where, set_as_default=False) as client:
-        client.wait_for_workers(2, timeout=100)
-    yield where, workers
-    for process in (*workers, scheduler):
-        process.kill()
-        process.communicate()
+    local = ("--scheduler-file", address, "--no-dashboard")
+    worker = ("worker", *local, "--nthreads", "1", "--no-nanny", "--local-directory", tmp_path)
+    with _started("scheduler", *local, "--host", "127.0.0.1", "--port", "0") as scheduler:
+        deadline = time.monotonic() + 100
+        while not address.exists() and time.monotonic() < deadline:
+            time.sleep(0.1)
+        with _started(*worker) as one, _started(*worker) as other:
+            where = json.loads(address.read_text())["address"]
+            with distributed.Client(where, set_as_default=False) as client:
+                client.wait_for_workers(2, timeout=100)
+            yield where, (one, other), scheduler
 
 
-def _started(module, *arguments):
-    return subprocess.Popen(
-        [sys.executable, "-m", f"distributed.cli.{module}", *arguments],
-        env=HERE,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
+def _started(part, *arguments):
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    return started("-m", f"distributed.cli.dask_{part}", *arguments, **quiet)
 
 
 @pytest.mark.slow
 def test_a_worker_lost_on_the_way_changes_no_pixel(cluster, tmp_path):
-    address, workers = cluster
+    address, workers, _ = cluster
     coin, out = tmp_path / "coin.toml", tmp_path / "map.zarr"
     coin.write_text(SCENARIO)
-    process = begun(coin, out, "--scheduler", address)
-    wait_for(process, out, 4)
-    os.kill(workers[0].pid, signal.SIGKILL)
-    at_the_loss = whole_tiles(out)
-    _, said = process.communicate(timeout=200)
+    with begun(coin, out, "--scheduler", address) as process:
+        wait_for(process, out, 4)
+        workers[0].kill()
+        at_the_loss = whole_tiles(out)
+        _, said = process.communicate(timeout=200)
     assert process.returncode == 0, said
     assert at_the_loss < whole_tiles(out)
     assert workers[1].poll() is None
@@ -96,3 +100,37 @@ def test_without_dask_the_extra_is_named(tmp_path, monkeypatch):
     assert answered.exit_code == 2
     assert 'pip install "cointoss[cluster]"' in answered.stderr
     assert not (tmp_path / "map.zarr").exists()
+
+
+@pytest.mark.parametrize(
+    "lost",
+    [
+        CommClosedError("in <TCP>: Stream is closed"),
+        OSError("Timed out trying to connect"),
+        TimeoutError(),
+        distributed.CancelledError("future"),
+    ],
+)
+def test_a_connection_that_is_lost_is_named_with_the_way_on(lost):
+    why = str(lost) or "TimeoutError"
+    with pytest.raises(SweepError) as raised, naming_loss("tcp://h:1"):
+        raise lost
+    assert str(raised.value) == (
+        f"--scheduler tcp://h:1: the cluster was lost, or a tile there ({why}); --resume goes on"
+    )
+
+
+@pytest.mark.slow
+def test_a_scheduler_lost_on_the_way_is_one_line_and_the_map_is_gone_on_with(cluster, tmp_path):
+    address, _, scheduler = cluster
+    coin, out = tmp_path / "coin.toml", tmp_path / "map.zarr"
+    coin.write_text(SCENARIO)
+    with begun(coin, out, "--scheduler", address) as process:
+        wait_for(process, out, 4)
+        scheduler.kill()
+        _, said = process.communicate(timeout=200)
+    assert process.returncode == 2, said
+    assert f"cointoss: {coin}: --scheduler {address}: the cluster was lost, or a tile there (" in said
+    assert said.endswith("); --resume goes on\n")
+    assert len(said.splitlines()) == 2
+    assert 4 <= whole_tiles(out) < TILES

@@ -62,7 +62,7 @@ def test_other_tosses_end_as_the_saved_ones_do():
             assert tossed.outcome != Outcome.PERPETUAL or scenario.air.normal == 0
             seen[tossed.outcome] += 1
     for outcome in (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.PERPETUAL):
-        of_outcome, whole = share(SAVED.outcomes, outcome.label)
+        of_outcome, whole = share(SAVED.outcomes, str(outcome))
         p = of_outcome / whole
         assert seen[outcome] / (2 * number) == pytest.approx(p, abs=5 * np.sqrt(p / (2 * number)))
 

@@ -102,7 +102,7 @@ def test_a_click_tosses_a_pixel_by_both_engines(page, server, map_path, width, s
         len(toss.sequence) - min(toss.trusted_impacts, len(toss.sequence)),
     )
     assert found["MuJoCo"][0][:2] == toss.sequence[:2]
-    assert f"analytic: {toss.outcome.label} after {len(toss.impacts)} impacts" in page.text("outcome")
+    assert f"analytic: {toss.outcome} after {len(toss.impacts)} impacts" in page.text("outcome")
     assert "The map shows touch 2, framed." in page.text("horizon")
     assert page.value("document.querySelector('#sequences .mapped').dataset.touch") == "1"
     assert page.value("document.querySelectorAll('#energy polyline').length") == 2
@@ -134,7 +134,7 @@ def test_the_keyboard_steps_to_neighbours_and_zooms(page, server, map_path):
         page.press(key)
         u, v = u + du, v + dv
         assert chosen(page) == (x[u], y[v])
-        assert f"{FIELDS[0]} = {x[u]:.5g}"[:34] in page.text("readout").replace("\u00a0", " ")
+        assert f"spin about η = {x[u]:.5g}"[:19] in page.text("readout").replace("\u00a0", " ")
     page.press("ArrowRight", shift=True)
     assert chosen(page) == (x[min(u + 10, 23)], y[v])
     for _ in range(3):
@@ -152,6 +152,10 @@ def test_the_keyboard_steps_to_neighbours_and_zooms(page, server, map_path):
 
 def test_the_mouse_hovers_and_zooms_into_a_finer_map(page, server):
     page.open(server.url)
+    assert page.value("document.title") == "coin: 2 g, 25 mm: cointoss explore"
+    assert page.text("name") == "coin: 2 g, 25 mm"
+    assert page.text("about").startswith("map.zarr: 24 by 18 tosses")
+    assert page.text("fields") == f"Across: spin about η ({FIELDS[0]}). Up: height ({FIELDS[1]})."
     at = place_of(page, 12, 9)
     page.mouse("mouseMoved", *at)
     page.wait_for("document.getElementById('readout').textContent.includes('2 impacts')")

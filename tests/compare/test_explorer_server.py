@@ -233,6 +233,7 @@ def test_the_map_is_told_pixel_by_pixel(server, map_path):
             assert np.array_equal(array, found[name].to_numpy())
     assert told["axes"]["x"] == {
         "field": FIELDS[0],
+        "word": "spin about η",
         "unit": "rad/s",
         "start": 20.0,
         "stop": 60.0,
@@ -250,7 +251,7 @@ def test_a_pixel_is_tossed_by_both_engines_to_its_end(server):
     toss = analytic.toss(scenario)
     assert first["sequence"] == toss.sequence
     assert len(first["sequence"]) > 2  # the map shows the second touch
-    assert (first["outcome"], first["trusted"]) == (toss.outcome.label, toss.trusted_impacts)
+    assert (first["outcome"], first["trusted"]) == (str(toss.outcome), toss.trusted_impacts)
     times = np.array(first["path"]["time"])
     states = toss.sample(times.clip(0, toss.end_time))
     assert np.allclose(np.reshape(first["path"]["position"], (-1, 3)), states.position, atol=1e-6)

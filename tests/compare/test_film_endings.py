@@ -1,8 +1,5 @@
 """How a film ends: the coin lies still, or is caught; and the files it is written to."""
 
-import contextlib
-import signal
-
 import mediapy
 import numpy as np
 import pytest
@@ -16,6 +13,7 @@ from compare.film.filmed import FOLLOWED_FOR, Filmed, followed
 from compare.film.play import play_of
 from compare.film.slow_motion import FAST, SETTLED, SLOW, SPEEDS_UP_FOR, film_times
 from compare.film.video import write_video
+from compare.output import interruption
 from models.ending import face_up
 from models.reading import load, scenario_text
 from models.records import Ending, Outcome
@@ -98,27 +96,23 @@ def test_a_film_is_written_in_every_format(tmp_path, suffix):
 
 @pytest.fixture
 def encoders(monkeypatch):
-    """The encoders that are started, to be stopped."""
+    """The processes of the encoders that are started."""
     started = []
 
     class Writer(mediapy.VideoWriter):
         def __enter__(self):
-            started.append(self)
-            return super().__enter__()
+            super().__enter__()
+            started.append(self._popen)
+            return self
 
     monkeypatch.setattr(mediapy, "VideoWriter", Writer)
-    yield started
-    # mediapy leaves the pipes of an encoder that failed to the garbage collector.
-    for writer in started:
-        for pipe in (writer._proc.stdin, writer._proc.stderr) if writer._proc else ():
-            with contextlib.suppress(BrokenPipeError):
-                pipe.close()
+    return started
 
 
 def stop(encoder):
     """Stop an encoder as a signal does."""
-    encoder._proc.kill()
-    encoder._proc.wait()
+    encoder.kill()
+    encoder.wait()
 
 
 def write_small(path, progress=lambda *_: None):
@@ -132,15 +126,15 @@ def test_an_encoder_that_stopped_is_an_error_of_the_file(tmp_path, encoders):
         write_small(tmp_path, lambda *_: stop(encoders[0]))
 
 
-@pytest.mark.parametrize("interruption", [KeyboardInterrupt(), SystemExit(143)])
-def test_an_encoder_that_an_interruption_stopped_is_no_error(tmp_path, encoders, interruption):
+@pytest.mark.parametrize("strike", [KeyboardInterrupt(), SystemExit(143)])
+def test_an_encoder_that_an_interruption_stopped_is_no_error(tmp_path, encoders, strike):
     def interrupt(*_):
         stop(encoders[0])
-        raise interruption
+        raise strike
 
-    with pytest.raises(type(interruption)) as raised:
+    with pytest.raises(type(strike)) as raised:
         write_small(tmp_path, interrupt)
-    assert raised.value is interruption
+    assert raised.value is strike
 
 
 def test_an_interruption_is_found_behind_several_errors(tmp_path, encoders, monkeypatch):
@@ -166,18 +160,32 @@ def test_an_encoder_that_complains_before_the_signal_is_heeded_is_no_error(tmp_p
         raise KeyboardInterrupt
 
     def broken(*_):
-        signal.setitimer(signal.ITIMER_REAL, 0.02)
+        monkeypatch.setattr(interruption.time, "sleep", interrupt)
         raise BrokenPipeError
 
-    former = signal.signal(signal.SIGALRM, interrupt)
     monkeypatch.setattr(mediapy.VideoWriter, "add_image", broken)
-    try:
-        with pytest.raises(KeyboardInterrupt):
-            write_small(tmp_path)
-        assert len(encoders) == 1
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, former)
+    with pytest.raises(KeyboardInterrupt):
+        write_small(tmp_path)
+    assert len(encoders) == 1
+
+
+@pytest.mark.parametrize("where", ["__enter__", "add_image", "close"])
+@pytest.mark.parametrize("strike", [KeyboardInterrupt, SystemExit])
+def test_an_encoder_is_waited_for_wherever_an_interruption_strikes(
+    tmp_path, encoders, monkeypatch, where, strike
+):
+    method = getattr(mediapy.VideoWriter, where)
+
+    def interrupted(*arguments):
+        if where == "__enter__":
+            method(*arguments)
+        raise strike
+
+    monkeypatch.setattr(mediapy.VideoWriter, where, interrupted)
+    with pytest.raises(strike):
+        write_small(tmp_path)
+    (encoder,) = encoders
+    assert encoder.returncode is not None
 
 
 def test_the_command_writes_a_poster_and_refuses_other_suffixes(tmp_path, monkeypatch):
@@ -193,8 +201,14 @@ def test_the_command_writes_a_poster_and_refuses_other_suffixes(tmp_path, monkey
     for out, wanted in (("film.avi", ".mp4 or .webm or .gif"), ("film", ".mp4 or .webm or .gif")):
         said = cointoss("video", tmp_path / "short.toml", "--out", tmp_path / out)
         assert said.exit_code == 2
-        assert said.stderr == f"cointoss: {tmp_path / out}: accepted: a file name that ends in {wanted}\n"
+        assert (
+            said.stderr
+            == f"cointoss: {tmp_path / out}: another kind of file; accepted: a name that ends in {wanted}\n"
+        )
     said = cointoss(
         "video", tmp_path / "short.toml", "--out", tmp_path / "b.mp4", "--poster", tmp_path / "b.jpg"
     )
-    assert (said.exit_code, "b.jpg: accepted: a file name that ends in .png" in said.stderr) == (2, True)
+    assert (
+        said.exit_code,
+        "b.jpg: another kind of file; accepted: a name that ends in .png" in said.stderr,
+    ) == (2, True)

@@ -64,7 +64,7 @@ def test_the_classes_are_the_corners_of_coin_air_and_floor():
         scenario = kind.scenario
         assert ("thick" in kind.name) == (scenario.coin.thickness == 2e-3)
         assert ("vacuum" in kind.name) == (scenario.air.normal == scenario.air.tangential == 0)
-        assert (scenario.floor.friction == 0.2) == (scenario.floor.contact.label == "coulomb")
+        assert (scenario.floor.friction == 0.2) == (str(scenario.floor.contact) == "coulomb")
         assert scenario.floor.restitution == 0.6
 
 
@@ -123,7 +123,7 @@ def test_a_timed_toss_is_one_of_toss_many():
     tossed = analytic.toss_many(kind.scenario, kind.releases(4))
     timed = [timed_toss(kind.scenario.body, kind.scenario.rules, start) for start in kind.starts(4)]
     ends = zip(tossed.outcome, tossed.ending, strict=True)
-    assert [end for _, end in timed] == [f"{Outcome(o).label}, {Ending(e).label}" for o, e in ends]
+    assert [end for _, end in timed] == [f"{Outcome(o)}, {Ending(e)}" for o, e in ends]
     # A call makes no flight: least of all does it take as long as the longest toss.
     assert 0 < call_time(kind.scenario, kind.starts(1)[0]) < max(time for time, _ in timed)
 

@@ -1,9 +1,7 @@
 """Ctrl-C, SIGTERM and SIGHUP end every command soon, with one line, and leave nothing half-made."""
 
-import os
 import signal
 import subprocess
-import sys
 import time
 
 import numpy as np
@@ -12,7 +10,7 @@ import pytest
 from compare.engines import Engine
 from compare.sweep import grid
 from tests.helpers.basin_runs import AXES, SCENARIO, SMALL, assert_same, basin, pixels
-from tests.helpers.command_line import HERE
+from tests.helpers.processes import started
 
 STATUSES = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
 SOON = 10.0
@@ -40,48 +38,45 @@ def of_toss(*engines):
     )
 
 
-def child(folder, script, *arguments, **extra):
-    return subprocess.Popen(
-        [sys.executable, "-c", script, *map(str, arguments)],
-        cwd=folder,
-        env=HERE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        **extra,
-    )
+def child(folder, script, *arguments):
+    """Start a script in a folder, for a `with` statement."""
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    return started("-c", script, *arguments, cwd=folder, **pipes)
 
 
-def ended(process, folder, number):
-    """Send a signal once the child has begun; return its exit status and what it said."""
+def wait_until_begun(process, folder):
     deadline = time.monotonic() + 200
     while not (folder / "begun").exists() and process.poll() is None and time.monotonic() < deadline:
         time.sleep(0.01)
     assert process.poll() is None, process.communicate()
-    time.sleep(0.1)
-    sent = time.monotonic()
-    process.send_signal(number)
-    try:
+
+
+def ended(folder, number, script, *arguments):
+    """Send a signal to a script once it has begun; return its exit status and what it said."""
+    with child(folder, script, *arguments) as process:
+        wait_until_begun(process, folder)
+        time.sleep(0.1)
+        sent = time.monotonic()
+        process.send_signal(number)
         _, said = process.communicate(timeout=60)
-    finally:
-        process.kill()
-    assert time.monotonic() - sent < SOON
-    return process.returncode, said
+        assert time.monotonic() - sent < SOON
+        return process.returncode, said
 
 
 @pytest.mark.parametrize("number", STATUSES)
 @pytest.mark.parametrize("engine", Engine)
 def test_a_toss_is_interrupted(tmp_path, engine, number):
     script = of_toss(engine.package.__name__) + "main()"
-    process = child(tmp_path, script, "toss", "fig24a", "--engine", engine)
     said = f"cointoss: interrupted by {number.name}\n"
-    assert ended(process, tmp_path, number) == (STATUSES[number], said)
+    toss = ("toss", "fig24a", "--engine", engine)
+    assert ended(tmp_path, number, script, *toss) == (STATUSES[number], said)
 
 
 @pytest.mark.parametrize("command", ["compare fig24a --out new/report", "video fig24a --out film.mp4"])
 def test_the_toss_of_a_report_or_a_film_is_interrupted(tmp_path, command):
-    process = child(tmp_path, of_toss("analytic", "coin_mj") + "main()", *command.split())
-    assert ended(process, tmp_path, signal.SIGHUP) == (129, "cointoss: interrupted by SIGHUP\n")
+    script = of_toss("analytic", "coin_mj") + "main()"
+    status, said = ended(tmp_path, signal.SIGHUP, script, *command.split())
+    assert (status, said) == (129, "cointoss: interrupted by SIGHUP\n")
     assert [path.name for path in tmp_path.iterdir()] == ["begun"]
 
 
@@ -96,14 +91,13 @@ def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(tmp_path,
         f"grid.TILE_TOSSES[Engine('{engine}')] = {SMALL}\n"
         f"import {engine.package.__name__}.ensemble as of_many\n"
         "in_tiles, left = of_many.toss_in_tiles, [5]\n"
-        "def some(releases, tile, make):\n"
+        "def some(releases, tile, make, progress):\n"
         "    left[0] -= 1\n"
-        "    return in_tiles(releases, tile, make if left[0] > 0 else lambda *_: endless())\n"
+        "    return in_tiles(releases, tile, make if left[0] > 0 else lambda *_: endless(), progress)\n"
         "of_many.toss_in_tiles = some\n"
         "main()"
     )
-    process = child(tmp_path, script, "basin", *asked, "--out", "map.zarr")
-    status, said = ended(process, tmp_path, signal.SIGTERM)
+    status, said = ended(tmp_path, signal.SIGTERM, script, "basin", *asked, "--out", "map.zarr")
     kept = np.sum(pixels(tmp_path / "map.zarr")["impacts"] >= 0)
     assert 0 < kept < 400
     assert (status, said) == (
@@ -121,7 +115,7 @@ def test_in_python_ctrl_c_raises_out_of_a_toss_and_of_many(tmp_path):
     script = of_toss("analytic", "coin_mj") + (
         "import analytic.ensemble as of_many\n"
         "in_tiles, toss = of_many.toss_in_tiles, lambda *_: endless()\n"
-        "of_many.toss_in_tiles = lambda releases, tile, make: in_tiles(releases, tile, toss)\n"
+        "of_many.toss_in_tiles = lambda some, tile, _, progress: in_tiles(some, tile, toss, progress)\n"
         "from models.reading import load\n"
         "from models.releases import Releases\n"
         "fig = load('fig24a')\n"
@@ -132,20 +126,17 @@ def test_in_python_ctrl_c_raises_out_of_a_toss_and_of_many(tmp_path):
         "    except KeyboardInterrupt: print('back', flush=True)\n"
         "import os; os._exit(0)"
     )
-    process = child(tmp_path, script)
-    for _ in range(3):
-        deadline = time.monotonic() + 200
-        while not (tmp_path / "begun").exists() and process.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.01)
-        (tmp_path / "begun").unlink()
-        time.sleep(0.1)
-        sent = time.monotonic()
-        process.send_signal(signal.SIGINT)
-        assert process.stdout is not None
-        assert process.stdout.readline() == "back\n"
-        assert time.monotonic() - sent < SOON
-    assert process.wait(60) == 0
-    process.communicate()
+    with child(tmp_path, script) as process:
+        for _ in range(3):
+            wait_until_begun(process, tmp_path)
+            (tmp_path / "begun").unlink()
+            time.sleep(0.1)
+            sent = time.monotonic()
+            process.send_signal(signal.SIGINT)
+            assert process.stdout is not None
+            assert process.stdout.readline() == "back\n"
+            assert time.monotonic() - sent < SOON
+        assert process.wait(60) == 0
 
 
 # A call that keeps the main thread, so that Python can't raise there.
@@ -170,7 +161,7 @@ def test_a_main_thread_that_is_stuck_keeps_nothing(tmp_path, number):
         "        stuck()\n"
         "run_to_exit(command)"
     )
-    status, said = ended(child(tmp_path, script), tmp_path, number)
+    status, said = ended(tmp_path, number, script)
     assert (status, said) == (STATUSES[number], f"cointoss: interrupted by {number.name}\n")
     assert [path.name for path in tmp_path.iterdir()] == ["begun"]
 
@@ -182,7 +173,7 @@ def test_what_swallows_the_interruption_or_takes_long_to_end_does_not_keep_the_p
         "threading.Thread(target=threading.Event().wait).start(); threading.Event().wait()",
     ):
         script = f"{STUCK}def command():\n    Path('begun').touch()\n    {command}\nrun_to_exit(command)"
-        assert ended(child(tmp_path, script), tmp_path, signal.SIGINT)[0] == 130
+        assert ended(tmp_path, signal.SIGINT, script)[0] == 130
         (tmp_path / "begun").unlink()
 
 
@@ -194,7 +185,7 @@ def test_another_error_on_the_way_out_is_not_told(tmp_path):
         "    except BaseException: raise ValueError('because of it')\n"
         "run_to_exit(command)"
     )
-    status, said = ended(child(tmp_path, script), tmp_path, signal.SIGTERM)
+    status, said = ended(tmp_path, signal.SIGTERM, script)
     assert (status, said) == (143, "cointoss: interrupted by SIGTERM\n")
 
 
@@ -208,7 +199,7 @@ def test_what_is_raised_in_a_call_from_c_ends_the_process_with_one_line(tmp_path
         "    threading.Event().wait()\n"
         "run_to_exit(called)"
     )
-    status, said = ended(child(tmp_path, script), tmp_path, signal.SIGINT)
+    status, said = ended(tmp_path, signal.SIGINT, script)
     assert (status, said) == (130, "cointoss: interrupted by SIGINT\n")
 
 
@@ -221,16 +212,14 @@ def test_a_signal_that_is_ignored_stays_so(tmp_path):
         "signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as nohup does\n"
         "run_to_exit(command)"
     )
-    process = child(tmp_path, script)
-    assert process.communicate(timeout=60) == ("goes on\n", "")
+    with child(tmp_path, script) as process:
+        assert process.communicate(timeout=60) == ("goes on\n", "")
     assert process.returncode == 3
 
 
 def test_what_was_printed_before_is_there(tmp_path):
     script = f"{STUCK}def command():\n    print('first')\n    stuck()\nrun_to_exit(command)"
-    process = child(tmp_path, script)
-    deadline = time.monotonic() + 60
-    while not (tmp_path / "begun").exists() and time.monotonic() < deadline:
-        time.sleep(0.01)
-    os.kill(process.pid, signal.SIGINT)
-    assert process.communicate(timeout=60) == ("first\n", "cointoss: interrupted by SIGINT\n")
+    with child(tmp_path, script) as process:
+        wait_until_begun(process, tmp_path)
+        process.send_signal(signal.SIGINT)
+        assert process.communicate(timeout=60) == ("first\n", "cointoss: interrupted by SIGINT\n")

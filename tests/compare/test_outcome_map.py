@@ -1,5 +1,8 @@
 """Maps from Python: the same as the command's, and what a notebook, xarray and pandas see of them."""
 
+from dataclasses import replace
+from io import BytesIO
+
 import numpy as np
 import pytest
 import xarray
@@ -48,7 +51,7 @@ def test_a_map_is_that_which_the_command_writes(found, tmp_path):
 
 
 def test_what_a_person_sees_of_a_map(found):
-    counts = {item.label: np.count_nonzero(found.outcome == item) for item in Outcome}
+    counts = {str(item): np.count_nonzero(found.outcome == item) for item in Outcome}
     assert {name: round(35 * share) for name, share in found.shares.items()} == {
         name: count for name, count in counts.items() if count
     }
@@ -60,7 +63,7 @@ def test_what_a_person_sees_of_a_map(found):
     assert len(told) < 200
     html = found._repr_html_()
     assert 'src="data:image/png;base64,' in html
-    assert 'alt="map of the outcome: 7 x 5' in html
+    assert 'alt="map of the outcome: 7 x 5 over spin about η and height"' in html
     frame = found.to_dataframe()
     assert list(frame) == ["release.position.z", "release.angular_velocity.eta", "outcome", "impacts"]
     assert frame["outcome"].tolist().count("heads") == counts["heads"]
@@ -70,7 +73,11 @@ def test_what_a_person_sees_of_a_map(found):
 
 def test_a_plot_shows_the_map_and_its_margins(found):
     (panel,) = found.plot().axes
+    assert (panel.get_xlabel(), panel.get_ylabel()) == ("spin about η [rad/s]", "height [m]")
+    assert found.plot().get_suptitle() == "fig24a: 2 g, 25 mm"
     assert panel.get_images()[0].get_array().shape[:2] == found.outcome.shape
+    hostile = replace(found, sweep=replace(found.sweep, name=r"$\frac$ 硬\n貨"))
+    hostile.plot().savefig(BytesIO())  # warnings are errors
     with_margins = cointoss.basin(
         "fig24a", x="release.angular_velocity.eta=20:60:3", y="release.position.z=0.2:0.6:2", margin="height"
     )

@@ -1,15 +1,15 @@
-"""While functions are compiled, the terminal says so; a job's rate leaves out the time that this takes."""
+"""A terminal has one line that is rewritten, a log a line now and then; what is quick says nothing."""
 
 import io
-import re
 import sys
-import time
+from contextlib import ExitStack
 
 import pytest
 
-from compare.output.progress import bar, compile_bar, elapsed_time
-from models.kernel.compiled import CompiledFunction
-from models.kernel.compiling import compiling
+import compare.output.progress as progress
+from compare.output.progress import Display, progress_shown
+from models.kernel.compiling import Compiling
+from models.stages import Stage, Stages, counted, stage, stages
 
 
 class Terminal(io.StringIO):
@@ -17,73 +17,223 @@ class Terminal(io.StringIO):
         return True
 
 
-def compile_two():
-    inner = CompiledFunction(lambda x: x + 1.0)
-    outer = CompiledFunction(lambda x: inner(x) * 2.0)
-    assert outer(1.0) == 4.0
+class Desk:
+    """A stream, a clock that moves when told, and what a display shows of stages and compiling."""
+
+    def __init__(self, *, rewrites):
+        self.now, self.stream, self.stages = 0.0, io.StringIO(), Stages()
+        self.compiling = Compiling(self.clock)
+        self.compiling.declared.update({"analytic.events": 200})
+        self.display = Display(
+            self.stream, rewrites=rewrites, work=self.stages, compiled=self.compiling, clock=self.clock
+        )
+
+    def clock(self):
+        return self.now
+
+    def begin(self, *name, **counts):
+        self.stages.open.append(Stage(*name, **counts, clock=lambda: self.compiling.working_time))
+        return self.stages.open[-1]
+
+    def end(self):
+        self.display.ended(self.stages.open[-1])
+        self.stages.open.pop()
+
+    def wait(self, seconds):
+        """Let time pass, with a tick each second; return what is new on the stream."""
+        before = len(self.stream.getvalue())
+        for _ in range(seconds):
+            self.now += 1.0
+            self.display.tick()
+        return self.stream.getvalue()[before:]
+
+    def compile(self, stack, count=1):
+        for _ in range(count):
+            stack.enter_context(self.compiling.one("analytic.events", lambda _: 0))
 
 
-def test_the_terminal_says_what_is_compiled(monkeypatch):
-    terminal = Terminal()
-    monkeypatch.setattr(sys, "stderr", terminal)
-    with compile_bar(after=0.0):
-        compile_two()
-        compile_two()
-    shown = terminal.getvalue()
-    assert shown.count("cointoss: compiling, once") == 1
-    assert " functions" in shown
-    assert shown.endswith("\r")
-    assert not compiling.watchers
-    assert not compiling.now
+def test_a_log_names_a_stage_after_five_seconds_and_then_every_ten():
+    desk = Desk(rewrites=False)
+    desk.begin("tossing by MuJoCo", detail=lambda: "0.8 s of the coin's time")
+    assert desk.wait(5) == ""
+    assert desk.wait(1) == "cointoss: tossing by MuJoCo: 6 s, 0.8 s of the coin's time\n"
+    assert desk.wait(10) == ""
+    assert desk.wait(1) == "cointoss: tossing by MuJoCo: 17 s, 0.8 s of the coin's time\n"
+    desk.end()
+    assert desk.wait(30) == ""
+    desk.begin("drawing the film", "frames")
+    assert desk.wait(2) == "cointoss: drawing the film: 1 s\n"
+
+
+def test_a_log_says_how_many_there_are_and_when_it_ends():
+    desk = Desk(rewrites=False)
+    tossing = desk.begin("map.zarr", "tosses", total=90_000, done=10_000)
+    assert desk.wait(6) == "cointoss: map.zarr: 10,000 of 90,000 tosses\n"
+    tossing.progress(30_000, 90_000)
+    assert desk.wait(14) == "cointoss: map.zarr: 30,000 of 90,000 tosses, about 51 s left\n"
+
+
+def test_a_stage_within_another_is_named_as_soon_as_it_takes_long():
+    desk = Desk(rewrites=False)
+    desk.begin("fig28", "parts").progress(2, 5)
+    assert desk.wait(6) == "cointoss: fig28: 2 of 5 parts, about 9 s left\n"
+    desk.begin("tossing by MuJoCo", "tosses").progress(1, 4)
+    assert desk.wait(10) == ""
+    assert desk.wait(1) == (
+        "cointoss: fig28: 2 of 5 parts, about 26 s left; tossing by MuJoCo: 1 of 4 tosses, about 33 s left\n"
+    )
+    desk.stages.open.clear()
+    desk.begin("a report")
+    desk.begin("tossing by MuJoCo")
+    assert desk.wait(5) == ""
+    assert desk.wait(1) == "cointoss: a report: 6 s; tossing by MuJoCo: 6 s\n"
+
+
+def test_while_functions_are_compiled_a_log_says_what_and_until_when_and_nothing_else():
+    desk = Desk(rewrites=False)
+    tossing = desk.begin("tossing by the analytic engine")
+    with ExitStack() as stack:
+        desk.compile(stack)
+        assert desk.wait(6) == (
+            "cointoss: compiling the analytic engine, once for this version: "
+            "1 of 200 functions, about 30 min left\n"
+        )
+        desk.compile(stack, 99)
+        assert desk.wait(11) == (
+            "cointoss: compiling the analytic engine, once for this version: "
+            "100 of 200 functions, about 34 s left\n"
+        )
+    assert desk.wait(2) == "cointoss: compiled the analytic engine: 17 s\n"
+    assert tossing.seconds == pytest.approx(2.0)
+    assert desk.wait(6) == "cointoss: tossing by the analytic engine: 8 s\n"
+
+
+def test_functions_that_are_compiled_one_after_the_other_are_told_of_once():
+    desk = Desk(rewrites=False)
+    desk.begin("tossing by the analytic engine")
+    for _ in range(40):
+        with ExitStack() as stack:
+            desk.compile(stack)
+            desk.wait(1)
+    desk.display.close()
+    assert [line.split(",")[0] for line in desk.stream.getvalue().splitlines()] == [
+        *["cointoss: compiling the analytic engine"] * 4,
+        "cointoss: compiled the analytic engine: 40 s",
+    ]
+
+
+def test_a_process_that_waits_for_another_says_so():
+    desk = Desk(rewrites=False)
+    desk.begin("tossing by the analytic engine")
+    with desk.compiling.waiting():
+        assert desk.wait(6) == "cointoss: waiting for another process, which compiles the same: 6 s\n"
+    assert desk.wait(2) == "cointoss: waited for the other process: 6 s\n"
+
+
+def test_what_is_quick_is_not_told_in_a_log():
+    desk = Desk(rewrites=False)
+    for _ in range(2):
+        desk.begin("tossing by MuJoCo")
+        desk.wait(2)
+        desk.end()
+    desk.display.close()
+    assert desk.stream.getvalue() == ""
+
+
+def lines(shown):
+    """Return what a terminal has shown on its one line, one after the other."""
+    return [line.rstrip() for line in shown.replace("\n", "\r").split("\r") if line.strip()]
+
+
+def test_a_terminal_has_a_bar_with_rate_and_time_left_and_keeps_the_last():
+    desk = Desk(rewrites=True)
+    tossing = desk.begin("map.zarr", "tosses", total=1920)
+    assert desk.wait(2) == ""
+    tossing.progress(480, 1920)
+    (shown,) = lines(desk.wait(2))
+    assert shown.startswith("map.zarr:  25%|")
+    assert shown.endswith("| 480/1,920 tosses [00:04<00:12, 120 tosses/s]")
+    tossing.progress(1920, 1920)
+    desk.end()
+    last = desk.stream.getvalue().split("\r")[-1]
+    assert "100%" in last
+    assert last.endswith("1,920/1,920 tosses [00:04<00:00, 480 tosses/s]\n")
+
+
+def test_the_line_of_a_terminal_says_what_is_within_and_goes_with_its_stage():
+    desk = Desk(rewrites=True)
+    desk.begin("fig28", "parts").progress(2, 5)
+    desk.begin("tossing by MuJoCo")
+    (shown,) = lines(desk.wait(4))
+    assert "2/5 parts [00:04<00:06, 0.5 parts/s; tossing by MuJoCo: 4 s]" in shown
+    desk.end()
+    desk.begin("tossing by MuJoCo", "tosses").progress(1, 4)
+    assert lines(desk.wait(4))[-1].startswith("fig28 2 of 5, tossing by MuJoCo:  25%|")
+    desk.display.close()
+    assert desk.stream.getvalue().endswith("\r")
+
+
+def test_a_terminal_says_what_is_compiled_and_in_what_time():
+    desk = Desk(rewrites=True)
+    desk.begin("tossing by the analytic engine")
+    with ExitStack() as stack:
+        desk.compile(stack, 50)
+        shown = lines(desk.wait(10))
+        desk.compile(stack, 50)
+        shown += lines(desk.wait(10))
+    assert all(line.startswith("compiling the analytic engine, once:") for line in shown)
+    assert "100/200 functions [00:20<00:40]" in shown[-1]
+    assert "tossing" not in desk.stream.getvalue()
+    assert "cointoss: compiled the analytic engine: 20 s" in lines(desk.wait(2))
+
+
+def test_of_a_stage_that_fails_the_line_goes():
+    desk = Desk(rewrites=True)
+    desk.begin("tossing by MuJoCo")
+    assert desk.wait(4)
+    desk.stages.open.pop()
+    desk.display.close()
+    assert desk.stream.getvalue().split("\r")[-2:] == [" " * len("tossing by MuJoCo: 4 s"), ""]
+
+
+def test_stages_are_open_for_as_long_as_they_last():
+    with stage("outer", "parts", total=2) as outer:
+        for item in counted("inner", "things", "ab"):
+            assert [each.name for each in stages.open] == ["outer", "inner"]
+            assert stages.open[-1].done == "ab".index(item)
+        outer(1, 2)
+        assert (stages.open[0].done, len(stages.open)) == (1, 1)
+    with pytest.raises(LookupError), stage("failing"):
+        raise LookupError
+    assert stages.open == []
 
 
 @pytest.mark.parametrize(
-    ("stream", "after"),
-    [(Terminal(), 600.0), (io.StringIO(), 0.0), (None, 0.0)],
-    ids=["quick", "file", "none"],
+    ("stream", "in_logs", "shows"),
+    [
+        (Terminal(), False, True),
+        (io.StringIO(), True, True),
+        (io.StringIO(), False, False),
+        (None, True, False),
+    ],
+    ids=["terminal", "log", "python's own", "none"],
 )
-def test_nothing_is_said_of_what_is_quick_nor_but_to_a_terminal(monkeypatch, stream, after):
+def test_a_command_speaks_to_a_log_python_to_a_terminal_alone(monkeypatch, stream, in_logs, shows):
+    begun = []
+    monkeypatch.setattr(progress, "Display", lambda *_, **__: begun.append(1) or Desk(rewrites=True).display)
     monkeypatch.setattr(sys, "stderr", stream)
-    with compile_bar(after=after):
-        compile_two()
-    assert stream is None or stream.getvalue() == ""
+    for switch in ("1", ""):
+        monkeypatch.setenv("TQDM_DISABLE", switch)
+        with progress_shown(in_logs=in_logs), progress_shown(in_logs=in_logs):
+            pass
+    assert len(begun) == shows  # the switch forbids the first, and one display is enough
 
 
-def test_the_terminal_says_for_how_long_a_job_has_run(monkeypatch):
-    terminal = Terminal()
-    monkeypatch.setattr(sys, "stderr", terminal)
-    with elapsed_time("still tossing", after=1.2):
-        time.sleep(2.7)
-    shown = terminal.getvalue().split("\r")
-    assert "still tossing: 00:02" in shown
-    assert shown[-1] == ""
-
-
-@pytest.mark.parametrize(("stream", "after"), [(Terminal(), 600.0), (io.StringIO(), 0.0), (None, 0.0)])
-def test_nothing_is_said_of_a_job_that_is_quick_nor_but_to_a_terminal(monkeypatch, stream, after):
-    monkeypatch.setattr(sys, "stderr", stream)
-    with elapsed_time("still tossing", after=after):
-        time.sleep(0.05)
-    assert stream is None or stream.getvalue() == ""
-
-
-def test_the_clock_of_a_bar_goes_on_within_a_part(monkeypatch):
-    terminal = Terminal()
-    monkeypatch.setattr(sys, "stderr", terminal)
-    with bar("map", "tosses") as progress:
-        progress(0, 100)
-        time.sleep(2.7)
-        assert re.search("00:0[12]<", terminal.getvalue())
-
-
-def test_a_rate_leaves_out_the_time_to_compile(monkeypatch):
-    terminal = Terminal()
-    monkeypatch.setattr(sys, "stderr", terminal)
-    with bar("tosses", "tosses") as progress:
-        progress(0, 100)
-        with compiling.one():
-            time.sleep(3.0)
-        progress(50, 100)
-        progress(100, 100)
-    last = terminal.getvalue().split("\r")[-1]
-    assert "100/100 [00:00<00:00" in last, last
+def test_a_stage_of_python_is_shown(monkeypatch):
+    shown = []
+    monkeypatch.setenv("TQDM_DISABLE", "")
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    monkeypatch.setattr(progress, "Display", lambda *_, **__: shown.append(1) or Desk(rewrites=True).display)
+    with stage("outer"), stage("inner"):
+        pass
+    assert shown == [1]

@@ -14,9 +14,9 @@ from compare.film.back_end import ADVICE, UNKNOWN, drawing_problem
 from compare.film.encodings import SMALL
 from compare.film.filmed import followed
 from compare.film.video import frame_count
-from compare.metrics.comparison import Comparison, compare
 from compare.output.files import UnwritableError
-from compare.report.contents import FILES, require_folder
+from compare.report.comparison import compare, compared
+from compare.report.contents import FILES, NOT_ASKED, require_folder
 from compare.report.folder import BEING_DRAWN, write_report
 from compare.report.page import versions
 from models import certificate
@@ -62,11 +62,7 @@ class ParsedPage(HTMLParser):
 def folder(tmp_path_factory):
     target = tmp_path_factory.mktemp("report")
     assert drawing_problem() is None, ADVICE
-    shown = []
-    write_report(
-        parse(SHORT, "short"), SHORT, "short", target, None, lambda done, count: shown.append((done, count))
-    )
-    assert shown[-1][0] == shown[-1][1] == len(shown)
+    write_report(compared(parse(SHORT, "short"), SHORT, "short"), target, None)
     return target
 
 
@@ -82,9 +78,9 @@ def test_the_page_stands_alone_and_has_its_parts(folder):
     assert "url(" not in text.replace("url(#", "")
     assert page.videos == 1
     expected = [
-        "One coin, two engines: short",
-        "The toss",
+        "short: do two engines toss this coin alike?",
         "Heads and tails",
+        "Film",
         "Motion",
         "Impacts",
         "Scenario",
@@ -107,19 +103,17 @@ def test_the_page_stands_alone_and_has_its_parts(folder):
 
 def test_the_numbers_are_those_of_the_tosses(folder):
     numbers = json.loads((folder / "numbers.json").read_text(encoding="utf-8"))
-    compared = compare(parse(SHORT, "short"))
-    assert isinstance(compared, Comparison)
+    found = compare(parse(SHORT, "short"))
     assert [toss["engine"] for toss in numbers["tosses"]] == ["analytic", "mujoco"]
-    assert numbers["tosses"][0]["impacts"][1]["time"] == compared.analytic.impacts.time[1]
-    assert numbers["comparison"]["impulse_difference"] == compared.differences.impulse.tolist()
-    assert numbers["comparison"]["horizon"] == compared.horizon
+    assert numbers["tosses"][0]["impacts"][1]["time"] == found.analytic.impacts.time[1]
+    assert numbers["comparison"]["impulse_difference"] == found.differences.impulse.tolist()
+    assert numbers["comparison"]["horizon"] == found.horizon
 
 
 def test_the_film_has_its_frames(folder):
-    compared = compare(parse(SHORT, "short"))
-    assert isinstance(compared, Comparison)
+    found = compare(parse(SHORT, "short"))
     written = film_written(folder / "toss.mp4")
-    assert written.frames == frame_count([followed(compared.analytic), followed(compared.mujoco)], SMALL)
+    assert written.frames == frame_count(found.filmed(), SMALL)
     assert written.rate == SMALL.frames_per_second
 
 
@@ -130,8 +124,8 @@ def test_the_page_stands_before_the_film_is_drawn_and_after_it_was_interrupted(t
         said.append((tmp_path / "report.html").read_text(encoding="utf-8"))
         raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt):
-        write_report(parse(SHORT, "short"), SHORT, "short", tmp_path, None, interrupt)
+    with patch("compare.film.video.write_video", interrupt), pytest.raises(KeyboardInterrupt):
+        write_report(compared(parse(SHORT, "short"), SHORT, "short"), tmp_path, None)
     after = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert said == [after]
     assert BEING_DRAWN.format(engines="both") in after
@@ -144,12 +138,27 @@ def test_no_video_is_drawn_where_none_is_asked_for(tmp_path):
         cointoss("compare", tmp_path / "short.toml", "--out", tmp_path / "out", "--no-video").exit_code == 0
     )
     assert {path.name for path in (tmp_path / "out").iterdir()} == set(FILES) - {"toss.mp4"}
-    assert "None was asked for" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert NOT_ASKED in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_report_has_a_default_folder_named_as_its_scenario(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "euros").mkdir()
+    (tmp_path / "euros" / "short.toml").write_text(SHORT)
+    for _ in range(2):
+        answered = cointoss("compare", "euros/short.toml", "--no-video")
+        assert (answered.exit_code, answered.stdout) == (0, "short-report/report.html\n")
+    assert {path.name for path in tmp_path.iterdir()} == {"euros", "short-report"}
+    (tmp_path / "short-report" / "numbers.json").write_text("mine")
+    refused = cointoss("compare", "euros/short.toml", "--no-video")
+    assert refused.exit_code == 2
+    assert "belongs to no report; accepted: a new or empty folder" in refused.stderr
+    assert (tmp_path / "short-report" / "numbers.json").read_text() == "mine"
 
 
 def test_without_opengl_the_report_says_what_to_install(tmp_path):
     text = SHORT.replace("max_impacts = 2", "max_impacts = 1")
-    page = write_report(parse(text, "short"), text, "short", tmp_path, ADVICE, lambda *_: None)
+    page = write_report(compared(parse(text, "short"), text, "short"), tmp_path, ADVICE)
     html = page.read_text(encoding="utf-8")
     assert "No video." in html
     assert "libegl1" in html
@@ -161,7 +170,7 @@ def test_what_mujoco_cannot_realise_is_a_report_of_one_engine(tmp_path, monkeypa
     stamp = SMALL._replace(width=96, height=54, frames_per_second=4)
     monkeypatch.setattr(encodings, "SMALL", stamp)
     text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 2")
-    page = write_report(parse(text, "knurled"), text, "knurled", tmp_path, None, lambda *_: None)
+    page = write_report(compared(parse(text, "knurled"), text, "knurled"), tmp_path, None)
     html = page.read_text(encoding="utf-8")
     assert "Not realisable in MuJoCo" in html
     assert "No video." not in html
@@ -174,6 +183,25 @@ def test_what_mujoco_cannot_realise_is_a_report_of_one_engine(tmp_path, monkeypa
     assert {path.name for path in tmp_path.iterdir()} == set(FILES) - {"path-mujoco.csv"}
 
 
+def test_a_comparison_in_python_writes_the_report_and_the_film_of_the_commands(tmp_path, monkeypatch):
+    stamp = SMALL._replace(width=96, height=54, frames_per_second=4)
+    monkeypatch.setattr(encodings, "SMALL", stamp)
+    monkeypatch.setitem(encodings.ENCODINGS, ".mp4", encodings.ENCODINGS[".mp4"]._replace(form=stamp))
+    source = tmp_path / "mine.toml"
+    source.write_text(SHORT.replace("max_impacts = 2", "max_impacts = 1"))
+    found = compare(source)
+    html = found.report(tmp_path / "report").read_text(encoding="utf-8")
+    assert "One coin, two engines: mine" in html
+    assert source.read_text().strip().splitlines()[-1] in html
+    assert {path.name for path in (tmp_path / "report").iterdir()} == set(FILES)
+    assert found.film(str(tmp_path / "mine.mp4")) == tmp_path / "mine.mp4"
+    assert film_written(tmp_path / "mine.mp4").frames == frame_count(found.filmed(), stamp)
+    with pytest.raises(UnwritableError, match=r"accepted: a file name that ends in \.mp4 or"):
+        found.film(tmp_path / "mine.avi")
+    with pytest.raises(UnwritableError, match=r"mine\.toml: accepted: a folder"):
+        found.report(source)
+
+
 def test_before_its_film_a_report_says_which_command_draws_it(tmp_path):
     said = []
 
@@ -182,8 +210,8 @@ def test_before_its_film_a_report_says_which_command_draws_it(tmp_path):
         raise KeyboardInterrupt
 
     text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 1")
-    with pytest.raises(KeyboardInterrupt):
-        write_report(parse(text, "knurled"), text, "knurled", tmp_path, None, interrupt)
+    with patch("compare.film.video.write_video", interrupt), pytest.raises(KeyboardInterrupt):
+        write_report(compared(parse(text, "knurled"), text, "knurled"), tmp_path, None)
     assert "cointoss video --engine analytic draws the film alone" in said[0]
 
 
@@ -197,9 +225,9 @@ def test_a_report_replaces_an_earlier_one_as_a_whole_and_nothing_else(folder, tm
     case = parse(text, "knurled")
     interrupted = patch("compare.report.folder.render", side_effect=KeyboardInterrupt)
     with interrupted, pytest.raises(KeyboardInterrupt):
-        write_report(case, text, "knurled", earlier, None, lambda *_: None)
+        write_report(compared(case, text, "knurled"), earlier, None)
     assert {path.name: path.read_bytes() for path in earlier.iterdir()} == before
-    write_report(case, text, "knurled", earlier, ADVICE, lambda *_: None)
+    write_report(compared(case, text, "knurled"), earlier, ADVICE)
     kept = {"report.html", "numbers.json", "path-analytic.csv", "notes.txt"}
     assert {path.name for path in earlier.iterdir()} == kept
 
@@ -208,7 +236,7 @@ def test_a_report_that_fails_leaves_no_folder(tmp_path):
     case = scenario(ending={"max_time": 0.05})
     full = patch("compare.report.folder.render", side_effect=OSError(28, "No space left"))
     with full, pytest.raises(UnwritableError, match=r"new.deep: can't be written \(No space"):
-        write_report(case, "", "failing", tmp_path / "new" / "deep", ADVICE, lambda *_: None)
+        write_report(compared(case, "", "failing"), tmp_path / "new" / "deep", ADVICE)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -229,20 +257,18 @@ def test_what_is_no_file_of_a_report_is_refused(folder, tmp_path):
     shutil.copytree(folder, earlier)
     (earlier / "report.html").unlink()
     (earlier / "report.html").mkdir()
-    with pytest.raises(UnwritableError, match=r"report\.html: accepted.*folder"):
+    with pytest.raises(UnwritableError, match=r"report\.html: is a folder; accepted"):
         require_folder(earlier, "fig24a")
     (earlier / "report.html").rmdir()
-    with pytest.raises(UnwritableError, match="another file than the scenario"):
+    with pytest.raises(UnwritableError, match="is the scenario; accepted: another file"):
         require_folder(earlier, str(earlier / "path-mujoco.csv"))
-    with pytest.raises(UnwritableError, match="accepted: a folder"):
+    with pytest.raises(UnwritableError, match="is no folder; accepted: a folder"):
         require_folder(earlier / "numbers.json", "fig24a")
 
 
 @pytest.mark.parametrize("max_time", [1e-9, 1e-3])
 def test_the_shortest_toss_has_a_report(tmp_path, max_time):
-    page = write_report(
-        scenario(ending={"max_time": max_time}), "", "short", tmp_path, ADVICE, lambda *_: None
-    )
+    page = write_report(compared(scenario(ending={"max_time": max_time}), "", "short"), tmp_path, ADVICE)
     assert "max_time" in page.read_text(encoding="utf-8")
     numbers = json.loads((tmp_path / "numbers.json").read_text(encoding="utf-8"))
     assert [(toss["ending"], toss["impacts"]) for toss in numbers["tosses"]] == [("max_time", [])] * 2
@@ -253,7 +279,7 @@ def test_the_shortest_toss_has_a_report(tmp_path, max_time):
 
 def test_a_toss_without_impacts_has_a_report_too(tmp_path):
     case = scenario(air=AIR, ending={"max_time": 0.05})
-    page = write_report(case, "# made", "falling", tmp_path, ADVICE, lambda *_: None)
+    page = write_report(compared(case, "# made", "falling"), tmp_path, ADVICE)
     text = page.read_text(encoding="utf-8")
     assert "max_time" in text
     assert "The coin does not touch the floor." in text
@@ -287,4 +313,4 @@ def test_the_papers_scenario_says_what_it_assumes():
     assert "not which coin, which floor, or g. Here: the ideal coin with h = 2 mm on a smooth floor" in said
     case = load("fig24a")
     assert (case.coin.center_of_mass, case.coin.thickness) == ((0, 0, 0), 2e-3)
-    assert (case.floor.contact.label, case.gravity) == ("smooth", 9.81)
+    assert (str(case.floor.contact), case.gravity) == ("smooth", 9.81)

@@ -23,15 +23,20 @@ def make(progress):
     return Result(
         claims=[Claim(claim="two and two are five", criteria=[Criterion("sum", {sum}, "=", 5, "five")])],
         data=Numbers({sum}),
-        tables="as drawn",
+        tables="as **drawn**",
     )
 
 REPRODUCTION = Reproduction(title="a fake", seconds=0, make=make, draw={{}})
 """
-PRINTED = (
-    "as drawn\n\n| claim | measured (threshold: reason) | verdict |\n| --- | --- | --- |\n"
-    "| two and two are five | sum: {sum} (= 5: five) | {verdict} |\n"
-)
+PRINTED = """\
+as drawn
+
+{mark} {verdict}: two and two are five
+    measured  sum: {sum} (= 5: five)
+
+{name}: 1 {verdict}
+{folder}
+"""
 SUMS = {
     "good": "5",
     "doubtful": "4",
@@ -82,7 +87,7 @@ def test_names_are_found_without_importing_what_they_name():
         (["contact-laws", "no-such"], "no-such: no such name; accepted: "),
         (["contact_laws"], "contact_laws: no such name; accepted: "),
         (["contact-laws"], "--out DIR"),
-        ([], "NAME one of: "),
+        ([], "NAME: missing; accepted: all, or one of: accuracy-and-stripes, "),
     ],
 )
 def test_wrong_names_and_missing_arguments_are_exit_status_2(tmp_path, arguments, told):
@@ -105,7 +110,7 @@ def test_files_are_written_and_the_results_printed(tmp_path):
     answered = cointoss("reproduce", "fake-good", "--out", tmp_path / "out")
     assert (answered.exit_code, answered.stdout, answered.stderr) == (
         0,
-        PRINTED.format(sum=5, verdict="holds"),
+        PRINTED.format(name="fake-good", sum=5, mark="✓", verdict="holds", folder=old),
         "",
     )
     assert sorted(path.name for path in old.iterdir()) == ["claims.json", "mine.txt", "numbers.json"]
@@ -117,8 +122,16 @@ def test_files_are_written_and_the_results_printed(tmp_path):
 def test_a_claim_that_fails_is_exit_status_1_and_keeps_the_evidence(tmp_path):
     answered = cointoss("reproduce", "fake-doubtful", "fake-good", "--out", tmp_path / "out")
     assert answered.exit_code == 1
-    failed, held = (PRINTED.format(sum=n, verdict=v) for n, v in ((4, "does not hold"), (5, "holds")))
-    assert answered.stdout == failed + held
+    failed, held = (
+        PRINTED.format(
+            name=name, sum=n, mark=mark, verdict=verdict, folder=runner.folder_of(name, tmp_path / "out")
+        )
+        for name, n, mark, verdict in (
+            ("fake-doubtful", 4, "✗", "does not hold"),
+            ("fake-good", 5, "✓", "holds"),
+        )
+    )
+    assert answered.stdout == f"{failed}\n{held}"
     assert (
         answered.stderr
         == "cointoss: fake-doubtful: two and two are five: another verdict than the known one\n"
@@ -141,9 +154,9 @@ def test_what_is_in_the_way_is_refused_before_any_work(tmp_path):
     (tmp_path / "out" / "reproduction" / "fake-broken").write_text("mine")
     (tmp_path / "taken" / "reproduction" / "fake-broken" / "data.npz").mkdir(parents=True)
     for out, named in (
-        (tmp_path / "file", "file: accepted: a folder"),
-        (tmp_path / "out", "fake-broken: accepted: a folder"),
-        (tmp_path / "taken", "data.npz: accepted: a new name or a regular file"),
+        (tmp_path / "file", "file: is no folder; accepted: a folder"),
+        (tmp_path / "out", "fake-broken: is no folder; accepted: a folder"),
+        (tmp_path / "taken", "data.npz: is a folder; accepted: a new name or a regular file"),
     ):
         # Run, the good one would print and the broken one would abort.
         answered = cointoss("reproduce", "fake-good", "fake-broken", "--out", out)

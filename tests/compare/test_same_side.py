@@ -137,25 +137,6 @@ def test_the_command_counts_what_a_hand_tosses():
     assert told["same_side"]["at rest"]["value"] == 1
 
 
-@pytest.mark.parametrize(
-    ("option", "value", "message"),
-    [
-        ("--psi", "120 deg", "fig29: psi: 2.09"),
-        ("--psi", "x", "'--psi': x; accepted: a number in rad"),
-        ("--height", "-1", "fig29: height: -1.0, accepted: a height above 0"),
-        ("--spin", "1e7", "fig29: Releases.angular_velocity: row"),
-        ("--tosses", "0", "--tosses"),
-        ("--caught", "1 mm", "ending.caught = 0.001"),
-        ("--caught", "1 s", "'--caught': 1 s; accepted: "),
-    ],
-)
-def test_what_no_hand_does_is_one_line(option, value, message):
-    answered = cointoss("hands", "fig29", option, value)
-    assert answered.exit_code == 2
-    assert message in answered.stderr
-    assert answered.stderr.count("\n") == 1
-
-
 def test_the_saved_claims_come_out_as_known():
     found = read_numbers(saved("same-side"), SameSide)
     assert pictures("HANDS.md", "same-side") == {"same-side.png"}

@@ -1,5 +1,6 @@
 """Sweeps: axes are read, tiles cover the map, and each pixel is the toss of its own scenario, to the bit."""
 
+import warnings
 from dataclasses import replace
 from typing import Any
 
@@ -11,14 +12,15 @@ import analytic
 import coin_mj
 from coin_mj import Realisation, Settings
 from compare.engines import Engine
-from compare.sweep import grid
+from compare.sweep import grid, run
 from compare.sweep.axes import Axis, parse_axis
 from compare.sweep.errors import SweepError
-from compare.sweep.grid import Sweep, Tile, tile_shape, tiles
-from compare.sweep.pixels import check, pixel_scenario, toss_pixels
+from compare.sweep.grid import Sweep, Tile, cut, gaps, tile_shape, tiles
+from compare.sweep.pixels import Pixels, check, pixel_scenario, toss_pixels
 from models.fields import UNITS, split
 from models.records import UnsupportedError
 from models.scenario import Scenario
+from models.unused import UnusedFieldWarning
 from tests.helpers.draws import AIR, scenario
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
@@ -135,6 +137,70 @@ def test_tiles_cover_the_map_once_and_are_of_the_size_agreed(shape, x, y):
     for rows, columns in tiles(shape, tile):
         covered[rows, columns] += 1
     assert np.all(covered == 1)
+
+
+def test_a_large_map_has_no_more_tiles_than_a_folder_holds():
+    slow = sweep_of("release.position.z=1:2:1000", "air.exponent=1:2:1000")
+    assert len(list(tiles(slow.shape, tile_shape(slow)))) <= 2 * grid.MOST_TILES
+    assert np.prod(tile_shape(sweep_of("release.position.z=1:2:100", "air.exponent=1:2:100"))) <= 64
+
+
+@pytest.mark.parametrize("along_x", [True, False])
+@pytest.mark.parametrize("pixels", [1, 2, 3, 5, 7, 14, 1000])
+def test_a_tile_is_cut_into_parts_that_cover_it_once(pixels, along_x):
+    left, covered, order = [Tile(slice(2, 6), slice(1, 6))], np.zeros((7, 7), dtype=int), []
+    while left:
+        part, rest = cut(left[0], pixels, along_x=along_x)
+        assert 1 <= covered[part].size <= pixels
+        covered[part] += 1
+        order.append(part)
+        left = rest + left[1:]
+    assert np.all(covered[2:6, 1:6] == 1)
+    assert covered.sum() == 20
+    if pixels == 3:
+        first = (slice(2, 3), slice(1, 4)) if along_x else (slice(2, 5), slice(1, 2))
+        assert order[0] == Tile(*first)
+
+
+def test_the_gaps_of_a_tile_hold_what_is_not_tossed_whatever_was_tossed_first():
+    tile, tossed = Tile(slice(10, 14), slice(20, 25)), np.zeros((4, 5), dtype=bool)
+    assert gaps(tile, tossed) == [tile]
+    tossed[0], tossed[1, :2] = True, True
+    assert gaps(tile, tossed) == [
+        Tile(slice(11, 12), slice(22, 25)),
+        Tile(slice(12, 14), slice(20, 25)),
+    ]
+    tossed[:, :2] = True
+    assert gaps(tile, tossed) == [Tile(slice(11, 14), slice(22, 25))]
+    tossed[:] = True
+    assert gaps(tile, tossed) == []
+    tossed[3, 1] = tossed[3, 3] = False
+    assert gaps(tile, tossed) == [Tile(slice(13, 14), slice(21, 24))]
+
+
+@pytest.mark.parametrize(("cost", "most"), [(1e-5, 1 << 14), (4e-3, 250), (3.0, 8)])
+def test_a_tile_is_tossed_in_parts_of_a_second(monkeypatch, cost, most):
+    sweep, now, sizes = sweep_of("release.position.z=1:2:128", "release.velocity.z=1:2:128"), [0.0], []
+
+    def toss(_, part):
+        size = (part.rows.stop - part.rows.start) * (part.columns.stop - part.columns.start)
+        now[0] += cost * size
+        sizes.append(size)
+        return Pixels(np.zeros(size, np.int8), np.zeros(size, np.int32), None)
+
+    class Clock:
+        working_time = property(lambda _: now[0])
+
+    monkeypatch.setattr(run, "toss_pixels", toss)
+    monkeypatch.setattr(run, "compiling", Clock())
+    whole = Tile(slice(0, 128), slice(0, 128 if cost < 1 else 2))
+    tossed = list(run.toss_here(sweep, [whole]))
+    assert sum(sizes) == 128 * (whole.columns.stop)
+    assert len(tossed) == len(sizes)
+    assert max(sizes) <= most
+    # None takes much longer than a second, once the cost is known; and a cheap map has few parts.
+    assert all(size * cost <= run.SECOND * 1.01 or size == 1 for size in sizes[1:])
+    assert cost > 1e-4 or len(sizes) <= 6
 
 
 def test_a_tile_is_long_along_the_release_where_the_coin_varies_across():
@@ -254,6 +320,18 @@ def test_what_mujoco_cannot_toss_is_refused_at_either_end_of_an_axis():
         check(sweep_of(*axes, engine=Engine.MUJOCO))
     one_step = replace(coin_mj.MANY, contact=Realisation.ONE_STEP)
     check(sweep_of(*axes, engine=Engine.MUJOCO, settings=one_step))
+
+
+def test_a_field_that_a_map_varies_is_one_that_is_used():
+    rough = scenario(floor={"contact": "coulomb"})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check(sweep_of("floor.friction=0:0.5:3", "release.position.z=0.3:0.4:3", rough))
+        check(sweep_of("floor.friction=-0.0:0.5:2", "floor.restitution=0.5:0:2", rough))
+    z = "release.position.z=0.3:0.4:3"
+    for case, x, y in ((HERE, "floor.friction=0.5:0:3", z), (rough, "gravity=9:10:2", z)):
+        with pytest.warns(UnusedFieldWarning, match=r"^floor\.friction = "):
+            check(sweep_of(x, y, case))
 
 
 @pytest.mark.parametrize("contact", ["spring", "one_step"])

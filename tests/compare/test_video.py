@@ -13,13 +13,15 @@ import numpy as np
 import pytest
 
 from compare.film.captions import caption_of, written
-from compare.film.drawing import LONGEST_FAR, LONGEST_NEAR, MARGIN, Box, Camera, Drawer, box_of
-from compare.film.encodings import FULL, SMALL, Format
-from compare.film.play import SHOWN_FOR, WEAKEST, play_of
+from compare.film.drawing import LONGEST_FAR, LONGEST_NEAR, MARGIN, VIEWS, Box, Camera, Drawer, box_of
+from compare.film.encodings import Format
+from compare.film.filmed import Filmed
+from compare.film.play import SHOWN_FOR, WEAKEST, Play, Shown, play_of
+from compare.film.shadow import add_shadow
 from compare.film.slow_motion import FAST, LONGEST, SLOW, SLOW_FOR, WEAK, film_times
 from compare.film.video import HELD, frame_count, frames, write_video
 from compare.film.visual_model import build_visual_model
-from models.records import Outcome
+from models.records import Ending, Outcome
 from tests.helpers.draws import ZLOTY, scenario
 from tests.helpers.films import FLAT, TURNED, UPRIGHT, MadePath, Written, drawn, film_written, made, shown
 
@@ -75,17 +77,6 @@ def test_the_film_is_not_slowed_down_for_weak_impacts_which_show_no_arrow():
     assert [len(play_of(shown(toss), np.array([t])).impulses(0)) for t in (0.301, 0.601, 0.801)] == [1, 1, 0]
 
 
-def test_only_the_film_of_a_page_leaves_the_border_jagged():
-    """With more samples of a pixel its colours mix along the coin's border."""
-    toss = made(MadePath(position=(0, 0, 0.1)))
-    colors = []
-    for form in (FULL, SMALL):
-        still = form._replace(width=160, height=120, frames_per_second=2)
-        picture = next(frames([shown(toss)], Camera.CLOSE_UP, still))
-        colors.append(len(np.unique(picture[:100].reshape(-1, 3), axis=0)))
-    assert colors[0] > 1.1 * colors[1]
-
-
 @pytest.mark.parametrize("impacts", [0, 2000])
 def test_the_longest_toss_has_no_more_frames_than_fit(impacts):
     path = MadePath(position=(0, 0, 0.1))
@@ -106,12 +97,44 @@ def test_the_longest_toss_has_no_more_frames_than_fit(impacts):
 def test_the_face_that_is_up_shows_its_colour(thickness, quaternion, color):
     """The faces of a thin coin are in one plane, too."""
     toss = made(MadePath(position=(0, 0, 0.05), quaternion=quaternion), coin={"thickness": thickness})
-    (picture,) = drawn(toss, [0], Camera.TOP)
+    (picture,) = drawn(toss, [0], Camera.TOP, height=96, width=128)
     other = blue if color is golden else golden
     assert not other(picture).any()
     # Of the disc a ring of 12 % and a letter of 10 to 15 % have other colours; some pixels hold several.
-    disc = np.pi * (48 * R / (4 * R * MARGIN)) ** 2
+    disc = np.pi * (96 * VIEWS[Camera.TOP].part * R / (4 * R * MARGIN)) ** 2
     assert color(picture).sum() / disc == pytest.approx(0.76, abs=0.1)
+
+
+@pytest.mark.parametrize("camera", [Camera.CLOSE_UP, Camera.OVERVIEW])
+@pytest.mark.parametrize(("up", "color", "other"), [(0.0, golden, blue), (180.0, blue, golden)])
+def test_the_face_that_is_seen_is_the_face_that_is_up(camera, up, color, other):
+    """It is so however the coin is tilted, up to nearly the angle by which the camera looks down."""
+    steepest = 0.7 * VIEWS[camera].elevation
+    for tilt in (0.0, steepest, -steepest):
+        half = np.radians(up + tilt) / 2
+        path = MadePath(position=(0, 0, 0.02), quaternion=(np.cos(half), np.sin(half), 0, 0))
+        (picture,) = drawn(made(path), [0], camera, height=96, width=128)
+        assert color(picture).sum() > 10
+        assert not other(picture).any()
+
+
+def test_a_shadow_is_what_the_coin_hides_of_the_light_from_above():
+    case, rng = scenario(coin={"center_of_mass": [1e-3, -2e-3, 2e-4]}), np.random.default_rng(1)
+    model = build_visual_model(case, extent=1.0, tile=0.1)
+    data, scene = mujoco.MjData(model), mujoco.MjvScene(model, maxgeom=1)
+    turns = np.linspace(0, 2 * np.pi, 721)
+    R_, H = ZLOTY["radius"], ZLOTY["thickness"]
+    rims = [[R_ * np.cos(a), R_ * np.sin(a), z] for a in turns for z in (-H / 2, H / 2)]
+    for quaternion in (FLAT, UPRIGHT, *rng.normal(size=(5, 4))):
+        data.qpos[:] = [0.3, -0.2, 0.5, *quaternion / np.linalg.norm(quaternion)]
+        mujoco.mj_forward(model, data)
+        scene.ngeom = 0
+        add_shadow(scene, data, case.coin)
+        shadow = scene.geoms[0]
+        assert shadow.pos == pytest.approx([0.3, -0.2, 0])
+        axes = shadow.mat[:2, :2]
+        below = (rims @ data.body("coin").xmat.reshape(3, 3).T)[:, :2] @ axes
+        assert np.abs(below).max(axis=0) == pytest.approx(shadow.size[:2], rel=1e-4)
 
 
 def test_the_faces_and_their_letters_differ_in_brightness_too():
@@ -143,7 +166,7 @@ def test_the_coin_is_where_its_path_is_seen_from_above():
     toss = made(MadePath(position=(0, 0, 0.3), velocity=(0.06, 0.04, -0.25)))
     first, last = drawn(toss, [0, 1], Camera.TOP)
     deep = 0.04 + 4 * R
-    scale = 48 / (MARGIN * max(deep, (0.06 + 4 * R) * 48 / 64))
+    scale = 48 / (MARGIN * max(deep / VIEWS[Camera.TOP].part, (0.06 + 4 * R) * 48 / 64))
     assert center(golden(last)) - center(golden(first)) == pytest.approx(
         [-0.04 * scale, 0.06 * scale], abs=0.7
     )
@@ -152,18 +175,22 @@ def test_the_coin_is_where_its_path_is_seen_from_above():
 
 def test_the_overview_sees_the_coin_from_release_to_the_floor():
     toss = made(MadePath(position=(0, 0, 0.2), velocity=(0, 0, -0.19), quaternion=UPRIGHT))
-    pictures = drawn(toss, [0, 0.5, 1], Camera.OVERVIEW)
-    rows = [center(blue(picture) | golden(picture))[0] for picture in pictures]
-    assert rows[0] < 12
-    assert rows[2] > 36
-    assert rows[1] == pytest.approx((rows[0] + rows[2]) / 2, abs=2)
+    pictures = drawn(toss, [0, 0.5, 1], Camera.OVERVIEW, height=96, width=128)
+    rows = [center(blue(picture) | golden(picture))[0] / 96 for picture in pictures]
+    view = VIEWS[Camera.OVERVIEW]
+    middle = 0.5 + view.aim
+    assert middle - view.part / 2 < rows[0] < middle - view.part / 4
+    assert middle + view.part / 5 < rows[2] < middle + view.part / 2
+    # What is above is nearer to the camera, and so larger.
+    assert rows[1] == pytest.approx((rows[0] + rows[2]) / 2, abs=0.04)
 
 
 @pytest.mark.parametrize("camera", [Camera.OVERVIEW, Camera.TOP])
 def test_a_camera_at_rest_shows_the_path_up_to_now(camera):
     toss = made(MadePath(position=(0, 0, 0.2), velocity=(0.3, 0.002, -0.002)))
     pictures = drawn(toss, [0, 0.5, 1], camera, height=192, width=256)
-    first, middle, last = (picture.sum(axis=2) for picture in pictures)
+    # The rows above the shadow, which moves with the coin.
+    first, middle, last = (picture[:130].sum(axis=2) for picture in pictures)
     # Between where the coin is at these times.
     early, late = slice(64, 104), slice(152, 192)
     assert np.array_equal(middle[:, early], last[:, early])
@@ -177,7 +204,7 @@ def test_a_camera_at_rest_shows_the_path_up_to_now(camera):
 def test_the_close_up_follows_the_coin():
     toss = made(MadePath(position=(0, 0, 0.3), velocity=(0.3, 0.2, -0.25)))
     for picture in drawn(toss, [0, 0.5, 1], Camera.CLOSE_UP):
-        assert center(golden(picture)) == pytest.approx([24, 32], abs=2)
+        assert center(golden(picture)) == pytest.approx([48 * (0.5 + VIEWS[Camera.CLOSE_UP].aim), 32], abs=2)
 
 
 def test_a_coin_high_up_is_seen_close_by():
@@ -194,7 +221,8 @@ def test_a_coin_high_up_is_seen_close_by():
 def test_an_impulse_is_an_arrow_from_the_impact_on_and_not_for_long():
     toss = made(MadePath(position=(0, 0, 0.001), quaternion=FLAT), impacts=[(0.5, 1e-3)])
     times = [0.499, 0.5, 0.5 + SHOWN_FOR / 2, 0.5 + 1.01 * SHOWN_FOR]
-    seen = [pink(picture).sum() for picture in drawn(toss, times, Camera.CLOSE_UP)]
+    pictures = drawn(toss, times, Camera.CLOSE_UP, height=96, width=128)
+    seen = [pink(picture).sum() for picture in pictures]
     assert seen[0] == seen[3] == 0
     assert seen[1] > 10
     fading = [each.freshness for i in (1, 2) for each in play_of(shown(toss), np.array(times)).impulses(i)]
@@ -211,8 +239,8 @@ def test_an_arrow_is_as_long_as_the_impulse_is_large(camera, part):
         rows = np.argwhere(pink(picture))[:, 0]
         high.append(rows.max() - rows.min())
     assert high[1] / high[0] == pytest.approx(0.5, abs=0.1)
-    # The line of sight slopes, and the floor is farther away than what the camera aims at.
-    assert high[0] == pytest.approx(192 * part, rel=0.2)
+    # It is seen from above, and the floor is farther away than what the camera aims at.
+    assert high[0] == pytest.approx(192 * part * np.cos(np.radians(VIEWS[camera].elevation)), rel=0.2)
 
 
 def test_the_coin_does_not_hide_an_arrow():
@@ -224,10 +252,50 @@ def test_the_coin_does_not_hide_an_arrow():
 
 def test_a_force_is_an_arrow_as_long_as_the_contact_lasts():
     toss = made(MadePath(position=(0, 0, R), quaternion=UPRIGHT), contacts=[(0.4, 0.6)])
-    pictures = drawn(toss, [0.3, 0.5, 0.7], Camera.CLOSE_UP)
+    pictures = drawn(toss, [0.3, 0.5, 0.7], Camera.CLOSE_UP, height=96, width=128)
     seen = [green(picture).sum() for picture in pictures]
     assert seen[0] == seen[2] == 0
     assert seen[1] > 10
+
+
+def test_the_arrow_of_a_large_force_is_as_long_as_that_of_the_largest_impulse():
+    high = []
+    for force in ((0, 0, 200 * ZLOTY["mass"] * 9.81), (0, 0, 2 * ZLOTY["mass"] * 9.81)):
+        path = MadePath(position=(0, 0, R), quaternion=UPRIGHT, force=force)
+        toss = made(path, contacts=[(0.4, 0.6)])
+        (picture,) = drawn(toss, [0.5], Camera.CLOSE_UP, height=192, width=192)
+        high.append(np.ptp(np.argwhere(green(picture))[:, 0]))
+    assert high[0] == high[1] > 20
+
+
+@pytest.mark.parametrize("end", [Ending.LYING, Ending.STANDING, Ending.AT_REST])
+def test_the_floor_shows_no_action_on_a_coin_that_is_still(end):
+    path = MadePath(position=(0, 0, 0.001), force=(0, 0, np.nan))
+    toss = made(path, impacts=[(0.99, 1e-3)], contacts=[(0.995, 1.0)], ending=end)
+    play = play_of(shown(toss), np.array([1.0, 1.1]))
+    assert not play.forces.any()
+    assert play.impulses(0) == play.impulses(1) == []
+
+
+@pytest.mark.parametrize("width", [160, 320])
+def test_the_longest_arrows_stay_clear_of_the_caption(width):
+    """They are where they reach highest in the picture: at the rim behind."""
+    path, impacts = MadePath(position=(0, 0, 0.001), force=(0, 0, 1.0)), [(0.5, 1e-3)]
+    settled = made(path, impacts=impacts, end=0.5)
+    goes_on = made(path, impacts=impacts, contacts=[(0.5, 0.51)], end=0.51, ending=Ending.MAX_TIME)
+    play = play_of(Filmed(toss=settled, motion=goes_on), np.array([0.5, 0.51]))
+    behind = np.array([0, ZLOTY["radius"], 0])
+    impulse = Shown(point=behind, impulse=np.array([0, 0, 1e-3]), freshness=1.0)
+    with (
+        patch.object(Play, "lowest_point", lambda *_: behind),
+        patch.object(Play, "impulses", lambda *_: [impulse]),
+        Drawer(play, Camera.CLOSE_UP, box_of([play]), height=180, width=width) as drawer,
+    ):
+        picture, caption = drawer.draw(1), caption_of(play, 1)
+    assert len(caption.lines) == 4
+    words = np.flatnonzero((picture != written(picture, [caption], "")).any(axis=(1, 2)))
+    arrows = pink(picture.astype(int)) | green(picture.astype(int))
+    assert np.argwhere(arrows)[:, 0].min() > words.max()
 
 
 # Words.

@@ -1,13 +1,13 @@
 """Maps of a coin made in small tiles, here or in another process."""
 
 import subprocess
-import sys
 import time
 
 import numpy as np
 import xarray as xr
 
-from tests.helpers.command_line import HERE, cointoss
+from tests.helpers.command_line import cointoss
+from tests.helpers.processes import started
 
 SCENARIO = """
 [coin]
@@ -47,7 +47,7 @@ def whole_tiles(path):
 
 
 def begun(coin, out, *extra, stderr=subprocess.PIPE):
-    """Start a process that makes the map in small tiles, slowly enough to be met at it."""
+    """Start a process, for a `with` statement, that makes the map in small tiles, slowly."""
     script = (
         "import time; from compare.engines import Engine; from compare.sweep import grid, run\n"
         f"grid.TILE_TOSSES[Engine.ANALYTIC] = {SMALL}\n"
@@ -55,13 +55,8 @@ def begun(coin, out, *extra, stderr=subprocess.PIPE):
         "run.toss_pixels = lambda *tile: time.sleep(0.05) or toss(*tile)\n"
         "from compare.cli import main; main()"
     )
-    return subprocess.Popen(
-        [sys.executable, "-c", script, "basin", coin, *AXES, "--out", out, *extra],
-        env=HERE,
-        stdout=subprocess.PIPE,
-        stderr=stderr,
-        text=True,
-    )
+    words = ("basin", coin, *AXES, "--out", out, *extra)
+    return started("-c", script, *words, stdout=subprocess.PIPE, stderr=stderr)
 
 
 def wait_for(process, out, count):

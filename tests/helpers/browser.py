@@ -6,13 +6,14 @@ import os
 import select
 import shutil
 import subprocess
-import sys
 import time
 from base64 import b64decode
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, Self
+
+from tests.helpers.processes import started
 
 OPTIONS = (
     "--headless",
@@ -46,24 +47,18 @@ def browser(profile: Path) -> Iterator["Browser"]:
     answered, answers = os.pipe()
     theirs = [fcntl.fcntl(each, fcntl.F_DUPFD, 10) for each in (orders, answers)]
     command = [chromium(), *OPTIONS, f"--user-data-dir={profile}", "about:blank"]
-    process = subprocess.Popen(
-        [sys.executable, "-S", "-E", "-c", LAUNCH, *map(str, theirs), *command],
-        pass_fds=theirs,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    for each in (orders, answers, *theirs):
-        os.close(each)
-    try:
-        yield Browser(ordered, answered)
-    finally:
-        os.close(ordered)  # its end ends the browser
+    launch = ("-S", "-E", "-c", LAUNCH, *theirs, *command)
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    with started(*launch, pass_fds=theirs, **quiet) as process:
+        for each in (orders, answers, *theirs):
+            os.close(each)
         try:
-            process.wait(timeout=20)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-        os.close(answered)
+            yield Browser(ordered, answered)
+        finally:
+            os.close(ordered)  # its end ends the browser
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(timeout=20)
+            os.close(answered)
 
 
 class Browser:

@@ -177,7 +177,7 @@ class Extended:
                     raise RuntimeError("a touch went unseen")
                 continue
             S, n_z, lift = self._hit(coin.state)
-            if not S[2] > 0 and self.floor.contact.label == "sliding_friction":
+            if not S[2] > 0 and str(self.floor.contact) == "sliding_friction":
                 return
             yield ExtendedTouch(float(coin.time), bool(n_z > 0), S.astype(float))
             if not lift > 0:
@@ -224,7 +224,7 @@ class Extended:
             "perfectly_rough": [(nu, 0), (tau, 0)],
             "slip_preserving": [(nu, 1), (tau, 1)],
         }
-        label = self.floor.contact.label
+        label = str(self.floor.contact)
         rows, right = [K[2]], [-(1 + Q(self.floor.restitution)) * v_A[2]]
         if label in stop:
             for direction, kept in stop[label]:

@@ -25,7 +25,7 @@ def draw_impact(rng, law, restitution=None):
         coin=draw_coin(rng),
         floor={
             "restitution": rng.uniform(0, 1) if restitution is None else restitution,
-            "contact": law.label,
+            "contact": str(law),
             "friction": float(rng.uniform(0, 0.6)),
         },
     )

@@ -216,7 +216,7 @@ class Referee:
         right = [self.m * v, self.J @ w, [-floor.restitution * v_A[2]]]
         S_x, S_y, S_z = np.eye(9)[6:9]
         slip = np.array([v_A[0], v_A[1], 0]) / np.hypot(v_A[0], v_A[1])
-        match floor.contact.label:
+        match str(floor.contact):
             case "sharp_edge":
                 rows += [[nu @ v_A_rows], [tau @ v_A_rows]]
                 right += [[0], [tau @ v_A]]

@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 from pathlib import Path
 from subprocess import PIPE
 
@@ -21,9 +22,12 @@ CALLER = IMPORT + "from {} import part\n\n\n@compiled\ndef whole(x):\n    return
 
 
 FORK = """
-import os, sys
+import gc, os, sys
 import numba
 
+if WARM:
+    numba.njit("f8(f8)")(lambda x: x)
+gc.freeze()
 for line in sys.stdin:
     process = os.fork()
     if process == 0:
@@ -32,18 +36,19 @@ for line in sys.stdin:
         sys.path.insert(0, folder)
         os.environ["NUMBA_CACHE_DIR"] = os.path.join(folder, "cache")
         exec(script, {"__name__": "__main__"})
-        break
+        sys.stdout.flush()
+        os._exit(0)  # to take numba down would take longer than most scripts
     print("|", os.waitpid(process, 0)[1], flush=True)
 """
-"""A process with numba, and none of ours, imported, which takes longer than a script: it forks for each."""
+"""A process with numba, WARM from having compiled, and none of ours, imported: it forks for each script."""
 
 
-@pytest.fixture(scope="module")
-def run():
+@contextmanager
+def forking(*, warm):
     """Return what runs a script in a folder, in a process of its own, and returns the numbers it prints."""
-    asked = [sys.executable, "-c", FORK]
-    with subprocess.Popen(asked, env={"PATH": ""}, stdin=PIPE, stdout=PIPE, text=True) as forking:
-        questions, answers = forking.stdin, forking.stdout
+    asked = [sys.executable, "-c", FORK.replace("WARM", str(warm))]
+    with subprocess.Popen(asked, env={"PATH": ""}, stdin=PIPE, stdout=PIPE, text=True) as process:
+        questions, answers = process.stdin, process.stdout
         assert questions is not None
         assert answers is not None
 
@@ -58,6 +63,12 @@ def run():
 
         yield run_in
         questions.close()
+
+
+@pytest.fixture(scope="module")
+def run():
+    with forking(warm=True) as run_in:
+        yield run_in
 
 
 @pytest.fixture
@@ -172,13 +183,14 @@ def test_python_calls_what_was_only_kept_for_callers(folder, run):
     assert run(folder, script) == [9, 4, 0, 0]
 
 
-def test_code_kept_for_python_is_read_without_what_numba_can_compile(folder, run):
+def test_code_kept_for_python_is_read_without_what_numba_can_compile(folder):
     write(folder, "analytic.callee", CALLEE.format(2.0))
     write(folder, "analytic.caller", CALLER.format("analytic.callee", 1))
     script = "import sys\nfrom analytic.caller import whole\nprint(whole(1.0))\n"
     imported = "print(int('numba.np.linalg' in sys.modules))"
-    assert run(folder, script + imported) == [3, 1]
-    assert run(folder, script + imported) == [3, 0]
+    with forking(warm=False) as run:
+        assert run(folder, script + imported) == [3, 1]
+        assert run(folder, script + imported) == [3, 0]
 
 
 def test_named_tuples_with_other_fields_are_other_types(folder, run):

@@ -70,5 +70,5 @@ def test_a_coin_in_flight_has_its_first_side_up_for_that_part_of_the_time(psi):
     ],
 )
 def test_what_no_hand_does_is_refused_by_name(field, value):
-    with pytest.raises(ValueError, match=f"{field}: {value}, accepted: "):
+    with pytest.raises(ValueError, match=f"{field} = {value}: accepted: "):
         Hand(**{field: value})

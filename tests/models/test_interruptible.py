@@ -4,6 +4,7 @@ import threading
 import traceback
 import warnings
 
+import numba
 import numpy as np
 import pytest
 
@@ -52,16 +53,21 @@ def many(n):
     )
 
 
-@pytest.mark.parametrize("n", [0, 1, 4, 5, 1000])
-def test_every_tile_is_made_once(n):
+@pytest.mark.parametrize(("n", "size"), [(0, 5), (1, 1), (4, 1), (15, 1), (24, 3), (1000, 5), (1003, 5)])
+def test_every_tile_is_made_once_and_each_thread_has_some(n, size, monkeypatch):
+    monkeypatch.setattr(numba.config, "NUMBA_NUM_THREADS", 2)
+    told = []
+
     def number(states, outcomes, *others):
         outcomes[:] = 3
         for column in others:
             column[:] = len(states)
 
-    made = toss_in_tiles(many(n), 5, number)
+    made = toss_in_tiles(many(n), 5, number, lambda *so_far: told.append(so_far))
     assert made.outcome.tolist() == [3] * n
-    assert made.impacts.tolist() == [5] * (n - n % 5) + [n % 5] * (n % 5)
+    assert made.impacts.tolist() == [size] * (n - n % size) + [n % size] * (n % size)
+    assert sorted(told) == told
+    assert told[-1:] == [(n, n)] * (n > 0)
 
 
 def test_a_tile_that_fails_keeps_those_not_begun_from_being_made():
@@ -72,5 +78,5 @@ def test_a_tile_that_fails_keeps_those_not_begun_from_being_made():
         raise LookupError("a tile")
 
     with pytest.raises(LookupError, match="a tile"):
-        toss_in_tiles(many(1000), 1, failing)
+        toss_in_tiles(many(1000), 1, failing, lambda *_: None)
     assert 1 <= len(made) <= threading.active_count() + 64

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+import analytic
 from models.outcomes import Outcomes
-from models.releases import Releases, check_releases
+from models.reading import load
+from models.releases import QUANTITIES, Releases, check_releases
 from models.scenario import Release
 from tests.helpers.draws import scenario
 
@@ -25,10 +27,13 @@ def changed(name: str, column: int, value: float) -> Releases:
 
 @pytest.mark.parametrize(
     ("name", "shape"),
-    [("position", (2, 2)), ("velocity", (3, 3)), ("quaternion", (2,)), ("quaternion", (2, 3))],
+    [("position", (2, 2)), ("position", (3,)), ("velocity", (3, 3)), ("quaternion", (2,)), ("position", ())],
 )
 def test_a_wrong_shape_is_refused(name, shape):
-    with pytest.raises(ValueError, match=rf"Releases\.{name}: shape .*, expected \(2, "):
+    rows = "n" if name == "position" else "2"
+    with pytest.raises(
+        ValueError, match=rf"Releases\.{name}: shape .*, expected \({rows}, [34]\), a row for"
+    ):
         Releases(**{**GOOD, name: np.zeros(shape)})
 
 
@@ -109,3 +114,69 @@ def test_outcomes_check_their_shapes_and_are_read_only():
         outcomes.impacts[0] = 1
     with pytest.raises(ValueError, match=r"Outcomes\.end_time: shape \(3,\), expected \(2,\)"):
         Outcomes(**{**columns, "end_time": np.zeros(3)})
+
+
+def test_releases_are_copies_of_a_scenarios_but_for_what_is_given():
+    release = load("fig24a").release
+    some = Releases.of("fig24a", 3, height=("20 cm", 0.6), spin=40, velocity_x=[1, 2, 4])
+    assert some.position.tolist() == [[0, 0, 0.2], [0, 0, 0.4], [0, 0, 0.6]]
+    assert some.angular_velocity.tolist() == [[0, 40, 0]] * 3
+    assert some.velocity.tolist() == [[1, 0, 0], [2, 0, 0], [4, 0, 0]]
+    assert some.quaternion.tolist() == [list(release.attitude)] * 3
+    assert Releases.of(load("fig24a"), 2).position.tolist() == [list(release.position)] * 2
+    assert Releases.of("fig24a", 1, height=(0.2, 0.6)).position[:, 2].tolist() == [0.2]
+
+
+def test_a_spin_keeps_its_axis():
+    turning = load("fig24a").replace("release.angular_velocity", [3, 0, -4])
+    spun = Releases.of(turning, 2, spin=(10, "600 deg/s"))
+    assert np.allclose(spun.angular_velocity, np.outer([10, np.radians(600)], [0.6, 0, -0.8]), rtol=1e-15)
+    with pytest.raises(
+        ValueError, match=r"spin: this scenario's coin does not spin, .* accepted: angular_vel"
+    ):
+        Releases.of(turning.replace("release.angular_velocity", [0, 0, 0]), 2, spin=1)
+
+
+def test_each_number_of_a_release_can_be_given_and_is_tossed_as_its_scenario():
+    plain, value = {**QUANTITIES}, 0.25
+    for short in ("height", "spin", *(f"quaternion_e{i}" for i in range(4))):
+        del plain[short]
+    assert len(plain) == 12
+    for name, field in plain.items():
+        changed = load("fig24a").replace(field, value)
+        some = Releases.of("fig24a", 2, **{name: value})
+        for part in ("position", "velocity", "angular_velocity"):
+            assert tuple(getattr(some, part)[1].tolist()) == getattr(changed.release, part)
+        assert tuple(some.quaternion[1].tolist()) == changed.release.attitude
+    outcomes = analytic.toss_many("fig24a", Releases.of("fig24a", 2, velocity_z=1, angles_theta="20 deg"))
+    toss = analytic.toss(load("fig24a").replace("release.velocity.z", 1, "release.angles.theta", "20 deg"))
+    assert (outcomes.outcome[1], outcomes.end_time[1]) == (toss.outcome, toss.end_time)
+
+
+@pytest.mark.parametrize(
+    ("n", "given", "message"),
+    [
+        (
+            4,
+            {"height": np.zeros(3)},
+            r"height = shape \(3,\), accepted: a number \[m\] or a text with its unit",
+        ),
+        (4, {"height": "3 s"}, r'height = "3 s", accepted: a number \[m\]'),
+        (4, {"spin": None}, r"spin = None, accepted: a number \[rad/s\]"),
+        (4, {"spin": np.zeros((4, 3))}, r"spin = shape \(4, 3\), accepted: .* or 4 of them"),
+        (4, {"height": 1, "position_z": 1}, "position_z: sets release.position.z again"),
+        (4, {"height": (-1, 1)}, "position: row 0 is .* accepted: a coin above the floor"),
+        (0, {}, "n = 0, accepted: a whole number from 1"),
+        (2.5, {}, "n = 2.5, accepted: a whole number from 1"),
+    ],
+)
+def test_what_makes_no_releases_is_refused(n, given, message):
+    with pytest.raises(ValueError, match=rf"^Releases\.(of: )?{message}"):
+        Releases.of("fig24a", n, **given)
+
+
+def test_an_unknown_quantity_is_answered_with_those_there_are():
+    with pytest.raises(
+        TypeError, match=r"^Releases\.of: hight: unknown; accepted: height, spin, position_x, "
+    ):
+        Releases.of("fig24a", 4, hight=1)

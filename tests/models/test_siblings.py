@@ -50,3 +50,20 @@ def test_a_folder_that_shadows_nothing_is_no_harm(tmp_path):
     done = run_python(["-c", "import compare, models; print(compare.__file__, models.__file__)"], tmp_path)
     ours = [str(ROOT / name / "__init__.py") for name in ("compare", "models")]
     assert done.stdout.split() == ours, done.stderr
+
+
+def test_a_foreign_package_that_is_imported_already_is_named(tmp_path):
+    """As in a notebook that used a package of its own before; `cointoss` itself is imported without any."""
+    (tmp_path / "models").mkdir()
+    (tmp_path / "models" / "__init__.py").touch()
+    script = "import models, sys; sys.path.remove(sys.argv[1]); import cointoss; print(cointoss.load)"
+    done = run_python(["-c", script, str(tmp_path)], tmp_path)
+    assert done.stderr.splitlines()[-1].startswith(
+        f"ImportError: {tmp_path / 'models' / '__init__.py'} shadows cointoss's package models, "
+        f"{ROOT / 'models' / '__init__.py'}; accepted: no other module of this name imported before"
+    )
+    made = "import sys, types; sys.modules['coin_mj'] = types.ModuleType('coin_mj'); import analytic"
+    done = run_python(["-c", made], tmp_path.parent)
+    assert (
+        "ImportError: <module 'coin_mj'> shadows cointoss's package coin_mj" in done.stderr.splitlines()[-1]
+    )

@@ -4,6 +4,7 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
+from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 import analytic
@@ -99,7 +100,12 @@ def test_impacts_become_a_table(tossed):
     assert found.index.tolist() == list(range(1, len(tossed.impacts) + 1))
     assert (found["impulse_z"] == tossed.impacts.impulse[:, 2]).all()
     assert "".join(face[0].upper() for face in found["face"]) == tossed.sequence
-    assert tossed.sample([0, 0.1]).to_dataframe().loc[0.0, "position_z"] == 0.40001
+    path = tossed.sample([0, 0.1]).to_dataframe()
+    assert path.loc[0.0, "position_z"] == 0.40001
+    arrays = tossed.to_xarray()
+    assert found.attrs["units"]["impulse_z"] == arrays.impulse.attrs["units"] == "N s"
+    assert set(found) - set(found.attrs["units"]) == {"face", *(f"quaternion_e{i}" for i in range(4))}
+    assert path.attrs["units"]["time"] == "s"
 
 
 def test_outcomes_become_labelled_arrays_and_a_table(outcomes):
@@ -110,15 +116,28 @@ def test_outcomes_become_labelled_arrays_and_a_table(outcomes):
     assert table["outcome"].tolist() == ["heads", "tails", "heads"]
     assert table["last_face"].tolist() == ["heads", "tails", "none"]
     assert table["impacts"].tolist() == [3, 1, 0]
+    assert table.attrs["units"] == {"end_time": "s"}
 
 
 def test_plots_are_labelled(tossed, outcomes):
-    axes = tossed.plot(ax=Figure().add_subplot())
+    given = Figure().add_subplot()
+    axes = tossed.plot(given, color="red")
+    assert axes is given
+    assert axes.get_lines()[0].get_color() == "red"
     assert axes.get_ylabel() == "height of the mass centre [m]"
     assert axes.get_xlabel() == "time [s]"
     drawn = sum(len(line.get_xdata()) for line in axes.get_lines()[1:])
     assert drawn == len(tossed.impacts)
-    axes = outcomes.plot(ax=Figure().add_subplot())
+    axes = outcomes.plot(given := Figure().add_subplot())
+    assert axes is given
     assert [label.get_text() for label in axes.get_xticklabels()] == ["heads", "tails"]
     assert [bar.get_height() for bar in axes.patches] == [2, 1]
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("outcome", "tosses")
+
+
+def test_a_plot_without_axes_is_a_figure_of_its_own(tossed, outcomes):
+    figures = [toss.plot().figure for toss in (tossed, outcomes)]
+    assert figures[0] is not figures[1]
+    assert {figure.number for figure in figures} <= set(pyplot.get_fignums())
+    for figure in figures:
+        pyplot.close(figure)

@@ -1,4 +1,4 @@
-// An axis of the map: the value at a pixel, its name and its unit.
+// An axis of the map: the value at a pixel, and its title.
 
 export function valueAt(axis, index) {
   // As numpy.linspace, to the last bit: the pixel's toss is the map's.
@@ -10,17 +10,8 @@ export function indexOf(axis, value) {
   return ((value - axis.start) / (axis.stop - axis.start)) * (axis.count - 1);
 }
 
-const superscripts = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹", ".": "·" };
-
-export function unitOf(axis) {
-  return axis.unit
-    .replace(/\*\*(-?[\d.]+)/g, (_, power) => [...power].map((sign) => superscripts[sign]).join(""))
-    .replaceAll("*", " ");
-}
-
 export function title(axis) {
-  const unit = unitOf(axis);
-  return unit ? `${axis.field} [${unit}]` : axis.field;
+  return axis.unit ? `${axis.word} [${axis.unit}]` : axis.word;
 }
 
 // A value with as many digits as tell it from the next, `step` away.

@@ -1,7 +1,7 @@
 // The explorer's page: the map, the pixel that is chosen, and its toss by both engines.
 
 import { grid, isStatic, loadMap, tile, toss } from "./source.js";
-import { indexOf, shown, unitOf, valueAt } from "./axes.js";
+import { indexOf, shown, valueAt } from "./axes.js";
 import { clamp, makeMap } from "./map.js";
 import { LABELS } from "./motion.js";
 import { makeStage } from "./stage.js";
@@ -44,15 +44,16 @@ async function begin() {
 }
 
 function describe() {
-  byId("name").textContent = map.name;
-  document.title = `${map.name}: cointoss explore`;
+  byId("name").textContent = map.title;
+  document.title = `${map.title}: cointoss explore`;
   const parts = [
-    `${map.axes.x.count} by ${map.axes.y.count} tosses by the ${LABELS[map.engine]} engine: ` +
+    `${map.name}: ${map.axes.x.count} by ${map.axes.y.count} tosses by the ${LABELS[map.engine]} engine: ` +
       (map.after === null ? "the final outcome." : `the face at touch ${map.after + 1}, or the outcome of a toss that ended before.`)];
   if (map.stride > 1) parts.push(`One pixel of every ${map.stride} along each axis is shown.`);
   if (map.tossed < 1) parts.push(`The map is not finished: ${(100 * map.tossed).toFixed(1)} % is tossed${isStatic ? "" : "; reload to see more"}.`);
   if (isStatic) parts.push("Dots mark the pixels whose tosses are in this page.");
   byId("about").textContent = parts.join(" ");
+  byId("fields").textContent = `Across: ${fieldText(map.axes.x)}. Up: ${fieldText(map.axes.y)}.`;
   const present = new Set(Int8Array.from(bytesOf(map.arrays.outcome)));
   const entries = Object.entries(map.outcomes).filter(([code]) => present.has(Number(code))).map(([, one]) => [one.label, one.color]);
   if (present.has(-1)) entries.push(["not tossed", "var(--untossed)"]);
@@ -64,7 +65,8 @@ function describe() {
   }));
 }
 
-const valueText = (axis, value, step) => `${axis.field} = ${shown(value, step)} ${unitOf(axis)}`.trim().replaceAll(" ", "\u00a0");
+const fieldText = (axis) => `${axis.word} (${axis.field})`;
+const valueText = (axis, value, step) => `${axis.word} = ${shown(value, step)} ${axis.unit}`.trim().replaceAll(" ", "\u00a0");
 
 function releaseText(place) {
   const { x, y } = map.axes, step = (axis) => ((axis.stop - axis.start) / (axis.count - 1)) * Math.min(place.step, 1);

@@ -68,7 +68,7 @@ class Settings:
     @property
     def words(self) -> tuple[str, ...]:
         """The settings as a row of a table."""
-        law = self.law.label.replace("_", " ") + (f" {self.friction:.2f}" if self.friction else "")
+        law = str(self.law).replace("_", " ") + (f" {self.friction:.2f}" if self.friction else "")
         return (
             f"{1e3 * self.thickness:g}",
             f"{self.offset:.2f}",

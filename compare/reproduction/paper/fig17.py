@@ -91,7 +91,7 @@ def make(progress: Progress) -> Result:
     claims: list[Claim] = []
     gained = {}
     for done, (name, law) in enumerate(LAWS.items(), start=1):
-        case = _one_impact(load(f"contact_{name.label}"))
+        case = _one_impact(load(f"contact_{name}"))
         by_law = analytic.toss(case).impacts
         before, after, S = _in_the_floor(by_law)
         misfit = max(
@@ -199,7 +199,7 @@ def _draw(data: dict[str, Array]) -> Figure:
             for part, color, unit in (("after", BLUE, 1), ("impulse", VERMILION, 1e3)):
                 tip = unit * data[f"({law.letter}) {part}, MuJoCo"]
                 axes.plot(tip[0], tip[1], "o", color=color, markersize=9, fillstyle="none")
-        title = f"({law.letter}) {name.label.replace('_', ' ')}: S_z = {1e3 * S[2]:.2f} mN s"
+        title = f"({law.letter}) {str(name).replace('_', ' ')}: S_z = {1e3 * S[2]:.2f} mN s"
         axes.set_title(title, fontsize=9)
     for axes in picture.axes[3:]:
         axes.set_xlabel("τ, along the edge [m/s]")

@@ -17,7 +17,7 @@ from models.reading import load
 from models.records import Array, Flag, Impacts, raised_flags
 
 LAWS = {
-    **{law.label: (law, RestitutionKind.KINEMATIC) for law in ContactLaw if law != ContactLaw.COULOMB},
+    **{str(law): (law, RestitutionKind.KINEMATIC) for law in ContactLaw if law != ContactLaw.COULOMB},
     "coulomb, kinematic": (ContactLaw.COULOMB, RestitutionKind.KINEMATIC),
     "coulomb, energetic": (ContactLaw.COULOMB, RestitutionKind.ENERGETIC),
 }

@@ -117,10 +117,7 @@ def ends_of(kind: EdgeClass, count: int, size: int, parts: Path, engine: Engine 
         many = min(size, count - first)
         name = f"{source_hash(_ENTRIES[engine])}-{engine}-{label:08x}-{number}-{many}"
         counts += kept(parts, name, partial(_part, kind, number, many, engine))["counts"]
-    return {
-        f"{Outcome(o).label}, {Ending(e).label}": int(counts[o, e])
-        for o, e in zip(*counts.nonzero(), strict=True)
-    }
+    return {f"{Outcome(o)}, {Ending(e)}": int(counts[o, e]) for o, e in zip(*counts.nonzero(), strict=True)}
 
 
 def _part(kind: EdgeClass, number: int, count: int, engine: Engine) -> Part:
@@ -137,7 +134,7 @@ def tosses(ends: Ends) -> int:
 
 def ended_as(ends: Ends, outcome: Outcome) -> int:
     """Return how many tosses have an outcome."""
-    return sum(number for name, number in ends.items() if name.startswith(f"{outcome.label}, "))
+    return sum(number for name, number in ends.items() if name.startswith(f"{outcome}, "))
 
 
 def corner(aspect: float | Array) -> Any:

@@ -56,7 +56,7 @@ class Reading:
     @property
     def name(self) -> str:
         """The reading in words."""
-        floor = self.law.label.replace("_", " ")
+        floor = str(self.law).replace("_", " ")
         return f"{self.coin}, {floor}" + (f" {self.friction:g}" if self.friction else "")
 
     @property

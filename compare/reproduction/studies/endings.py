@@ -3,7 +3,7 @@
 import os
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import product
 from typing import Any, NamedTuple
@@ -79,14 +79,14 @@ def compute(count: int, count_mujoco: int, seed: int, progress: Progress) -> End
     mujoco: dict[str, Counter[str]] = {}
     most, longest = 0, 0.0
     whole = len(jobs) + len(jobs_mujoco)
-    with ProcessPoolExecutor(os.cpu_count()) as pool:
-        ended = pool.map(_toss, jobs, chunksize=20)
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        ended = pool.map(_toss, jobs)
         for done, (kind, outcome, ending, impacts, time) in enumerate(ended, start=1):
             outcomes.setdefault(_name(kind), Counter())[f"{outcome}, {ending}"] += 1
             if outcome not in ("undecided", "perpetual"):
                 most, longest = max(most, impacts), max(longest, time)
             progress(done, whole)
-        ended = pool.map(toss_by_mujoco, jobs_mujoco, chunksize=20)
+        ended = pool.map(toss_by_mujoco, jobs_mujoco)
         for done, (kind, outcome, ending) in enumerate(ended, start=len(jobs) + 1):
             mujoco.setdefault(_name(kind), Counter())[f"{outcome}, {ending}"] += 1
             progress(done, whole)
@@ -139,7 +139,7 @@ def _toss(job: tuple[int, int, int]) -> tuple[Kind, str, str, int, float]:
     kind, scenario = draw_toss(np.random.default_rng(job), COINS[job[1]])
     ended = analytic.toss_many(scenario, _only(scenario.release))
     outcome, ending = Outcome(ended.outcome[0]), Ending(ended.ending[0])
-    return kind, outcome.label, ending.label, int(ended.impacts[0]), float(ended.end_time[0])
+    return kind, str(outcome), str(ending), int(ended.impacts[0]), float(ended.end_time[0])
 
 
 def toss_by_mujoco(job: tuple[int, int, int]) -> tuple[Kind, str, str]:
@@ -149,7 +149,7 @@ def toss_by_mujoco(job: tuple[int, int, int]) -> tuple[Kind, str, str]:
     while kind.floor not in BY_BOTH:
         kind, scenario = draw_toss(rng, COINS[job[1]])
     ended = coin_mj.toss_many(scenario, _only(scenario.release))
-    return kind, Outcome(ended.outcome[0]).label, Ending(ended.ending[0]).label
+    return kind, str(Outcome(ended.outcome[0])), str(Ending(ended.ending[0]))
 
 
 def _only(release: Release) -> Releases:
@@ -180,7 +180,7 @@ def by_both(counts: EndingCounts, within: Iterable[str]) -> dict[str, list[int]]
     words = list(within)
     engines = {"analytic": counts.outcomes, "mujoco": counts.mujoco}
     return {
-        engine: [share(outcomes, outcome.label, words)[0] for outcome in _SHOWN]
+        engine: [share(outcomes, str(outcome), words)[0] for outcome in _SHOWN]
         for engine, outcomes in engines.items()
     }
 
@@ -237,17 +237,17 @@ def _in_air(counts: EndingCounts) -> list[str]:
 def _rows(counts: EndingCounts) -> Iterator[tuple[str, list[float]]]:
     for name, ends in counts.outcomes.items():
         number = sum(ends.values())
-        parts = [sum(n for end, n in ends.items() if end.startswith(f"{o.label}, ")) for o in _SHOWN]
+        parts = [sum(n for end, n in ends.items() if end.startswith(f"{o}, ")) for o in _SHOWN]
         yield f"{name} ({number})", [100 * part / number for part in parts]
 
 
 def tables(counts: EndingCounts) -> str:
     """Return the tables, in Markdown."""
-    shown = [f"{outcome.label} [%]" for outcome in _SHOWN]
+    shown = [f"{outcome} [%]" for outcome in _SHOWN]
     parts = []
     for outcome in _SHOWN:
-        number, whole = share(counts.outcomes, outcome.label)
-        parts.append([outcome.label, f"{number} of {whole}", f"{100 * number / whole:.2f}"])
+        number, whole = share(counts.outcomes, str(outcome))
+        parts.append([str(outcome), f"{number} of {whole}", f"{100 * number / whole:.2f}"])
     number, whole = share(counts.outcomes, "perpetual", ["vacuum"])
     parts.append(["perpetual, of those in vacuum", f"{number} of {whole}", f"{100 * number / whole:.2f}"])
     pooled = {f"{floor}, {medium}": [floor, medium] for floor, medium in product(BY_BOTH, MEDIA)}
@@ -287,7 +287,7 @@ def draw(counts: EndingCounts) -> Figure:
             color=OUTCOMES[outcome],
             edgecolor=GREY,
             linewidth=0.4,
-            label=outcome.label,
+            label=str(outcome),
         )
         left += parts
     axes.grid(visible=False)

@@ -162,7 +162,7 @@ def timed_toss(body: Body, rules: Rules, start: Array) -> tuple[float, str]:
     y, rows = start.copy(), np.zeros(2, IMPACT_ROW)
     began = process_time()
     _, _, _, outcome, ending, _ = toss_coin(body, rules, contact_limits(MANY), y, rows, False)
-    return process_time() - began, f"{Outcome(outcome).label}, {Ending(ending).label}"
+    return process_time() - began, f"{Outcome(outcome)}, {Ending(ending)}"
 
 
 def call_time(scenario: Scenario, start: Array) -> float:

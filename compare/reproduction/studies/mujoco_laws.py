@@ -47,7 +47,7 @@ CONTACTS: dict[str, tuple[float, Settings]] = {
     ),
 }
 """Coefficient of friction and settings of MuJoCo's contacts, by name."""
-NAMES = {law: f"({letter}) {law.label}" for letter, law in zip("abcdef", ContactLaw, strict=False)} | {
+NAMES = {law: f"({letter}) {law}" for letter, law in zip("abcdef", ContactLaw, strict=False)} | {
     ContactLaw.COULOMB: "coulomb"
 }
 

@@ -65,7 +65,7 @@ def zloty(threshold: float) -> Scenario:
 def one_toss(threshold: float) -> OneToss:
     """Toss the zloty as its scenario says."""
     tossed = analytic.toss(zloty(threshold))
-    end = f"{tossed.outcome.label}, {tossed.ending.label}"
+    end = f"{tossed.outcome}, {tossed.ending}"
     return OneToss(len(tossed.impacts), len(tossed.contacts), tossed.end_time, end)
 
 

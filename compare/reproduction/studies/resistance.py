@@ -108,7 +108,7 @@ def rolling_stop(share_of_inertia: float) -> Stop:
     )
     tossed = analytic.toss(case)
     if tossed.ending != Ending.AT_REST:
-        raise RuntimeError(f"a coin that rolls upright ended {tossed.ending.label}; expected: at_rest")
+        raise RuntimeError(f"a coin that rolls upright ended {tossed.ending}; expected: at_rest")
     slowing = ROLLING * case.gravity / (r * (1 + share_of_inertia))
     end = tossed.path.sample(np.array([tossed.end_time])).position[0]
     return Stop(tossed.end_time, SPEED / slowing, float(end[0]), SPEED**2 / (2 * slowing))
@@ -124,7 +124,7 @@ def pivoting_stop() -> Stop:
     )
     tossed = analytic.toss(case)
     if tossed.ending != Ending.AT_REST:
-        raise RuntimeError(f"a coin that pivots upright ended {tossed.ending.label}; expected: at_rest")
+        raise RuntimeError(f"a coin that pivots upright ended {tossed.ending}; expected: at_rest")
     slowing = PIVOTING * m * case.gravity / case.body.inertia[1][1]
     return Stop(tossed.end_time, SPIN / slowing, 0.0, 0.0)
 
@@ -193,7 +193,7 @@ def nickel_ends(size: float, count: int, seed: int) -> dict[str, int]:
     )
     ended = analytic.toss_many(case, releases_of_hands(np.random.default_rng(seed), count, aside=10.0))
     names = Counter(
-        f"{Outcome(outcome).label}, {Ending(ending).label}"
+        f"{Outcome(outcome)}, {Ending(ending)}"
         for outcome, ending in zip(ended.outcome, ended.ending, strict=True)
     )
     return dict(sorted(names.items()))
@@ -230,7 +230,7 @@ def claims(found: ResistanceRecord) -> tuple[Claim, ...]:
         n
         for size, ends in found.nickel.items()
         for end, n in ends.items()
-        if size != "0" and end == f"edge, {Ending.ROLLING.label}"
+        if size != "0" and end == f"edge, {Ending.ROLLING}"
     )
     exponent, rate = power_law(found.disks["rolling"])
     pivots = found.disks["pivoting"]

@@ -4,7 +4,7 @@ import { placeIn, valueAt } from "./sampled.js";
 import { logTicks, ticks } from "./ticks.js";
 
 const SVG = "http://www.w3.org/2000/svg";
-const LEFT = 58, RIGHT = 14, TOP = 22, BOTTOM = 40;
+const LEFT = 66, RIGHT = 14, TOP = 26, BOTTOM = 48;
 const SHORTEST = 1e-6; // of the whole time
 const CLEAR_MARKS = 40; // more vertical lines than these fade
 const MOST_DOTS = 300;
@@ -54,7 +54,7 @@ export function makeSpan(until) {
 // height, log, range (both ends, or from which value on), at (ticks of [value, text]), levels of { value, text },
 // dots of { kind, time, values }, marks (times), and bars of { time, text }.
 export function makePlot(box, about, span) {
-  const { title, unit = "", lines, height = 270, levels = [], dots = [], marks = [], bars = [] } = about;
+  const { title, unit = "", lines, height = 290, levels = [], dots = [], marks = [], bars = [] } = about;
   const svg = element("svg", { role: "img", tabindex: "0", height, "aria-label": label(about) });
   const readout = document.createElement("p"), drawn = element("g"), marked = element("g");
   readout.className = "values";
@@ -106,10 +106,10 @@ export function makePlot(box, about, span) {
     const rows = about.at ?? (about.log ? logTicks(low, high) : ticks(low, high, 5).values).map((value) => [value, numberText(value)]);
     for (const [value, text] of rows) {
       made.push(element("line", { class: "grid", x1: LEFT, x2: right, y1: y(value), y2: y(value) }));
-      made.push(element("text", { x: LEFT - 7, y: y(value) + 4, "text-anchor": "end" }, text));
+      made.push(element("text", { x: LEFT - 7, y: y(value) + 5, "text-anchor": "end" }, text));
     }
-    for (const time of ticks(span.low, span.high, Math.min(6, wide / 90)).values) {
-      made.push(element("text", { x: x(time), y: foot + 17, "text-anchor": "middle" }, String(time)));
+    for (const time of ticks(span.low, span.high, Math.min(6, wide / 100)).values) {
+      made.push(element("text", { x: x(time), y: foot + 20, "text-anchor": "middle" }, String(time)));
     }
     made.push(element("text", { x: right, y: height - 5, "text-anchor": "end" }, "t [s]"));
     const near = marks.filter(visible);
@@ -133,7 +133,7 @@ export function makePlot(box, about, span) {
     }
     for (const { time, text } of bars.filter((bar) => visible(bar.time))) {
       frame.append(element("line", { class: "bar", x1: x(time), x2: x(time), y1: TOP, y2: foot }));
-      made.push(element("text", { class: "bar", x: Math.min(Math.max(x(time), LEFT + 24), right - 24), y: TOP - 6, "text-anchor": "middle" }, text));
+      made.push(element("text", { class: "bar", x: Math.min(Math.max(x(time), LEFT + 30), right - 30), y: TOP - 6, "text-anchor": "middle" }, text));
     }
     frame.append(...named);
     drawn.replaceChildren(...made, frame);

@@ -1,0 +1,70 @@
+"""Text and tables in Markdown, laid out for a terminal."""
+
+import re
+import textwrap
+from collections.abc import Sequence
+from itertools import zip_longest
+
+GAP = "  "
+"""Between two columns."""
+_TIED = "\N{NO-BREAK SPACE}"
+
+
+def laid_out(markdown: str, width: int) -> str:
+    """Return paragraphs and tables in Markdown with lines of at most a width, where words allow it.
+
+    Args:
+        markdown: paragraphs, and tables as `compare.output.tables` makes them, blank lines between.
+        width: of the terminal.
+    """
+    parts = [
+        _table(part, width) if part.startswith("|") else textwrap.fill(_plain(part), width)
+        for part in markdown.split("\n\n")
+    ]
+    return "\n\n".join(parts).replace(_TIED, " ")
+
+
+def _table(markdown: str, width: int) -> str:
+    head, ruled, *rows = map(_cells, markdown.splitlines())
+    numbers = [mark.endswith(":") for mark in ruled]
+    columns = list(zip(head, *rows, strict=True))
+    widths = _widths(columns, width)
+    tall = [_lines(row, widths) for row in (head, *rows)]
+    spaced = any(len(lines) > 1 for lines in tall[1:])
+
+    def line(cells: Sequence[str]) -> str:
+        placed = zip(cells, widths, numbers, strict=True)
+        return GAP.join(
+            f"{cell:>{wide}}" if right else f"{cell:{wide}}" for cell, wide, right in placed
+        ).rstrip()
+
+    top, *below = ["\n".join(map(line, lines)) for lines in tall]
+    rule = "─" * (sum(widths) + len(GAP) * (len(widths) - 1))
+    return "\n".join([top, rule, ("\n\n" if spaced else "\n").join(below)])
+
+
+def _cells(row: str) -> list[str]:
+    """Return the cells of a row of Markdown."""
+    return [_plain(cell.strip()).replace("\\|", "|") for cell in re.split(r"(?<!\\)\|", row.strip())[1:-1]]
+
+
+def _plain(text: str) -> str:
+    """Return text without the marks of bold and of code, the words of an interval in brackets tied."""
+    return re.sub(r"\[[^]]*\]", lambda found: found[0].replace(" ", _TIED), re.sub(r"\*\*|`", "", text))
+
+
+def _widths(columns: Sequence[Sequence[str]], width: int) -> list[int]:
+    """Return the widths of columns: of their cells, the widest narrowed until all fit or words break."""
+    widths = [max(map(len, cells)) for cells in columns]
+    least = [max((len(word) for cell in cells for word in cell.split(" ")), default=0) for cells in columns]
+    room = width - len(GAP) * (len(columns) - 1)
+    while sum(widths) > room and widths != least:
+        _, widest = max((wide, i) for i, wide in enumerate(widths) if wide > least[i])
+        widths[widest] -= 1
+    return widths
+
+
+def _lines(row: Sequence[str], widths: Sequence[int]) -> list[tuple[str, ...]]:
+    """Return the lines of a row, each a piece of every cell."""
+    wrapped = [textwrap.wrap(cell, max(wide, 1)) for cell, wide in zip(row, widths, strict=True)]
+    return list(zip_longest(*wrapped, fillvalue="")) or [tuple("" for _ in row)]

@@ -1,0 +1,39 @@
+"""Why the engines of a comparison count different numbers of impacts."""
+
+from collections.abc import Sequence
+
+from models.records import Toss
+
+
+def counts_sentence(tosses: Sequence[Toss]) -> str:
+    """Return why counts of impacts differ where a coin stays on the floor; empty where they need no reason.
+
+    Args:
+        tosses: by one engine or by both, the analytic first.
+    """
+    counts = [len(toss.impacts) for toss in tosses]
+    if len(set(counts)) == 1 or not any(len(toss.contacts) for toss in tosses):
+        return ""
+    before = [_before_contact(toss) for toss in tosses]
+    after = [count - first for count, first in zip(counts, before, strict=True)]
+    said = []
+    if len(set(before)) > 1:
+        said.append(
+            "Until the coin first stays on the floor the engines count {} and {} impacts: bounces that die "
+            "out have no last one, and each engine takes the smallest for contact.".format(*before)
+        )
+    if any(after):
+        said.append(
+            "{} they count {} and {}: MuJoCo’s contact is a spring, and lets go of the floor at other "
+            "moments than a rigid one.".format(
+                "After that" if said else "Once the coin has been in contact", *after
+            )
+        )
+    return " ".join(said)
+
+
+def _before_contact(toss: Toss) -> int:
+    """Return how many impacts come before the first sustained contact."""
+    if not len(toss.contacts):
+        return len(toss.impacts)
+    return int((toss.impacts.time <= toss.contacts[0, 0]).sum())

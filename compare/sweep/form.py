@@ -1,0 +1,263 @@
+"""The form of a map on disk: all that is not as cointoss writes it is refused before anything is decoded.
+
+A Zarr folder names the codecs that its numbers are decoded by. A foreign one may name any, some of which run
+what they decode, and sizes that fill the memory. Zarr is asked only after this module has accepted a folder.
+"""
+
+import json
+import math
+import os
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from compare.sweep.axes import MOST_VALUES
+from models.bounded import read_bounded
+from models.errors import shown
+from models.fields import UNITS
+
+FORMAT = 1
+"""Of a map, under the attribute `cointoss_map`."""
+MARGIN_ALONG = "margin_along"
+"""Attribute of a map with margins: their quantity."""
+DESCRIPTION = "zarr.json"
+"""Name of the file that describes a map, and of those that describe its arrays."""
+MOST_DESCRIBED = 1 << 20
+"""Bytes of such a file."""
+MOST_IN_TILE = 1 << 20
+"""Pixels of a tile."""
+_LAYERS = {"outcome": ("int8", -1), "impacts": ("int32", -1), "margin": ("float64", "NaN")}
+"""Types of the arrays over both axes, and what they hold where no toss was made."""
+_ATTRIBUTES = {
+    "scenario": str,
+    "engine": str,
+    "engine_settings": dict,
+    "after": int | None,
+    "versions": dict,
+}
+_DEEPEST = 3
+"""Folders within a map: an array, its chunks, those of a row."""
+
+
+class FormError(ValueError):
+    """What makes a folder no map of cointoss."""
+
+
+class Form(NamedTuple):
+    """What the files that describe a map say."""
+
+    attributes: dict[str, Any]
+    x: str
+    """The field of the columns."""
+    y: str
+    """The field of the rows."""
+    shape: tuple[int, int]
+    """Pixels in y and x."""
+    tile: tuple[int, int]
+    """Pixels of a tile in y and x."""
+
+
+def is_map(folder: Path) -> bool:
+    """Return whether a folder says that it is a map of this format."""
+    try:
+        return _description(folder)["attributes"]["cointoss_map"] == FORMAT
+    except (OSError, ValueError, LookupError, TypeError):
+        return False
+
+
+def read_form(folder: Path) -> Form:
+    """Return what a map's descriptions say; nothing else of it is read.
+
+    Raises:
+        FormError: for a folder that is not as cointoss writes a map.
+        OSError: if a file can't be read.
+    """
+    _require_plain(folder)
+    try:
+        return _form(folder)
+    except RecursionError:
+        raise FormError(f"{DESCRIPTION}: nested too deeply") from None
+
+
+def require_chunk(folder: Path, name: Path, size: int) -> None:
+    """Refuse a chunk, if there is one, that does not decode to a number of bytes.
+
+    Args:
+        folder: of the map.
+        name: of the chunk's file in it.
+        size: bytes that it decodes to.
+
+    Raises:
+        FormError: naming the file.
+    """
+    try:
+        with (folder / name).open("rb") as file:
+            stored, head = os.fstat(file.fileno()).st_size, file.read(18)
+    except FileNotFoundError:
+        return
+    # What can't be compressed becomes longer, by less than this.
+    if stored > 2 * size + 1024 or _decoded_size(head) != size:
+        raise FormError(f"{name}: does not decode to {size} bytes")
+
+
+def _require_plain(folder: Path) -> None:
+    """Refuse links, which lead elsewhere, and pipes and devices, which may have no end."""
+    folders = [(folder, 0)]
+    while folders:
+        outer, depth = folders.pop()
+        with os.scandir(outer) as entries:
+            for entry in entries:
+                if entry.is_dir(follow_symlinks=False) and depth < _DEEPEST:
+                    folders.append((Path(entry), depth + 1))
+                elif not entry.is_file(follow_symlinks=False):
+                    name = Path(entry).relative_to(folder)
+                    raise FormError(f"{name}: neither a file nor a folder of a map")
+
+
+def _description(folder: Path) -> dict[str, Any]:
+    """Return what describes a map or an array."""
+    try:
+        found = json.loads(read_bounded(folder / DESCRIPTION, MOST_DESCRIBED))
+    except FileNotFoundError:
+        raise FormError(f"{folder.name}: no {DESCRIPTION}") from None
+    except RecursionError:
+        raise FormError(f"{folder.name}/{DESCRIPTION}: nested too deeply") from None
+    except ValueError as error:
+        raise FormError(f"{folder.name}/{DESCRIPTION}: {error}") from None
+    if not isinstance(found, dict):
+        raise FormError(f"{folder.name}/{DESCRIPTION}: describes nothing")
+    return found
+
+
+def _form(folder: Path) -> Form:
+    described = _description(folder)
+    attributes = described.get("attributes")
+    if not isinstance(attributes, dict) or attributes.get("cointoss_map") != FORMAT:
+        raise FormError(f"attribute cointoss_map is not {FORMAT}")
+    for name, kind in _ATTRIBUTES.items():
+        if name not in attributes:
+            raise FormError(f"attribute {name} missing")
+        if not isinstance(attributes[name], kind):
+            raise FormError(f"attribute {name} = {shown(attributes[name])}")
+    if not isinstance(attributes.get(MARGIN_ALONG, ""), str):
+        raise FormError(f"attribute {MARGIN_ALONG} = {shown(attributes[MARGIN_ALONG])}")
+    for name, due in (("zarr_format", 3), ("node_type", "group")):
+        if described.get(name) != due:
+            raise FormError(f"{name} = {shown(described.get(name))}, not {due}")
+    arrays = _arrays(folder, described, has_margin=MARGIN_ALONG in attributes)
+    (x, columns), (y, rows) = (_axis(arrays, dimension) for dimension in ("x", "y"))
+    shape = rows, columns
+    tile = _sizes("outcome", arrays["outcome"].get("chunk_grid"), within=shape)
+    if math.prod(tile) > MOST_IN_TILE:
+        raise FormError(f"array outcome: tiles of {tile[1]} by {tile[0]} pixels")
+    for name, (kind, fill_value) in _LAYERS.items():
+        if name in arrays:
+            _require_array(name, arrays[name], _array(kind, fill_value, shape, tile, ("y", "x")))
+    return Form(attributes, x, y, (rows, columns), (tile[0], tile[1]))
+
+
+def _arrays(folder: Path, described: dict[str, Any], *, has_margin: bool) -> dict[str, dict[str, Any]]:
+    """Return the descriptions of the arrays by their names, of which the map has copies."""
+    consolidated = described.get("consolidated_metadata")
+    listed = consolidated.get("metadata") if isinstance(consolidated, dict) else None
+    if not isinstance(listed, dict):
+        raise FormError("consolidated_metadata missing")
+    layers = set(_LAYERS) if has_margin else set(_LAYERS) - {"margin"}
+    if layers - set(listed):
+        raise FormError(f"array {min(layers - set(listed))} missing")
+    fields = set(listed) - layers
+    if len(fields) != 2 or not fields <= set(UNITS):
+        raise FormError(f"fields of its axes: {shown(sorted(fields))}, not two of a scenario")
+    arrays = {name: _description(folder / name) for name in listed}
+    for name, found in arrays.items():
+        if _text(found) != _text(listed[name]):
+            raise FormError(f"array {name}: described otherwise in the map's {DESCRIPTION}")
+    return arrays
+
+
+def _axis(arrays: dict[str, dict[str, Any]], dimension: str) -> tuple[str, int]:
+    """Return the field of an axis, and how many values it has."""
+    fields = [name for name in arrays if arrays[name].get("dimension_names") == [dimension]]
+    if len(fields) != 1:
+        raise FormError(f"grid in {dimension}: {len(fields)} arrays")
+    (name,) = fields
+    found = arrays[name]
+    shape = _whole(name, found.get("shape"), within=(MOST_VALUES,))
+    if shape == (1,):
+        raise FormError(f"grid in {dimension}: one value")
+    chunk = _sizes(name, found.get("chunk_grid"), within=shape)
+    _require_array(name, found, _array("float64", 0.0, shape, chunk, (dimension,)))
+    return name, shape[0]
+
+
+def _sizes(name: str, grid: object, *, within: tuple[int, ...]) -> tuple[int, ...]:
+    """Return the shape of the chunks of an array."""
+    match grid:
+        case {"name": "regular", "configuration": {"chunk_shape": sizes}}:
+            return _whole(name, sizes, within=within)
+    raise FormError(f"array {name}: chunk_grid = {shown(grid)}")
+
+
+def _whole(name: str, sizes: object, *, within: tuple[int, ...]) -> tuple[int, ...]:
+    """Return sizes along axes, each from 1 to its bound."""
+    if not isinstance(sizes, list) or [type(size) for size in sizes] != [int] * len(within):
+        raise FormError(f"array {name}: sizes {shown(sizes)}")
+    if not all(1 <= size <= most for size, most in zip(sizes, within, strict=True)):
+        raise FormError(f"array {name}: sizes {shown(sizes)}, not from 1 to {list(within)}")
+    return tuple(sizes)
+
+
+def _array(
+    kind: str, fill_value: object, shape: tuple[int, ...], chunk: tuple[int, ...], dimensions: tuple[str, ...]
+) -> dict[str, Any]:
+    """Return what describes an array, but for its attributes and codecs."""
+    return {
+        "zarr_format": 3,
+        "node_type": "array",
+        "data_type": kind,
+        "shape": list(shape),
+        "chunk_grid": {"name": "regular", "configuration": {"chunk_shape": list(chunk)}},
+        "chunk_key_encoding": {"name": "default", "configuration": {"separator": "/"}},
+        "fill_value": fill_value,
+        "dimension_names": list(dimensions),
+        "storage_transformers": [],
+    }
+
+
+def _require_array(name: str, found: dict[str, Any], due: dict[str, Any]) -> None:
+    """Refuse what describes an array otherwise than cointoss does."""
+    rest = {"storage_transformers": [], **found}
+    rest.pop("attributes", None)
+    codecs = rest.pop("codecs", None)
+    for key in sorted({*rest, *due}):
+        if key not in due or _text(rest.get(key)) != _text(due[key]):
+            raise FormError(f"array {name}: {key} = {shown(rest.get(key))}, not {shown(due.get(key))}")
+    order = {} if due["data_type"] == "int8" else {"configuration": {"endian": "little"}}
+    match codecs:
+        case [{"name": "bytes", **given}, {"name": "zstd", "configuration": settings, **more}] if (
+            given == order and not more and _is_zstd(settings)
+        ):
+            return
+    raise FormError(f"array {name}: codecs {shown(codecs)}, not bytes and zstd")
+
+
+def _is_zstd(settings: object) -> bool:
+    match settings:
+        case {"level": int(), "checksum": bool(), **more}:
+            return not more
+    return False
+
+
+def _text(value: object) -> str:
+    """Return a value as JSON, in which 1, 1.0 and true differ."""
+    return json.dumps(value, sort_keys=True)
+
+
+def _decoded_size(head: bytes) -> int | None:
+    """Return how many bytes the Zstandard frame that begins so says it holds (RFC 8878, 3.1.1.1)."""
+    if len(head) < 6 or head[:4] != b"\x28\xb5\x2f\xfd":
+        return None
+    single = head[4] >> 5 & 1
+    length = (single, 2, 4, 8)[head[4] >> 6]
+    start = 5 + (1 - single) + (0, 1, 2, 4)[head[4] & 3]
+    field = head[start : start + length]
+    return int.from_bytes(field, "little") + 256 * (length == 2) if len(field) == length > 0 else None

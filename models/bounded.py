@@ -1,0 +1,30 @@
+"""Files of a bounded size."""
+
+import os
+from pathlib import Path
+
+
+class TooLargeError(ValueError):
+    """A file that is larger than what is accepted."""
+
+
+def read_bounded(path: Path, most: int) -> bytes:
+    """Return the bytes of a file, of which at most `most` + 1 are read: a device may have no end.
+
+    A pipe that nobody writes to is empty.
+
+    Raises:
+        TooLargeError: if there are more.
+        OSError: if it can't be read.
+    """
+
+    def at_once(name: str, flags: int) -> int:
+        number = os.open(name, flags | os.O_NONBLOCK)
+        os.set_blocking(number, True)
+        return number
+
+    with open(path, "rb", opener=at_once) as file:
+        found = file.read(most + 1)
+    if len(found) > most:
+        raise TooLargeError(f"more than {most} bytes")
+    return found

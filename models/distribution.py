@@ -1,0 +1,4 @@
+"""The name under which pip installs cointoss."""
+
+DISTRIBUTION = "cointoss"
+"""As in pyproject.toml."""

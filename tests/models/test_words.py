@@ -1,0 +1,61 @@
+"""Outcomes, endings, faces and laws are words to a person, and integers in arrays and compiled code."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+from models.kernel.compiled import compiled
+from models.laws import ContactLaw, EndingTest, RestitutionKind
+from models.records import Ending, Face, Outcome
+
+LISTS = (ContactLaw, EndingTest, RestitutionKind, Ending, Face, Outcome)
+MEMBERS = [member for words in LISTS for member in words]
+
+
+@pytest.mark.parametrize("member", MEMBERS, ids=repr)
+def test_a_member_prints_as_its_word_and_is_found_by_it(member):
+    word, kind = member.name.lower(), type(member)
+    assert (str(member), f"{member}", f"{member:>25}") == (word, word, f"{word:>25}")
+    assert repr(member) == f"{kind.__name__}.{member.name}"
+    assert kind(word) is kind(int(member)) is kind(np.int8(member)) is member
+    assert member == word
+    assert word == member
+    assert [member != other for other in (word, f"{word} ")] == [False, True]
+    assert [member == other for other in (word, f"{word} ")] == [True, False]
+    assert {word: 1}[member] == {member: 1}[word] == 1
+    assert pickle.loads(pickle.dumps(member)) is member
+
+
+def test_a_number_in_an_array_equals_its_member():
+    codes = np.array([0, 1, 2], np.int8)
+    assert (codes == Outcome.TAILS).tolist() == [False, False, True]
+    assert (Outcome.TAILS == codes).tolist() == [False, False, True]
+    assert (codes != Outcome.TAILS).tolist() == [True, True, False]
+    assert (Outcome.TAILS != codes).tolist() == [True, True, False]
+    assert codes[1] == Outcome.HEADS == codes[1] == 1
+    assert np.full(2, Outcome.EDGE, np.int8).tolist() == [3, 3]
+
+
+def test_members_of_two_lists_are_alike_where_their_words_are():
+    assert Face.TAILS == Outcome.TAILS
+    assert Outcome.TAILS != Ending.PAPER
+    assert int(Outcome.TAILS) == int(Ending.PAPER)
+    assert Outcome.PERPETUAL == Ending.PERPETUAL
+    assert len({Face.TAILS, Outcome.TAILS, Ending.PAPER, "tails"}) == 2
+
+
+def test_another_word_is_answered_with_those_there_are():
+    with pytest.raises(ValueError, match=r"^Outcome: 'head', accepted: undecided, heads, tails, edge, perp"):
+        Outcome("head")
+    with pytest.raises(ValueError, match=r"^Face: 3, accepted: heads, tails$"):
+        Face(3)
+
+
+def test_compiled_code_takes_and_returns_members():
+    @compiled
+    def other(face):
+        return Face.TAILS if face == Face.HEADS else Face.HEADS
+
+    assert [other(face) for face in Face] == ["tails", "heads"]
+    assert other(Face.HEADS) is Face.TAILS
