@@ -23,9 +23,9 @@ from compare.commands.names import reproductions_argument
 def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quick: bool) -> None:
     """Compute the paper's figures and the studies anew.
 
-    Each NAME writes its data, tables and pictures and checks its claims; `all` computes all figures of the
-    paper and writes REPRODUCTION.md and gallery.html. Without NAME, list the names. Exit status 1: a claim
-    comes out otherwise than known.
+    Each NAME writes its data, tables, pictures and page and checks its claims; `all` computes all figures of
+    the paper and writes REPRODUCTION.md, claims.csv and gallery.html. Without NAME, list the names. Exit
+    status 1: a claim comes out otherwise than known.
     """
     from compare.film.back_end import drawing_problem, require_mujoco
     from compare.output.files import require_folder

@@ -33,7 +33,8 @@ def page_of(name: str, found: Reproduction, result: Result, *, quick: bool = Fal
     """
     return "\n\n".join(
         [
-            f"# {found.paper}: {found.title}",
+            f"# {found.paper}",
+            f"*{found.title[0].upper()}{found.title[1:]}.*",
             *(f"![{found.title}]({picture}.png)" for picture in found.draw),
             *([f"**Assumed.** {found.assumed}"] if found.assumed else []),
             claims_of(result.claims),

@@ -88,7 +88,7 @@ def test_a_figure_of_the_paper_has_a_page_and_a_study_has_none(tmp_path):
     result = Result(claims=CLAIMS, data={}, tables=LONG)
     pages.write(tmp_path, "fig1", made("Fig. 1", result), result, quick=True)
     page = (tmp_path / "index.md").read_text(encoding="utf-8")
-    assert page.startswith("# Fig. 1: a sum\n\n![a sum](a.png)\n\n**Assumed.** rain\n\n**Claims:** ")
+    assert page.startswith("# Fig. 1\n\n*A sum.*\n\n![a sum](a.png)\n\n**Assumed.** rain\n\n**Claims:** ")
     assert "\n    cointoss reproduce fig1 --quick --out docs\n" in page
     assert (tmp_path / "table-1.csv").read_text() == sheets(LONG)["table-1.csv"]
     (tmp_path / "index.md").unlink()
