@@ -22,15 +22,17 @@ def compare(scenario: str, out: Path, no_video: bool) -> None:
     with plain_errors(scenario):
         from compare.report.contents import require_folder
         from models.reading import parse, scenario_text
+        from models.stages import stage
 
         text = scenario_text(scenario)
         described = parse(text, scenario)
         require_folder(out, scenario)
 
-        from compare.film.back_end import drawing_problem
+        with stage("getting ready"):  # what is imported takes long on a busy machine
+            from compare.film.back_end import drawing_problem
 
-        problem = "None was asked for; cointoss video draws one." if no_video else drawing_problem()
+            problem = "None was asked for; cointoss video draws one." if no_video else drawing_problem()
 
-        from compare.report.folder import write_report
+            from compare.report.folder import write_report
 
         click.echo(write_report(described, text, Path(scenario).stem, out, problem))
