@@ -190,7 +190,7 @@ def test_a_camera_at_rest_shows_the_path_up_to_now(camera):
     toss = made(MadePath(position=(0, 0, 0.2), velocity=(0.3, 0.002, -0.002)))
     pictures = drawn(toss, [0, 0.5, 1], camera, height=192, width=256)
     # The rows above the shadow, which moves with the coin.
-    first, middle, last = (picture[:130].sum(axis=2) for picture in pictures)
+    first, middle, last = (picture[:116].sum(axis=2) for picture in pictures)
     # Between where the coin is at these times.
     early, late = slice(64, 104), slice(152, 192)
     assert np.array_equal(middle[:, early], last[:, early])
