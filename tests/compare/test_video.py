@@ -188,16 +188,19 @@ def test_the_overview_sees_the_coin_from_release_to_the_floor():
 @pytest.mark.parametrize("camera", [Camera.OVERVIEW, Camera.TOP])
 def test_a_camera_at_rest_shows_the_path_up_to_now(camera):
     toss = made(MadePath(position=(0, 0, 0.2), velocity=(0.3, 0.002, -0.002)))
-    pictures = drawn(toss, [0, 0.5, 1], camera, height=192, width=256)
-    # The rows above the shadow, which moves with the coin.
-    first, middle, last = (picture[:116].sum(axis=2) for picture in pictures)
-    # Between where the coin is at these times.
-    early, late = slice(64, 104), slice(152, 192)
-    assert np.array_equal(middle[:, early], last[:, early])
-    assert np.array_equal(first[:, late], middle[:, late])
+    # The shadow, which is dark too, moves with the coin.
+    with patch("compare.film.drawing.add_shadow"):
+        pictures = drawn(toss, [0, 0.5, 1], camera, height=192, width=256)
+    first, middle, last = (picture.sum(axis=2) for picture in pictures)
+    # Between where the coin is at these times, which is some ten pixels large.
+    at = [round(center(golden(picture))[1]) for picture in pictures]
+    early, late = slice(at[0] + 15, at[1] - 15), slice(at[1] + 15, at[2] - 15)
+    # The floor's texture is rounded one way or the other; the path is darker than it by more than 60.
+    assert np.abs(middle[:, early] - last[:, early]).max() <= 3
+    assert np.abs(first[:, late] - middle[:, late]).max() <= 3
     for columns in (early, late):
         darker = np.argwhere(first[:, columns] - last[:, columns] > 60)
-        assert len(set(darker[:, 1])) > 35
+        assert len(set(darker[:, 1])) > 0.9 * (columns.stop - columns.start) > 30
         assert np.ptp(darker[:, 0]) < 4
 
 
