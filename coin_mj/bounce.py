@@ -96,7 +96,7 @@ def solref(restitution: float, timestep: float, *, spring: bool = False, steps: 
         steps: of the simulation in the contact of a spring.
 
     Raises:
-        FieldError: naming the argument, its value and what is accepted.
+        ValueError: naming the argument, its value and what is accepted.
     """
     numbers = {"restitution": restitution, "timestep": timestep, "steps": steps}
     for name, value in numbers.items():

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 
@@ -36,8 +37,11 @@ class Hand:
         """Refuse what no hand does.
 
         Raises:
-            FieldError: naming the field, its value and what is accepted.
+            ValueError: naming the field, its value and what is accepted.
         """
+        for name, value in vars(self).items():
+            if not isinstance(value, Real) or isinstance(value, bool):
+                raise FieldError(name, value, "a number")
         accepted = {
             "height": (self.height > 0, "a length above 0, such as 1 m"),
             "speed": (self.speed >= 0, "a speed of 0 or more, such as 2 m/s"),

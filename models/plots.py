@@ -45,5 +45,6 @@ def draw_height(
 
 def draw_counts(ax: "Axes", counts: Mapping[str, int]) -> None:
     """Draw how many tosses had each outcome, as bars."""
-    ax.bar(list(counts), list(counts.values()), color=[COLORS.get(name, "grey") for name in counts])
+    bars = ax.bar(list(counts), list(counts.values()), color=[COLORS.get(name, "grey") for name in counts])
+    ax.bar_label(bars)
     ax.set(xlabel="outcome", ylabel="tosses")

@@ -8,7 +8,7 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from models.bounded import TooLargeError, read_bounded
-from models.errors import ScenarioError, describe
+from models.errors import ScenarioError, describe, require_type
 from models.scenario import Scenario
 from models.unused import warn_of_unused_fields
 
@@ -108,7 +108,9 @@ def parse(text: str, source: str) -> Scenario:
 
     Raises:
         ScenarioError: naming file, field, value and what is accepted.
+        TypeError: for what is no text.
     """
+    require_type("text", text, str, "TOML as text, such as scenario.to_toml() returns")
     for number, line in enumerate(text.split("\n"), start=1):
         if len(line) > LONGEST_LINE:
             few = f"accepted: at most {LONGEST_LINE}"

@@ -7,10 +7,10 @@ from typing import Any
 class Word(IntEnum):
     """One word of a list.
 
-    It prints as its word and equals it, also as a key and in a set: `toss.outcome == "heads"`. In an array
-    and in compiled code it is its integer: `outcomes.outcome == Outcome.HEADS`. `Outcome("heads")` and
-    `Outcome(1)` make it of either. It equals a plain integer too, but a set or dictionary of integers does
-    not find it.
+    It prints as its word and equals it: `toss.outcome == "heads"`. Else it is its integer, as in arrays and
+    in compiled code: `outcomes.outcome == Outcome.HEADS`. `Outcome("heads")` and `Outcome(1)` make it of
+    either.
+    As a key and in a set it stands for its integer, not for its word, which `str(toss.outcome)` is.
     """
 
     @classmethod
@@ -32,16 +32,14 @@ class Word(IntEnum):
         """Return the word, formatted as text."""
         return format(str(self), format_spec)
 
-    # Equal things must have one hash, which a word and an integer can't both share with the member: the word
-    # does, for `{"heads": ..., "tails": ...}[toss.outcome]` is what people write.
-    def __hash__(self) -> int:
-        """Return the hash of the word."""
-        return hash(str(self))
+    # Things that are equal should have one hash, and a word and an integer have two. The integer's is kept:
+    # codes from arrays are looked up among members.
+    __hash__ = IntEnum.__hash__
 
     def __eq__(self, other: Any) -> Any:
-        """Return whether the other is this word, or a number equal to its integer; of an array, for each."""
-        return str(self) == str(other) if isinstance(other, str | Word) else int(self) == other
+        """Return whether the other is this word, or equals its integer; of an array, for each."""
+        return str(self) == other if isinstance(other, str) else int(self) == other
 
     def __ne__(self, other: Any) -> Any:
         """Return the opposite of `==`."""
-        return str(self) != str(other) if isinstance(other, str | Word) else int(self) != other
+        return str(self) != other if isinstance(other, str) else int(self) != other

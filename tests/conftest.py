@@ -6,7 +6,7 @@ import signal
 from importlib import import_module
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from compare.film.back_end import drawing_problem
 
@@ -18,7 +18,14 @@ os.environ["TQDM_DISABLE"] = "1"
 signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
-settings.register_profile("cointoss", deadline=None, derandomize=True, max_examples=100)
+# On a busy machine examples may be slow to draw.
+settings.register_profile(
+    "cointoss",
+    deadline=None,
+    derandomize=True,
+    max_examples=100,
+    suppress_health_check=[HealthCheck.too_slow],
+)
 settings.load_profile("cointoss")
 
 

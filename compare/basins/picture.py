@@ -77,10 +77,9 @@ def draw_map(
         boundaries: whether pixels at a boundary are coloured as such.
         size: width and height [inches].
     """
-    codes = outcome_map(outcomes)
     figure = Figure(figsize=size, layout="constrained")
-    draw_panel(figure.add_subplot(), codes, x=x, y=y, palette=palette, boundaries=boundaries)
-    _legend(figure, _outcome_patches([codes], palette, boundaries))
+    panel = figure.add_subplot()
+    _legend(figure, draw_panel(panel, outcomes, x=x, y=y, palette=palette, boundaries=boundaries))
     return figure
 
 
@@ -92,10 +91,35 @@ def draw_panel(
     y: MapAxis,
     palette: Palette = Palette.SAFE,
     boundaries: bool = False,
-) -> None:
-    """Draw a map into `axes`, without a legend; see `draw_map` for the other arguments."""
-    _show(axes, _colored(outcome_map(outcomes), palette, boundaries), x, y)
+) -> list[Patch]:
+    """Draw a map into `axes`, and return what its legend has; see `draw_map` for the other arguments."""
+    codes = outcome_map(outcomes)
+    _show(axes, _colored(codes, palette, boundaries), x, y)
     axes.set_ylabel(_label(y))
+    return _outcome_patches([codes], palette, boundaries)
+
+
+def draw_margin_panel(
+    axes: Axes, margins: ArrayLike, *, x: MapAxis, y: MapAxis, quantity: str, unit: str, most: float
+) -> list[Patch]:
+    """Draw the sizes of margins with their scale, and return what their legend has; as in `draw_margins`."""
+    sizes = np.abs(np.asarray(margins, dtype=float))
+    found = sizes[np.isfinite(sizes)]
+    ends = np.quantile(found, [_TAIL, 1 - _TAIL]) if found.size else np.array([most / 10, most])
+    norm = LogNorm(*10.0 ** np.array([np.floor(np.log10(ends[0])), np.ceil(np.log10(ends[1]) + 1e-9)]))
+    shades = np.round(255 * colormaps[_MARGINS](norm(np.minimum(sizes, most)))[..., :3]).astype(np.uint8)
+    shades[np.isinf(sizes)] = _rgb(_NO_MARGIN)
+    _show(axes, shades, x, y)
+    axes.set_ylabel(_label(y))
+    shown, figure = ScalarMappable(norm, colormaps[_MARGINS]), axes.figure
+    figure.colorbar(shown, ax=axes, extend="both", label=f"smallest change of {quantity} [{unit}]")
+    return [_patch(_NO_MARGIN, f"none found up to {most:g} {unit}")] if found.size < sizes.size else []
+
+
+def legend_below(axes: Axes, patches: list[Patch]) -> None:
+    """Draw a legend below `axes`."""
+    if patches:
+        axes.legend(handles=patches, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, frameon=False)
 
 
 def draw_comparison(
@@ -174,22 +198,16 @@ def draw_margins(
         unit: of it.
         most: the largest change that was tried [unit].
     """
-    codes, sizes = outcome_map(outcomes), np.abs(np.asarray(margins, dtype=float))
-    found = sizes[np.isfinite(sizes)]
-    ends = np.quantile(found, [_TAIL, 1 - _TAIL]) if found.size else np.array([most / 10, most])
-    norm = LogNorm(*10.0 ** np.array([np.floor(np.log10(ends[0])), np.ceil(np.log10(ends[1]) + 1e-9)]))
-    shades = np.round(255 * colormaps[_MARGINS](norm(np.minimum(sizes, most)))[..., :3]).astype(np.uint8)
-    shades[np.isinf(sizes)] = _rgb(_NO_MARGIN)
     figure = Figure(figsize=size, layout="constrained")
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    draw_panel(panels[0], codes, x=x, y=y, palette=palette, boundaries=boundaries)
-    _show(panels[1], shades, x, y)
+    patches = [
+        *draw_panel(panels[0], outcomes, x=x, y=y, palette=palette, boundaries=boundaries),
+        *draw_margin_panel(panels[1], margins, x=x, y=y, quantity=quantity, unit=unit, most=most),
+    ]
     for axes, title in zip(panels, ("outcome", f"change of {quantity} that changes it"), strict=True):
         axes.set_title(title)
-    shown = ScalarMappable(norm, colormaps[_MARGINS])
-    figure.colorbar(shown, ax=panels[1], extend="both", label=f"smallest change of {quantity} [{unit}]")
-    none = [_patch(_NO_MARGIN, f"none found up to {most:g} {unit}")] if found.size < sizes.size else []
-    _legend(figure, [*_outcome_patches([codes], palette, boundaries), *none])
+    panels[1].label_outer()
+    _legend(figure, patches)
     return figure
 
 

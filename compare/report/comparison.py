@@ -180,7 +180,7 @@ class Comparison:
             out: its folder, made if missing; an earlier report there is replaced.
 
         Raises:
-            UnwritableError: naming the folder and why.
+            OSError: naming the folder and why.
         """
         from compare.report.contents import require_folder
         from compare.report.folder import write_report
@@ -196,7 +196,7 @@ class Comparison:
 
         Raises:
             BackEndError: where MuJoCo can't draw; the message says what to do.
-            UnwritableError: naming the file and why.
+            OSError: naming the file and why.
         """
         from compare.film.drawing import Camera
         from compare.film.encodings import ENCODINGS

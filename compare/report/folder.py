@@ -48,9 +48,8 @@ def write_report(
         UnsupportedError: for a path of too many rows.
         UnwritableError: naming the folder and why.
     """
-    with written_together(folder, FILES) as aside:
-        with stage("comparing the tosses"):
-            numbers = _numbers(comparison) | ({"map": maps.numbers} if maps else {})
+    with written_together(folder, FILES) as aside, stage("making the report"):
+        numbers = _numbers(comparison) | ({"map": maps.numbers} if maps else {})
         (aside / "numbers.json").write_text(json.dumps(numbers, indent=1, allow_nan=False), encoding="utf-8")
         for toss in comparison.tosses:
             states = toss.sample(answer.path_times(toss))

@@ -14,7 +14,7 @@ from models.units import in_si
 
 MOST_VALUES = 1_000_000
 """On one axis: a map of more than 1e12 pixels fits no disk."""
-_FORM = "FIELD=START:STOP:N, such as release.position.z=0.2:0.6:400"
+FORM = "FIELD=START:STOP:N, such as release.position.z=0.2:0.6:400"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,7 +59,7 @@ def parse_axis(text: str, scenario: Scenario) -> Axis:
     field = field.strip()
     parts = span.split(":")
     if not equals or len(parts) != 3:
-        raise SweepError(f"{text}: accepted: {_FORM}")
+        raise SweepError(f"{text}: accepted: {FORM}")
     unit = _unit_of(field, scenario)
     start, stop = (_number(field, part, unit) for part in parts[:2])
     if start == stop:

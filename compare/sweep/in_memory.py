@@ -1,13 +1,12 @@
 """Make a map in memory, from Python."""
 
-from os import PathLike
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from compare.engines import Engine
-from compare.sweep.axes import parse_axis
+from compare.sweep.axes import FORM, parse_axis
 from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep, Tile
 from compare.sweep.layers import layers_of
@@ -15,7 +14,7 @@ from compare.sweep.outcome_map import OutcomeMap
 from compare.sweep.pixels import check
 from compare.sweep.reading import MOST_READ, is_whole
 from compare.sweep.run import toss_here
-from models.reading import ScenarioSource, parse, scenario_text
+from models.reading import ScenarioSource, scenario_of
 from models.scenario import Scenario
 from models.stages import stage
 
@@ -48,27 +47,23 @@ def basin(
 
     Raises:
         ScenarioError: naming file, field, value and what is accepted.
-        SweepError: naming the argument, its value and what is accepted.
+        ValueError: naming the argument, its value and what is accepted.
         UnsupportedError: for a scenario that the engine can't toss.
     """
-    for name, text in (("x", x), ("y", y), ("engine", engine), ("margin", margin or "")):
+    for name, text, accepted in (("x", x, FORM), ("y", y, FORM), ("margin", margin or "", "text")):
         if not isinstance(text, str):
-            raise SweepError(f"{name}: {text!r}, accepted: text")
-    if not isinstance(scenario, Scenario | str | PathLike):
-        raise SweepError(f"scenario: {scenario!r}, accepted: a Scenario, a name or a path")
-    found = scenario if isinstance(scenario, Scenario) else parse(scenario_text(scenario), str(scenario))
-    if engine not in list(Engine):
-        raise SweepError(f"engine: {engine!r}, accepted: {', '.join(Engine)}")
+            raise SweepError(f"{name}: {text!r}, accepted: {accepted}")
+    found, tosser = scenario_of(scenario), Engine(engine)
     if after is not None and not (is_whole(after) and 0 <= after <= MOST_AFTER):
         raise SweepError(f"after: {after!r}, accepted: a whole number from 0 to {MOST_AFTER}")
     sweep = Sweep(
         scenario=found,
-        engine=Engine(engine),
+        engine=tosser,
         x=parse_axis(x, found),
         y=parse_axis(y, found),
-        settings=Engine(engine).package.MANY,
+        settings=tosser.package.MANY,
         after=None if after is None else int(after),
-        margin=_margin(margin, engine),
+        margin=_margin(margin, tosser),
         name="" if isinstance(scenario, Scenario) else Path(scenario).stem,
     )
     ny, nx = sweep.shape
@@ -91,7 +86,7 @@ def basin(
     return OutcomeMap(name=name, sweep=sweep, **arrays)
 
 
-def _margin(name: str | None, engine: str) -> str | None:
+def _margin(name: str | None, engine: Engine) -> str | None:
     if name is None:
         return None
     from compare.metrics.margin import quantity_of

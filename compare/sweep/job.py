@@ -20,6 +20,7 @@ from compare.sweep.grid import Sweep
 from compare.sweep.pixels import check
 from models.reading import parse
 from models.scenario import Scenario
+from models.stages import stage
 
 if TYPE_CHECKING:
     from compare.metrics.margin import Quantity
@@ -157,7 +158,8 @@ def make(job: Job, watch: Watch, say: Say) -> Iterator[str]:
     if len(maps) > 1:
         yield describe.describe_agreement(describe.measure(*maps))
     if job.png is not None:
-        show.write(job.png, maps, first, job.style, margins=margins)
+        with stage("drawing the picture"):
+            show.write(job.png, maps, first, job.style, margins=margins)
         yield f"picture    {job.png}"
     if job.report is not None:
         from compare.report.comparison import compared

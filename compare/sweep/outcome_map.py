@@ -5,6 +5,8 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 from html import escape
 from io import BytesIO
+from os import PathLike
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,13 +17,16 @@ from compare.basins.picture_style import Palette, PictureStyle
 from compare.sweep.errors import SweepError
 from compare.sweep.grid import Sweep
 from compare.sweep.layers import NOT_TOSSED, axis_attributes, layers_of
+from compare.sweep.pixels import Pixels
 from models import notebook
+from models.plots import axes_or_new
 from models.records import Array, Outcome
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-    from matplotlib.figure import Figure
+
+    from models.plots import Axes
 
 _HTML_DPI = 80
 
@@ -106,8 +111,11 @@ class OutcomeMap:
     def _picture(self) -> str:
         if NOT_TOSSED in self.outcome:
             return notebook.shares_picture(self.shares)
+        from compare.sweep.show import figure_of
+
         drawn = BytesIO()
-        self.plot().savefig(drawn, format="png", dpi=_HTML_DPI)
+        figure = figure_of([self.outcome], self.sweep, PictureStyle(), self.margin)
+        figure.savefig(drawn, format="png", dpi=_HTML_DPI)
         about = escape(f"map of the outcome: {self._size}")
         return f'<img alt="{about}" src="data:image/png;base64,{b64encode(drawn.getvalue()).decode()}">'
 
@@ -123,35 +131,44 @@ class OutcomeMap:
         layers = layers_of(sweep)
         arrays = {name: (("y", "x"), array, layers[name].attributes) for name, array in self.layers.items()}
         about = {
-            "scenario": sweep.scenario.model_dump_json(),
+            "scenario": sweep.scenario.to_toml(),
             "engine": sweep.engine.value,
             "after": "" if sweep.after is None else sweep.after,
         }
         return xarray.Dataset(arrays, coordinates, about)
 
     def to_dataframe(self) -> "pd.DataFrame":
-        """Return the map as a table of pandas, a row a pixel, its outcome in words."""
+        """Return the map as a table of pandas, a row a pixel, in words, with units in `attrs["units"]`."""
         labels = {NOT_TOSSED: "not_tossed", **{int(item): str(item) for item in Outcome}}
-        frame = self.to_xarray().to_dataframe().reset_index(drop=True)
+        arrays = self.to_xarray()
         words = [labels[code] for code in self.outcome.ravel().tolist()]
-        return frame[[self.sweep.y.field, self.sweep.x.field, *self.layers]].assign(outcome=words)
+        columns = [self.sweep.y.field, self.sweep.x.field, *self.layers]
+        frame = arrays.to_dataframe().reset_index(drop=True)[columns].assign(outcome=words)
+        units = {name: arrays[name].attrs.get("units", "") for name in columns}
+        frame.attrs["units"] = {name: unit for name, unit in units.items() if unit}
+        return frame
 
     def plot(
         self,
+        ax: "Axes | None" = None,
         *,
+        layer: str = "outcome",
         palette: str = "safe",
         boundaries: bool = False,
-        size: tuple[float, float] | None = None,
-    ) -> "Figure":
-        """Draw the map, and beside it its margins where it has them.
+    ) -> "Axes":
+        """Draw the outcomes, or the margins where the map has them.
 
         Args:
+            ax: where to draw, by default in a new figure of pyplot.
+            layer: "outcome" or "margin".
             palette: "safe" for gold and blue, "paper" for black and white.
             boundaries: whether pixels at a boundary are coloured as such.
-            size: width and height [inches].
+
+        Returns:
+            The axes.
 
         Raises:
-            SweepError: for a map that is not finished.
+            SweepError: for a map that is not finished, and for a layer that it has not.
         """
         missing = np.count_nonzero(self.outcome == NOT_TOSSED)
         if missing:
@@ -159,9 +176,40 @@ class OutcomeMap:
                 f"{self.name}: {missing} of {self.outcome.size} pixels are not tossed; "
                 "accepted: a whole map (cointoss basin --resume continues one)"
             )
-        if palette not in list(Palette):
-            raise SweepError(f"palette: {palette!r}, accepted: {', '.join(Palette)}")
-        from compare.sweep.show import figure_of
+        drawn = {"outcome": self.outcome} | ({} if self.margin is None else {"margin": self.margin})
+        for name, value, accepted in (("layer", layer, drawn), ("palette", palette, list(Palette))):
+            if value not in accepted:
+                raise SweepError(f"{name}: {value!r}, accepted: {', '.join(accepted)}")
+        from compare.sweep.show import draw_layer
 
-        style = PictureStyle(palette=Palette(palette), boundaries=boundaries, size=size)
-        return figure_of([self.outcome], self.sweep, style, self.margin)
+        axes = axes_or_new(ax)
+        draw_layer(
+            axes, drawn[layer], self.sweep, PictureStyle(palette=Palette(palette), boundaries=boundaries)
+        )
+        return axes
+
+    def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
+        """Write the map as `cointoss basin` does: `read_map`, `cointoss explore` and `--resume` take it.
+
+        Args:
+            path: of its folder, a new name that ends in .zarr.
+            overwrite: whether a map that is there is replaced.
+
+        Returns:
+            The path.
+
+        Raises:
+            OSError: naming the path and why.
+            SweepError: for a map of which only every so many-th pixel was read.
+        """
+        if self.stride > 1:
+            raise SweepError(f"{self.name}: one pixel of every {self.stride} is here; accepted: a whole map")
+        from compare.sweep import store
+
+        folder = Path(path)
+        store.require_place(folder, resume=False, overwrite=overwrite)
+        with store.opened(folder, self.sweep, self.sweep.scenario.to_toml(), overwrite=overwrite) as map_:
+            for tile in map_.tiles:
+                parts = {name: array[tile.rows, tile.columns] for name, array in self.layers.items()}
+                map_.write(tile, Pixels(**{"margin": None, **parts}))
+        return folder

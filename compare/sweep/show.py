@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties, findfont, get_font
 from numpy.typing import NDArray
@@ -80,10 +81,14 @@ def figure_of(
 ) -> Figure:
     """Draw one map, its margins beside it, or those of both engines; see `write` for the arguments."""
     figure = _panels(maps, sweep, style, margins)
-    glyphs = get_font(findfont(FontProperties())).get_charmap()
-    title = "".join(char if ord(char) in glyphs else "?" for char in sweep.title)
-    figure.suptitle(title, parse_math=False)  # a file's name may hold anything
+    figure.suptitle(_title(sweep), parse_math=False)
     return figure
+
+
+def _title(sweep: Sweep) -> str:
+    """Return the title of a map, with what its font has; a file's name may hold anything."""
+    glyphs = get_font(findfont(FontProperties())).get_charmap()
+    return "".join(char if ord(char) in glyphs else "?" for char in sweep.title)
 
 
 def _panels(maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle, margins: Array | None) -> Figure:
@@ -109,6 +114,26 @@ def _panels(maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle, mar
             most=quantity.factor,
         )
     return picture.draw_map(maps[0], **common, size=style.size or picture.PANEL_SIZE)
+
+
+def draw_layer(axes: Axes, layer: Array | NDArray[np.int8], sweep: Sweep, style: PictureStyle) -> None:
+    """Draw the outcomes of a map, or its margins, into `axes`, with a legend below.
+
+    Args:
+        axes: where.
+        layer: outcomes, of int8, or margins, (y, x).
+        sweep: what the map is made of.
+        style: how to draw.
+    """
+    x, y = _drawn(sweep.x), _drawn(sweep.y)
+    if layer.dtype == np.int8:
+        shown = picture.draw_panel(axes, layer, x=x, y=y, palette=style.palette, boundaries=style.boundaries)
+    else:
+        quantity = quantity_of(sweep.margin or "")
+        about: Any = {"quantity": quantity.name, "unit": quantity.unit, "most": quantity.factor}
+        shown = picture.draw_margin_panel(axes, layer, x=x, y=y, **about)
+    picture.legend_below(axes, shown)
+    axes.set_title(_title(sweep), parse_math=False)
 
 
 def _drawn(axis: Axis) -> picture.MapAxis:

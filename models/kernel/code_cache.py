@@ -7,6 +7,7 @@
 import fcntl
 import hashlib
 import os
+import pickle
 import re
 import shutil
 import tempfile
@@ -31,6 +32,7 @@ PATIENCE = 600.0
 """How long to wait at most while another process compiles the same function [s]."""
 CALLEE = "callee-"
 """How the names of files begin that keep code for compiled callers."""
+_DIGEST = hashlib.sha256().digest_size
 _FOLDER = re.compile(r"cointoss-[\w.]+-[0-9a-f]{16}")
 
 
@@ -54,7 +56,7 @@ def cache_folder(module: str) -> Path:
         os.utime(folder)
     except OSError:
         remove_unused(folder.parent)
-        folder.mkdir(exist_ok=True)
+        folder.mkdir(mode=0o700, exist_ok=True)
     return folder
 
 
@@ -62,10 +64,11 @@ def cache_folder(module: str) -> Path:
 def _base() -> Path:
     for base in _bases():
         try:
-            base.mkdir(parents=True, exist_ok=True)
+            base.mkdir(mode=0o700, parents=True, exist_ok=True)
         except OSError:
             continue
-        if os.access(base, os.W_OK):
+        # In another user's folder there may be another's code, and none of ours.
+        if os.access(base, os.W_OK) and base.stat().st_uid == os.geteuid():
             return base
     return Path(tempfile.mkdtemp(prefix="cointoss-"))
 
@@ -153,7 +156,7 @@ class _Locator(_CacheLocator):
         return cls(py_func.__module__, py_file)
 
     def ensure_cache_path(self) -> None:
-        Path(self.get_cache_path()).mkdir(parents=True, exist_ok=True)
+        Path(self.get_cache_path()).mkdir(mode=0o700, parents=True, exist_ok=True)
 
     def get_cache_path(self) -> str:
         return str(cache_folder(self._module))
@@ -176,26 +179,40 @@ class CodeFiles(IndexDataCacheFile):
 
     numba numbers the code's files, and two processes that compile at once may give one number to code for
     different arguments; then a third would run the one for the other.
+
+    Machine code is run as it is read. A file begins with a digest, so that one whose bits have changed is as
+    if it were missing, and so is one that another user could have written.
     """
 
-    def _load_index(self) -> dict[Any, str]:
-        """Return the names of the code's files by kinds of arguments.
+    def load(self, key: Any) -> Any:
+        """Return what is kept for these kinds of arguments, or None."""
+        name = self._load_index().get(key)
+        return None if name is None else self._load(name)
 
-        A function need not import the types of its arguments, so that its folder outlives them. An index that
-        names a type that has gone is of other sources. Whatever cannot be read is compiled and kept anew: of
-        a damaged file, as after a power cut, pickle may raise any error.
+    def _load_index(self) -> dict[Any, str]:
+        """Return the names of the code's files by kinds of arguments."""
+        return self._load(self._index_name) or {}
+
+    def _load(self, name: str) -> Any:
+        """Return what a file keeps, or None where it is missing, damaged, or another's.
+
+        A function need not import the types of its arguments, so that its folder outlives them: what names a
+        type that has gone is of other sources, and pickle may raise any error.
         """
         try:
-            return super()._load_index()
-        except Exception:
-            return {}
-
-    def load(self, key: Any) -> Any:
-        """Return what is kept for these kinds of arguments, or None; see `_load_index`."""
-        try:
-            return super().load(key)
+            with Path(self._cache_path, name).open("rb") as file:
+                kept, about = file.read(), os.fstat(file.fileno())
+            if about.st_uid != os.geteuid() or about.st_mode & 0o022:
+                return None
+            digest, data = kept[:_DIGEST], kept[_DIGEST:]
+            return pickle.loads(data) if digest == self._digest(name, data) else None
         except Exception:
             return None
+
+    def _digest(self, name: str, data: bytes) -> bytes:
+        """Return the digest of what a file keeps, for one name, one version of numba and one source."""
+        about = f"{name} {self._version} {self._source_stamp}\n"
+        return hashlib.sha256(about.encode() + data).digest()
 
     def save(self, key: Any, data: Any) -> None:
         """Keep code in a new file, and after that say so in the index."""
@@ -206,6 +223,18 @@ class CodeFiles(IndexDataCacheFile):
         self._save_index({**overloads, key: name})
         if former is not None:
             Path(self._cache_path, former).unlink(missing_ok=True)
+
+    def _save_index(self, overloads: dict[Any, str]) -> None:
+        self._write(self._index_name, overloads)
+
+    def _save_data(self, name: str, data: Any) -> None:
+        self._write(name, data)
+
+    def _write(self, name: str, data: Any) -> None:
+        kept = self._dump(data)
+        with self._open_for_write(self._data_path(name)) as file:
+            os.fchmod(file.fileno(), 0o600)
+            file.write(self._digest(name, kept) + kept)
 
 
 class CodeCache(FunctionCache):

@@ -94,7 +94,7 @@ def test_air_never_adds_energy(b, tosses):
         assert np.all(np.diff(E) < 0)
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(4))
 def test_flight_in_air_is_that_of_the_papers_integrals(seed):
     rng = np.random.default_rng(100 + seed)
     case = in_flight(rng, in_air=True)

@@ -86,12 +86,11 @@ def test_first_impacts_by_heyoka(benchmark, capsys, kind, batch):
             return heyoka_toss.toss_batch(numbers, coin, IMPACTS)
         return [heyoka_toss.toss(one, coin, 10.0, IMPACTS) for one in numbers]
 
-    for (times, faces), start in zip(toss(), starts, strict=True):
+    for (times, faces), start in zip(benchmark(toss), starts, strict=True):
         rows = run(scenario.body, scenario.rules, start).rows
         # An impact multiplies what tolerances differ by, by less than 100 on average.
         assert times == pytest.approx(rows["time"], abs=1e-6)
         assert faces == rows["face"].tolist()
-    benchmark(toss)
     by_heyoka = f"{kind.name}, {IMPACTS} impacts: heyoka"
     name = f"{by_heyoka} in batch mode" if batch else by_heyoka
     report(capsys, benchmark, name, len(starts), toss, heyoka=by_heyoka)

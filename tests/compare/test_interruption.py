@@ -63,8 +63,10 @@ def ended(folder, number, script, *arguments):
         return process.returncode, said
 
 
-@pytest.mark.parametrize("number", STATUSES)
-@pytest.mark.parametrize("engine", Engine)
+@pytest.mark.parametrize(
+    ("engine", "number"),
+    [*((Engine.ANALYTIC, number) for number in STATUSES), (Engine.MUJOCO, signal.SIGINT)],
+)
 def test_a_toss_is_interrupted(tmp_path, engine, number):
     script = of_toss(engine.package.__name__) + "main()"
     said = f"cointoss: interrupted by {number.name}\n"

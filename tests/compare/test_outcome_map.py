@@ -2,13 +2,17 @@
 
 from dataclasses import replace
 from io import BytesIO
+from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray
+from matplotlib import pyplot
+from matplotlib.figure import Figure
 
 import cointoss
 from compare.sweep.layers import NOT_TOSSED
+from models.reading import parse
 from models.records import Outcome
 from tests.helpers.command_line import cointoss as command
 
@@ -18,6 +22,13 @@ X, Y = "release.angular_velocity.eta=20:60:7", "release.position.z=20 cm:60 cm:5
 @pytest.fixture(scope="module")
 def found():
     return cointoss.basin("fig24a", x=X, y=Y)
+
+
+@pytest.fixture(scope="module")
+def margins():
+    return cointoss.basin(
+        "fig24a", x="release.angular_velocity.eta=20:60:3", y="release.position.z=0.2:0.6:2", margin="height"
+    )
 
 
 def test_a_map_has_the_tosses_of_its_pixels(found):
@@ -48,6 +59,7 @@ def test_a_map_is_that_which_the_command_writes(found, tmp_path):
             assert ours[name].dims == on_disk[name].dims
             assert np.array_equal(ours[name], on_disk[name])
     assert ours.attrs["engine"] == on_disk.attrs["engine"]
+    assert parse(ours.attrs["scenario"], "ours") == parse(on_disk.attrs["scenario"], "theirs")
 
 
 def test_what_a_person_sees_of_a_map(found):
@@ -69,20 +81,75 @@ def test_what_a_person_sees_of_a_map(found):
     assert frame["outcome"].tolist().count("heads") == counts["heads"]
     assert frame["release.angular_velocity.eta"].tolist() == np.tile(found.x, 5).tolist()
     assert frame["impacts"].tolist() == found.impacts.ravel().tolist()
+    assert frame.attrs["units"] == {"release.position.z": "m", "release.angular_velocity.eta": "rad/s"}
 
 
-def test_a_plot_shows_the_map_and_its_margins(found):
-    (panel,) = found.plot().axes
+def test_a_plot_shows_the_map_or_its_margins(found, margins):
+    panel = found.plot(given := Figure().add_subplot(), boundaries=True)
+    assert panel is given
     assert (panel.get_xlabel(), panel.get_ylabel()) == ("spin about η [rad/s]", "height [m]")
-    assert found.plot().get_suptitle() == "fig24a: 2 g, 25 mm"
+    assert panel.get_title() == "fig24a: 2 g, 25 mm"
     assert panel.get_images()[0].get_array().shape[:2] == found.outcome.shape
     hostile = replace(found, sweep=replace(found.sweep, name=r"$\frac$ 硬\n貨"))
-    hostile.plot().savefig(BytesIO())  # warnings are errors
-    with_margins = cointoss.basin(
-        "fig24a", x="release.angular_velocity.eta=20:60:3", y="release.position.z=0.2:0.6:2", margin="height"
+    hostile.plot(Figure().add_subplot()).figure.savefig(BytesIO())  # warnings are errors
+    legend = [text.get_text() for text in panel.get_legend().get_texts()]
+    assert legend == [*found.shares, "boundary"]
+    assert margins.to_dataframe().attrs["units"]["margin"] == "mm"
+    panel = margins.plot(Figure().add_subplot(), layer="margin")
+    assert panel.get_images()[0].get_array().shape[:2] == margins.outcome.shape
+    assert (panel.get_xlabel(), panel.get_ylabel()) == tuple(
+        f"{axis.word} [{axis.printed_unit}]" for axis in (margins.sweep.x, margins.sweep.y)
     )
-    assert with_margins.margin is not None
-    assert len(with_margins.plot(palette="paper").axes) > 2
+    assert panel.figure.axes[1].get_ylabel() == "smallest change of height [mm]"
+    own = found.plot(palette="paper").figure
+    assert own.number in pyplot.get_fignums()
+    pyplot.close(own)
+
+
+def test_a_map_is_saved_as_the_command_saves_it(found, margins, tmp_path):
+    for name, made, more in (("plain", found, ()), ("margins", margins, ("--margin", "height"))):
+        path = tmp_path / f"{name}.zarr"
+        assert made.save(str(path)) == path
+        read = cointoss.read_map(path)
+        assert read.sweep == made.sweep
+        for layer, array in made.layers.items():
+            assert np.array_equal(read.layers[layer], array)
+        x, y = (
+            f"{axis.field}={axis.start}:{axis.stop}:{axis.count}" for axis in (made.sweep.x, made.sweep.y)
+        )
+        answered = command("basin", "fig24a", "--x", x, "--y", y, "--out", path, "--resume", *more)
+        assert answered.exit_code == 0, answered.stderr
+        theirs = tmp_path / "theirs.zarr"
+        command("basin", "fig24a", "--x", x, "--y", y, "--out", theirs, "--overwrite", *more)
+        files = {part.relative_to(path) for part in path.rglob("*")}
+        assert files == {part.relative_to(theirs) for part in theirs.rglob("*")}
+        for file in files - {Path("zarr.json")}:  # which has the scenario's text
+            assert (path / file).is_dir() or (path / file).read_bytes() == (theirs / file).read_bytes()
+
+
+def test_a_part_of_a_map_is_saved_and_gone_on_with(found, tmp_path):
+    outcome, impacts = found.outcome.copy(), found.impacts.copy()
+    outcome[:], impacts[:] = NOT_TOSSED, NOT_TOSSED
+    part = cointoss.OutcomeMap(name="m", sweep=found.sweep, outcome=outcome, impacts=impacts)
+    path = part.save(tmp_path / "m.zarr")
+    assert cointoss.read_map(path).shares == {"not tossed": 1}
+    command("basin", "fig24a", "--x", X, "--y", Y, "--out", path, "--resume")
+    assert np.array_equal(cointoss.read_map(path).outcome, found.outcome)
+
+
+def test_a_map_is_saved_over_no_other_and_only_whole(found, tmp_path):
+    path = found.save(tmp_path / "m.zarr")
+    with pytest.raises(OSError, match=r"m\.zarr: exists; accepted: a new name"):
+        found.save(path)
+    found.save(path, overwrite=True)
+    with pytest.raises(OSError, match=r"a folder.s name that ends in \.zarr"):
+        found.save(tmp_path / "m.txt")
+    coarse = cointoss.read_map(path, most=12)
+    with pytest.raises(
+        cointoss.SweepError, match=r"m\.zarr: one pixel of every 2 is here; accepted: a whole"
+    ):
+        coarse.save(tmp_path / "coarse.zarr")
+    assert [entry.name for entry in tmp_path.iterdir()] == ["m.zarr"]
 
 
 def test_a_map_that_is_not_finished_says_so(found):
@@ -104,7 +171,9 @@ def test_a_map_that_is_not_finished_says_so(found):
         ({"after": "2"}, "after: '2', accepted: a whole number"),
         ({"after": True}, "after: True, accepted: a whole number"),
         ({"after": 1.5}, "after: 1.5, accepted: a whole number"),
-        ({"x": None}, "x: None, accepted: text"),
+        ({"x": None}, "x: None, accepted: FIELD=START:STOP:N, such as"),
+        ({"y": (1, 2)}, r"y: \(1, 2\), accepted: FIELD=START:STOP:N, such as"),
+        ({"engine": None}, "engine: None, accepted: analytic, mujoco"),
         ({"margin": 3}, "margin: 3, accepted: text"),
         (
             {"x": "release.position.z=0.1:1:100000", "y": "gravity=1:9:100000"},
@@ -122,6 +191,17 @@ def test_what_makes_no_map_is_refused(wrong, named):
         cointoss.basin("fig24a", **{"x": X, "y": Y, **wrong})
 
 
+@pytest.mark.parametrize("wrong", [None, {}, np.zeros(3)], ids=lambda wrong: type(wrong).__name__)
+def test_what_is_no_scenario_is_refused(wrong):
+    for use in (lambda one: cointoss.basin(one, x=X, y=Y), cointoss.compare, cointoss.toss):
+        with pytest.raises(
+            cointoss.ScenarioError, match=r"^scenario: of type .*, accepted: a Scenario, the pa"
+        ):
+            use(wrong)
+    with pytest.raises(TypeError, match=r"^text: of type .*, accepted: TOML as text"):
+        cointoss.parse(wrong, "wrong")
+
+
 def test_what_is_no_map_is_refused(found):
     with pytest.raises(ValueError, match="77 is no outcome"):
         cointoss.OutcomeMap(
@@ -129,6 +209,8 @@ def test_what_is_no_map_is_refused(found):
         )
     with pytest.raises(cointoss.SweepError, match="palette: 'foo', accepted: safe, paper"):
         found.plot(palette="foo")
+    with pytest.raises(cointoss.SweepError, match="layer: 'margin', accepted: outcome"):
+        found.plot(layer="margin")
     for most in (0, True, 2.5):
         with pytest.raises(cointoss.SweepError, match=f"most = {most}; accepted: a whole number from 1"):
             cointoss.read_map("map.zarr", most=most)  # pyright: ignore[reportArgumentType]

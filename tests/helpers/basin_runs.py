@@ -46,13 +46,17 @@ def whole_tiles(path):
     return len([entry for entry in path.glob("outcome/c/*/*") if entry.suffix == ""])
 
 
-def begun(coin, out, *extra, stderr=subprocess.PIPE):
-    """Start a process, for a `with` statement, that makes the map in small tiles, slowly."""
+def begun(coin, out, *extra, most=TILES, stderr=subprocess.PIPE):
+    """Start a process, for a `with` statement, that makes the map in small tiles until `most` are there."""
     script = (
-        "import time; from compare.engines import Engine; from compare.sweep import grid, run\n"
-        f"grid.TILE_TOSSES[Engine.ANALYTIC] = {SMALL}\n"
-        "toss = run.toss_pixels\n"
-        "run.toss_pixels = lambda *tile: time.sleep(0.05) or toss(*tile)\n"
+        "import threading, time; from pathlib import Path; from compare.engines import Engine\n"
+        "from compare.sweep import grid, run\n"
+        f"grid.TILE_TOSSES[Engine.ANALYTIC], toss = {SMALL}, run.toss_pixels\n"
+        "def toss_pixels(*tile):\n"
+        f"    made = [entry for entry in Path({str(out)!r}).glob('outcome/c/*/*') if not entry.suffix]\n"
+        f"    threading.Event().wait(None if len(made) >= {most} else 0.05)\n"
+        "    return toss(*tile)\n"
+        "run.toss_pixels = toss_pixels\n"
         "from compare.cli import main; main()"
     )
     words = ("basin", coin, *AXES, "--out", out, *extra)

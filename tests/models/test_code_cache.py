@@ -133,12 +133,63 @@ def test_damaged_files_of_code_are_made_anew(folder, run_caller):
     write(folder, "analytic.callee", CALLEE.format(2.0))
     write(folder, "analytic.caller", CALLER.format("analytic.callee", 1))
     assert run_caller() == [21, 0, 0, 0]
+
+    def half_flipped(kept):
+        return kept[: len(kept) // 2] + bytes(255 - byte for byte in kept[len(kept) // 2 :])
+
     for ending in ("nbi", "nbc"):
-        for damaged in (b"", b"garbage"):
+        for damage in (lambda _: b"", half_flipped):
             for file in folder.glob(f"cache/*/*.{ending}"):
-                file.write_bytes(damaged)
+                file.write_bytes(damage(file.read_bytes()))
             assert run_caller() == [21, 0, 0, 0]
             assert run_caller() == [21, 1, 0, 0]
+
+
+def test_no_bit_of_a_file_can_change_unseen(tmp_path):
+    CodeFiles(str(tmp_path), "function", "source").save("numbers", "code for numbers")
+    files = sorted(tmp_path.iterdir())
+    assert [file.suffix for file in files] == [".nbc", ".nbi"]
+    for file in files:
+        whole = file.read_bytes()
+        for bit in range(8 * len(whole)):
+            flipped = bytearray(whole)
+            flipped[bit // 8] ^= 1 << bit % 8
+            file.write_bytes(flipped)
+            assert CodeFiles(str(tmp_path), "function", "source").load("numbers") is None
+        file.write_bytes(whole)
+        assert CodeFiles(str(tmp_path), "function", "source").load("numbers") == "code for numbers"
+    assert CodeFiles(str(tmp_path), "function", "another source").load("numbers") is None
+
+
+def test_code_that_another_user_could_have_written_is_not_run(tmp_path, monkeypatch):
+    found = CodeFiles(str(tmp_path), "function", "source")
+    mask = os.umask(0)
+    try:
+        found.save("numbers", "code for numbers")
+    finally:
+        os.umask(mask)
+    for file in tmp_path.iterdir():
+        assert file.stat().st_mode & 0o777 == 0o600, "whatever the mask"
+        for mode in (0o620, 0o602):
+            file.chmod(mode)
+            assert found.load("numbers") is None
+        file.chmod(0o600)
+    assert found.load("numbers") == "code for numbers"
+    monkeypatch.setattr(os, "geteuid", lambda: tmp_path.stat().st_uid + 1)
+    assert found.load("numbers") is None
+
+
+def test_code_is_kept_in_a_folder_of_the_user_alone(tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "chosen"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "caches"))
+    assert code_cache._base.__wrapped__() == tmp_path / "chosen"
+    assert (tmp_path / "chosen").stat().st_mode & 0o777 == 0o700
+    owner = tmp_path.stat().st_uid
+    monkeypatch.setattr(os, "geteuid", lambda: owner + 1)
+    elsewhere = code_cache._base.__wrapped__()
+    assert elsewhere.name.startswith("cointoss-")
+    assert not elsewhere.is_relative_to(tmp_path)
+    elsewhere.rmdir()
 
 
 def test_kept_code_calls_what_another_process_has_compiled_anew(folder, run, run_caller):

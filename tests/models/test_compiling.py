@@ -35,15 +35,15 @@ def test_the_functions_of_an_engine_are_counted_and_those_that_both_share():
         assert (compiling.what, compiling.begun, compiling.total) == ("the analytic engine", 2, 10)
     with compiling.one("models.body", none_kept):
         assert (compiling.what, compiling.begun, compiling.total) == ("the analytic engine", 3, 10)
-    with compiling.one("coin_mj.events", {"models.body": 3, "coin_mj.events": 0}.get):
+    with compiling.one("coin_mj.events", {"models.body": 3, "coin_mj.events": 0}.__getitem__):
         assert (compiling.what, compiling.begun, compiling.total) == ("the MuJoCo engine", 4, 54)
 
 
 def test_what_is_kept_is_not_expected_again():
     compiling = of_two_engines(Clock())
-    with compiling.one("analytic.events", {"analytic.events": 5, "models.body": 4}.get):
+    with compiling.one("analytic.events", {"analytic.events": 5, "models.body": 4}.__getitem__):
         assert (compiling.begun, compiling.total) == (1, 1)
-    with compiling.one("analytic.events", {"analytic.events": 5, "models.body": 4}.get):
+    with compiling.one("analytic.events", {"analytic.events": 5, "models.body": 4}.__getitem__):
         assert (compiling.begun, compiling.total) == (2, 2)
 
 

@@ -4,7 +4,6 @@ import threading
 import traceback
 import warnings
 
-import numba
 import numpy as np
 import pytest
 
@@ -55,7 +54,7 @@ def many(n):
 
 @pytest.mark.parametrize(("n", "size"), [(0, 5), (1, 1), (4, 1), (15, 1), (24, 3), (1000, 5), (1003, 5)])
 def test_every_tile_is_made_once_and_each_thread_has_some(n, size, monkeypatch):
-    monkeypatch.setattr(numba.config, "NUMBA_NUM_THREADS", 2)
+    monkeypatch.setattr("models.tiles.config.NUMBA_NUM_THREADS", 2)
     told = []
 
     def number(states, outcomes, *others):

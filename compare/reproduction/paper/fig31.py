@@ -373,6 +373,6 @@ REPRODUCTION = Reproduction(
     seconds=120,
     make=make,
     draw={"figure": _draw},
-    quick_seconds=9,
-    quick=partial(make, points=40, tosses=20_000, elastic=200, tosses_mujoco=10),
+    quick_seconds=5,
+    quick=partial(make, points=24, tosses=10_000, elastic=100, tosses_mujoco=10),
 )
