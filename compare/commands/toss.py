@@ -25,7 +25,7 @@ from compare.commands.names import scenario_argument
     type=Count(1, 1_000_000_000),
     help="Stop after this number of steps of flight, in MuJoCo; by default 1,000,000.",
 )
-@click.option("--all", "whole", is_flag=True, help="Print every impact and contact, not the first ones.")
+@click.option("--all", "whole", is_flag=True, help="Print every impact and contact, not only the first.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
 @click.option("--trajectory", type=click.Path(path_type=Path), help="Also write the path to this .csv file.")
 @click.option(
