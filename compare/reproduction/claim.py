@@ -9,8 +9,6 @@ from numbers import Integral
 from pathlib import Path
 from typing import Literal
 
-from compare.output.tables import table
-
 Relation = Literal["<", "≤", "=", "≥", ">", "within ±"]
 _COMPARE: dict[Relation, Callable[[float, float], bool]] = {
     "<": operator.lt,
@@ -179,19 +177,6 @@ def unexpected(claims: Sequence[Claim], *, quick: bool = False) -> tuple[str, ..
         for claim in claims
         if claim.holds is not claim.expected and not (quick and claim.holds is None)
     )
-
-
-def table_of(claims: Sequence[Claim]) -> str:
-    """Return the claims with their thresholds and verdicts as a table, without columns that say nothing."""
-    columns = {
-        "claim": [claim.claim for claim in claims],
-        "analytic": [claim.analytic for claim in claims],
-        "MuJoCo": [claim.mujoco for claim in claims],
-        "measured (threshold: reason)": [criteria_of(claim) or "-" for claim in claims],
-        "verdict": [claim.verdict for claim in claims],
-    }
-    shown = {name: cells for name, cells in columns.items() if set(cells) != {"-"}}
-    return table(list(shown), list(zip(*shown.values(), strict=True)), words=True)
 
 
 def criteria_of(claim: Claim, *, reasons: bool = True) -> str:

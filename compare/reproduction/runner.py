@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from compare.output.files import remove, require_folder, written_together
 from compare.output.progress import Progress
 from compare.reproduction import claims, paper, studies
-from compare.reproduction.claim import Claim, read_claims, table_of
+from compare.reproduction.claim import Claim, read_claims
 
 if TYPE_CHECKING:  # names are listed without it
     from matplotlib.figure import Figure
@@ -36,11 +36,6 @@ class Result:
     """What its pictures show: arrays by name, or a record of numbers."""
     tables: str = ""
     """More of what it found, in Markdown, to be printed before the claims."""
-
-    @property
-    def text(self) -> str:
-        """The tables and the claims, in Markdown."""
-        return "\n\n".join(filter(None, [self.tables, table_of(self.claims)]))
 
 
 @dataclass(frozen=True, kw_only=True)
