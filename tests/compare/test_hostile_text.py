@@ -7,9 +7,11 @@ from html.parser import HTMLParser
 import pytest
 
 import analytic
+import coin_mj
 from compare.explorer import static
 from compare.explorer.page_files import page_files
 from compare.explorer.static import write_static
+from compare.report.comparison import Comparison
 from compare.report.map_section import MapSection
 from compare.report.page import Page as Report
 from compare.report.page import render
@@ -60,7 +62,7 @@ def report(words):
     scenario = parse(text, words)
     share = {"compared": 1, "agreeing": 1}
     numbers = {
-        "axes": {words: {"field": words, "unit": words, "start": 0.0, "stop": 1.0, "count": 2}},
+        "axes": {words: {"field": "release.position.z", "unit": "m", "start": 0.0, "stop": 1.0, "count": 2}},
         "after": None,
         "fractions": {"analytic": {words: 1.0}, "mujoco": {words: 1.0}},
         "agreement": {"distance": 2.0, "away": share, "near": share, "undecided": 0},
@@ -69,12 +71,14 @@ def report(words):
     }
     return render(
         Report(
-            name=words,
-            scenario=scenario,
-            scenario_text=text,
-            analytic=analytic.toss(scenario),
-            comparison=None,
-            not_realisable=words,
+            comparison=Comparison(
+                name=words,
+                text=text,
+                analytic=analytic.toss(scenario),
+                mujoco=None,
+                not_realisable=words,
+                settings=coin_mj.FINE,
+            ),
             film=None,
             no_video=words,
             maps=MapSection(picture=b"", numbers=numbers),
@@ -88,7 +92,7 @@ def test_a_report_shows_them_as_they_are(words):
     assert hostile.elements == plain.elements
     assert hostile.comments == plain.comments == 1
     assert json.loads(hostile.scripts["data"]) == json.loads(plain.scripts["data"])
-    for shown in (f"{words}: one coin, two engines", f"One coin, two engines: {words}", words):
+    for shown in (f"{words}: one coin, two engines", f"{words}: how does this coin come down?", words):
         assert shown in hostile.texts
     assert hostile.texts == [text.replace("one of mine", words) for text in plain.texts]
 
@@ -100,7 +104,11 @@ def plain(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def named(plain, tmp_path_factory):
-    return shutil.copytree(plain, tmp_path_factory.mktemp("named") / NAME)
+    folder = shutil.copytree(plain, tmp_path_factory.mktemp("named") / NAME)
+    described = json.loads((folder / "zarr.json").read_text("utf-8"))
+    described["attributes"]["name"] = NAME
+    (folder / "zarr.json").write_text(json.dumps(described), encoding="utf-8")
+    return folder
 
 
 @pytest.fixture
@@ -112,7 +120,7 @@ def static_page(tmp_path, monkeypatch):
             return {"engine": engine.value, "problem": words}
 
         monkeypatch.setattr(static, "toss_pixel", toss_pixel)
-        write_static(path, tmp_path / "page.html", lambda *_: None)
+        write_static(path, tmp_path / "page.html")
         return tmp_path / "page.html"
 
     return made
@@ -145,8 +153,8 @@ def test_a_browser_runs_none_of_them(named, static_page, tmp_path_factory):
     with browser(tmp_path_factory.mktemp("profile")) as chromium, Page(chromium) as page:
         page.open(f"{target.as_uri()}#x=40&y=0.4")
         page.wait_for("document.getElementById('outcome').textContent.includes('MuJoCo: <script>')")
-        assert page.value("document.title") == f"{NAME}: cointoss explore"
-        assert page.text("name") == NAME
+        assert page.value("document.title") == f"{NAME}: 2 g, 25 mm: cointoss explore"
+        assert page.text("name") == f"{NAME}: 2 g, 25 mm"
         assert page.text("outcome").count(words) == 2
         assert page.value("document.querySelectorAll('img, #outcome script, #name *').length") == 0
         assert page.complaints() == []
