@@ -99,6 +99,14 @@ def test_the_package_runs_the_command(tmp_path):
     assert done.stderr.startswith("cointoss: no_such_scenario: no such file")
 
 
+@pytest.mark.parametrize("name", ["analytic", "Scenario"])
+def test_a_public_name_brings_what_shows_progress(name, monkeypatch):
+    brought = []
+    monkeypatch.setattr(cointoss, "import_module", lambda home: brought.append(home) or import_module(home))
+    assert getattr(cointoss, name) is not None
+    assert brought[0] == "compare.output.progress"
+
+
 def test_beside_a_foreign_package_it_says_so_in_one_line(tmp_path):
     (tmp_path / "models.py").touch()
     done = run(tmp_path, "--version")

@@ -124,10 +124,13 @@ def basin(
             "--palette, --boundaries, --size and --dpi: accepted: only beside --png or --report"
         )
     with plain_errors(scenario):
-        from compare.basins.picture_style import DPI, Palette, PictureStyle
-        from compare.engines import Engine
-        from compare.sweep.job import Job, make
-        from models.reading import scenario_text
+        from models.stages import stage
+
+        with stage("getting ready"):  # what is imported takes long on a busy machine
+            from compare.basins.picture_style import DPI, Palette, PictureStyle
+            from compare.engines import Engine
+            from compare.sweep.job import Job, make
+            from models.reading import scenario_text
 
         job = Job(
             source=scenario,

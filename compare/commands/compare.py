@@ -24,6 +24,7 @@ def compare(scenario: str, out: Path | None, no_video: bool) -> None:
     with plain_errors(scenario):
         from compare.report.contents import NOT_ASKED, require_folder
         from models.reading import parse, scenario_text
+        from models.stages import stage
         from models.unused import warn_of_unused_fields
 
         text = scenario_text(scenario)
@@ -33,11 +34,12 @@ def compare(scenario: str, out: Path | None, no_video: bool) -> None:
         folder = out or Path(f"{name}-report")
         require_folder(folder, scenario)
 
-        from compare.film.back_end import drawing_problem
+        with stage("getting ready"):  # what is imported takes long on a busy machine
+            from compare.film.back_end import drawing_problem
 
-        problem = NOT_ASKED if no_video else drawing_problem()
+            problem = NOT_ASKED if no_video else drawing_problem()
 
-        from compare.report.comparison import compared
-        from compare.report.folder import write_report
+            from compare.report.comparison import compared
+            from compare.report.folder import write_report
 
         click.echo(write_report(compared(described, text, name), folder, problem))

@@ -51,20 +51,23 @@ def toss(
     if flight_steps is not None and engine != "mujoco":
         raise click.UsageError(f"--flight-steps {flight_steps}: accepted: only beside --engine mujoco")
     with plain_errors(scenario):
-        from compare.engines import Engine
-        from compare.film.back_end import require_mujoco
-        from compare.output import answer
-        from compare.output.files import is_stream, require_file, write_text
-        from models.reading import load
+        from models.stages import stage
 
-        described = load(scenario)
-        if engine == Engine.MUJOCO:
-            require_mujoco()
+        with stage("getting ready"):  # what is imported takes long on a busy machine
+            from compare.engines import Engine
+            from compare.film.back_end import require_mujoco
+            from compare.output import answer
+            from compare.output.files import is_stream, require_file, write_text
+            from models.reading import load
+
+            described = load(scenario)
+            if engine == Engine.MUJOCO:
+                require_mujoco()
+            package = Engine(engine).package
         if trajectory is not None and not is_stream(trajectory):
             require_file(trajectory, ".csv", scenario)
         if max_impacts is not None:
             described = described.replace("ending.max_impacts", max_impacts)
-        package = Engine(engine).package
         given = {"contact": contact, "contact_steps": contact_steps, "flight_steps": flight_steps}
         chosen = {name: value for name, value in given.items() if value is not None}
         settings = replace(package.FINE, **chosen)

@@ -39,6 +39,7 @@ def video(scenario: str, out: Path, engine: str, camera: str, poster: Path | Non
         from compare.film.encodings import ENCODINGS
         from compare.output.files import require_file, written_whole
         from models.reading import load
+        from models.stages import stage
 
         described = load(scenario)
         require_file(out, tuple(ENCODINGS), scenario)
@@ -51,13 +52,13 @@ def video(scenario: str, out: Path, engine: str, camera: str, poster: Path | Non
         if problem is not None:
             refuse(problem)
 
-        from PIL import Image
+        with stage("getting ready"):  # what is imported takes long on a busy machine
+            from PIL import Image
 
-        from compare.engines import Engine
-        from compare.film.drawing import Camera
-        from compare.film.filmed import followed
-        from compare.film.video import write_video
-        from models.stages import stage
+            from compare.engines import Engine
+            from compare.film.drawing import Camera
+            from compare.film.filmed import followed
+            from compare.film.video import write_video
 
         engines = list(Engine) if engine == "both" else [Engine(engine)]
         shown = [followed(each.package.toss(described)) for each in engines]

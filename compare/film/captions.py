@@ -24,8 +24,6 @@ def _color(color: str | tuple[float, float, float]) -> Color:
     return r, g, b
 
 
-EDGE = 2
-"""Of the letters [pixels]."""
 INK, WHITE, GREY = (27, 36, 48), (255, 255, 255), (91, 102, 117)
 TITLES: dict[str, tuple[str, Color]] = {
     "analytic": ("analytic", (0, 90, 142)),
@@ -116,27 +114,20 @@ def written(frame: np.ndarray, captions: Sequence[Caption], below: str) -> np.nd
     font, large = _font(size), _font(1.5 * size)
     for number, caption in enumerate(captions):
         left = number * image.width / len(captions) + size / 2
-        _write(draw, (left, 1.5 * size), caption.title, font, "lm")
+        draw.text((left, 1.5 * size), caption.title.text, caption.title.color, font, "lm")
         start = left + draw.textlength(caption.title.text, font=font) + size / 2
         end = start + draw.textlength(caption.label, font=large) + size
         draw.rounded_rectangle((start, 0.4 * size, end, 2.6 * size), size / 3, fill=caption.ground)
         draw.text((start + size / 2, 1.5 * size), caption.label, font=large, fill=caption.ink, anchor="lm")
         for i, line in enumerate(caption.lines):
-            _write(draw, (left, (3.5 + 1.3 * i) * size), line, font, "lm")
+            draw.text((left, (3.5 + 1.3 * i) * size), line.text, line.color, font, "lm")
         if number > 0:
             x = number * image.width // len(captions)
             draw.line((x, 0, x, image.height), fill=WHITE, width=max(2, image.width // 400))
-    _write(draw, (image.width / 2, image.height - size), Line(below), font, "mm")
+    draw.text((image.width / 2, image.height - size), below, INK, font, "mm")
     return np.asarray(image)
 
 
 @cache
 def _font(size: float) -> Font:
     return ImageFont.load_default(size)
-
-
-def _write(
-    draw: ImageDraw.ImageDraw, place: tuple[float, float], line: Line, font: Font, anchor: str
-) -> None:
-    """Write a line with a white edge, to be read on any ground."""
-    draw.text(place, line.text, line.color, font, anchor, stroke_width=EDGE, stroke_fill=WHITE)

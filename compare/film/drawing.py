@@ -17,7 +17,7 @@ from compare.film.shadow import add_shadow
 from compare.film.visual_model import build_visual_model
 from models.records import Array, Ending
 
-IMPULSE_COLOR, FORCE_COLOR = (0.80, 0.15, 0.50), (0.00, 0.55, 0.40)
+IMPULSE_COLOR, FORCE_COLOR = (0.72, 0.10, 0.44), (0.00, 0.45, 0.32)
 """Of the arrows: red, green and blue, from 0 to 1."""
 LONGEST_NEAR, LONGEST_FAR = 0.23, 0.15
 """Length of the arrow of the toss's largest impulse, and of a force of twice the coin's weight or more, in
@@ -63,7 +63,7 @@ class View(NamedTuple):
 
 
 VIEWS = {
-    Camera.OVERVIEW: View(-30.0, aim=0.07, part=0.72),
+    Camera.OVERVIEW: View(-30.0, aim=0.085, part=0.69),
     Camera.CLOSE_UP: View(-50.0, aim=0.18, part=1 / 3),
     Camera.TOP: View(-90.0, aim=0.15, part=0.54),
 }

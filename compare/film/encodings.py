@@ -17,7 +17,7 @@ class Format(NamedTuple):
     """A film that would take longer is sped up to this length [s]."""
 
 
-FULL, SMALL = Format(1280, 720, 30), Format(960, 540, 30, longest=12.5)
+FULL, SMALL = Format(1280, 720, 30), Format(960, 540, 24, longest=12.5)
 """Of a film that stands alone, and of one in a page, whose reader waits for it."""
 GIF = Format(640, 360, 20, longest=15.0)
 """Of a film without compression in time."""

@@ -5,7 +5,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 from typing import Any
 
@@ -60,22 +60,24 @@ class Display:
                 self._last_compiled = self._clock()
             if self._clock() - self._last_compiled < PAUSE:
                 self._show(self._compiled, self._compiled.seconds, self._compiling)
+                self._drawn_stage = None
                 return
             self._tell_of_compiled()
-            if not self._work.open or self._work.open[0].seconds < 1:
+            opened = list(self._work.open)  # other threads open and end them
+            if not opened or opened[0].seconds < 1:
                 self._draw("")
                 return
-            outer, *inner = list(self._work.open)
-            visible = [outer, *(each for each in inner if each.seconds > INNER)]
-            subject = visible[-1] if outer.total is None else outer
-            self._show(subject, outer.seconds, partial(self._working, visible))
+            visible = [opened[0], *(each for each in opened[1:] if each.seconds > INNER)]
+            subject = visible[-1] if opened[0].total is None else opened[0]
+            self._show(subject, opened[0].seconds, partial(self._working, visible))
+            self._drawn_stage = opened[0] if self._drawn else None
 
     def ended(self, stage: Stage) -> None:
         """Leave the bar of a stage whose parts were counted."""
         with self._lock:
             if stage is self._drawn_stage and stage.total is not None:
                 self._draw(self._bar([stage]))
-                self._stream.write("\n")
+                self._write("\n")
                 self._drawn, self._drawn_stage = "", None
 
     def close(self) -> None:
@@ -89,7 +91,6 @@ class Display:
         if self._rewrites:
             if seconds > AFTER or self._drawn:
                 self._told_of_compiling |= subject is self._compiled
-                self._drawn_stage = None if subject is self._compiled else self._work.open[0]
                 self._draw(text())
         elif self._clock() - self._last_line > (EVERY if subject is self._named else FIRST):
             self._told_of_compiling |= subject is self._compiled
@@ -156,14 +157,17 @@ class Display:
         """Write the one line again, or remove it."""
         if self._rewrites and text != self._drawn:
             text = text[: _width(self._stream) - 1]
-            self._stream.write("\r" + text.ljust(len(self._drawn)) + ("" if text else "\r"))
-            self._stream.flush()
+            self._write("\r" + text.ljust(len(self._drawn)) + ("" if text else "\r"))
             self._drawn = text
 
     def _line(self, text: str) -> None:
-        self._stream.write(f"cointoss: {text}\n")
-        self._stream.flush()
+        self._write(f"cointoss: {text}\n")
         self._last_line = self._clock()
+
+    def _write(self, text: str) -> None:
+        with suppress(OSError, ValueError):  # nobody reads it any more, which stops no work
+            self._stream.write(text)
+            self._stream.flush()
 
 
 def _phrase(stage: Stage) -> str:

@@ -8,7 +8,7 @@ from models.records import Ending, Toss
 COLORS = "Gold with an H is heads, blue with a T is tails."
 ARROWS = (
     "Pink arrows are impulses, green arrows the floor’s force in sustained contact; their lengths are "
-    "proportional to their sizes."
+    "proportional to their sizes, a force’s up to twice the weight."
 )
 
 

@@ -24,7 +24,7 @@ def kept(folder: Path, name: str, compute: Callable[[], Part]) -> Part:
     path = folder / f"{name}.npz"
     try:
         # A damaged file would be left open by NumPy.
-        with path.open("rb") as file, np.load(file) as arrays:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             return dict(arrays)
     except (OSError, ValueError, EOFError, BadZipFile):
         part = compute()

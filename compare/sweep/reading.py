@@ -29,6 +29,8 @@ MOST_NAME = 255
 """Characters of a scenario's name, as of a file's."""
 MOST_TILES = 1_000_000
 """Tiles of one."""
+MOST_STEPS = 1_000_000_000
+"""Of an engine, in the settings of one."""
 _ACCEPTED = "accepted: a map that cointoss basin made"
 
 
@@ -120,7 +122,11 @@ def _settings(engine: Engine, found: dict[str, Any]) -> EngineSettings:
     """Return the settings with which a map was tossed, but for those that are compiled in."""
     settings: Any = engine.package.MANY
     chosen = {item.name for item in fields(settings) if item.init}
-    return replace(settings, **{name: value for name, value in found.items() if name in chosen})
+    given = {name: value for name, value in found.items() if name in chosen}
+    for name, value in given.items():
+        if isinstance(value, int) and value > MOST_STEPS:
+            raise ValueError(f"{name} = {shown(value)}")
+    return replace(settings, **given)
 
 
 def _read(map_: Map, form: Form, names: Iterable[str], stride: int) -> dict[str, NDArray[Any]]:

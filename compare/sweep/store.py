@@ -5,9 +5,10 @@ import json
 import math
 import os
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
+from functools import cache, cached_property
 from importlib.metadata import version
 from itertools import product
 from pathlib import Path
@@ -70,7 +71,7 @@ class Map:
             return none
         return np.isin(outcome, list(Outcome)) & (impacts >= 0) & ~np.isnan(margin)
 
-    @property
+    @cached_property
     def has_margin(self) -> bool:
         """Whether it holds margins too."""
         return "margin" in self.group
@@ -128,8 +129,10 @@ class Map:
         for place in product(*(range(one.start // side, -(-one.stop // side)) for one, side in spans)):
             yield Path(name, "c", *map(str, place))
 
-    def _array(self, name: str) -> Any:
-        return self.group[name]
+    @cached_property
+    def _array(self) -> Callable[[str], Any]:
+        """Opens an array by its name, once."""
+        return cache(self.group.__getitem__)
 
 
 def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:

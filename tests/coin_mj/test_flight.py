@@ -177,7 +177,7 @@ def test_no_touch_is_found_where_a_step_ends():
 
 @pytest.mark.parametrize("coin", [BALANCED, IMPERFECT], ids=["balanced", "imperfect"])
 def test_a_flight_ends_where_the_coin_has_just_touched(coin):
-    for seed in range(100):
+    for seed in range(50):
         case, machine = flying(coin, seed)
         time, way, _ = flight(case, machine, 100.0)
         below = evaluate_gap(machine.coin)

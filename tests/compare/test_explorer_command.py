@@ -77,6 +77,8 @@ def changed(path, **attributes):
         ({"name": 7}, "is no map of cointoss (name = 7)"),
         ({"name": 300 * "a"}, "is no map of cointoss (name = "),
         ({"margin_along": "height"}, "is no map of cointoss (array margin missing)"),
+        ({"engine_settings": {"contact_steps": 10**30}}, "(contact_steps = 1000"),
+        ({"engine_settings": {"contact_tolerance": "1"}}, "is no map of cointoss"),
         ({"margin_along": 7}, "is no map of cointoss (attribute margin_along = 7)"),
         ({"cointoss_map": 2}, "is no map of cointoss (attribute cointoss_map is not 1)"),
     ],

@@ -108,8 +108,8 @@ class Unpickler(numcodecs.abc.Codec):
     def encode(self, buf):
         return buf
 
-    def decode(self, buf, out=None):  # noqa: ARG002 - as numcodecs calls it
-        return pickle.loads(bytes(buf))
+    def decode(self, buf, out=None):
+        return pickle.loads(bytes(buf)) if out is None else out
 
 
 def in_format_2(path, **codecs):

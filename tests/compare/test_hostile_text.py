@@ -46,8 +46,8 @@ class Parsed(HTMLParser):
         self.elements.append((tag, "end"))
         self._open = ""
 
-    def handle_comment(self, _):
-        self.comments += 1
+    def handle_comment(self, data):
+        self.comments += bool(data)
 
     def handle_data(self, data):
         self.texts.append(data.strip())

@@ -1,5 +1,7 @@
 """Parts of a long study: kept, read again, made again where damaged, and removed at the end."""
 
+import os
+
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
@@ -29,6 +31,23 @@ def test_a_part_is_computed_once_and_again_where_its_file_is_damaged(tmp_path):
     (folder / "a-1.npz").write_bytes(b"PK\x03\x04 damaged")
     assert kept(folder, "a-1", compute)["x"].tolist() == [0, 1, 2]
     assert made == [1, 1]
+
+
+class Runs:
+    """Makes a folder when it is unpickled."""
+
+    def __init__(self, folder):
+        self.folder = str(folder)
+
+    def __reduce__(self):
+        return os.mkdir, (self.folder,)
+
+
+def test_a_part_that_would_run_is_computed_again(tmp_path):
+    np.savez(tmp_path / "a-1.npz", x=np.array([Runs(tmp_path / "run")], dtype=object))
+    assert kept(tmp_path, "a-1", lambda: {"x": np.arange(3)})["x"].tolist() == [0, 1, 2]
+    assert not (tmp_path / "run").exists()
+    assert kept(tmp_path, "a-1", dict)["x"].tolist() == [0, 1, 2]
 
 
 def test_an_interrupted_run_goes_on_and_a_finished_one_leaves_no_parts(tmp_path, monkeypatch):

@@ -196,6 +196,18 @@ def test_of_a_stage_that_fails_the_line_goes():
     assert desk.stream.getvalue().split("\r")[-2:] == [" " * len("tossing by MuJoCo: 4 s"), ""]
 
 
+@pytest.mark.parametrize("rewrites", [True, False])
+def test_a_stream_that_nobody_reads_stops_no_work(rewrites):
+    desk = Desk(rewrites=rewrites)
+    desk.begin("map.zarr", "tosses", total=2).progress(1, 2)
+    desk.stream.close()
+    for _ in range(9):
+        desk.now += 1.0
+        desk.display.tick()
+    desk.end()
+    desk.display.close()
+
+
 def test_stages_are_open_for_as_long_as_they_last():
     with stage("outer", "parts", total=2) as outer:
         for item in counted("inner", "things", "ab"):

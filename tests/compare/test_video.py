@@ -105,11 +105,10 @@ def test_the_face_that_is_up_shows_its_colour(thickness, quaternion, color):
     assert color(picture).sum() / disc == pytest.approx(0.76, abs=0.1)
 
 
-@pytest.mark.parametrize("camera", [Camera.CLOSE_UP, Camera.OVERVIEW])
+@pytest.mark.parametrize(("camera", "steepest"), [(Camera.CLOSE_UP, 35.0), (Camera.OVERVIEW, 20.0)])
 @pytest.mark.parametrize(("up", "color", "other"), [(0.0, golden, blue), (180.0, blue, golden)])
-def test_the_face_that_is_seen_is_the_face_that_is_up(camera, up, color, other):
-    """It is so however the coin is tilted, up to nearly the angle by which the camera looks down."""
-    steepest = 0.7 * VIEWS[camera].elevation
+def test_the_face_that_is_seen_is_the_face_that_is_up(camera, steepest, up, color, other):
+    """It is so on a coin that lies, and on one that is tilted towards the camera or away from it."""
     for tilt in (0.0, steepest, -steepest):
         half = np.radians(up + tilt) / 2
         path = MadePath(position=(0, 0, 0.02), quaternion=(np.cos(half), np.sin(half), 0, 0))
@@ -126,7 +125,7 @@ def test_a_shadow_is_what_the_coin_hides_of_the_light_from_above():
     R_, H = ZLOTY["radius"], ZLOTY["thickness"]
     rims = [[R_ * np.cos(a), R_ * np.sin(a), z] for a in turns for z in (-H / 2, H / 2)]
     for quaternion in (FLAT, UPRIGHT, *rng.normal(size=(5, 4))):
-        data.qpos[:] = [0.3, -0.2, 0.5, *quaternion / np.linalg.norm(quaternion)]
+        data.qpos[:] = [0.3, -0.2, 0.5, *np.array(quaternion) / np.linalg.norm(quaternion)]
         mujoco.mj_forward(model, data)
         scene.ngeom = 0
         add_shadow(scene, data, case.coin)
@@ -188,16 +187,19 @@ def test_the_overview_sees_the_coin_from_release_to_the_floor():
 @pytest.mark.parametrize("camera", [Camera.OVERVIEW, Camera.TOP])
 def test_a_camera_at_rest_shows_the_path_up_to_now(camera):
     toss = made(MadePath(position=(0, 0, 0.2), velocity=(0.3, 0.002, -0.002)))
-    pictures = drawn(toss, [0, 0.5, 1], camera, height=192, width=256)
-    # The rows above the shadow, which moves with the coin.
-    first, middle, last = (picture[:130].sum(axis=2) for picture in pictures)
-    # Between where the coin is at these times.
-    early, late = slice(64, 104), slice(152, 192)
-    assert np.array_equal(middle[:, early], last[:, early])
-    assert np.array_equal(first[:, late], middle[:, late])
+    # The shadow, which is dark too, moves with the coin.
+    with patch("compare.film.drawing.add_shadow"):
+        pictures = drawn(toss, [0, 0.5, 1], camera, height=192, width=256)
+    first, middle, last = (picture.sum(axis=2) for picture in pictures)
+    # Between where the coin is at these times, which is some ten pixels large.
+    at = [round(center(golden(picture))[1]) for picture in pictures]
+    early, late = slice(at[0] + 15, at[1] - 15), slice(at[1] + 15, at[2] - 15)
+    # The floor's texture is rounded one way or the other; the path is darker than it by more than 60.
+    assert np.abs(middle[:, early] - last[:, early]).max() <= 3
+    assert np.abs(first[:, late] - middle[:, late]).max() <= 3
     for columns in (early, late):
         darker = np.argwhere(first[:, columns] - last[:, columns] > 60)
-        assert len(set(darker[:, 1])) > 35
+        assert len(set(darker[:, 1])) > 0.9 * (columns.stop - columns.start) > 30
         assert np.ptp(darker[:, 0]) < 4
 
 
