@@ -28,6 +28,10 @@ ADVICE = (
 )
 
 UNKNOWN = "video can't be drawn here"
+TOO_LATE = (
+    "video can't be drawn by this process: MuJoCo was imported without MUJOCO_GL, and there is no screen; "
+    "accepted: MUJOCO_GL=egl in the environment before Python starts"
+)
 BACK_ENDS = "accepted as MUJOCO_GL: egl, glfw, osmesa where it is installed, disable, or nothing"
 
 
@@ -57,12 +61,12 @@ def drawing_problem() -> str | None:
     The first call chooses MuJoCo's back end where the user has not, and draws one frame in a child process;
     the others return what it found. It must come before MuJoCo is first imported, which settles the choice.
     """
-    chosen = os.environ.get("MUJOCO_GL") or "mujoco" in sys.modules
-    if sys.platform == "linux" and "DISPLAY" not in os.environ and not chosen:
+    needs_egl = sys.platform == "linux" and "DISPLAY" not in os.environ and not os.environ.get("MUJOCO_GL")
+    if needs_egl:
         os.environ["MUJOCO_GL"] = "egl"
     said = _drawing_complaint()
     if said is None:
-        return None
+        return TOO_LATE if needs_egl and "mujoco" in sys.modules else None
     # Importing MuJoCo for a back end that is missing would fail too.
     os.environ["MUJOCO_GL"] = "disabled"
     if "invalid value" in said:

@@ -1,11 +1,12 @@
 """Stills of a toss, and what is said where none can be drawn."""
 
+import sys
 from unittest.mock import patch
 
 import numpy as np
 import pytest
 
-from compare.film.back_end import ADVICE, UNKNOWN, drawing_problem
+from compare.film.back_end import ADVICE, TOO_LATE, UNKNOWN, drawing_problem
 from compare.film.stills import stills
 from compare.reproduction import runner
 from compare.reproduction.claim import unexpected
@@ -61,6 +62,16 @@ def test_the_back_end_is_tried_once(monkeypatch):
         monkeypatch.setenv("MUJOCO_GL", "nonsense")
         assert drawing_problem() is None
     assert tried.call_count == 1
+
+
+@pytest.mark.usefixtures("fresh_back_end")
+def test_a_back_end_that_is_chosen_already_is_said_to_be_too_late(monkeypatch):
+    monkeypatch.setattr("sys.platform", "linux")
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.setenv("MUJOCO_GL", "")
+    assert "mujoco" in sys.modules
+    with patch("compare.film.back_end._drawing_complaint", return_value=None):
+        assert drawing_problem() == TOO_LATE
 
 
 def test_the_figure_comes_without_stills_too(monkeypatch, tmp_path):
