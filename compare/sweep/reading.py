@@ -51,7 +51,7 @@ def read_map(path: str | Path, *, most: int = MOST_READ) -> OutcomeMap:
         raise SweepError(f"most = {most!r}; accepted: a whole number from 1")
     path = Path(path)
     if not path.is_dir():
-        raise MapError(f"{path}: no such folder; {_ACCEPTED}")
+        raise MapError(f"{path}: {'is no' if path.exists() else 'no such'} folder; {_ACCEPTED}")
     try:
         form = read_form(path)
         map_ = Map.at(path, "r")

@@ -50,7 +50,7 @@ def test_a_map_that_is_gone_or_foreign_is_refused(tmp_path):
     zarr.create_group(tmp_path / "foreign.zarr", attributes={"title": "rain"})
     for name, reason in (
         ("gone.zarr", "no such folder"),
-        ("file.zarr", "no such folder"),
+        ("file.zarr", "is no folder"),
         ("empty.zarr", "is no map of cointoss (empty.zarr: no zarr.json)"),
         ("foreign.zarr", "is no map of cointoss (attribute cointoss_map is not 1)"),
     ):
