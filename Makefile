@@ -14,7 +14,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # What does not wait for each other is made side by side.
 MAKEFLAGS += --jobs=2
 
-.PHONY: report test test-all bench docs lint opengl chromium compiled clean
+.PHONY: report test check test-all bench docs lint opengl chromium compiled clean
 
 report: $(READY) opengl compiled
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
@@ -24,6 +24,10 @@ PYTEST := $(BIN)/pytest -n 2 --dist loadfile --max-worker-restart 0
 
 test: $(READY) opengl chromium lint compiled
 	$(PYTEST)
+
+# Lint, and the tests of the mechanics.
+check: $(READY) lint compiled
+	$(PYTEST) tests/analytic tests/test_conformance*.py
 
 test-all: $(READY) opengl chromium lint compiled
 	$(PYTEST) -m "slow or not slow"
