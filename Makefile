@@ -19,7 +19,7 @@ told = echo "$(1)"; \
   while sleep 10 >/dev/null 2>&1 && kill -0 $$$$; do s=$$(($$s + 10)); echo "$(1): $$s s"; done & \
   trap "kill $$!" EXIT; $(2)
 
-.PHONY: report test test-all bench docs pages lint opengl chromium compiled clean
+.PHONY: report test check test-all bench docs pages lint opengl chromium compiled clean
 
 report: $(READY) opengl compiled
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
@@ -29,6 +29,10 @@ PYTEST := $(BIN)/pytest -n 2 --dist loadfile --max-worker-restart 0
 
 test: $(READY) opengl chromium lint compiled
 	$(PYTEST)
+
+# Lint, and the tests of the mechanics.
+check: $(READY) lint compiled
+	$(PYTEST) tests/analytic tests/test_conformance*.py
 
 test-all: $(READY) opengl chromium lint compiled
 	$(PYTEST) -m "slow or not slow"
