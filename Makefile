@@ -56,7 +56,7 @@ $(MADE)/pages/explorer.html: $(READY) $(CODE) docs/conf.py $(wildcard docs/exten
 	mkdir -p $(@D)
 	$(BIN)/cointoss basin fig24a --x release.angular_velocity.eta=20:60:160 --y release.position.z=0.2:0.6:120 \
 	  --after 2 --out $(MADE)/map.zarr
-	$(BIN)/cointoss compare fig24a --no-video --out $(@D)/report
+	$(BIN)/cointoss compare table --no-video --out $(@D)/report
 	$(BIN)/cointoss explore $(MADE)/map.zarr --static $@
 
 lint: $(READY)

@@ -68,7 +68,7 @@ def changed(path, **attributes):
 @pytest.mark.parametrize(
     ("attributes", "reason"),
     [
-        ({"engine": "abacus"}, "is no map of cointoss ('abacus' is not a valid Engine)"),
+        ({"engine": "abacus"}, "is no map of cointoss (engine: 'abacus', accepted: analytic, mujoco)"),
         ({"after": "two"}, 'is no map of cointoss (attribute after = "two")'),
         ({"after": True}, "is no map of cointoss (after = True)"),
         ({"scenario": "gravity = -1"}, "gravity = -1: accepted: a number"),
