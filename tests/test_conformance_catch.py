@@ -145,7 +145,7 @@ caught = "1.2 m"
     )
     told = json.loads(cointoss("toss", str(path), "--json").stdout)
     assert (told["ending"], told["sequence"], told["impacts"]) == ("caught", "", [])
-    assert "caught: The mass centre came down" in cointoss("toss", str(path)).stdout
+    assert "caught: A hand caught the coin" in cointoss("toss", str(path)).stdout
     path.write_text(path.read_text().replace('"1.2 m"', '"1 cm"'))
     refused = cointoss("toss", str(path))
     assert refused.exit_code == 2

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from models.laws import ContactLaw
-from models.reading import load
+from models.reading import parse
 from models.records import Impacts
 from tests.helpers.command_line import cointoss
 
@@ -71,7 +71,7 @@ def test_the_analytic_engine_agrees_within_what_the_record_is_good_for(law):
     found, expected = tossed(law, "analytic"), recorded(law)
     n = len(expected["impacts"])
     assert n == (1 if law == "coulomb" else 3)
-    assert str(load(str(RECORDS / f"{law}.toml")).floor.contact) == law
+    assert str(parse((RECORDS / f"{law}.toml").read_text(encoding="utf-8"), law).floor.contact) == law
     assert found["sequence"] == expected["sequence"]
     assert found["trusted_impacts"] == len(found["impacts"]) == n
     assert [impact["face"] for impact in found["impacts"]] == [

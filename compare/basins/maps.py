@@ -32,7 +32,8 @@ def outcome_codes(outcomes: ArrayLike) -> OutcomeCodes:
         raise ValueError(f"outcomes: shape {codes.shape}, accepted: at least one outcome")
     if not np.issubdtype(codes.dtype, np.integer):
         raise ValueError(f"outcomes: of type {codes.dtype}, accepted: whole numbers, the codes of Outcome")
+    least, largest = int(min(Outcome)), int(max(Outcome))
     for code in (codes.min(), codes.max()):
-        if not min(Outcome) <= code <= max(Outcome):
-            raise ValueError(f"outcomes: {code} is no outcome, accepted: {min(Outcome)} to {max(Outcome)}")
+        if not least <= code <= largest:
+            raise ValueError(f"outcomes: {code} is no outcome, accepted: {least} to {largest}")
     return codes.astype(np.int8, copy=False)

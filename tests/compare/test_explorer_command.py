@@ -94,7 +94,7 @@ def test_a_map_that_python_reads_is_named_in_its_error(copy):
     changed(copy, engine="abacus")
     with pytest.raises(public.MapError) as raised:
         public.read_map(copy)
-    assert str(raised.value).startswith(f"{copy}: is no map of cointoss ('abacus'")
+    assert str(raised.value).startswith(f"{copy}: is no map of cointoss (engine: 'abacus'")
 
 
 def test_a_map_by_mujoco_is_not_to_blame_for_a_back_end_that_is_missing(copy, monkeypatch):

@@ -196,9 +196,11 @@ def test_a_comparison_in_python_writes_the_report_and_the_film_of_the_commands(t
     assert {path.name for path in (tmp_path / "report").iterdir()} == set(FILES)
     assert found.film(str(tmp_path / "mine.mp4")) == tmp_path / "mine.mp4"
     assert film_written(tmp_path / "mine.mp4").frames == frame_count(found.filmed(), stamp)
-    with pytest.raises(UnwritableError, match=r"accepted: a file name that ends in \.mp4 or"):
+    with pytest.raises(
+        UnwritableError, match=r"mine\.avi: another kind of file; accepted: a name that ends in \.mp4 or"
+    ):
         found.film(tmp_path / "mine.avi")
-    with pytest.raises(UnwritableError, match=r"mine\.toml: accepted: a folder"):
+    with pytest.raises(UnwritableError, match=r"mine\.toml: is no folder; accepted: a folder"):
         found.report(source)
 
 

@@ -1,7 +1,6 @@
 """What is compiled is counted, its end is estimated, and of two processes that compile the same one waits."""
 
 import subprocess
-import sys
 
 import pytest
 
@@ -9,6 +8,7 @@ from models.kernel import code_cache
 from models.kernel.code_cache import turn
 from models.kernel.compiling import Compiling
 from tests.helpers.command_line import HERE
+from tests.helpers.processes import started
 
 
 class Clock:
@@ -108,38 +108,29 @@ def folder(tmp_path, monkeypatch):
 
 
 def test_a_process_waits_for_another_that_compiles_the_same_until_that_ends(folder, monkeypatch):
-    other = subprocess.Popen(
-        [sys.executable, "-c", HOLDING],
-        env={**HERE, "NUMBA_CACHE_DIR": str(folder)},
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    with other:
-        try:
-            assert other.stdout is not None
-            assert other.stdout.readline() == "False\n"
-            with turn("another function") as waited:
-                assert not waited
-            with monkeypatch.context() as patched:
-                patched.setattr(code_cache, "PATIENCE", 0.0)
-                with turn("some function") as waited:
-                    assert waited
-            slept = []
-
-            def killed_meanwhile(seconds):
-                slept.append(seconds)
-                other.kill()
-                other.wait()
-
-            monkeypatch.setattr(code_cache.time, "sleep", killed_meanwhile)
+    piped = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    with started("-c", HOLDING, env={**HERE, "NUMBA_CACHE_DIR": str(folder)}, **piped) as other:
+        assert other.stdout is not None
+        assert other.stdout.readline() == "False\n"
+        with turn("another function") as waited:
+            assert not waited
+        with monkeypatch.context() as patched:
+            patched.setattr(code_cache, "PATIENCE", 0.0)
             with turn("some function") as waited:
                 assert waited
-            assert len(slept) == 1
-            with turn("some function") as waited:
-                assert not waited
-        finally:
+        slept = []
+
+        def killed_meanwhile(seconds):
+            slept.append(seconds)
             other.kill()
+            other.wait()
+
+        monkeypatch.setattr(code_cache.time, "sleep", killed_meanwhile)
+        with turn("some function") as waited:
+            assert waited
+        assert len(slept) == 1
+        with turn("some function") as waited:
+            assert not waited
 
 
 def test_where_nothing_can_be_locked_nothing_is_waited_for(folder):
