@@ -79,7 +79,7 @@ $(VENV)/.ready-docs: $(READY)
 # MuJoCo draws without a screen through EGL. Debian's packages are installed where that is allowed; elsewhere
 # `cointoss` says which to install, and the report comes without its video.
 opengl:
-	@if [ "$$(uname)" = Linux ] && ! ldconfig -p 2>/dev/null | grep -q 'libEGL\.so' \
+	@if [ "$$(uname)" = Linux ] && ! PATH=$$PATH:/sbin:/usr/sbin ldconfig -p 2>/dev/null | grep -q 'libEGL\.so' \
 	  && [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
 	  apt-get update -q && apt-get install -y -q --no-install-recommends libegl1 libgl1-mesa-dri libopengl0 \
 	  || echo "The OpenGL libraries could not be installed; the report will have no video." >&2; \

@@ -1,5 +1,6 @@
 """Read a scenario file (TOML)."""
 
+import difflib
 import tomllib
 from importlib import resources
 from os import PathLike
@@ -54,6 +55,8 @@ def scenario_text(source: str | PathLike[str]) -> str:
     names = named_scenarios()
     path, source = Path(source), str(source)
     try:
+        if not source:
+            raise FileNotFoundError
         if source in names and (not path.exists() or path.is_dir()):
             return (resources.files("models") / "scenarios" / f"{source}.toml").read_text(encoding="utf-8")
         text = read_bounded(path, MOST_BYTES).decode("utf-8-sig")
@@ -68,8 +71,10 @@ def scenario_text(source: str | PathLike[str]) -> str:
         wrong = (
             "no such file" if isinstance(error, FileNotFoundError) else f"can't be read ({error.strerror})"
         )
+        near = difflib.get_close_matches(source, names, n=1)
+        hint = f" (did you mean {near[0]}?)" if near else ""
         raise ScenarioError(
-            f"{source or '(no name)'}: {wrong}; accepted: a TOML file, or one of: {', '.join(names)}"
+            f"{source or '(no name)'}: {wrong}; accepted: a TOML file, or one of: {', '.join(names)}{hint}"
         ) from None
 
 
@@ -122,4 +127,4 @@ def parse(text: str, source: str) -> Scenario:
     except RecursionError:
         raise ScenarioError(f"{source}: nested too deeply; accepted: tables of numbers and lists") from None
     except tomllib.TOMLDecodeError as error:
-        raise ScenarioError(f"{source}: not TOML: {error}") from None
+        raise ScenarioError(f"{source}: not TOML: {error}; accepted: TOML") from None

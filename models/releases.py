@@ -19,6 +19,8 @@ from models.scenario import FASTEST_DRAG, FASTEST_SPIN, LARGEST, NORM_ROUNDING, 
 from models.units import in_si
 
 HEIGHT, SPIN = "release.position.z", "release.angular_velocity"
+MOST = 10_000_000
+"""Releases that are made at a time: a gigabyte."""
 QUANTITIES = {"height": HEIGHT, "spin": SPIN} | {
     field.removeprefix("release.").replace(".", "_"): field for field in UNITS if field.startswith("release.")
 }
@@ -81,8 +83,8 @@ class Releases:
             ValueError: for values that are none of these, and for a release that this coin can't have.
         """
         described = scenario_of(scenario)
-        if isinstance(n, bool) or not isinstance(n, int | np.integer) or n < 1:
-            raise ValueError(f"Releases.of: n = {n!r}, accepted: a whole number from 1")
+        if isinstance(n, bool) or not isinstance(n, int | np.integer) or not 1 <= n <= MOST:
+            raise ValueError(f"Releases.of: n = {n!r}, accepted: a whole number from 1 to {MOST}")
         changed: dict[str, Array] = {}
         for name, given in quantities.items():
             if name not in QUANTITIES:

@@ -23,7 +23,7 @@ from models.barriers import highest_on_floor
 from models.body import AirLaw, Body, Rules
 from models.clearance import damping_rate
 from models.drag import linear_drag, sliding_share
-from models.errors import FieldError, ScenarioError, describe
+from models.errors import FieldError, ScenarioError, describe, require_type
 from models.fields import lambda_unit, put
 from models.geometry import gap
 from models.inertia import (
@@ -436,6 +436,7 @@ class Scenario(_Part):
             )
         data = self.model_dump()
         for name, new in zip(pairs[::2], pairs[1::2], strict=True):
+            require_type("field", name, str, 'a dotted path, such as "floor.restitution"')
             put(data, name, new)
         try:
             return Scenario.model_validate(data)

@@ -7,7 +7,15 @@ from typing import Any
 
 import click
 
-from compare.commands.common import SCENARIO_HELP, Count, contact_option, no_video_option, plain_errors, say
+from compare.commands.common import (
+    SCENARIO_HELP,
+    Count,
+    Place,
+    contact_option,
+    no_video_option,
+    plain_errors,
+    say,
+)
 from compare.commands.names import axis_option, scenario_argument
 from compare.output.interruption import Interruption
 
@@ -37,7 +45,7 @@ class _Size(click.ParamType):
 @axis_option("--y", "The field that varies along y.")
 @click.option(
     "--out",
-    type=click.Path(path_type=Path),
+    type=Place(),
     required=True,
     metavar="MAP.zarr",
     help="The Zarr store to write.",
@@ -61,10 +69,10 @@ class _Size(click.ParamType):
     help="Also map the smallest change of this quantity of the release that changes a pixel's outcome: "
     "height, velocity x (y, z), attitude about xi (eta, zeta) or spin about xi (eta, zeta).",
 )
-@click.option("--resume", is_flag=True, help="Continue an existing map.")
+@click.option("--resume", is_flag=True, help="Continue a map; begin it where there is none.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing map.")
 @click.option("--scheduler", metavar="ADDRESS", help="Address of a Dask scheduler on whose workers to toss.")
-@click.option("--png", type=click.Path(path_type=Path), help="Also draw the map to this .png file.")
+@click.option("--png", type=Place(), help="Also draw the map to this .png file.")
 @click.option(
     "--palette",
     type=click.Choice(["safe", "paper"]),
@@ -75,7 +83,7 @@ class _Size(click.ParamType):
 @click.option("--dpi", type=Count(10, 2400), help="Pixels per inch of the picture.")
 @click.option(
     "--report",
-    type=click.Path(path_type=Path),
+    type=Place(),
     help="Folder of a report as by `cointoss compare`, with both maps; requires --compare.",
 )
 @no_video_option

@@ -5,6 +5,7 @@ import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, NoReturn
 
 import click
@@ -20,6 +21,20 @@ ARGUMENTS = {
     "MAP.zarr": "a map that cointoss basin made",
 }
 """What the arguments of commands take."""
+
+
+class Place(click.Path):
+    """The path of a file or a folder; an empty one, as of a variable that is not set, is refused."""
+
+    def __init__(self) -> None:
+        """Take any path."""
+        super().__init__(path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the path, or refuse what is empty."""
+        if value == "":
+            self.fail("an empty name; accepted: a path", param, ctx)
+        return super().convert(value, param, ctx)
 
 
 class Count(click.IntRange):

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from compare.commands.common import SCENARIO_HELP, no_video_option, plain_errors
+from compare.commands.common import SCENARIO_HELP, Place, no_video_option, plain_errors
 from compare.commands.names import scenario_argument
 
 
@@ -12,7 +12,7 @@ from compare.commands.names import scenario_argument
 @scenario_argument
 @click.option(
     "--out",
-    type=click.Path(path_type=Path),
+    type=Place(),
     help="Folder of the report, made if missing; by default NAME-report, as in fig24a-report.",
 )
 @no_video_option

@@ -4,16 +4,16 @@ from pathlib import Path
 
 import click
 
-from compare.commands.common import Count, plain_errors, say
+from compare.commands.common import Count, Place, plain_errors, say
 
 
 @click.command()
-@click.argument("map_path", metavar="MAP.zarr", type=click.Path(path_type=Path))
+@click.argument("map_path", metavar="MAP.zarr", type=Place())
 @click.option("--port", type=Count(1, 65535), help="The port to listen at; by default one that is free.")
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
 @click.option(
     "--static",
-    type=click.Path(path_type=Path),
+    type=Place(),
     metavar="FILE.html",
     help="Write one page with some pixels tossed, at most 10 MB, that needs no server; and end.",
 )

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from compare.commands.common import plain_errors
+from compare.commands.common import Place, plain_errors
 from compare.commands.names import reproductions_argument
 
 
@@ -15,7 +15,7 @@ from compare.commands.names import reproductions_argument
 @reproductions_argument
 @click.option(
     "--out",
-    type=click.Path(path_type=Path),
+    type=Place(),
     help="Folder of the results, each in its reproduction/NAME/; made if missing.",
 )
 @click.option("--quick", is_flag=True, help="Compute the smaller version of each that has one.")

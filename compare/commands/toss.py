@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from compare.commands.common import SCENARIO_HELP, Count, contact_option, engine_option, plain_errors
+from compare.commands.common import SCENARIO_HELP, Count, Place, contact_option, engine_option, plain_errors
 from compare.commands.names import scenario_argument
 
 
@@ -27,7 +27,7 @@ from compare.commands.names import scenario_argument
 )
 @click.option("--all", "whole", is_flag=True, help="Print every impact and contact, not only the first.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
-@click.option("--trajectory", type=click.Path(path_type=Path), help="Also write the path to this .csv file.")
+@click.option("--trajectory", type=Place(), help="Also write the path to this .csv file.")
 @click.option(
     "--margin", is_flag=True, help="Also find the least changes of the release that change the outcome."
 )

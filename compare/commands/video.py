@@ -4,15 +4,13 @@ from pathlib import Path
 
 import click
 
-from compare.commands.common import SCENARIO_HELP, plain_errors, refuse
+from compare.commands.common import SCENARIO_HELP, Place, plain_errors, refuse
 from compare.commands.names import scenario_argument
 
 
 @click.command(epilog=SCENARIO_HELP)
 @scenario_argument
-@click.option(
-    "--out", type=click.Path(path_type=Path), required=True, help="The file to write: .mp4, .webm or .gif."
-)
+@click.option("--out", type=Place(), required=True, help="The file to write: .mp4, .webm or .gif.")
 @click.option(
     "--engine",
     type=click.Choice(["analytic", "mujoco", "both"]),
@@ -27,9 +25,7 @@ from compare.commands.names import scenario_argument
     show_default=True,
     help="Where the camera is; close-up follows the coin.",
 )
-@click.option(
-    "--poster", type=click.Path(path_type=Path), help="Also a .png file of one frame, to stand for it."
-)
+@click.option("--poster", type=Place(), help="Also a .png file of one frame, to stand for it.")
 def video(scenario: str, out: Path, engine: str, camera: str, poster: Path | None) -> None:
     """Film one toss, drawn by MuJoCo, until the coin lies still.
 

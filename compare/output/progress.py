@@ -101,18 +101,16 @@ class Display:
         found = self._compiled
         if found.waits:
             return f"waiting for another process, which compiles the same: {_duration(found.seconds)}"
-        name = f"compiling {found.what}, once"
+        name = f"compiling functions of {found.what}, kept for later"
         if self._rewrites:
             return self._meter(name, found.begun, found.total, "functions", found.seconds, found.seconds_left)
-        return (
-            f"{name} for this version: {found.begun} of {found.total} functions{_about(found.seconds_left)}"
-        )
+        return f"{name}: {found.begun} of {found.total}{_about(found.seconds_left)}"
 
     def _tell_of_compiled(self) -> None:
         if self._told_of_compiling:
             self._told_of_compiling = False
             self._draw("")
-            own = f"compiled {self._compiled.what}"
+            own = f"compiled {self._compiled.begun} functions of {self._compiled.what}"
             done = own if self._compiled.begun else "waited for the other process"
             self._line(f"{done}: {_duration(self._compiled.seconds)}")
 

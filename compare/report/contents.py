@@ -28,7 +28,7 @@ def require_folder(folder: Path, source: str) -> None:
     if in_the_way and not _is_of_a_report(folder / "numbers.json"):
         raise UnwritableError(
             f"{folder}: {in_the_way[0].name} is in the way and belongs to no report; "
-            "accepted: a new or empty folder, or that of an earlier report"
+            "accepted: a folder without files of these names, or that of an earlier report"
         )
 
 

@@ -64,6 +64,12 @@ def is_map(folder: Path) -> bool:
         return False
 
 
+def foreign_entry(folder: Path) -> str | None:
+    """Return the name of something in a map's folder that is no part of a map, if there is any."""
+    known = {DESCRIPTION, *_LAYERS, *UNITS}
+    return min((entry.name for entry in folder.iterdir() if entry.name not in known), default=None)
+
+
 def read_form(folder: Path) -> Form:
     """Return what a map's descriptions say; nothing else of it is read.
 

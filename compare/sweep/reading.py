@@ -49,6 +49,8 @@ def read_map(path: str | Path, *, most: int = MOST_READ) -> OutcomeMap:
     """
     if not (is_whole(most) and most >= 1):
         raise SweepError(f"most = {most!r}; accepted: a whole number from 1")
+    if str(path) == "":
+        raise MapError(f"(no name): no such folder; {_ACCEPTED}")
     path = Path(path)
     if not path.is_dir():
         raise MapError(f"{path}: {'is no' if path.exists() else 'no such'} folder; {_ACCEPTED}")
@@ -81,7 +83,7 @@ def is_whole(number: object) -> bool:
 
 def _sweep(path: Path, form: Form, map_: Map) -> Sweep:
     attributes = form.attributes
-    scenario = parse(attributes["scenario"], str(path))
+    scenario = parse(attributes["scenario"], f"{path}: attribute scenario")
     engine = Engine(attributes["engine"])
     if engine == Engine.MUJOCO:
         require_mujoco()

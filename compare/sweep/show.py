@@ -88,7 +88,8 @@ def figure_of(
 def _title(sweep: Sweep) -> str:
     """Return the title of a map, with what its font has; a file's name may hold anything."""
     glyphs = get_font(findfont(FontProperties())).get_charmap()
-    return "".join(char if ord(char) in glyphs else "?" for char in sweep.title)
+    shown = "" if sweep.after is None else f": face at touch {sweep.after + 1}"
+    return "".join(char if ord(char) in glyphs else "?" for char in sweep.title + shown)
 
 
 def _panels(maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle, margins: Array | None) -> Figure:

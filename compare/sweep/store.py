@@ -23,7 +23,15 @@ from zarr.errors import ZarrUserWarning
 from compare.output.files import UnwritableError, beside, naming, remove, written_whole
 from compare.output.interruption import undoing
 from compare.sweep.axes import Axis
-from compare.sweep.form import DESCRIPTION, FORMAT, MARGIN_ALONG, is_map, read_form, require_chunk
+from compare.sweep.form import (
+    DESCRIPTION,
+    FORMAT,
+    MARGIN_ALONG,
+    foreign_entry,
+    is_map,
+    read_form,
+    require_chunk,
+)
 from compare.sweep.grid import Sweep, Tile, tile_shape, tiles
 from compare.sweep.layers import axis_attributes, layers_of
 from compare.sweep.pixels import Pixels
@@ -164,6 +172,8 @@ def require_place(path: Path, *, resume: bool, overwrite: bool) -> None:
             raise UnwritableError(
                 f"{path}: exists; accepted: a new name, --resume to continue it, or --overwrite to replace it"
             )
+        elif overwrite and (foreign := foreign_entry(target)):
+            raise UnwritableError(f"{path}: holds {foreign}, which is no part of a map; accepted: a new name")
 
 
 def require_same(path: Path, sweep: Sweep) -> None:

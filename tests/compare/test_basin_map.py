@@ -270,6 +270,16 @@ def retyped(out):
 X = AXES[1].partition("=")[0]
 
 
+def test_a_map_that_holds_something_else_is_not_replaced(coin, tmp_path):
+    out = tmp_path / "map.zarr"
+    assert basin(coin, *AXES, "--out", out).exit_code == 0
+    (out / "notes.txt").write_text("mine")
+    answered = basin(coin, *AXES, "--out", out, "--overwrite")
+    said = f"cointoss: {out}: holds notes.txt, which is no part of a map; accepted: a new name\n"
+    assert (answered.exit_code, answered.stderr) == (2, said)
+    assert (out / "notes.txt").read_text() == "mine"
+
+
 @pytest.mark.parametrize(
     ("damage", "said"),
     [

@@ -21,6 +21,9 @@ ANSWERS = {
     # names and choices
     "throw": "throw: no such command; accepted: basin, compare, ",
     "toss nofile": "nofile: no such file; accepted: a TOML file, or one of: contact_coulomb, ",
+    "toss tabel": " (did you mean table?)",
+    "toss ''": "(no name): no such file; accepted: a TOML file, or one of: ",
+    "compare fig24a --no-video --out ''": "'--out': an empty name; accepted: a path",
     "toss fig24a --engine bullet": "'--engine': 'bullet' is not one of 'analytic', 'mujoco' (",
     "video fig24a --out a.mp4 --camera below": "'--camera': 'below' is not one of 'overview', ",
     "toss fig24a --max-impact 3 --jsn": "No such option '--max-impact'",

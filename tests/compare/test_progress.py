@@ -95,15 +95,15 @@ def test_while_functions_are_compiled_a_log_says_what_and_until_when_and_nothing
     with ExitStack() as stack:
         desk.compile(stack)
         assert desk.wait(6) == (
-            "cointoss: compiling the analytic engine, once for this version: "
-            "1 of 200 functions, about 30 min left\n"
+            "cointoss: compiling functions of the analytic engine, kept for later: "
+            "1 of 200, about 30 min left\n"
         )
         desk.compile(stack, 99)
         assert desk.wait(11) == (
-            "cointoss: compiling the analytic engine, once for this version: "
-            "100 of 200 functions, about 34 s left\n"
+            "cointoss: compiling functions of the analytic engine, kept for later: "
+            "100 of 200, about 34 s left\n"
         )
-    assert desk.wait(2) == "cointoss: compiled the analytic engine: 17 s\n"
+    assert desk.wait(2) == "cointoss: compiled 100 functions of the analytic engine: 17 s\n"
     assert tossing.seconds == pytest.approx(2.0)
     assert desk.wait(6) == "cointoss: tossing by the analytic engine: 8 s\n"
 
@@ -117,8 +117,8 @@ def test_functions_that_are_compiled_one_after_the_other_are_told_of_once():
             desk.wait(1)
     desk.display.close()
     assert [line.split(",")[0] for line in desk.stream.getvalue().splitlines()] == [
-        *["cointoss: compiling the analytic engine"] * 4,
-        "cointoss: compiled the analytic engine: 40 s",
+        *["cointoss: compiling functions of the analytic engine"] * 4,
+        "cointoss: compiled 40 functions of the analytic engine: 40 s",
     ]
 
 
@@ -181,10 +181,11 @@ def test_a_terminal_says_what_is_compiled_and_in_what_time():
         shown = lines(desk.wait(10))
         desk.compile(stack, 50)
         shown += lines(desk.wait(10))
-    assert all(line.startswith("compiling the analytic engine, once:") for line in shown)
+    begins = "compiling functions of the analytic engine, kept for later:"
+    assert all(line.startswith(begins) for line in shown)
     assert "100/200 functions [00:20<00:40]" in shown[-1]
     assert "tossing" not in desk.stream.getvalue()
-    assert "cointoss: compiled the analytic engine: 20 s" in lines(desk.wait(2))
+    assert "cointoss: compiled 100 functions of the analytic engine: 20 s" in lines(desk.wait(2))
 
 
 def test_of_a_stage_that_fails_the_line_goes():
