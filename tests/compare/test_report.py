@@ -152,7 +152,7 @@ def test_a_report_has_a_default_folder_named_as_its_scenario(tmp_path, monkeypat
     (tmp_path / "short-report" / "numbers.json").write_text("mine")
     refused = cointoss("compare", "euros/short.toml", "--no-video")
     assert refused.exit_code == 2
-    assert "belongs to no report; accepted: a new or empty folder" in refused.stderr
+    assert "belongs to no report; accepted: a folder without files of these names" in refused.stderr
     assert (tmp_path / "short-report" / "numbers.json").read_text() == "mine"
 
 
@@ -249,7 +249,7 @@ def test_a_folder_with_files_of_the_user_is_refused(tmp_path, name, numbers):
         (tmp_path / "numbers.json").write_text(numbers)
     if not (tmp_path / name).exists():
         (tmp_path / name).write_text("mine")
-    with pytest.raises(UnwritableError, match=r"in the way.*accepted: a new or empty folder") as caught:
+    with pytest.raises(UnwritableError, match=r"in the way.*accepted: a folder without files of these names") as caught:
         require_folder(tmp_path, "fig24a")
     assert str(tmp_path) in str(caught.value)
 
