@@ -17,7 +17,7 @@ def test_a_long_step_says_that_it_runs_and_ends_as_its_command_does(tmp_path):
     waits = "sh -c 'while [ ! -e twice ]; do /bin/sleep 0.01; done; exit 3'"
     (tmp_path / "step.mk").write_text(f"include {MAKEFILE}\nstep:\n\t@$(call told,doing it,{waits})\n")
     done = subprocess.run(
-        ["make", "-f", "step.mk", "step"],
+        ["make", "--no-print-directory", "-f", "step.mk", "step"],
         cwd=tmp_path,
         env={**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}", "MAKEFLAGS": ""},
         capture_output=True,
