@@ -4,7 +4,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import compiled
 
 
 class Mode(IntEnum):
@@ -45,7 +45,7 @@ class Event(IntEnum):
     COMES_UPRIGHT = 7
     """The coin comes onto its edge and presses both rims."""
     ENDS = 8
-    """The toss is decided, a budget is spent, or the law goes no further: see `models.records.Ending`."""
+    """The toss is decided, a budget is spent, or the law goes no further: see `Ending`."""
 
 
 _F, _S, _C, _T, _U, _E, _ = *(mode.value for mode in Mode), -1

@@ -2,16 +2,16 @@
 
 import numpy as np
 
-from analytic.events import toss_coin
-from analytic.settings import MANY, Settings, contact_limits
-from models.errors import require_type
-from models.kernel.compiled import compiled
-from models.outcomes import Outcomes
-from models.reading import ScenarioSource, scenario_of
-from models.records import IMPACT_ROW
-from models.releases import Releases, check_releases
-from models.stages import stage
-from models.tiles import toss_in_tiles
+from cointoss.analytic.events import toss_coin
+from cointoss.analytic.settings import MANY, Settings, contact_limits
+from cointoss.models.errors import require_type
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.outcomes import Outcomes
+from cointoss.models.reading import ScenarioSource, scenario_of
+from cointoss.models.records import IMPACT_ROW
+from cointoss.models.releases import Releases, check_releases
+from cointoss.models.stages import stage
+from cointoss.models.tiles import toss_in_tiles
 
 TILE, SLOW_TILE = 512, 8
 """Most tosses that a thread makes at a time, in air with b > 0 the second."""

@@ -5,28 +5,35 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.automaton import Event, Mode, mode_after
-from analytic.contact import edge, modes, one_rim
-from analytic.contact.following import follow, friction_in_contact, is_followed, start_following
-from analytic.contact.periodic import repeats, start_tilting
-from analytic.contact.resistance import has_resistance
-from analytic.contact.rest import rests, rolls_upright
-from analytic.flight.catch import fly_to_hand
-from analytic.flight.flying import fly
-from analytic.flight.state_vector import STATE_SIZE, position_of, set_height, set_spin, set_velocity, state_of
-from analytic.flight.touch_search import closing_speed, is_chattering
-from analytic.impact.laws import impulse, spin_gained
-from analytic.settings import FINE, Settings, contact_limits
-from models.body import Body, Rules, is_to_be_caught
-from models.ending import classify_ending, endless, face_outcome, unless_caught
-from models.geometry import contact_velocity, lowest_point
-from models.impact_row import FIRST_ROOM, with_room, write_impact
-from models.kernel.arrays import copy_into
-from models.kernel.compiled import compiled
-from models.kernel.vectors import add, apply, scale, subtract
-from models.laws import EndingTest
-from models.perpetual import energy_history, start_history
-from models.records import IMPACT_ROW, Array, Ending, Outcome
+from cointoss.analytic.automaton import Event, Mode, mode_after
+from cointoss.analytic.contact import edge, modes, one_rim
+from cointoss.analytic.contact.following import follow, friction_in_contact, is_followed, start_following
+from cointoss.analytic.contact.periodic import repeats, start_tilting
+from cointoss.analytic.contact.resistance import has_resistance
+from cointoss.analytic.contact.rest import rests, rolls_upright
+from cointoss.analytic.flight.catch import fly_to_hand
+from cointoss.analytic.flight.flying import fly
+from cointoss.analytic.flight.state_vector import (
+    STATE_SIZE,
+    position_of,
+    set_height,
+    set_spin,
+    set_velocity,
+    state_of,
+)
+from cointoss.analytic.flight.touch_search import closing_speed, is_chattering
+from cointoss.analytic.impact.laws import impulse, spin_gained
+from cointoss.analytic.settings import FINE, Settings, contact_limits
+from cointoss.models.body import Body, Rules, is_to_be_caught
+from cointoss.models.ending import classify_ending, endless, face_outcome, unless_caught
+from cointoss.models.geometry import contact_velocity, lowest_point
+from cointoss.models.impact_row import FIRST_ROOM, with_room, write_impact
+from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import add, apply, scale, subtract
+from cointoss.models.laws import EndingTest
+from cointoss.models.perpetual import energy_history, start_history
+from cointoss.models.records import IMPACT_ROW, Array, Ending, Outcome
 
 # A mode that lasts less than this part of √(r/g) costs so many steps, lest changes that take no time go on.
 _NO_TIME, _STALLED = 1e-12, 1000

@@ -4,7 +4,7 @@ from dataclasses import asdict, dataclass, field
 from numbers import Integral
 from typing import NamedTuple
 
-from analytic.numerics.tolerances import CONTACT_STEP_ERROR, STEP_ERROR
+from cointoss.analytic.numerics.tolerances import CONTACT_STEP_ERROR, STEP_ERROR
 
 FINEST, COARSEST = 1e-14, 1e-6
 """Of the tolerances accepted: rounding, and a motion that hardly keeps its energy."""

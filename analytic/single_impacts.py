@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from analytic.events import hit
-from models.body import Body, Rules
-from models.kernel.compiled import compiled
-from models.records import IMPACT_ROW, Array, Ending, Impacts
+from cointoss.analytic.events import hit
+from cointoss.models.body import Body, Rules
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.records import IMPACT_ROW, Array, Ending, Impacts
 
 
 def strike(

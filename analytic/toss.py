@@ -5,26 +5,27 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.air.force import force_and_moment
-from analytic.automaton import Mode
-from analytic.contact.following import friction_in_contact, sample_contact
-from analytic.contact.modes import floor_force
-from analytic.contact.resistance import FloorFriction
-from analytic.events import EventLog, run
-from analytic.flight.flying import sample
-from analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
-from analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
-from analytic.settings import FINE, Settings
-from models.attitude import rotation_matrix
-from models.barriers import barrier, energy
-from models.body import Body, in_vacuum, is_ideal
-from models.certificate import energies, measurements
-from models.errors import require_type
-from models.interruptible import interruptible
-from models.reading import ScenarioSource, scenario_of
-from models.records import Array, Impacts, Setting, States, Toss
-from models.scenario import Release, Scenario
-from models.stages import stage
+from cointoss.analytic.air.force import force_and_moment
+from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.following import friction_in_contact, sample_contact
+from cointoss.analytic.contact.modes import floor_force
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.events import EventLog, run
+from cointoss.analytic.flight.flying import sample
+from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
+from cointoss.analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
+from cointoss.analytic.settings import FINE, Settings
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.barriers import barrier, energy
+from cointoss.models.body import Body, in_vacuum, is_ideal
+from cointoss.models.certificate import energies, measurements
+from cointoss.models.errors import require_type
+from cointoss.models.interruptible import interruptible
+from cointoss.models.parts import Release
+from cointoss.models.reading import ScenarioSource, scenario_of
+from cointoss.models.records import Array, Impacts, Setting, States, Toss
+from cointoss.models.scenario import Scenario
+from cointoss.models.stages import stage
 
 _INTEGRATED = "Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"
 

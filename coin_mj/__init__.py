@@ -1,14 +1,9 @@
 """The MuJoCo engine: an MJCF cylinder, its drag and its stiff contact; imports models alone."""
 
-from pathlib import Path
-from runpy import run_path
-
-run_path(str(Path(__file__).parents[1] / "models" / "siblings.py"))
-
-from coin_mj.bounce import Bounce, solref
-from coin_mj.ensemble import toss_many
-from coin_mj.model.settings import FINE, MANY, Friction, Realisation, Settings
-from coin_mj.toss import impacts_of, require_supported, toss
+from cointoss.coin_mj.bounce import Bounce, solref
+from cointoss.coin_mj.ensemble import toss_many
+from cointoss.coin_mj.model.settings import FINE, MANY, Friction, Realisation, Settings
+from cointoss.coin_mj.toss import impacts_of, require_supported, toss
 
 __all__ = [
     "FINE",
@@ -23,3 +18,8 @@ __all__ = [
     "toss",
     "toss_many",
 ]
+
+if __name__ == "coin_mj":  # by its bare name, in a checkout
+    from cointoss.bare_names import open_as_part
+
+    open_as_part(__name__)

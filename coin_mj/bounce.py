@@ -10,9 +10,9 @@ from numbers import Integral, Real
 import mujoco
 import numpy as np
 
-from coin_mj.model.settings import Realisation, Settings, rebound_of
-from models.errors import FieldError
-from models.records import Array
+from cointoss.coin_mj.model.settings import Realisation, Settings, rebound_of
+from cointoss.models.errors import FieldError
+from cointoss.models.records import Array
 
 MODEL = """<mujoco>
   <option timestep="{timestep!r}" integrator="{integrator}">

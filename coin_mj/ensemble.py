@@ -6,22 +6,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from coin_mj.events import toss_coin
-from coin_mj.model.air_callback import air_of
-from coin_mj.model.clock import clock_stopped
-from coin_mj.model.machine import machine_of
-from coin_mj.model.scene import shape_thickness
-from coin_mj.model.settings import MANY, Settings
-from coin_mj.model.state import put_at
-from coin_mj.toss import require_supported, warn_of_approximation
-from models.errors import require_type
-from models.kernel.compiled import compiled
-from models.outcomes import Outcomes
-from models.reading import ScenarioSource, scenario_of
-from models.records import IMPACT_ROW
-from models.releases import Releases, check_releases
-from models.stages import stage
-from models.tiles import toss_in_tiles
+from cointoss.coin_mj.events import toss_coin
+from cointoss.coin_mj.model.air_callback import air_of
+from cointoss.coin_mj.model.clock import clock_stopped
+from cointoss.coin_mj.model.machine import machine_of
+from cointoss.coin_mj.model.scene import shape_thickness
+from cointoss.coin_mj.model.settings import MANY, Settings
+from cointoss.coin_mj.model.state import put_at
+from cointoss.coin_mj.toss import require_supported, warn_of_approximation
+from cointoss.models.errors import require_type
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.outcomes import Outcomes
+from cointoss.models.reading import ScenarioSource, scenario_of
+from cointoss.models.records import IMPACT_ROW
+from cointoss.models.releases import Releases, check_releases
+from cointoss.models.stages import stage
+from cointoss.models.tiles import toss_in_tiles
 
 TILE = 8
 """Most tosses that a thread makes at a time."""

@@ -2,20 +2,20 @@
 
 import numpy as np
 
-from coin_mj.model.state import state_of
-from coin_mj.steps.flight import FlightExit, fly
-from coin_mj.steps.gap_evaluation import evaluate_gap
-from coin_mj.steps.impact import TouchResult, resolve_impact
-from coin_mj.steps.knots import Step, add_knot, knot_of
-from coin_mj.steps.sustained_contact import NO_LOSS, ContactExit, follow_contact, slow_speed
-from models.attitude import rotation_matrix
-from models.ending import classify_ending, face_outcome, unless_caught
-from models.geometry import contact_velocity, lowest_point
-from models.impact_row import with_room, write_impact
-from models.kernel.compiled import compiled
-from models.perpetual import energy_history, start_history
-from models.records import Ending, Outcome
-from models.state import state
+from cointoss.coin_mj.model.state import state_of
+from cointoss.coin_mj.steps.flight import FlightExit, fly
+from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
+from cointoss.coin_mj.steps.impact import TouchResult, resolve_impact
+from cointoss.coin_mj.steps.knots import Step, add_knot, knot_of
+from cointoss.coin_mj.steps.sustained_contact import NO_LOSS, ContactExit, follow_contact, slow_speed
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.ending import classify_ending, face_outcome, unless_caught
+from cointoss.models.geometry import contact_velocity, lowest_point
+from cointoss.models.impact_row import with_room, write_impact
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.perpetual import energy_history, start_history
+from cointoss.models.records import Ending, Outcome
+from cointoss.models.state import state
 
 
 @compiled

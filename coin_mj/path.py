@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from coin_mj.model.air_callback import air_of
-from coin_mj.model.machine import Machine
-from coin_mj.model.state import set_motion, state_of
-from coin_mj.steps.free_step import free_step
-from coin_mj.steps.knots import Step
-from coin_mj.steps.sustained_contact import floor_force
-from models.records import Array, States
+from cointoss.coin_mj.model.air_callback import air_of
+from cointoss.coin_mj.model.machine import Machine
+from cointoss.coin_mj.model.state import set_motion, state_of
+from cointoss.coin_mj.steps.free_step import free_step
+from cointoss.coin_mj.steps.knots import Step
+from cointoss.coin_mj.steps.sustained_contact import floor_force
+from cointoss.models.records import Array, States
 
 TIME, STEP, MOTION = 0, 1, slice(2, 15)
 """Columns of a knot."""

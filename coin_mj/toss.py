@@ -9,23 +9,24 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from coin_mj.events import toss_coin
-from coin_mj.model.air import air_force
-from coin_mj.model.air_callback import air_of
-from coin_mj.model.clock import clock_stopped
-from coin_mj.model.machine import Machine, machine_of
-from coin_mj.model.scene import shape_thickness
-from coin_mj.model.settings import FINE, ROUGH, Friction, Realisation, Settings
-from coin_mj.path import Knots
-from models.body import Body, Rules
-from models.certificate import energies, measurements
-from models.errors import require_type
-from models.impact_row import FIRST_ROOM
-from models.interruptible import interruptible
-from models.kernel.vectors import Vector, cross, subtract
-from models.laws import ContactLaw, RestitutionKind
-from models.reading import ScenarioSource, scenario_of
-from models.records import (
+from cointoss.coin_mj.events import toss_coin
+from cointoss.coin_mj.model.air import air_force
+from cointoss.coin_mj.model.air_callback import air_of
+from cointoss.coin_mj.model.clock import clock_stopped
+from cointoss.coin_mj.model.machine import Machine, machine_of
+from cointoss.coin_mj.model.scene import shape_thickness
+from cointoss.coin_mj.model.settings import FINE, ROUGH, Friction, Realisation, Settings
+from cointoss.coin_mj.path import Knots
+from cointoss.models.body import Body, Rules
+from cointoss.models.certificate import energies, measurements
+from cointoss.models.errors import require_type
+from cointoss.models.impact_row import FIRST_ROOM
+from cointoss.models.interruptible import interruptible
+from cointoss.models.kernel.vectors import Vector, cross, subtract
+from cointoss.models.laws import ContactLaw, RestitutionKind
+from cointoss.models.parts import RESISTANCES
+from cointoss.models.reading import ScenarioSource, scenario_of
+from cointoss.models.records import (
     IMPACT_ROW,
     ApproximationWarning,
     Array,
@@ -36,8 +37,8 @@ from models.records import (
     Toss,
     UnsupportedError,
 )
-from models.scenario import RESISTANCES, Scenario
-from models.stages import stage
+from cointoss.models.scenario import Scenario
+from cointoss.models.stages import stage
 
 REALISABLE = (ContactLaw.SMOOTH, ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH)
 SOFTER = (10.0, 30.0)
@@ -233,7 +234,7 @@ def _contact_energies(body: Body, contacts: Array, path: Knots) -> Array:
 
 
 def _force_and_moment(body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]:
-    """Return the air's force and its moment about C for b > 0; see `models.certificate.Air`."""
+    """Return the air's force and its moment about C for b > 0; see `cointoss.models.certificate.Air`."""
     law, c = body.air, body.center
     v_B = subtract(v, cross(w, c))
     f, m_B = air_force(body.radius, body.thickness, law.normal, law.tangential, law.exponent, v_B, w)

@@ -1,6 +1,6 @@
 """Run the command line: `python -m cointoss`."""
 
-from compare.cli import main
+from cointoss.compare.cli import main
 
 if __name__ == "__main__":
     main()

@@ -3,19 +3,29 @@
 import signal
 import sys
 from pathlib import Path
+from types import ModuleType
+from typing import Any
 
 # The command, `cointoss` or `python -m cointoss`, comes here before any code of its own.
 _is_command = sys.argv[0].endswith(("cointoss", str(Path("cointoss", "__main__.py"))))
 if _is_command and signal.getsignal(signal.SIGINT) == signal.default_int_handler:
-    # No traceback, until compare.output.interruption has its own handler.
+    # No traceback, until cointoss.compare.output.interruption has its own handler.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
-from runpy import run_path
 
-try:
-    run_path(str(Path(__file__).parents[1] / "models" / "siblings.py"))
-except ImportError as error:
-    if not _is_command:
-        raise
-    print(f"cointoss: {error}", file=sys.stderr)
-    sys.exit(2)
+class _Package(ModuleType):
+    """This package, which is the function `cointoss.compare` too."""
+
+    def __call__(self, *arguments: Any, **named: Any) -> Any:
+        """Compare both engines' tosses of a scenario: see `cointoss.compare.report.comparison.compare`."""
+        from cointoss.compare.report.comparison import compare
+
+        return compare(*arguments, **named)
+
+
+sys.modules[__name__].__class__ = _Package
+
+if __name__ == "compare":  # by its bare name, in a checkout
+    from cointoss.bare_names import open_as_part
+
+    open_as_part(__name__)

@@ -6,18 +6,18 @@ from typing import Any, NoReturn
 
 import click
 
-from compare.commands.basin import basin
-from compare.commands.common import ARGUMENTS, refuse
-from compare.commands.compare import compare
-from compare.commands.explore import explore
-from compare.commands.hands import hands
-from compare.commands.reproduce import reproduce
-from compare.commands.scenarios import scenarios
-from compare.commands.solref import solref
-from compare.commands.toss import toss
-from compare.commands.video import video
-from compare.output.interruption import run_to_exit
-from models.distribution import DISTRIBUTION
+from cointoss.compare.commands.basin import basin
+from cointoss.compare.commands.common import ARGUMENTS, refuse
+from cointoss.compare.commands.compare import compare
+from cointoss.compare.commands.explore import explore
+from cointoss.compare.commands.hands import hands
+from cointoss.compare.commands.reproduce import reproduce
+from cointoss.compare.commands.scenarios import scenarios
+from cointoss.compare.commands.solref import solref
+from cointoss.compare.commands.toss import toss
+from cointoss.compare.commands.video import video
+from cointoss.compare.output.interruption import run_to_exit
+from cointoss.models.distribution import DISTRIBUTION
 
 # The commands' modules import little: `cointoss --help` answers at once, a command brings what it needs.
 

@@ -5,12 +5,12 @@ from importlib import import_module
 from importlib.metadata import version
 from typing import Any, Protocol, cast
 
-from models.distribution import DISTRIBUTION
-from models.outcomes import Outcomes
-from models.reading import ScenarioSource
-from models.records import Toss
-from models.releases import Releases
-from models.scenario import Scenario
+from cointoss.models.distribution import DISTRIBUTION
+from cointoss.models.outcomes import Outcomes
+from cointoss.models.reading import ScenarioSource
+from cointoss.models.records import Toss
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 
 
 class EngineSettings(Protocol):

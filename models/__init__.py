@@ -1,9 +1,9 @@
 """What is tossed, and what both engines must mean alike; imports none of the other three packages."""
 
-from pathlib import Path
-from runpy import run_path
-
 # Its clock starts before other modules are read.
-from models.kernel import sources as sources
+from cointoss.models.kernel import sources as sources
 
-run_path(str(Path(__file__).with_name("siblings.py")))
+if __name__ == "models":  # by its bare name, in a checkout
+    from cointoss.bare_names import open_as_part
+
+    open_as_part(__name__)

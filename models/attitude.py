@@ -2,8 +2,8 @@
 
 import math
 
-from models.kernel.compiled import compiled
-from models.kernel.vectors import Vector
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Vector
 
 Quaternion = tuple[float, float, float, float]
 

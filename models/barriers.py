@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
-from models.body import is_ideal
-from models.geometry import tilt_sine_of
-from models.kernel.compiled import compiled
-from models.kernel.vectors import apply, dot
+from cointoss.models.body import is_ideal
+from cointoss.models.geometry import tilt_sine_of
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import apply, dot
 
 # Tilts at which what a coin needs is computed, from just off a face to upright: their sines and cosines.
 _TILTS = np.pi / 2 * np.arange(1, 129) / 128

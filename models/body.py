@@ -3,14 +3,14 @@
 import math
 from typing import NamedTuple
 
-from models.drag import Drag
-from models.kernel.compiled import compiled
-from models.kernel.vectors import Matrix, Vector
-from models.laws import ContactLaw, EndingTest, RestitutionKind
+from cointoss.models.drag import Drag
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Matrix, Vector
+from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
 
 
 class AirLaw(NamedTuple):
-    """The air's resistance: the force on dA is -λ |v|^b v; see `models.scenario.Air`."""
+    """The air's resistance: the force on dA is -λ |v|^b v; see `cointoss.models.scenario.Air`."""
 
     exponent: float | None
     """b, from 0 to 1; None or 0 in vacuum as for b = 0. To numba None is a type of its own: linear air is
@@ -39,7 +39,7 @@ class Body(NamedTuple):
     drag: Drag
     """Of linear air: of use where `is_linear`."""
     sliding_share: float
-    """See `models.drag.sliding_share`; of use where `drag` is."""
+    """See `cointoss.models.drag.sliding_share`; of use where `drag` is."""
     gravity: float
 
 

@@ -1,7 +1,7 @@
 """A hand that catches a flying coin at a height: when its mass centre comes down to it."""
 
-from models.clearance import fastest_motion, first_root, useful_window
-from models.kernel.compiled import compiled
+from cointoss.models.clearance import fastest_motion, first_root, useful_window
+from cointoss.models.kernel.compiled import compiled
 
 NEAR = 1e-14
 """The mass centre is at a height within this part of it."""

@@ -10,11 +10,11 @@ from functools import cache
 
 import numpy as np
 
-from models.body import Body, Rules, in_vacuum
-from models.kernel.vectors import Vector
-from models.laws import ContactLaw, RestitutionKind
-from models.records import Array, Impacts, Path, Setting, States
-from models.scenario import Scenario
+from cointoss.models.body import Body, Rules, in_vacuum
+from cointoss.models.kernel.vectors import Vector
+from cointoss.models.laws import ContactLaw, RestitutionKind
+from cointoss.models.records import Array, Impacts, Path, Setting, States
+from cointoss.models.scenario import Scenario
 
 LAW = "impacts: largest residual of the contact law, relative"
 MOMENTUM = "impacts: largest residual of linear and angular momentum, relative"
@@ -161,7 +161,7 @@ def energies(body: Body, states: States) -> Array:
 
 
 def air_power(body: Body, v: Array, w: Array, air: Air) -> Array:
-    """Return the power of the air, (n,) [W]: for b = 0 by the coefficients of `models.drag`.
+    """Return the power of the air, (n,) [W]: for b = 0 by the coefficients of `cointoss.models.drag`.
 
     Args:
         body: the coin.

@@ -3,9 +3,9 @@
 import math
 from typing import NamedTuple
 
-from models.geometry import FLAT_SINE, height_of_center, tilt_sine_of
-from models.kernel.compiled import compiled
-from models.kernel.vectors import cross, dot, norm
+from cointoss.models.geometry import FLAT_SINE, height_of_center, tilt_sine_of
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import cross, dot, norm
 
 
 @compiled

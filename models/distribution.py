@@ -1,4 +1,4 @@
 """The name under which pip installs cointoss."""
 
-DISTRIBUTION = "cointoss"
-"""As in pyproject.toml."""
+DISTRIBUTION = "cointoss-dynamics"
+"""As in pyproject.toml; the index has another project under `cointoss`."""

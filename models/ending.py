@@ -2,7 +2,7 @@
 
 import math
 
-from models.barriers import (
+from cointoss.models.barriers import (
     barrier,
     energy,
     energy_without_spin,
@@ -10,14 +10,14 @@ from models.barriers import (
     spin_barrier,
     spin_barrier_bound,
 )
-from models.body import in_vacuum, is_ideal, is_linear, is_to_be_caught, resists
-from models.clearance import drag_bound
-from models.geometry import tilt_sine_of
-from models.kernel.compiled import compiled
-from models.kernel.vectors import apply, dot, norm
-from models.laws import ContactLaw, EndingTest, RestitutionKind
-from models.perpetual import energy_loss_converges
-from models.records import Ending, Face, Outcome
+from cointoss.models.body import in_vacuum, is_ideal, is_linear, is_to_be_caught, resists
+from cointoss.models.clearance import drag_bound
+from cointoss.models.geometry import tilt_sine_of
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import apply, dot, norm
+from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
+from cointoss.models.perpetual import energy_loss_converges
+from cointoss.models.records import Ending, Face, Outcome
 
 # What is left of the energy of tilting, against m g r, in a coin that lies flat; and in one that lies still
 # to the eye, where that is waited for.

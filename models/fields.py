@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel
 
-from models.errors import ScenarioError, shown
+from cointoss.models.errors import ScenarioError, shown
 
 _SPACE, _BODY = ("x", "y", "z"), ("xi", "eta", "zeta")
 _COMPONENTS = {

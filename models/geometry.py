@@ -1,7 +1,7 @@
 """Where a coin is above the floor: its tilt, its gap, its lower rim and its lowest point."""
 
-from models.kernel.compiled import compiled
-from models.kernel.vectors import add, cross, dot
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import add, cross, dot
 
 # Below this sine of the tilt a face counts as flat: its whole rim is at one height within rounding.
 FLAT_SINE = 1e-14

@@ -6,10 +6,10 @@ from numbers import Real
 
 import numpy as np
 
-from models.body import Body
-from models.errors import FieldError
-from models.records import Array
-from models.releases import Releases
+from cointoss.models.body import Body
+from cointoss.models.errors import FieldError
+from cointoss.models.records import Array
+from cointoss.models.releases import Releases
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from models.barriers import energy
-from models.ending import face_up
-from models.kernel.compiled import compiled
-from models.records import IMPACT_ROW
+from cointoss.models.barriers import energy
+from cointoss.models.ending import face_up
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.records import IMPACT_ROW
 
 FIRST_ROOM = 64
 """A toss of which all is kept starts with room for so many impacts."""

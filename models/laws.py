@@ -1,6 +1,6 @@
 """The names of the contact laws, of the kinds of restitution, and of the tests that end a toss."""
 
-from models.words import Word
+from cointoss.models.words import Word
 
 
 class ContactLaw(Word):

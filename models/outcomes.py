@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from models import notebook
-from models.labelled import Column, dataset, meanings_of, table
-from models.plots import axes_or_new, draw_counts
-from models.records import Array, Ending, Face, Outcome
+from cointoss.models import notebook
+from cointoss.models.labelled import Column, dataset, meanings_of, table
+from cointoss.models.plots import axes_or_new, draw_counts
+from cointoss.models.records import Array, Ending, Face, Outcome
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-    from models.plots import Axes
+    from cointoss.models.plots import Axes
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -5,12 +5,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from models.barriers import barrier, energy, energy_without_spin, spin_barrier
-from models.body import in_vacuum, resists
-from models.kernel.arrays import copy_into
-from models.kernel.compiled import compiled
-from models.laws import ContactLaw, EndingTest
-from models.records import Array
+from cointoss.models.barriers import barrier, energy, energy_without_spin, spin_barrier
+from cointoss.models.body import in_vacuum, resists
+from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.laws import ContactLaw, EndingTest
+from cointoss.models.records import Array
 
 # The energy is checked so many √(r/g) after the first sustained contact, then whenever the time since it has
 # doubled.

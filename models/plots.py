@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
-from models.notebook import COLORS
+from cointoss.models.notebook import COLORS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes as Axes

@@ -8,10 +8,10 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from models.bounded import TooLargeError, read_bounded
-from models.errors import ScenarioError, describe, require_type
-from models.scenario import Scenario
-from models.unused import warn_of_unused_fields
+from cointoss.models.bounded import TooLargeError, read_bounded
+from cointoss.models.errors import ScenarioError, describe, require_type
+from cointoss.models.scenario import Scenario
+from cointoss.models.unused import warn_of_unused_fields
 
 MOST_BYTES = 1 << 16
 """Of a scenario's file."""
@@ -24,7 +24,7 @@ ScenarioSource = Scenario | str | PathLike[str]
 
 def named_scenarios() -> list[str]:
     """Give the names of the scenarios that come with the package."""
-    folder = resources.files("models") / "scenarios"
+    folder = resources.files("cointoss.models") / "scenarios"
     return sorted(
         entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml")
     )
@@ -58,7 +58,9 @@ def scenario_text(source: str | PathLike[str]) -> str:
         if not source:
             raise FileNotFoundError
         if source in names and (not path.exists() or path.is_dir()):
-            return (resources.files("models") / "scenarios" / f"{source}.toml").read_text(encoding="utf-8")
+            return (resources.files("cointoss.models") / "scenarios" / f"{source}.toml").read_text(
+                encoding="utf-8"
+            )
         text = read_bounded(path, MOST_BYTES).decode("utf-8-sig")
         return text.replace("\r\n", "\n").replace("\r", "\n")
     except TooLargeError as error:
@@ -100,7 +102,7 @@ def load(source: str | PathLike[str]) -> Scenario:
         UnusedFieldWarning: for a field that nothing uses.
     """
     scenario = parse(scenario_text(source), str(source))
-    warn_of_unused_fields(scenario)
+    warn_of_unused_fields(scenario.floor, scenario.air)
     return scenario
 
 

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from models import notebook
-from models.interruptible import interruptible
-from models.labelled import AXES, Column, dataset, meanings_of, table
-from models.plots import axes_or_new, draw_height
-from models.scenario import Scenario
-from models.words import Word
+from cointoss.models import notebook
+from cointoss.models.interruptible import interruptible
+from cointoss.models.labelled import AXES, Column, dataset, meanings_of, table
+from cointoss.models.plots import axes_or_new, draw_height
+from cointoss.models.scenario import Scenario
+from cointoss.models.words import Word
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-    from models.plots import Axes
+    from cointoss.models.plots import Axes
 
 Array = NDArray[np.float64]
 

@@ -7,16 +7,17 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import ArrayLike
 
-from models.attitude import quaternion_from_angles, rotation_matrix
-from models.clearance import damping_rate
-from models.errors import require_type, shown
-from models.fields import UNITS, split
-from models.geometry import gap
-from models.kernel.compiled import compiled
-from models.reading import ScenarioSource, scenario_of
-from models.records import Array
-from models.scenario import FASTEST_DRAG, FASTEST_SPIN, LARGEST, NORM_ROUNDING, Release, Scenario
-from models.units import in_si
+from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
+from cointoss.models.clearance import damping_rate
+from cointoss.models.errors import require_type, shown
+from cointoss.models.fields import UNITS, split
+from cointoss.models.geometry import gap
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.parts import FASTEST_DRAG, FASTEST_SPIN, LARGEST, NORM_ROUNDING, Release
+from cointoss.models.reading import ScenarioSource, scenario_of
+from cointoss.models.records import Array
+from cointoss.models.scenario import Scenario
+from cointoss.models.units import in_si
 
 HEIGHT, SPIN = "release.position.z", "release.angular_velocity"
 MOST = 10_000_000

@@ -2,8 +2,8 @@
 
 import math
 
-from models.kernel.compiled import compiled
-from models.kernel.vectors import apply, dot
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import apply, dot
 
 SLOW = 1e-3
 """Against √(g/r): a spin slower than this is as good as none."""

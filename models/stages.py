@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import TypeVar
 
-from models.kernel.compiling import compiling
+from cointoss.models.kernel.compiling import compiling
 
 Item = TypeVar("Item")
 

@@ -2,9 +2,9 @@
 
 from typing import NamedTuple
 
-from models.attitude import Quaternion, rotation_matrix
-from models.kernel.compiled import compiled
-from models.kernel.vectors import Matrix, Vector
+from cointoss.models.attitude import Quaternion, rotation_matrix
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Matrix, Vector
 
 
 class State(NamedTuple):

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numba import config
 
-from models.interruptible import begun
-from models.outcomes import Outcomes
-from models.releases import Releases
+from cointoss.models.interruptible import begun
+from cointoss.models.outcomes import Outcomes
+from cointoss.models.releases import Releases
 
 PARTS = 4
 """Tiles that each thread has at least, where there are tosses enough: all end at about the same time."""

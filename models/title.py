@@ -2,7 +2,7 @@
 
 from collections.abc import Collection
 
-from models.scenario import Scenario
+from cointoss.models.scenario import Scenario
 
 
 def title_of_toss(scenario: Scenario, name: str, *, varied: Collection[str] = ()) -> str:

@@ -1,12 +1,9 @@
 """The fields of a scenario that nothing uses."""
 
 import warnings
-from typing import TYPE_CHECKING
 
-from models.laws import ContactLaw
-
-if TYPE_CHECKING:
-    from models.scenario import Scenario
+from cointoss.models.laws import ContactLaw
+from cointoss.models.parts import Air, Floor
 
 _WITH_FRICTION = (ContactLaw.SLIDING_FRICTION, ContactLaw.COULOMB)
 
@@ -15,9 +12,8 @@ class UnusedFieldWarning(UserWarning):
     """A field of a scenario that nothing uses; the message names it, its value and what would use it."""
 
 
-def unused_fields(scenario: "Scenario") -> list[str]:
+def unused_fields(floor: Floor, air: Air) -> list[str]:
     """Return a line for each field that has no effect: its name, its value, and what would use it."""
-    floor, air = scenario.floor, scenario.air
     law, laws = floor.contact, " and ".join(f'"{law}"' for law in _WITH_FRICTION)
     has_friction = floor.contact in _WITH_FRICTION
     lines = {
@@ -34,11 +30,11 @@ def unused_fields(scenario: "Scenario") -> list[str]:
     return [line for line, is_so in lines.items() if is_so]
 
 
-def warn_of_unused_fields(scenario: "Scenario") -> None:
+def warn_of_unused_fields(floor: Floor, air: Air) -> None:
     """Warn of each field that has no effect.
 
     Warns:
         UnusedFieldWarning: naming field, value and what would use it.
     """
-    for line in unused_fields(scenario):
+    for line in unused_fields(floor, air):
         warnings.warn(line, UnusedFieldWarning, stacklevel=3)

@@ -8,7 +8,7 @@ from importlib import import_module
 import pytest
 from hypothesis import HealthCheck, settings
 
-from compare.film.back_end import drawing_problem
+from cointoss.compare.film.back_end import drawing_problem
 
 os.environ.setdefault("MUJOCO_GL", "egl")
 # A busy machine is slow, and of what is slow the commands speak.
@@ -38,8 +38,8 @@ def pytest_collection_finish():
 @pytest.fixture
 def without_horizon(monkeypatch):
     """Let no toss find out how many of its impacts to trust, which takes longer than the toss."""
-    monkeypatch.setattr(import_module("analytic.toss"), "trusted_impacts", lambda *_: 0)
-    monkeypatch.setattr(import_module("coin_mj.toss"), "SOFTER", ())
+    monkeypatch.setattr(import_module("cointoss.analytic.toss"), "trusted_impacts", lambda *_: 0)
+    monkeypatch.setattr(import_module("cointoss.coin_mj.toss"), "SOFTER", ())
 
 
 @pytest.fixture

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from compare.engines import Engine
-from compare.metrics.trajectories import attitude_angle, distance
-from models.reading import load
-from models.records import Ending, Outcome
-from models.scenario import Air
+from cointoss.compare.engines import Engine
+from cointoss.compare.metrics.trajectories import attitude_angle, distance
+from cointoss.models.parts import Air
+from cointoss.models.reading import load
+from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
 from tests.helpers.engines import toss
 

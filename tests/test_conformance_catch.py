@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from compare.engines import Engine
-from models.errors import ScenarioError
-from models.records import Ending, Outcome
-from models.releases import Releases
+from cointoss.compare.engines import Engine
+from cointoss.models.errors import ScenarioError
+from cointoss.models.records import Ending, Outcome
+from cointoss.models.releases import Releases
 from tests.helpers.command_line import cointoss
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 from tests.helpers.engines import toss

@@ -5,9 +5,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from compare.engines import Engine
-from models.laws import ContactLaw
-from models.records import Ending, Outcome
+from cointoss.compare.engines import Engine
+from cointoss.models.laws import ContactLaw
+from cointoss.models.records import Ending, Outcome
 from tests.helpers import engines
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 from tests.helpers.engines import as_releases

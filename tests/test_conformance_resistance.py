@@ -6,9 +6,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from compare.engines import Engine
-from compare.reproduction.setups.hands import releases_of_hands
-from models.records import Ending, Outcome
+from cointoss.compare.engines import Engine
+from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import AIR, ZLOTY, scenario
 from tests.helpers.engines import toss, toss_many
 

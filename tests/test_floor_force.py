@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from analytic.automaton import Mode
-from analytic.toss import Pieces
-from compare.engines import Engine
-from models.attitude import rotation_matrix
-from models.drag import linear_drag
-from models.records import Ending
+from cointoss.analytic.automaton import Mode
+from cointoss.analytic.toss import Pieces
+from cointoss.compare.engines import Engine
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.drag import linear_drag
+from cointoss.models.records import Ending
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 from tests.helpers.engines import toss
 

@@ -13,8 +13,8 @@ import click
 import pytest
 
 import cointoss as package
-from compare.cli import main
-from models.reading import parse
+from cointoss.compare.cli import main
+from cointoss.models.reading import parse
 from tests.helpers.command_line import cointoss
 
 TOP = Path(__file__).parents[1]

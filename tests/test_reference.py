@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from models.laws import ContactLaw
-from models.reading import parse
-from models.records import Impacts
+from cointoss.models.laws import ContactLaw
+from cointoss.models.reading import parse
+from cointoss.models.records import Impacts
 from tests.helpers.command_line import cointoss
 
 RECORDS = Path(__file__).parent / "reference"
@@ -81,7 +81,7 @@ def test_the_analytic_engine_agrees_within_what_the_record_is_good_for(law):
         assert error.max() < 1e-9, name
 
 
-@pytest.mark.filterwarnings("ignore::models.records.ApproximationWarning")
+@pytest.mark.filterwarnings("ignore::cointoss.models.records.ApproximationWarning")
 @pytest.mark.parametrize("law", ["smooth", "coulomb", "perfectly_rough"])
 def test_mujoco_agrees_within_its_horizon_by_the_error_of_its_contacts(law):
     """A contact of 0.3 µs turns the coin by a part in 1e4, and the next touches with it.

@@ -1,4 +1,4 @@
-"""The package as it is shipped: a wheel, unpacked elsewhere, tosses a coin beside a foreign `models`."""
+"""The package as it is shipped: one name, which tosses a coin beside a foreign `models`."""
 
 import os
 import subprocess
@@ -10,7 +10,7 @@ from zipfile import ZipFile
 import pytest
 
 TOP = Path(__file__).parents[1]
-PACKAGES = ("cointoss", "models", "analytic", "coin_mj", "compare")
+FOLDERS = ("models", "analytic", "coin_mj", "compare")
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +23,7 @@ def wheel(tmp_path_factory):
         text=True,
     )
     assert built.returncode == 0, built.stderr
-    (path,) = folder.glob("cointoss-*.whl")
+    (path,) = folder.glob("cointoss_dynamics-*.whl")
     return path
 
 
@@ -38,7 +38,7 @@ def installed(wheel, tmp_path_factory):
 @pytest.fixture
 def foreign(tmp_path):
     """A folder with another project's packages of the same names, as a working folder may have."""
-    for package in PACKAGES:
+    for package in FOLDERS:
         (tmp_path / package).mkdir()
         (tmp_path / package / "__init__.py").write_text("raise RuntimeError('foreign')\n")
     return tmp_path
@@ -46,12 +46,12 @@ def foreign(tmp_path):
 
 # A row of an array shows its fields as attributes to Python only where the type is a record.
 INTERPRETED = """
-import importlib.util, numpy, models.records
-found = {importlib.util.find_spec(name).origin for name in PACKAGES}
-assert found == {f"FOLDER/{name}/__init__.py" for name in PACKAGES}, found
-models.records.IMPACT_ROW = numpy.dtype((numpy.record, models.records.IMPACT_ROW))
+import numpy, cointoss
+from cointoss.models import records
+assert cointoss.__file__ == "FOLDER/cointoss/__init__.py", cointoss.__file__
+records.IMPACT_ROW = numpy.dtype((numpy.record, records.IMPACT_ROW))
 import runpy; runpy.run_path("FOLDER/bin/cointoss", run_name="__main__")
-""".replace("PACKAGES", repr(PACKAGES))
+"""
 
 
 def run(installed, folder, *words, interpreted=False):
@@ -63,7 +63,7 @@ def run(installed, folder, *words, interpreted=False):
         cwd=folder,
         env={
             **os.environ,
-            "PYTHONPATH": str(installed),
+            "PYTHONPATH": os.pathsep.join([str(folder), str(installed)]),
             "PYTHONDONTWRITEBYTECODE": "1",
             **({"NUMBA_DISABLE_JIT": "1"} if interpreted else {}),
         },
@@ -72,16 +72,17 @@ def run(installed, folder, *words, interpreted=False):
     )
 
 
-def test_a_wheel_has_every_file_of_the_packages_and_no_other(wheel):
+def test_a_wheel_has_every_file_under_one_name_and_no_other(wheel):
+    folders = [TOP / "cointoss", *(TOP / "cointoss" / folder for folder in FOLDERS)]
     expected = {
         path.relative_to(TOP).as_posix()
-        for package in PACKAGES
-        for path in (TOP / package).rglob("*")
+        for folder in folders
+        for path in folder.rglob("*")
         if path.is_file() and "__pycache__" not in path.parts
     }
     files = {name for name in ZipFile(wheel).namelist() if ".dist-info/" not in name}
     assert files == expected
-    assert {"models/coin.xml", "models/scenarios/fig24a.toml", "compare/report/report.html.j2"} <= files
+    assert {f"cointoss/{name}" for name in ("models/coin.xml", "compare/report/report.html.j2")} <= files
 
 
 @pytest.mark.parametrize(

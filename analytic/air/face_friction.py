@@ -2,8 +2,8 @@
 
 import math
 
-from analytic.air.law import power
-from models.kernel.compiled import compiled
+from cointoss.analytic.air.law import power
+from cointoss.models.kernel.compiled import compiled
 
 FAR = 1.5
 """Beyond so many radii the instantaneous centre is far enough for the series."""

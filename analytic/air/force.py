@@ -1,11 +1,11 @@
 """The air's force on a flying coin and its moment."""
 
-from analytic.air.face_friction import face_friction_change
-from analytic.air.pressure import pressure_change
-from analytic.air.quadrature import CHANGE_NODES, FORCE_NODES
-from analytic.air.wall_friction import wall_friction_change
-from models.kernel.compiled import compiled
-from models.kernel.vectors import add, cross, scale, subtract
+from cointoss.analytic.air.face_friction import face_friction_change
+from cointoss.analytic.air.pressure import pressure_change
+from cointoss.analytic.air.quadrature import CHANGE_NODES, FORCE_NODES
+from cointoss.analytic.air.wall_friction import wall_friction_change
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import add, cross, scale, subtract
 
 _AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
@@ -14,7 +14,7 @@ _AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 def force_and_moment(body, v, w):
     """Return the air's force and its moment about the mass centre.
 
-    Strzalko et al. 2008, eqs (49)-(74). For b = 0 in the closed form of `models.drag`: at B,
+    Strzalko et al. 2008, eqs (49)-(74). For b = 0 in the closed form of `cointoss.models.drag`: at B,
     f = -diag(c) v_B and m_B = -diag(d) ω; about C, m_C = m_B - c × f with c from B to C. For 0 < b <= 1 by
     quadrature: force and moment are homogeneous of degree 1 + b in (v, ω), so they are their own change in
     the direction of (v, ω), over 1 + b.

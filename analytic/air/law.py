@@ -1,6 +1,6 @@
 """The air's law for one element of surface, |v|^b v, for 0 < b <= 1."""
 
-from models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import compiled
 
 
 @compiled

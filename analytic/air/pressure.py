@@ -2,9 +2,9 @@
 
 import math
 
-from analytic.air.law import changed_law, power
-from models.kernel.compiled import compiled
-from models.kernel.vectors import add
+from cointoss.analytic.air.law import changed_law, power
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import add
 
 
 @compiled

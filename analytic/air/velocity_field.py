@@ -5,9 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from models.body import Body
-from models.kernel.vectors import Vector
-from models.records import Array
+from cointoss.models.body import Body
+from cointoss.models.kernel.vectors import Vector
+from cointoss.models.records import Array
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -1,19 +1,19 @@
 """The air's friction on the wall of a coin, for 0 < b <= 1.
 
 At the point (r cos θ, r sin θ, z) the wall moves with the tangential velocity T = (C(θ) + D(θ) z, B(θ)),
-around and along it. What `analytic.air.wall_strip` integrates along z is not smooth in θ only where a point
-of a rim is at rest, C ± D h/2 = 0 = B, or a point between the rims, where B = 0 and C + D z vanishes at a
-height of the wall. Both are known, complex θ too, and the rule around is chosen by their distance.
+around and along it. What `wall_strip` integrates along z is not smooth in θ only where a point of a rim is at
+rest, C ± D h/2 = 0 = B, or a point between the rims, where B = 0 and C + D z vanishes at a height of it. Both
+are known, complex θ too, and the rule around is chosen by their distance.
 """
 
 import math
 
 import numpy as np
 
-from analytic.air.quadrature import gauss_rule
-from analytic.air.wall_strip import phi_series, strip_change
-from models.kernel.compiled import compiled
-from models.kernel.vectors import norm, scale
+from cointoss.analytic.air.quadrature import gauss_rule
+from cointoss.analytic.air.wall_strip import phi_series, strip_change
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import norm, scale
 
 TURN = 96
 """Points of the full rectangle rule around; coarser ones take every second, third, fourth or sixth."""

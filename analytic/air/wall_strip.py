@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.air.law import power
-from analytic.air.quadrature import gauss_rule
-from models.kernel.compiled import compiled
+from cointoss.analytic.air.law import power
+from cointoss.analytic.air.quadrature import gauss_rule
+from cointoss.models.kernel.compiled import compiled
 
 _X, _WEIGHTS = gauss_rule(6)
 # Where T vanishes so many half lengths of the strip from its middle, Gauss's rule errs by 1e-12 at most.

@@ -2,10 +2,10 @@
 
 import math
 
-from analytic.contact.floor_force import holding_force, sliding_force, starting_slip
-from analytic.numerics.tolerances import SLOW
-from models.kernel.compiled import compiled
-from models.kernel.vectors import subtract
+from cointoss.analytic.contact.floor_force import holding_force, sliding_force, starting_slip
+from cointoss.analytic.numerics.tolerances import SLOW
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import subtract
 
 
 @compiled

@@ -4,14 +4,14 @@ import math
 
 import numpy as np
 
-from analytic.automaton import Event, Mode
-from analytic.contact import one_rim, upright
-from analytic.contact.floor_force import friction_holds, holding_force
-from analytic.contact.one_rim import lower_rim_of
-from analytic.contact.periodic import tilt_rate
-from analytic.contact.resistance import has_resistance
-from analytic.contact.rim_contact import both_rims
-from analytic.flight.state_vector import (
+from cointoss.analytic.automaton import Event, Mode
+from cointoss.analytic.contact import one_rim, upright
+from cointoss.analytic.contact.floor_force import friction_holds, holding_force
+from cointoss.analytic.contact.one_rim import lower_rim_of
+from cointoss.analytic.contact.periodic import tilt_rate
+from cointoss.analytic.contact.resistance import has_resistance
+from cointoss.analytic.contact.rim_contact import both_rims
+from cointoss.analytic.flight.state_vector import (
     STATE_SIZE,
     attitude_of,
     set_attitude,
@@ -20,14 +20,14 @@ from analytic.flight.state_vector import (
     spin_of,
     state_of,
 )
-from analytic.numerics.tolerances import ON_EDGE, SLOW, STEADY
-from models.attitude import quaternion_product, rotation_matrix
-from models.body import in_vacuum
-from models.geometry import FLAT_SINE, tilt_sine_of
-from models.kernel.arrays import copy_into
-from models.kernel.compiled import compiled
-from models.kernel.vectors import apply, cross, dot
-from models.rest import is_slowing
+from cointoss.analytic.numerics.tolerances import ON_EDGE, SLOW, STEADY
+from cointoss.models.attitude import quaternion_product, rotation_matrix
+from cointoss.models.body import in_vacuum
+from cointoss.models.geometry import FLAT_SINE, tilt_sine_of
+from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import apply, cross, dot
+from cointoss.models.rest import is_slowing
 
 # The angle by which an upright coin is tipped onto either rim, for trial [rad].
 _TRIAL = 2e-9
@@ -92,7 +92,7 @@ def event_of_upright_coin(body, friction, steps, y):
 
 @compiled
 def slows(body, friction, y):
-    """Return whether the floor's resistance slows a coin that stands; see `models.rest.is_slowing`."""
+    """Return whether the floor's resistance slows a coin that stands; see `is_slowing`."""
     w = apply(rotation_matrix(attitude_of(y)), spin_of(y))
     return is_slowing(body, friction.rolling, friction.pivoting, w)
 

@@ -8,8 +8,8 @@ import math
 
 import numpy as np
 
-from models.kernel.compiled import compiled
-from models.kernel.vectors import dot, scale, solve
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import dot, scale, solve
 
 # The direction in which slip starts is sought from the best of these.
 _ANGLES = 2 * np.pi * np.arange(24) / 24

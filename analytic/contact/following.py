@@ -2,18 +2,18 @@
 
 import numpy as np
 
-from analytic.automaton import Event, Mode
-from analytic.contact import modes, one_rim, smooth, upright
-from analytic.contact.one_rim import lay_flat, lower_rim_of
-from analytic.contact.resistance import FloorFriction, is_smooth
-from analytic.flight.integrated_flight import first_step
-from analytic.flight.runge_kutta import end_point, stage_point, step_error, step_factor
-from analytic.flight.state_vector import STATE_SIZE, normalise
-from analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
-from analytic.numerics.tableau import STAGES
-from models.kernel.arrays import copy_into
-from models.kernel.compiled import compiled
-from models.laws import ContactLaw
+from cointoss.analytic.automaton import Event, Mode
+from cointoss.analytic.contact import modes, one_rim, smooth, upright
+from cointoss.analytic.contact.one_rim import lay_flat, lower_rim_of
+from cointoss.analytic.contact.resistance import FloorFriction, is_smooth
+from cointoss.analytic.flight.integrated_flight import first_step
+from cointoss.analytic.flight.runge_kutta import end_point, stage_point, step_error, step_factor
+from cointoss.analytic.flight.state_vector import STATE_SIZE, normalise
+from cointoss.analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
+from cointoss.analytic.numerics.tableau import STAGES
+from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.laws import ContactLaw
 
 # In sustained contact a perfectly rough floor is nearly the limit of Coulomb's: it lets go a point that it
 # could only hold by pulling.

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from analytic.automaton import Event, Mode
-from analytic.contact import edge, one_rim, upright
-from analytic.flight.equations_of_motion import derivative
-from analytic.flight.state_vector import STATE_SIZE, velocity_of
-from models.kernel.compiled import compiled
-from models.kernel.vectors import scale, subtract
+from cointoss.analytic.automaton import Event, Mode
+from cointoss.analytic.contact import edge, one_rim, upright
+from cointoss.analytic.flight.equations_of_motion import derivative
+from cointoss.analytic.flight.state_vector import STATE_SIZE, velocity_of
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import scale, subtract
 
 
 @compiled

@@ -4,25 +4,25 @@ import math
 
 import numpy as np
 
-from analytic.automaton import Event, Mode
-from analytic.contact import creeping, sliding, smooth, sticking
-from analytic.contact.floor_force import friction_holds, holding_force, slip_direction, starting_slip
-from analytic.contact.resistance import is_smooth
-from analytic.contact.rim_contact import (
+from cointoss.analytic.automaton import Event, Mode
+from cointoss.analytic.contact import creeping, sliding, smooth, sticking
+from cointoss.analytic.contact.floor_force import friction_holds, holding_force, slip_direction, starting_slip
+from cointoss.analytic.contact.resistance import is_smooth
+from cointoss.analytic.contact.rim_contact import (
     accelerate,
     contact_margin,
     rim_contact,
     rim_contact_in_flight,
 )
-from analytic.flight.equations_of_motion import flight_of, write_rate
-from analytic.flight.state_vector import attitude_of, normalise, set_attitude, set_height, spin_of
-from analytic.impact.coulomb import coulomb
-from analytic.numerics.tolerances import BORDER, SLOW
-from models.attitude import rotation_matrix
-from models.geometry import FACE_SINE, lower_rim, tilt_sine_of
-from models.kernel.compiled import compiled, inlined
-from models.kernel.vectors import cross, dot
-from models.laws import RestitutionKind
+from cointoss.analytic.flight.equations_of_motion import flight_of, write_rate
+from cointoss.analytic.flight.state_vector import attitude_of, normalise, set_attitude, set_height, spin_of
+from cointoss.analytic.impact.coulomb import coulomb
+from cointoss.analytic.numerics.tolerances import BORDER, SLOW
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.geometry import FACE_SINE, lower_rim, tilt_sine_of
+from cointoss.models.kernel.compiled import compiled, inlined
+from cointoss.models.kernel.vectors import cross, dot
+from cointoss.models.laws import RestitutionKind
 
 
 @compiled

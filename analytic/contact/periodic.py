@@ -4,13 +4,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic.automaton import Mode
-from analytic.contact.resistance import has_resistance
-from analytic.flight.state_vector import attitude_of, spin_of
-from models.attitude import rotation_matrix
-from models.body import in_vacuum, is_ideal
-from models.kernel.compiled import compiled
-from models.records import Array
+from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.resistance import has_resistance
+from cointoss.analytic.flight.state_vector import attitude_of, spin_of
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.body import in_vacuum, is_ideal
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.records import Array
 
 # A rate of n_z below this part of √(g/r) has no sign: it may be rounding.
 _NOTICEABLE = 1e-6

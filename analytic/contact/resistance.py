@@ -9,8 +9,8 @@ take energy at the rate N (δ |ω_h| + p |ω_z|). Below `slow_spin` either grows
 import math
 from typing import NamedTuple
 
-from models.kernel.compiled import compiled
-from models.rest import slow_spin
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.rest import slow_spin
 
 
 class FloorFriction(NamedTuple):

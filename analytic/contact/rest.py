@@ -1,18 +1,18 @@
 """A coin whose roll the floor's resistance stops: whether it rests on its edge, or rolls on there."""
 
-from analytic.automaton import Mode
-from analytic.contact.edge import on_edge, stands
-from analytic.contact.one_rim import lower_rim_of
-from analytic.contact.resistance import has_resistance
-from analytic.contact.rim_contact import rim_contact
-from analytic.flight.state_vector import spin_of, velocity_of
-from models.kernel.compiled import compiled
-from models.rest import is_held, lever_of
+from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.edge import on_edge, stands
+from cointoss.analytic.contact.one_rim import lower_rim_of
+from cointoss.analytic.contact.resistance import has_resistance
+from cointoss.analytic.contact.rim_contact import rim_contact
+from cointoss.analytic.flight.state_vector import spin_of, velocity_of
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.rest import is_held, lever_of
 
 
 @compiled
 def rests(body, friction, mode, y):
-    """Return whether resistance to rolling holds a coin in contact where it is; see `models.rest.is_held`.
+    """Return whether resistance to rolling holds a coin in contact where it is; see `is_held`.
 
     Args:
         body: the coin.

@@ -6,12 +6,12 @@ force F at A, dv_A/dt = b + K F, K the mobility of A as in an impact and b what 
 
 from typing import NamedTuple
 
-from analytic.contact.resistance import FRICTIONLESS, has_resistance, moment_per_force
-from analytic.flight.equations_of_motion import flight_of
-from analytic.flight.state_vector import set_spin, set_velocity, spin_of, velocity_of
-from models.geometry import FACE_SINE, tilt_sine_of
-from models.kernel.compiled import compiled, inlined
-from models.kernel.vectors import (
+from cointoss.analytic.contact.resistance import FRICTIONLESS, has_resistance, moment_per_force
+from cointoss.analytic.flight.equations_of_motion import flight_of
+from cointoss.analytic.flight.state_vector import set_spin, set_velocity, spin_of, velocity_of
+from cointoss.models.geometry import FACE_SINE, tilt_sine_of
+from cointoss.models.kernel.compiled import compiled, inlined
+from cointoss.models.kernel.vectors import (
     Matrix,
     Vector,
     add,
@@ -35,7 +35,7 @@ class RimContact(NamedTuple):
     """Changes of ω by unit impulses at A along x, y and z, body frame, row by row [rad/(N s²)]; the last one
     with the resistance that comes with it."""
     mobility: Matrix
-    """K [1/kg], with resistance K + q ẑᵀ; see `analytic.contact.resistance`."""
+    """K [1/kg], with resistance K + q ẑᵀ; see `cointoss.analytic.contact.resistance`."""
     free_acceleration: Vector
     """b [m/s²]."""
     velocity: Vector
@@ -49,7 +49,7 @@ def rim_contact(body, y, rim):
     Args:
         body: the coin.
         y: state, (13,), not flat.
-        rim: -1 for tails' rim, 1 for heads'; see `models.geometry.lower_rim`.
+        rim: -1 for tails' rim, 1 for heads'; see `cointoss.models.geometry.lower_rim`.
     """
     return rim_contact_in_flight(body, FRICTIONLESS, flight_of(body, y), rim)
 

@@ -2,9 +2,9 @@
 
 import math
 
-from analytic.contact.floor_force import sliding_force, slip_direction
-from analytic.numerics.tolerances import SLOW
-from models.kernel.compiled import compiled
+from cointoss.analytic.contact.floor_force import sliding_force, slip_direction
+from cointoss.analytic.numerics.tolerances import SLOW
+from cointoss.models.kernel.compiled import compiled
 
 
 @compiled

@@ -1,13 +1,20 @@
 """Sliding on a smooth floor, which acts on the rim point A by its normal force alone.
 
-What `analytic.contact.sliding` does without friction, of which nothing but A's vertical motion is left.
+What `cointoss.analytic.contact.sliding` does without friction: nothing but A's vertical motion is left.
 """
 
-from analytic.contact.rim_contact import contact_margin, rim_point
-from analytic.flight.equations_of_motion import flight_of, write_rate
-from analytic.flight.state_vector import set_height, set_spin, set_velocity, spin_of, state_of, velocity_of
-from models.kernel.compiled import compiled, inlined
-from models.kernel.vectors import add, apply, apply_transposed, cross, dot, scale
+from cointoss.analytic.contact.rim_contact import contact_margin, rim_point
+from cointoss.analytic.flight.equations_of_motion import flight_of, write_rate
+from cointoss.analytic.flight.state_vector import (
+    set_height,
+    set_spin,
+    set_velocity,
+    spin_of,
+    state_of,
+    velocity_of,
+)
+from cointoss.models.kernel.compiled import compiled, inlined
+from cointoss.models.kernel.vectors import add, apply, apply_transposed, cross, dot, scale
 
 
 @inlined

@@ -2,9 +2,9 @@
 
 import math
 
-from analytic.contact.floor_force import holding_force
-from analytic.numerics.tolerances import BORDER
-from models.kernel.compiled import compiled
+from cointoss.analytic.contact.floor_force import holding_force
+from cointoss.analytic.numerics.tolerances import BORDER
+from cointoss.models.kernel.compiled import compiled
 
 
 @compiled

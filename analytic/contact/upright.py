@@ -6,17 +6,17 @@ friction on slow slip grows in proportion to it.
 
 import math
 
-from analytic.contact.floor_force import friction_holds, holding_force
-from analytic.contact.resistance import FRICTIONLESS, has_resistance
-from analytic.contact.rim_contact import (
+from cointoss.analytic.contact.floor_force import friction_holds, holding_force
+from cointoss.analytic.contact.resistance import FRICTIONLESS, has_resistance
+from cointoss.analytic.contact.rim_contact import (
     accelerate,
     add_quotient,
     both_rims,
     rim_contact,
     rim_contact_in_flight,
 )
-from analytic.flight.equations_of_motion import flight_of, write_rate
-from analytic.flight.state_vector import (
+from cointoss.analytic.flight.equations_of_motion import flight_of, write_rate
+from cointoss.analytic.flight.state_vector import (
     attitude_of,
     normalise,
     set_attitude,
@@ -26,12 +26,12 @@ from analytic.flight.state_vector import (
     spin_of,
     velocity_of,
 )
-from analytic.impact.laws import spin_gained
-from analytic.numerics.rotation import quaternion_rate
-from analytic.numerics.tolerances import SLOW
-from models.attitude import rotation_matrix
-from models.kernel.compiled import compiled
-from models.kernel.vectors import add, apply, apply_transposed, cross, dot, scale, subtract
+from cointoss.analytic.impact.laws import spin_gained
+from cointoss.analytic.numerics.rotation import quaternion_rate
+from cointoss.analytic.numerics.tolerances import SLOW
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import add, apply, apply_transposed, cross, dot, scale, subtract
 
 # The angle by which a coin is tipped off the rim that lifts.
 _TIP = 1e-12

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from analytic.flight.flying import fly
-from analytic.flight.state_vector import position_of, spin_of, velocity_of
-from models.catch import approach_hand
-from models.kernel.arrays import copy_into
-from models.kernel.compiled import compiled
+from cointoss.analytic.flight.flying import fly
+from cointoss.analytic.flight.state_vector import position_of, spin_of, velocity_of
+from cointoss.models.catch import approach_hand
+from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.kernel.compiled import compiled
 
 
 @compiled

@@ -2,19 +2,19 @@
 
 import numpy as np
 
-from analytic.flight.fall import ORDER, clock, expand, fall_freely, fallen, slowing_of, time_of
-from analytic.flight.first_touch import Found, bounds_of, first_touch, lowest_dip
-from analytic.flight.state_vector import (
+from cointoss.analytic.flight.fall import ORDER, clock, expand, fall_freely, fallen, slowing_of, time_of
+from cointoss.analytic.flight.first_touch import Found, bounds_of, first_touch, lowest_dip
+from cointoss.analytic.flight.state_vector import (
     attitude_of,
     position_of,
     spin_of,
     velocity_of,
 )
-from analytic.flight.touch_search import closing_speed, smallest_flight
-from analytic.flight.turning import turn, turning_of
-from models.body import in_vacuum
-from models.kernel.compiled import compiled
-from models.kernel.vectors import norm
+from cointoss.analytic.flight.touch_search import closing_speed, smallest_flight
+from cointoss.analytic.flight.turning import turn, turning_of
+from cointoss.models.body import in_vacuum
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import norm
 
 
 @compiled

@@ -2,12 +2,12 @@
 
 from typing import NamedTuple
 
-from analytic.air.force import force_and_moment
-from analytic.flight.state_vector import set_attitude, set_position, set_spin, set_velocity, state_of
-from analytic.numerics.rotation import quaternion_rate
-from models.kernel.compiled import compiled, inlined
-from models.kernel.vectors import Vector, apply, apply_transposed, cross, subtract
-from models.state import State
+from cointoss.analytic.air.force import force_and_moment
+from cointoss.analytic.flight.state_vector import set_attitude, set_position, set_spin, set_velocity, state_of
+from cointoss.analytic.numerics.rotation import quaternion_rate
+from cointoss.models.kernel.compiled import compiled, inlined
+from cointoss.models.kernel.vectors import Vector, apply, apply_transposed, cross, subtract
+from cointoss.models.state import State
 
 
 class Flight(NamedTuple):

@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic.flight.state_vector import position_of, set_position, set_velocity, velocity_of
-from models.kernel.compiled import compiled
-from models.kernel.vectors import Vector, add, cross, dot, norm, scale, subtract
+from cointoss.analytic.flight.state_vector import position_of, set_position, set_velocity, velocity_of
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Vector, add, cross, dot, norm, scale, subtract
 
 ORDER = 40
 # What the motion turns, and what the air takes, in a piece. The first term left out is at most

@@ -11,10 +11,10 @@ import math
 from enum import IntEnum
 from typing import NamedTuple
 
-from analytic.numerics.tolerances import CLOSED_TOUCH, SINK
-from models.geometry import FLAT_SINE, lower_rim
-from models.kernel.compiled import compiled
-from models.kernel.vectors import Vector, add, scale
+from cointoss.analytic.numerics.tolerances import CLOSED_TOUCH, SINK
+from cointoss.models.geometry import FLAT_SINE, lower_rim
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Vector, add, scale
 
 # A coin higher than `_HIGH` times the reach of its rim is followed by its height alone, down to `_NEAR`.
 _HIGH, _NEAR = 2.0, 1.1

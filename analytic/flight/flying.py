@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from analytic.flight.closed_flight import closed_graze, fly_closed, sample_closed
-from analytic.flight.integrated_flight import sample_flight
-from analytic.flight.state_vector import STATE_SIZE, spin_of
-from analytic.flight.touch_search import fly_by_steps
-from analytic.flight.turning import turns_in_closed_form
-from models.kernel.compiled import compiled
+from cointoss.analytic.flight.closed_flight import closed_graze, fly_closed, sample_closed
+from cointoss.analytic.flight.integrated_flight import sample_flight
+from cointoss.analytic.flight.state_vector import STATE_SIZE, spin_of
+from cointoss.analytic.flight.touch_search import fly_by_steps
+from cointoss.analytic.flight.turning import turns_in_closed_form
+from cointoss.models.kernel.compiled import compiled
 
 
 @compiled

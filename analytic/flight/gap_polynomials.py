@@ -7,8 +7,8 @@ sign among its Bernstein coefficients: none where all are positive, and one wher
 
 import numpy as np
 
-from analytic.flight.power_series import HEIGHT, ORDER, UP
-from models.kernel.compiled import compiled
+from cointoss.analytic.flight.power_series import HEIGHT, ORDER, UP
+from cointoss.models.kernel.compiled import compiled
 
 DEGREE = 2 * ORDER
 # Rounding of F, against the sum of all products in it, and terms of it that are left out.

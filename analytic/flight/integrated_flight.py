@@ -2,15 +2,15 @@
 
 import numpy as np
 
-from analytic.flight.equations_of_motion import derivative
-from analytic.flight.power_series import COLUMNS, ORDER, expand_flight, state_in_flight
-from analytic.flight.runge_kutta import end_point, stage_point, step_error, step_factor
-from analytic.flight.state_vector import STATE_SIZE, normalise, spin_of
-from analytic.numerics.tableau import STAGES
-from analytic.numerics.tolerances import STEP_ERROR
-from models.kernel.arrays import copy_into
-from models.kernel.compiled import compiled
-from models.kernel.vectors import norm
+from cointoss.analytic.flight.equations_of_motion import derivative
+from cointoss.analytic.flight.power_series import COLUMNS, ORDER, expand_flight, state_in_flight
+from cointoss.analytic.flight.runge_kutta import end_point, stage_point, step_error, step_factor
+from cointoss.analytic.flight.state_vector import STATE_SIZE, normalise, spin_of
+from cointoss.analytic.numerics.tableau import STAGES
+from cointoss.analytic.numerics.tolerances import STEP_ERROR
+from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import norm
 
 
 @compiled

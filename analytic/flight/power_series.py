@@ -8,9 +8,9 @@ their series follows from those before it; docs/FLIGHT.md derives them.
 
 import numpy as np
 
-from analytic.air.force import force_and_moment
-from analytic.flight.fall import fall_freely
-from analytic.flight.state_vector import (
+from cointoss.analytic.air.force import force_and_moment
+from cointoss.analytic.flight.fall import fall_freely
+from cointoss.analytic.flight.state_vector import (
     attitude_of,
     set_attitude,
     set_position,
@@ -18,10 +18,10 @@ from analytic.flight.state_vector import (
     set_velocity,
     state_of,
 )
-from analytic.numerics.rotation import attitude_near
-from models.body import in_vacuum
-from models.kernel.compiled import compiled
-from models.kernel.vectors import add, apply, apply_transposed, cross, norm, scale, subtract
+from cointoss.analytic.numerics.rotation import attitude_near
+from cointoss.models.body import in_vacuum
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import add, apply, apply_transposed, cross, norm, scale, subtract
 
 ORDER = 24
 # The last two terms of a step are at most this part of the coin's scales.

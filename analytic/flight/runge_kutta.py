@@ -6,7 +6,7 @@ slope at each stage; `stages` holds them, (STAGES, 13). No slope depends on the 
 
 import numpy as np
 
-from analytic.flight.state_vector import (
+from cointoss.analytic.flight.state_vector import (
     STATE_SIZE,
     attitude_of,
     position_of,
@@ -17,9 +17,9 @@ from analytic.flight.state_vector import (
     spin_of,
     velocity_of,
 )
-from analytic.numerics.tableau import END, ERROR_3, ERROR_5, TERMS, WEIGHTED, WEIGHTS
-from models.kernel.compiled import compiled
-from models.kernel.vectors import norm
+from cointoss.analytic.numerics.tableau import END, ERROR_3, ERROR_5, TERMS, WEIGHTED, WEIGHTS
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import norm
 
 _SAFETY, _SHRINK_MOST, _GROW_MOST = 0.8, 0.2, 6.0
 

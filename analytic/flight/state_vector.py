@@ -3,8 +3,8 @@
 Position of C (space), velocity of C (space), Euler parameters (body to space), angular velocity (body).
 """
 
-from models.kernel.compiled import compiled
-from models.state import state
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.state import state
 
 STATE_SIZE = 13
 

@@ -2,17 +2,23 @@
 
 import numpy as np
 
-from analytic.flight.equations_of_motion import derivative
-from analytic.flight.gap_polynomials import DEGREE, gap_polynomials, time_surely_clear
-from analytic.flight.integrated_flight import finish_step, first_step, flight_step, flight_work, within_step
-from analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
-from analytic.numerics.tolerances import CHATTERING, SINK, TIME_STEP, TOUCH
-from models.attitude import rotation_matrix
-from models.clearance import clear_time, grazing_time
-from models.geometry import FLAT_SINE, contact_velocity, gap, lowest_point, tilt_sine_of
-from models.kernel.arrays import copy_into
-from models.kernel.compiled import compiled
-from models.kernel.vectors import add, cross, dot, norm
+from cointoss.analytic.flight.equations_of_motion import derivative
+from cointoss.analytic.flight.gap_polynomials import DEGREE, gap_polynomials, time_surely_clear
+from cointoss.analytic.flight.integrated_flight import (
+    finish_step,
+    first_step,
+    flight_step,
+    flight_work,
+    within_step,
+)
+from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
+from cointoss.analytic.numerics.tolerances import CHATTERING, SINK, TIME_STEP, TOUCH
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.clearance import clear_time, grazing_time
+from cointoss.models.geometry import FLAT_SINE, contact_velocity, gap, lowest_point, tilt_sine_of
+from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import add, cross, dot, norm
 
 # After so many gap evaluations in a step, and whenever their number has doubled, its polynomials are used.
 _MANY = 4

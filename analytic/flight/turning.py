@@ -9,11 +9,11 @@ it turns at a constant rate against the clock s = (1 - u)/δ, which is t itself 
 import math
 from typing import NamedTuple
 
-from analytic.flight.state_vector import attitude_of, normalise, set_attitude, set_spin, spin_of
-from models.attitude import quaternion_product, rotation_matrix
-from models.body import in_vacuum, is_ideal
-from models.kernel.compiled import compiled
-from models.kernel.vectors import Vector, apply, cross, dot, norm, scale, subtract
+from cointoss.analytic.flight.state_vector import attitude_of, normalise, set_attitude, set_spin, spin_of
+from cointoss.models.attitude import quaternion_product, rotation_matrix
+from cointoss.models.body import in_vacuum, is_ideal
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Vector, apply, cross, dot, norm, scale, subtract
 
 # Turning slower than that is none [rad/s]: the squares of its parts would be below the range of numbers.
 _STILL = 1e-150

@@ -6,18 +6,18 @@ the derivative of the very numbers that these steps compute, their lengths held.
 
 import numpy as np
 
-from analytic.air.force import force_and_moment, write_jacobian
-from analytic.flight.equations_of_motion import derivative
-from analytic.flight.integrated_flight import accepted_step, first_step, step
-from analytic.flight.runge_kutta import end_point, stage_point
-from analytic.flight.state_vector import STATE_SIZE, attitude_of, spin_of, velocity_of
-from analytic.numerics.rotation import quaternion_rate, rotation_change
-from analytic.numerics.tableau import STAGES
-from analytic.numerics.tolerances import STEP_ERROR
-from models.attitude import rotation_matrix
-from models.kernel.arrays import copy_into
-from models.kernel.compiled import compiled
-from models.kernel.vectors import add, apply, apply_transposed, cross, subtract
+from cointoss.analytic.air.force import force_and_moment, write_jacobian
+from cointoss.analytic.flight.equations_of_motion import derivative
+from cointoss.analytic.flight.integrated_flight import accepted_step, first_step, step
+from cointoss.analytic.flight.runge_kutta import end_point, stage_point
+from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, spin_of, velocity_of
+from cointoss.analytic.numerics.rotation import quaternion_rate, rotation_change
+from cointoss.analytic.numerics.tableau import STAGES
+from cointoss.analytic.numerics.tolerances import STEP_ERROR
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import add, apply, apply_transposed, cross, subtract
 
 STEP_ERROR_OF_GROWTH = 1e-7
 """Error allowed in one step where b > 0 and each step takes many quadratures: a growth is wanted to 1e-3."""
@@ -31,7 +31,7 @@ def derivative_change(body, y, force, jacobian, dy, rate):
         body: the coin.
         y: state, (13,).
         force: of the air there, body frame, (3,) [N].
-        jacobian: of the air's force and moment there, see `analytic.air.force.write_jacobian`, (6, 6).
+        jacobian: of the air's force and moment there, see `write_jacobian`, (6, 6).
         dy: change of the state, (13,).
         rate: where the change of its rate of change goes, (13,).
     """

@@ -7,19 +7,19 @@ add up to the covariance, which in a chatter could not hold its own digits.
 
 import numpy as np
 
-from analytic.events import EventLog
-from analytic.flight.flying import fly_with_graze, steps_of
-from analytic.flight.state_vector import STATE_SIZE
-from analytic.flight.turning import turns_in_closed_form
-from analytic.horizon.flight_tangent import flight_tangent
-from analytic.horizon.sensitivity import delay_of, flight_map, impact_map, touch_map
-from analytic.horizon.touch_derivatives import Touch, touch_derivatives
-from analytic.numerics.tolerances import TIME_STEP, TOUCH
-from models.attitude import rotation_matrix
-from models.body import Body, Rules
-from models.geometry import FLAT_SINE
-from models.laws import ContactLaw
-from models.records import Array
+from cointoss.analytic.events import EventLog
+from cointoss.analytic.flight.flying import fly_with_graze, steps_of
+from cointoss.analytic.flight.state_vector import STATE_SIZE
+from cointoss.analytic.flight.turning import turns_in_closed_form
+from cointoss.analytic.horizon.flight_tangent import flight_tangent
+from cointoss.analytic.horizon.sensitivity import delay_of, flight_map, impact_map, touch_map
+from cointoss.analytic.horizon.touch_derivatives import Touch, touch_derivatives
+from cointoss.analytic.numerics.tolerances import TIME_STEP, TOUCH
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.body import Body, Rules
+from cointoss.models.geometry import FLAT_SINE
+from cointoss.models.laws import ContactLaw
+from cointoss.models.records import Array
 
 STEP_ERROR = 1e-15
 """Error that one step adds to height, velocity and spin, relative to the scales of the coin: truncation and

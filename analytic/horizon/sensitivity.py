@@ -12,13 +12,13 @@ At a low hop that term would cost digits.
 
 import numpy as np
 
-from analytic.events import EventLog
-from analytic.flight.flying import fly
-from analytic.flight.state_vector import STATE_SIZE
-from analytic.horizon.flight_tangent import flight_tangent
-from analytic.horizon.touch_derivatives import Touch, touch_derivatives
-from models.body import Body, Rules
-from models.records import Array
+from cointoss.analytic.events import EventLog
+from cointoss.analytic.flight.flying import fly
+from cointoss.analytic.flight.state_vector import STATE_SIZE
+from cointoss.analytic.horizon.flight_tangent import flight_tangent
+from cointoss.analytic.horizon.touch_derivatives import Touch, touch_derivatives
+from cointoss.models.body import Body, Rules
+from cointoss.models.records import Array
 
 
 def flight_map(tangents: Array) -> Array:

@@ -4,17 +4,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analytic.events import hit, restitution_at
-from analytic.flight.equations_of_motion import derivative
-from analytic.flight.state_vector import STATE_SIZE, attitude_of, normalise
-from models.attitude import rotation_matrix
-from models.body import Body, Rules
-from models.geometry import FLAT_SINE, gap
-from models.kernel.arrays import copy_into
-from models.kernel.compiled import compiled
-from models.kernel.vectors import norm
-from models.laws import ContactLaw
-from models.records import IMPACT_ROW, Array
+from cointoss.analytic.events import hit, restitution_at
+from cointoss.analytic.flight.equations_of_motion import derivative
+from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, normalise
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.body import Body, Rules
+from cointoss.models.geometry import FLAT_SINE, gap
+from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import norm
+from cointoss.models.laws import ContactLaw
+from cointoss.models.records import IMPACT_ROW, Array
 
 STEP = 1e-5
 """The largest change of a component, relative to the coin's scales: r of positions, 1 of Euler parameters,

@@ -10,12 +10,12 @@ import math
 
 import numpy as np
 
-from analytic.impact.slip_stop import expand_stop, impulse_until, room_for_stop
-from analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
-from models.kernel.arrays import copy_into
-from models.kernel.compiled import compiled
-from models.kernel.vectors import apply, norm
-from models.laws import RestitutionKind
+from cointoss.analytic.impact.slip_stop import expand_stop, impulse_until, room_for_stop
+from cointoss.analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
+from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import apply, norm
+from cointoss.models.laws import RestitutionKind
 
 # The state of an impact: v_A, S and the work of the normal impulse, ∫ v_Az dp.
 SIZE = 7

@@ -5,11 +5,11 @@ the coin's edge, v_Aν across it, both in the floor, and v_Az. Every law keeps N
 eq. (85).
 """
 
-from analytic.impact.coulomb import coulomb
-from models.kernel.compiled import compiled
-from models.kernel.vectors import add, apply, apply_transposed, cross, dot, scale, solve, subtract
-from models.laws import ContactLaw
-from models.records import Ending
+from cointoss.analytic.impact.coulomb import coulomb
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import add, apply, apply_transposed, cross, dot, scale, solve, subtract
+from cointoss.models.laws import ContactLaw
+from cointoss.models.records import Ending
 
 NO_IMPULSE = (0.0, 0.0, 0.0)
 

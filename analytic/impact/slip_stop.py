@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import compiled
 
 # Columns of the series: q; S along s*, across it, and S_z; q² and X.
 Q, ALONG, ACROSS, NORMAL, SQUARE, PATH, COLUMNS = range(7)

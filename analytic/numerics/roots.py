@@ -6,7 +6,7 @@ narrow: so the function may be a step of an integrator, which writes a state bes
 
 from typing import NamedTuple
 
-from models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import compiled
 
 
 class Bracket(NamedTuple):

@@ -2,9 +2,9 @@
 
 import math
 
-from models.attitude import Quaternion
-from models.kernel.compiled import compiled
-from models.kernel.vectors import Matrix, Vector
+from cointoss.models.attitude import Quaternion
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Matrix, Vector
 
 
 def quaternion_from_axis(axis: Vector, angle: float) -> Quaternion:
@@ -165,7 +165,7 @@ def body_spin_rate(e, e_acceleration):
 
 @compiled
 def rotation_change(e, de):
-    """Return the change of the rotation matrix R(e), as `models.attitude` writes it, with e.
+    """Return the change of the rotation matrix R(e), as `cointoss.models.attitude` writes it, with e.
 
     Args:
         e: Euler parameters, body to space, (4,).

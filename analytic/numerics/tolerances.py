@@ -1,6 +1,6 @@
 """Where the analytic engine draws the line: what counts as touching, as slow, as upright, and why."""
 
-from models import rest
+from cointoss.models import rest
 
 STEP_ERROR = 1e-13
 """Error allowed in one step of the integrator, relative to the scales of the coin."""

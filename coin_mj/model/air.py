@@ -15,8 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from models.kernel.compiled import compiled
-from models.kernel.vectors import Vector
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Vector
 
 TOLERANCE = 1e-11
 """Largest difference of the two rules on an accepted piece. The error of the finer one is far smaller."""

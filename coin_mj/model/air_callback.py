@@ -15,12 +15,12 @@ import numba
 import numpy as np
 from numba import types
 
-from coin_mj.model.air import air_force
-from coin_mj.model.library import pointer_to
-from coin_mj.model.memory import offset_of
-from models.attitude import rotation_matrix
-from models.kernel.vectors import apply, apply_transposed
-from models.scenario import Scenario
+from cointoss.coin_mj.model.air import air_force
+from cointoss.coin_mj.model.library import pointer_to
+from cointoss.coin_mj.model.memory import offset_of
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.kernel.vectors import apply, apply_transposed
+from cointoss.models.scenario import Scenario
 
 NUMERIC = "air"
 """Name of the model's custom numbers: r, h, λ_n, λ_τ and b."""

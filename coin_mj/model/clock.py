@@ -8,7 +8,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from coin_mj.model.library import PATH
+from cointoss.coin_mj.model.library import PATH
 
 _clock = ctypes.c_void_p.in_dll(ctypes.CDLL(PATH), "mjcb_time")
 

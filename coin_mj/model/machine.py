@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 
-from coin_mj.model.memory import joint_arrays, offset_of, require_layout
-from coin_mj.model.scene import build, floor_height
-from coin_mj.model.settings import (
+from cointoss.coin_mj.model.memory import joint_arrays, offset_of, require_layout
+from cointoss.coin_mj.model.scene import build, floor_height
+from cointoss.coin_mj.model.settings import (
     Friction,
     Realisation,
     Rebound,
@@ -19,9 +19,9 @@ from coin_mj.model.settings import (
     plastic_rebound,
     rebound_of,
 )
-from coin_mj.model.state import of_release
-from models.body import Body, is_ideal, resists
-from models.scenario import Scenario
+from cointoss.coin_mj.model.state import of_release
+from cointoss.models.body import Body, is_ideal, resists
+from cointoss.models.scenario import Scenario
 
 _Disable = mujoco.mjtDisableBit
 # What a lone coin has no use for. Without a warm start a step depends on nothing but the state.
@@ -35,7 +35,7 @@ _UNUSED = (
 
 UNSYMMETRIC = 0.65
 """Largest turn in a step of flight of a coin that is no balanced symmetric top [rad]: it keeps less nearly to
-the frame of its step, see `coin_mj.steps.turning_frame`."""
+the frame of its step, see `cointoss.coin_mj.steps.turning_frame`."""
 
 ADDRESSES = np.dtype(
     [

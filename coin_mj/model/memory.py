@@ -13,9 +13,9 @@ from mujoco.introspect import ast_nodes
 from mujoco.introspect.structs import STRUCTS
 from numba.np.numpy_support import carray
 
-from coin_mj.model.library import pointer_to
-from models.kernel.compiled import compiled
-from models.records import UnusableEngineError
+from cointoss.coin_mj.model.library import pointer_to
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.records import UnusableEngineError
 
 _SCALARS: dict[str, Any] = {
     "int": ctypes.c_int32,

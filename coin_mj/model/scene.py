@@ -8,9 +8,9 @@ from importlib import resources
 import mujoco
 import numpy as np
 
-from coin_mj.model.air_callback import describe_air
-from coin_mj.model.settings import Rebound
-from models.scenario import Scenario
+from cointoss.coin_mj.model.air_callback import describe_air
+from cointoss.coin_mj.model.settings import Rebound
+from cointoss.models.scenario import Scenario
 
 THIN_SHAPE = 1e-6
 """Thickness of the shape of a thin coin (h = 0), in radii; its inertia stays the scenario's."""
@@ -89,7 +89,9 @@ def described(scenario: Scenario, thickness: float) -> mujoco.MjSpec:
         scenario: what to toss.
         thickness: of the coin's shape [m].
     """
-    spec = mujoco.MjSpec.from_string((resources.files("models") / "coin.xml").read_text(encoding="utf-8"))
+    spec = mujoco.MjSpec.from_string(
+        (resources.files("cointoss.models") / "coin.xml").read_text(encoding="utf-8")
+    )
     spec.option.gravity = (0.0, 0.0, -scenario.gravity)
     coin, body = scenario.coin, spec.body("coin")
     J = coin.inertia_about_C

@@ -8,8 +8,8 @@ from typing import NamedTuple, cast
 
 from scipy.optimize import brentq
 
-from models.laws import ContactLaw
-from models.scenario import Floor
+from cointoss.models.laws import ContactLaw
+from cointoss.models.parts import Floor
 
 ROUGH = 100.0
 """Coefficient of friction that stands for a perfectly rough floor."""
@@ -63,7 +63,7 @@ class Settings:
     """With which MuJoCo's own friction damps the slip, by default that of the normal motion [1/s]."""
     flight_angle: float = 0.05
     """Largest turn of the coin in a step of free flight [rad]; of a coin that is no balanced symmetric top at
-    most `coin_mj.model.machine.UNSYMMETRIC`."""
+    most `cointoss.coin_mj.model.machine.UNSYMMETRIC`."""
     contact_steps: int = 1_000_000
     """The most steps in the sustained contacts of a toss."""
     flight_steps: int = 1_000_000

@@ -5,12 +5,12 @@ Both have velocities in space, the angular velocity in the body, and Euler param
 
 import numpy as np
 
-from coin_mj.model.library import mj_reset
-from models.attitude import rotation_matrix
-from models.kernel.compiled import compiled
-from models.kernel.vectors import add, apply, cross, scale, subtract
-from models.records import Array
-from models.scenario import Release
+from cointoss.coin_mj.model.library import mj_reset
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import add, apply, cross, scale, subtract
+from cointoss.models.parts import Release
+from cointoss.models.records import Array
 
 
 @compiled

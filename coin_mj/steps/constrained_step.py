@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from coin_mj.model.library import (
+from cointoss.coin_mj.model.library import (
     mj_acceleration,
     mj_collision,
     mj_constraint,
@@ -19,15 +19,15 @@ from coin_mj.model.library import (
     mj_project_constraint,
     mj_reference_constraint,
 )
-from coin_mj.model.memory import address_at, integer_at, numbers_at
-from coin_mj.model.state import motion_of, set_motion
-from coin_mj.steps.free_step import place_body, place_body_again
-from coin_mj.steps.mujoco_step import euler_step
-from coin_mj.steps.runge_kutta import CLASSICAL, TSITOURAS, end_motion, stage_motion, write_rate
-from coin_mj.steps.smooth_forces import write_smooth_forces
-from models.attitude import rotation_matrix
-from models.kernel.compiled import compiled
-from models.kernel.vectors import cross
+from cointoss.coin_mj.model.memory import address_at, integer_at, numbers_at
+from cointoss.coin_mj.model.state import motion_of, set_motion
+from cointoss.coin_mj.steps.free_step import place_body, place_body_again
+from cointoss.coin_mj.steps.mujoco_step import euler_step
+from cointoss.coin_mj.steps.runge_kutta import CLASSICAL, TSITOURAS, end_motion, stage_motion, write_rate
+from cointoss.coin_mj.steps.smooth_forces import write_smooth_forces
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import cross
 
 # MuJoCo caps its impedance at 0.9999; with R smaller and D larger by this, it is 1 - 1e-8.
 _HARDER = 1e4

@@ -2,7 +2,7 @@
 
 import math
 
-from models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import compiled
 
 PARTS = 512
 """Of a step in which the slip may turn or stop."""

@@ -4,15 +4,15 @@ from enum import IntEnum
 
 import numpy as np
 
-from coin_mj.model.state import motion_of, state_of
-from coin_mj.steps.free_step import free_rate, free_rate_again, free_step_from, nudge, rates_of_step
-from coin_mj.steps.gap_evaluation import clear_flight, evaluate_gap, longest_step, turning_rate
-from coin_mj.steps.knots import Step, add_knot
-from coin_mj.steps.touch_search import arc_of, first_touch
-from models.body import is_to_be_caught
-from models.catch import approach_hand
-from models.kernel.arrays import copy_into
-from models.kernel.compiled import compiled
+from cointoss.coin_mj.model.state import motion_of, state_of
+from cointoss.coin_mj.steps.free_step import free_rate, free_rate_again, free_step_from, nudge, rates_of_step
+from cointoss.coin_mj.steps.gap_evaluation import clear_flight, evaluate_gap, longest_step, turning_rate
+from cointoss.coin_mj.steps.knots import Step, add_knot
+from cointoss.coin_mj.steps.touch_search import arc_of, first_touch
+from cointoss.models.body import is_to_be_caught
+from cointoss.models.catch import approach_hand
+from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.kernel.compiled import compiled
 
 
 class FlightExit(IntEnum):

@@ -2,18 +2,24 @@
 
 import numpy as np
 
-from coin_mj.model.library import (
+from cointoss.coin_mj.model.library import (
     mj_acceleration,
     mj_center,
     mj_factor_mass,
     mj_kinematics,
     mj_make_mass,
 )
-from coin_mj.model.state import motion_of, set_motion
-from coin_mj.steps.runge_kutta import TSITOURAS, TSITOURAS_NODES, end_motion, stage_motion, write_rate
-from coin_mj.steps.smooth_forces import write_smooth_forces
-from coin_mj.steps.turning_frame import frame_of, to_motion, turn_after, write_slow_rate
-from models.kernel.compiled import compiled
+from cointoss.coin_mj.model.state import motion_of, set_motion
+from cointoss.coin_mj.steps.runge_kutta import (
+    TSITOURAS,
+    TSITOURAS_NODES,
+    end_motion,
+    stage_motion,
+    write_rate,
+)
+from cointoss.coin_mj.steps.smooth_forces import write_smooth_forces
+from cointoss.coin_mj.steps.turning_frame import frame_of, to_motion, turn_after, write_slow_rate
+from cointoss.models.kernel.compiled import compiled
 
 
 @compiled

@@ -5,15 +5,15 @@ Both follow from the normal force that MuJoCo measures.
 
 import numpy as np
 
-from coin_mj.model.library import mj_solve_mass
-from coin_mj.model.state import momentum_of, motion_of, set_motion
-from coin_mj.steps.constrained_step import constrained_forward, contact_step
-from coin_mj.steps.coulomb import coulomb_force
-from coin_mj.steps.mujoco_step import other_force
-from coin_mj.steps.resistance import resisted_force
-from models.attitude import rotation_matrix
-from models.kernel.compiled import compiled
-from models.kernel.vectors import add, apply, apply_transposed, cross
+from cointoss.coin_mj.model.library import mj_solve_mass
+from cointoss.coin_mj.model.state import momentum_of, motion_of, set_motion
+from cointoss.coin_mj.steps.constrained_step import constrained_forward, contact_step
+from cointoss.coin_mj.steps.coulomb import coulomb_force
+from cointoss.coin_mj.steps.mujoco_step import other_force
+from cointoss.coin_mj.steps.resistance import resisted_force
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import add, apply, apply_transposed, cross
 
 
 @compiled

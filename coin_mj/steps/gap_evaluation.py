@@ -2,13 +2,13 @@
 
 from typing import NamedTuple
 
-from coin_mj.model.state import state_of
-from models.attitude import rotation_matrix
-from models.body import Body
-from models.clearance import clear_time, damping_rate
-from models.geometry import contact_velocity, gap, lowest_point
-from models.kernel.compiled import compiled
-from models.kernel.vectors import norm
+from cointoss.coin_mj.model.state import state_of
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.body import Body
+from cointoss.models.clearance import clear_time, damping_rate
+from cointoss.models.geometry import contact_velocity, gap, lowest_point
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import norm
 
 DAMPED = 0.5
 """A step of flight is at most this part of the time in which drag may change velocities."""

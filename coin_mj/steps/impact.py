@@ -3,16 +3,16 @@
 import math
 from enum import IntEnum
 
-from coin_mj.model.state import momentum_of, motion_of, set_motion
-from coin_mj.steps.constrained_step import IMPACT, contact_step, forward
-from coin_mj.steps.flight import TOUCH_STEP
-from coin_mj.steps.friction import friction_step
-from coin_mj.steps.gap_evaluation import evaluate_gap
-from coin_mj.steps.knots import Step, add_knot
-from coin_mj.steps.mujoco_step import other_force, set_margin, set_spring
-from models.attitude import quaternion_product, rotation_matrix
-from models.kernel.compiled import compiled
-from models.kernel.vectors import add, apply, apply_transposed, cross, scale, subtract
+from cointoss.coin_mj.model.state import momentum_of, motion_of, set_motion
+from cointoss.coin_mj.steps.constrained_step import IMPACT, contact_step, forward
+from cointoss.coin_mj.steps.flight import TOUCH_STEP
+from cointoss.coin_mj.steps.friction import friction_step
+from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
+from cointoss.coin_mj.steps.knots import Step, add_knot
+from cointoss.coin_mj.steps.mujoco_step import other_force, set_margin, set_spring
+from cointoss.models.attitude import quaternion_product, rotation_matrix
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import add, apply, apply_transposed, cross, scale, subtract
 
 PAST = 1.0005
 """Factor on a step that should end with the contact: past the release there is no force."""

@@ -2,9 +2,9 @@
 
 from enum import IntEnum
 
-from coin_mj.model.memory import numbers_at
-from coin_mj.model.state import motion_of
-from models.kernel.compiled import compiled
+from cointoss.coin_mj.model.memory import numbers_at
+from cointoss.coin_mj.model.state import motion_of
+from cointoss.models.kernel.compiled import compiled
 
 
 class Step(IntEnum):

@@ -1,9 +1,9 @@
 """MuJoCo's own forces, its Euler step and the settings of its contact."""
 
-from coin_mj.model.library import mj_euler
-from coin_mj.model.memory import numbers_at
-from coin_mj.model.scene import NO_DAMPING
-from models.kernel.compiled import compiled
+from cointoss.coin_mj.model.library import mj_euler
+from cointoss.coin_mj.model.memory import numbers_at
+from cointoss.coin_mj.model.scene import NO_DAMPING
+from cointoss.models.kernel.compiled import compiled
 
 
 @compiled

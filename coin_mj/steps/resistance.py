@@ -10,10 +10,10 @@ import math
 
 import numpy as np
 
-from coin_mj.steps.coulomb import STEADY, force_in_cone
-from models.kernel.compiled import compiled
-from models.kernel.vectors import norm
-from models.rest import slow_spin
+from cointoss.coin_mj.steps.coulomb import STEADY, force_in_cone
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import norm
+from cointoss.models.rest import slow_spin
 
 PARTS = 64
 """Of a step in which slip, roll or pivoting starts, stops or turns far."""

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import compiled
 
 # Row s has the weights of the rates before for the state of stage s; the last row those for the step's end.
 CLASSICAL = np.array(

@@ -1,10 +1,10 @@
 """The forces on MuJoCo's coin that know no floor: those of its own motion, weight and air."""
 
-from coin_mj.model.library import mj_bias, mj_center_velocity, mj_passive
-from coin_mj.model.memory import numbers_at
-from models.body import is_linear
-from models.kernel.compiled import compiled
-from models.kernel.vectors import dot
+from cointoss.coin_mj.model.library import mj_bias, mj_center_velocity, mj_passive
+from cointoss.coin_mj.model.memory import numbers_at
+from cointoss.models.body import is_linear
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import dot
 
 
 @compiled

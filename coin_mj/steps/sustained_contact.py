@@ -3,23 +3,23 @@
 import math
 from enum import IntEnum
 
-from coin_mj.model.state import state_of
-from coin_mj.steps.constrained_step import Constraint, constrained_forward, contact_step
-from coin_mj.steps.free_step import free_step
-from coin_mj.steps.friction import apply_friction, friction_step
-from coin_mj.steps.gap_evaluation import evaluate_gap, turning_rate
-from coin_mj.steps.knots import Step, add_knot
-from coin_mj.steps.mujoco_step import set_margin, set_spring
-from coin_mj.steps.resistance import shortest_stop
-from models.attitude import rotation_matrix
-from models.ending import classify_ending
-from models.geometry import lowest_point
-from models.kernel.compiled import compiled
-from models.kernel.vectors import apply, cross, subtract
-from models.perpetual import FIRST_CHECK
-from models.records import Ending, Outcome
-from models.rest import is_held, is_slowing, lever_of
-from models.state import state
+from cointoss.coin_mj.model.state import state_of
+from cointoss.coin_mj.steps.constrained_step import Constraint, constrained_forward, contact_step
+from cointoss.coin_mj.steps.free_step import free_step
+from cointoss.coin_mj.steps.friction import apply_friction, friction_step
+from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap, turning_rate
+from cointoss.coin_mj.steps.knots import Step, add_knot
+from cointoss.coin_mj.steps.mujoco_step import set_margin, set_spring
+from cointoss.coin_mj.steps.resistance import shortest_stop
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.ending import classify_ending
+from cointoss.models.geometry import lowest_point
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import apply, cross, subtract
+from cointoss.models.perpetual import FIRST_CHECK
+from cointoss.models.records import Ending, Outcome
+from cointoss.models.rest import is_held, is_slowing, lever_of
+from cointoss.models.state import state
 
 HEAVY = 10
 """A touch is no impact when gravity alone gives its speed in HEAVY times the duration of a contact."""
@@ -148,13 +148,13 @@ def frequency_of(dt):
 
 @compiled
 def slows(coin, R, w):
-    """Return whether the floor's resistance slows a coin that stands; see `models.rest.is_slowing`."""
+    """Return whether the floor's resistance slows a coin that stands; see `is_slowing`."""
     return is_slowing(coin.body, coin.rolling_friction, coin.pivoting_friction, apply(R, w))
 
 
 @compiled
 def rests(coin, R, v, w, upright):
-    """Return whether resistance to rolling holds the coin where it is; see `models.rest.is_held`.
+    """Return whether resistance to rolling holds the coin where it is; see `cointoss.models.rest.is_held`.
 
     Args:
         coin: MuJoCo's.

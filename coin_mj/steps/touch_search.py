@@ -5,8 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from coin_mj.steps.gap_evaluation import shape_of
-from coin_mj.steps.turning_frame import (
+from cointoss.coin_mj.steps.gap_evaluation import shape_of
+from cointoss.coin_mj.steps.turning_frame import (
     TurningFrame,
     about_axis,
     about_axis_back,
@@ -17,12 +17,12 @@ from coin_mj.steps.turning_frame import (
     spin_rate,
     turn_after,
 )
-from models.attitude import rotation_matrix
-from models.clearance import clear_time
-from models.geometry import lowest_point
-from models.kernel.compiled import compiled
-from models.kernel.vectors import add, cross, dot, norm, scale, subtract
-from models.records import Array
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.clearance import clear_time
+from cointoss.models.geometry import lowest_point
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import add, cross, dot, norm, scale, subtract
+from cointoss.models.records import Array
 
 _HEIGHT, _UP, _SPIN, _ROWS = 0, 1, 4, 7
 _FINEST = 1e-7

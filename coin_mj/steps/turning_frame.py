@@ -9,9 +9,9 @@ normal at a constant rate s: e(t) = g exp(W t/2) exp(s ζ t/2), g constant. So t
 import math
 from typing import NamedTuple
 
-from models.attitude import Quaternion, quaternion_product
-from models.kernel.compiled import compiled
-from models.kernel.vectors import Vector, add, cross, norm, scale
+from cointoss.models.attitude import Quaternion, quaternion_product
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Vector, add, cross, norm, scale
 
 
 class TurningFrame(NamedTuple):

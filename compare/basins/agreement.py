@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from compare.basins.boundary import distance_to_doubt
-from compare.basins.maps import outcome_map
-from models.records import Outcome
+from cointoss.compare.basins.boundary import distance_to_doubt
+from cointoss.compare.basins.maps import outcome_map
+from cointoss.models.records import Outcome
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from compare.basins.maps import outcome_map
-from models.records import Array, Outcome
+from cointoss.compare.basins.maps import outcome_map
+from cointoss.models.records import Array, Outcome
 
 
 def boundary_pixels(outcomes: ArrayLike) -> NDArray[np.bool_]:

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import entr
 
-from compare.basins.maps import outcome_map
-from models.records import Outcome
+from cointoss.compare.basins.maps import outcome_map
+from cointoss.models.records import Outcome
 
 
 class Log2Test(StrEnum):

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from compare.basins.maps import outcome_codes
-from models.records import Outcome
+from cointoss.compare.basins.maps import outcome_codes
+from cointoss.models.records import Outcome
 
 
 def fractions(outcomes: ArrayLike) -> dict[Outcome, float]:

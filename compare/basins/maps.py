@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from models.records import Outcome
+from cointoss.models.records import Outcome
 
 OutcomeCodes = NDArray[np.int8]
 """Codes of `Outcome`."""

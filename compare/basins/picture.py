@@ -12,12 +12,12 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import ArrayLike, NDArray
 
-from compare.basins.boundary import boundary_pixels
-from compare.basins.maps import OutcomeCodes, outcome_map
-from compare.basins.picture_style import DPI, Palette
-from compare.output.files import written_whole
-from compare.output.style import GREEN, GREY, GRID, OUTCOMES, PURPLE, SKY, VERMILION
-from models.records import Outcome
+from cointoss.compare.basins.boundary import boundary_pixels
+from cointoss.compare.basins.maps import OutcomeCodes, outcome_map
+from cointoss.compare.basins.picture_style import DPI, Palette
+from cointoss.compare.output.files import written_whole
+from cointoss.compare.output.style import GREEN, GREY, GRID, OUTCOMES, PURPLE, SKY, VERMILION
+from cointoss.models.records import Outcome
 
 PANEL_SIZE = (5.0, 4.5)
 """Of one map, width and height [inches]."""

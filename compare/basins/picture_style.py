@@ -23,6 +23,6 @@ class PictureStyle:
     boundaries: bool = False
     """Whether pixels at a boundary are coloured as such."""
     size: tuple[float, float] | None = None
-    """Width and height of the whole, by default those of `compare.basins.picture` [inches]."""
+    """Width and height of the whole, by default those of `cointoss.compare.basins.picture` [inches]."""
     dpi: float = DPI
     """Pixels per inch."""

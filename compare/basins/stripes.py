@@ -7,8 +7,8 @@ maps after n = 0, 1, 2, ... impacts are all asked alike; a column is a row of th
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from compare.basins.maps import outcome_codes
-from models.records import Array, Outcome
+from cointoss.compare.basins.maps import outcome_codes
+from cointoss.models.records import Array, Outcome
 
 
 def crossings(outcomes: ArrayLike) -> NDArray[np.int64]:

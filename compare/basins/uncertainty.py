@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.stats import t
 
-from compare.basins.maps import OutcomeCodes, outcome_map
-from models.records import Array, Outcome
+from cointoss.compare.basins.maps import OutcomeCodes, outcome_map
+from cointoss.models.records import Array, Outcome
 
 BANDS = 8
 """Bands that the map is cut into, and the largest ε is at most a band of the map's length."""

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from compare.commands.common import (
+from cointoss.compare.commands.common import (
     SCENARIO_HELP,
     Count,
     Place,
@@ -16,8 +16,8 @@ from compare.commands.common import (
     plain_errors,
     say,
 )
-from compare.commands.names import axis_option, scenario_argument
-from compare.output.interruption import Interruption
+from cointoss.compare.commands.names import axis_option, scenario_argument
+from cointoss.compare.output.interruption import Interruption
 
 
 class _Size(click.ParamType):
@@ -132,13 +132,13 @@ def basin(
             "--palette, --boundaries, --size and --dpi: accepted: only beside --png or --report"
         )
     with plain_errors(scenario):
-        from models.stages import stage
+        from cointoss.models.stages import stage
 
         with stage("getting ready"):  # what is imported takes long on a busy machine
-            from compare.basins.picture_style import DPI, Palette, PictureStyle
-            from compare.engines import Engine
-            from compare.sweep.job import Job, make
-            from models.reading import scenario_text
+            from cointoss.compare.basins.picture_style import DPI, Palette, PictureStyle
+            from cointoss.compare.engines import Engine
+            from cointoss.compare.sweep.job import Job, make
+            from cointoss.models.reading import scenario_text
 
         job = Job(
             source=scenario,
@@ -167,7 +167,7 @@ def basin(
 @contextmanager
 def _watched(name: str, done: int, count: int) -> Iterator[Callable[[int], None]]:
     """Yield a function to report tosses to, which shows how many there are."""
-    from models.stages import stage
+    from cointoss.models.stages import stage
 
     kept = done
 

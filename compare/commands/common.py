@@ -73,7 +73,7 @@ class Quantity(click.ParamType):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Given:
         """Return the number, or refuse the value with what is accepted."""
-        from models.units import in_si
+        from cointoss.models.units import in_si
 
         if isinstance(value, Given):
             return value
@@ -94,7 +94,7 @@ def naming_options(options: Mapping[str, tuple[str, object]]) -> Iterator[None]:
     Args:
         options: for each field the option, and what was typed.
     """
-    from models.errors import FieldError
+    from cointoss.models.errors import FieldError
 
     try:
         yield
@@ -106,13 +106,13 @@ def naming_options(options: Mapping[str, tuple[str, object]]) -> Iterator[None]:
 @contextmanager
 def plain_errors(source: str) -> Iterator[None]:
     """Turn the errors of bad input into one line and exit status 2, and warnings into one line each."""
-    from compare.film.back_end import BackEndError
-    from compare.output.files import UnwritableError
-    from compare.output.progress import progress_shown
-    from compare.sweep.errors import MapError, SweepError
-    from models.errors import ScenarioError
-    from models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
-    from models.unused import UnusedFieldWarning
+    from cointoss.compare.film.back_end import BackEndError
+    from cointoss.compare.output.files import UnwritableError
+    from cointoss.compare.output.progress import progress_shown
+    from cointoss.compare.sweep.errors import MapError, SweepError
+    from cointoss.models.errors import ScenarioError
+    from cointoss.models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
+    from cointoss.models.unused import UnusedFieldWarning
 
     told, reported = (ApproximationWarning, UnusedFieldWarning), set()
 

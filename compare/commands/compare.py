@@ -4,8 +4,8 @@ from pathlib import Path
 
 import click
 
-from compare.commands.common import SCENARIO_HELP, Place, no_video_option, plain_errors
-from compare.commands.names import scenario_argument
+from cointoss.compare.commands.common import SCENARIO_HELP, Place, no_video_option, plain_errors
+from cointoss.compare.commands.names import scenario_argument
 
 
 @click.command(epilog=SCENARIO_HELP)
@@ -22,24 +22,24 @@ def compare(scenario: str, out: Path | None, no_video: bool) -> None:
     The report shows both tosses side by side, with a video. The page is there before the video is drawn.
     """
     with plain_errors(scenario):
-        from compare.report.contents import NOT_ASKED, require_folder
-        from models.reading import parse, scenario_text
-        from models.stages import stage
-        from models.unused import warn_of_unused_fields
+        from cointoss.compare.report.contents import NOT_ASKED, require_folder
+        from cointoss.models.reading import parse, scenario_text
+        from cointoss.models.stages import stage
+        from cointoss.models.unused import warn_of_unused_fields
 
         text = scenario_text(scenario)
         described = parse(text, scenario)
-        warn_of_unused_fields(described)
+        warn_of_unused_fields(described.floor, described.air)
         name = Path(scenario).stem
         folder = out or Path(f"{name}-report")
         require_folder(folder, scenario)
 
         with stage("getting ready"):  # what is imported takes long on a busy machine
-            from compare.film.back_end import drawing_problem
+            from cointoss.compare.film.back_end import drawing_problem
 
             problem = NOT_ASKED if no_video else drawing_problem()
 
-            from compare.report.comparison import compared
-            from compare.report.folder import write_report
+            from cointoss.compare.report.comparison import compared
+            from cointoss.compare.report.folder import write_report
 
         click.echo(write_report(compared(described, text, name), folder, problem))

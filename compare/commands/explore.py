@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from compare.commands.common import Count, Place, plain_errors, say
+from cointoss.compare.commands.common import Count, Place, plain_errors, say
 
 
 @click.command()
@@ -27,8 +27,8 @@ def explore(map_path: Path, port: int | None, no_browser: bool, static: Path | N
         raise click.UsageError("--static: accepted: without --port and --no-browser")
     with plain_errors(str(map_path)):
         if static is not None:
-            from compare.explorer.static import write_static
-            from compare.output.files import require_file
+            from cointoss.compare.explorer.static import write_static
+            from cointoss.compare.output.files import require_file
 
             require_file(static, ".html", str(map_path))
             write_static(map_path, static)
@@ -36,7 +36,7 @@ def explore(map_path: Path, port: int | None, no_browser: bool, static: Path | N
             return
         import webbrowser
 
-        from compare.explorer.server import Explorer
+        from cointoss.compare.explorer.server import Explorer
 
         with Explorer(map_path, port or 0) as explorer:
             click.echo(explorer.url)

@@ -5,7 +5,7 @@ from dataclasses import asdict
 
 import click
 
-from compare.commands.common import (
+from cointoss.compare.commands.common import (
     SCENARIO_HELP,
     Count,
     Given,
@@ -15,7 +15,7 @@ from compare.commands.common import (
     plain_errors,
     refuse,
 )
-from compare.commands.names import scenario_argument
+from cointoss.compare.commands.names import scenario_argument
 
 
 @click.command(epilog=SCENARIO_HELP)
@@ -70,14 +70,14 @@ def hands(
     with plain_errors(scenario):
         import numpy as np
 
-        from compare.engines import Engine
-        from compare.film.back_end import require_mujoco
-        from compare.metrics.first_side import TOUCHES, caught_side, first_side
-        from compare.reproduction.estimates import share
-        from models.errors import ScenarioError
-        from models.hand import Hand
-        from models.reading import load
-        from models.releases import check_releases
+        from cointoss.compare.engines import Engine
+        from cointoss.compare.film.back_end import require_mujoco
+        from cointoss.compare.metrics.first_side import TOUCHES, caught_side, first_side
+        from cointoss.compare.reproduction.estimates import share
+        from cointoss.models.errors import ScenarioError
+        from cointoss.models.hand import Hand
+        from cointoss.models.reading import load
+        from cointoss.models.releases import check_releases
 
         described = load(scenario)
         hand = {name: number.value for name, number in given.items()}

@@ -19,19 +19,19 @@ def _completing(known: Callable[[], Iterable[str]], *, files: bool = False) -> d
 
 
 def _scenarios() -> list[str]:
-    from models.reading import named_scenarios
+    from cointoss.models.reading import named_scenarios
 
     return named_scenarios()
 
 
 def _axes() -> list[str]:
-    from models.fields import UNITS
+    from cointoss.models.fields import UNITS
 
     return [f"{field}=" for field in UNITS]
 
 
 def _reproductions() -> list[str]:
-    from compare.reproduction.runner import names
+    from cointoss.compare.reproduction.runner import names
 
     return [*names(), "all"]
 

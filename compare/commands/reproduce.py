@@ -7,8 +7,8 @@ from pathlib import Path
 
 import click
 
-from compare.commands.common import Place, plain_errors
-from compare.commands.names import reproductions_argument
+from cointoss.compare.commands.common import Place, plain_errors
+from cointoss.compare.commands.names import reproductions_argument
 
 
 @click.command()
@@ -27,11 +27,11 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
     the paper and writes REPRODUCTION.md, claims.csv and gallery.html. Without NAME, list the names. Exit
     status 1: a claim comes out otherwise than known.
     """
-    from compare.film.back_end import drawing_problem, require_mujoco
-    from compare.output.files import require_folder
-    from compare.reproduction import gallery, printing, runner
-    from compare.reproduction.claim import unexpected
-    from models.stages import stage
+    from cointoss.compare.film.back_end import drawing_problem, require_mujoco
+    from cointoss.compare.output.files import require_folder
+    from cointoss.compare.reproduction import gallery, printing, runner
+    from cointoss.compare.reproduction.claim import unexpected
+    from cointoss.models.stages import stage
 
     with plain_errors("reproduce"):
         # Figures may hold stills: the back end is chosen before MuJoCo is imported.

@@ -5,7 +5,7 @@ from dataclasses import asdict
 
 import click
 
-from compare.commands.common import Count, Given, Quantity, naming_options, plain_errors
+from cointoss.compare.commands.common import Count, Given, Quantity, naming_options, plain_errors
 
 
 @click.command()
@@ -33,11 +33,11 @@ def solref(
     if model and as_json:
         raise click.UsageError("--model and --json: accepted: one of them")
     with plain_errors("solref"):
-        from compare.film.back_end import require_mujoco
+        from cointoss.compare.film.back_end import require_mujoco
 
         require_mujoco()
-        import coin_mj
-        from coin_mj.bounce import SPEED, SPRING_STEPS
+        from cointoss import coin_mj
+        from cointoss.coin_mj.bounce import SPEED, SPRING_STEPS
 
         with naming_options({"restitution": ("--restitution", restitution), "timestep": ("--dt", dt)}):
             found = coin_mj.solref(

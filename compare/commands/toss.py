@@ -6,8 +6,15 @@ from pathlib import Path
 
 import click
 
-from compare.commands.common import SCENARIO_HELP, Count, Place, contact_option, engine_option, plain_errors
-from compare.commands.names import scenario_argument
+from cointoss.compare.commands.common import (
+    SCENARIO_HELP,
+    Count,
+    Place,
+    contact_option,
+    engine_option,
+    plain_errors,
+)
+from cointoss.compare.commands.names import scenario_argument
 
 
 @click.command(epilog=SCENARIO_HELP)
@@ -51,14 +58,14 @@ def toss(
     if flight_steps is not None and engine != "mujoco":
         raise click.UsageError(f"--flight-steps {flight_steps}: accepted: only beside --engine mujoco")
     with plain_errors(scenario):
-        from models.stages import stage
+        from cointoss.models.stages import stage
 
         with stage("getting ready"):  # what is imported takes long on a busy machine
-            from compare.engines import Engine
-            from compare.film.back_end import require_mujoco
-            from compare.output import answer
-            from compare.output.files import is_stream, require_file, write_text
-            from models.reading import load
+            from cointoss.compare.engines import Engine
+            from cointoss.compare.film.back_end import require_mujoco
+            from cointoss.compare.output import answer
+            from cointoss.compare.output.files import is_stream, require_file, write_text
+            from cointoss.models.reading import load
 
             described = load(scenario)
             if engine == Engine.MUJOCO:
@@ -77,7 +84,7 @@ def toss(
             write_text(trajectory, answer.path_csv(result.sample(times)))
         extra = []
         if margin:
-            from compare.metrics.margin import margins
+            from cointoss.compare.metrics.margin import margins
 
             extra = margins(described)
         if as_json:

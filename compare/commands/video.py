@@ -4,8 +4,8 @@ from pathlib import Path
 
 import click
 
-from compare.commands.common import SCENARIO_HELP, Place, plain_errors, refuse
-from compare.commands.names import scenario_argument
+from cointoss.compare.commands.common import SCENARIO_HELP, Place, plain_errors, refuse
+from cointoss.compare.commands.names import scenario_argument
 
 
 @click.command(epilog=SCENARIO_HELP)
@@ -32,17 +32,17 @@ def video(scenario: str, out: Path, engine: str, camera: str, poster: Path | Non
     The film slows down around the impacts.
     """
     with plain_errors(scenario):
-        from compare.film.encodings import ENCODINGS
-        from compare.output.files import require_file, written_whole
-        from models.reading import load
-        from models.stages import stage
+        from cointoss.compare.film.encodings import ENCODINGS
+        from cointoss.compare.output.files import require_file, written_whole
+        from cointoss.models.reading import load
+        from cointoss.models.stages import stage
 
         described = load(scenario)
         require_file(out, tuple(ENCODINGS), scenario)
         if poster is not None:
             require_file(poster, ".png", scenario)
 
-        from compare.film.back_end import drawing_problem
+        from cointoss.compare.film.back_end import drawing_problem
 
         problem = drawing_problem()
         if problem is not None:
@@ -51,10 +51,10 @@ def video(scenario: str, out: Path, engine: str, camera: str, poster: Path | Non
         with stage("getting ready"):  # what is imported takes long on a busy machine
             from PIL import Image
 
-            from compare.engines import Engine
-            from compare.film.drawing import Camera
-            from compare.film.filmed import followed
-            from compare.film.video import write_video
+            from cointoss.compare.engines import Engine
+            from cointoss.compare.film.drawing import Camera
+            from cointoss.compare.film.filmed import followed
+            from cointoss.compare.film.video import write_video
 
         engines = list(Engine) if engine == "both" else [Engine(engine)]
         shown = [followed(each.package.toss(described)) for each in engines]

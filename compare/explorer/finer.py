@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.sweep.axes import Axis
-from compare.sweep.errors import SweepError
-from compare.sweep.grid import Sweep, Tile
-from compare.sweep.layers import NOT_TOSSED
-from compare.sweep.pixels import toss_pixels
+from cointoss.compare.sweep.axes import Axis
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.grid import Sweep, Tile
+from cointoss.compare.sweep.layers import NOT_TOSSED
+from cointoss.compare.sweep.pixels import toss_pixels
 
 SIDE = 32
 """Of a tile, in pixels of the finer map."""

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from compare.metrics.margin import quantity_of
-from compare.output.style import OUTCOMES
-from compare.sweep.axes import Axis
-from compare.sweep.layers import NOT_TOSSED
-from compare.sweep.outcome_map import OutcomeMap
+from cointoss.compare.metrics.margin import quantity_of
+from cointoss.compare.output.style import OUTCOMES
+from cointoss.compare.sweep.axes import Axis
+from cointoss.compare.sweep.layers import NOT_TOSSED
+from cointoss.compare.sweep.outcome_map import OutcomeMap
 
 MOST_SHOWN = 4_000_000
 """Pixels on the page: of a larger map every second, third, ..."""

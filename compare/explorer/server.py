@@ -12,17 +12,17 @@ from socketserver import ThreadingTCPServer
 from typing import Any
 from urllib.parse import parse_qsl
 
-from compare.engines import Engine
-from compare.explorer.finer import toss_tile
-from compare.explorer.page_files import page_files
-from compare.explorer.page_map import MOST_SHOWN, page_map
-from compare.explorer.tosses import require_inside, toss_pixel
-from compare.output.files import UnwritableError
-from compare.sweep.errors import SweepError
-from compare.sweep.outcome_map import OutcomeMap
-from compare.sweep.reading import read_map
-from models.errors import ScenarioError
-from models.records import UnsupportedError
+from cointoss.compare.engines import Engine
+from cointoss.compare.explorer.finer import toss_tile
+from cointoss.compare.explorer.page_files import page_files
+from cointoss.compare.explorer.page_map import MOST_SHOWN, page_map
+from cointoss.compare.explorer.tosses import require_inside, toss_pixel
+from cointoss.compare.output.files import UnwritableError
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.outcome_map import OutcomeMap
+from cointoss.compare.sweep.reading import read_map
+from cointoss.models.errors import ScenarioError
+from cointoss.models.records import UnsupportedError
 
 ADDRESS = "127.0.0.1"
 LONGEST_TARGET = 1000

@@ -4,15 +4,15 @@ from pathlib import Path
 
 import numpy as np
 
-from compare.engines import Engine
-from compare.explorer.page_files import page_files
-from compare.explorer.page_map import page_map
-from compare.explorer.tosses import toss_pixel
-from compare.output.files import write_text
-from compare.sweep.outcome_map import OutcomeMap
-from compare.sweep.reading import read_map
-from compare.web.scripts import POLICY, data_element, import_map
-from models.stages import counted
+from cointoss.compare.engines import Engine
+from cointoss.compare.explorer.page_files import page_files
+from cointoss.compare.explorer.page_map import page_map
+from cointoss.compare.explorer.tosses import toss_pixel
+from cointoss.compare.output.files import write_text
+from cointoss.compare.sweep.outcome_map import OutcomeMap
+from cointoss.compare.sweep.reading import read_map
+from cointoss.compare.web.scripts import POLICY, data_element, import_map
+from cointoss.models.stages import counted
 
 MOST_BYTES = 10_000_000
 """Of the file."""

@@ -4,13 +4,13 @@ import warnings
 from dataclasses import replace
 from typing import Any
 
-from compare.engines import Engine
-from compare.film.back_end import BackEndError, require_mujoco
-from compare.sweep.errors import SweepError
-from compare.sweep.grid import Sweep
-from compare.sweep.pixels import pixel_scenario
-from compare.web.playable import coin_of, path_of, rounded
-from models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
+from cointoss.compare.engines import Engine
+from cointoss.compare.film.back_end import BackEndError, require_mujoco
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.grid import Sweep
+from cointoss.compare.sweep.pixels import pixel_scenario
+from cointoss.compare.web.playable import coin_of, path_of, rounded
+from cointoss.models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
 
 SAMPLES = 1200
 """Of the path that is played."""

@@ -11,7 +11,7 @@ import sys
 from functools import cache
 from importlib import import_module
 
-from models.stages import stage
+from cointoss.models.stages import stage
 
 _DRAW_ONE_FRAME = """
 import mujoco

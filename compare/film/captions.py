@@ -8,11 +8,11 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from PIL import Image, ImageDraw, ImageFont
 
-from compare.film.drawing import FORCE_COLOR, IMPULSE_COLOR
-from compare.film.play import Play
-from compare.output.style import HEADS, TAILS
-from models.ending import face_up
-from models.records import Ending, Face, Outcome
+from cointoss.compare.film.drawing import FORCE_COLOR, IMPULSE_COLOR
+from cointoss.compare.film.play import Play
+from cointoss.compare.output.style import HEADS, TAILS
+from cointoss.models.ending import face_up
+from cointoss.models.records import Ending, Face, Outcome
 
 Color = tuple[int, int, int]
 

@@ -12,10 +12,10 @@ from typing import NamedTuple, Self
 import mujoco
 import numpy as np
 
-from compare.film.play import Play
-from compare.film.shadow import add_shadow
-from compare.film.visual_model import build_visual_model
-from models.records import Array, Ending
+from cointoss.compare.film.play import Play
+from cointoss.compare.film.shadow import add_shadow
+from cointoss.compare.film.visual_model import build_visual_model
+from cointoss.models.records import Array, Ending
 
 IMPULSE_COLOR, FORCE_COLOR = (0.72, 0.10, 0.44), (0.00, 0.45, 0.32)
 """Of the arrows: red, green and blue, from 0 to 1."""

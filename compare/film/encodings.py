@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from compare.film.slow_motion import LONGEST
+from cointoss.compare.film.slow_motion import LONGEST
 
 
 class Format(NamedTuple):

@@ -3,9 +3,9 @@
 import warnings
 from dataclasses import dataclass
 
-from compare.engines import Engine, EngineSettings
-from models.records import ApproximationWarning, Ending, Toss
-from models.stages import stage
+from cointoss.compare.engines import Engine, EngineSettings
+from cointoss.models.records import ApproximationWarning, Ending, Toss
+from cointoss.models.stages import stage
 
 FOLLOWED_FOR = 2.0
 """A coin that does not come to lie is followed so long after its face is settled [s]."""

@@ -6,13 +6,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from coin_mj.model.state import of_release
-from compare.film.filmed import Filmed
-from models.attitude import rotation_matrix
-from models.geometry import lowest_point
-from models.kernel.vectors import add, apply, subtract
-from models.records import Array, Ending, States, Toss
-from models.scenario import Release, euler_parameters, vector
+from cointoss.coin_mj.model.state import of_release
+from cointoss.compare.film.filmed import Filmed
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.geometry import lowest_point
+from cointoss.models.kernel.vectors import add, apply, subtract
+from cointoss.models.parts import Release
+from cointoss.models.records import Array, Ending, States, Toss
+from cointoss.models.scenario import euler_parameters, vector
 
 SHOWN_FOR = 0.015
 """How long after an impact its impulse is shown [s]."""

@@ -8,7 +8,7 @@ import math
 import mujoco
 import numpy as np
 
-from models.scenario import Coin
+from cointoss.models.parts import Coin
 
 THICKNESS = 0.01
 """How far the shadow stands above the floor, in the coin's radii: neither is drawn through the other."""

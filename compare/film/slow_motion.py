@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from compare.film.filmed import Filmed
-from models.records import Array, Ending
+from cointoss.compare.film.filmed import Filmed
+from cointoss.models.records import Array, Ending
 
 FAST, SLOW, SETTLED = 1 / 4, 1 / 60, 1.0
 """Speed of the film far from an impact, at one, and when no face can change, relative to the clock."""

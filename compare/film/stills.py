@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.film.back_end import drawing_problem
-from models.records import States
-from models.scenario import Release, Scenario, euler_parameters, vector
+from cointoss.compare.film.back_end import drawing_problem
+from cointoss.models.parts import Release
+from cointoss.models.records import States
+from cointoss.models.scenario import Scenario, euler_parameters, vector
 
 Stills = NDArray[Any]
 """Red, green and blue, (n, height, width, 3) of uint8."""
@@ -30,9 +31,9 @@ def stills(scenario: Scenario, states: States) -> Stills | str:
 
     import mujoco
 
-    from coin_mj.model.state import of_release
-    from compare.film.shadow import add_shadow
-    from compare.film.visual_model import build_visual_model
+    from cointoss.coin_mj.model.state import of_release
+    from cointoss.compare.film.shadow import add_shadow
+    from cointoss.compare.film.visual_model import build_visual_model
 
     body = scenario.body
     positions = states.position

@@ -10,13 +10,13 @@ import imageio_ffmpeg
 import mediapy
 import numpy as np
 
-from compare.film.captions import caption_of, written
-from compare.film.drawing import Camera, Drawer, box_of
-from compare.film.encodings import ENCODINGS, Format
-from compare.film.filmed import Filmed
-from compare.film.play import play_of
-from compare.film.slow_motion import film_times
-from compare.output.interruption import raise_interruption_behind
+from cointoss.compare.film.captions import caption_of, written
+from cointoss.compare.film.drawing import Camera, Drawer, box_of
+from cointoss.compare.film.encodings import ENCODINGS, Format
+from cointoss.compare.film.filmed import Filmed
+from cointoss.compare.film.play import play_of
+from cointoss.compare.film.slow_motion import film_times
+from cointoss.compare.output.interruption import raise_interruption_behind
 
 HELD = 1.5
 """How long the last picture stays [s]."""

@@ -5,8 +5,8 @@
 
 import mujoco
 
-from coin_mj.model.scene import described, shape_thickness
-from models.scenario import Scenario
+from cointoss.coin_mj.model.scene import described, shape_thickness
+from cointoss.models.scenario import Scenario
 
 # Boxes in the plane of a face, x, y and half their sizes, in radii. Both letters are their own mirror images.
 _BAR, _HEIGHT = 0.1, 0.5

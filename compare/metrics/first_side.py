@@ -5,11 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.engines import Engine
-from models.records import Ending, Outcome
-from models.releases import Releases
-from models.scenario import Scenario
-from models.stages import stage
+from cointoss.compare.engines import Engine
+from cointoss.models.records import Ending, Outcome
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
+from cointoss.models.stages import stage
 
 TOUCHES = (0, 1, 2, 3)
 """Impacts before each touch that is counted."""

@@ -4,11 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import analytic
-from models.attitude import rotation_matrix
-from models.geometry import gap
-from models.records import Array, Impacts, Toss
-from models.scenario import Release, euler_parameters, vector
+from cointoss import analytic
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.geometry import gap
+from cointoss.models.parts import Release
+from cointoss.models.records import Array, Impacts, Toss
+from cointoss.models.scenario import euler_parameters, vector
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

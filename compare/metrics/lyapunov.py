@@ -4,11 +4,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from analytic.events import run
-from analytic.horizon.sensitivity import event_tangent
-from analytic.toss import state_of
-from models.records import Array
-from models.scenario import Scenario
+from cointoss.analytic.events import run
+from cointoss.analytic.horizon.sensitivity import event_tangent
+from cointoss.analytic.toss import state_of
+from cointoss.models.records import Array
+from cointoss.models.scenario import Scenario
 
 
 def growth_by_tangent(scenario: Scenario) -> Array:

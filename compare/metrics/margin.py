@@ -8,13 +8,13 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-import analytic
-from compare.precision.certified import PlanarRelease, proved_part
-from compare.precision.planar_coin import planar_coin, units
-from models.records import Array
-from models.releases import Releases, check_releases
-from models.scenario import Scenario
-from models.stages import counted
+from cointoss import analytic
+from cointoss.compare.precision.certified import PlanarRelease, proved_part
+from cointoss.compare.precision.planar_coin import planar_coin, units
+from cointoss.models.records import Array
+from cointoss.models.releases import Releases, check_releases
+from cointoss.models.scenario import Scenario
+from cointoss.models.stages import counted
 
 Codes = NDArray[np.int8]
 """Codes of `Outcome`."""

@@ -1,8 +1,9 @@
 """How far two heads-and-tails sequences agree, and how far they must."""
 
-import analytic
-from models.records import Array, Toss
-from models.scenario import Release, euler_parameters, vector
+from cointoss import analytic
+from cointoss.models.parts import Release
+from cointoss.models.records import Array, Toss
+from cointoss.models.scenario import euler_parameters, vector
 
 SAFETY = 2.0
 """The horizon supposes errors so many times larger than those measured."""

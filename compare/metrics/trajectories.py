@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from models.records import Array, States
+from cointoss.models.records import Array, States
 
 
 def distance(a: States, b: States) -> Array:

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from models import certificate
-from models.notebook import shortened, with_bar
-from models.records import Face, Impacts, Outcome, States, Toss, UnsupportedError
+from cointoss.models import certificate
+from cointoss.models.notebook import shortened, with_bar
+from cointoss.models.records import Face, Impacts, Outcome, States, Toss, UnsupportedError
 
 _JSON_FIELDS = (
     "impulse",

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from compare.output.interruption import undoing
+from cointoss.compare.output.interruption import undoing
 
 
 class UnwritableError(OSError):

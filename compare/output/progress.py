@@ -9,8 +9,8 @@ from contextlib import contextmanager, suppress
 from functools import partial
 from typing import Any
 
-from models.kernel.compiling import Compiling, compiling
-from models.stages import Stage, Stages, stages
+from cointoss.models.kernel.compiling import Compiling, compiling
+from cointoss.models.stages import Stage, Stages, stages
 
 Progress = Callable[[int, int], None]
 """Called after each part of a job with the number of parts done so far and of all."""

@@ -4,7 +4,7 @@ from typing import Any
 
 from matplotlib.colors import LinearSegmentedColormap
 
-from models.records import Outcome
+from cointoss.models.records import Outcome
 
 # Okabe and Ito's colours, which the colour-blind can distinguish.
 BLUE, VERMILION, GREEN = "#0072B2", "#D55E00", "#009E73"

@@ -14,7 +14,7 @@ def laid_out(markdown: str, width: int) -> str:
     """Return paragraphs and tables in Markdown with lines of at most a width, where words allow it.
 
     Args:
-        markdown: paragraphs, and tables as `compare.output.tables` makes them, blank lines between.
+        markdown: paragraphs, and tables as `cointoss.compare.output.tables` makes them, blank lines between.
         width: of the terminal.
     """
     parts = [

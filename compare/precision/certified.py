@@ -15,11 +15,19 @@ from typing import Any, NamedTuple
 
 from flint import acb, arb, ctx, fmpq
 
-from compare.precision.certified_gap import Gap, polynomial
-from compare.precision.double_double import exact
-from compare.precision.planar_coin import PlanarCoin, Units, square_root
-from compare.precision.taylor_models import ORDER, TaylorModel, UndecidedError, middle, varying, whole, zero
-from models.records import Outcome
+from cointoss.compare.precision.certified_gap import Gap, polynomial
+from cointoss.compare.precision.double_double import exact
+from cointoss.compare.precision.planar_coin import PlanarCoin, Units, square_root
+from cointoss.compare.precision.taylor_models import (
+    ORDER,
+    TaylorModel,
+    UndecidedError,
+    middle,
+    varying,
+    whole,
+    zero,
+)
+from cointoss.models.records import Outcome
 
 MOST_IMPACTS = 5000
 TURN = 2.0

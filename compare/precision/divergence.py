@@ -5,12 +5,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.precision.planar_coin import PlanarCoin
-from compare.precision.planar_flight import ORDER
-from compare.precision.planar_state import SIZE, copy_state
-from compare.precision.planar_toss import MOST_IMPACTS, toss
-from models.kernel.compiled import compiled
-from models.records import Array
+from cointoss.compare.precision.planar_coin import PlanarCoin
+from cointoss.compare.precision.planar_flight import ORDER
+from cointoss.compare.precision.planar_state import SIZE, copy_state
+from cointoss.compare.precision.planar_toss import MOST_IMPACTS, toss
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.records import Array
 
 COMPARED = 400
 """Touches that are compared, at most."""

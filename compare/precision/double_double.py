@@ -9,7 +9,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import compiled
 
 Pair = tuple[float, float]
 ONE: Pair = (1.0, 0.0)

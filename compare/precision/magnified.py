@@ -6,11 +6,11 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.precision.double_double import exact, pair_of
-from compare.precision.planar_coin import PlanarCoin
-from compare.precision.planar_toss import toss_many
-from compare.precision.splitting import spread
-from models.records import Array
+from cointoss.compare.precision.double_double import exact, pair_of
+from cointoss.compare.precision.planar_coin import PlanarCoin
+from cointoss.compare.precision.planar_toss import toss_many
+from cointoss.compare.precision.splitting import spread
+from cointoss.models.records import Array
 
 MAGNIFICATION = 10
 

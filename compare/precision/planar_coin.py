@@ -4,9 +4,10 @@ from fractions import Fraction
 from math import isqrt
 from typing import NamedTuple
 
-from compare.precision.double_double import Pair, pair_of
-from models.laws import ContactLaw
-from models.scenario import RESISTANCES, Scenario
+from cointoss.compare.precision.double_double import Pair, pair_of
+from cointoss.models.laws import ContactLaw
+from cointoss.models.parts import RESISTANCES
+from cointoss.models.scenario import Scenario
 
 LAWS = (ContactLaw.SMOOTH, ContactLaw.PERFECTLY_ROUGH)
 
@@ -28,7 +29,7 @@ class PlanarCoin(NamedTuple):
     slowing: Pair
     """d_t/J_ξ: at this rate air slows the spin."""
     sliding_share: float
-    """Of the energy of horizontal motion, what air can still turn into height; see `models.drag`."""
+    """Of the energy of horizontal motion, what air can still turn into height; see `cointoss.models.drag`."""
 
 
 class Units(NamedTuple):

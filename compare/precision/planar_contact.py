@@ -2,7 +2,7 @@
 
 import math
 
-from compare.precision.double_double import (
+from cointoss.compare.precision.double_double import (
     ONE,
     add,
     divide,
@@ -13,7 +13,7 @@ from compare.precision.double_double import (
     square_root,
     subtract,
 )
-from compare.precision.planar_state import (
+from cointoss.compare.precision.planar_state import (
     DRIFT,
     FALL,
     HEIGHT,
@@ -26,7 +26,7 @@ from compare.precision.planar_state import (
     put,
     rim_velocity,
 )
-from models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import compiled
 
 SLAPS = 1000
 """Impacts of a flat coin on its two rim points in turn, at most."""

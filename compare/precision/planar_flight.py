@@ -11,7 +11,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from compare.precision.double_double import (
+from cointoss.compare.precision.double_double import (
     ONE,
     add,
     cosine_minus_parabola,
@@ -23,8 +23,8 @@ from compare.precision.double_double import (
     sine_minus_angle,
     subtract,
 )
-from compare.precision.planar_state import DRIFT, FALL, HEIGHT, SPIN, TILT, part, put
-from models.kernel.compiled import compiled
+from cointoss.compare.precision.planar_state import DRIFT, FALL, HEIGHT, SPIN, TILT, part, put
+from cointoss.models.kernel.compiled import compiled
 
 ORDER = 60
 """Of the series in air, at most; it ends with terms below `LAST_TERM`."""

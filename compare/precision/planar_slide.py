@@ -9,8 +9,8 @@ import math
 
 import numpy as np
 
-from analytic.numerics.tableau import STAGES, A, B
-from compare.precision.double_double import (
+from cointoss.analytic.numerics.tableau import STAGES, A, B
+from cointoss.compare.precision.double_double import (
     ONE,
     add,
     divide,
@@ -20,7 +20,7 @@ from compare.precision.double_double import (
     sine_cosine,
     subtract,
 )
-from compare.precision.planar_state import (
+from cointoss.compare.precision.planar_state import (
     DRIFT,
     FALL,
     HEIGHT,
@@ -33,7 +33,7 @@ from compare.precision.planar_state import (
     put,
     turned_within,
 )
-from models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import compiled
 
 STEP = 0.05
 """Of time [sqrt(r/g)]."""

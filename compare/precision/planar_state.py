@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.precision.double_double import (
+from cointoss.compare.precision.double_double import (
     ONE,
     add,
     multiply,
@@ -15,8 +15,8 @@ from compare.precision.double_double import (
     sine_cosine,
     subtract,
 )
-from compare.precision.planar_coin import Units, square_root
-from models.kernel.compiled import compiled
+from cointoss.compare.precision.planar_coin import Units, square_root
+from cointoss.models.kernel.compiled import compiled
 
 HEIGHT, FALL, TILT, SPIN, DRIFT, SIZE = 0, 1, 2, 3, 4, 5
 """Rows of a state, (5, 2): height and velocity of C, the angle of the coin's plane, its rate, velocity aside.

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.precision.planar_coin import PlanarCoin
-from compare.precision.planar_contact import (
+from cointoss.compare.precision.planar_coin import PlanarCoin
+from cointoss.compare.precision.planar_contact import (
     LIES,
     LIFTS,
     drawn_up,
@@ -17,9 +17,9 @@ from compare.precision.planar_contact import (
     slap,
     stop,
 )
-from compare.precision.planar_flight import ORDER, fly
-from compare.precision.planar_slide import slide
-from compare.precision.planar_state import (
+from cointoss.compare.precision.planar_flight import ORDER, fly
+from cointoss.compare.precision.planar_slide import slide
+from cointoss.compare.precision.planar_state import (
     FALL,
     HEIGHT,
     SIZE,
@@ -30,8 +30,8 @@ from compare.precision.planar_state import (
     rim_velocity,
     turned_within,
 )
-from models.kernel.compiled import compiled
-from models.records import Array, Outcome
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.records import Array, Outcome
 
 MOST_IMPACTS = 20_000
 CHATTERING, CHATTERING_ROUGH = 1e-10, 1e-15

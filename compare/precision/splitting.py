@@ -15,12 +15,12 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.precision.divergence import toss_lines
-from compare.precision.double_double import add, pair_of, scale
-from compare.precision.planar_coin import PlanarCoin
-from compare.precision.planar_state import part, put
-from models.kernel.compiled import compiled
-from models.records import Array
+from cointoss.compare.precision.divergence import toss_lines
+from cointoss.compare.precision.double_double import add, pair_of, scale
+from cointoss.compare.precision.planar_coin import PlanarCoin
+from cointoss.compare.precision.planar_state import part, put
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.records import Array
 
 PARTS = 10
 DIFFERENT, WANDERING, ALIKE = 0, 1, 2

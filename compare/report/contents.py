@@ -3,9 +3,9 @@
 import json
 from pathlib import Path
 
-from compare.output import files
-from compare.output.files import UnwritableError
-from models.distribution import DISTRIBUTION
+from cointoss.compare.output import files
+from cointoss.compare.output.files import UnwritableError
+from cointoss.models.distribution import DISTRIBUTION
 
 OF_THE_FILM = ("report.html", "toss.mp4")
 FILES = (*OF_THE_FILM, "numbers.json", "path-analytic.csv", "path-mujoco.csv")

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from models.records import Toss
+from cointoss.models.records import Toss
 
 
 def counts_sentence(tosses: Sequence[Toss]) -> str:

@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from compare.film.filmed import FOLLOWED_FOR, goes_on
-from models.records import Ending, Toss
+from cointoss.compare.film.filmed import FOLLOWED_FOR, goes_on
+from cointoss.models.records import Ending, Toss
 
 COLORS = "Gold with an H is heads, blue with a T is tails."
 ARROWS = (

@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from compare.output import answer
-from compare.output.files import written_together
-from compare.report.comparison import Comparison
-from compare.report.contents import FILES, OF_THE_FILM
-from compare.report.map_section import MapSection
-from compare.report.page import Film, Page, render, versions
-from models.records import Array
-from models.stages import stage
+from cointoss.compare.output import answer
+from cointoss.compare.output.files import written_together
+from cointoss.compare.report.compared_tosses import ComparedTosses
+from cointoss.compare.report.contents import FILES, OF_THE_FILM
+from cointoss.compare.report.map_section import MapSection
+from cointoss.compare.report.page import Film, Page, render, versions
+from cointoss.models.records import Array
+from cointoss.models.stages import stage
 
 BEING_DRAWN = (
     "It is being drawn: reload this page when cointoss has ended. "
@@ -24,7 +24,7 @@ BEING_DRAWN = (
 
 
 def write_report(
-    comparison: Comparison,
+    comparison: ComparedTosses,
     folder: Path,
     no_video: str | None,
     *,
@@ -60,9 +60,9 @@ def write_report(
         (aside / "report.html").write_text(render(page), encoding="utf-8")
     if no_video is None:
         with written_together(folder, OF_THE_FILM) as aside:
-            from compare.film.drawing import Camera
-            from compare.film.encodings import SMALL
-            from compare.film.video import write_video
+            from cointoss.compare.film.drawing import Camera
+            from cointoss.compare.film.encodings import SMALL
+            from cointoss.compare.film.video import write_video
 
             filmed = comparison.filmed()
             with stage("drawing the film", "frames") as progress:
@@ -73,7 +73,7 @@ def write_report(
     return folder / "report.html"
 
 
-def _numbers(comparison: Comparison) -> dict[str, Any]:
+def _numbers(comparison: ComparedTosses) -> dict[str, Any]:
     numbers: dict[str, Any] = {
         "name": comparison.name,
         "versions": versions(),

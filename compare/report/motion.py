@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from compare.report.comparison import PARTED, Comparison
-from compare.web.playable import coin_of, path_of, rounded
-from models.records import Array, Toss
+from cointoss.compare.report.compared_tosses import PARTED, ComparedTosses
+from cointoss.compare.web.playable import coin_of, path_of, rounded
+from cointoss.models.records import Array, Toss
 
 SAMPLES = 2000
 """Of a path."""
@@ -16,7 +16,7 @@ ROUNDING = 1e-16
 """Zero has no place on a logarithmic axis; a difference of rounding is drawn as this."""
 
 
-def motion_of(comparison: Comparison) -> dict[str, Any]:
+def motion_of(comparison: ComparedTosses) -> dict[str, Any]:
     """Return the motion of the tosses, for JSON.
 
     Args:
@@ -46,7 +46,7 @@ def _played(toss: Toss) -> dict[str, Any]:
     }
 
 
-def _apart(comparison: Comparison) -> dict[str, Any]:
+def _apart(comparison: ComparedTosses) -> dict[str, Any]:
     together, radius = comparison.together, comparison.scenario.coin.radius
     return {
         "time": rounded(together.time, 7),

@@ -11,21 +11,21 @@ import jinja2
 import numpy as np
 from pydantic import BaseModel
 
-from compare.metrics.sequences import SAFETY
-from compare.output.answer import contact_line, counted
-from compare.report.comparison import Comparison
-from compare.report.counts import counts_sentence
-from compare.report.film_caption import film_caption
-from compare.report.map_section import MapSection
-from compare.report.motion import motion_of
-from compare.report.verdict import horizon_sentence, verdict_of
-from compare.web.scripts import POLICY, data_element, import_map, shared_files
-from models import certificate
-from models.distribution import DISTRIBUTION
-from models.fields import WORDS, printed_unit
-from models.meanings import meanings
-from models.records import Face, Toss
-from models.scenario import Scenario
+from cointoss.compare.metrics.sequences import SAFETY
+from cointoss.compare.output.answer import contact_line, counted
+from cointoss.compare.report.compared_tosses import ComparedTosses
+from cointoss.compare.report.counts import counts_sentence
+from cointoss.compare.report.film_caption import film_caption
+from cointoss.compare.report.map_section import MapSection
+from cointoss.compare.report.motion import motion_of
+from cointoss.compare.report.verdict import horizon_sentence, verdict_of
+from cointoss.compare.web.scripts import POLICY, data_element, import_map, shared_files
+from cointoss.models import certificate
+from cointoss.models.distribution import DISTRIBUTION
+from cointoss.models.fields import WORDS, printed_unit
+from cointoss.models.meanings import meanings
+from cointoss.models.records import Face, Toss
+from cointoss.models.scenario import Scenario
 
 MOST_SHOWN = 200
 """Symbols of a sequence, and impacts, that the page shows."""
@@ -45,7 +45,7 @@ class Film(NamedTuple):
 class Page:
     """What the page shows."""
 
-    comparison: Comparison
+    comparison: ComparedTosses
     film: Film | None
     no_video: str | None
     """Why there is no video, where there is none."""
@@ -54,7 +54,7 @@ class Page:
 
 def render(page: Page) -> str:
     """Return the HTML text of a page."""
-    folder = resources.files("compare.report")
+    folder = resources.files("cointoss.compare.report")
     template = (folder / "report.html.j2").read_text(encoding="utf-8")
     shared = {name: content.decode("utf-8") for name, content in shared_files().items()}
     modules = {name: text for name, text in shared.items() if name.endswith(".js")}
@@ -126,7 +126,7 @@ def _shown(value: Any) -> str:
     return f"{value:.10g}" if isinstance(value, float) else str(value)
 
 
-def _impact_rows(comparison: Comparison) -> list[dict[str, Any]]:
+def _impact_rows(comparison: ComparedTosses) -> list[dict[str, Any]]:
     """Return the rows of the table of impacts: as many as the longer toss has, at most `MOST_SHOWN`."""
     analytic, b = comparison.analytic, comparison.mujoco
     count = max(len(toss.impacts) for toss in comparison.tosses)

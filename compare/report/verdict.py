@@ -3,9 +3,9 @@
 from enum import StrEnum
 from typing import NamedTuple
 
-from compare.output.answer import counted
-from compare.report.comparison import Comparison
-from models.records import Ending, Outcome, Toss
+from cointoss.compare.output.answer import counted
+from cointoss.compare.report.compared_tosses import ComparedTosses
+from cointoss.models.records import Ending, Outcome, Toss
 
 REPORT_IT = "One engine is wrong: please report it"
 TINY_ERRORS = "tiny errors decide, and neither engine is wrong"
@@ -31,7 +31,7 @@ class Verdict(NamedTuple):
     kind: Kind
 
 
-def verdict_of(comparison: Comparison) -> Verdict:
+def verdict_of(comparison: ComparedTosses) -> Verdict:
     """Return the verdict."""
     if comparison.mujoco is None:
         says = f"{_outcome(comparison.analytic)} by the analytic engine alone"
@@ -42,7 +42,7 @@ def verdict_of(comparison: Comparison) -> Verdict:
     return Verdict(_sentence(f"{says}: {agreement}"), kind)
 
 
-def horizon_sentence(comparison: Comparison) -> str:
+def horizon_sentence(comparison: ComparedTosses) -> str:
     """Return what the horizon of a comparison means."""
     horizon, count = comparison.horizon, _most_impacts(comparison)
     caught = _is_caught(comparison)
@@ -63,7 +63,7 @@ def horizon_sentence(comparison: Comparison) -> str:
     )
 
 
-def _agreement(comparison: Comparison, same_outcome: bool) -> tuple[str, Kind]:
+def _agreement(comparison: ComparedTosses, same_outcome: bool) -> tuple[str, Kind]:
     a, b = comparison.both
     prefix, horizon, count = comparison.common_prefix, comparison.horizon, _most_impacts(comparison)
     in_contact, caught = len(a.contacts) + len(b.contacts) > 0, _is_caught(comparison)
@@ -130,11 +130,11 @@ def _first(count: int) -> str:
     return "the first impact" if count == 1 else f"the first {count} impacts"
 
 
-def _is_caught(comparison: Comparison) -> bool:
+def _is_caught(comparison: ComparedTosses) -> bool:
     return all(toss.ending == Ending.CAUGHT for toss in comparison.both)
 
 
-def _most_impacts(comparison: Comparison) -> int:
+def _most_impacts(comparison: ComparedTosses) -> int:
     return max(len(toss.impacts) for toss in comparison.both)
 
 

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.stats import binom, binomtest, norm, t
 
-from compare.reproduction.claim import Estimate
-from models.records import Array
+from cointoss.compare.reproduction.claim import Estimate
+from cointoss.models.records import Array
 
 LEVEL = 0.99
 """Of all confidence intervals: of a hundred verdicts by chance alone one would be wrong."""

@@ -10,12 +10,12 @@ from pathlib import Path
 
 import jinja2
 
-from compare.output.files import written_together
-from compare.output.tables import sheet, table
-from compare.reproduction import runner
-from compare.reproduction.claim import MARKS, VERDICTS, Claim, criteria_of, read_claims
-from compare.reproduction.pages import verdicts_of
-from compare.reproduction.runner import Reproduction
+from cointoss.compare.output.files import written_together
+from cointoss.compare.output.tables import sheet, table
+from cointoss.compare.reproduction import runner
+from cointoss.compare.reproduction.claim import MARKS, VERDICTS, Claim, criteria_of, read_claims
+from cointoss.compare.reproduction.pages import verdicts_of
+from cointoss.compare.reproduction.result import PAGE, Reproduction
 
 PAGES = ("REPRODUCTION.md", "claims.csv", "gallery.html")
 _ORDER = ("Table", "Fig", "Section", "Claims")
@@ -170,7 +170,7 @@ def markdown(out: Path, shown: Sequence[Entry], *, quick: bool) -> str:
 
 def page_in(name: str) -> str:
     """Return where the page of a figure lies, from the folder of all that is reproduced."""
-    return (runner.folder_of(name, Path()) / runner.PAGE).as_posix()
+    return (runner.folder_of(name, Path()) / PAGE).as_posix()
 
 
 def _sketches() -> str:
@@ -233,7 +233,9 @@ def html(out: Path, shown: Sequence[Entry]) -> str:
         out: folder of all that was reproduced.
         shown: the figures.
     """
-    template = (resources.files("compare.reproduction") / "gallery.html.j2").read_text(encoding="utf-8")
+    template = (resources.files("cointoss.compare.reproduction") / "gallery.html.j2").read_text(
+        encoding="utf-8"
+    )
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
     pictures = {entry.name: _embedded(entry.picture) for entry in shown}
     opened = [(main.says, found, _embedded(picture)) for main, found, picture in opening(out)]

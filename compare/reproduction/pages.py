@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from pathlib import Path
 
-from compare.output.files import write_text
-from compare.output.tables import folded, sheets, table, unfolding
-from compare.reproduction.claim import VERDICTS, Claim
-from compare.reproduction.runner import PAGE, Reproduction, Result, folder_of
+from cointoss.compare.output.files import write_text
+from cointoss.compare.output.tables import folded, sheets, table, unfolding
+from cointoss.compare.reproduction.claim import VERDICTS, Claim
+from cointoss.compare.reproduction.result import PAGE, Reproduction, Result, folder_of
 
 _PLURAL = {True: "hold", False: "do not hold", None: "cannot be tested"}
 

@@ -8,7 +8,7 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.output.files import beside
+from cointoss.compare.output.files import beside
 
 Part = Mapping[str, NDArray[Any]]
 

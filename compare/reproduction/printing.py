@@ -4,10 +4,10 @@ import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 
-from compare.output.terminal import laid_out
-from compare.reproduction.claim import MARKS, VERDICTS, Claim, criterion_of
-from compare.reproduction.pages import verdicts_of
-from compare.reproduction.runner import Result
+from cointoss.compare.output.terminal import laid_out
+from cointoss.compare.reproduction.claim import MARKS, VERDICTS, Claim, criterion_of
+from cointoss.compare.reproduction.pages import verdicts_of
+from cointoss.compare.reproduction.result import Result
 
 
 def page(name: str, result: Result, folder: Path, width: int) -> str:

@@ -2,72 +2,22 @@
 
 import importlib
 import pkgutil
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from compare.output.files import remove, require_folder, written_together
-from compare.output.progress import Progress
-from compare.reproduction import claims, paper, studies
-from compare.reproduction.claim import Claim, read_claims
+from cointoss.compare.output.files import remove, require_folder, written_together
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.reproduction import claims, paper, studies
+from cointoss.compare.reproduction.claim import read_claims
+from cointoss.compare.reproduction.result import FOLDER, Reproduction, Result, folder_of
 
 if TYPE_CHECKING:  # names are listed without it
-    from matplotlib.figure import Figure
+    pass
 
 ROOMS = (paper, claims, studies)
-FOLDER = "reproduction"
-"""Holds the folders of all that was reproduced."""
 PARTS = "parts"
 """Holds what an interrupted run had done."""
-PAGE = "index.md"
-"""The page of a figure of the paper."""
-SHEETS = tuple(f"table-{number}.csv" for number in range(1, 20))
-"""Long tables that a page shows."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Result:
-    """What a run found."""
-
-    claims: Sequence[Claim]
-    data: Any
-    """What its pictures show: arrays by name, or a record of numbers."""
-    tables: str = ""
-    """More of what it found, in Markdown, to be printed before the claims."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Reproduction:
-    """A figure, a claim or a study that can be reproduced."""
-
-    title: str
-    """What it shows, in a few words."""
-    seconds: float
-    """Roughly how long it takes on two cores [s]."""
-    make: Callable[..., Result]
-    """Computes it, from a `Progress`; one that `resumes` from a folder `parts` too."""
-    read: Callable[[Path], Result] | None = None
-    """Reads what a run of it left in its folder, where that is more than claims."""
-    draw: "Mapping[str, Callable[[Any], Figure]]"
-    """Its pictures, by name, each drawn from the data."""
-    quick: Callable[..., Result] | None = None
-    """Computes a smaller size, where there is one."""
-    quick_seconds: float | None = None
-    """Roughly how long that takes on two cores [s]."""
-    paper: str = ""
-    """Its place in the paper, as in "Fig. 3"; empty for a study of this project."""
-    resumes: bool = False
-    """Whether it keeps what it has done in its folder, so that an interrupted run goes on."""
-    assumed: str = ""
-    """What the paper leaves unsaid, and what is assumed instead."""
-
-    @property
-    def files(self) -> tuple[str, ...]:
-        """Names of all files that it may write."""
-        pictures = (f"{name}.png" for name in self.draw)
-        return ("claims.json", "data.npz", "numbers.json", PAGE, *SHEETS, *pictures)
 
 
 def names() -> list[str]:
@@ -84,11 +34,6 @@ def find(name: str) -> Reproduction:
     """Return what has one of the `names`."""
     module = name.replace("-", "_")
     return importlib.import_module(f"{_rooms()[module]}.{module}").REPRODUCTION
-
-
-def folder_of(name: str, out: Path) -> Path:
-    """Return the folder of what one of the `names` writes below `out`."""
-    return out / FOLDER / name
 
 
 def require_writable(name: str, out: Path) -> None:
@@ -114,8 +59,8 @@ def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) 
     Raises:
         UnwritableError: naming the folder and why.
     """
-    from compare.reproduction.pages import write
-    from compare.reproduction.saving import save
+    from cointoss.compare.reproduction.pages import write
+    from cointoss.compare.reproduction.saving import save
 
     found = find(name)
     require_writable(name, out)

@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 from PIL import Image
 from pydantic import TypeAdapter
 
-from compare.output.style import STYLE
-from compare.reproduction.claim import to_json
-from compare.reproduction.runner import Result
+from cointoss.compare.output.style import STYLE
+from cointoss.compare.reproduction.claim import to_json
+from cointoss.compare.reproduction.result import Result
 
 _COLORS = 128
 Numbers = TypeVar("Numbers")

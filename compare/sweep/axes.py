@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from compare.sweep.errors import SweepError
-from models.fields import UNITS, WORDS, lambda_unit, printed_unit
-from models.records import Array
-from models.scenario import Scenario
-from models.units import in_si
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.fields import UNITS, WORDS, lambda_unit, printed_unit
+from cointoss.models.records import Array
+from cointoss.models.scenario import Scenario
+from cointoss.models.units import in_si
 
 MOST_VALUES = 1_000_000
 """On one axis: a map of more than 1e12 pixels fits no disk."""

@@ -7,11 +7,11 @@ from contextlib import contextmanager
 from itertools import islice
 from typing import Any
 
-from compare.sweep.errors import SweepError
-from compare.sweep.grid import Sweep, Tile
-from compare.sweep.pixels import Pixels, toss_pixels
-from compare.sweep.run import Tosser
-from models.distribution import DISTRIBUTION
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.grid import Sweep, Tile
+from cointoss.compare.sweep.pixels import Pixels, toss_pixels
+from cointoss.compare.sweep.run import Tosser
+from cointoss.models.distribution import DISTRIBUTION
 
 AHEAD = 2
 """Tiles given out for each thread of a worker: one that it tosses, and one that waits."""

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.basins.agreement import Agreement, Share, agreement
-from compare.sweep.grid import Sweep
-from models.records import Array, Outcome
+from cointoss.compare.basins.agreement import Agreement, Share, agreement
+from cointoss.compare.sweep.grid import Sweep
+from cointoss.models.records import Array, Outcome
 
 AWAY = 2.0
 """A pixel is away from the boundaries where all within this distance have its outcome [pixels]."""

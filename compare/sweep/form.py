@@ -10,10 +10,10 @@ import os
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from compare.sweep.axes import MOST_VALUES
-from models.bounded import read_bounded
-from models.errors import shown
-from models.fields import UNITS
+from cointoss.compare.sweep.axes import MOST_VALUES
+from cointoss.models.bounded import read_bounded
+from cointoss.models.errors import shown
+from cointoss.models.fields import UNITS
 
 FORMAT = 1
 """Of a map, under the attribute `cointoss_map`."""

@@ -9,11 +9,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.engines import Engine, EngineSettings
-from compare.sweep.axes import Axis
-from compare.sweep.errors import SweepError
-from models.scenario import Scenario
-from models.title import title_of_toss
+from cointoss.compare.engines import Engine, EngineSettings
+from cointoss.compare.sweep.axes import Axis
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.scenario import Scenario
+from cointoss.models.title import title_of_toss
 
 TILE_TOSSES = {Engine.ANALYTIC: 1 << 14, Engine.MUJOCO: 1 << 10}
 """Most tosses in a tile, which is a file: seconds of work, so that many workers have some."""

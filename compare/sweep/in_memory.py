@@ -5,18 +5,18 @@ from typing import Any
 
 import numpy as np
 
-from compare.engines import Engine
-from compare.sweep.axes import FORM, parse_axis
-from compare.sweep.errors import SweepError
-from compare.sweep.grid import Sweep, Tile
-from compare.sweep.layers import layers_of
-from compare.sweep.outcome_map import OutcomeMap
-from compare.sweep.pixels import check
-from compare.sweep.reading import MOST_READ, is_whole
-from compare.sweep.run import toss_here
-from models.reading import ScenarioSource, scenario_of
-from models.scenario import Scenario
-from models.stages import stage
+from cointoss.compare.engines import Engine
+from cointoss.compare.sweep.axes import FORM, parse_axis
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.grid import Sweep, Tile
+from cointoss.compare.sweep.layers import layers_of
+from cointoss.compare.sweep.outcome_map import OutcomeMap
+from cointoss.compare.sweep.pixels import check
+from cointoss.compare.sweep.reading import MOST_READ, is_whole
+from cointoss.compare.sweep.run import toss_here
+from cointoss.models.reading import ScenarioSource, scenario_of
+from cointoss.models.scenario import Scenario
+from cointoss.models.stages import stage
 
 MOST_AFTER = 999_999
 """Impacts after which a face is shown, as of the command."""
@@ -89,7 +89,7 @@ def basin(
 def _margin(name: str | None, engine: Engine) -> str | None:
     if name is None:
         return None
-    from compare.metrics.margin import quantity_of
+    from cointoss.compare.metrics.margin import quantity_of
 
     if engine != Engine.ANALYTIC:
         raise SweepError(f"margin: {name!r} by {engine}, accepted: only by the analytic engine")

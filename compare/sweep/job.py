@@ -8,22 +8,22 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from compare.basins.picture_style import PictureStyle
-from compare.engines import Engine
-from compare.film.back_end import drawing_problem, require_mujoco
-from compare.output.files import UnwritableError, require_file
-from compare.report.contents import NOT_ASKED, require_folder
-from compare.sweep import describe, run, store
-from compare.sweep.axes import Axis, parse_axis
-from compare.sweep.errors import SweepError
-from compare.sweep.grid import Sweep
-from compare.sweep.pixels import check
-from models.reading import parse
-from models.scenario import Scenario
-from models.stages import stage
+from cointoss.compare.basins.picture_style import PictureStyle
+from cointoss.compare.engines import Engine
+from cointoss.compare.film.back_end import drawing_problem, require_mujoco
+from cointoss.compare.output.files import UnwritableError, require_file
+from cointoss.compare.report.contents import NOT_ASKED, require_folder
+from cointoss.compare.sweep import describe, run, store
+from cointoss.compare.sweep.axes import Axis, parse_axis
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.grid import Sweep
+from cointoss.compare.sweep.pixels import check
+from cointoss.models.reading import parse
+from cointoss.models.scenario import Scenario
+from cointoss.models.stages import stage
 
 if TYPE_CHECKING:
-    from compare.metrics.margin import Quantity
+    from cointoss.compare.metrics.margin import Quantity
 
 Watch = Callable[[str, int, int], AbstractContextManager[run.Tossed]]
 """Called with a map's name, the pixels that it has, and how many it will have; gives what to tell of more."""
@@ -92,7 +92,7 @@ def sweeps_of(job: Job, scenario: Scenario, x: Axis, y: Axis) -> dict[Path, Swee
 
 
 def _margin(name: str) -> "Quantity":
-    from compare.metrics.margin import quantity_of
+    from cointoss.compare.metrics.margin import quantity_of
 
     try:
         return quantity_of(name)
@@ -152,7 +152,7 @@ def make(job: Job, watch: Watch, say: Say) -> Iterator[str]:
                     maps.append(map_.whole("outcome"))
     if not drawn:
         return
-    from compare.sweep import show
+    from cointoss.compare.sweep import show
 
     first = next(iter(sweeps.values()))
     if len(maps) > 1:
@@ -162,8 +162,8 @@ def make(job: Job, watch: Watch, say: Say) -> Iterator[str]:
             show.write(job.png, maps, first, job.style, margins=margins)
         yield f"picture    {job.png}"
     if job.report is not None:
-        from compare.report.comparison import compared
-        from compare.report.folder import write_report
+        from cointoss.compare.report.comparison import compared
+        from cointoss.compare.report.folder import write_report
 
         fine = replace(Engine.MUJOCO.package.FINE, contact=job.contact)
         both = compared(first.scenario, job.text, Path(job.source).stem, fine)
@@ -196,6 +196,6 @@ def _command(job: Job) -> str:
 def _tosser(scheduler: str | None, say: Say) -> AbstractContextManager[run.Tosser]:
     if scheduler is None:
         return nullcontext(run.toss_here)
-    from compare.sweep.cluster import cluster
+    from cointoss.compare.sweep.cluster import cluster
 
     return cluster(scheduler, say)

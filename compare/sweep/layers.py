@@ -4,10 +4,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from compare.sweep.axes import Axis
-from compare.sweep.grid import Sweep
-from models.labelled import meanings_of
-from models.records import Outcome
+from cointoss.compare.sweep.axes import Axis
+from cointoss.compare.sweep.grid import Sweep
+from cointoss.models.labelled import meanings_of
+from cointoss.models.records import Outcome
 
 NOT_TOSSED = -1
 """What `outcome` and `impacts` hold where no toss was made yet."""
@@ -32,7 +32,7 @@ def layers_of(sweep: Sweep) -> dict[str, Layer]:
     }
     if sweep.margin is None:
         return layers
-    from compare.metrics.margin import quantity_of
+    from cointoss.compare.metrics.margin import quantity_of
 
     found = f"smallest change of the release's {sweep.margin} that was found to change the outcome"
     attributes = {"long_name": f"{found}; infinite: none up to 1 SI unit"}

@@ -12,21 +12,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.basins.maps import outcome_codes
-from compare.basins.picture_style import Palette, PictureStyle
-from compare.sweep.errors import SweepError
-from compare.sweep.grid import Sweep
-from compare.sweep.layers import NOT_TOSSED, axis_attributes, layers_of
-from compare.sweep.pixels import Pixels
-from models import notebook
-from models.plots import axes_or_new
-from models.records import Array, Outcome
+from cointoss.compare.basins.maps import outcome_codes
+from cointoss.compare.basins.picture_style import Palette, PictureStyle
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.grid import Sweep
+from cointoss.compare.sweep.layers import NOT_TOSSED, axis_attributes, layers_of
+from cointoss.compare.sweep.pixels import Pixels
+from cointoss.models import notebook
+from cointoss.models.plots import axes_or_new
+from cointoss.models.records import Array, Outcome
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-    from models.plots import Axes
+    from cointoss.models.plots import Axes
 
 _HTML_DPI = 80
 
@@ -111,7 +111,7 @@ class OutcomeMap:
     def _picture(self) -> str:
         if NOT_TOSSED in self.outcome:
             return notebook.shares_picture(self.shares)
-        from compare.sweep.show import figure_of
+        from cointoss.compare.sweep.show import figure_of
 
         drawn = BytesIO()
         figure = figure_of([self.outcome], self.sweep, PictureStyle(), self.margin)
@@ -180,7 +180,7 @@ class OutcomeMap:
         for name, value, accepted in (("layer", layer, drawn), ("palette", palette, list(Palette))):
             if value not in accepted:
                 raise SweepError(f"{name}: {value!r}, accepted: {', '.join(accepted)}")
-        from compare.sweep.show import draw_layer
+        from cointoss.compare.sweep.show import draw_layer
 
         axes = axes_or_new(ax)
         draw_layer(
@@ -204,7 +204,7 @@ class OutcomeMap:
         """
         if self.stride > 1:
             raise SweepError(f"{self.name}: one pixel of every {self.stride} is here; accepted: a whole map")
-        from compare.sweep import store
+        from cointoss.compare.sweep import store
 
         folder = Path(path)
         store.require_place(folder, resume=False, overwrite=overwrite)

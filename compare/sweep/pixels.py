@@ -7,16 +7,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.sweep.axes import Axis
-from compare.sweep.errors import SweepError
-from compare.sweep.grid import Sweep, Tile
-from models.errors import ScenarioError
-from models.outcomes import Outcomes
-from models.records import Array
-from models.releases import Releases, changed_releases, check_releases
-from models.scenario import Scenario
-from models.stages import counted
-from models.unused import warn_of_unused_fields
+from cointoss.compare.sweep.axes import Axis
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.grid import Sweep, Tile
+from cointoss.models.errors import ScenarioError
+from cointoss.models.outcomes import Outcomes
+from cointoss.models.records import Array
+from cointoss.models.releases import Releases, changed_releases, check_releases
+from cointoss.models.scenario import Scenario
+from cointoss.models.stages import counted
+from cointoss.models.unused import warn_of_unused_fields
 
 _ENDS_SUFFICE = (
     "gravity",
@@ -88,7 +88,7 @@ def _shown(sweep: Sweep, tossed: Outcomes) -> NDArray[np.int8]:
 
 
 def _margins(sweep: Sweep, group: Group) -> Array:
-    from compare.metrics.margin import MANY, quantity_of, smallest_changes
+    from cointoss.compare.metrics.margin import MANY, quantity_of, smallest_changes
 
     def outcomes(releases: Releases) -> NDArray[np.int8]:
         return _shown(sweep, _toss(sweep, group.scenario, releases))
@@ -151,7 +151,8 @@ def check(sweep: Sweep) -> None:
         some = y[top : top + rows_at_once]
         for rows, columns in _blocks(sweep, len(some), len(x)):
             _check_together(sweep, some[rows], x[columns])
-    warn_of_unused_fields(pixel_scenario(sweep, *(max(part.tolist(), key=abs) for part in (y, x))))
+    largest = pixel_scenario(sweep, *(max(part.tolist(), key=abs) for part in (y, x)))
+    warn_of_unused_fields(largest.floor, largest.air)
 
 
 def _check_together(sweep: Sweep, y: Array, x: Array) -> None:

@@ -9,19 +9,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.engines import Engine, EngineSettings
-from compare.film.back_end import BackEndError, require_mujoco
-from compare.sweep.axes import Axis
-from compare.sweep.errors import MapError, SweepError
-from compare.sweep.form import MARGIN_ALONG, Form, read_form
-from compare.sweep.grid import Sweep, tiles
-from compare.sweep.layers import NOT_TOSSED, layers_of
-from compare.sweep.outcome_map import OutcomeMap
-from compare.sweep.store import Map
-from models.errors import ScenarioError, shown
-from models.fields import UNITS, lambda_unit
-from models.reading import parse
-from models.scenario import Scenario
+from cointoss.compare.engines import Engine, EngineSettings
+from cointoss.compare.film.back_end import BackEndError, require_mujoco
+from cointoss.compare.sweep.axes import Axis
+from cointoss.compare.sweep.errors import MapError, SweepError
+from cointoss.compare.sweep.form import MARGIN_ALONG, Form, read_form
+from cointoss.compare.sweep.grid import Sweep, tiles
+from cointoss.compare.sweep.layers import NOT_TOSSED, layers_of
+from cointoss.compare.sweep.outcome_map import OutcomeMap
+from cointoss.compare.sweep.store import Map
+from cointoss.models.errors import ScenarioError, shown
+from cointoss.models.fields import UNITS, lambda_unit
+from cointoss.models.reading import parse
+from cointoss.models.scenario import Scenario
 
 MOST_READ = 100_000_000
 """Pixels of a map that is read."""

@@ -8,14 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from compare.output.files import UnwritableError
-from compare.sweep.errors import SweepError
-from compare.sweep.grid import Sweep, Tile, cut, gaps
-from compare.sweep.layers import bytes_per_pixel
-from compare.sweep.pixels import Pixels, toss_pixels
-from compare.sweep.store import Map
-from models.kernel.compiling import compiling
-from models.records import Array, Outcome
+from cointoss.compare.output.files import UnwritableError
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.grid import Sweep, Tile, cut, gaps
+from cointoss.compare.sweep.layers import bytes_per_pixel
+from cointoss.compare.sweep.pixels import Pixels, toss_pixels
+from cointoss.compare.sweep.store import Map
+from cointoss.models.kernel.compiling import compiling
+from cointoss.models.records import Array, Outcome
 
 Tosser = Callable[[Sweep, Iterable[Tile]], Iterator[tuple[Tile, Pixels]]]
 """Tosses all pixels of tiles and gives these or parts of them, in any order."""

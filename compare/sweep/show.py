@@ -12,15 +12,15 @@ from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties, findfont, get_font
 from numpy.typing import NDArray
 
-from compare.basins import picture
-from compare.basins.fractions import fractions
-from compare.basins.picture_style import PictureStyle
-from compare.metrics.margin import quantity_of
-from compare.report.map_section import MapSection
-from compare.sweep.axes import Axis
-from compare.sweep.describe import AWAY, measure, percent
-from compare.sweep.grid import Sweep
-from models.records import Array
+from cointoss.compare.basins import picture
+from cointoss.compare.basins.fractions import fractions
+from cointoss.compare.basins.picture_style import PictureStyle
+from cointoss.compare.metrics.margin import quantity_of
+from cointoss.compare.report.map_section import MapSection
+from cointoss.compare.sweep.axes import Axis
+from cointoss.compare.sweep.describe import AWAY, measure, percent
+from cointoss.compare.sweep.grid import Sweep
+from cointoss.models.records import Array
 
 
 def write(

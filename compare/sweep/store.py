@@ -20,10 +20,10 @@ from numpy.typing import NDArray
 from zarr.codecs import ZstdCodec
 from zarr.errors import ZarrUserWarning
 
-from compare.output.files import UnwritableError, beside, naming, remove, written_whole
-from compare.output.interruption import undoing
-from compare.sweep.axes import Axis
-from compare.sweep.form import (
+from cointoss.compare.output.files import UnwritableError, beside, naming, remove, written_whole
+from cointoss.compare.output.interruption import undoing
+from cointoss.compare.sweep.axes import Axis
+from cointoss.compare.sweep.form import (
     DESCRIPTION,
     FORMAT,
     MARGIN_ALONG,
@@ -32,12 +32,12 @@ from compare.sweep.form import (
     read_form,
     require_chunk,
 )
-from compare.sweep.grid import Sweep, Tile, tile_shape, tiles
-from compare.sweep.layers import axis_attributes, layers_of
-from compare.sweep.pixels import Pixels
-from models.errors import ScenarioError
-from models.reading import parse
-from models.records import Outcome
+from cointoss.compare.sweep.grid import Sweep, Tile, tile_shape, tiles
+from cointoss.compare.sweep.layers import axis_attributes, layers_of
+from cointoss.compare.sweep.pixels import Pixels
+from cointoss.models.errors import ScenarioError
+from cointoss.models.reading import parse
+from cointoss.models.records import Outcome
 
 _WAYS_OUT = "accepted: a new name, or --overwrite"
 

@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from coin_mj.model.scene import shape_thickness
-from models.barriers import barrier
-from models.certificate import energies
-from models.records import Array, Toss
-from models.scenario import Scenario
+from cointoss.coin_mj.model.scene import shape_thickness
+from cointoss.models.barriers import barrier
+from cointoss.models.certificate import energies
+from cointoss.models.records import Array, Toss
+from cointoss.models.scenario import Scenario
 
 
 def coin_of(scenario: Scenario) -> dict[str, Any]:

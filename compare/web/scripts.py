@@ -15,7 +15,7 @@ _IMPORTED = re.compile(r"""(from\s*["'])\./([\w.]+\.js)(["'])""")
 
 def shared_files() -> dict[str, bytes]:
     """Return the files that pages share, three.js and its licence among them, by their names."""
-    page = resources.files("compare.web") / "page"
+    page = resources.files("cointoss.compare.web") / "page"
     entries = [entry for folder in (page, page / "three") for entry in folder.iterdir() if entry.is_file()]
     return {entry.name: entry.read_bytes() for entry in entries}
 

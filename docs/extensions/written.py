@@ -5,9 +5,9 @@ from pathlib import Path
 import nbformat
 from myst_nb.core.read import read_myst_markdown_notebook
 
-from compare.output.files import written_together
-from compare.reproduction import gallery, pages, runner
-from compare.reproduction.claim import to_json
+from cointoss.compare.output.files import written_together
+from cointoss.compare.reproduction import gallery, pages, runner
+from cointoss.compare.reproduction.claim import to_json
 
 DOCS = Path(__file__).parents[1]
 

@@ -1,6 +1,6 @@
 """Arrays of numbers in compiled code."""
 
-from models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import compiled
 
 
 @compiled

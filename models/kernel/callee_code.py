@@ -35,8 +35,8 @@ from numba.core.untyped_passes import (
     WithLifting,
 )
 
-from models.kernel.none_fields import DecideNoneFields
-from models.kernel.sources import PACKAGES, source_hash
+from cointoss.models.kernel.none_fields import DecideNoneFields
+from cointoss.models.kernel.sources import part_of, source_hash
 
 
 class Callee(NamedTuple):
@@ -148,7 +148,7 @@ def _require_all_that_is_called(module: binding.ModuleRef) -> None:
     if lacking:
         raise RuntimeError(
             f"compiled code calls {', '.join(lacking)}, which was kept under another name; "
-            "remove the folders cointoss-* from $NUMBA_CACHE_DIR, or from cointoss in your cache"
+            "remove the folders cointoss.* from $NUMBA_CACHE_DIR, or from cointoss in your cache"
         )
 
 
@@ -306,7 +306,7 @@ class CalleeCompiler(Compiler):
     def compile_extra(self, func: Any) -> CompileResult:
         """Compile a function under the name that it has in every process: code kept on disk calls it so."""
         identity = FunctionIdentity.from_function(func)
-        if identity.modname.partition(".")[0] in PACKAGES and "<locals>" not in identity.func_qualname:
+        if part_of(identity.modname) and "<locals>" not in identity.func_qualname:
             identity.unique_id = int(source_hash(identity.modname), 16)
             identity.unique_name = f"{identity.func_qualname}${identity.unique_id}"
         self.state.func_id = identity

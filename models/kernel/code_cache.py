@@ -23,8 +23,8 @@ from numba.core import types
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile, _CacheLocator
 from numba.core.runtime import rtsys
 
-from models.kernel.compiling import compiling
-from models.kernel.sources import PACKAGES, source_hash
+from cointoss.models.kernel.compiling import compiling
+from cointoss.models.kernel.sources import part_of, source_hash
 
 UNUSED = 3 * 24 * 3600.0
 """Folders not used for so long are removed when another is made [s]."""
@@ -33,7 +33,7 @@ PATIENCE = 600.0
 CALLEE = "callee-"
 """How the names of files begin that keep code for compiled callers."""
 _DIGEST = hashlib.sha256().digest_size
-_FOLDER = re.compile(r"cointoss-[\w.]+-[0-9a-f]{16}")
+_FOLDER = re.compile(r"cointoss\.[\w.]+-[0-9a-f]{16}")
 
 
 @cache
@@ -42,15 +42,15 @@ def cache_folder(module: str) -> Path:
 
     numba checks only the file of the function it compiles, so an edit in a function that this one calls would
     go unnoticed. The folder's name is a hash of the module's source and of all that it imports, directly or
-    not, from these packages: an edit in any of them starts a new folder, an edit elsewhere does not.
+    not, from this project: an edit in any of them starts a new folder, an edit elsewhere does not.
 
     Args:
-        module: its full name, in one of `models.kernel.sources.PACKAGES`.
+        module: its full name, in this project.
 
     Returns:
         A folder below $NUMBA_CACHE_DIR, else below the user's cache, else below the temporary folder.
     """
-    folder = _base() / f"cointoss-{module}-{source_hash(module)}"
+    folder = _base() / f"{module}-{source_hash(module)}"
     try:
         # What is used is kept: see `remove_unused`.
         os.utime(folder)
@@ -113,7 +113,7 @@ def _locked(place: int) -> bool:
 
 def kept_functions(module: str) -> int:
     """Return how many functions of a module are kept for compiled callers."""
-    if module.partition(".")[0] not in PACKAGES:
+    if not part_of(module):
         return 0
     try:
         return len(list(cache_folder(module).glob(f"{CALLEE}*.nbi")))
@@ -136,7 +136,7 @@ def remove_unused(base: Path) -> None:
 
     A process that still uses one compiles anew what it has not read yet.
     """
-    for folder in base.glob("cointoss-*"):
+    for folder in base.glob("cointoss.*"):
         try:
             unused = time.time() - folder.stat().st_mtime
         except OSError:

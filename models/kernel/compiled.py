@@ -20,10 +20,10 @@ from numba.core.environment import Environment, lookup_environment
 from numba.core.registry import CPUDispatcher, cpu_target
 from numba.core.sigutils import normalize_signature
 
-from models.kernel.callee_code import Callee, CalleeCode, CalleeCompiler, Codegen, spare_references
-from models.kernel.code_cache import CALLEE, CodeCache, LocatedImpl, kept_functions
-from models.kernel.compiling import compiling
-from models.kernel.sources import PACKAGES, is_as_imported
+from cointoss.models.kernel.callee_code import Callee, CalleeCode, CalleeCompiler, Codegen, spare_references
+from cointoss.models.kernel.code_cache import CALLEE, CodeCache, LocatedImpl, kept_functions
+from cointoss.models.kernel.compiling import compiling
+from cointoss.models.kernel.sources import is_as_imported, part_of
 
 _OPTIONS = {"nopython": True, "nogil": True, "error_model": "numpy"}
 _WITHOUT_WRAPPERS = {**_OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
@@ -66,7 +66,7 @@ class _Dispatcher(CPUDispatcher):
 class CompiledFunction(_Dispatcher):
     """A function compiled for its compiled callers; called from Python, it is made into machine code.
 
-    See `models.kernel.callee_code`.
+    See `cointoss.models.kernel.callee_code`.
     """
 
     def __init__(self, function: Callable[..., Any], *, inlined: bool = False) -> None:
@@ -281,7 +281,7 @@ def _result(context: Any, library: Any, description: Any, environment: Any, sign
 def _keep_code(dispatcher: CPUDispatcher, cache: type[CodeCache]) -> None:
     """Keep what is compiled of a function from here on, if it is one of ours and of sources as they are."""
     module = dispatcher.__module__
-    if isinstance(dispatcher._cache, cache) or module.partition(".")[0] not in PACKAGES:
+    if isinstance(dispatcher._cache, cache) or not part_of(module):
         return
     if is_as_imported(module):
         with suppress(OSError):  # no folder can be made, as on a full disk
@@ -291,7 +291,7 @@ def _keep_code(dispatcher: CPUDispatcher, cache: type[CodeCache]) -> None:
 def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compile `function` when it is first called, without the GIL, and keep the code on disk.
 
-    Code of functions outside `models.kernel.sources.PACKAGES` is not kept.
+    Code of functions outside this project is not kept.
     """
     compiling.declared[function.__module__] += 1
     return CompiledFunction(function)

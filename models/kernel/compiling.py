@@ -6,10 +6,12 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from cointoss.models.kernel.sources import part_of
+
 LINKING = 0.5
 """Time to make machine code of functions, in times that it takes to compile them: from both engines."""
 SHARED = "models"
-"""The package whose functions all others call."""
+"""The part of the project whose functions all others call."""
 NAMES = {
     SHARED: "functions of both engines",
     "analytic": "the analytic engine",
@@ -73,7 +75,7 @@ class Compiling:
             kept: returns how many functions of a module are on disk, compiled.
         """
         if self._depth == 0:
-            self._expect(module.partition(".")[0], kept)
+            self._expect(part_of(module), kept)
         self.begun += 1
         self.total = max(self.total, self.begun)
         with self._timed():
@@ -103,7 +105,7 @@ class Compiling:
 
     def _expect(self, package: str, kept: Callable[[str], int]) -> None:
         """Count what a package lacks, and that which it calls."""
-        packages = {module: module.partition(".")[0] for module in self.declared}
+        packages = {module: part_of(module) for module in self.declared}
         callers = sorted(set(packages.values()) - {SHARED})
         if package == SHARED:
             package = self.package or (callers[0] if len(callers) == 1 else SHARED)

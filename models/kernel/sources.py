@@ -1,32 +1,38 @@
 """The sources that a module's compiled code is made of, and their hash."""
 
+import ast
 import hashlib
-import re
 import time
+from collections.abc import Iterator
 from functools import cache
 from itertools import accumulate
 from pathlib import Path
 
-PACKAGES = ("models", "analytic", "coin_mj", "compare")
-"""Packages with compiled functions; what others compile is not kept."""
+PROJECT = __name__.partition(".")[0]
+"""The package whose code is kept; what others compile is not."""
 _IMPORTED = time.time()
-"""When modules began to be read: `models` imports this one first [s]."""
-_TOP = Path(__file__).parents[2]
-_IMPORT = re.compile(r"^[ \t]*(?:from[ \t]+([\w.]+)[ \t]+)?import[ \t]+(\([^)]*\)|[^\n]*)", re.MULTILINE)
+"""When modules began to be read: `cointoss.models` imports this one first [s]."""
+_HOME = Path(__file__).parents[2]
+
+
+def part_of(module: str) -> str:
+    """Return the part of the project that a module is in, such as "analytic"; "" for a module of others."""
+    project, _, rest = module.partition(".")
+    return rest.partition(".")[0] if project == PROJECT else ""
 
 
 @cache
-def source_hash(module: str, top: Path = _TOP) -> str:
-    """Return the hash of the sources of a module and of what it imports, directly or not, from `PACKAGES`.
+def source_hash(module: str, home: Path = _HOME) -> str:
+    """Return the hash of the sources of a module and of what it imports, directly or not, from the project.
 
     Args:
         module: its full name.
-        top: the folder that holds the packages.
+        home: the folder that holds the project's parts.
     """
     digest = hashlib.sha256()
-    for name in _hashed(module, top):
+    for name in _hashed(module, home):
         digest.update(f"{name}\n".encode())
-        digest.update(_source(name, top) or b"")
+        digest.update(_source(name, home) or b"")
     return digest.hexdigest()[:16]
 
 
@@ -36,49 +42,60 @@ def is_as_imported(module: str) -> bool:
     One that was may not be the source that was imported, and what is compiled of it must not be kept for it.
     """
     source_hash(module)  # reads the sources: what is written after that does not matter
-    return all(_is_older(name) for name in _hashed(module, _TOP))
+    return all(_is_older(name) for name in _hashed(module, _HOME))
 
 
 @cache
-def imported(module: str, top: Path = _TOP) -> frozenset[str]:
-    """Return the modules of `PACKAGES` that a module imports: a name that it imports may be one.
+def imported(module: str, home: Path = _HOME) -> frozenset[str]:
+    """Return the modules of the project that a module imports: a name that it imports may be one.
 
     A package is among them where a name is imported from it, not where it only holds what is imported: else
     one whose `__init__` imports all its modules would tie each of them to all others.
     """
-    names = set()
-    for start, listed in _IMPORT.findall((_source(module, top) or b"").decode()):
-        found = [words.split()[0] for words in re.sub(r"[()]|#.*", "", listed).split(",") if words.split()]
-        if start:
-            names |= {start, *(f"{start}.{name}" for name in found)}
-        else:
-            names |= {whole for name in found for whole in accumulate(name.split("."), "{}.{}".format)}
-    return frozenset(
-        name for name in names if name.partition(".")[0] in PACKAGES and _source(name, top) is not None
-    )
+    tree = ast.parse(_source(module, home) or b"")
+    names = {name for node in ast.walk(tree) for name in _imported_by(node, _package(module, home))}
+    return frozenset(name for name in names if part_of(name) and _source(name, home) is not None)
+
+
+def _imported_by(node: ast.AST, package: str) -> Iterator[str]:
+    """Yield what one import statement in a module of `package` may import."""
+    if isinstance(node, ast.Import):
+        for alias in node.names:
+            yield from accumulate(alias.name.split("."), "{}.{}".format)
+    elif isinstance(node, ast.ImportFrom):
+        above = package.split(".")[: len(package.split(".")) + 1 - node.level] if node.level else []
+        start = ".".join([*above, *filter(None, [node.module])])
+        yield start
+        yield from (f"{start}.{alias.name}" for alias in node.names)
+
+
+def _package(module: str, home: Path) -> str:
+    """Return the package in which a module's relative imports begin."""
+    file = _file(module, home)
+    return module if file is not None and file.name == "__init__.py" else module.rpartition(".")[0]
 
 
 @cache
-def _hashed(module: str, top: Path) -> tuple[str, ...]:
+def _hashed(module: str, home: Path) -> tuple[str, ...]:
     """Return the modules whose sources are in a module's hash, sorted."""
     found, todo = {module}, [module]
     while todo:
-        new = imported(todo.pop(), top) - found
+        new = imported(todo.pop(), home) - found
         found |= new
         todo += new
     return tuple(sorted(found))
 
 
-def _file(module: str, top: Path) -> Path | None:
-    """Return the file of a module, None where there is none of this name."""
-    path = top.joinpath(*module.split("."))
+def _file(module: str, home: Path) -> Path | None:
+    """Return the file of a module of the project, None where there is none of this name."""
+    path = home.joinpath(*module.split(".")[1:])
     files = (path.with_suffix(".py"), path / "__init__.py")
-    return next((file for file in files if file.is_file()), None)
+    return next((file for file in files if part_of(module) and file.is_file()), None)
 
 
 @cache
-def _source(module: str, top: Path) -> bytes | None:
-    file = _file(module, top)
+def _source(module: str, home: Path) -> bytes | None:
+    file = _file(module, home)
     return None if file is None else file.read_bytes()
 
 
@@ -88,5 +105,5 @@ def _is_older(module: str) -> bool:
 
     An older file that is put in its place keeps the time at which it was written, but not that of its change.
     """
-    file = _file(module, _TOP)
+    file = _file(module, _HOME)
     return file is None or file.stat().st_ctime <= _IMPORTED

@@ -3,7 +3,7 @@
 A vector is (x, y, z); a matrix is a tuple of three rows.
 """
 
-from models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import compiled
 
 Vector = tuple[float, float, float]
 Matrix = tuple[Vector, Vector, Vector]

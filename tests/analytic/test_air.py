@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from analytic.air.force import change_about_B, force_and_moment, force_and_moment_change
-from analytic.air.quadrature import CHANGE_NODES, FORCE_NODES, nodes_of
-from analytic.flight.flying import fly
-from models.kernel.callee_code import Callee
+from cointoss.analytic.air.force import change_about_B, force_and_moment, force_and_moment_change
+from cointoss.analytic.air.quadrature import CHANGE_NODES, FORCE_NODES, nodes_of
+from cointoss.analytic.flight.flying import fly
+from cointoss.models.kernel.callee_code import Callee
 from tests.helpers.draws import AIR, ZLOTY, scenario
 from tests.helpers.referee import air_by_cubature
 

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-import analytic
-from analytic.automaton import Event, Mode, mode_after
-from analytic.contact.following import friction_in_contact
-from analytic.events import NO_LOSS, follow_to_event, run
-from analytic.settings import Settings, contact_limits
-from analytic.toss import state_of
-from models.perpetual import energy_history
-from models.records import Ending, Outcome
+from cointoss import analytic
+from cointoss.analytic.automaton import Event, Mode, mode_after
+from cointoss.analytic.contact.following import friction_in_contact
+from cointoss.analytic.events import NO_LOSS, follow_to_event, run
+from cointoss.analytic.settings import Settings, contact_limits
+from cointoss.analytic.toss import state_of
+from cointoss.models.perpetual import energy_history
+from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
 CONTACT = (Mode.SLIDING, Mode.CREEPING, Mode.STICKING, Mode.UPRIGHT)

@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from analytic.automaton import Mode
-from analytic.contact.following import sample_contact
-from analytic.contact.one_rim import next_event
-from analytic.contact.resistance import FloorFriction
-from analytic.events import hit
-from analytic.flight.flying import fly
-from analytic.flight.touch_search import closing_speed, gap_acceleration
-from analytic.numerics.tolerances import CHATTERING, CONTACT_STEP_ERROR
-from models.attitude import quaternion_from_angles
-from models.records import IMPACT_ROW
+from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.following import sample_contact
+from cointoss.analytic.contact.one_rim import next_event
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.events import hit
+from cointoss.analytic.flight.flying import fly
+from cointoss.analytic.flight.touch_search import closing_speed, gap_acceleration
+from cointoss.analytic.numerics.tolerances import CHATTERING, CONTACT_STEP_ERROR
+from cointoss.models.attitude import quaternion_from_angles
+from cointoss.models.records import IMPACT_ROW
 from tests.helpers.draws import PAPER_OFFSET, ZLOTY, scenario
 
 THIN, UNBALANCED = {**ZLOTY, "thickness": 0.0}, {**ZLOTY, "center_of_mass": PAPER_OFFSET}

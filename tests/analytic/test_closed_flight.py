@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from analytic.events import run
-from analytic.flight.closed_flight import fly_closed, sample_closed
-from analytic.flight.flying import fly_with_graze, sample
-from analytic.flight.integrated_flight import sample_flight
-from analytic.flight.touch_search import closing_speed, fly_by_steps
-from analytic.flight.turning import turns_in_closed_form
-from analytic.toss import state_of
-from models.records import Ending
-from models.scenario import Scenario
+from cointoss.analytic.events import run
+from cointoss.analytic.flight.closed_flight import fly_closed, sample_closed
+from cointoss.analytic.flight.flying import fly_with_graze, sample
+from cointoss.analytic.flight.integrated_flight import sample_flight
+from cointoss.analytic.flight.touch_search import closing_speed, fly_by_steps
+from cointoss.analytic.flight.turning import turns_in_closed_form
+from cointoss.analytic.toss import state_of
+from cointoss.models.records import Ending
+from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 STRONG_AIR = {"normal": 40.0, "tangential": 10.0}

@@ -4,18 +4,18 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from analytic.automaton import Event, Mode
-from analytic.contact import smooth
-from analytic.contact.edge import held_on_edge, stands
-from analytic.contact.floor_force import friction_holds, holding_force, slip_direction, starting_slip
-from analytic.contact.following import (
+from cointoss.analytic.automaton import Event, Mode
+from cointoss.analytic.contact import smooth
+from cointoss.analytic.contact.edge import held_on_edge, stands
+from cointoss.analytic.contact.floor_force import friction_holds, holding_force, slip_direction, starting_slip
+from cointoss.analytic.contact.following import (
     contact_step,
     sample_contact,
     short_contact_step,
     start_following,
 )
-from analytic.contact.modes import floor_force
-from analytic.contact.one_rim import (
+from cointoss.analytic.contact.modes import floor_force
+from cointoss.analytic.contact.one_rim import (
     lower_rim_of,
     next_event,
     put_on_floor,
@@ -23,13 +23,13 @@ from analytic.contact.one_rim import (
     sliding_rate,
     time_to_landing,
 )
-from analytic.contact.resistance import FloorFriction
-from analytic.contact.rim_contact import accelerate, rim_contact
-from analytic.contact.sliding import stopping_impulse
-from analytic.numerics.tolerances import STEP_ERROR
-from models.attitude import quaternion_from_angles, rotation_matrix
-from models.barriers import energy
-from models.geometry import contact_velocity, gap, lowest_point
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.contact.rim_contact import accelerate, rim_contact
+from cointoss.analytic.contact.sliding import stopping_impulse
+from cointoss.analytic.numerics.tolerances import STEP_ERROR
+from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
+from cointoss.models.barriers import energy
+from cointoss.models.geometry import contact_velocity, gap, lowest_point
 from tests.helpers.contacts import follow_for, follow_step
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, scenario
 
@@ -48,7 +48,7 @@ def energy_of(body, y):
 
 
 def velocity_of_lowest(body, y):
-    """By `models.geometry`, which flight and impact use."""
+    """By `cointoss.models.geometry`, which flight and impact use."""
     R = rotation_matrix(tuple(y[6:10]))
     point, _ = lowest_point(body, R[2], tuple(y[10:13]))
     return np.array(contact_velocity(body, R, tuple(y[3:6]), tuple(y[10:13]), point))

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from analytic.impact.coulomb import coulomb, friction_without_slip
-from analytic.impact.laws import perfectly_rough, sliding_friction, smooth
-from models.laws import RestitutionKind
+from cointoss.analytic.impact.coulomb import coulomb, friction_without_slip
+from cointoss.analytic.impact.laws import perfectly_rough, sliding_friction, smooth
+from cointoss.models.laws import RestitutionKind
 from tests.helpers.impacts import draw_contact
 
 KINEMATIC, ENERGETIC = RestitutionKind

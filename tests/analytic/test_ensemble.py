@@ -5,15 +5,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-import analytic
-from analytic.events import run
-from analytic.toss import state_of
-from models.hand import Hand
-from models.laws import ContactLaw
-from models.outcomes import Outcomes
-from models.records import Ending, Face, Outcome
-from models.releases import Releases
-from models.scenario import Release, Scenario
+from cointoss import analytic
+from cointoss.analytic.events import run
+from cointoss.analytic.toss import state_of
+from cointoss.models.hand import Hand
+from cointoss.models.laws import ContactLaw
+from cointoss.models.outcomes import Outcomes
+from cointoss.models.parts import Release
+from cointoss.models.records import Ending, Face, Outcome
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 pytestmark = pytest.mark.usefixtures("without_horizon")

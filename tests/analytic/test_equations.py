@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 import sympy
 
-from analytic.air.force import force_and_moment
-from analytic.flight.equations_of_motion import derivative
-from analytic.numerics.rotation import quaternion_rate
-from models.attitude import rotation_matrix
+from cointoss.analytic.air.force import force_and_moment
+from cointoss.analytic.flight.equations_of_motion import derivative
+from cointoss.analytic.numerics.rotation import quaternion_rate
+from cointoss.models.attitude import rotation_matrix
 from tests.helpers import printed_equations as printed
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_quaternion, scenario
 

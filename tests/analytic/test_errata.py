@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-import analytic
-from analytic.flight.equations_of_motion import derivative
-from analytic.horizon.flight_tangent import flight_tangent
-from analytic.numerics.euler_angles import axis_rotation
-from analytic.toss import state_of
-from models.barriers import barrier
+from cointoss import analytic
+from cointoss.analytic.flight.equations_of_motion import derivative
+from cointoss.analytic.horizon.flight_tangent import flight_tangent
+from cointoss.analytic.numerics.euler_angles import axis_rotation
+from cointoss.analytic.toss import state_of
+from cointoss.models.barriers import barrier
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
 G = 9.81

@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 
-import analytic
-from analytic.flight.equations_of_motion import derivative
-from analytic.flight.integrated_flight import step
-from analytic.flight.runge_kutta import combined_error
-from analytic.flight.state_vector import STATE_SIZE
-from analytic.flight.touch_search import gap_acceleration
-from analytic.numerics.tableau import STAGES
-from analytic.toss import state_of
-from compare.metrics.trajectories import attitude_angle
-from models.attitude import rotation_matrix
-from models.geometry import gap
+from cointoss import analytic
+from cointoss.analytic.flight.equations_of_motion import derivative
+from cointoss.analytic.flight.integrated_flight import step
+from cointoss.analytic.flight.runge_kutta import combined_error
+from cointoss.analytic.flight.state_vector import STATE_SIZE
+from cointoss.analytic.flight.touch_search import gap_acceleration
+from cointoss.analytic.numerics.tableau import STAGES
+from cointoss.analytic.toss import state_of
+from cointoss.compare.metrics.trajectories import attitude_angle
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.geometry import gap
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
 from tests.helpers.referee import Referee
 

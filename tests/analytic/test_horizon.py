@@ -5,13 +5,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-import analytic
-from analytic.events import EventLog, run
-from analytic.horizon import horizon
-from analytic.horizon.horizon import IMPULSE_ERROR, TIME_ERROR, trusted_impacts
-from analytic.toss import state_of
-from models.records import Impacts
-from models.scenario import Scenario
+from cointoss import analytic
+from cointoss.analytic.events import EventLog, run
+from cointoss.analytic.horizon import horizon
+from cointoss.analytic.horizon.horizon import IMPULSE_ERROR, TIME_ERROR, trusted_impacts
+from cointoss.analytic.toss import state_of
+from cointoss.models.records import Impacts
+from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, PAPER_LAWS, draw_coin, draw_release, scenario
 
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from analytic.impact.laws import mobility, sliding_friction
-from models.attitude import rotation_matrix
-from models.barriers import energy
-from models.laws import ContactLaw
-from models.records import Ending
+from cointoss.analytic.impact.laws import mobility, sliding_friction
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.barriers import energy
+from cointoss.models.laws import ContactLaw
+from cointoss.models.records import Ending
 from tests.helpers.draws import PAPER_LAWS, scenario
 from tests.helpers.impacts import draw_impact, struck
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from models.laws import ContactLaw
+from cointoss.models.laws import ContactLaw
 from tests.helpers import printed_equations as printed
 from tests.helpers.draws import PAPER_LAWS, PAPER_OFFSET
 from tests.helpers.impacts import draw_impact, struck

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from analytic.automaton import Mode
-from analytic.contact.one_rim import lower_rim_of, put_on_floor
-from analytic.contact.periodic import repeats, start_tilting, tilt_rate
-from analytic.contact.resistance import FloorFriction
-from models.attitude import quaternion_from_angles, rotation_matrix
+from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.one_rim import lower_rim_of, put_on_floor
+from cointoss.analytic.contact.periodic import repeats, start_tilting, tilt_rate
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from tests.helpers.contacts import follow_step
 from tests.helpers.draws import AIR, ZLOTY, scenario
 

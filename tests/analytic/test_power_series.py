@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from analytic.flight.equations_of_motion import derivative
-from analytic.flight.gap_polynomials import DEGREE, gap_polynomials, time_surely_clear
-from analytic.flight.integrated_flight import first_step, flight_step, flight_work, within_step
-from analytic.flight.power_series import COLUMNS, ORDER, expand_flight
-from analytic.flight.touch_search import closing_speed, fly_by_steps
-from analytic.toss import state_of
-from models.body import Body
-from models.records import Array
+from cointoss.analytic.flight.equations_of_motion import derivative
+from cointoss.analytic.flight.gap_polynomials import DEGREE, gap_polynomials, time_surely_clear
+from cointoss.analytic.flight.integrated_flight import first_step, flight_step, flight_work, within_step
+from cointoss.analytic.flight.power_series import COLUMNS, ORDER, expand_flight
+from cointoss.analytic.flight.touch_search import closing_speed, fly_by_steps
+from cointoss.analytic.toss import state_of
+from cointoss.models.body import Body
+from cointoss.models.records import Array
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 

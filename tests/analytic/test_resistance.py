@@ -3,21 +3,21 @@
 import numpy as np
 import pytest
 
-import analytic
-from analytic.automaton import Mode
-from analytic.contact import modes, upright
-from analytic.contact.following import follow, start_following
-from analytic.contact.one_rim import lower_rim_of, put_on_floor
-from analytic.contact.resistance import FloorFriction, moment_per_force
-from analytic.contact.rest import rests
-from analytic.contact.rim_contact import both_rims, rim_contact
-from analytic.numerics.tolerances import CONTACT_STEP_ERROR, SLOW
-from analytic.settings import Settings
-from compare.reproduction.setups.hands import releases_of_hands
-from compare.reproduction.studies.endings import draw_toss
-from models.attitude import quaternion_from_angles, rotation_matrix
-from models.certificate import CONTACT_ENERGY
-from models.records import Ending, Outcome
+from cointoss import analytic
+from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact import modes, upright
+from cointoss.analytic.contact.following import follow, start_following
+from cointoss.analytic.contact.one_rim import lower_rim_of, put_on_floor
+from cointoss.analytic.contact.resistance import FloorFriction, moment_per_force
+from cointoss.analytic.contact.rest import rests
+from cointoss.analytic.contact.rim_contact import both_rims, rim_contact
+from cointoss.analytic.numerics.tolerances import CONTACT_STEP_ERROR, SLOW
+from cointoss.analytic.settings import Settings
+from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.compare.reproduction.studies.endings import draw_toss
+from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
+from cointoss.models.certificate import CONTACT_ENERGY
+from cointoss.models.records import Ending, Outcome
 from tests.helpers.contacts import follow_for
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, scenario
 

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-import analytic
-from analytic.events import restitution_at
-from analytic.horizon.touch_derivatives import touch_derivatives
-from models.certificate import law_residuals
-from models.reading import load
-from models.records import Ending, Outcome
+from cointoss import analytic
+from cointoss.analytic.events import restitution_at
+from cointoss.analytic.horizon.touch_derivatives import touch_derivatives
+from cointoss.models.certificate import law_residuals
+from cointoss.models.reading import load
+from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import ZLOTY, scenario
 from tests.helpers.flat_fall import flat_fall
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from analytic.automaton import Mode
-from analytic.contact import one_rim, upright
-from analytic.contact.edge import (
+from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact import one_rim, upright
+from cointoss.analytic.contact.edge import (
     lean_and_rate,
     on_edge,
     rocks_on_edge,
@@ -14,14 +14,14 @@ from analytic.contact.edge import (
     to_lowest,
     turned_back,
 )
-from analytic.contact.following import friction_in_contact
-from analytic.contact.one_rim import lower_rim_of
-from analytic.contact.resistance import FloorFriction
-from analytic.contact.rim_contact import rim_contact
-from analytic.events import run
-from models.attitude import rotation_matrix
-from models.laws import ContactLaw, EndingTest
-from models.records import Ending, Outcome
+from cointoss.analytic.contact.following import friction_in_contact
+from cointoss.analytic.contact.one_rim import lower_rim_of
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.contact.rim_contact import rim_contact
+from cointoss.analytic.events import run
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.laws import ContactLaw, EndingTest
+from cointoss.models.records import Ending, Outcome
 from tests.helpers.contacts import upright_coin
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from analytic.numerics.rotation import (
+from cointoss.analytic.numerics.rotation import (
     axis_and_angle,
     body_spin,
     body_spin_rate,
@@ -15,7 +15,7 @@ from analytic.numerics.rotation import (
     quaternion_rate,
     space_spin,
 )
-from models.attitude import rotation_matrix
+from cointoss.models.attitude import rotation_matrix
 from tests.helpers.draws import draw_quaternion
 
 part = st.floats(-1, 1)

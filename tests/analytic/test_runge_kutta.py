@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.integrate import DOP853
 
-from analytic.flight.runge_kutta import end_point, stage_point, step_error
-from analytic.numerics import tableau
+from cointoss.analytic.flight.runge_kutta import end_point, stage_point, step_error
+from cointoss.analytic.numerics import tableau
 from tests.helpers.draws import ZLOTY, scenario
 
 

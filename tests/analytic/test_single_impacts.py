@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from analytic.events import hit
-from analytic.single_impacts import strike
-from models.laws import ContactLaw
-from models.records import IMPACT_ROW
+from cointoss.analytic.events import hit
+from cointoss.analytic.single_impacts import strike
+from cointoss.models.laws import ContactLaw
+from cointoss.models.records import IMPACT_ROW
 from tests.helpers.draws import scenario
 from tests.helpers.impacts import draw_impact
 

@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from analytic.events import run
-from analytic.flight.integrated_flight import accepted_step, first_step, sample_flight
-from analytic.horizon.flight_tangent import flight_tangent
-from analytic.horizon.sensitivity import event_tangent
-from analytic.numerics.tableau import STAGES
-from analytic.numerics.tolerances import STEP_ERROR
-from analytic.toss import state_of
-from models.laws import ContactLaw
-from models.scenario import Scenario
+from cointoss.analytic.events import run
+from cointoss.analytic.flight.integrated_flight import accepted_step, first_step, sample_flight
+from cointoss.analytic.horizon.flight_tangent import flight_tangent
+from cointoss.analytic.horizon.sensitivity import event_tangent
+from cointoss.analytic.numerics.tableau import STAGES
+from cointoss.analytic.numerics.tolerances import STEP_ERROR
+from cointoss.analytic.toss import state_of
+from cointoss.models.laws import ContactLaw
+from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 SIZES = np.array([1e-2, 1e-2, 1e-2, *[1.0] * 7, *[50.0] * 3])

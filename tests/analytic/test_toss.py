@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-import analytic
-from models.attitude import rotation_matrix
-from models.geometry import gap
-from models.records import Ending, Outcome
+from cointoss import analytic
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.geometry import gap
+from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import AIR, PAPER_LAWS, ZLOTY, draw_coin, draw_release, scenario
 from tests.helpers.referee import Referee
 

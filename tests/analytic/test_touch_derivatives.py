@@ -5,11 +5,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from analytic.flight.state_vector import attitude_of, normalise
-from analytic.horizon.touch_derivatives import step_size, touch_derivatives, touch_differences
-from models.attitude import rotation_matrix
-from models.laws import ContactLaw, RestitutionKind
-from models.scenario import Scenario
+from cointoss.analytic.flight.state_vector import attitude_of, normalise
+from cointoss.analytic.horizon.touch_derivatives import step_size, touch_derivatives, touch_differences
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.laws import ContactLaw, RestitutionKind
+from cointoss.models.scenario import Scenario
 from tests.helpers.draws import PAPER_OFFSET, ZLOTY, draw_quaternion, scenario
 from tests.helpers.impacts import struck
 

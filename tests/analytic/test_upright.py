@@ -3,26 +3,26 @@
 import numpy as np
 import pytest
 
-from analytic.automaton import Event, Mode
-from analytic.contact import modes, upright
-from analytic.contact.edge import (
+from cointoss.analytic.automaton import Event, Mode
+from cointoss.analytic.contact import modes, upright
+from cointoss.analytic.contact.edge import (
     held_on_edge,
     on_edge,
     rolls,
     stands,
 )
-from analytic.contact.resistance import FloorFriction
-from analytic.contact.rim_contact import both_rims
-from analytic.contact.upright import rim_forces, start_creep
-from analytic.events import run
-from analytic.numerics.tolerances import SLOW
-from analytic.toss import state_of
-from compare.reproduction.studies.endings import draw_toss
-from models.attitude import rotation_matrix
-from models.barriers import energy
-from models.geometry import gap
-from models.laws import EndingTest
-from models.records import Ending, Outcome
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.contact.rim_contact import both_rims
+from cointoss.analytic.contact.upright import rim_forces, start_creep
+from cointoss.analytic.events import run
+from cointoss.analytic.numerics.tolerances import SLOW
+from cointoss.analytic.toss import state_of
+from cointoss.compare.reproduction.studies.endings import draw_toss
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.barriers import energy
+from cointoss.models.geometry import gap
+from cointoss.models.laws import EndingTest
+from cointoss.models.records import Ending, Outcome
 from tests.helpers.contacts import follow_step, upright_coin
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 

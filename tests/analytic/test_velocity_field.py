@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from analytic.air.velocity_field import velocity_fields
-from models.attitude import rotation_matrix
+from cointoss.analytic.air.velocity_field import velocity_fields
+from cointoss.models.attitude import rotation_matrix
 from tests.helpers.draws import PAPER_OFFSET, draw_quaternion, scenario
 
 V, W = (0.3, -0.2, 0.2), (20.0, -30.0, 10.0)

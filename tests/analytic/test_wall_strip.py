@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from analytic.air.wall_strip import phi_series, strip_change
+from cointoss.analytic.air.wall_strip import phi_series, strip_change
 
 HALF = 1.25e-3
 

@@ -3,7 +3,7 @@
 import heyoka as hy
 import numpy as np
 
-from analytic.flight.state_vector import STATE_SIZE
+from cointoss.analytic.flight.state_vector import STATE_SIZE
 from tests.benchmarks.one_coin import OneCoin
 from tests.helpers.extended import Extended, integrator
 

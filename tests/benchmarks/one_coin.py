@@ -10,13 +10,13 @@ from typing import NamedTuple
 import numba
 import numpy as np
 
-from analytic.events import hit
-from analytic.flight.equations_of_motion import derivative
-from analytic.flight.state_vector import STATE_SIZE, state_of
-from analytic.flight.touch_search import closing_speed
-from models.ending import final_face
-from models.records import IMPACT_ROW, Array, Ending
-from models.scenario import Scenario
+from cointoss.analytic.events import hit
+from cointoss.analytic.flight.equations_of_motion import derivative
+from cointoss.analytic.flight.state_vector import STATE_SIZE, state_of
+from cointoss.analytic.flight.touch_search import closing_speed
+from cointoss.models.ending import final_face
+from cointoss.models.records import IMPACT_ROW, Array, Ending
+from cointoss.models.scenario import Scenario
 
 LIFT = 1e-16
 """Above the floor at lift-off [m]: else that too would be a zero of the gap to the other integrators."""

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from analytic.toss import state_of
-from models.scenario import Scenario
+from cointoss.analytic.toss import state_of
+from cointoss.models.scenario import Scenario
 from tests.benchmarks.one_coin import OneCoin
 
 EVALUATED_EVERY = 1e-4

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from numba import config
 
-import analytic
-from analytic.events import run
-from compare.reproduction.setups.general_coins import CLASSES, CoinClass
-from models.records import Array, Ending
-from models.releases import Releases
-from models.scenario import Scenario
+from cointoss import analytic
+from cointoss.analytic.events import run
+from cointoss.compare.reproduction.setups.general_coins import CLASSES, CoinClass
+from cointoss.models.records import Array, Ending
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 from tests.benchmarks.one_coin import mechanics
 from tests.benchmarks.rates import report
 

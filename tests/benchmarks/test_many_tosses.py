@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 from numba import config
 
-import analytic
-from analytic.events import run
-from analytic.flight.flying import fly
-from analytic.toss import state_of
-from models.releases import Releases
-from models.scenario import Scenario
+from cointoss import analytic
+from cointoss.analytic.events import run
+from cointoss.analytic.flight.flying import fly
+from cointoss.analytic.toss import state_of
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 from tests.benchmarks import scipy_toss
 from tests.benchmarks.one_coin import OneCoin, mechanics
 from tests.benchmarks.rates import report

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-import analytic
-from analytic.events import run
-from analytic.toss import state_of
-from models.reading import load
+from cointoss import analytic
+from cointoss.analytic.events import run
+from cointoss.analytic.toss import state_of
+from cointoss.models.reading import load
 from tests.benchmarks import scipy_toss
 from tests.benchmarks.one_coin import mechanics
 

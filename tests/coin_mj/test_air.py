@@ -10,14 +10,14 @@ import mujoco
 import numpy as np
 import pytest
 
-import analytic.air.force
-from coin_mj.model.air import air_force
-from coin_mj.model.air_callback import air_of
-from coin_mj.model.machine import machine_of
-from coin_mj.model.scene import shape_thickness
-from coin_mj.model.settings import Settings
-from coin_mj.steps.constrained_step import forward
-from coin_mj.steps.free_step import free_step
+import cointoss.analytic.air.force
+from cointoss.coin_mj.model.air import air_force
+from cointoss.coin_mj.model.air_callback import air_of
+from cointoss.coin_mj.model.machine import machine_of
+from cointoss.coin_mj.model.scene import shape_thickness
+from cointoss.coin_mj.model.settings import Settings
+from cointoss.coin_mj.steps.constrained_step import forward
+from cointoss.coin_mj.steps.free_step import free_step
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 R, H = ZLOTY["radius"], ZLOTY["thickness"]
@@ -33,7 +33,7 @@ def by_both(b, h, v, w):
     body = scenario(coin={"thickness": h}, air={**AIR, "exponent": b}).body
     pairs = (
         air_force(R, h, LN, LT, b, vector(v), vector(w)),
-        analytic.air.force.force_and_moment(body, vector(v), vector(w)),
+        cointoss.analytic.air.force.force_and_moment(body, vector(v), vector(w)),
     )
     speed = np.linalg.norm(v) + R * np.linalg.norm(w)
     size = (LN + LT) * speed ** (1 + b) * np.pi * R**2 * (1 + h / R)

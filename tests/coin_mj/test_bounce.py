@@ -6,7 +6,7 @@
 import mujoco
 import pytest
 
-from coin_mj import solref
+from cointoss.coin_mj import solref
 
 
 def rebound(model, lowest, *, weight=True, speed=0.0):

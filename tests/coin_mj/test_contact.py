@@ -9,8 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from coin_mj.model.settings import Realisation, Settings, damping_ratio_of, rebound_of, restitution_of
-from coin_mj.steps.impact import time_to_release
+from cointoss.coin_mj.model.settings import (
+    Realisation,
+    Settings,
+    damping_ratio_of,
+    rebound_of,
+    restitution_of,
+)
+from cointoss.coin_mj.steps.impact import time_to_release
 
 
 @pytest.mark.parametrize("zeta", [0.0, 0.05, 0.3, 0.99, 1.0, 1.01, 2.0, 5.0])

@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 from numba import config
 
-import coin_mj
-from coin_mj import MANY, Friction, Realisation, Settings
-from coin_mj.ensemble import TILE
-from coin_mj.model.machine import machine_of
-from coin_mj.model.scene import shape_thickness
-from coin_mj.toss import run
-from models.outcomes import Outcomes
-from models.records import ApproximationWarning, Ending, UnsupportedError
-from models.releases import Releases
-from models.scenario import Scenario
+from cointoss import coin_mj
+from cointoss.coin_mj import MANY, Friction, Realisation, Settings
+from cointoss.coin_mj.ensemble import TILE
+from cointoss.coin_mj.model.machine import machine_of
+from cointoss.coin_mj.model.scene import shape_thickness
+from cointoss.coin_mj.toss import run
+from cointoss.models.outcomes import Outcomes
+from cointoss.models.records import ApproximationWarning, Ending, UnsupportedError
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 NAMES = ("position", "velocity", "quaternion", "angular_velocity")

@@ -7,21 +7,20 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-import analytic
-import coin_mj
-from coin_mj import MANY
-from coin_mj.model.machine import machine_of
-from coin_mj.model.scene import shape_thickness
-from coin_mj.model.state import motion_of, set_motion, state_of
-from coin_mj.steps.flight import TOUCH_STEP, FlightExit, fly
-from coin_mj.steps.free_step import free_rate, free_step, free_step_from, nudge, rates_of_step
-from coin_mj.steps.gap_evaluation import evaluate_gap
-from coin_mj.steps.knots import Step, knot_of
-from coin_mj.steps.touch_search import arc_of, first_touch
-from models.kernel.compiled import compiled
-from models.reading import load
-from models.records import Ending, Outcome
-from models.releases import Releases
+from cointoss import analytic, coin_mj
+from cointoss.coin_mj import MANY
+from cointoss.coin_mj.model.machine import machine_of
+from cointoss.coin_mj.model.scene import shape_thickness
+from cointoss.coin_mj.model.state import motion_of, set_motion, state_of
+from cointoss.coin_mj.steps.flight import TOUCH_STEP, FlightExit, fly
+from cointoss.coin_mj.steps.free_step import free_rate, free_step, free_step_from, nudge, rates_of_step
+from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
+from cointoss.coin_mj.steps.knots import Step, knot_of
+from cointoss.coin_mj.steps.touch_search import arc_of, first_touch
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.reading import load
+from cointoss.models.records import Ending, Outcome
+from cointoss.models.releases import Releases
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 pytestmark = pytest.mark.usefixtures("without_horizon")

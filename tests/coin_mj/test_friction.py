@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-import analytic
-from coin_mj import Friction, Realisation, Settings, impacts_of, toss
-from coin_mj.steps.coulomb import coulomb_force
-from compare.metrics.impulses import match
-from models.records import ApproximationWarning, Ending, Flag
+from cointoss import analytic
+from cointoss.coin_mj import Friction, Realisation, Settings, impacts_of, toss
+from cointoss.coin_mj.steps.coulomb import coulomb_force
+from cointoss.compare.metrics.impulses import match
+from cointoss.models.records import ApproximationWarning, Ending, Flag
 from tests.helpers.draws import ZLOTY, draw_coin, draw_release, scenario
 
 pytestmark = pytest.mark.usefixtures("without_horizon")

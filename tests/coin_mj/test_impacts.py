@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-import analytic
-from coin_mj.model.machine import machine_of
-from coin_mj.model.scene import shape_thickness
-from coin_mj.model.settings import Settings
-from coin_mj.model.state import set_motion
-from coin_mj.path import MOTION, STEP, TIME
-from coin_mj.steps.constrained_step import forward
-from coin_mj.toss import impacts_of, run, toss
-from compare.metrics.impulses import match
-from models.records import UnsupportedError
+from cointoss import analytic
+from cointoss.coin_mj.model.machine import machine_of
+from cointoss.coin_mj.model.scene import shape_thickness
+from cointoss.coin_mj.model.settings import Settings
+from cointoss.coin_mj.model.state import set_motion
+from cointoss.coin_mj.path import MOTION, STEP, TIME
+from cointoss.coin_mj.steps.constrained_step import forward
+from cointoss.coin_mj.toss import impacts_of, run, toss
+from cointoss.compare.metrics.impulses import match
+from cointoss.models.records import UnsupportedError
 from tests.helpers.draws import AIR, ZLOTY, draw_coin, draw_release, scenario
 
 DOUBLE = 1e-4

@@ -10,8 +10,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from coin_mj.model import memory
-from coin_mj.model.memory import LayoutError, joint_arrays, offset_of, require_layout
+from cointoss.coin_mj.model import memory
+from cointoss.coin_mj.model.memory import LayoutError, joint_arrays, offset_of, require_layout
 from tests.helpers.command_line import cointoss
 
 ON_FLOOR = """<mujoco><option timestep="0.123456789"/><worldbody><geom type="plane" size="0 0 1" condim="1"/>

@@ -5,16 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import coin_mj
-from coin_mj.model.machine import machine_of
-from coin_mj.model.scene import shape_thickness
-from coin_mj.model.settings import Friction, Settings
-from coin_mj.model.state import state_of
-from coin_mj.steps.resistance import resisted_force, shortest_stop
-from coin_mj.steps.sustained_contact import next_step, sustained_step
-from models.attitude import rotation_matrix
-from models.kernel.vectors import cross
-from models.records import ApproximationWarning, Ending, Outcome, UnsupportedError
+from cointoss import coin_mj
+from cointoss.coin_mj.model.machine import machine_of
+from cointoss.coin_mj.model.scene import shape_thickness
+from cointoss.coin_mj.model.settings import Friction, Settings
+from cointoss.coin_mj.model.state import state_of
+from cointoss.coin_mj.steps.resistance import resisted_force, shortest_stop
+from cointoss.coin_mj.steps.sustained_contact import next_step, sustained_step
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.kernel.vectors import cross
+from cointoss.models.records import ApproximationWarning, Ending, Outcome, UnsupportedError
 from tests.helpers.draws import AIR, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
 
 pytestmark = [

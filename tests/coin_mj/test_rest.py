@@ -5,19 +5,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import coin_mj
-from coin_mj.model.machine import machine_of
-from coin_mj.model.scene import shape_thickness
-from coin_mj.model.settings import Settings
-from coin_mj.model.state import to_mass_center
-from coin_mj.path import MOTION, STEP, TIME
-from coin_mj.toss import run
-from compare.reproduction.studies.endings import probability
-from models.attitude import quaternion_from_angles, rotation_matrix
-from models.barriers import energy
-from models.geometry import contact_velocity, gap, lowest_point
-from models.records import Ending, Outcome
-from models.releases import Releases
+from cointoss import coin_mj
+from cointoss.coin_mj.model.machine import machine_of
+from cointoss.coin_mj.model.scene import shape_thickness
+from cointoss.coin_mj.model.settings import Settings
+from cointoss.coin_mj.model.state import to_mass_center
+from cointoss.coin_mj.path import MOTION, STEP, TIME
+from cointoss.coin_mj.toss import run
+from cointoss.compare.reproduction.studies.endings import probability
+from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
+from cointoss.models.barriers import energy
+from cointoss.models.geometry import contact_velocity, gap, lowest_point
+from cointoss.models.records import Ending, Outcome
+from cointoss.models.releases import Releases
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
@@ -202,7 +202,7 @@ def test_random_tosses_are_decided(realisation, law, air, thickness):
 @pytest.mark.slow
 @pytest.mark.parametrize("law", ["smooth", "coulomb"])
 def test_outcomes_are_as_frequent_as_those_of_the_other_engine(law):
-    import analytic
+    from cointoss import analytic
 
     case = scenario(floor={"contact": law, "friction": 0.3, "restitution": 0.6}, air=AIR)
     counts = {}

@@ -5,12 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import analytic
-import coin_mj
-from coin_mj import Realisation
-from models.certificate import law_residuals
-from models.reading import load
-from models.records import ApproximationWarning, Ending, Outcome
+from cointoss import analytic, coin_mj
+from cointoss.coin_mj import Realisation
+from cointoss.models.certificate import law_residuals
+from cointoss.models.reading import load
+from cointoss.models.records import ApproximationWarning, Ending, Outcome
 from tests.helpers.draws import AIR, draw_coin, draw_release, scenario
 from tests.helpers.flat_fall import flat_fall
 

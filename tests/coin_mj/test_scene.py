@@ -7,9 +7,9 @@ import mujoco
 import numpy as np
 import pytest
 
-from coin_mj.model.scene import build, shape_thickness
-from coin_mj.model.settings import Settings, rebound_of
-from coin_mj.model.state import of_release, to_mass_center
+from cointoss.coin_mj.model.scene import build, shape_thickness
+from cointoss.coin_mj.model.settings import Settings, rebound_of
+from cointoss.coin_mj.model.state import of_release, to_mass_center
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}

@@ -8,12 +8,12 @@ import numba
 import numpy as np
 import pytest
 
-from coin_mj import MANY
-from coin_mj.model.air_callback import air_of
-from coin_mj.model.machine import machine_of
-from coin_mj.model.scene import shape_thickness
-from coin_mj.model.state import set_motion
-from coin_mj.steps.free_step import free_rate
+from cointoss.coin_mj import MANY
+from cointoss.coin_mj.model.air_callback import air_of
+from cointoss.coin_mj.model.machine import machine_of
+from cointoss.coin_mj.model.scene import shape_thickness
+from cointoss.coin_mj.model.state import set_motion
+from cointoss.coin_mj.steps.free_step import free_rate
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 AIRS = {"vacuum": {}, "linear": AIR, "b = 0.5": {**AIR, "exponent": 0.5}}

@@ -15,17 +15,17 @@ import zarr
 from matplotlib.figure import Figure
 from zarr.storage import LocalStore
 
-import coin_mj
-from coin_mj import Realisation
-from compare.engines import Engine
-from compare.output.files import UnwritableError
-from compare.sweep import grid, run
-from compare.sweep.axes import parse_axis
-from compare.sweep.grid import Sweep
-from compare.sweep.layers import NOT_TOSSED
-from compare.sweep.store import Map, opened, require_place
-from models.reading import parse
-from models.records import Outcome
+from cointoss import coin_mj
+from cointoss.coin_mj import Realisation
+from cointoss.compare.engines import Engine
+from cointoss.compare.output.files import UnwritableError
+from cointoss.compare.sweep import grid, run
+from cointoss.compare.sweep.axes import parse_axis
+from cointoss.compare.sweep.grid import Sweep
+from cointoss.compare.sweep.layers import NOT_TOSSED
+from cointoss.compare.sweep.store import Map, opened, require_place
+from cointoss.models.reading import parse
+from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import (
     AXES,
     SCENARIO,

@@ -5,10 +5,10 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
-from compare.basins.picture import MapAxis, draw_comparison, draw_map, write_png
-from compare.basins.picture_style import Palette
-from compare.output.files import UnwritableError
-from models.records import Outcome
+from cointoss.compare.basins.picture import MapAxis, draw_comparison, draw_map, write_png
+from cointoss.compare.basins.picture_style import Palette
+from cointoss.compare.output.files import UnwritableError
+from cointoss.models.records import Outcome
 from tests.helpers.made_maps import EDGE, HEADS, TAILS, UNDECIDED, halves, stripes
 
 X = MapAxis(name="release.angular_velocity.eta", unit="rad/s", start=20.0, stop=60.0)

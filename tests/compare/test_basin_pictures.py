@@ -5,10 +5,10 @@ import pytest
 import xarray as xr
 from PIL import Image
 
-from compare.basins.agreement import Agreement, Share
-from compare.basins.picture import MapAxis, draw_comparison
-from compare.basins.picture_style import Palette
-from compare.sweep import describe
+from cointoss.compare.basins.agreement import Agreement, Share
+from cointoss.compare.basins.picture import MapAxis, draw_comparison
+from cointoss.compare.basins.picture_style import Palette
+from cointoss.compare.sweep import describe
 from tests.helpers.basin_runs import SCENARIO, basin
 from tests.helpers.made_maps import halves
 

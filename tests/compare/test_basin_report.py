@@ -14,20 +14,20 @@ import pytest
 import xarray as xr
 from PIL import Image
 
-from coin_mj import Realisation, Settings
-from compare.basins.picture_style import PictureStyle
-from compare.engines import Engine
-from compare.film.back_end import ADVICE
-from compare.report.comparison import compare, compared
-from compare.report.contents import FILES, NOT_ASKED, require_folder
-from compare.report.folder import write_report
-from compare.sweep import job, show
-from compare.sweep.axes import parse_axis
-from compare.sweep.describe import AWAY
-from compare.sweep.grid import Sweep
-from compare.sweep.store import opened
-from models.reading import parse
-from models.records import Outcome
+from cointoss.coin_mj import Realisation, Settings
+from cointoss.compare.basins.picture_style import PictureStyle
+from cointoss.compare.engines import Engine
+from cointoss.compare.film.back_end import ADVICE
+from cointoss.compare.report.comparison import compare, compared
+from cointoss.compare.report.contents import FILES, NOT_ASKED, require_folder
+from cointoss.compare.report.folder import write_report
+from cointoss.compare.sweep import job, show
+from cointoss.compare.sweep.axes import parse_axis
+from cointoss.compare.sweep.describe import AWAY
+from cointoss.compare.sweep.grid import Sweep
+from cointoss.compare.sweep.store import opened
+from cointoss.models.reading import parse
+from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import SCENARIO, basin
 from tests.helpers.command_line import HERE, cointoss
 from tests.helpers.made_maps import halves
@@ -181,7 +181,7 @@ def test_a_back_end_for_drawing_is_chosen_before_mujoco_is_imported(coin, tmp_pa
         with opened(tmp_path / name, sweep_of(case, engine), COIN, overwrite=False):
             pass
     script = (
-        "import sys; from compare.cli import main; from compare.sweep import job\n"
+        "import sys; from cointoss.compare.cli import main; from cointoss.compare.sweep import job\n"
         "job.drawing_problem = lambda: sys.exit(f'imported: {\"mujoco\" in sys.modules}')\n"
         "main()"
     )

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from scipy.special import entr
 
-from compare.basins.agreement import agreement
-from compare.basins.boundary import boundary_pixels, distance_to_doubt
-from compare.basins.entropy import Log2Test, basin_entropy
-from compare.basins.fractions import fractions
-from compare.basins.stripes import crossings, stripe_widths
-from models.records import Outcome
+from cointoss.compare.basins.agreement import agreement
+from cointoss.compare.basins.boundary import boundary_pixels, distance_to_doubt
+from cointoss.compare.basins.entropy import Log2Test, basin_entropy
+from cointoss.compare.basins.fractions import fractions
+from cointoss.compare.basins.stripes import crossings, stripe_widths
+from cointoss.models.records import Outcome
 from tests.helpers.made_maps import EDGE, HEADS, TAILS, UNDECIDED, faces, halves, hyperbolas, stripes
 
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from compare.reproduction import gallery, runner
-from compare.reproduction.claim import (
+from cointoss.compare.reproduction import gallery, runner
+from cointoss.compare.reproduction.claim import (
     Claim,
     Criterion,
     Estimate,
@@ -18,7 +18,7 @@ from compare.reproduction.claim import (
     to_json,
     unexpected,
 )
-from compare.reproduction.runner import Reproduction, Result
+from cointoss.compare.reproduction.result import Reproduction, Result
 
 KNOWN = Claim(
     claim="two and two are four", analytic="4", mujoco="4", criteria=(Criterion("sum", 4, "=", 4, "no more"),)

@@ -19,16 +19,16 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-import analytic
-from compare.cli import main
-from compare.film.back_end import drawing_problem
-from compare.film.drawing import Drawer
-from compare.film.encodings import ENCODINGS, Format
-from compare.output.answer import as_lines, contact_line
-from compare.output.files import UnwritableError, require_file, write_text
-from compare.report.contents import FILES
-from models.reading import load, named_scenarios, scenario_text
-from models.scenario import Scenario
+from cointoss import analytic
+from cointoss.compare.cli import main
+from cointoss.compare.film.back_end import drawing_problem
+from cointoss.compare.film.drawing import Drawer
+from cointoss.compare.film.encodings import ENCODINGS, Format
+from cointoss.compare.output.answer import as_lines, contact_line
+from cointoss.compare.output.files import UnwritableError, require_file, write_text
+from cointoss.compare.report.contents import FILES
+from cointoss.models.reading import load, named_scenarios, scenario_text
+from cointoss.models.scenario import Scenario
 from tests.helpers.command_line import HERE, cointoss
 from tests.helpers.films import film_written
 from tests.helpers.processes import started
@@ -379,7 +379,7 @@ def test_a_replaced_file_keeps_its_mode_and_a_link_its_place(tmp_path):
 
 def in_a_shell(command, folder):
     """Run a shell's line in a folder, `cointoss` being the command."""
-    line = f'cointoss() {{ "{sys.executable}" -c "from compare.cli import main; main()" "$@"; }}; {command}'
+    line = f'cointoss() {{ "{sys.executable}" -m cointoss "$@"; }}; {command}'
     return subprocess.run(
         ["bash", "-c", line],
         cwd=folder,
@@ -427,7 +427,7 @@ def test_what_is_lost_without_an_error_of_the_system_is_said_as_it_is(monkeypatc
     def lost():
         raise OSError("the connection was lost")
 
-    monkeypatch.setattr("models.reading.named_scenarios", lost)
+    monkeypatch.setattr("cointoss.models.reading.named_scenarios", lost)
     answered = cointoss("scenarios")
     assert (answered.exit_code, answered.stderr) == (1, "cointoss: the connection was lost\n")
 
@@ -435,7 +435,7 @@ def test_what_is_lost_without_an_error_of_the_system_is_said_as_it_is(monkeypatc
 def test_a_closed_pipe_ends_quietly_with_exit_status_1(tmp_path):
     reading, writing = os.pipe()
     os.close(reading)
-    command = [sys.executable, "-c", "from compare.cli import main; main()", "--help"]
+    command = [sys.executable, "-c", "from cointoss.compare.cli import main; main()", "--help"]
     done = subprocess.run(command, cwd=tmp_path, env=HERE, stdout=writing, stderr=subprocess.PIPE)
     os.close(writing)
     assert (done.returncode, done.stderr) == (1, b"")
@@ -458,10 +458,10 @@ def short(tmp_path):
 def test_where_a_film_is_interrupted_the_report_stands_without_it(tmp_path, short):
     # Frames that take their time, so that the film is met unfinished.
     script = (
-        "import time\nfrom compare.film import drawing\n"
+        "import time\nfrom cointoss.compare.film import drawing\n"
         "draw = drawing.Drawer.draw\n"
         "drawing.Drawer.draw = lambda *frame: time.sleep(0.2) or draw(*frame)\n"
-        "from compare.cli import main; main()"
+        "from cointoss.compare.cli import main; main()"
     )
     command = ("compare", short, "--out", "new/report")
     how = {"cwd": tmp_path, "stderr": subprocess.PIPE, "start_new_session": True}
@@ -481,7 +481,7 @@ def test_where_a_film_is_interrupted_the_report_stands_without_it(tmp_path, shor
 @pytest.mark.usefixtures("small_films")
 def test_a_film_has_one_panel_for_each_toss(tmp_path, short, engine, camera):
     film = tmp_path / "film.mp4"
-    with patch("compare.film.video.Drawer", side_effect=Drawer) as drawers:
+    with patch("cointoss.compare.film.video.Drawer", side_effect=Drawer) as drawers:
         answered = cointoss("video", short, "--engine", engine, "--camera", camera, "--out", film)
     assert answered.exit_code == 0
     assert answered.stdout == f"{film}\n"
@@ -497,7 +497,7 @@ def test_a_film_has_one_panel_for_each_toss(tmp_path, short, engine, camera):
 def test_an_interrupted_film_leaves_what_was_there(tmp_path, short):
     film = tmp_path / "film.mp4"
     film.write_text("an earlier film")
-    with patch("compare.film.video.written", side_effect=KeyboardInterrupt):
+    with patch("cointoss.compare.film.video.written", side_effect=KeyboardInterrupt):
         answered = cointoss("video", short, "--out", film)
     assert answered.exit_code == 130
     assert answered.stderr.strip() == "cointoss: interrupted"
@@ -538,8 +538,8 @@ def test_a_back_end_that_is_none_is_one_line_and_exit_status_2(tmp_path, command
 
 def test_a_film_that_cannot_be_written_is_one_line(tmp_path, short):
     small = (
-        "from compare.film.encodings import ENCODINGS as e, Format; "
-        "e['.mp4'] = e['.mp4']._replace(form=Format(64, 48, 4)); from compare.cli import main; main()"
+        "from cointoss.compare.film.encodings import ENCODINGS as e, Format; "
+        "e['.mp4'] = e['.mp4']._replace(form=Format(64, 48, 4)); from cointoss.__main__ import main; main()"
     )
     command = f'"{sys.executable}" -c "{small}" video short.toml --out film.mp4'
     done = in_a_shell(f"ulimit -c 0 -f 1; {command}; echo $?", tmp_path)
@@ -621,7 +621,7 @@ HEAVY = {
 )
 def test_a_command_imports_no_more_than_it_needs(words, needed, tmp_path):
     script = (
-        "import sys\nfrom click.testing import CliRunner\nfrom compare.cli import main\n"
+        "import sys\nfrom click.testing import CliRunner\nfrom cointoss.compare.cli import main\n"
         f"assert CliRunner().invoke(main, {words.format(tmp_path).split()}).exit_code == 0\n"
         "print(*sys.modules)"
     )

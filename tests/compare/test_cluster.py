@@ -12,8 +12,8 @@ import distributed
 import pytest
 from distributed.comm.core import CommClosedError
 
-from compare.sweep.cluster import naming_loss
-from compare.sweep.errors import SweepError
+from cointoss.compare.sweep.cluster import naming_loss
+from cointoss.compare.sweep.errors import SweepError
 from tests.helpers.basin_runs import (
     AXES,
     SCENARIO,
@@ -79,7 +79,7 @@ def test_a_scheduler_that_cannot_be_reached_is_one_line_and_leaves_no_thread(
     tmp_path, monkeypatch, silent, address
 ):
     address = silent if address == "silent" else address
-    monkeypatch.setattr(importlib.import_module("compare.sweep.cluster"), "PATIENCE", 0.5)
+    monkeypatch.setattr(importlib.import_module("cointoss.compare.sweep.cluster"), "PATIENCE", 0.5)
     threads = set(threading.enumerate())
     (tmp_path / "coin.toml").write_text(SCENARIO)
     answered = basin(tmp_path / "coin.toml", *AXES, "--out", tmp_path / "map.zarr", "--scheduler", address)

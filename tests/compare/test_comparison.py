@@ -5,9 +5,9 @@ import pytest
 from matplotlib.figure import Figure
 
 import cointoss
-from compare.report.comparison import Comparison, compare
-from compare.report.verdict import verdict_of
-from models.reading import load
+from cointoss.compare.report.comparison import Comparison, compare
+from cointoss.compare.report.verdict import verdict_of
+from cointoss.models.reading import load
 
 SHORT = load("fig24a").replace("ending.max_impacts", 3)
 KNURLED = load("contact_knurled").replace("ending.max_impacts", 3)

@@ -5,11 +5,11 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from analytic.impact.laws import mobility
-from compare.reproduction.claim import unexpected
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.setups import contact_study
-from compare.reproduction.setups.contact_study import (
+from cointoss.analytic.impact.laws import mobility
+from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups import contact_study
+from cointoss.compare.reproduction.setups.contact_study import (
     COINS,
     LAWS,
     RESTITUTIONS,
@@ -19,23 +19,23 @@ from compare.reproduction.setups.contact_study import (
     record_of,
     rules_of,
 )
-from compare.reproduction.setups.contact_thresholds import (
+from cointoss.compare.reproduction.setups.contact_thresholds import (
     onset_of_gain,
     onset_without_solution,
     touching_state,
 )
-from compare.reproduction.setups.random_impacts import draw_states
-from compare.reproduction.studies import contact_laws
-from compare.reproduction.studies.contact_laws import (
+from cointoss.compare.reproduction.setups.random_impacts import draw_states
+from cointoss.compare.reproduction.studies import contact_laws
+from cointoss.compare.reproduction.studies.contact_laws import (
     COUNT,
     SEED,
     claims,
     kane_onset,
     sliding_onset,
 )
-from models.attitude import rotation_matrix
-from models.geometry import lowest_point
-from models.kernel.vectors import apply
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.geometry import lowest_point
+from cointoss.models.kernel.vectors import apply
 from tests.helpers.pages import pictures, saved
 
 SAVED = read_numbers(saved("contact-laws"), ContactRecord)

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from compare.report.counts import counts_sentence
-from models.records import IMPACT_ROW, Impacts
+from cointoss.compare.report.counts import counts_sentence
+from cointoss.models.records import IMPACT_ROW, Impacts
 from tests.helpers.films import MadePath, made
 
 DYING = (

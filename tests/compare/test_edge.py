@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from compare.engines import Engine
-from compare.reproduction.claim import unexpected
-from compare.reproduction.claims.edge import claims
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.setups import edge_classes
-from compare.reproduction.setups.edge_classes import (
+from cointoss.compare.engines import Engine
+from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.claims.edge import claims
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups import edge_classes
+from cointoss.compare.reproduction.setups.edge_classes import (
     DIAMETRAL,
     NICKEL,
     SEED,
@@ -25,11 +25,17 @@ from compare.reproduction.setups.edge_classes import (
     three_way,
     tosses,
 )
-from compare.reproduction.setups.edge_pages import alike, fair, on_edge
-from compare.reproduction.setups.edge_record import ANGLE, SOLID_ANGLE, EdgeRecord
-from compare.reproduction.setups.edge_touches import ANYHOW, first_touches, let_go, tossed, way_to_rest
-from models.attitude import rotation_matrix
-from models.records import Outcome
+from cointoss.compare.reproduction.setups.edge_pages import alike, fair, on_edge
+from cointoss.compare.reproduction.setups.edge_record import ANGLE, SOLID_ANGLE, EdgeRecord
+from cointoss.compare.reproduction.setups.edge_touches import (
+    ANYHOW,
+    first_touches,
+    let_go,
+    tossed,
+    way_to_rest,
+)
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.records import Outcome
 from tests.helpers.pages import pictures, saved
 
 SAVED = read_numbers(saved("edge"), EdgeRecord)

@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import analytic
-from compare.reproduction.claim import unexpected
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.studies.endings import (
+from cointoss import analytic
+from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.studies.endings import (
     BY_BOTH,
     COINS,
     COUNT,
@@ -24,7 +24,7 @@ from compare.reproduction.studies.endings import (
     share,
     toss_by_mujoco,
 )
-from models.records import Outcome
+from cointoss.models.records import Outcome
 from tests.helpers.pages import pictures, saved
 
 pytestmark = pytest.mark.usefixtures("without_horizon")

@@ -7,10 +7,9 @@ from typing import Any
 
 import pytest
 
-import analytic
-import coin_mj
-from coin_mj import Realisation
-from compare.engines import Engine
+from cointoss import analytic, coin_mj
+from cointoss.coin_mj import Realisation
+from cointoss.compare.engines import Engine
 
 
 @pytest.mark.parametrize("verb", ["toss", "toss_many", "require_supported"])

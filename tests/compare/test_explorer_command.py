@@ -13,13 +13,13 @@ import pytest
 import zarr
 
 import cointoss as public
-from compare.engines import Engine
-from compare.explorer.page_map import page_map
-from compare.explorer.server import Explorer
-from compare.film.back_end import BackEndError
-from compare.sweep import reading
-from compare.sweep.grid import tile_shape, tiles
-from compare.sweep.reading import read_map
+from cointoss.compare.engines import Engine
+from cointoss.compare.explorer.page_map import page_map
+from cointoss.compare.explorer.server import Explorer
+from cointoss.compare.film.back_end import BackEndError
+from cointoss.compare.sweep import reading
+from cointoss.compare.sweep.grid import tile_shape, tiles
+from cointoss.compare.sweep.reading import read_map
 from tests.helpers.command_line import cointoss
 from tests.helpers.explored import AXES, SCENARIO, got, small_map
 from tests.helpers.processes import started
@@ -120,7 +120,7 @@ def test_a_map_of_too_many_pixels_is_refused(whole, monkeypatch):
 def test_of_a_large_map_every_so_many_th_pixel_is_shown(whole, tmp_path, monkeypatch, tile):
     full, path = read_map(whole), whole
     if tile is not None:  # whose sides the stride crosses
-        monkeypatch.setattr("compare.sweep.grid.TILE_TOSSES", dict.fromkeys(Engine, tile))
+        monkeypatch.setattr("cointoss.compare.sweep.grid.TILE_TOSSES", dict.fromkeys(Engine, tile))
         path = small_map(tmp_path)
         cut = list(tiles(full.sweep.shape, tile_shape(full.sweep)))
         for sides in ([part.rows for part in cut], [part.columns for part in cut]):
@@ -133,7 +133,7 @@ def test_of_a_large_map_every_so_many_th_pixel_is_shown(whole, tmp_path, monkeyp
 
 
 def test_an_unfinished_map_is_shown_as_far_as_it_is(copy, monkeypatch):
-    monkeypatch.setattr("compare.sweep.grid.TILE_TOSSES", dict.fromkeys(("analytic", "mujoco"), 64))
+    monkeypatch.setattr("cointoss.compare.sweep.grid.TILE_TOSSES", dict.fromkeys(("analytic", "mujoco"), 64))
     made = cointoss("basin", copy.parent / "coin.toml", *AXES, "--out", copy, "--overwrite")
     assert made.exit_code == 2  # there is no such scenario here
     (copy.parent / "coin.toml").write_text(SCENARIO)
@@ -194,7 +194,7 @@ def test_the_address_is_printed_and_opened(whole, monkeypatch, opens, options, a
 
 def test_ctrl_c_ends_it_within_a_second(whole):
     """A second on a machine of one's own; ten on one that is busy."""
-    script = "from compare.cli import main; main()"
+    script = "from cointoss.compare.cli import main; main()"
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     with started("-c", script, "explore", whole, "--no-browser", **pipes) as process:
         assert process.stdout

@@ -8,10 +8,10 @@ from urllib.parse import parse_qs
 import numpy as np
 import pytest
 
-import analytic
-from compare.explorer import static
-from compare.sweep.reading import read_map
-from models.reading import parse
+from cointoss import analytic
+from cointoss.compare.explorer import static
+from cointoss.compare.sweep.reading import read_map
+from cointoss.models.reading import parse
 from tests.helpers.browser import Page, browser
 from tests.helpers.coins_shown import BLUE, GOLD, UNNAMED, box, faces, picture, set_time
 from tests.helpers.command_line import cointoss

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-import analytic
-from compare.explorer.finer import SIDE, toss_tile
-from compare.explorer.page_files import page_files
-from compare.sweep.errors import SweepError
-from compare.sweep.reading import read_map
-from models.reading import parse
+from cointoss import analytic
+from cointoss.compare.explorer.finer import SIDE, toss_tile
+from cointoss.compare.explorer.page_files import page_files
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.reading import read_map
+from cointoss.models.reading import parse
 from tests.helpers.explored import FIELDS, SCENARIO, got, sent, serving, small_map
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from compare.reproduction.paper.fig28 import changes
+from cointoss.compare.reproduction.paper.fig28 import changes
 
 
 @pytest.mark.parametrize(

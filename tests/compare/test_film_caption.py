@@ -2,9 +2,9 @@
 
 import pytest
 
-from compare.engines import Engine
-from compare.report.film_caption import ARROWS, COLORS, film_caption
-from models.records import Ending
+from cointoss.compare.engines import Engine
+from cointoss.compare.report.film_caption import ARROWS, COLORS, film_caption
+from cointoss.models.records import Ending
 from tests.helpers.draws import scenario
 from tests.helpers.engines import toss
 

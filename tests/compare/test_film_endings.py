@@ -5,18 +5,18 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from compare.engines import Engine
-from compare.film.captions import caption_of
-from compare.film.drawing import Camera
-from compare.film.encodings import ENCODINGS, Format
-from compare.film.filmed import FOLLOWED_FOR, Filmed, followed
-from compare.film.play import play_of
-from compare.film.slow_motion import FAST, SETTLED, SLOW, SPEEDS_UP_FOR, film_times
-from compare.film.video import write_video
-from compare.output import interruption
-from models.ending import face_up
-from models.reading import load, scenario_text
-from models.records import Ending, Outcome
+from cointoss.compare.engines import Engine
+from cointoss.compare.film.captions import caption_of
+from cointoss.compare.film.drawing import Camera
+from cointoss.compare.film.encodings import ENCODINGS, Format
+from cointoss.compare.film.filmed import FOLLOWED_FOR, Filmed, followed
+from cointoss.compare.film.play import play_of
+from cointoss.compare.film.slow_motion import FAST, SETTLED, SLOW, SPEEDS_UP_FOR, film_times
+from cointoss.compare.film.video import write_video
+from cointoss.compare.output import interruption
+from cointoss.models.ending import face_up
+from cointoss.models.reading import load, scenario_text
+from cointoss.models.records import Ending, Outcome
 from tests.helpers.command_line import cointoss
 from tests.helpers.films import FLAT, MadePath, drawn, film_written, made, shown
 

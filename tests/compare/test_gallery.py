@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from compare.reproduction import gallery, runner
-from compare.reproduction.claim import Claim, Criterion, unexpected
-from compare.reproduction.runner import Reproduction, Result
+from cointoss.compare.reproduction import gallery, runner
+from cointoss.compare.reproduction.claim import Claim, Criterion, unexpected
+from cointoss.compare.reproduction.result import Reproduction, Result
 from tests.helpers.command_line import cointoss
 from tests.helpers.pages import DOCS
 

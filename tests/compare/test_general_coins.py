@@ -5,15 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import analytic
-from analytic.automaton import Mode
-from analytic.events import run
-from analytic.settings import MANY
-from compare.reproduction.claim import unexpected
-from compare.reproduction.saving import read_numbers, save
-from compare.reproduction.setups.general_coins import CLASSES
-from compare.reproduction.studies import general_coins
-from compare.reproduction.studies.general_coins import (
+from cointoss import analytic
+from cointoss.analytic.automaton import Mode
+from cointoss.analytic.events import run
+from cointoss.analytic.settings import MANY
+from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.saving import read_numbers, save
+from cointoss.compare.reproduction.setups.general_coins import CLASSES
+from cointoss.compare.reproduction.studies import general_coins
+from cointoss.compare.reproduction.studies.general_coins import (
     ClassCosts,
     GeneralCosts,
     TossParts,
@@ -30,7 +30,7 @@ from compare.reproduction.studies.general_coins import (
     tables,
     timed_toss,
 )
-from models.records import Ending, Outcome
+from cointoss.models.records import Ending, Outcome
 from tests.helpers.pages import saved
 
 SAVED = read_numbers(saved("general-coins"), GeneralCosts)

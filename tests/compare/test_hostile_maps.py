@@ -13,14 +13,14 @@ import pytest
 import zarr
 
 import cointoss
-from compare.engines import Engine
-from compare.sweep import grid
-from compare.sweep.axes import parse_axis
-from compare.sweep.errors import MapError
-from compare.sweep.grid import Sweep
-from compare.sweep.pixels import Pixels
-from compare.sweep.store import opened
-from models.reading import parse
+from cointoss.compare.engines import Engine
+from cointoss.compare.sweep import grid
+from cointoss.compare.sweep.axes import parse_axis
+from cointoss.compare.sweep.errors import MapError
+from cointoss.compare.sweep.grid import Sweep
+from cointoss.compare.sweep.pixels import Pixels
+from cointoss.compare.sweep.store import opened
+from cointoss.models.reading import parse
 from tests.helpers.basin_runs import SCENARIO
 from tests.helpers.command_line import cointoss as command
 

@@ -6,17 +6,16 @@ from html.parser import HTMLParser
 
 import pytest
 
-import analytic
-import coin_mj
-from compare.explorer import static
-from compare.explorer.page_files import page_files
-from compare.explorer.static import write_static
-from compare.report.comparison import Comparison
-from compare.report.map_section import MapSection
-from compare.report.page import Page as Report
-from compare.report.page import render
-from compare.sweep.reading import read_map
-from models.reading import parse
+from cointoss import analytic, coin_mj
+from cointoss.compare.explorer import static
+from cointoss.compare.explorer.page_files import page_files
+from cointoss.compare.explorer.static import write_static
+from cointoss.compare.report.comparison import Comparison
+from cointoss.compare.report.map_section import MapSection
+from cointoss.compare.report.page import Page as Report
+from cointoss.compare.report.page import render
+from cointoss.compare.sweep.reading import read_map
+from cointoss.models.reading import parse
 from tests.helpers.browser import Page, browser
 from tests.helpers.explored import SCENARIO, got, serving, small_map
 

@@ -7,8 +7,8 @@ import time
 import numpy as np
 import pytest
 
-from compare.engines import Engine
-from compare.sweep import grid
+from cointoss.compare.engines import Engine
+from cointoss.compare.sweep import grid
 from tests.helpers.basin_runs import AXES, SCENARIO, SMALL, assert_same, basin, pixels
 from tests.helpers.processes import started
 
@@ -32,7 +32,7 @@ def of_toss(*engines):
     """Return the head of a script in which a toss of these engines never ends."""
     return "".join(
         [
-            f"{ENDLESS}import sys\nfrom compare.cli import main\n",
+            f"{ENDLESS}import sys\nfrom cointoss.compare.cli import main\n",
             *(f"import {name}; sys.modules['{name}.toss'].run = lambda *_: endless()\n" for name in engines),
         ]
     )
@@ -88,8 +88,8 @@ def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(tmp_path,
     (tmp_path / "coin.toml").write_text(SCENARIO + "[ending]\nmax_impacts = 1\n")
     asked = ("coin.toml", "--x", f"{AXES[1][:-2]}20", "--y", f"{AXES[3][:-2]}20", "--engine", engine)
     script = (
-        f"{ENDLESS}\nfrom compare.cli import main; from compare.engines import Engine\n"
-        "from compare.sweep import grid\n"
+        f"{ENDLESS}\nfrom cointoss.compare.cli import main; from cointoss.compare.engines import Engine\n"
+        "from cointoss.compare.sweep import grid\n"
         f"grid.TILE_TOSSES[Engine('{engine}')] = {SMALL}\n"
         f"import {engine.package.__name__}.ensemble as of_many\n"
         "in_tiles, left = of_many.toss_in_tiles, [5]\n"
@@ -115,11 +115,11 @@ def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(tmp_path,
 
 def test_in_python_ctrl_c_raises_out_of_a_toss_and_of_many(tmp_path):
     script = of_toss("analytic", "coin_mj") + (
-        "import analytic.ensemble as of_many\n"
+        "import cointoss.analytic.ensemble as of_many\n"
         "in_tiles, toss = of_many.toss_in_tiles, lambda *_: endless()\n"
         "of_many.toss_in_tiles = lambda some, tile, _, progress: in_tiles(some, tile, toss, progress)\n"
-        "from models.reading import load\n"
-        "from models.releases import Releases\n"
+        "from cointoss.models.reading import load\n"
+        "from cointoss.models.releases import Releases\n"
         "fig = load('fig24a')\n"
         "many = Releases(position=[[0, 0, 1]] * 9999, velocity=[[0, 0, 0]] * 9999,\n"
         "    quaternion=[[1, 0, 0, 0]] * 9999, angular_velocity=[[0, 0, 0]] * 9999)\n"
@@ -145,8 +145,8 @@ def test_in_python_ctrl_c_raises_out_of_a_toss_and_of_many(tmp_path):
 STUCK = """
 import hashlib, os, signal, sys, threading
 from pathlib import Path
-from compare.output.files import written_together, written_whole
-from compare.output.interruption import run_to_exit
+from cointoss.compare.output.files import written_together, written_whole
+from cointoss.compare.output.interruption import run_to_exit
 
 def stuck():
     Path("begun").touch()

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from analytic.events import run
-from analytic.toss import state_of
-from compare.metrics.lyapunov import divergence, growth_by_tangent
+from cointoss.analytic.events import run
+from cointoss.analytic.toss import state_of
+from cointoss.compare.metrics.lyapunov import divergence, growth_by_tangent
 from tests.helpers.draws import scenario
 
 

@@ -7,14 +7,22 @@ import numpy as np
 import pytest
 import xarray as xr
 
-import analytic
-from compare.basins.picture import MapAxis, draw_margins, write_png
-from compare.engines import Engine
-from compare.metrics.margin import MANY, PROVED, QUANTITIES, accepted, margins, quantity_of, smallest_changes
-from compare.reproduction.setups.planar_maps import releases
-from compare.sweep import grid
-from models.reading import load
-from models.releases import Releases
+from cointoss import analytic
+from cointoss.compare.basins.picture import MapAxis, draw_margins, write_png
+from cointoss.compare.engines import Engine
+from cointoss.compare.metrics.margin import (
+    MANY,
+    PROVED,
+    QUANTITIES,
+    accepted,
+    margins,
+    quantity_of,
+    smallest_changes,
+)
+from cointoss.compare.reproduction.setups.planar_maps import releases
+from cointoss.compare.sweep import grid
+from cointoss.models.reading import load
+from cointoss.models.releases import Releases
 from tests.helpers.command_line import cointoss
 
 pytestmark = pytest.mark.usefixtures("without_horizon")

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from compare.reproduction.claim import unexpected
-from compare.reproduction.estimates import quantile
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.studies import margins
-from compare.reproduction.studies.margins import Margins, below, claims, compute
+from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.estimates import quantile
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.studies import margins
+from cointoss.compare.reproduction.studies.margins import Margins, below, claims, compute
 from tests.helpers.pages import pictures, saved
 
 SAVED = read_numbers(saved("margins"), Margins)

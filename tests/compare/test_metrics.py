@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-import analytic
-from compare.metrics.impulses import errors_of_impacts, match
-from compare.metrics.sequences import agreement_horizon, common_prefix
-from compare.metrics.trajectories import attitude_angle, distance, parting_time, tilt
-from compare.report.comparison import compare
-from models.records import IMPACT_ROW, Impacts, States
+from cointoss import analytic
+from cointoss.compare.metrics.impulses import errors_of_impacts, match
+from cointoss.compare.metrics.sequences import agreement_horizon, common_prefix
+from cointoss.compare.metrics.trajectories import attitude_angle, distance, parting_time, tilt
+from cointoss.compare.report.comparison import compare
+from cointoss.models.records import IMPACT_ROW, Impacts, States
 from tests.helpers.draws import AIR, ZLOTY, scenario
 
 TUMBLING = {"angles": [0.0, 0.122, 0.0], "angular_velocity": [0.0, 40.15, 0.0]}

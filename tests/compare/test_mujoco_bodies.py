@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from coin_mj.bounce import SPEED
-from compare.reproduction.claim import unexpected
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.setups.mujoco_bodies import SHAPES, SIZE, rebounds, resting_depth
-from compare.reproduction.studies.mujoco_bodies import (
+from cointoss.coin_mj.bounce import SPEED
+from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups.mujoco_bodies import SHAPES, SIZE, rebounds, resting_depth
+from cointoss.compare.reproduction.studies.mujoco_bodies import (
     FINE,
     RESTITUTION,
     STEP,

@@ -2,10 +2,17 @@
 
 from dataclasses import replace
 
-from compare.reproduction.claim import unexpected
-from compare.reproduction.saving import read_numbers, save
-from compare.reproduction.setups.mujoco_study import Spread
-from compare.reproduction.studies.mujoco_many import FixedSteps, TossSpeeds, claims, compute, result, tables
+from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.saving import read_numbers, save
+from cointoss.compare.reproduction.setups.mujoco_study import Spread
+from cointoss.compare.reproduction.studies.mujoco_many import (
+    FixedSteps,
+    TossSpeeds,
+    claims,
+    compute,
+    result,
+    tables,
+)
 from tests.helpers.pages import saved
 
 SAVED = read_numbers(saved("mujoco-many"), TossSpeeds)

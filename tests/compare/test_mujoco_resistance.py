@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from compare.reproduction.claim import unexpected
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.studies.mujoco_resistance import (
+from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.studies.mujoco_resistance import (
     CONTACTS,
     STARTS,
     NativeResistance,

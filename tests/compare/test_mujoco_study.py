@@ -7,19 +7,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from coin_mj import Realisation, Settings
-from coin_mj.bounce import one_step_solref, restitutions_of_a_ball, spring_solref
-from compare.reproduction import runner
-from compare.reproduction.claim import unexpected
-from compare.reproduction.setups.mujoco_fixed_steps import restitutions_of_coins
-from compare.reproduction.setups.mujoco_impacts import (
+from cointoss.coin_mj import Realisation, Settings
+from cointoss.coin_mj.bounce import one_step_solref, restitutions_of_a_ball, spring_solref
+from cointoss.compare.reproduction import runner
+from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.setups.mujoco_fixed_steps import restitutions_of_coins
+from cointoss.compare.reproduction.setups.mujoco_impacts import (
     by_law,
     draw_touches,
     first,
     on_floor,
     velocity_at_touch,
 )
-from compare.reproduction.setups.mujoco_study import (
+from cointoss.compare.reproduction.setups.mujoco_study import (
     cone_formula,
     native_cone,
     order,
@@ -28,8 +28,8 @@ from compare.reproduction.setups.mujoco_study import (
     over_stiffness,
     tilted_touch,
 )
-from compare.reproduction.studies import mujoco_laws
-from models.laws import ContactLaw
+from cointoss.compare.reproduction.studies import mujoco_laws
+from cointoss.models.laws import ContactLaw
 
 
 def unseen(done: int, whole: int) -> None:

@@ -11,9 +11,9 @@ from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 import cointoss
-from compare.sweep.layers import NOT_TOSSED
-from models.reading import parse
-from models.records import Outcome
+from cointoss.compare.sweep.layers import NOT_TOSSED
+from cointoss.models.reading import parse
+from cointoss.models.records import Outcome
 from tests.helpers.command_line import cointoss as command
 
 X, Y = "release.angular_velocity.eta=20:60:7", "release.position.z=20 cm:60 cm:5"

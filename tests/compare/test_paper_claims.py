@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from analytic.toss import toss
-from compare.reproduction.claims import (
+from cointoss.analytic.toss import toss
+from cointoss.compare.reproduction.claims import (
     accuracy_and_stripes,
     air_in_a_fall,
     fair_landing,
@@ -17,17 +17,17 @@ from compare.reproduction.claims import (
     stop_test,
     uniform_starts,
 )
-from compare.reproduction.paper import fig27, fig31
-from compare.reproduction.paper.fig30 import ACCURACIES, slope
-from compare.reproduction.setups import fig24_readings
-from compare.reproduction.setups.general_coins import CoinClass
-from compare.reproduction.setups.hands import HEIGHTS, SPINS, releases_of_hands
-from compare.reproduction.setups.planar_maps import case, faces_after, releases, touched_faces
-from compare.reproduction.setups.standing import standing
-from models.attitude import rotation_matrix
-from models.laws import ContactLaw
-from models.records import IMPACT_ROW, Outcome
-from models.scenario import Release
+from cointoss.compare.reproduction.paper import fig27, fig31
+from cointoss.compare.reproduction.paper.fig30 import ACCURACIES, slope
+from cointoss.compare.reproduction.setups import fig24_readings
+from cointoss.compare.reproduction.setups.general_coins import CoinClass
+from cointoss.compare.reproduction.setups.hands import HEIGHTS, SPINS, releases_of_hands
+from cointoss.compare.reproduction.setups.planar_maps import case, faces_after, releases, touched_faces
+from cointoss.compare.reproduction.setups.standing import standing
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.laws import ContactLaw
+from cointoss.models.parts import Release
+from cointoss.models.records import IMPACT_ROW, Outcome
 
 
 def test_turns_back_are_counted_rounding_is_not():

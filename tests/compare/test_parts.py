@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from compare.reproduction import runner
-from compare.reproduction.claim import Claim
-from compare.reproduction.parts import kept
-from compare.reproduction.runner import Reproduction, Result
+from cointoss.compare.reproduction import runner
+from cointoss.compare.reproduction.claim import Claim
+from cointoss.compare.reproduction.parts import kept
+from cointoss.compare.reproduction.result import Reproduction, Result
 
 
 def unseen(done: int, whole: int) -> None:

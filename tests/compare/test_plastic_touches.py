@@ -1,8 +1,8 @@
 """The study of a threshold of restitution: its page shows what it saved, and what it claims."""
 
-from compare.reproduction.claim import unexpected
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.studies.plastic_touches import PlasticTouchesRecord, claims
+from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.studies.plastic_touches import PlasticTouchesRecord, claims
 from tests.helpers.pages import saved
 
 SAVED = read_numbers(saved("plastic-touches"), PlasticTouchesRecord)

@@ -6,24 +6,24 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 
-import analytic
-from analytic.automaton import Event, Mode
-from analytic.contact.resistance import FloorFriction
-from compare.precision import double_double, planar_state, planar_toss
-from compare.precision.certified import PlanarRelease, certified_toss, outcome_within, proved_part
-from compare.precision.divergence import toss_lines
-from compare.precision.double_double import add, pair_of, scale
-from compare.precision.magnified import magnify
-from compare.precision.planar_coin import planar_coin, units
-from compare.precision.planar_contact import keep_contact, nearest_upright
-from compare.precision.planar_flight import ORDER, fly
-from compare.precision.planar_slide import slide
-from compare.precision.planar_state import DRIFT, FALL, HEIGHT, SPIN, TILT, release, turned_within
-from compare.precision.planar_toss import toss_many
-from compare.precision.splitting import chances, replica, spread
-from compare.reproduction.setups.planar_maps import case, releases
-from compare.reproduction.setups.uncertain_shares import uncertain_shares
-from models.records import Outcome
+from cointoss import analytic
+from cointoss.analytic.automaton import Event, Mode
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.compare.precision import double_double, planar_state, planar_toss
+from cointoss.compare.precision.certified import PlanarRelease, certified_toss, outcome_within, proved_part
+from cointoss.compare.precision.divergence import toss_lines
+from cointoss.compare.precision.double_double import add, pair_of, scale
+from cointoss.compare.precision.magnified import magnify
+from cointoss.compare.precision.planar_coin import planar_coin, units
+from cointoss.compare.precision.planar_contact import keep_contact, nearest_upright
+from cointoss.compare.precision.planar_flight import ORDER, fly
+from cointoss.compare.precision.planar_slide import slide
+from cointoss.compare.precision.planar_state import DRIFT, FALL, HEIGHT, SPIN, TILT, release, turned_within
+from cointoss.compare.precision.planar_toss import toss_many
+from cointoss.compare.precision.splitting import chances, replica, spread
+from cointoss.compare.reproduction.setups.planar_maps import case, releases
+from cointoss.compare.reproduction.setups.uncertain_shares import uncertain_shares
+from cointoss.models.records import Outcome
 from tests.helpers.contacts import follow_step as contact_step
 
 pytestmark = pytest.mark.usefixtures("without_horizon")

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from compare.reproduction.claim import unexpected
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.studies import predictability
-from compare.reproduction.studies.predictability import (
+from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.studies import predictability
+from cointoss.compare.reproduction.studies.predictability import (
     ACCURACIES,
     SMOOTH,
     Case,

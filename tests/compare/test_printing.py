@@ -4,11 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from compare.output.tables import table
-from compare.output.terminal import laid_out
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.printing import page
-from compare.reproduction.runner import Result, kept
+from cointoss.compare.output.tables import table
+from cointoss.compare.output.terminal import laid_out
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.printing import page
+from cointoss.compare.reproduction.result import Result
+from cointoss.compare.reproduction.runner import kept
 from tests.helpers.pages import DOCS
 
 SHARES = table(["coin", "on **edge** [%]"], [["`zloty`", "0.30 [0.08, 1.18]"], ["a|b", "11"]])

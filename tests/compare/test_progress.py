@@ -6,10 +6,10 @@ from contextlib import ExitStack
 
 import pytest
 
-import compare.output.progress as progress
-from compare.output.progress import Display, progress_shown
-from models.kernel.compiling import Compiling
-from models.stages import Stage, Stages, counted, stage, stages
+import cointoss.compare.output.progress as progress
+from cointoss.compare.output.progress import Display, progress_shown
+from cointoss.models.kernel.compiling import Compiling
+from cointoss.models.stages import Stage, Stages, counted, stage, stages
 
 
 class Terminal(io.StringIO):
@@ -23,7 +23,7 @@ class Desk:
     def __init__(self, *, rewrites):
         self.now, self.stream, self.stages = 0.0, io.StringIO(), Stages()
         self.compiling = Compiling(self.clock)
-        self.compiling.declared.update({"analytic.events": 200})
+        self.compiling.declared.update({"cointoss.analytic.events": 200})
         self.display = Display(
             self.stream, rewrites=rewrites, work=self.stages, compiled=self.compiling, clock=self.clock
         )
@@ -49,7 +49,7 @@ class Desk:
 
     def compile(self, stack, count=1):
         for _ in range(count):
-            stack.enter_context(self.compiling.one("analytic.events", lambda _: 0))
+            stack.enter_context(self.compiling.one("cointoss.analytic.events", lambda _: 0))
 
 
 def test_a_log_names_a_stage_after_five_seconds_and_then_every_ten():

@@ -8,19 +8,19 @@ from unittest.mock import patch
 
 import pytest
 
-import analytic
-from compare.film import encodings
-from compare.film.back_end import ADVICE, UNKNOWN, drawing_problem
-from compare.film.encodings import SMALL
-from compare.film.filmed import followed
-from compare.film.video import frame_count
-from compare.output.files import UnwritableError
-from compare.report.comparison import compare, compared
-from compare.report.contents import FILES, NOT_ASKED, require_folder
-from compare.report.folder import BEING_DRAWN, write_report
-from compare.report.page import versions
-from models import certificate
-from models.reading import load, parse, scenario_text
+from cointoss import analytic
+from cointoss.compare.film import encodings
+from cointoss.compare.film.back_end import ADVICE, UNKNOWN, drawing_problem
+from cointoss.compare.film.encodings import SMALL
+from cointoss.compare.film.filmed import followed
+from cointoss.compare.film.video import frame_count
+from cointoss.compare.output.files import UnwritableError
+from cointoss.compare.report.comparison import compare, compared
+from cointoss.compare.report.contents import FILES, NOT_ASKED, require_folder
+from cointoss.compare.report.folder import BEING_DRAWN, write_report
+from cointoss.compare.report.page import versions
+from cointoss.models import certificate
+from cointoss.models.reading import load, parse, scenario_text
 from tests.helpers.command_line import cointoss
 from tests.helpers.draws import AIR, scenario
 from tests.helpers.films import film_written
@@ -124,7 +124,7 @@ def test_the_page_stands_before_the_film_is_drawn_and_after_it_was_interrupted(t
         said.append((tmp_path / "report.html").read_text(encoding="utf-8"))
         raise KeyboardInterrupt
 
-    with patch("compare.film.video.write_video", interrupt), pytest.raises(KeyboardInterrupt):
+    with patch("cointoss.compare.film.video.write_video", interrupt), pytest.raises(KeyboardInterrupt):
         write_report(compared(parse(SHORT, "short"), SHORT, "short"), tmp_path, None)
     after = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert said == [after]
@@ -212,7 +212,7 @@ def test_before_its_film_a_report_says_which_command_draws_it(tmp_path):
         raise KeyboardInterrupt
 
     text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 1")
-    with patch("compare.film.video.write_video", interrupt), pytest.raises(KeyboardInterrupt):
+    with patch("cointoss.compare.film.video.write_video", interrupt), pytest.raises(KeyboardInterrupt):
         write_report(compared(parse(text, "knurled"), text, "knurled"), tmp_path, None)
     assert "cointoss video --engine analytic draws the film alone" in said[0]
 
@@ -225,7 +225,7 @@ def test_a_report_replaces_an_earlier_one_as_a_whole_and_nothing_else(folder, tm
     before = {path.name: path.read_bytes() for path in earlier.iterdir()}
     text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 2")
     case = parse(text, "knurled")
-    interrupted = patch("compare.report.folder.render", side_effect=KeyboardInterrupt)
+    interrupted = patch("cointoss.compare.report.folder.render", side_effect=KeyboardInterrupt)
     with interrupted, pytest.raises(KeyboardInterrupt):
         write_report(compared(case, text, "knurled"), earlier, None)
     assert {path.name: path.read_bytes() for path in earlier.iterdir()} == before
@@ -236,7 +236,7 @@ def test_a_report_replaces_an_earlier_one_as_a_whole_and_nothing_else(folder, tm
 
 def test_a_report_that_fails_leaves_no_folder(tmp_path):
     case = scenario(ending={"max_time": 0.05})
-    full = patch("compare.report.folder.render", side_effect=OSError(28, "No space left"))
+    full = patch("cointoss.compare.report.folder.render", side_effect=OSError(28, "No space left"))
     with full, pytest.raises(UnwritableError, match=r"new.deep: can't be written \(No space"):
         write_report(compared(case, "", "failing"), tmp_path / "new" / "deep", ADVICE)
     assert list(tmp_path.iterdir()) == []

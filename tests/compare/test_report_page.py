@@ -6,11 +6,11 @@ from base64 import b64decode
 import numpy as np
 import pytest
 
-from compare.report.comparison import compared
-from compare.report.folder import write_report
-from compare.report.page import Film, render
-from compare.report.page import Page as Contents
-from models.reading import parse, scenario_text
+from cointoss.compare.report.comparison import compared
+from cointoss.compare.report.folder import write_report
+from cointoss.compare.report.page import Film, render
+from cointoss.compare.report.page import Page as Contents
+from cointoss.models.reading import parse, scenario_text
 from tests.helpers.browser import Page, browser
 from tests.helpers.coins_shown import UNNAMED, faces, picture, set_time
 

@@ -6,13 +6,13 @@ import sys
 
 import pytest
 
-from compare.reproduction import runner, studies
+from cointoss.compare.reproduction import runner, studies
 from tests.helpers.command_line import cointoss
 
 FAKE = """
 from dataclasses import dataclass
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
 
 @dataclass
 class Numbers:
@@ -71,9 +71,9 @@ def test_without_a_name_it_lists_what_there_is():
 
 def test_names_are_found_without_importing_what_they_name():
     script = (
-        "import sys\nfrom compare.reproduction import runner\n"
+        "import sys\nfrom cointoss.compare.reproduction import runner\n"
         "assert 'contact-laws' in runner.names()\n"
-        "heavy = {'numba', 'numpy', 'matplotlib', 'compare.reproduction.studies.contact_laws'}\n"
+        "heavy = {'numba', 'numpy', 'matplotlib', 'cointoss.compare.reproduction.studies.contact_laws'}\n"
         "print(sorted(heavy & set(sys.modules)))"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)

@@ -1,8 +1,8 @@
 """The study of resistance to rolling and pivoting: its page shows what it saved, and what it claims."""
 
-from compare.reproduction.claim import unexpected
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.studies.resistance import ResistanceRecord, claims, edge_share, power_law
+from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.studies.resistance import ResistanceRecord, claims, edge_share, power_law
 from tests.helpers.pages import pictures, saved
 
 SAVED = read_numbers(saved("resistance"), ResistanceRecord)

@@ -5,10 +5,10 @@ import re
 import pytest
 from matplotlib.figure import Figure
 
-from compare.output.tables import OPEN, folded, sheets, table
-from compare.reproduction import pages, runner
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.runner import Reproduction, Result
+from cointoss.compare.output.tables import OPEN, folded, sheets, table
+from cointoss.compare.reproduction import pages, runner
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.result import Reproduction, Result
 from tests.helpers.pages import DOCS
 
 WRITTEN = {

@@ -5,11 +5,11 @@ import json
 import numpy as np
 import pytest
 
-from compare.engines import Engine
-from compare.metrics.first_side import caught_side, first_side
-from compare.reproduction.claim import unexpected
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.setups.same_side_fit import (
+from cointoss.compare.engines import Engine
+from cointoss.compare.metrics.first_side import caught_side, first_side
+from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups.same_side_fit import (
     Flips,
     by_wobble,
     chance_of_spread,
@@ -20,9 +20,9 @@ from compare.reproduction.setups.same_side_fit import (
     log_likelihood,
     read_flips,
 )
-from compare.reproduction.studies.same_side import SameSide, claims
-from models.hand import Hand, same_side_probability
-from models.reading import load
+from cointoss.compare.reproduction.studies.same_side import SameSide, claims
+from cointoss.models.hand import Hand, same_side_probability
+from cointoss.models.reading import load
 from tests.helpers.command_line import cointoss
 from tests.helpers.pages import pictures, saved
 

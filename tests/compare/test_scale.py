@@ -1,8 +1,8 @@
 """The study of what maps cost: its tables follow from its times, and it runs."""
 
-from compare.reproduction.claim import unexpected
-from compare.reproduction.studies import scale
-from compare.reproduction.studies.scale import MapCosts, claims, tables
+from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.studies import scale
+from cointoss.compare.reproduction.studies.scale import MapCosts, claims, tables
 
 COSTS = MapCosts(
     cores=2,

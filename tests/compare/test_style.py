@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
-from compare.film.captions import LABELS
-from compare.output.style import HEADS, OUTCOMES, TAILS
-from models.records import Outcome
+from cointoss.compare.film.captions import LABELS
+from cointoss.compare.output.style import HEADS, OUTCOMES, TAILS
+from cointoss.models.records import Outcome
 
 # Linear RGB as seen by a protanope and a deuteranope; Viénot, Brettel and Mollon, Color Res. Appl. 24 (1999).
 SEEN = {
@@ -41,7 +41,7 @@ def test_heads_and_tails_differ_in_brightness():
 
 @pytest.mark.parametrize(("face", "color"), [("heads", HEADS), ("tails", TAILS)])
 def test_the_coin_of_the_film_has_the_colours_of_the_maps(face, color):
-    model = (resources.files("models") / "coin.xml").read_text(encoding="utf-8")
+    model = (resources.files("cointoss.models") / "coin.xml").read_text(encoding="utf-8")
     material = re.search(rf'<material name="{face}" rgba="([\d. ]+) 1"', model)
     assert material is not None
     assert [float(part) for part in material[1].split()] == pytest.approx(to_rgb(color), abs=0.005)

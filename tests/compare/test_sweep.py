@@ -8,19 +8,18 @@ import numpy as np
 import pytest
 from pydantic import BaseModel
 
-import analytic
-import coin_mj
-from coin_mj import Realisation, Settings
-from compare.engines import Engine
-from compare.sweep import grid, run
-from compare.sweep.axes import Axis, parse_axis
-from compare.sweep.errors import SweepError
-from compare.sweep.grid import Sweep, Tile, cut, gaps, tile_shape, tiles
-from compare.sweep.pixels import Pixels, check, pixel_scenario, toss_pixels
-from models.fields import UNITS, split
-from models.records import UnsupportedError
-from models.scenario import Scenario
-from models.unused import UnusedFieldWarning
+from cointoss import analytic, coin_mj
+from cointoss.coin_mj import Realisation, Settings
+from cointoss.compare.engines import Engine
+from cointoss.compare.sweep import grid, run
+from cointoss.compare.sweep.axes import Axis, parse_axis
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.grid import Sweep, Tile, cut, gaps, tile_shape, tiles
+from cointoss.compare.sweep.pixels import Pixels, check, pixel_scenario, toss_pixels
+from cointoss.models.fields import UNITS, split
+from cointoss.models.records import UnsupportedError
+from cointoss.models.scenario import Scenario
+from cointoss.models.unused import UnusedFieldWarning
 from tests.helpers.draws import AIR, scenario
 
 pytestmark = pytest.mark.usefixtures("without_horizon")

@@ -5,7 +5,14 @@ import math
 import pytest
 from flint import arb, arb_series, ctx
 
-from compare.precision.taylor_models import ORDER, TaylorModel, UndecidedError, constant, varying, zero
+from cointoss.compare.precision.taylor_models import (
+    ORDER,
+    TaylorModel,
+    UndecidedError,
+    constant,
+    varying,
+    zero,
+)
 
 
 @pytest.fixture(autouse=True)

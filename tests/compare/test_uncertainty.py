@@ -5,7 +5,7 @@ from typing import Literal
 import numpy as np
 import pytest
 
-from compare.basins.uncertainty import uncertainty_exponent
+from cointoss.compare.basins.uncertainty import uncertainty_exponent
 from tests.helpers.made_maps import (
     UNDECIDED,
     cantor,

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import coin_mj
 import cointoss
-from compare.report.comparison import Comparison
-from compare.report.verdict import Kind, horizon_sentence, verdict_of
-from models.records import IMPACT_ROW, Ending, Face, Impacts, Outcome
+from cointoss import coin_mj
+from cointoss.compare.report.comparison import Comparison
+from cointoss.compare.report.verdict import Kind, horizon_sentence, verdict_of
+from cointoss.models.records import IMPACT_ROW, Ending, Face, Impacts, Outcome
 from tests.helpers.draws import scenario
 from tests.helpers.films import MadePath
 from tests.helpers.films import made as made_by_formulas

@@ -12,16 +12,25 @@ import mujoco
 import numpy as np
 import pytest
 
-from compare.film.captions import caption_of, written
-from compare.film.drawing import LONGEST_FAR, LONGEST_NEAR, MARGIN, VIEWS, Box, Camera, Drawer, box_of
-from compare.film.encodings import Format
-from compare.film.filmed import Filmed
-from compare.film.play import SHOWN_FOR, WEAKEST, Play, Shown, play_of
-from compare.film.shadow import add_shadow
-from compare.film.slow_motion import FAST, LONGEST, SLOW, SLOW_FOR, WEAK, film_times
-from compare.film.video import HELD, frame_count, frames, write_video
-from compare.film.visual_model import build_visual_model
-from models.records import Ending, Outcome
+from cointoss.compare.film.captions import caption_of, written
+from cointoss.compare.film.drawing import (
+    LONGEST_FAR,
+    LONGEST_NEAR,
+    MARGIN,
+    VIEWS,
+    Box,
+    Camera,
+    Drawer,
+    box_of,
+)
+from cointoss.compare.film.encodings import Format
+from cointoss.compare.film.filmed import Filmed
+from cointoss.compare.film.play import SHOWN_FOR, WEAKEST, Play, Shown, play_of
+from cointoss.compare.film.shadow import add_shadow
+from cointoss.compare.film.slow_motion import FAST, LONGEST, SLOW, SLOW_FOR, WEAK, film_times
+from cointoss.compare.film.video import HELD, frame_count, frames, write_video
+from cointoss.compare.film.visual_model import build_visual_model
+from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import ZLOTY, scenario
 from tests.helpers.films import FLAT, TURNED, UPRIGHT, MadePath, Written, drawn, film_written, made, shown
 
@@ -188,7 +197,7 @@ def test_the_overview_sees_the_coin_from_release_to_the_floor():
 def test_a_camera_at_rest_shows_the_path_up_to_now(camera):
     toss = made(MadePath(position=(0, 0, 0.2), velocity=(0.3, 0.002, -0.002)))
     # The shadow, which is dark too, moves with the coin.
-    with patch("compare.film.drawing.add_shadow"):
+    with patch("cointoss.compare.film.drawing.add_shadow"):
         pictures = drawn(toss, [0, 0.5, 1], camera, height=192, width=256)
     first, middle, last = (picture.sum(axis=2) for picture in pictures)
     # Between where the coin is at these times, which is some ten pixels large.

@@ -49,15 +49,15 @@ def whole_tiles(path):
 def begun(coin, out, *extra, most=TILES, stderr=subprocess.PIPE):
     """Start a process, for a `with` statement, that makes the map in small tiles until `most` are there."""
     script = (
-        "import threading, time; from pathlib import Path; from compare.engines import Engine\n"
-        "from compare.sweep import grid, run\n"
+        "import threading, time; from pathlib import Path; from cointoss.compare.engines import Engine\n"
+        "from cointoss.compare.sweep import grid, run\n"
         f"grid.TILE_TOSSES[Engine.ANALYTIC], toss = {SMALL}, run.toss_pixels\n"
         "def toss_pixels(*tile):\n"
         f"    made = [entry for entry in Path({str(out)!r}).glob('outcome/c/*/*') if not entry.suffix]\n"
         f"    threading.Event().wait(None if len(made) >= {most} else 0.05)\n"
         "    return toss(*tile)\n"
         "run.toss_pixels = toss_pixels\n"
-        "from compare.cli import main; main()"
+        "from cointoss.compare.cli import main; main()"
     )
     words = ("basin", coin, *AXES, "--out", out, *extra)
     return started("-c", script, *words, stdout=subprocess.PIPE, stderr=stderr)

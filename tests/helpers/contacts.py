@@ -2,17 +2,17 @@
 
 import numpy as np
 
-from analytic.contact import upright
-from analytic.contact.following import follow, start_following
-from analytic.contact.resistance import FloorFriction
-from analytic.numerics.tolerances import STEP_ERROR
-from models.attitude import quaternion_from_angles, rotation_matrix
-from models.body import Body
-from models.records import Array
+from cointoss.analytic.contact import upright
+from cointoss.analytic.contact.following import follow, start_following
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.numerics.tolerances import STEP_ERROR
+from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
+from cointoss.models.body import Body
+from cointoss.models.records import Array
 
 
 def follow_step(body: Body, friction: FloorFriction, mode: int, y: Array, dt: float):
-    """Follow a contact for one step, or to its end; see `analytic.contact.following.follow`."""
+    """Follow a contact for one step, or to its end; see `cointoss.analytic.contact.following.follow`."""
     return follow(body, friction, mode, y, dt, STEP_ERROR, start_following(body, friction, mode, y))
 
 

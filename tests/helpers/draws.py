@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from models.laws import ContactLaw
-from models.scenario import Scenario
+from cointoss.models.laws import ContactLaw
+from cointoss.models.scenario import Scenario
 
 ZLOTY: dict[str, Any] = {"mass": 2e-3, "radius": 1.25e-2, "thickness": 2e-3}
 PAPER_OFFSET = [-1e-3, -1e-3, -2e-4]

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from compare.engines import Engine
-from models.outcomes import Outcomes
-from models.records import ApproximationWarning, Toss
-from models.releases import Releases
-from models.scenario import Scenario
+from cointoss.compare.engines import Engine
+from cointoss.models.outcomes import Outcomes
+from cointoss.models.records import ApproximationWarning, Toss
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 
 
 def toss(engine: Engine, case: Scenario) -> Toss:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from compare.explorer.server import Explorer
+from cointoss.compare.explorer.server import Explorer
 from tests.helpers.command_line import cointoss
 
 SCENARIO = """

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import heyoka as hy
 import numpy as np
 
-from models.scenario import Scenario
+from cointoss.models.scenario import Scenario
 
 Q = hy.real128
 PI = Q("3.14159265358979323846264338327950288")

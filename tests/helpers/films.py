@@ -9,10 +9,10 @@ from typing import NamedTuple
 import imageio_ffmpeg
 import numpy as np
 
-from compare.film.drawing import Drawer, box_of
-from compare.film.filmed import Filmed
-from compare.film.play import play_of
-from models.records import IMPACT_ROW, Array, Ending, Face, Impacts, Outcome, States, Toss
+from cointoss.compare.film.drawing import Drawer, box_of
+from cointoss.compare.film.filmed import Filmed
+from cointoss.compare.film.play import play_of
+from cointoss.models.records import IMPACT_ROW, Array, Ending, Face, Impacts, Outcome, States, Toss
 from tests.helpers.draws import ZLOTY, scenario
 
 FLAT, TURNED = (1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)

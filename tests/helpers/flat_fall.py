@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from models.records import Array
-from models.scenario import Scenario
+from cointoss.models.records import Array
+from cointoss.models.scenario import Scenario
 from tests.helpers.draws import ZLOTY, scenario
 
 G = 9.81

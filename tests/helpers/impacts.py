@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from analytic.events import hit
-from analytic.impact.laws import mobility
-from models.attitude import rotation_matrix
-from models.geometry import contact_velocity, lowest_point
-from models.records import IMPACT_ROW
+from cointoss.analytic.events import hit
+from cointoss.analytic.impact.laws import mobility
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.geometry import contact_velocity, lowest_point
+from cointoss.models.records import IMPACT_ROW
 from tests.helpers.draws import draw_coin, draw_quaternion, scenario
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from models.records import Outcome
+from cointoss.models.records import Outcome
 
 HEADS, TAILS, EDGE, UNDECIDED = Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.UNDECIDED
 

@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from compare.reproduction.runner import folder_of
+from cointoss.compare.reproduction.result import folder_of
 
 DOCS = Path(__file__).parents[2] / "docs"
 

@@ -10,7 +10,7 @@ from typing import Any, cast
 import numpy as np
 from scipy.integrate import cubature, solve_ivp
 
-from models.scenario import Scenario
+from cointoss.models.scenario import Scenario
 
 
 def air_on_element(

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from models.attitude import quaternion_from_angles, quaternion_product, rotation_matrix
+from cointoss.models.attitude import quaternion_from_angles, quaternion_product, rotation_matrix
 
 angle = st.floats(-10, 10)
 

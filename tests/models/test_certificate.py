@@ -6,15 +6,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-import analytic
-import coin_mj
-from analytic.air.force import force_and_moment
-from models import certificate
-from models.certificate import linear_air_power, measurements
-from models.laws import ContactLaw
-from models.reading import load
-from models.records import Array, Impacts, States, Toss
-from models.scenario import Scenario
+from cointoss import analytic, coin_mj
+from cointoss.analytic.air.force import force_and_moment
+from cointoss.models import certificate
+from cointoss.models.certificate import linear_air_power, measurements
+from cointoss.models.laws import ContactLaw
+from cointoss.models.reading import load
+from cointoss.models.records import Array, Impacts, States, Toss
+from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, PAPER_OFFSET, draw_coin, draw_release, scenario
 
 pytestmark = pytest.mark.usefixtures("without_horizon")

@@ -11,12 +11,12 @@ from subprocess import PIPE
 
 import pytest
 
-import models.kernel.code_cache as code_cache
-from models.kernel.code_cache import UNUSED, CodeFiles, cache_folder, remove_unused
+import cointoss.models.kernel.code_cache as code_cache
+from cointoss.models.kernel.code_cache import UNUSED, CodeFiles, cache_folder, remove_unused
 from tests.helpers.modules import write
 
 TOP = Path(code_cache.__file__).parents[2]
-IMPORT = "from models.kernel.compiled import compiled\n"
+IMPORT = "from cointoss.models.kernel.compiled import compiled\n"
 CALLEE = IMPORT + "\n\n@compiled\ndef part(x):\n    return {} * x\n"
 CALLER = IMPORT + "from {} import part\n\n\n@compiled\ndef whole(x):\n    return part(x) + {}\n"
 
@@ -75,7 +75,7 @@ def run():
 def run_caller(run, folder):
     """Return the answer, and what was read from disk: of the caller for Python, and of it and its callee."""
     script = (
-        "from analytic.caller import whole, part\n"
+        "from cointoss.analytic.caller import whole, part\n"
         "print(whole(10.0))\n"
         "for f in (whole.from_python, whole, part):\n"
         "    print(sum(f.stats.cache_hits.values()))"
@@ -85,53 +85,58 @@ def run_caller(run, folder):
 
 @pytest.fixture
 def folder(tmp_path):
-    for package in ("models", "analytic"):
-        (tmp_path / package).mkdir()
+    for package in ("", "models", "analytic"):
+        (tmp_path / "cointoss" / package).mkdir()
         # Without it the installed package would be found first.
-        (tmp_path / package / "__init__.py").touch()
-    shutil.copytree(TOP / "models" / "kernel", tmp_path / "models" / "kernel")
+        (tmp_path / "cointoss" / package / "__init__.py").touch()
+    shutil.copytree(TOP / "models" / "kernel", tmp_path / "cointoss" / "models" / "kernel")
     return tmp_path
 
 
-@pytest.mark.parametrize("callee", ["analytic.callee", "analytic.room.callee", "models.room.deeper.callee"])
+@pytest.mark.parametrize(
+    "callee",
+    ["cointoss.analytic.callee", "cointoss.analytic.room.callee", "cointoss.models.room.deeper.callee"],
+)
 def test_an_edit_compiles_anew_what_it_can_change_and_no_more(folder, callee, run_caller):
-    write(folder, "analytic.__init__", "from analytic.other import unused\n")
-    write(folder, "analytic.other", "unused = 0\n")
-    write(folder, "analytic.caller", CALLER.format(callee, 1))
+    write(folder, "cointoss.analytic.__init__", "from cointoss.analytic.other import unused\n")
+    write(folder, "cointoss.analytic.other", "unused = 0\n")
+    write(folder, "cointoss.analytic.caller", CALLER.format(callee, 1))
     write(folder, callee, CALLEE.format(2.0))
     assert run_caller() == [21, 0, 0, 0]
     assert run_caller() == [21, 1, 0, 0], "what is kept for Python needs nothing of its callees"
     write(folder, callee, CALLEE.format(3.0))
     assert run_caller() == [31, 0, 0, 0]
-    write(folder, "analytic.caller", CALLER.format(callee, 2))
+    write(folder, "cointoss.analytic.caller", CALLER.format(callee, 2))
     assert run_caller() == [32, 0, 0, 1]
-    write(folder, "analytic.other", "unused = 1\n")
+    write(folder, "cointoss.analytic.other", "unused = 1\n")
     assert run_caller() == [32, 1, 0, 0]
 
 
 def test_code_of_a_source_edited_since_it_was_imported_is_not_kept(folder, run):
     """Its folder is named by the source as it is when the function is compiled."""
-    write(folder, "analytic.callee", CALLEE.format(2.0))
-    write(folder, "analytic.caller", CALLER.format("analytic.callee", 1))
-    calling = "from analytic.caller import whole, part\n{}\nprint(whole(10.0), part(10.0))"
-    editing = f"open('analytic/callee.py', 'w').write({CALLEE.format('3.00')!r})"
+    write(folder, "cointoss.analytic.callee", CALLEE.format(2.0))
+    write(folder, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
+    calling = "from cointoss.analytic.caller import whole, part\n{}\nprint(whole(10.0), part(10.0))"
+    editing = f"open('cointoss/analytic/callee.py', 'w').write({CALLEE.format('3.00')!r})"
     assert run(folder, calling.format(editing)) == [21, 20]
     assert run(folder, calling.format("")) == [31, 30]
 
 
 def test_code_of_a_source_replaced_by_an_older_one_is_not_kept(folder, run):
-    write(folder, "analytic.older", CALLEE.format(3.0))
-    os.utime(folder / "analytic" / "older.py", (1e9, 1e9))
-    write(folder, "analytic.callee", CALLEE.format(2.0))
-    write(folder, "analytic.caller", CALLER.format("analytic.callee", 1))
-    calling = "import os\nfrom analytic.caller import whole\n{}\nprint(whole(10.0))"
-    assert run(folder, calling.format("os.replace('analytic/older.py', 'analytic/callee.py')")) == [21]
+    write(folder, "cointoss.analytic.older", CALLEE.format(3.0))
+    os.utime(folder / "cointoss" / "analytic" / "older.py", (1e9, 1e9))
+    write(folder, "cointoss.analytic.callee", CALLEE.format(2.0))
+    write(folder, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
+    calling = "import os\nfrom cointoss.analytic.caller import whole\n{}\nprint(whole(10.0))"
+    assert run(
+        folder, calling.format("os.replace('cointoss/analytic/older.py', 'cointoss/analytic/callee.py')")
+    ) == [21]
     assert run(folder, calling.format("")) == [31]
 
 
 def test_damaged_files_of_code_are_made_anew(folder, run_caller):
-    write(folder, "analytic.callee", CALLEE.format(2.0))
-    write(folder, "analytic.caller", CALLER.format("analytic.callee", 1))
+    write(folder, "cointoss.analytic.callee", CALLEE.format(2.0))
+    write(folder, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
     assert run_caller() == [21, 0, 0, 0]
 
     def half_flipped(kept):
@@ -194,25 +199,29 @@ def test_code_is_kept_in_a_folder_of_the_user_alone(tmp_path, monkeypatch):
 
 def test_kept_code_calls_what_another_process_has_compiled_anew(folder, run, run_caller):
     """A process that compiles the callee alone numbers its functions otherwise."""
-    write(folder, "analytic.callee", CALLEE.format(2.0))
-    write(folder, "analytic.caller", CALLER.format("analytic.callee", 1))
-    write(folder, "analytic.above", CALLER.format("analytic.caller", 5).replace("part", "whole as part", 1))
+    write(folder, "cointoss.analytic.callee", CALLEE.format(2.0))
+    write(folder, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
+    write(
+        folder,
+        "cointoss.analytic.above",
+        CALLER.format("cointoss.analytic.caller", 5).replace("part", "whole as part", 1),
+    )
     assert run_caller()[0] == 21
-    for kept in folder.glob("cache/cointoss-analytic.callee-*"):
+    for kept in folder.glob("cache/cointoss.analytic.callee-*"):
         shutil.rmtree(kept)
     others = "\n".join(f"@compiled\ndef f{i}(x):\n    return x\nf{i}(1.0)" for i in range(5))
-    run(folder, f"{IMPORT}{others}\nfrom analytic.callee import part\npart(1.0)")
-    assert run(folder, "from analytic.above import whole\nprint(whole(10.0))") == [26]
+    run(folder, f"{IMPORT}{others}\nfrom cointoss.analytic.callee import part\npart(1.0)")
+    assert run(folder, "from cointoss.analytic.above import whole\nprint(whole(10.0))") == [26]
 
 
 def test_a_function_kept_for_python_works_where_it_was_kept_for_callers_too(folder, run):
     """Python's wrapper makes an array by constants that the code for callers does not have."""
     source = IMPORT + "import numpy as np\n\n\n@compiled\ndef part(x):\n    return np.full(3, x), x\n"
-    write(folder, "analytic.callee", source)
+    write(folder, "cointoss.analytic.callee", source)
     above = "from {} import part\n\n\n@compiled\ndef {}(x):\n    return part(x)[0][1] + {}\n"
     for name in ("one", "two"):
-        write(folder, f"analytic.{name}", IMPORT + above.format("analytic.callee", name, 1))
-    script = "from analytic.{0} import {0}, part\nprint({0}(10.0))\nprint(part(3.0)[0].sum())"
+        write(folder, f"cointoss.analytic.{name}", IMPORT + above.format("cointoss.analytic.callee", name, 1))
+    script = "from cointoss.analytic.{0} import {0}, part\nprint({0}(10.0))\nprint(part(3.0)[0].sum())"
     assert run(folder, script.format("one")) == [11, 9]
     assert run(folder, script.format("two")) == [11, 9]
 
@@ -220,12 +229,12 @@ def test_a_function_kept_for_python_works_where_it_was_kept_for_callers_too(fold
 def test_python_calls_what_was_only_kept_for_callers(folder, run):
     """Then nothing is compiled but Python's wrapper, for which numba has not yet read how to make one."""
     part = "\n\n@compiled\ndef part(x, text):\n    return np.full(3, x), text\n"
-    write(folder, "analytic.callee", f"{IMPORT}import numpy as np\n{part}")
+    write(folder, "cointoss.analytic.callee", f"{IMPORT}import numpy as np\n{part}")
     caller = "from {} import part\n\n\n@compiled\ndef whole(x):\n    return part(x, 'ab')[0][1]\n"
-    write(folder, "analytic.caller", IMPORT + caller.format("analytic.callee"))
-    assert run(folder, "from analytic.caller import whole\nprint(whole(10.0))") == [10]
+    write(folder, "cointoss.analytic.caller", IMPORT + caller.format("cointoss.analytic.callee"))
+    assert run(folder, "from cointoss.analytic.caller import whole\nprint(whole(10.0))") == [10]
     script = (
-        "from analytic.callee import part\n"
+        "from cointoss.analytic.callee import part\n"
         "numbers, text = part(3.0, 'abcd')\n"
         "print(sum(numbers), len(text))\n"
         "print(*(sum(f.stats.cache_misses.values()) for f in (part.from_python, part)))"
@@ -235,9 +244,9 @@ def test_python_calls_what_was_only_kept_for_callers(folder, run):
 
 
 def test_code_kept_for_python_is_read_without_what_numba_can_compile(folder):
-    write(folder, "analytic.callee", CALLEE.format(2.0))
-    write(folder, "analytic.caller", CALLER.format("analytic.callee", 1))
-    script = "import sys\nfrom analytic.caller import whole\nprint(whole(1.0))\n"
+    write(folder, "cointoss.analytic.callee", CALLEE.format(2.0))
+    write(folder, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
+    script = "import sys\nfrom cointoss.analytic.caller import whole\nprint(whole(1.0))\n"
     imported = "print(int('numba.np.linalg' in sys.modules))"
     with forking(warm=False) as run:
         assert run(folder, script + imported) == [3, 1]
@@ -247,28 +256,38 @@ def test_code_kept_for_python_is_read_without_what_numba_can_compile(folder):
 def test_named_tuples_with_other_fields_are_other_types(folder, run):
     """A function need not import the named tuple that it is given, so an edit there is not in its hash."""
     tuples = "from typing import NamedTuple\n\n\nclass Pair(NamedTuple):\n    {}: float\n    {}: float\n"
-    write(folder, "analytic.user", IMPORT + "\n\n@compiled\ndef difference(p):\n    return p.a - p.b\n")
-    script = "from analytic.{0} import difference\nfrom models.pair import Pair\nprint(difference({1}))"
-    nested = IMPORT + "from analytic.user import difference as of\n"
-    write(folder, "analytic.inner", nested + "\n\n@compiled\ndef difference(p):\n    return of(p[1])\n")
+    write(
+        folder, "cointoss.analytic.user", IMPORT + "\n\n@compiled\ndef difference(p):\n    return p.a - p.b\n"
+    )
+    script = (
+        "from cointoss.analytic.{0} import difference\nfrom cointoss.models.pair import Pair\n"
+        "print(difference({1}))"
+    )
+    nested = IMPORT + "from cointoss.analytic.user import difference as of\n"
+    write(
+        folder, "cointoss.analytic.inner", nested + "\n\n@compiled\ndef difference(p):\n    return of(p[1])\n"
+    )
     for names, answer in (("ab", -2), ("ba", 2)):
-        write(folder, "models.pair", tuples.format(*names))
+        write(folder, "cointoss.models.pair", tuples.format(*names))
         assert run(folder, script.format("user", "Pair(1.0, 3.0)")) == [answer]
         assert run(folder, script.format("inner", "(0.0, Pair(1.0, 3.0))")) == [answer]
 
 
-@pytest.mark.parametrize("module", ["models.pair", "models.couple"])
+@pytest.mark.parametrize("module", ["cointoss.models.pair", "cointoss.models.couple"])
 def test_a_named_tuple_that_has_gone_since_is_no_error(folder, module, run):
     """What was kept for it names its type: where that has another name now, or no module, it is kept anew."""
     tuples = "from typing import NamedTuple\n\n\nclass {}(NamedTuple):\n    a: float\n    b: float\n"
-    write(folder, "analytic.user", IMPORT + "\n\n@compiled\ndef difference(p):\n    return p.a - p.b\n")
+    write(
+        folder, "cointoss.analytic.user", IMPORT + "\n\n@compiled\ndef difference(p):\n    return p.a - p.b\n"
+    )
     script = (
-        "from analytic.user import difference\nfrom {} import {} as Two\nprint(difference(Two(1.0, 3.0)))\n"
+        "from cointoss.analytic.user import difference\nfrom {} import {} as Two\n"
+        "print(difference(Two(1.0, 3.0)))\n"
         "print(sum(difference.from_python.stats.cache_hits.values()))"
     )
-    write(folder, "models.pair", tuples.format("Pair"))
-    assert run(folder, script.format("models.pair", "Pair")) == [-2, 0]
-    (folder / "models" / "pair.py").unlink()
+    write(folder, "cointoss.models.pair", tuples.format("Pair"))
+    assert run(folder, script.format("cointoss.models.pair", "Pair")) == [-2, 0]
+    (folder / "cointoss" / "models" / "pair.py").unlink()
     write(folder, module, tuples.format("Couple"))
     assert run(folder, script.format(module, "Couple")) == [-2, 0]
     assert run(folder, script.format(module, "Couple")) == [-2, 1]
@@ -276,7 +295,7 @@ def test_a_named_tuple_that_has_gone_since_is_no_error(folder, module, run):
 
 def test_folders_long_unused_are_removed_when_one_is_made(tmp_path, monkeypatch):
     monkeypatch.setattr(code_cache, "_base", lambda: tmp_path)
-    names = ("cointoss-a.b-0123456789abcdef", "cointoss-a.b-fedcba9876543210", "cointoss-maps")
+    names = ("cointoss.a.b-0123456789abcdef", "cointoss.a.b-fedcba9876543210", "cointoss.maps")
     used, unused, foreign = (tmp_path / name for name in names)
     long_ago = time.time() - UNUSED - 60
     for folder in (used, unused, foreign):
@@ -284,10 +303,10 @@ def test_folders_long_unused_are_removed_when_one_is_made(tmp_path, monkeypatch)
         (folder / "file").touch()
         os.utime(folder, (long_ago, long_ago))
     os.utime(used)
-    made = cache_folder.__wrapped__("models.body")
+    made = cache_folder.__wrapped__("cointoss.models.body")
     assert sorted(tmp_path.iterdir()) == sorted([used, foreign, made])
     os.utime(made, (0, 0))
-    assert cache_folder.__wrapped__("models.body") == made
+    assert cache_folder.__wrapped__("cointoss.models.body") == made
     remove_unused(tmp_path)
     assert made.is_dir(), "what a process begins to use is kept"
 
@@ -313,13 +332,13 @@ def test_two_processes_that_keep_code_at_once_do_not_mix_it_up(tmp_path, monkeyp
 
 @pytest.mark.parametrize("written", ["Path.mkdir", "CodeFiles._save_data", "CodeFiles._save_index"])
 def test_code_that_cannot_be_written_is_not_kept(folder, run, run_caller, written):
-    write(folder, "analytic.callee", CALLEE.format(2.0))
-    write(folder, "analytic.caller", CALLER.format("analytic.callee", 1))
+    write(folder, "cointoss.analytic.callee", CALLEE.format(2.0))
+    write(folder, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
     (folder / "cache").mkdir()
     full_disk = (
-        "from pathlib import Path\nfrom models.kernel.code_cache import CodeFiles\n"
+        "from pathlib import Path\nfrom cointoss.models.kernel.code_cache import CodeFiles\n"
         "def full(*_, **__): raise OSError(28, 'No space left on device')\n"
         f"{written} = full\n"
     )
-    assert run(folder, full_disk + "from analytic.caller import whole\nprint(whole(10.0))") == [21]
+    assert run(folder, full_disk + "from cointoss.analytic.caller import whole\nprint(whole(10.0))") == [21]
     assert run_caller() == [21, 0, 0, 0]

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from numba.core.runtime.nrt import rtsys
 
-from models.kernel.compiled import CompiledFunction, compiled, inlined
-from models.kernel.vectors import add
+from cointoss.models.kernel.compiled import CompiledFunction, compiled, inlined
+from cointoss.models.kernel.vectors import add
 
 
 class Kind(IntEnum):

@@ -4,9 +4,9 @@ import subprocess
 
 import pytest
 
-from models.kernel import code_cache
-from models.kernel.code_cache import turn
-from models.kernel.compiling import Compiling
+from cointoss.models.kernel import code_cache
+from cointoss.models.kernel.code_cache import turn
+from cointoss.models.kernel.compiling import Compiling
 from tests.helpers.command_line import HERE
 from tests.helpers.processes import started
 
@@ -21,7 +21,9 @@ class Clock:
 
 def of_two_engines(clock):
     compiling = Compiling(clock)
-    compiling.declared.update({"analytic.events": 6, "models.body": 4, "coin_mj.events": 50})
+    compiling.declared.update(
+        {"cointoss.analytic.events": 6, "cointoss.models.body": 4, "cointoss.coin_mj.events": 50}
+    )
     return compiling
 
 
@@ -31,31 +33,43 @@ def none_kept(_):
 
 def test_the_functions_of_an_engine_are_counted_and_those_that_both_share():
     compiling = of_two_engines(Clock())
-    with compiling.one("analytic.events", none_kept), compiling.one("models.body", none_kept):
+    with (
+        compiling.one("cointoss.analytic.events", none_kept),
+        compiling.one("cointoss.models.body", none_kept),
+    ):
         assert (compiling.what, compiling.begun, compiling.total) == ("the analytic engine", 2, 10)
-    with compiling.one("models.body", none_kept):
+    with compiling.one("cointoss.models.body", none_kept):
         assert (compiling.what, compiling.begun, compiling.total) == ("the analytic engine", 3, 10)
-    with compiling.one("coin_mj.events", {"models.body": 3, "coin_mj.events": 0}.__getitem__):
+    with compiling.one(
+        "cointoss.coin_mj.events", {"cointoss.models.body": 3, "cointoss.coin_mj.events": 0}.__getitem__
+    ):
         assert (compiling.what, compiling.begun, compiling.total) == ("the MuJoCo engine", 4, 54)
 
 
 def test_what_is_kept_is_not_expected_again():
     compiling = of_two_engines(Clock())
-    with compiling.one("analytic.events", {"analytic.events": 5, "models.body": 4}.__getitem__):
+    with compiling.one(
+        "cointoss.analytic.events", {"cointoss.analytic.events": 5, "cointoss.models.body": 4}.__getitem__
+    ):
         assert (compiling.begun, compiling.total) == (1, 1)
-    with compiling.one("analytic.events", {"analytic.events": 5, "models.body": 4}.__getitem__):
+    with compiling.one(
+        "cointoss.analytic.events", {"cointoss.analytic.events": 5, "cointoss.models.body": 4}.__getitem__
+    ):
         assert (compiling.begun, compiling.total) == (2, 2)
 
 
 def test_shared_functions_are_those_of_the_one_engine_there_is():
     for modules, what in (
-        (["models.body"], "functions of both engines"),
-        (["models.body", "coin_mj.events"], "the MuJoCo engine"),
-        (["models.body", "coin_mj.events", "analytic.events"], "functions of both engines"),
+        (["cointoss.models.body"], "functions of both engines"),
+        (["cointoss.models.body", "cointoss.coin_mj.events"], "the MuJoCo engine"),
+        (
+            ["cointoss.models.body", "cointoss.coin_mj.events", "cointoss.analytic.events"],
+            "functions of both engines",
+        ),
     ):
         compiling = Compiling(Clock())
         compiling.declared.update(modules)
-        with compiling.one("models.body", none_kept):
+        with compiling.one("cointoss.models.body", none_kept):
             assert compiling.what == what
 
 
@@ -63,11 +77,11 @@ def test_the_end_is_estimated_from_the_functions_that_are_done_and_the_linking_t
     clock = Clock()
     compiling = of_two_engines(clock)
     for _ in range(4):
-        with compiling.one("analytic.events", none_kept):
+        with compiling.one("cointoss.analytic.events", none_kept):
             clock.now += 2.0
     # Six functions of two seconds, and machine code of all ten in half the time of compiling them.
     assert compiling.seconds_left == pytest.approx(6 * 2.0 + 10 * 1.0)
-    with compiling.one("analytic.events", none_kept), compiling.linking():
+    with compiling.one("cointoss.analytic.events", none_kept), compiling.linking():
         clock.now += 3.0
         each = 8.0 / 5
         assert compiling.seconds_left == pytest.approx(5 * each + 10 * each / 2 - 3.0)
@@ -79,7 +93,7 @@ def test_the_clock_of_work_stands_still_meanwhile():
     clock = Clock()
     compiling = of_two_engines(clock)
     before = compiling.working_time
-    with compiling.one("analytic.events", none_kept):
+    with compiling.one("cointoss.analytic.events", none_kept):
         clock.now += 60.0
         assert compiling.working_time == before
         with compiling.waiting():
@@ -92,7 +106,7 @@ def test_the_clock_of_work_stands_still_meanwhile():
 
 HOLDING = """
 import sys
-from models.kernel.code_cache import turn
+from cointoss.models.kernel.code_cache import turn
 with turn("some function") as waited:
     print(waited, flush=True)
     sys.stdin.read()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from models.drag import linear_drag
+from cointoss.models.drag import linear_drag
 from tests.helpers.referee import air_on_cylinder
 
 

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from analytic.air.force import force_and_moment
-from models.attitude import quaternion_from_angles, rotation_matrix
-from models.barriers import barrier, energy, spin_barrier, spin_barrier_bound
-from models.drag import linear_drag, sliding_share
-from models.ending import face_up, final_face
-from models.geometry import gap
-from models.records import Ending, Face, Outcome
-from models.state import state
+from cointoss.analytic.air.force import force_and_moment
+from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
+from cointoss.models.barriers import barrier, energy, spin_barrier, spin_barrier_bound
+from cointoss.models.drag import linear_drag, sliding_share
+from cointoss.models.ending import face_up, final_face
+from cointoss.models.geometry import gap
+from cointoss.models.records import Ending, Face, Outcome
+from cointoss.models.state import state
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_quaternion, scenario
 
 IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-import analytic
-from analytic.events import run
-from analytic.toss import state_of
-from models.attitude import rotation_matrix
-from models.clearance import acceleration_bounds, clear_time, damping_rate, drag_bound, grazing_time
-from models.ending import idle_energy
-from models.geometry import contact_velocity, gap, lowest_point
+from cointoss import analytic
+from cointoss.analytic.events import run
+from cointoss.analytic.toss import state_of
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.clearance import acceleration_bounds, clear_time, damping_rate, drag_bound, grazing_time
+from cointoss.models.ending import idle_energy
+from cointoss.models.geometry import contact_velocity, gap, lowest_point
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
 
 pytestmark = pytest.mark.usefixtures("without_horizon")

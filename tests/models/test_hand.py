@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-import analytic
-from models.attitude import rotation_matrix
-from models.hand import Hand, same_side_probability
-from models.reading import load
+from cointoss import analytic
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.hand import Hand, same_side_probability
+from cointoss.models.reading import load
 
 COINS = [load("fig29"), load("zloty")]
 

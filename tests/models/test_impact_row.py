@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from models.impact_row import FIRST_ROOM, with_room
-from models.records import IMPACT_ROW
+from cointoss.models.impact_row import FIRST_ROOM, with_room
+from cointoss.models.records import IMPACT_ROW
 
 
 def test_rows_grow_when_they_are_full_and_keep_what_they_hold():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from models.inertia import (
+from cointoss.models.inertia import (
     cylinder_inertia,
     inertia_about_mass_center,
     is_positive_definite,

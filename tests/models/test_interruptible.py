@@ -7,9 +7,9 @@ import warnings
 import numpy as np
 import pytest
 
-from models.interruptible import begun, interruptible
-from models.releases import Releases
-from models.tiles import toss_in_tiles
+from cointoss.models.interruptible import begun, interruptible
+from cointoss.models.releases import Releases
+from cointoss.models.tiles import toss_in_tiles
 
 
 def test_the_main_thread_waits_for_another_which_does_nested_work_itself():
@@ -54,7 +54,7 @@ def many(n):
 
 @pytest.mark.parametrize(("n", "size"), [(0, 5), (1, 1), (4, 1), (15, 1), (24, 3), (1000, 5), (1003, 5)])
 def test_every_tile_is_made_once_and_each_thread_has_some(n, size, monkeypatch):
-    monkeypatch.setattr("models.tiles.config.NUMBA_NUM_THREADS", 2)
+    monkeypatch.setattr("cointoss.models.tiles.config.NUMBA_NUM_THREADS", 2)
     told = []
 
     def number(states, outcomes, *others):

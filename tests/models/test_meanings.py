@@ -3,8 +3,9 @@
 import pytest
 from pydantic import BaseModel
 
-from models.meanings import meanings
-from models.scenario import Air, Coin, EndingCriteria, Floor, Release, Scenario
+from cointoss.models.meanings import meanings
+from cointoss.models.parts import Air, Coin, EndingCriteria, Floor, Release
+from cointoss.models.scenario import Scenario
 
 
 @pytest.mark.parametrize("part", [Scenario, Coin, Air, Floor, Release, EndingCriteria])

@@ -3,8 +3,14 @@
 import numpy as np
 import pytest
 
-from models.perpetual import FIRST_CHECK, energy_history, energy_loss_converges, loss_to_come, start_history
-from models.state import state
+from cointoss.models.perpetual import (
+    FIRST_CHECK,
+    energy_history,
+    energy_loss_converges,
+    loss_to_come,
+    start_history,
+)
+from cointoss.models.state import state
 from tests.helpers.draws import AIR, ZLOTY, scenario
 
 G = 9.81

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-import analytic
-from models.records import IMPACT_ROW, Flag, Impacts, States
+from cointoss import analytic
+from cointoss.models.records import IMPACT_ROW, Flag, Impacts, States
 from tests.helpers.draws import draw_release, scenario
 
 

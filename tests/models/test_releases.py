@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-import analytic
-from models.outcomes import Outcomes
-from models.reading import load
-from models.releases import QUANTITIES, Releases, check_releases
-from models.scenario import Release
+from cointoss import analytic
+from cointoss.models.outcomes import Outcomes
+from cointoss.models.parts import Release
+from cointoss.models.reading import load
+from cointoss.models.releases import QUANTITIES, Releases, check_releases
 from tests.helpers.draws import scenario
 
 GOOD = {

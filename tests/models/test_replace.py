@@ -7,10 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from models.errors import ScenarioError
-from models.fields import UNITS
-from models.laws import ContactLaw
-from models.scenario import Air, Coin, Release, Scenario
+from cointoss.models.errors import ScenarioError
+from cointoss.models.fields import UNITS
+from cointoss.models.laws import ContactLaw
+from cointoss.models.parts import Air, Coin, Release
+from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, ZLOTY, draw_quaternion, scenario
 
 HERE = scenario(

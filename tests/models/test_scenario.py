@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from models.errors import ScenarioError
-from models.laws import ContactLaw, EndingTest
-from models.reading import MOST_BYTES, load, named_scenarios, parse, scenario_text
-from models.scenario import MOST_IMPACTS, MOST_LOSSLESS, Coin, Release, Scenario
+from cointoss.models.errors import ScenarioError
+from cointoss.models.laws import ContactLaw, EndingTest
+from cointoss.models.parts import MOST_IMPACTS, MOST_LOSSLESS, Coin, Release
+from cointoss.models.reading import MOST_BYTES, load, named_scenarios, parse, scenario_text
+from cointoss.models.scenario import Scenario
 from tests.helpers.draws import scenario
 
 GOOD = """

@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from models.kernel import sources
-from models.kernel.compiled import CompiledFunction
-from models.kernel.sources import PACKAGES, imported, source_hash
+import cointoss
+from cointoss.models.kernel import sources
+from cointoss.models.kernel.compiled import CompiledFunction
+from cointoss.models.kernel.sources import imported, source_hash
 from tests.helpers.modules import write
 
 TOP = Path(sources.__file__).parents[2]
@@ -19,8 +20,7 @@ TOP = Path(sources.__file__).parents[2]
 def all_compiled():
     functions = {
         value
-        for package in PACKAGES
-        for found in pkgutil.walk_packages(importlib.import_module(package).__path__, f"{package}.")
+        for found in pkgutil.walk_packages(cointoss.__path__, "cointoss.")
         for value in vars(importlib.import_module(found.name)).values()
         if isinstance(value, CompiledFunction)
     }
@@ -51,30 +51,25 @@ def test_every_compiled_function_that_one_calls_is_in_its_hash():
 @pytest.mark.parametrize(
     "source",
     [
-        "import models.room.far",
-        "import os, models.room.far as near",
-        "from models.room.far import a, b",
-        "from models.room import (\n    other,\n    far as near,  # )\n)",
-        "def f():\n    from models.room import far\n",
-        "from models.room.package import a",
+        "import cointoss.models.room.far",
+        "import os, cointoss.models.room.far as near",
+        "if True: import cointoss.models.room.far",
+        "from cointoss.models.room \\\n    import far",
+        "from .room import far",
+        "from .room.far import a",
+        "from . import room; from .room import far",
+        "from cointoss.models.room.far import a, b",
+        "from cointoss.models.room import (\n    other,\n    far as near,  # )\n)",
+        "def f():\n    from cointoss.models.room import far\n",
+        "from cointoss.models.room.package import a",
     ],
 )
 def test_the_hash_is_of_all_that_is_imported(tmp_path, source):
     hashes = []
     for a in (1, 2):
         folder = tmp_path / str(a)
-        write(folder, "models.room.package.__init__", "from models.room.far import a\n")
-        write(folder, "models.near", source + "\n")
-        write(folder, "models.room.far", f"a = b = {a}\n")
-        hashes.append(source_hash("models.near", folder))
+        write(folder, "cointoss.models.room.package.__init__", "from cointoss.models.room.far import a\n")
+        write(folder, "cointoss.models.near", source + "\n")
+        write(folder, "cointoss.models.room.far", f"a = b = {a}\n")
+        hashes.append(source_hash("cointoss.models.near", folder / "cointoss"))
     assert hashes[0] != hashes[1]
-
-
-def test_every_package_with_compiled_functions_is_kept():
-    users = {
-        path.relative_to(TOP).parts[0]
-        for package in ("models", "analytic", "coin_mj", "compare")
-        for path in (TOP / package).rglob("*.py")
-        if "@compiled" in path.read_text(encoding="utf-8")
-    }
-    assert users == set(PACKAGES)

@@ -2,9 +2,9 @@
 
 import pytest
 
-from models.fields import UNITS, WORDS, lambda_unit, printed_unit
-from models.reading import load
-from models.title import title_of_toss
+from cointoss.models.fields import UNITS, WORDS, lambda_unit, printed_unit
+from cointoss.models.reading import load
+from cointoss.models.title import title_of_toss
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 
-from models import units
+from cointoss.models import units
 from tests.helpers.command_line import HERE
 
 
@@ -74,7 +74,7 @@ def test_units_are_written_in_many_ways(text, unit, number):
 
 def test_pint_is_imported_for_other_units_alone():
     script = (
-        "import sys; from models.units import in_si\n"
+        "import sys; from cointoss.models.units import in_si\n"
         "assert in_si('2 g', 'kg') == 0.002 and 'pint' not in sys.modules\n"
         "assert in_si('1 inch', 'm') == 0.0254 and 'pint' in sys.modules"
     )

@@ -4,9 +4,9 @@ import warnings
 
 import pytest
 
-from models.reading import load, parse
-from models.scenario import Scenario
-from models.unused import UnusedFieldWarning, unused_fields
+from cointoss.models.reading import load, parse
+from cointoss.models.scenario import Scenario
+from cointoss.models.unused import UnusedFieldWarning, unused_fields
 from tests.helpers.draws import scenario
 
 COIN = "[coin]\nmass = 0.002\nradius = 0.0125\nthickness = 0.002\n[release]\nposition = [0, 0, 0.4]\n"
@@ -34,7 +34,8 @@ SAID = [
 
 @pytest.mark.parametrize(("floor", "air", "said"), SAID)
 def test_a_field_that_nothing_uses_is_named_with_its_value_and_what_uses_it(floor, air, said):
-    lines = unused_fields(scenario(floor={"restitution": 0.8, "contact": "smooth"} | floor, air=air))
+    case = scenario(floor={"restitution": 0.8, "contact": "smooth"} | floor, air=air)
+    lines = unused_fields(case.floor, case.air)
     assert [line[: len(start)] for line, start in zip(lines, said, strict=True)] == said
 
 

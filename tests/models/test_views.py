@@ -7,12 +7,12 @@ import pytest
 from matplotlib import pyplot
 from matplotlib.figure import Figure
 
-import analytic
-from models.notebook import shares_picture, shortened, with_bar
-from models.outcomes import Outcomes
-from models.reading import load
-from models.records import Ending, Face, Outcome
-from models.releases import Releases
+from cointoss import analytic
+from cointoss.models.notebook import shares_picture, shortened, with_bar
+from cointoss.models.outcomes import Outcomes
+from cointoss.models.reading import load
+from cointoss.models.records import Ending, Face, Outcome
+from cointoss.models.releases import Releases
 
 
 @pytest.fixture(scope="module")

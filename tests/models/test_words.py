@@ -5,9 +5,9 @@ import pickle
 import numpy as np
 import pytest
 
-from models.kernel.compiled import compiled
-from models.laws import ContactLaw, EndingTest, RestitutionKind
-from models.records import Ending, Face, Outcome
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
+from cointoss.models.records import Ending, Face, Outcome
 
 LISTS = (ContactLaw, EndingTest, RestitutionKind, Ending, Face, Outcome)
 MEMBERS = [member for words in LISTS for member in words]

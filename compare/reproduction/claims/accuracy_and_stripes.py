@@ -10,14 +10,21 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-import analytic
-from compare.output.progress import Progress
-from compare.output.style import GREY
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import mean_share, ratio_of_medians
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.planar_maps import HEIGHTS, LANDINGS, SPINS, case, faces_after, releases
-from models.records import Array
+from cointoss import analytic
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import GREY
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.estimates import mean_share, ratio_of_medians
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.planar_maps import (
+    HEIGHTS,
+    LANDINGS,
+    SPINS,
+    case,
+    faces_after,
+    releases,
+)
+from cointoss.models.records import Array
 
 SEED = 53
 LADDER = np.geomspace(1e-10, 0.1, 91)

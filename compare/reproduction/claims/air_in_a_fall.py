@@ -8,20 +8,20 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-import analytic
-import coin_mj
-from analytic.events import run
-from analytic.toss import state_of
-from coin_mj.toss import impacts_of
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREEN, GREY, VERMILION
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import share
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.planar_maps import SPINS, case, releases
-from models.reading import load
-from models.records import Array
-from models.scenario import EndingCriteria, Release, Scenario
+from cointoss import analytic, coin_mj
+from cointoss.analytic.events import run
+from cointoss.analytic.toss import state_of
+from cointoss.coin_mj.toss import impacts_of
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREEN, GREY, VERMILION
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.estimates import share
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.planar_maps import SPINS, case, releases
+from cointoss.models.parts import EndingCriteria, Release
+from cointoss.models.reading import load
+from cointoss.models.records import Array
+from cointoss.models.scenario import Scenario
 
 FALLS = np.array([0.2, 0.4, 1.0, 1.86, 5.0, 10.0, 20.0, 50.0])
 """Heights of release [m]; the hand's 0.4 m, and the 1.86 m of the drops of section 2."""

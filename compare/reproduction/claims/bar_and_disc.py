@@ -7,20 +7,19 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-import analytic
-import coin_mj
-from compare.basins.picture import MapAxis, draw_panel
-from compare.basins.stripes import crossings
-from compare.output.progress import Progress
-from compare.output.style import BLUE, VERMILION
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.estimates import share
-from compare.reproduction.paper.fig2 import FASTEST, HIGHEST
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.planar_maps import case
-from models.records import Array, Face
-from models.releases import Releases
-from models.scenario import Scenario
+from cointoss import analytic, coin_mj
+from cointoss.compare.basins.picture import MapAxis, draw_panel
+from cointoss.compare.basins.stripes import crossings
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, VERMILION
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.estimates import share
+from cointoss.compare.reproduction.paper.fig2 import FASTEST, HIGHEST
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.planar_maps import case
+from cointoss.models.records import Array, Face
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 
 BODIES = {"disc": BLUE, "bar": VERMILION}
 SPEEDS = np.array([0.025, 0.05, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25])

@@ -7,20 +7,19 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-import analytic
-import coin_mj
-from analytic.events import run
-from coin_mj.toss import impacts_of
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREY, VERMILION
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.estimates import share
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, faces_after, releases
-from compare.reproduction.setups.release_arrays import chosen, moved, states_of
-from models.records import Outcome
-from models.releases import Releases
-from models.scenario import Release
+from cointoss import analytic, coin_mj
+from cointoss.analytic.events import run
+from cointoss.coin_mj.toss import impacts_of
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREY, VERMILION
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.estimates import share
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, faces_after, releases
+from cointoss.compare.reproduction.setups.release_arrays import chosen, moved, states_of
+from cointoss.models.parts import Release
+from cointoss.models.records import Outcome
+from cointoss.models.releases import Releases
 
 SEED = 71
 ASIDE = np.array([0.0, 0.01, 0.1, 1.0, 3.0, 10.0, 20.0])

@@ -6,14 +6,29 @@ from typing import Any
 
 import numpy as np
 
-from compare.output.progress import Progress
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import difference, share
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.setups.edge_classes import DIAMETRAL, HANDS, WOBBLING, Ends, ended_as, tosses
-from compare.reproduction.setups.edge_pages import PUBLISHED, alike, draw, fair, on_edge, percent, tables
-from compare.reproduction.setups.edge_record import (
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.estimates import difference, share
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups.edge_classes import (
+    DIAMETRAL,
+    HANDS,
+    WOBBLING,
+    Ends,
+    ended_as,
+    tosses,
+)
+from cointoss.compare.reproduction.setups.edge_pages import (
+    PUBLISHED,
+    alike,
+    draw,
+    fair,
+    on_edge,
+    percent,
+    tables,
+)
+from cointoss.compare.reproduction.setups.edge_record import (
     ANGLE,
     FREE,
     FULL,
@@ -24,7 +39,7 @@ from compare.reproduction.setups.edge_record import (
     Sizes,
     record_of,
 )
-from models.records import Outcome
+from cointoss.models.records import Outcome
 
 FACTOR = 2
 """Shares that differ by less are as good as one, where a model was extrapolated."""

@@ -8,21 +8,21 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-import analytic
-import coin_mj
-from analytic.flight.integrated_flight import sample_flight
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREY, INK, VERMILION
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import jackknife, mean
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.hands import releases_of_hands
-from compare.reproduction.setups.release_arrays import chosen, states_of
-from models.laws import ContactLaw
-from models.reading import load
-from models.records import Array, Face
-from models.releases import Releases
-from models.scenario import EndingCriteria, Floor, Scenario
+from cointoss import analytic, coin_mj
+from cointoss.analytic.flight.integrated_flight import sample_flight
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREY, INK, VERMILION
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.estimates import jackknife, mean
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.compare.reproduction.setups.release_arrays import chosen, states_of
+from cointoss.models.laws import ContactLaw
+from cointoss.models.parts import EndingCriteria, Floor
+from cointoss.models.reading import load
+from cointoss.models.records import Array, Face
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 
 SEED = 2
 SPREAD = 0.05

@@ -12,14 +12,14 @@ from matplotlib.figure import Figure
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from compare.output.progress import Progress
-from compare.output.style import INK, PALE, SKY, VERMILION
-from compare.output.tables import table
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.estimates import share
-from compare.reproduction.paper.fig24 import APART, NEARBY
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.fig24_readings import (
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import INK, PALE, SKY, VERMILION
+from cointoss.compare.output.tables import table
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.estimates import share
+from cointoss.compare.reproduction.paper.fig24 import APART, NEARBY
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.fig24_readings import (
     MARK,
     PRINTED,
     clusters_as_printed,
@@ -27,10 +27,10 @@ from compare.reproduction.setups.fig24_readings import (
     sequences,
     shared_with_marks,
 )
-from models.laws import ContactLaw
-from models.reading import load
-from models.records import Array
-from models.scenario import Scenario
+from cointoss.models.laws import ContactLaw
+from cointoss.models.reading import load
+from cointoss.models.records import Array
+from cointoss.models.scenario import Scenario
 
 SEED = 2008
 COUNT, HEIGHTS = 4000, 5

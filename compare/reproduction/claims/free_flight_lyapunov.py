@@ -5,18 +5,17 @@ from collections.abc import Callable
 import numpy as np
 from matplotlib.figure import Figure
 
-import analytic
-import coin_mj
-from analytic.horizon.flight_tangent import flight_tangent
-from analytic.toss import state_of
-from compare.output.progress import Progress
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.paper.fig18 import MEDIA, MODELS
-from compare.reproduction.runner import Reproduction, Result
-from models.body import Body
-from models.reading import load
-from models.records import Array, Toss
-from models.scenario import Scenario
+from cointoss import analytic, coin_mj
+from cointoss.analytic.horizon.flight_tangent import flight_tangent
+from cointoss.analytic.toss import state_of
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.paper.fig18 import MEDIA, MODELS
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.models.body import Body
+from cointoss.models.reading import load
+from cointoss.models.records import Array, Toss
+from cointoss.models.scenario import Scenario
 
 LONGEST = {"vacuum": 100.0, "air": 2000.0}
 """How long the coins fall [s]; in air the last turning is slow to end."""

@@ -8,17 +8,16 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-import analytic
-import coin_mj
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREY, VERMILION
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import jackknife, mean_share, share
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
-from models.records import Array, Outcome
-from models.releases import Releases
-from models.scenario import Scenario
+from cointoss import analytic, coin_mj
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREY, VERMILION
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.estimates import jackknife, mean_share, share
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
+from cointoss.models.records import Array, Outcome
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 
 SEED = 52
 RADII = 10.0 ** -np.arange(1, 13)

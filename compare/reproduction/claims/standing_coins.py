@@ -13,25 +13,25 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from analytic.contact.resistance import FloorFriction
-from analytic.events import run
-from analytic.settings import Settings
-from analytic.toss import Pieces
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREY, VERMILION
-from compare.precision.double_double import pair_of
-from compare.precision.planar_coin import planar_coin, units
-from compare.precision.planar_state import HEIGHT, release
-from compare.precision.planar_toss import toss_many
-from compare.precision.splitting import spread
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.estimates import mean, share
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.general_coins import CoinClass
-from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case
-from compare.reproduction.setups.standing import Standing, standing
-from models.records import Array, Outcome
-from models.scenario import Scenario
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.events import run
+from cointoss.analytic.settings import Settings
+from cointoss.analytic.toss import Pieces
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREY, VERMILION
+from cointoss.compare.precision.double_double import pair_of
+from cointoss.compare.precision.planar_coin import planar_coin, units
+from cointoss.compare.precision.planar_state import HEIGHT, release
+from cointoss.compare.precision.planar_toss import toss_many
+from cointoss.compare.precision.splitting import spread
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.estimates import mean, share
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.general_coins import CoinClass
+from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case
+from cointoss.compare.reproduction.setups.standing import Standing, standing
+from cointoss.models.records import Array, Outcome
+from cointoss.models.scenario import Scenario
 
 SEED = 522
 CHI = 0.3

@@ -12,18 +12,18 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from analytic.events import run
-from analytic.settings import Settings
-from compare.output.progress import Progress
-from compare.output.style import BLUE, VERMILION
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import share
-from compare.reproduction.parts import Part, kept
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.general_coins import CoinClass
-from models.body import Body, Rules, in_vacuum
-from models.kernel.sources import source_hash
-from models.records import Array, Outcome
+from cointoss.analytic.events import run
+from cointoss.analytic.settings import Settings
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, VERMILION
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.estimates import share
+from cointoss.compare.reproduction.parts import Part, kept
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.general_coins import CoinClass
+from cointoss.models.body import Body, Rules, in_vacuum
+from cointoss.models.kernel.sources import source_hash
+from cointoss.models.records import Array, Outcome
 
 TESTS = {"E < m g r": BLUE, "eq. (20)": VERMILION}
 COUNT, PART = 100_000, 2000
@@ -49,7 +49,7 @@ def make(progress: Progress, parts: Path, count: int = COUNT) -> Result:
         counts = np.zeros((len(TESTS), 3), dtype=np.int64)
         states = kind.starts(count)
         for first in range(0, count, size):
-            name = f"{source_hash('analytic.events')}-{kind.name.replace(', ', '-')}-{count}-{first}"
+            name = f"{source_hash('cointoss.analytic.events')}-{kind.name.replace(', ', '-')}-{count}-{first}"
             counts += kept(parts, name, partial(_part, kind, states[first : first + size]))["counts"]
             progress(done := done + min(size, count - first), whole)
         found[kind.name] = np.column_stack([counts, np.full(len(TESTS), count)])

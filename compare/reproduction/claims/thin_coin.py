@@ -8,22 +8,22 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-import analytic
-import coin_mj
-from analytic.events import run
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREY, INK, SKY, VERMILION
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import difference, jackknife, share
-from compare.reproduction.paper.fig28 import changes
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.hands import releases_of_hands
-from compare.reproduction.setups.release_arrays import chosen, moved, states_of
-from models.laws import ContactLaw
-from models.reading import load
-from models.records import Outcome
-from models.releases import Releases
-from models.scenario import Coin, EndingCriteria, Floor, Scenario
+from cointoss import analytic, coin_mj
+from cointoss.analytic.events import run
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREY, INK, SKY, VERMILION
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.estimates import difference, jackknife, share
+from cointoss.compare.reproduction.paper.fig28 import changes
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.compare.reproduction.setups.release_arrays import chosen, moved, states_of
+from cointoss.models.laws import ContactLaw
+from cointoss.models.parts import Coin, EndingCriteria, Floor
+from cointoss.models.reading import load
+from cointoss.models.records import Outcome
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 
 SEED = 6
 ASIDE = 10.0

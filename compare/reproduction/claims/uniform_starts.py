@@ -9,14 +9,21 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-import analytic
-from compare.output.progress import Progress
-from compare.output.style import GREY, SHARE_OF_HEADS
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import jackknife
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.planar_maps import HEIGHTS, LANDINGS, SPINS, case, faces_after, releases
-from models.records import Array, Face
+from cointoss import analytic
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import GREY, SHARE_OF_HEADS
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.estimates import jackknife
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.planar_maps import (
+    HEIGHTS,
+    LANDINGS,
+    SPINS,
+    case,
+    faces_after,
+    releases,
+)
+from cointoss.models.records import Array, Face
 
 SEED = 37
 CELLS = np.array([1, 2, 4, 8, 16, 32])

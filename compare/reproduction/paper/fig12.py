@@ -4,17 +4,17 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
 
-import analytic
-import coin_mj
-from compare.metrics.trajectories import parting_time
-from compare.output.progress import Progress
-from compare.output.style import ANALYTIC, MUJOCO, PALE
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from models.attitude import rotation_matrix
-from models.reading import load
-from models.records import Array, States, Toss
-from models.scenario import Air, Scenario
+from cointoss import analytic, coin_mj
+from cointoss.compare.metrics.trajectories import parting_time
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import ANALYTIC, MUJOCO, PALE
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.parts import Air
+from cointoss.models.reading import load
+from cointoss.models.records import Array, States, Toss
+from cointoss.models.scenario import Scenario
 
 ENGINES = {"analytic": (ANALYTIC, "-", 1), "MuJoCo": (MUJOCO, ".", 10)}
 COINS = {"imperfect": "fig12_imperfect", "ideal": "fig12_ideal"}
@@ -103,7 +103,7 @@ def _out_of_plane(case: Scenario, states: States) -> float:
 
 
 def _plane_motion(case: Scenario, t: Array) -> Array:
-    """Integrate eqs (40) and (48) in y, z and ϑ, with the linear air of `models.drag`; (n, 3) [m, m, rad]."""
+    """Integrate eqs (40) and (48) in y, z and ϑ, in the linear air of `models.drag`; (n, 3) [m, m, rad]."""
     drag, g, m = case.body.drag, case.gravity, case.coin.mass
     eta_C, J_xi = case.coin.center_of_mass[1], case.coin.inertia_about_C[0, 0]
 

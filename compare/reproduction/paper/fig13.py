@@ -6,19 +6,19 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from analytic.air.force import force_and_moment
-from analytic.air.velocity_field import SurfaceFields, velocity_fields
-from coin_mj import Settings
-from coin_mj.model.machine import machine_of
-from coin_mj.model.scene import shape_thickness
-from coin_mj.steps.constrained_step import forward
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREEN, ORANGE, PALE
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from models.reading import load
-from models.records import Array
-from models.scenario import Scenario
+from cointoss.analytic.air.force import force_and_moment
+from cointoss.analytic.air.velocity_field import SurfaceFields, velocity_fields
+from cointoss.coin_mj import Settings
+from cointoss.coin_mj.model.machine import machine_of
+from cointoss.coin_mj.model.scene import shape_thickness
+from cointoss.coin_mj.steps.constrained_step import forward
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREEN, ORANGE, PALE
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.models.reading import load
+from cointoss.models.records import Array
+from cointoss.models.scenario import Scenario
 
 FINE = {"rings": 100, "spokes": 240, "levels": 41}
 """Points of the sums."""

@@ -7,20 +7,19 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-import analytic
-import coin_mj
-from coin_mj import Friction, Settings
-from coin_mj.model.settings import ROUGH
-from compare.output.progress import Progress
-from compare.output.style import BLUE, PALE, VERMILION
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.mujoco_impacts import on_floor
-from models.attitude import rotation_matrix
-from models.laws import ContactLaw
-from models.reading import load
-from models.records import Array, Impacts
-from models.scenario import Scenario
+from cointoss import analytic, coin_mj
+from cointoss.coin_mj import Friction, Settings
+from cointoss.coin_mj.model.settings import ROUGH
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, PALE, VERMILION
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.mujoco_impacts import on_floor
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.laws import ContactLaw
+from cointoss.models.reading import load
+from cointoss.models.records import Array, Impacts
+from cointoss.models.scenario import Scenario
 
 MU = load("contact_sliding_friction").floor.friction
 SAME = 1e-12

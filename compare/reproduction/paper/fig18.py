@@ -3,16 +3,15 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-import analytic
-import coin_mj
-from compare.metrics.trajectories import attitude_angle, distance
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREEN, SKY, VERMILION
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from models.reading import load
-from models.records import Array
-from models.scenario import Air
+from cointoss import analytic, coin_mj
+from cointoss.compare.metrics.trajectories import attitude_angle, distance
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREEN, SKY, VERMILION
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.models.parts import Air
+from cointoss.models.reading import load
+from cointoss.models.records import Array
 
 MODELS = {
     "3D imperfect": ("fig18_3d_imperfect", GREEN),

@@ -6,16 +6,16 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
-import coin_mj
-from analytic.flight.integrated_flight import sample_flight
-from analytic.toss import state_of
-from compare.output.progress import Progress
-from compare.output.style import HEADS, INK, TAILS
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from models.reading import load
-from models.records import Array
-from models.scenario import Scenario
+from cointoss import coin_mj
+from cointoss.analytic.flight.integrated_flight import sample_flight
+from cointoss.analytic.toss import state_of
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import HEADS, INK, TAILS
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.models.reading import load
+from cointoss.models.records import Array
+from cointoss.models.scenario import Scenario
 
 FASTEST, HIGHEST = 20.0, 0.25
 """Ends of the axes: ω_0/π [1/s] and v_0/g [s]."""

@@ -3,18 +3,18 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-import analytic
-import coin_mj
-from analytic.air.force import force_and_moment
-from compare.metrics.trajectories import distance
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREY
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from models.attitude import rotation_matrix
-from models.reading import load
-from models.records import Array, States
-from models.scenario import Air, Scenario
+from cointoss import analytic, coin_mj
+from cointoss.analytic.air.force import force_and_moment
+from cointoss.compare.metrics.trajectories import distance
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREY
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.parts import Air
+from cointoss.models.reading import load
+from cointoss.models.records import Array, States
+from cointoss.models.scenario import Scenario
 
 SHOWN = 6.0
 """How long the picture follows the fall [s]."""

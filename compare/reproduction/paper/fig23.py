@@ -5,17 +5,17 @@ import itertools
 import numpy as np
 from matplotlib.figure import Figure
 
-import analytic
-import coin_mj
-from compare.metrics.sequences import common_prefix
-from compare.metrics.trajectories import distance
-from compare.output.progress import Progress
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.paper.fig18 import MODELS
-from compare.reproduction.runner import Reproduction, Result
-from models.reading import load
-from models.records import Array, Toss
-from models.scenario import Air, Scenario
+from cointoss import analytic, coin_mj
+from cointoss.compare.metrics.sequences import common_prefix
+from cointoss.compare.metrics.trajectories import distance
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.paper.fig18 import MODELS
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.models.parts import Air
+from cointoss.models.reading import load
+from cointoss.models.records import Array, Toss
+from cointoss.models.scenario import Scenario
 
 AIR = Air(normal=0.8, tangential=0.2)
 IMPACTS = 6

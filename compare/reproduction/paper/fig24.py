@@ -8,11 +8,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-import analytic
-import coin_mj
-from compare.metrics.sequences import common_prefix
-from compare.output.progress import Progress
-from compare.output.style import (
+from cointoss import analytic, coin_mj
+from cointoss.compare.metrics.sequences import common_prefix
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import (
     BLUE,
     GREEN,
     HEADS,
@@ -24,10 +23,10 @@ from compare.output.style import (
     TAILS,
     VERMILION,
 )
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.estimates import mean, share
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.fig24_readings import (
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.estimates import mean, share
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.fig24_readings import (
     CLUSTER,
     MARK,
     PRINTED,
@@ -38,8 +37,8 @@ from compare.reproduction.setups.fig24_readings import (
     sequences,
     shared,
 )
-from models.reading import load
-from models.records import Array, Face, Toss
+from cointoss.models.reading import load
+from cointoss.models.records import Array, Face, Toss
 
 COLORS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY)
 

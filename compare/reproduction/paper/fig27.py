@@ -8,19 +8,20 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from analytic.events import run
-from analytic.toss import state_of
-from coin_mj.toss import impacts_of
-from compare.metrics.lyapunov import divergence, growth_by_tangent
-from compare.output.progress import Progress
-from compare.output.style import GREY, VERMILION
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.estimates import mean, share
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.planar_maps import MEDIA
-from models.reading import load
-from models.records import Array
-from models.scenario import Air, Scenario
+from cointoss.analytic.events import run
+from cointoss.analytic.toss import state_of
+from cointoss.coin_mj.toss import impacts_of
+from cointoss.compare.metrics.lyapunov import divergence, growth_by_tangent
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import GREY, VERMILION
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.estimates import mean, share
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.planar_maps import MEDIA
+from cointoss.models.parts import Air
+from cointoss.models.reading import load
+from cointoss.models.records import Array
+from cointoss.models.scenario import Scenario
 
 PRINTED = {"air": (0.024, 316), "vacuum": (0.08, 700)}
 """The paper's exponents and numbers of collisions."""

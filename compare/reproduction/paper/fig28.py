@@ -10,25 +10,25 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-import analytic
-from analytic.events import run
-from analytic.toss import state_of
-from coin_mj.toss import impacts_of
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREY, HEADS, INK, TAILS, VERMILION
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import jackknife, ratio_of_medians
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.fig24_readings import (
+from cointoss import analytic
+from cointoss.analytic.events import run
+from cointoss.analytic.toss import state_of
+from cointoss.coin_mj.toss import impacts_of
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREY, HEADS, INK, TAILS, VERMILION
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.estimates import jackknife, ratio_of_medians
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.fig24_readings import (
     READINGS,
     Reading,
     clusters_as_printed,
     printed_heights,
     sequences,
 )
-from models.laws import ContactLaw
-from models.records import Array, Toss
-from models.scenario import Scenario
+from cointoss.models.laws import ContactLaw
+from cointoss.models.records import Array, Toss
+from cointoss.models.scenario import Scenario
 
 SEED = 28
 LEAST = 1e-3

@@ -5,17 +5,17 @@ from functools import partial
 import numpy as np
 from matplotlib.figure import Figure
 
-from coin_mj.toss import impacts_of
-from compare.basins.boundary import distance_to_doubt
-from compare.basins.fractions import fractions
-from compare.basins.maps import OutcomeCodes
-from compare.basins.picture import draw_panel
-from compare.basins.stripes import crossings
-from compare.output.progress import Progress
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.estimates import share
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.planar_maps import (
+from cointoss.coin_mj.toss import impacts_of
+from cointoss.compare.basins.boundary import distance_to_doubt
+from cointoss.compare.basins.fractions import fractions
+from cointoss.compare.basins.maps import OutcomeCodes
+from cointoss.compare.basins.picture import draw_panel
+from cointoss.compare.basins.stripes import crossings
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.estimates import share
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHT,
     HEIGHTS,
     SPIN,
@@ -27,8 +27,8 @@ from compare.reproduction.setups.planar_maps import (
     releases,
     whole_grid,
 )
-from models.records import Face, Outcome
-from models.scenario import Scenario
+from cointoss.models.records import Face, Outcome
+from cointoss.models.scenario import Scenario
 
 SEED = 29
 SAME_STRIPES = 0.05

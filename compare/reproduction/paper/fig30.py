@@ -12,23 +12,30 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-import analytic
-import coin_mj
-from compare.basins.picture import MapAxis, draw_panel
-from compare.output.progress import Progress
-from compare.output.style import GREY
-from compare.precision.magnified import MAGNIFICATION, Magnified, magnify
-from compare.precision.planar_coin import planar_coin, units
-from compare.precision.planar_state import HEIGHT, release
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import jackknife, share
-from compare.reproduction.parts import Part, kept
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.planar_maps import HEIGHTS, MEDIA, SPINS, Grid, case, final_faces, releases
-from compare.reproduction.setups.uncertain_shares import uncertain_shares
-from models.kernel.sources import source_hash
-from models.records import Array
-from models.scenario import Scenario
+from cointoss import analytic, coin_mj
+from cointoss.compare.basins.picture import MapAxis, draw_panel
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import GREY
+from cointoss.compare.precision.magnified import MAGNIFICATION, Magnified, magnify
+from cointoss.compare.precision.planar_coin import planar_coin, units
+from cointoss.compare.precision.planar_state import HEIGHT, release
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.estimates import jackknife, share
+from cointoss.compare.reproduction.parts import Part, kept
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.planar_maps import (
+    HEIGHTS,
+    MEDIA,
+    SPINS,
+    Grid,
+    case,
+    final_faces,
+    releases,
+)
+from cointoss.compare.reproduction.setups.uncertain_shares import uncertain_shares
+from cointoss.models.kernel.sources import source_hash
+from cointoss.models.records import Array
+from cointoss.models.scenario import Scenario
 
 WINDOWS_BELOW = 25
 """A line through the map is magnified so many times, 1 included; the last is 4e-25 m long."""
@@ -118,7 +125,7 @@ def _shares(parts: Path, medium: str, number: int, population: int) -> Array:
         run = uncertain_shares(scenario, rng, levels=len(ACCURACIES), population=population)
         return {"shares": run.shares}
 
-    made_by = source_hash("compare.reproduction.setups.uncertain_shares")
+    made_by = source_hash("cointoss.compare.reproduction.setups.uncertain_shares")
     return kept(parts, f"{made_by}, {medium}, {number}, {population}", compute)["shares"]
 
 

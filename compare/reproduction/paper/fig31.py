@@ -10,15 +10,14 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-import analytic
-import coin_mj
-from compare.basins.picture import draw_panel
-from compare.output.progress import Progress
-from compare.output.style import GREY, INK, PALE, VERMILION
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import ratio_of_shares, share
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.planar_maps import (
+from cointoss import analytic, coin_mj
+from cointoss.compare.basins.picture import draw_panel
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import GREY, INK, PALE, VERMILION
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.estimates import ratio_of_shares, share
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHT,
     HEIGHTS,
     MEDIA,
@@ -30,8 +29,9 @@ from compare.reproduction.setups.planar_maps import (
     touched_faces,
     whole_grid,
 )
-from models.records import Array, Outcome
-from models.scenario import EndingCriteria, Scenario
+from cointoss.models.parts import EndingCriteria
+from cointoss.models.records import Array, Outcome
+from cointoss.models.scenario import Scenario
 
 SHOWN = (0, 2, 5, 9)
 TOUCHES = 10

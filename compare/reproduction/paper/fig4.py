@@ -6,16 +6,16 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
-import analytic
-import coin_mj
-from analytic.flight.integrated_flight import sample_flight
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREY, ORANGE, PALE, SKY, VERMILION
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from models.reading import load
-from models.records import Array, States
-from models.scenario import Air, EndingCriteria, Release, Scenario, vector
+from cointoss import analytic, coin_mj
+from cointoss.analytic.flight.integrated_flight import sample_flight
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREY, ORANGE, PALE, SKY, VERMILION
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.models.parts import Air, EndingCriteria, Release
+from cointoss.models.reading import load
+from cointoss.models.records import Array, States
+from cointoss.models.scenario import Scenario, vector
 
 AIR = Air(normal=0.8, tangential=0.2)
 CASES = {

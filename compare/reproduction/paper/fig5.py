@@ -8,19 +8,18 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-import analytic
-import coin_mj
-from compare.film.stills import stills
-from compare.metrics.sequences import common_prefix
-from compare.output.progress import Progress
-from compare.output.style import ANALYTIC, GREY, MUJOCO
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.estimates import share
-from compare.reproduction.runner import Reproduction, Result
-from models.reading import load
-from models.records import Array, Face, Toss
-from models.releases import Releases
-from models.scenario import Scenario
+from cointoss import analytic, coin_mj
+from cointoss.compare.film.stills import stills
+from cointoss.compare.metrics.sequences import common_prefix
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import ANALYTIC, GREY, MUJOCO
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.estimates import share
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.models.reading import load
+from cointoss.models.records import Array, Face, Toss
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 
 ROWS, COLUMNS = 3, 5
 BEFORE = 0.02

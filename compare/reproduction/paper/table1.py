@@ -8,19 +8,19 @@ from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-import analytic
-import coin_mj
-from analytic.flight.equations_of_motion import derivative
-from analytic.numerics.euler_angles import Sequence, rate_matrix, rotation_of, singularity
-from analytic.toss import state_of
-from compare.output.progress import Progress
-from compare.output.style import BLUE, VERMILION
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from models.attitude import quaternion_from_angles
-from models.reading import load
-from models.records import Array
-from models.scenario import EndingCriteria, Release, Scenario, vector
+from cointoss import analytic, coin_mj
+from cointoss.analytic.flight.equations_of_motion import derivative
+from cointoss.analytic.numerics.euler_angles import Sequence, rate_matrix, rotation_of, singularity
+from cointoss.analytic.toss import state_of
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, VERMILION
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.models.attitude import quaternion_from_angles
+from cointoss.models.parts import EndingCriteria, Release
+from cointoss.models.reading import load
+from cointoss.models.records import Array
+from cointoss.models.scenario import Scenario, vector
 
 PRINTED = {
     "121": ("sin", -1, 0.0),

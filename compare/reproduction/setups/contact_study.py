@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.single_impacts import strike
-from compare.output.progress import Progress
-from compare.reproduction.setups.contact_thresholds import onset_of_gain, onset_without_solution
-from compare.reproduction.setups.random_impacts import draw_states
-from models.body import Body, Rules
-from models.laws import ContactLaw, RestitutionKind
-from models.reading import load
-from models.records import Array, Flag, Impacts, raised_flags
+from cointoss.analytic.single_impacts import strike
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.reproduction.setups.contact_thresholds import onset_of_gain, onset_without_solution
+from cointoss.compare.reproduction.setups.random_impacts import draw_states
+from cointoss.models.body import Body, Rules
+from cointoss.models.laws import ContactLaw, RestitutionKind
+from cointoss.models.reading import load
+from cointoss.models.records import Array, Flag, Impacts, raised_flags
 
 LAWS = {
     **{str(law): (law, RestitutionKind.KINEMATIC) for law in ContactLaw if law != ContactLaw.COULOMB},

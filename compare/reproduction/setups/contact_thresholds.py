@@ -6,10 +6,10 @@ from collections.abc import Callable
 import numpy as np
 from scipy.optimize import brentq, minimize
 
-from analytic.single_impacts import strike
-from models.attitude import quaternion_from_angles
-from models.body import Body, Rules
-from models.records import Array
+from cointoss.analytic.single_impacts import strike
+from cointoss.models.attitude import quaternion_from_angles
+from cointoss.models.body import Body, Rules
+from cointoss.models.records import Array
 
 MOST_FRICTION = 100.0
 _TRIED_PER_UNKNOWN, _REFINED = 40, 5

@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.engines import Engine
-from compare.reproduction.parts import Part, kept
-from models.attitude import quaternion_product
-from models.hand import Hand
-from models.kernel.sources import source_hash
-from models.records import Array, Ending, Outcome
-from models.releases import Releases
-from models.scenario import Scenario
+from cointoss.compare.engines import Engine
+from cointoss.compare.reproduction.parts import Part, kept
+from cointoss.models.attitude import quaternion_product
+from cointoss.models.hand import Hand
+from cointoss.models.kernel.sources import source_hash
+from cointoss.models.records import Array, Ending, Outcome
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 
 SEED = 1993
 DIAMETER, THICKNESS, MASS = 21.21e-3, 1.95e-3, 5e-3
@@ -39,7 +39,7 @@ BASE: dict[str, Any] = {
 AIR = {"normal": 0.8, "tangential": 0.2}
 LONGEST = 60.0
 """Of a toss [s]."""
-_ENTRIES = {Engine.ANALYTIC: "analytic.events", Engine.MUJOCO: "coin_mj.events"}
+_ENTRIES = {Engine.ANALYTIC: "cointoss.analytic.events", Engine.MUJOCO: "cointoss.coin_mj.events"}
 _HALF_TURN = (0.0, 1.0, 0.0, 0.0)
 
 Ends = dict[str, int]

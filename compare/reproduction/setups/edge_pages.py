@@ -7,11 +7,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy.stats import chi2_contingency
 
-from compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
-from compare.output.tables import table
-from compare.reproduction.claim import Estimate
-from compare.reproduction.estimates import LEVEL, share
-from compare.reproduction.setups.edge_classes import (
+from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
+from cointoss.compare.output.tables import table
+from cointoss.compare.reproduction.claim import Estimate
+from cointoss.compare.reproduction.estimates import LEVEL, share
+from cointoss.compare.reproduction.setups.edge_classes import (
     DIAMETER,
     DIAMETRAL,
     HANDS,
@@ -26,8 +26,8 @@ from compare.reproduction.setups.edge_classes import (
     three_way,
     tosses,
 )
-from compare.reproduction.setups.edge_record import ANGLE, LAWS, SOLID_ANGLE, EdgeRecord
-from models.records import Outcome
+from cointoss.compare.reproduction.setups.edge_record import ANGLE, LAWS, SOLID_ANGLE, EdgeRecord
+from cointoss.models.records import Outcome
 
 PUBLISHED = 1 / 6000
 """Murray and Teare's share of a nickel's tosses on edge."""

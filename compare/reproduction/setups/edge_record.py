@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from compare.engines import Engine
-from compare.output.progress import Progress
-from compare.reproduction.claim import Estimate
-from compare.reproduction.estimates import share
-from compare.reproduction.parts import kept
-from compare.reproduction.setups.edge_classes import (
+from cointoss.compare.engines import Engine
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.reproduction.claim import Estimate
+from cointoss.compare.reproduction.estimates import share
+from cointoss.compare.reproduction.parts import kept
+from cointoss.compare.reproduction.setups.edge_classes import (
     DIAMETRAL,
     HANDS,
     NICKEL,
@@ -26,7 +26,7 @@ from compare.reproduction.setups.edge_classes import (
     ends_of,
     hand_of,
 )
-from compare.reproduction.setups.edge_touches import (
+from cointoss.compare.reproduction.setups.edge_touches import (
     ANYHOW,
     TURNED,
     first_touches,
@@ -34,7 +34,7 @@ from compare.reproduction.setups.edge_touches import (
     tossed,
     way_to_rest,
 )
-from models.kernel.sources import source_hash
+from cointoss.models.kernel.sources import source_hash
 
 ANGLE, SOLID_ANGLE = 3**-0.5, 8**-0.5
 """h/D at which C is on the edge's side in a third of all turns about a diameter, and of all attitudes."""
@@ -224,7 +224,7 @@ def _jobs(sizes: Sizes, parts: Path) -> Iterator[tuple[tuple[str, ...], Callable
         hand = replace(hand_of(DIAMETRAL), psi_scatter=np.radians(scatter))
         kind = EdgeClass(name=f"ψ = 90° ± {scatter:g}°", hand=hand, floor={})
         yield ("wobbles", f"{scatter:g}"), counted(kind, sizes.wobble, SIZE[WOBBLING])
-    name = f"{source_hash('analytic.events')}-ways-{sizes.ways}"
+    name = f"{source_hash('cointoss.analytic.events')}-ways-{sizes.ways}"
     yield ("ways", "nickel"), partial(kept, parts, name, partial(way_to_rest, nickel(WOBBLING), sizes.ways))
     for wobble, aspect, chi, resists in sizes.shared:
         name = f"{wobble}, h/D = {aspect:.2g}, χ = {chi:g}{'' if resists else ', no resistance'}"
@@ -250,7 +250,7 @@ def nickel(wobble: str, factor: str = "as said") -> EdgeClass:
 def _touch(turned: str, count: int, parts: Path) -> FirstTouch:
     """Look at the first touches of coins that are turned so, and let some go at rest."""
     kind = EdgeClass(name=turned, aspect=LAWS[turned][0], hand=hand_of(DIAMETRAL), floor={"restitution": 0.0})
-    name = f"{source_hash('analytic.events')}-touches-{turned.replace(' ', '-')}-{count}"
+    name = f"{source_hash('cointoss.analytic.events')}-touches-{turned.replace(' ', '-')}-{count}"
     rng = np.random.default_rng(SEED)
 
     def part() -> dict[str, Any]:

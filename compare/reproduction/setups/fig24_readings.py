@@ -7,13 +7,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.events import run
-from analytic.toss import state_of
-from compare.metrics.sequences import common_prefix
-from models.laws import ContactLaw
-from models.reading import load
-from models.records import Array, Face
-from models.scenario import Scenario
+from cointoss.analytic.events import run
+from cointoss.analytic.toss import state_of
+from cointoss.compare.metrics.sequences import common_prefix
+from cointoss.models.laws import ContactLaw
+from cointoss.models.reading import load
+from cointoss.models.records import Array, Face
+from cointoss.models.scenario import Scenario
 
 PRINTED = {
     "a": "H∘HHH∘HHH∘HHH∘T∘T∘T∘HH",

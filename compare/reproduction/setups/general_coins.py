@@ -5,9 +5,9 @@ from itertools import product
 
 import numpy as np
 
-from models.records import Array
-from models.releases import Releases
-from models.scenario import Scenario
+from cointoss.models.records import Array
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 
 SEED = 15
 PAPER_OFFSET, THICKNESS = (-1e-3, -1e-3, -2e-4), 2e-3

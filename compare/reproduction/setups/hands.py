@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from models.attitude import quaternion_from_angles
-from models.records import Array
-from models.releases import Releases
+from cointoss.models.attitude import quaternion_from_angles
+from cointoss.models.records import Array
+from cointoss.models.releases import Releases
 
 LEAN = np.radians(7)
 """The coin is released heads up and this far from flat, as that of Fig. 24 [rad]."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from compare.output.tables import table
+from cointoss.compare.output.tables import table
 
 TOSSES = (1e6, 1e9, 1e12)
 CORES = (2, 16, 128, 1024)

@@ -9,8 +9,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from coin_mj.bounce import GRAVITY, HARDEST, LONGEST, PHASES, SPEED
-from models.records import Array
+from cointoss.coin_mj.bounce import GRAVITY, HARDEST, LONGEST, PHASES, SPEED
+from cointoss.models.records import Array
 
 SIZE = 0.1
 """Of the bodies [m]."""

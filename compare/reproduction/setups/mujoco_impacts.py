@@ -5,14 +5,14 @@ from typing import Any
 
 import numpy as np
 
-import analytic
-import coin_mj
-from coin_mj import Settings
-from models.attitude import rotation_matrix
-from models.geometry import contact_velocity, gap, lowest_point
-from models.laws import ContactLaw
-from models.records import Array, Impacts
-from models.scenario import EndingCriteria, Floor, Release, Scenario, euler_parameters, vector
+from cointoss import analytic, coin_mj
+from cointoss.coin_mj import Settings
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.geometry import contact_velocity, gap, lowest_point
+from cointoss.models.laws import ContactLaw
+from cointoss.models.parts import EndingCriteria, Floor, Release
+from cointoss.models.records import Array, Impacts
+from cointoss.models.scenario import Scenario, euler_parameters, vector
 
 CLEARANCE = 1e-9
 """Height of the lowest rim point at release [m]: nothing happens on the way down."""

@@ -11,11 +11,11 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from coin_mj import Friction, Realisation, Settings
-from coin_mj.model.machine import machine_of
-from coin_mj.model.scene import shape_thickness
-from coin_mj.toss import run
-from compare.reproduction.setups.mujoco_impacts import (
+from cointoss.coin_mj import Friction, Realisation, Settings
+from cointoss.coin_mj.model.machine import machine_of
+from cointoss.coin_mj.model.scene import shape_thickness
+from cointoss.coin_mj.toss import run
+from cointoss.compare.reproduction.setups.mujoco_impacts import (
     by_law,
     by_mujoco,
     draw_touches,
@@ -25,9 +25,9 @@ from compare.reproduction.setups.mujoco_impacts import (
     touch,
     velocity_at_touch,
 )
-from models.laws import ContactLaw
-from models.records import Array, Impacts
-from models.scenario import Scenario
+from cointoss.models.laws import ContactLaw
+from cointoss.models.records import Array, Impacts
+from cointoss.models.scenario import Scenario
 
 RESTITUTIONS = (0.2, 1.0)
 FRICTIONS = (0.0, 1.0)

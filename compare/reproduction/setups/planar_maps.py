@@ -5,16 +5,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-import analytic
-from analytic.events import run
-from compare.basins.maps import OutcomeCodes
-from compare.basins.picture import MapAxis
-from compare.output.style import BLUE, VERMILION
-from models.outcomes import Outcomes
-from models.reading import load
-from models.records import Array
-from models.releases import Releases
-from models.scenario import Air, Scenario
+from cointoss import analytic
+from cointoss.analytic.events import run
+from cointoss.compare.basins.maps import OutcomeCodes
+from cointoss.compare.basins.picture import MapAxis
+from cointoss.compare.output.style import BLUE, VERMILION
+from cointoss.models.outcomes import Outcomes
+from cointoss.models.parts import Air
+from cointoss.models.reading import load
+from cointoss.models.records import Array
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 
 HEIGHTS, SPINS = (0.2, 0.6), (20.0, 60.0)
 """Ranges of the axes: release height [m] and spin about ξ [rad/s]."""

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from analytic.single_impacts import strike
-from models.body import Body, Rules
-from models.records import Array
+from cointoss.analytic.single_impacts import strike
+from cointoss.models.body import Body, Rules
+from cointoss.models.records import Array
 
 SPEED = 1.0
 """Of C, along each axis at most [m/s]."""

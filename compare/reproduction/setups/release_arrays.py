@@ -5,8 +5,8 @@ from dataclasses import fields
 import numpy as np
 from numpy.typing import NDArray
 
-from models.records import Array
-from models.releases import Releases
+from cointoss.models.records import Array
+from cointoss.models.releases import Releases
 
 
 def chosen(releases: Releases, which: slice | NDArray[np.intp]) -> Releases:

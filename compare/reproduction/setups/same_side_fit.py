@@ -11,9 +11,9 @@ from scipy.optimize import brentq, minimize, minimize_scalar
 from scipy.special import logsumexp
 from scipy.stats import chi2, norm
 
-from compare.reproduction.estimates import LEVEL
-from models.hand import same_side_probability
-from models.records import Array
+from cointoss.compare.reproduction.estimates import LEVEL
+from cointoss.models.hand import same_side_probability
+from cointoss.models.records import Array
 
 NODES = 4000
 """Of a distribution over people, at the middles of equal parts of its probability."""
@@ -54,7 +54,7 @@ class Fit:
 
 def read_flips() -> Flips:
     """Read the counts of Bartoš et al. (2025) that come with the package."""
-    path = resources.files("compare.reproduction") / "data" / "same_side_flips.csv"
+    path = resources.files("cointoss.compare.reproduction") / "data" / "same_side_flips.csv"
     rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
     column = {name: np.array([int(row[name]) for row in rows]) for name in rows[0]}
     return Flips(

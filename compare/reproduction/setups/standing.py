@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from models.attitude import rotation_matrix
-from models.body import Body
-from models.records import Array
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.body import Body
+from cointoss.models.records import Array
 
 _NEWTON_STEPS = 20
 _LEANS = 0.8

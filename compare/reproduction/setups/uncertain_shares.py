@@ -5,11 +5,11 @@ from math import sqrt
 
 import numpy as np
 
-from compare.precision.planar_coin import planar_coin, units
-from compare.precision.planar_state import HEIGHT, SPIN, TILT, release
-from compare.precision.splitting import Replica, replica
-from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS
-from models.scenario import Scenario
+from cointoss.compare.precision.planar_coin import planar_coin, units
+from cointoss.compare.precision.planar_state import HEIGHT, SPIN, TILT, release
+from cointoss.compare.precision.splitting import Replica, replica
+from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS
+from cointoss.models.scenario import Scenario
 
 LARGEST = Fraction(1, 1000)
 """The first accuracy ε, in SI units; the others are tenths of each other."""

@@ -5,12 +5,12 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from compare.output.style import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION
-from compare.output.tables import table
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.setups.contact_study import (
+from cointoss.compare.output.style import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION
+from cointoss.compare.output.tables import table
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups.contact_study import (
     COINS,
     FRICTIONS_OF_ONSETS,
     FRICTIONS_SUFFICIENT,

@@ -12,17 +12,17 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.stats import chi2_contingency
 
-import analytic
-import coin_mj
-from compare.output.progress import Progress
-from compare.output.style import GREY, OUTCOMES
-from compare.output.tables import table
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.saving import read_numbers
-from models.records import Ending, Outcome
-from models.releases import Releases
-from models.scenario import Release, Scenario
+from cointoss import analytic, coin_mj
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import GREY, OUTCOMES
+from cointoss.compare.output.tables import table
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.models.parts import Release
+from cointoss.models.records import Ending, Outcome
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 
 COUNT, COUNT_MUJOCO, SEED = 10_000, 5_000, 2008
 """Tosses of each coin by the analytic engine, and by MuJoCo; and the seed."""

@@ -12,23 +12,23 @@ from time import process_time
 import numpy as np
 from numpy.typing import NDArray
 
-from analytic.automaton import Mode
-from analytic.contact.following import follow, friction_in_contact, start_following
-from analytic.events import hit, run, toss_coin
-from analytic.flight.flying import fly
-from analytic.settings import MANY, contact_limits
-from compare.output.progress import Progress
-from compare.output.tables import table
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.setups.general_coins import CLASSES, CoinClass
-from compare.reproduction.setups.map_times import map_times
-from models.body import Body, Rules
-from models.interruptible import interruptible
-from models.kernel.compiled import compiled
-from models.records import IMPACT_ROW, Array, Ending, Outcome
-from models.scenario import Scenario
+from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.following import follow, friction_in_contact, start_following
+from cointoss.analytic.events import hit, run, toss_coin
+from cointoss.analytic.flight.flying import fly
+from cointoss.analytic.settings import MANY, contact_limits
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.tables import table
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups.general_coins import CLASSES, CoinClass
+from cointoss.compare.reproduction.setups.map_times import map_times
+from cointoss.models.body import Body, Rules
+from cointoss.models.interruptible import interruptible
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.records import IMPACT_ROW, Array, Ending, Outcome
+from cointoss.models.scenario import Scenario
 
 COUNT, QUICK = 400, 20
 """Tosses of each class."""

@@ -8,23 +8,23 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-import analytic
-from compare.metrics.margin import MANY, QUANTITIES, Codes, Quantity, proved_change, smallest_changes
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
-from compare.output.tables import table
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import quantile, share
-from compare.reproduction.parts import Part, kept
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.setups.general_coins import CoinClass
-from compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
-from models.kernel.sources import source_hash
-from models.reading import load
-from models.records import Array
-from models.releases import Releases
-from models.scenario import Scenario
+from cointoss import analytic
+from cointoss.compare.metrics.margin import MANY, QUANTITIES, Codes, Quantity, proved_change, smallest_changes
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
+from cointoss.compare.output.tables import table
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.estimates import quantile, share
+from cointoss.compare.reproduction.parts import Part, kept
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups.general_coins import CoinClass
+from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
+from cointoss.models.kernel.sources import source_hash
+from cointoss.models.reading import load
+from cointoss.models.records import Array
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 
 SEED = 316
 COUNT, QUICK = 120, 12
@@ -123,7 +123,7 @@ def _kept_margins(
     def compute_part() -> Part:
         return {"margins": found_margins(scenario, start, quantity)}
 
-    made_by = source_hash("compare.metrics.margin")
+    made_by = source_hash("cointoss.compare.metrics.margin")
     part = kept(parts, f"{made_by}, {name}, {quantity.name}, {len(start)}", compute_part)
     margins = part["margins"]
     return np.where(np.isfinite(margins), margins, -1.0).tolist()

@@ -5,14 +5,29 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.figure import Figure
 
-from coin_mj.bounce import GRAVITY, HARDEST, PHASES, SPEED, SPRING_STEPS, one_step_solref, spring_solref
-from compare.output.progress import Progress
-from compare.output.tables import table
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.setups.mujoco_bodies import SHAPES, SIZE, Rebounds, Touch, rebounds, resting_depth
-from compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
+from cointoss.coin_mj.bounce import (
+    GRAVITY,
+    HARDEST,
+    PHASES,
+    SPEED,
+    SPRING_STEPS,
+    one_step_solref,
+    spring_solref,
+)
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.tables import table
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups.mujoco_bodies import (
+    SHAPES,
+    SIZE,
+    Rebounds,
+    Touch,
+    rebounds,
+    resting_depth,
+)
+from cointoss.compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
 
 RESTITUTION = 0.8
 STEP, FINE = 1e-3, 1e-4

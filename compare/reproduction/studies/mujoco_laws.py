@@ -6,14 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.figure import Figure
 
-from coin_mj import Friction, Settings
-from coin_mj.model.settings import ROUGH
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREEN, GREY, VERMILION
-from compare.output.tables import table
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.mujoco_impacts import (
+from cointoss.coin_mj import Friction, Settings
+from cointoss.coin_mj.model.settings import ROUGH
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREEN, GREY, VERMILION
+from cointoss.compare.output.tables import table
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.mujoco_impacts import (
     by_law,
     by_mujoco,
     draw_touches,
@@ -21,8 +21,8 @@ from compare.reproduction.setups.mujoco_impacts import (
     on_floor,
     relative_errors,
 )
-from models.laws import ContactLaw
-from models.records import Array
+from cointoss.models.laws import ContactLaw
+from cointoss.models.records import Array
 
 COUNT, SEED = 80, 17
 RESTITUTIONS, FRICTION = (0.1, 1.0), 0.2

@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from coin_mj.bounce import HARDEST, one_step_solref, restitutions_of_a_ball, spring_solref
-from compare.output.progress import Progress
-from compare.output.tables import table
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
-from compare.reproduction.setups.mujoco_impacts import draw_touches
-from compare.reproduction.setups.mujoco_study import (
+from cointoss.coin_mj.bounce import HARDEST, one_step_solref, restitutions_of_a_ball, spring_solref
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.tables import table
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
+from cointoss.compare.reproduction.setups.mujoco_impacts import draw_touches
+from cointoss.compare.reproduction.setups.mujoco_study import (
     FINE,
     RUBBED,
     ConeFormula,
@@ -59,7 +59,7 @@ class Sizes:
 
 @dataclass(frozen=True, kw_only=True)
 class ImpactErrors:
-    """All parts of the study; see `compare.reproduction.setups.mujoco_study` for each."""
+    """All parts of the study; see `cointoss.compare.reproduction.setups.mujoco_study` for each."""
 
     kinds: dict[str, dict[str, Spread]]
     stiffness: dict[str, StiffnessErrors]

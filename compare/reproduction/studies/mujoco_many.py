@@ -11,16 +11,16 @@ import mujoco
 import numpy as np
 from numba import config
 
-import coin_mj
-from coin_mj import MANY, Realisation, Settings
-from coin_mj.model.state import of_release
-from compare.output.progress import Progress
-from compare.output.tables import table
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.setups.mujoco_fixed_steps import loop_model, restitutions_of_coins
-from compare.reproduction.setups.mujoco_impacts import (
+from cointoss import coin_mj
+from cointoss.coin_mj import MANY, Realisation, Settings
+from cointoss.coin_mj.model.state import of_release
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.tables import table
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups.mujoco_fixed_steps import loop_model, restitutions_of_coins
+from cointoss.compare.reproduction.setups.mujoco_impacts import (
     by_law,
     by_mujoco,
     draw_touches,
@@ -28,12 +28,12 @@ from compare.reproduction.setups.mujoco_impacts import (
     on_floor,
     relative_errors,
 )
-from compare.reproduction.setups.mujoco_study import RESTITUTIONS, RUBBED, Spread, spread
-from models.laws import ContactLaw
-from models.reading import load
-from models.records import Array
-from models.releases import Releases
-from models.scenario import Scenario
+from cointoss.compare.reproduction.setups.mujoco_study import RESTITUTIONS, RUBBED, Spread, spread
+from cointoss.models.laws import ContactLaw
+from cointoss.models.reading import load
+from cointoss.models.records import Array
+from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
 
 SEED, TOSSES, TOUCHES = 5, 400, 100
 SCENARIO = "fig24a"

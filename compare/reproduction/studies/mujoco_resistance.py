@@ -10,16 +10,16 @@ import mujoco
 import numpy as np
 from matplotlib.figure import Figure
 
-import coin_mj
-from coin_mj.bounce import HARDEST
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
-from compare.output.tables import table
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
-from models.scenario import Scenario
+from cointoss import coin_mj
+from cointoss.coin_mj.bounce import HARDEST
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
+from cointoss.compare.output.tables import table
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
+from cointoss.models.scenario import Scenario
 
 MASS, RADIUS, GRAVITY = 2e-3, 1.25e-2, 9.81
 """Of all bodies [kg], [m], and on them [m/s²]."""

@@ -4,17 +4,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-import analytic
-from compare.output.progress import Progress
-from compare.output.tables import table
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.estimates import difference, share
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.setups.hands import releases_of_hands
-from models.reading import load
-from models.records import Outcome
-from models.scenario import Scenario
+from cointoss import analytic
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.tables import table
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.estimates import difference, share
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.models.reading import load
+from cointoss.models.records import Outcome
+from cointoss.models.scenario import Scenario
 
 COUNT, SEED = 1000, 5460
 """Hand tosses of the zloty for each threshold, and the seed."""

@@ -12,19 +12,19 @@ from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 from scipy.constants import hbar
 
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE
-from compare.output.tables import table
-from compare.precision.planar_state import HEIGHT, SPIN, TILT
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import jackknife
-from compare.reproduction.parts import Part, kept
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.setups.planar_maps import case
-from compare.reproduction.setups.uncertain_shares import uncertain_shares
-from models.kernel.sources import source_hash
-from models.records import Array
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE
+from cointoss.compare.output.tables import table
+from cointoss.compare.precision.planar_state import HEIGHT, SPIN, TILT
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.estimates import jackknife
+from cointoss.compare.reproduction.parts import Part, kept
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups.planar_maps import case
+from cointoss.compare.reproduction.setups.uncertain_shares import uncertain_shares
+from cointoss.models.kernel.sources import source_hash
+from cointoss.models.records import Array
 
 SEED = 2014
 POPULATION = 60
@@ -160,7 +160,7 @@ def _kept_run(
         made = run_once(floor, chi, quantity, number, population=population, levels=levels)
         return {name: np.array(value) for name, value in asdict(made).items()}
 
-    made_by = source_hash("compare.reproduction.setups.uncertain_shares")
+    made_by = source_hash("cointoss.compare.reproduction.setups.uncertain_shares")
     name = f"{made_by}, {floor}, {chi:g}, {quantity}, {number}, {population} x {levels}"
     return Run(**{name: array.tolist() for name, array in kept(parts, name, compute_part).items()})
 

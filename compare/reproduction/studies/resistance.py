@@ -6,22 +6,22 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.figure import Figure
 
-import analytic
-from analytic.automaton import Mode
-from analytic.contact.following import sample_contact
-from analytic.contact.resistance import FloorFriction
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREY, ORANGE
-from compare.output.tables import table
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import share
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.setups.hands import releases_of_hands
-from models.attitude import quaternion_from_angles
-from models.certificate import energies, turned
-from models.records import Ending, Outcome, States
-from models.scenario import Scenario
+from cointoss import analytic
+from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.following import sample_contact
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREY, ORANGE
+from cointoss.compare.output.tables import table
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.estimates import share
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.models.attitude import quaternion_from_angles
+from cointoss.models.certificate import energies, turned
+from cointoss.models.records import Ending, Outcome, States
+from cointoss.models.scenario import Scenario
 
 COUNT, SEED = 1000, 1993
 """Hand tosses of a nickel for each size of the resistance, and the seed."""

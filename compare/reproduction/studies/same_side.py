@@ -7,17 +7,17 @@ from itertools import product
 import numpy as np
 from matplotlib.figure import Figure
 
-from compare.engines import Engine
-from compare.metrics.first_side import TOUCHES, first_side
-from compare.output.progress import Progress
-from compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
-from compare.output.tables import table
-from compare.reproduction.claim import Claim, Criterion, Estimate
-from compare.reproduction.estimates import jackknife, share
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.saving import read_numbers
-from compare.reproduction.setups.general_coins import CoinClass
-from compare.reproduction.setups.same_side_fit import (
+from cointoss.compare.engines import Engine
+from cointoss.compare.metrics.first_side import TOUCHES, first_side
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
+from cointoss.compare.output.tables import table
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.estimates import jackknife, share
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups.general_coins import CoinClass
+from cointoss.compare.reproduction.setups.same_side_fit import (
     NODES,
     Flips,
     by_wobble,
@@ -29,8 +29,8 @@ from compare.reproduction.setups.same_side_fit import (
     log_likelihood,
     read_flips,
 )
-from models.hand import Hand
-from models.records import Array
+from cointoss.models.hand import Hand
+from cointoss.models.records import Array
 
 SEED = 2025
 TOUCH_NAMES = ("first touch", *(f"touch {n + 1}" for n in TOUCHES[1:]))

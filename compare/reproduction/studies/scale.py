@@ -12,18 +12,18 @@ from time import process_time
 import numpy as np
 from numba import config
 
-from compare.engines import Engine
-from compare.output.progress import Progress
-from compare.output.tables import table
-from compare.reproduction.claim import Claim, Criterion
-from compare.reproduction.runner import Reproduction, Result
-from compare.reproduction.setups.map_times import map_times
-from compare.sweep import run as sweep_run
-from compare.sweep.axes import parse_axis
-from compare.sweep.grid import Sweep, Tile, tiles
-from compare.sweep.pixels import Pixels, check, toss_pixels
-from compare.sweep.store import opened
-from models.reading import parse
+from cointoss.compare.engines import Engine
+from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.tables import table
+from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.map_times import map_times
+from cointoss.compare.sweep import run as sweep_run
+from cointoss.compare.sweep.axes import parse_axis
+from cointoss.compare.sweep.grid import Sweep, Tile, tiles
+from cointoss.compare.sweep.pixels import Pixels, check, toss_pixels
+from cointoss.compare.sweep.store import opened
+from cointoss.models.reading import parse
 
 COIN = """
 [coin]
