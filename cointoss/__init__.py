@@ -98,9 +98,7 @@ if not (Path(__file__).parent / "models").is_dir():
 
 def __getattr__(name: str) -> Any:
     if name == "__version__":
-        return import_module("importlib.metadata").version(
-            import_module("cointoss.models.distribution").DISTRIBUTION
-        )
+        return import_module("cointoss.models.distribution").versions_of(["cointoss"])["cointoss"]
     if name not in (*_PACKAGES, *_HOMES):
         near = import_module("difflib").get_close_matches(name, __dir__(), n=1)
         hint = f" (did you mean {near[0]}?)" if near else ""

@@ -2,10 +2,9 @@
 
 from enum import StrEnum
 from importlib import import_module
-from importlib.metadata import version
 from typing import Any, Protocol, cast
 
-from cointoss.models.distribution import DISTRIBUTION
+from cointoss.models.distribution import versions_of
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.reading import ScenarioSource
 from cointoss.models.records import Toss
@@ -60,11 +59,11 @@ class Engine(StrEnum):
     @property
     def versions(self) -> dict[str, str]:
         """The versions of what makes its tosses."""
-        return {name: version(name) for name in _MADE_OF[self]}
+        return versions_of(_MADE_OF[self])
 
 
-_PACKAGES = {Engine.ANALYTIC: "analytic", Engine.MUJOCO: "coin_mj"}
-_COMPILED = (DISTRIBUTION, "numba", "numpy")
+_PACKAGES = {Engine.ANALYTIC: "cointoss.analytic", Engine.MUJOCO: "cointoss.coin_mj"}
+_COMPILED = ("cointoss", "numba", "numpy")
 _MADE_OF = {Engine.ANALYTIC: _COMPILED, Engine.MUJOCO: (*_COMPILED, "mujoco")}
 
 

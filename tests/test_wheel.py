@@ -37,7 +37,7 @@ def installed(wheel, tmp_path_factory):
 
 @pytest.fixture
 def foreign(tmp_path):
-    """A folder with another project's packages of the same names, as a working folder may have."""
+    """A folder with another project's packages of such names, as a working folder may have."""
     for package in FOLDERS:
         (tmp_path / package).mkdir()
         (tmp_path / package / "__init__.py").write_text("raise RuntimeError('foreign')\n")

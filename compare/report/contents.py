@@ -5,7 +5,6 @@ from pathlib import Path
 
 from cointoss.compare.output import files
 from cointoss.compare.output.files import UnwritableError
-from cointoss.models.distribution import DISTRIBUTION
 
 OF_THE_FILM = ("report.html", "toss.mp4")
 FILES = (*OF_THE_FILM, "numbers.json", "path-analytic.csv", "path-mujoco.csv")
@@ -35,6 +34,6 @@ def require_folder(folder: Path, source: str) -> None:
 def _is_of_a_report(numbers: Path) -> bool:
     """Return whether numbers.json is a report's: one names the versions that computed it."""
     try:
-        return DISTRIBUTION in json.loads(numbers.read_bytes())["versions"]
+        return "cointoss" in json.loads(numbers.read_bytes())["versions"]
     except (OSError, ValueError, RecursionError, LookupError, TypeError):
         return False

@@ -3,7 +3,7 @@
 import platform
 from base64 import b64encode
 from dataclasses import dataclass
-from importlib import metadata, resources
+from importlib import resources
 from itertools import zip_longest
 from typing import Any, NamedTuple
 
@@ -21,7 +21,7 @@ from cointoss.compare.report.motion import motion_of
 from cointoss.compare.report.verdict import horizon_sentence, verdict_of
 from cointoss.compare.web.scripts import POLICY, data_element, import_map, shared_files
 from cointoss.models import certificate
-from cointoss.models.distribution import DISTRIBUTION
+from cointoss.models.distribution import versions_of
 from cointoss.models.fields import WORDS, printed_unit
 from cointoss.models.meanings import meanings
 from cointoss.models.records import Face, Toss
@@ -29,7 +29,7 @@ from cointoss.models.scenario import Scenario
 
 MOST_SHOWN = 200
 """Symbols of a sequence, and impacts, that the page shows."""
-PACKAGES = (DISTRIBUTION, "mujoco", "numpy", "scipy", "numba", "matplotlib", "mediapy")
+PACKAGES = ("cointoss", "mujoco", "numpy", "scipy", "numba", "matplotlib", "mediapy")
 
 
 class Film(NamedTuple):
@@ -100,7 +100,7 @@ def _about(scenario_text: str) -> str:
 
 def versions() -> dict[str, str]:
     """Return the versions of Python and the packages that matter to the numbers."""
-    return {"Python": platform.python_version(), **{name: metadata.version(name) for name in PACKAGES}}
+    return {"Python": platform.python_version(), **versions_of(PACKAGES)}
 
 
 def _parameters(scenario: Scenario) -> list[tuple[str, str, str]]:

@@ -27,6 +27,7 @@ from cointoss.compare.film.encodings import ENCODINGS, Format
 from cointoss.compare.output.answer import as_lines, contact_line
 from cointoss.compare.output.files import UnwritableError, require_file, write_text
 from cointoss.compare.report.contents import FILES
+from cointoss.models.distribution import DISTRIBUTION
 from cointoss.models.reading import load, named_scenarios, scenario_text
 from cointoss.models.scenario import Scenario
 from tests.helpers.command_line import HERE, cointoss
@@ -60,7 +61,7 @@ def test_json_has_the_agreed_form():
     assert toss["scenario"]["floor"]["restitution_kind"] == "kinematic"
     assert toss["end_time"] == toss["impacts"][-1]["time"]
     assert toss["settings"] == analytic.FINE.as_dict()
-    assert toss["versions"]["cointoss"] == version("cointoss")
+    assert toss["versions"]["cointoss"] == version(DISTRIBUTION)
     assert (toss["engine"], toss["sequence"], toss["ending"]) == ("analytic", "HHH", "max_impacts")
     assert len(toss["impacts"]) == 3
     sizes = {name: len(value) for name, value in toss["impacts"][0].items() if isinstance(value, list)}

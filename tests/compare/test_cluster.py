@@ -14,6 +14,7 @@ from distributed.comm.core import CommClosedError
 
 from cointoss.compare.sweep.cluster import naming_loss
 from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.distribution import DISTRIBUTION
 from tests.helpers.basin_runs import (
     AXES,
     SCENARIO,
@@ -98,7 +99,7 @@ def test_without_dask_the_extra_is_named(tmp_path, monkeypatch):
         tmp_path / "coin.toml", *AXES, "--out", tmp_path / "map.zarr", "--scheduler", "tcp://h:1"
     )
     assert answered.exit_code == 2
-    assert 'pip install "cointoss[cluster]"' in answered.stderr
+    assert f'pip install "{DISTRIBUTION}[cluster]"' in answered.stderr
     assert not (tmp_path / "map.zarr").exists()
 
 

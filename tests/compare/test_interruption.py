@@ -29,13 +29,9 @@ threads run. It leaves a file `begun`."""
 
 
 def of_toss(*engines):
-    """Return the head of a script in which a toss of these engines never ends."""
-    return "".join(
-        [
-            f"{ENDLESS}import sys\nfrom cointoss.compare.cli import main\n",
-            *(f"import {name}; sys.modules['{name}.toss'].run = lambda *_: endless()\n" for name in engines),
-        ]
-    )
+    """Return the head of a script in which a toss of these engines, by their packages, never ends."""
+    lines = [f"import {name}; sys.modules['{name}.toss'].run = lambda *_: endless()" for name in engines]
+    return "\n".join([f"{ENDLESS}import sys", "from cointoss.compare.cli import main", *lines, ""])
 
 
 def child(folder, script, *arguments):
@@ -76,7 +72,7 @@ def test_a_toss_is_interrupted(tmp_path, engine, number):
 
 @pytest.mark.parametrize("command", ["compare fig24a --out new/report", "video fig24a --out film.mp4"])
 def test_the_toss_of_a_report_or_a_film_is_interrupted(tmp_path, command):
-    script = of_toss("analytic", "coin_mj") + "main()"
+    script = of_toss("cointoss.analytic", "cointoss.coin_mj") + "main()"
     status, said = ended(tmp_path, signal.SIGHUP, script, *command.split())
     assert (status, said) == (129, "cointoss: interrupted by SIGHUP\n")
     assert [path.name for path in tmp_path.iterdir()] == ["begun"]
@@ -114,7 +110,8 @@ def test_a_map_is_interrupted_in_a_tile_and_resumed_to_the_same_pixels(tmp_path,
 
 
 def test_in_python_ctrl_c_raises_out_of_a_toss_and_of_many(tmp_path):
-    script = of_toss("analytic", "coin_mj") + (
+    script = of_toss("cointoss.analytic", "cointoss.coin_mj") + (
+        "from cointoss import analytic, coin_mj\n"
         "import cointoss.analytic.ensemble as of_many\n"
         "in_tiles, toss = of_many.toss_in_tiles, lambda *_: endless()\n"
         "of_many.toss_in_tiles = lambda some, tile, _, progress: in_tiles(some, tile, toss, progress)\n"
