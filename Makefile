@@ -19,7 +19,7 @@ told = echo "$(1)"; \
   while sleep 10 >/dev/null 2>&1 && kill -0 $$$$; do s=$$(($$s + 10)); echo "$(1): $$s s"; done & \
   trap "kill $$!" EXIT; $(2)
 
-.PHONY: report test check test-all bench docs pages lint opengl chromium compiled clean
+.PHONY: report test check test-all bench docs pages lock lint opengl chromium compiled clean
 
 report: $(READY) opengl compiled
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
@@ -50,6 +50,10 @@ docs: $(VENV)/.ready-docs chromium compiled $(MADE)/pages/explorer.html
 # What docs/ has that is made of other files there: nothing is computed.
 pages: $(VENV)/.ready-docs
 	$(BIN)/python docs/extensions/written.py
+
+# The exact versions installed here, with which the numbers of the pages can be made again.
+lock: $(VENV)/.ready-docs
+	$(BIN)/python -m pip freeze --exclude-editable > constraints.txt
 
 $(MADE)/pages/explorer.html: $(READY) $(CODE) docs/conf.py $(wildcard docs/extensions/*.py) | compiled
 	rm -rf $(MADE)

@@ -1,6 +1,7 @@
 """The package as it is shipped: one name, which tosses a coin beside a foreign `models`."""
 
 import os
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -13,18 +14,22 @@ TOP = Path(__file__).parents[1]
 FOLDERS = ("models", "analytic", "coin_mj", "compare")
 
 
+def build(target, source, folder):
+    """Build an sdist or a wheel from a folder of sources into another folder, and return its path."""
+    command = [sys.executable, "-m", "hatchling", "build", "-t", target, "-d", str(folder)]
+    built = subprocess.run(command, cwd=source, capture_output=True, text=True)
+    assert built.returncode == 0, built.stderr
+    (path,) = folder.glob("cointoss_dynamics-*")
+    return path
+
+
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("wheel")
-    built = subprocess.run(
-        [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)],
-        cwd=TOP,
-        capture_output=True,
-        text=True,
-    )
-    assert built.returncode == 0, built.stderr
-    (path,) = folder.glob("cointoss_dynamics-*.whl")
-    return path
+    """A wheel made as pip makes one of an archive of the sources, which has no links."""
+    archive = build("sdist", TOP, tmp_path_factory.mktemp("archive"))
+    sources = tmp_path_factory.mktemp("sources")
+    shutil.unpack_archive(archive, sources, filter="data")
+    return build("wheel", sources / archive.name.removesuffix(".tar.gz"), tmp_path_factory.mktemp("wheel"))
 
 
 @pytest.fixture(scope="module")

@@ -1,13 +1,15 @@
-"""Write what docs/ holds that is made from other files, as `make pages` does: pages of results, notebooks."""
+"""Write what docs/ holds that is made of other files, as `make pages` does: results, notebooks, the house."""
 
 from pathlib import Path
 
+import house
 import nbformat
 from myst_nb.core.read import read_myst_markdown_notebook
 
 from cointoss.compare.output.files import written_together
 from cointoss.compare.reproduction import gallery, pages, runner
 from cointoss.compare.reproduction.claim import to_json
+from cointoss.compare.reproduction.result import PAGE, SHEETS, folder_of
 
 DOCS = Path(__file__).parents[1]
 
@@ -15,10 +17,10 @@ DOCS = Path(__file__).parents[1]
 def write_results(out: Path) -> None:
     """Write the pages of all results that earlier runs left in a folder; compute nothing."""
     for name in runner.names():
-        folder = runner.folder_of(name, out)
+        folder = folder_of(name, out)
         if (folder / "claims.json").exists():
             result = runner.kept(name, out)
-            with written_together(folder, ("claims.json", runner.PAGE, *runner.SHEETS)) as aside:
+            with written_together(folder, ("claims.json", PAGE, *SHEETS)) as aside:
                 (aside / "claims.json").write_text(to_json(result.claims), encoding="utf-8")
                 pages.write(aside, name, runner.find(name), result)
             pages.write_blocks(out, name, result)
@@ -43,3 +45,4 @@ def write_notebooks(examples: Path) -> None:
 if __name__ == "__main__":
     write_results(DOCS)
     write_notebooks(DOCS / "examples")
+    (DOCS / "house.svg").write_text(house.house(DOCS.parent), encoding="utf-8")
