@@ -3,9 +3,10 @@
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 
+from cointoss.models.palette import COLORS
+
 WIDTH, HEIGHT, EDGE = 560, 150, 22
 """Of a picture, and its margin [pixels]."""
-COLORS = {"heads": "#e0a526", "tails": "#3b7dd8", "edge": "#2f9e6e", "perpetual": "#a05ec4"}
 _OTHER = "#8a8f98"
 MOST_SHOWN = 60
 """Faces of a sequence, and impacts, in one line or picture."""

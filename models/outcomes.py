@@ -1,21 +1,19 @@
 """How many tosses ended."""
 
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.models import notebook
+from cointoss.models.drawing import plots
 from cointoss.models.labelled import Column, dataset, meanings_of, table
-from cointoss.models.plots import axes_or_new, draw_counts
 from cointoss.models.records import Array, Ending, Face, Outcome
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-
-    from cointoss.models.plots import Axes
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -89,18 +87,16 @@ class Outcomes:
         """Return the outcomes as a table of pandas, a row each, in words."""
         return table("toss", self._columns())
 
-    def plot(self, ax: "Axes | None" = None) -> "Axes":
+    def plot(self, ax: Any = None) -> Any:
         """Plot how many tosses had each outcome.
 
         Args:
-            ax: where to draw, by default in a new figure of pyplot.
+            ax: matplotlib's Axes where to draw, by default in a new figure of pyplot.
 
         Returns:
             The axes.
         """
-        axes = axes_or_new(ax)
-        draw_counts(axes, self.counts)
-        return axes
+        return plots().plot_outcomes(self, ax)
 
     def _columns(self) -> dict[str, Column]:
         words = {

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cointoss.models import notebook
+from cointoss.models.drawing import plots
 from cointoss.models.interruptible import interruptible
 from cointoss.models.labelled import AXES, Column, dataset, meanings_of, table
-from cointoss.models.plots import axes_or_new, draw_height
 from cointoss.models.scenario import Scenario
 from cointoss.models.words import Word
 
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-    from cointoss.models.plots import Axes
 
 Array = NDArray[np.float64]
 
@@ -383,22 +382,17 @@ class Toss:
         """Return the impacts as a table of pandas, a row each."""
         return self.impacts.to_dataframe()
 
-    def plot(self, ax: "Axes | None" = None, **line: Any) -> "Axes":
+    def plot(self, ax: Any = None, **line: Any) -> Any:
         """Plot the height of the mass centre over time, marked where the coin touches the floor.
 
         Args:
-            ax: where to draw, by default in a new figure of pyplot.
+            ax: matplotlib's Axes where to draw, by default in a new figure of pyplot.
             line: of matplotlib's line, such as `color` or `label`.
 
         Returns:
             The axes.
         """
-        times, impacts, axes = np.linspace(0, self.end_time, _DRAWN), self.impacts, axes_or_new(ax)
-        up = {str(face): impacts.face == face for face in Face}
-        touches = {face: (impacts.time[one], impacts.position[one, 2]) for face, one in up.items()}
-        draw_height(axes, (times, self.sample(times).position[:, 2]), touches, **line)
-        axes.set_title(f"{self.outcome}, by the engine {self.engine}")
-        return axes
+        return plots().plot_toss(self, ax, **line)
 
     def sample(self, times: ArrayLike) -> States:
         """Return the coin's states at `times`.

@@ -1,25 +1,18 @@
-"""How all pictures look: the one palette, and the style of plots."""
+"""How all pictures look: the colours beside those of outcomes, and the style of plots."""
 
 from typing import Any
 
 from matplotlib.colors import LinearSegmentedColormap
 
+from cointoss.models.palette import COLORS, EDGE, HEADS, PERPETUAL, TAILS
 from cointoss.models.records import Outcome
 
 # Okabe and Ito's colours, which the colour-blind can distinguish.
-BLUE, VERMILION, GREEN = "#0072B2", "#D55E00", "#009E73"
-PURPLE, ORANGE, SKY = "#CC79A7", "#E69F00", "#56B4E9"
+BLUE, VERMILION, GREEN = "#0072B2", "#D55E00", EDGE
+PURPLE, ORANGE, SKY = PERPETUAL, "#E69F00", "#56B4E9"
 INK, GREY, PALE, GRID = "#1b2430", "#5b6675", "#9aa4b0", "#d9dee5"
 """Of letters, of axes, of what stands behind the rest, and of the grid."""
-HEADS, TAILS = "#F5AB1F", "#0D5CA8"
-"""The coin's faces, gold and blue, as in models/coin.xml; they differ in brightness too."""
-OUTCOMES = {
-    Outcome.UNDECIDED: "#FFFFFF",
-    Outcome.HEADS: HEADS,
-    Outcome.TAILS: TAILS,
-    Outcome.EDGE: GREEN,
-    Outcome.PERPETUAL: PURPLE,
-}
+OUTCOMES = {outcome: COLORS[str(outcome)] for outcome in Outcome}
 ANALYTIC, MUJOCO = BLUE, VERMILION
 """The engines."""
 SHARE_OF_HEADS = LinearSegmentedColormap.from_list("share of heads", [TAILS, "#FFFFFF", HEADS])

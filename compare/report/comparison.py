@@ -7,19 +7,19 @@ from typing import TYPE_CHECKING
 
 from cointoss.compare.engines import Engine, EngineSettings
 from cointoss.compare.film.back_end import BackEndError, drawing_problem
+from cointoss.compare.output.plots import axes_or_new
 from cointoss.compare.output.style import ANALYTIC, GREY, MUJOCO
 from cointoss.compare.report.compared_tosses import ComparedTosses
 from cointoss.compare.report.contents import require_folder
 from cointoss.compare.report.folder import write_report
 from cointoss.compare.report.verdict import verdict_of
-from cointoss.models.plots import axes_or_new
 from cointoss.models.reading import ScenarioSource, parse, scenario_text
 from cointoss.models.records import UnsupportedError
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import stage
 
 if TYPE_CHECKING:
-    from cointoss.models.plots import Axes
+    from matplotlib.axes import Axes
 
 
 class Comparison(ComparedTosses):

@@ -14,19 +14,18 @@ from numpy.typing import NDArray
 
 from cointoss.compare.basins.maps import outcome_codes
 from cointoss.compare.basins.picture_style import Palette, PictureStyle
+from cointoss.compare.output.plots import axes_or_new
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.layers import NOT_TOSSED, axis_attributes, layers_of
 from cointoss.compare.sweep.pixels import Pixels
 from cointoss.models import notebook
-from cointoss.models.plots import axes_or_new
 from cointoss.models.records import Array, Outcome
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-
-    from cointoss.models.plots import Axes
+    from matplotlib.axes import Axes
 
 _HTML_DPI = 80
 

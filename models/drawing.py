@@ -1,0 +1,11 @@
+"""The module that draws records, found by name when a plot is asked for, as pandas finds its plotting backend."""
+
+from importlib import import_module
+from typing import Any
+
+DRAWS = "cointoss.compare.output.plots"
+
+
+def plots() -> Any:
+    """Return the module that draws records, and imports Matplotlib."""
+    return import_module(DRAWS)
