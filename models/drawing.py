@@ -1,4 +1,4 @@
-"""The module that draws records, found by name when a plot is asked for, as pandas finds its plotting backend."""
+"""The module that draws records, found by its name when a plot is asked for, as pandas finds its own."""
 
 from importlib import import_module
 from typing import Any
