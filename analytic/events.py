@@ -275,7 +275,7 @@ def follow_to_event(body, rules, friction, mode, y, time, steps, limits, history
         if has_resistance(friction) and rests(body, friction, mode, y):
             return Event.ENDS, time, steps, Outcome.EDGE, Ending.AT_REST
         if not over and repeats(tilting, y):
-            return Event.ENDS, time, steps, *endless(body, rules, state_of(y))
+            return Event.ENDS, time, steps, *endless(body, rules, state_of(y), Ending.PERIODIC)
         on_edge = modes.edge_event(body, friction, mode, in_mode, rules.test != EndingTest.LYING, y)
         if on_edge == Event.ENDS:
             return Event.ENDS, time, steps, Outcome.EDGE, Ending.STANDING

@@ -45,7 +45,7 @@ def classify_ending(body, rules, state, time, history):
         return Outcome.UNDECIDED, Ending.NOT_CAUGHT
     outcome, ending = final_face(body, rules, state)
     if ending == Ending.NONE and energy_loss_converges(body, rules, state, time, history):
-        return endless(body, rules, state)
+        return endless(body, rules, state, Ending.PERPETUAL)
     return outcome, ending
 
 
@@ -81,7 +81,7 @@ def unless_caught(rules, outcome, ending):
 
 
 @compiled
-def endless(body, rules, state):
+def endless(body, rules, state, ending):
     """Return how a toss ends whose coin goes on for ever without meeting the test of its scenario.
 
     Where one of the paper's tests never comes true, the face may still be settled.
@@ -90,11 +90,12 @@ def endless(body, rules, state):
         body: the coin.
         rules: floor and ending.
         state: of the coin, a `State`.
+        ending: PERIODIC where that is proved, PERPETUAL where it is extrapolated.
     """
-    outcome, ending = settled_face(body, rules, state)
-    if ending != Ending.NONE:
-        return outcome, ending
-    return Outcome.PERPETUAL, Ending.PERPETUAL
+    outcome, settled = settled_face(body, rules, state)
+    if settled != Ending.NONE:
+        return outcome, settled
+    return Outcome.PERPETUAL, ending
 
 
 @compiled

@@ -69,6 +69,7 @@ class Ending(Word):
     ROLLING = 14
     CAUGHT = 15
     NOT_CAUGHT = 16
+    PERIODIC = 17
 
     @property
     def sentence(self) -> str:
@@ -87,7 +88,8 @@ _SENTENCES = {
     Ending.NO_SOLUTION: "The contact law has no solution at this impact.",
     Ending.LYING: "The coin lies on a face. It may still slide or spin, but that can't tip it.",
     Ending.STANDING: "The coin stands on its edge: the floor turns it back from either rim.",
-    Ending.PERPETUAL: "The coin keeps enough energy to turn over for ever: its losses die away.",
+    Ending.PERPETUAL: "Its recent losses, extrapolated, leave the coin enough energy to turn over for ever.",
+    Ending.PERIODIC: "The coin's contact has gone through a whole period, and repeats it for ever.",
     Ending.CONTACT_STEPS: "The toss stopped at contact_steps; raise it to go on: --contact-steps N.",
     Ending.FLIGHT_STEPS: "The toss stopped at flight_steps; raise it to go on: --flight-steps N.",
     Ending.AT_REST: "The coin rests on its edge, held by the floor's resistance to rolling.",

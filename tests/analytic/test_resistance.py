@@ -283,14 +283,14 @@ def test_contacts_of_random_tosses_never_gain_energy(seed):
     assert tossed.outcome in (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE)
 
 
-def test_perpetual_is_no_ending_of_a_coin_that_resistance_slows():
+def test_periodic_is_no_ending_of_a_coin_that_resistance_slows():
     case = scenario(
         coin=THIN,
         floor={"contact": "perfectly_rough", "restitution": 0.1},
         release={"position": [0, 0, 0.013], "angles": [0, 1.3, 0], "angular_velocity": [0, 0, 60]},
         ending={"max_time": 4.0},
     )
-    assert analytic.toss(case).ending == Ending.PERPETUAL
+    assert analytic.toss(case).ending == Ending.PERIODIC
     slow = case.replace("floor.rolling_friction", 1e-9, "floor.pivoting_friction", 1e-9)
     assert analytic.toss(slow).ending == Ending.MAX_TIME
     fast = slow.replace("floor.rolling_friction", 5e-4, "ending.max_time", 100.0)
