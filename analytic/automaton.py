@@ -1,10 +1,21 @@
-"""A toss as a hybrid automaton: its modes, the events that end them, and the mode that follows."""
+"""A toss as a hybrid automaton: its modes with flow and projection, its events, and the mode after each.
+
+A flow gives the rate of change of the state and a margin: how far the mode is from its end. A guard finds the
+event that ends it and never writes. The table names the mode after it, and a reset
+(`cointoss.analytic.contact.resets`) maps the state to that in which this mode starts.
+"""
 
 from enum import IntEnum
 
 import numpy as np
 
+from cointoss.analytic.contact import incipient_slip, sliding, sticking, upright
+from cointoss.analytic.contact.contact import BOTH_RIMS, Contact, lower_rim_of
+from cointoss.analytic.contact.one_rim import contact_in_flight
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.records import Array
 
 
 class Mode(IntEnum):
@@ -13,14 +24,15 @@ class Mode(IntEnum):
     FLIGHT = 0
     SLIDING = 1
     """In contact at one rim point A, which slips; friction acts against the slip."""
-    CREEPING = 2
-    """In contact at A, whose slip starts or is hardly left. Friction would turn it at once: it goes in the
-    direction in which it grows."""
+    INCIPIENT_SLIP = 2
+    """In contact at A, whose slip is below `SLOW` and outside what friction can hold."""
     STICKING = 3
     """In contact at A, which does not slip."""
     UPRIGHT = 4
     """In contact at both rims."""
     ENDED = 5
+    TOUCHING = 6
+    """On the floor at one rim, for no time: which mode of contact starts is still to be found."""
 
 
 class Event(IntEnum):
@@ -30,40 +42,56 @@ class Event(IntEnum):
     """Nothing yet: the mode goes on."""
     IMPACT = 0
     """The coin touches the floor and bounces."""
-    LIFTS_OFF = 1
-    """The floor would have to pull."""
-    RIM_LANDS = 2
+    CHATTERS = 1
+    """The coin touches the floor, and its impacts chatter (Zeno): a sustained contact takes their place."""
+    LIFTS_OFF = 2
+    """The floor would have to pull: Signorini's condition ends the contact."""
+    SECOND_RIM_LANDS = 3
     """The other face's rim comes down to the floor: a touch follows."""
-    FACE_LANDS = 3
+    FACE_LANDS = 4
     """A face comes down to the floor: a touch of the opposite rim point follows."""
-    SLIPS = 4
+    FALLS_FLAT = 5
+    """Likewise, of a coin so flat already that no step of the contact is left."""
+    SLIDES = 6
     """A slips faster than `SLOW`, or goes on slipping faster than half of it; or the floor is smooth."""
-    SLIP_STARTS = 5
-    """A hardly slips, and friction cannot hold it."""
-    SLIP_STOPS = 6
+    SLIP_STARTS = 7
+    """A hardly slips, and the force that would hold it is outside the friction cone."""
+    SLIP_STOPS = 8
     """A hardly slips, and friction holds it."""
-    COMES_UPRIGHT = 7
+    COMES_UPRIGHT = 9
     """The coin comes onto its edge and presses both rims."""
-    ENDS = 8
-    """The toss is decided, a budget is spent, or the law goes no further: see `Ending`."""
+    TIPS_OVER = 10
+    """One rim of an upright coin would have to be pulled: the coin goes on upon the other."""
+    NO_SOLUTION = 11
+    """No step of the contact, however short, has a finite end."""
+    ENDS = 12
+    """The toss is decided, a budget is spent, or the contact law goes no further: see `Ending`."""
 
 
-_F, _S, _C, _T, _U, _E, _ = *(mode.value for mode in Mode), -1
-_NEXT = np.array(
-    [
-        # IMPACT, LIFTS_OFF, RIM_LANDS, FACE_LANDS, SLIPS, SLIP_STARTS, SLIP_STOPS, COMES_UPRIGHT, ENDS
-        [_F, _F, _, _, _S, _C, _T, _, _E],  # FLIGHT
-        [_, _F, _F, _F, _S, _C, _T, _U, _E],  # SLIDING
-        [_, _F, _F, _F, _S, _C, _T, _U, _E],  # CREEPING
-        [_, _F, _F, _F, _S, _C, _T, _U, _E],  # STICKING
-        [_, _F, _, _, _S, _C, _T, _, _E],  # UPRIGHT
-        [_, _, _, _, _, _, _, _, _],  # ENDED
-    ]
-)
+_ONE_RIM = (Mode.SLIDING, Mode.INCIPIENT_SLIP, Mode.STICKING)
+_CONTACT = (*_ONE_RIM, Mode.UPRIGHT)
+_TABLE = {
+    # event: the mode after it, and the modes that it can end
+    Event.IMPACT: (Mode.FLIGHT, (Mode.FLIGHT,)),
+    Event.CHATTERS: (Mode.TOUCHING, (Mode.FLIGHT,)),
+    Event.LIFTS_OFF: (Mode.FLIGHT, (*_ONE_RIM, Mode.TOUCHING)),
+    Event.SECOND_RIM_LANDS: (Mode.FLIGHT, _ONE_RIM),
+    Event.FACE_LANDS: (Mode.FLIGHT, _ONE_RIM),
+    Event.FALLS_FLAT: (Mode.FLIGHT, _ONE_RIM),
+    Event.SLIDES: (Mode.SLIDING, (*_ONE_RIM, Mode.TOUCHING)),
+    Event.SLIP_STARTS: (Mode.INCIPIENT_SLIP, (*_ONE_RIM, Mode.TOUCHING)),
+    Event.SLIP_STOPS: (Mode.STICKING, (*_ONE_RIM, Mode.TOUCHING)),
+    Event.COMES_UPRIGHT: (Mode.UPRIGHT, _ONE_RIM),
+    Event.TIPS_OVER: (Mode.TOUCHING, (Mode.UPRIGHT,)),
+    Event.NO_SOLUTION: (Mode.ENDED, _CONTACT),
+    Event.ENDS: (Mode.ENDED, (Mode.FLIGHT, *_CONTACT)),
+}
+_AFTER = np.array([_TABLE[event][0].value for event in _TABLE])
+_IS_LEGAL = np.array([[mode in ended for _, ended in _TABLE.values()] for mode in Mode])
 
 
 @compiled
-def mode_after(mode, event):
+def mode_after(mode: int, event: Event) -> int:
     """Return the mode, as its number, that follows a mode that an event ends.
 
     Args:
@@ -73,7 +101,65 @@ def mode_after(mode, event):
     Raises:
         ValueError: for an event that cannot end this mode.
     """
-    following = -1 if event == Event.NONE else _NEXT[mode, event.value]
-    if following < 0:
+    if event == Event.NONE or not _IS_LEGAL[mode, event.value]:
         raise ValueError("this event cannot end this mode")
-    return following
+    return _AFTER[event.value]
+
+
+@compiled
+def contact_at(body: Body, friction: FloorFriction, mode: int, y: Array) -> Contact:
+    """Return the `Contact` of a coin in the state y, (13,), in this mode of contact."""
+    return Contact(body, friction, mode, BOTH_RIMS if mode == Mode.UPRIGHT else lower_rim_of(y))
+
+
+@compiled
+def flow(contact: Contact, y: Array, dy: Array) -> float:
+    """Write the rate of change of the state y of a coin in contact into dy; both (13,).
+
+    Returns:
+        The margin of the mode, relative: positive in it, 0 or below past its end.
+    """
+    if contact.mode == Mode.STICKING:
+        return sticking.flow(contact, y, dy)
+    if contact.mode == Mode.INCIPIENT_SLIP:
+        return incipient_slip.flow(contact, y, dy)
+    if contact.mode == Mode.UPRIGHT:
+        return upright.flow(contact, y, dy)
+    return sliding.flow(contact, y, dy)
+
+
+@compiled
+def project(contact: Contact, y: Array) -> None:
+    """Bring the points in contact to the floor, and their velocities to what the mode allows.
+
+    The velocities by an impulse there, without resistance. A reset, and the last part of a step.
+    """
+    if contact.mode == Mode.STICKING:
+        sticking.project(contact, y)
+    elif contact.mode == Mode.INCIPIENT_SLIP:
+        incipient_slip.project(contact, y)
+    elif contact.mode == Mode.UPRIGHT:
+        upright.project(contact, y)
+    else:
+        sliding.project(contact, y)
+
+
+@compiled
+def margin_event(contact: Contact, y: Array) -> Event:
+    """Return the event of a mode whose margin is zero where nothing lands, or of a coin that is `TOUCHING`.
+
+    A guard. Which mode comes next is asked in the order of what rules the others out: a coin that lifts off
+    has no slip, one that slides no choice, and incipient slip is what friction on slow slip cannot hold.
+
+    Args:
+        contact: the contact.
+        y: state, (13,), its lowest point on the floor with v_Az = 0.
+    """
+    if contact.mode == Mode.UPRIGHT:
+        return Event.TIPS_OVER
+    A = contact_in_flight(contact, y)
+    if A.free_acceleration[2] >= 0:
+        return Event.LIFTS_OFF
+    if sliding.begins(contact, A, contact.mode == Mode.SLIDING):
+        return Event.SLIDES
+    return Event.SLIP_STOPS if sticking.begins(contact, A) else Event.SLIP_STARTS

@@ -1,16 +1,20 @@
-"""The event loop of a toss: in every mode to its next event, and on in the mode that follows."""
+"""The event loop of a toss: the flow of each mode to its next event, the mode after it, and its reset."""
 
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.analytic.automaton import Event, Mode, mode_after
-from cointoss.analytic.contact import edge, modes, one_rim
-from cointoss.analytic.contact.following import follow, friction_in_contact, is_followed, start_following
-from cointoss.analytic.contact.periodic import repeats, start_tilting
-from cointoss.analytic.contact.resistance import has_resistance
+from cointoss.analytic.automaton import Event, Mode, contact_at, margin_event, mode_after
+from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.edge.guards import comes_upright, stands_for_good
+from cointoss.analytic.contact.floor_laws import friction_in_contact, supports_contact
+from cointoss.analytic.contact.integrator import Step, contact_work, step_contact
+from cointoss.analytic.contact.periodic import record_tilt, repeats, start_tilt_history
+from cointoss.analytic.contact.resets import lay_flat, stand_up, stop_slip, tilt_onto_rim
+from cointoss.analytic.contact.resistance import FloorFriction, has_resistance
 from cointoss.analytic.contact.rest import rests, rolls_upright
+from cointoss.analytic.contact.upright import tip_over
 from cointoss.analytic.flight.catch import fly_to_hand
 from cointoss.analytic.flight.flying import fly
 from cointoss.analytic.flight.state_vector import (
@@ -23,7 +27,7 @@ from cointoss.analytic.flight.state_vector import (
 )
 from cointoss.analytic.flight.touch_search import closing_speed, is_chattering
 from cointoss.analytic.impact.laws import impulse, spin_gained
-from cointoss.analytic.settings import FINE, Settings, contact_limits
+from cointoss.analytic.settings import FINE, ContactLimits, Settings, contact_limits
 from cointoss.models.body import Body, Rules, is_to_be_caught
 from cointoss.models.ending import classify_ending, endless, face_outcome, unless_caught
 from cointoss.models.geometry import contact_velocity, lowest_point
@@ -32,13 +36,55 @@ from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import add, apply, scale, subtract
 from cointoss.models.laws import EndingTest
-from cointoss.models.perpetual import energy_history, start_history
+from cointoss.models.perpetual import EnergyHistory, energy_history, start_history
 from cointoss.models.records import IMPACT_ROW, Array, Ending, Outcome
 
-# A mode that lasts less than this part of √(r/g) costs so many steps, lest changes that take no time go on.
+# A step that takes less than this part of √(r/g) counts as so many, or changes without time could go on.
 _NO_TIME, _STALLED = 1e-12, 1000
 NO_LOSS = 1e-12
 """A loss in the time √(r/g) that rounding may cause, against the energy; steps of contact come on top."""
+
+
+class Setup(NamedTuple):
+    """What a toss depends on beside its release, and its energies so far."""
+
+    body: Body
+    rules: Rules
+    friction: FloorFriction
+    """In sustained contact."""
+    limits: ContactLimits
+    history: EnergyHistory
+    """Kept up."""
+
+
+class Spent(NamedTuple):
+    """What a toss has spent of its budgets."""
+
+    time: float
+    """Now [s]."""
+    impacts: int
+    steps: int
+    """In sustained contacts; a touch that chatters counts as one."""
+
+
+class Verdict(NamedTuple):
+    """How a toss ends, or that it goes on: `Outcome.UNDECIDED` and `Ending.NONE`."""
+
+    outcome: Outcome
+    ending: Ending
+
+
+class Passage(NamedTuple):
+    """A mode up to the event that ends it."""
+
+    event: Event
+    spent: Spent
+    """Up to the event."""
+    verdict: Verdict
+    """Of an event that ends the toss."""
+
+
+GOES_ON = Verdict(Outcome.UNDECIDED, Ending.NONE)
 
 
 class EventLog(NamedTuple):
@@ -86,8 +132,10 @@ def contacts_of(start_times: Array, started: NDArray[np.int8]) -> Array:
 
 
 @compiled
-def hit(body, rules, chi, y, row):
-    """Let the floor act on the coin in state y, which touches it, and record the impact.
+def hit(body: Body, rules: Rules, chi: float, y: Array, row: Any) -> Ending:
+    """Let the floor act on the coin in state y, which touches it, and record the impact: Newton's law.
+
+    The reset of an impact.
 
     Args:
         body: the coin.
@@ -116,7 +164,7 @@ def hit(body, rules, chi, y, row):
 
 
 @compiled
-def restitution_at(body, rules, y):
+def restitution_at(body: Body, rules: Rules, y: Array) -> float:
     """Return χ of the touch in the state y, (13,): 0 up to the floor's threshold of the speed of approach."""
     threshold = rules.restitution_threshold
     is_plastic = threshold > 0 and -closing_speed(body, y)[1] <= threshold
@@ -124,7 +172,9 @@ def restitution_at(body, rules, y):
 
 
 @compiled
-def toss_coin(body, rules, limits, y, rows, keep_all):
+def toss_coin(
+    body: Body, rules: Rules, limits: ContactLimits, y: Array, rows: NDArray[Any], keep_all: bool
+) -> tuple[int, NDArray[Any], Array, Outcome, Ending, float]:
     """Run the event loop.
 
     Args:
@@ -140,38 +190,42 @@ def toss_coin(body, rules, limits, y, rows, keep_all):
         Number of impacts; the rows; where modes start, each with its time, `Mode` and state, and the end,
         (k, 15), or none; outcome; ending; and the time of the end [s].
     """
-    pieces = np.empty((FIRST_ROOM if keep_all else 0, 2 + STATE_SIZE))
-    time, n, k, steps = 0.0, 0, 0, 0
-    mode, history = Mode.FLIGHT.value, energy_history(NO_LOSS + limits.tolerance)
-    friction = friction_in_contact(rules)
-    outcome, ending = Outcome.UNDECIDED, Ending.NONE
+    history = energy_history(NO_LOSS + limits.tolerance)
+    setup = Setup(body, rules, friction_in_contact(rules), limits, history)
+    pieces, k = np.empty((FIRST_ROOM if keep_all else 0, 2 + STATE_SIZE)), 0
+    mode, spent, verdict = Mode.FLIGHT.value, Spent(0.0, 0, 0), GOES_ON
     while True:
-        if keep_all:
+        if keep_all and mode != Mode.TOUCHING:
             if k == len(pieces):
                 pieces = doubled(pieces)
-            pieces[k, 0], pieces[k, 1] = time, mode
+            pieces[k, 0], pieces[k, 1] = spent.time, mode
             copy_into(pieces[k, 2:], y)
             k += 1
         if mode == Mode.ENDED:
             break
-        if mode == Mode.FLIGHT:
-            if keep_all:
-                rows = with_room(rows, n)
-            row = rows[n % len(rows)]
-            event, time, n, outcome, ending = fly_to_event(body, rules, friction, y, time, n, row, history)
-            steps += event != Event.IMPACT
-        else:
-            event, time, steps, outcome, ending = follow_to_event(
-                body, rules, friction, mode, y, time, steps, limits, history
-            )
-        if event != Event.ENDS and steps >= limits.steps:
-            event, ending = Event.ENDS, Ending.CONTACT_STEPS
-        mode = mode_after(mode, event)
-    return n, rows, pieces[:k], *unless_caught(rules, outcome, ending), time
+        passage = flow_to_event(setup, mode, y, spent)
+        spent, verdict, before = passage.spent, passage.verdict, mode
+        mode = mode_after(mode, passage.event)
+        if keep_all:
+            rows = with_room(rows, spent.impacts)
+        row = rows[spent.impacts % len(rows)]
+        ending = reset(setup, before, passage, y, row)
+        if ending != Ending.NONE:
+            verdict = Verdict(Outcome.UNDECIDED, ending)
+        elif passage.event == Event.IMPACT or passage.event == Event.FALLS_FLAT:
+            impacts = spent.impacts + (1 if passage.event == Event.IMPACT else 0)
+            spent = Spent(spent.time, impacts, spent.steps)
+            verdict = classified(setup, y, spent.time)
+        if verdict.ending == Ending.NONE and mode != Mode.TOUCHING and spent.steps >= limits.steps:
+            verdict = Verdict(Outcome.UNDECIDED, Ending.CONTACT_STEPS)
+        if verdict.ending != Ending.NONE and mode != Mode.ENDED:
+            mode = mode_after(mode, Event.ENDS)
+    outcome, ending = unless_caught(rules, verdict.outcome, verdict.ending)
+    return spent.impacts, rows, pieces[:k], outcome, ending, spent.time
 
 
 @compiled
-def doubled(table):
+def doubled(table: Array) -> Array:
     """Return the table with twice its rows."""
     larger = np.empty((2 * len(table), table.shape[1]))
     for i in range(len(table)):
@@ -180,127 +234,192 @@ def doubled(table):
 
 
 @compiled
-def fly_to_event(body, rules, friction, y, time, n, row, history):
-    """Fly to the next touch, and let the floor act: an impact, or where impacts chatter a sustained contact.
+def classified(setup: Setup, y: Array, time: float) -> Verdict:
+    """Return the `classify_ending` of the state y, (13,), at this time [s]."""
+    outcome, ending = classify_ending(setup.body, setup.rules, state_of(y), time, setup.history)
+    return Verdict(outcome, ending)
+
+
+@compiled
+def flow_to_event(setup: Setup, mode: int, y: Array, spent: Spent) -> Passage:
+    """Advance the state y, (13,), by the flow of its mode to the event that ends it."""
+    if mode == Mode.FLIGHT:
+        return fly_to_event(setup, y, spent)
+    if mode == Mode.TOUCHING:
+        contact = contact_at(setup.body, setup.friction, mode, y)
+        return Passage(margin_event(contact, y), spent, GOES_ON)
+    return hold_to_event(setup, mode, y, spent)
+
+
+@compiled
+def reset(setup: Setup, mode: int, passage: Passage, y: Array, row: Any) -> Ending:
+    """Map the state y, (13,), at an event to that in which the next mode starts.
 
     Args:
-        body: the coin.
-        rules: floor and ending.
-        friction: `FloorFriction` in sustained contact.
+        setup: the toss.
+        mode: number of the `Mode` that has ended.
+        passage: of that mode.
+        y: state, (13,).
+        row: where an impact is recorded, one `IMPACT_ROW`; else work space.
+
+    Returns:
+        `Ending.NO_SOLUTION` where the contact law has none, else `Ending.NONE`.
+    """
+    event, body = passage.event, setup.body
+    if event == Event.IMPACT:
+        return bounce(setup, y, passage.spent.time, row)
+    if event == Event.CHATTERS:
+        return begin_contact(setup, y, passage.spent.time, row)
+    if event == Event.FALLS_FLAT:
+        lay_flat(body, y)
+    elif event == Event.SLIP_STARTS or event == Event.SLIP_STOPS:
+        stop_slip(contact_at(body, setup.friction, mode, y), mode_after(mode, event), y)
+    elif event == Event.COMES_UPRIGHT:
+        stand_up(contact_at(body, setup.friction, mode, y), y)
+    elif event == Event.TIPS_OVER:
+        tip_over(body, setup.friction, y)
+    return Ending.NONE
+
+
+@compiled
+def bounce(setup: Setup, y: Array, time: float, row: Any) -> Ending:
+    """Let the coin in state y, (13,), bounce off the floor; a reset, see `reset`."""
+    ending = hit(setup.body, setup.rules, restitution_at(setup.body, setup.rules, y), y, row)
+    if ending == Ending.NONE:
+        row.time = time
+        # A step forced at a grazing point may have left the coin a little below the floor.
+        set_height(y, position_of(y)[2] - min(closing_speed(setup.body, y)[0], 0.0))
+    return ending
+
+
+@compiled
+def begin_contact(setup: Setup, y: Array, time: float, row: Any) -> Ending:
+    """Let the floor stop the approach of a coin whose impacts chatter, y: (13,); a reset, see `reset`."""
+    ending = hit(setup.body, setup.rules, 0.0, y, row)
+    if ending == Ending.NONE:
+        start_history(setup.body, setup.history, time)
+        tilt_onto_rim(setup.body, y)
+    return ending
+
+
+@compiled
+def fly_to_event(setup: Setup, y: Array, spent: Spent) -> Passage:
+    """Fly to the next touch: an impact, or where impacts chatter the start of a sustained contact.
+
+    Args:
+        setup: the toss.
         y: state, (13,); advanced.
-        time: now [s].
-        n: number of impacts so far.
-        row: where an impact is recorded, one `IMPACT_ROW`.
-        history: `EnergyHistory` of the toss; kept up.
-
-    Returns:
-        The event, the time [s], the number of impacts, the outcome and the ending.
+        spent: at the start.
     """
-    if n == rules.max_impacts:
-        return Event.ENDS, time, n, Outcome.UNDECIDED, Ending.MAX_IMPACTS
+    body, rules = setup.body, setup.rules
+    if spent.impacts == rules.max_impacts:
+        return ends(spent, Outcome.UNDECIDED, Ending.MAX_IMPACTS)
+    left = rules.max_time - spent.time
     if is_to_be_caught(rules):
-        flown = fly_to_hand(body, rules.caught, y, rules.max_time - time)
+        flown = fly_to_hand(body, rules.caught, y, left)
         if flown < np.inf:
-            return Event.ENDS, time + flown, n, face_outcome(state_of(y)), Ending.CAUGHT
-    flown, touches, _ = fly(body, y, rules.max_time - time)
-    time += flown
+            return ends(after_flight(spent, flown), face_outcome(state_of(y)), Ending.CAUGHT)
+    flown, touches, _ = fly(body, y, left)
+    spent = after_flight(spent, flown)
     if not touches:
-        return Event.ENDS, time, n, Outcome.UNDECIDED, Ending.MAX_TIME
-    chi = restitution_at(body, rules, y)
-    if is_chattering(body, chi, y):
-        event, outcome, ending = come_to_stay(body, rules, friction, y, time, row, history)
-        return event, time, n, outcome, ending
-    ending = hit(body, rules, chi, y, row)
-    if ending != Ending.NONE:
-        return Event.ENDS, time, n, Outcome.UNDECIDED, ending
-    row.time = time
-    # A step forced at a grazing point may have left the coin a little below the floor.
-    set_height(y, position_of(y)[2] - min(closing_speed(body, y)[0], 0.0))
-    outcome, ending = classify_ending(body, rules, state_of(y), time, history)
-    return Event.IMPACT if ending == Ending.NONE else Event.ENDS, time, n + 1, outcome, ending
+        return ends(spent, Outcome.UNDECIDED, Ending.MAX_TIME)
+    if not is_chattering(body, restitution_at(body, rules, y), y):
+        return Passage(Event.IMPACT, spent, GOES_ON)
+    spent = Spent(spent.time, spent.impacts, spent.steps + 1)
+    verdict = classified(setup, y, spent.time)
+    if verdict.ending == Ending.NONE and not supports_contact(rules.law):
+        verdict = Verdict(verdict.outcome, Ending.CHATTER)
+    return Passage(Event.CHATTERS if verdict.ending == Ending.NONE else Event.ENDS, spent, verdict)
 
 
 @compiled
-def come_to_stay(body, rules, friction, y, time, row, history):
-    """Let the floor stop the approach of a coin whose impacts chatter, `row` being work space.
-
-    Returns:
-        The event, the outcome and the ending.
-    """
-    outcome, ending = classify_ending(body, rules, state_of(y), time, history)
-    if ending == Ending.NONE and not is_followed(rules.law):
-        ending = Ending.CHATTER
-    if ending != Ending.NONE:
-        return Event.ENDS, outcome, ending
-    ending = hit(body, rules, 0.0, y, row)
-    if ending != Ending.NONE:
-        return Event.ENDS, outcome, ending
-    start_history(body, history, time)
-    edge.lean(body, y)
-    return one_rim.next_event(body, friction, Mode.FLIGHT.value, y), outcome, ending
+def after_flight(spent: Spent, flown: float) -> Spent:
+    """Return what is spent after a flight of this time [s]."""
+    return Spent(spent.time + flown, spent.impacts, spent.steps)
 
 
 @compiled
-def follow_to_event(body, rules, friction, mode, y, time, steps, limits, history):
+def ends(spent: Spent, outcome: Outcome, ending: Ending) -> Passage:
+    """Return the `Passage` to the end of the toss."""
+    return Passage(Event.ENDS, spent, Verdict(outcome, ending))
+
+
+@compiled
+def hold_to_event(setup: Setup, mode: int, y: Array, spent: Spent) -> Passage:
     """Follow a sustained contact to the end of its mode, or of the toss.
 
+    After each step these are asked, in this order:
+
+    1. no step: nothing was computed of which to ask the others.
+    2. falls flat: the reset comes first, and the others are asked of the coin that lies flat.
+    3. decided by energy: the cheapest, and a proof whatever the contact does next.
+    4. at rest: resistance holds the coin, which would else be said to stand or to roll on.
+    5. periodic: only within a mode, whose end is the end of the period's proof.
+    6. standing: before the coin comes upright, for on both rims it could stand as well.
+    7. comes upright: before the budget, which is asked for again when both rims are down.
+    8. out of budget: before the mode's end, for what has spent it is no longer followed.
+    9. the mode's end: a landing, or the event of a margin that is zero.
+
     Args:
-        body: the coin.
-        rules: floor and ending.
-        friction: `FloorFriction`.
+        setup: the toss.
         mode: number of the `Mode`, in contact.
         y: state, (13,); advanced.
-        time: now [s].
-        steps: made in contact so far.
-        limits: `ContactLimits`.
-        history: `EnergyHistory` of the toss; kept up.
-
-    Returns:
-        The event, the time [s], the steps, the outcome and the ending.
+        spent: at the start.
     """
-    undecided, dt, in_mode = Outcome.UNDECIDED, np.inf, 0
-    stages, tilting = start_following(body, friction, mode, y), start_tilting(body, friction, mode)
-    while time < rules.max_time:
-        longest = min(dt, rules.max_time - time)
-        made, dt, over, event = follow(body, friction, mode, y, longest, limits.tolerance, stages)
-        time += made
+    body, rules, friction, limits = setup.body, setup.rules, setup.friction, setup.limits
+    contact = contact_at(body, friction, mode, y)
+    stages, tilts = contact_work(contact, y), start_tilt_history(contact)
+    early, dt, in_mode = rules.test != EndingTest.LYING, np.inf, 0
+    while spent.time < rules.max_time:
+        longest = min(dt, rules.max_time - spent.time)
+        step = step_contact(contact, y, longest, limits.tolerance, stages)
+        dt = step.next_dt
         in_mode += 1
-        if event == Event.ENDS:
-            return event, time, steps, undecided, Ending.NO_SOLUTION
-        stalled = over and event == Event.NONE and made < _NO_TIME * (body.radius / body.gravity) ** 0.5
-        steps += _STALLED if stalled else 1
-        outcome, ending = classify_ending(body, rules, state_of(y), time, history)
-        if ending != Ending.NONE:
-            return Event.ENDS, time, steps, outcome, ending
-        if has_resistance(friction) and rests(body, friction, mode, y):
-            return Event.ENDS, time, steps, Outcome.EDGE, Ending.AT_REST
-        if not over and repeats(tilting, y):
-            return Event.ENDS, time, steps, *endless(body, rules, state_of(y), Ending.PERIODIC)
-        on_edge = modes.edge_event(body, friction, mode, in_mode, rules.test != EndingTest.LYING, y)
-        if on_edge == Event.ENDS:
-            return Event.ENDS, time, steps, Outcome.EDGE, Ending.STANDING
-        if on_edge == Event.COMES_UPRIGHT:
-            return on_edge, time, steps, undecided, Ending.NONE
-        if steps >= limits.steps:
-            return Event.ENDS, time, steps, *out_of_budget(body, friction, mode, y, Ending.CONTACT_STEPS)
-        if over:
-            if event == Event.NONE:
-                event = modes.next_event(body, friction, mode, y)
-            return event, time, steps, undecided, Ending.NONE
-    return Event.ENDS, time, steps, *out_of_budget(body, friction, mode, y, Ending.MAX_TIME)
+        if step.event == Event.NO_SOLUTION:
+            return Passage(step.event, spent, Verdict(Outcome.UNDECIDED, Ending.NO_SOLUTION))
+        spent = Spent(spent.time + step.elapsed, spent.impacts, spent.steps + cost_of(body, step))
+        if step.event == Event.FALLS_FLAT:
+            return Passage(step.event, spent, GOES_ON)
+        contact = contact_at(body, friction, mode, y)
+        verdict = classified(setup, y, spent.time)
+        if verdict.ending != Ending.NONE:
+            return Passage(Event.ENDS, spent, verdict)
+        if has_resistance(friction) and rests(contact, y):
+            return ends(spent, Outcome.EDGE, Ending.AT_REST)
+        if not step.is_over:
+            record_tilt(tilts, y)
+            if repeats(tilts):
+                outcome, ending = endless(body, rules, state_of(y), Ending.PERIODIC)
+                return ends(spent, outcome, ending)
+        if stands_for_good(contact, in_mode, early, y):
+            return ends(spent, Outcome.EDGE, Ending.STANDING)
+        if comes_upright(contact, y):
+            return Passage(Event.COMES_UPRIGHT, spent, GOES_ON)
+        if spent.steps >= limits.steps:
+            return out_of_budget(contact, y, spent, Ending.CONTACT_STEPS)
+        if step.is_over:
+            event = margin_event(contact, y) if step.event == Event.NONE else step.event
+            return Passage(event, spent, GOES_ON)
+    return out_of_budget(contact, y, spent, Ending.MAX_TIME)
 
 
 @compiled
-def out_of_budget(body, friction, mode, y, ending):
-    """Return the outcome and ending of a toss that ends in contact as a budget is spent.
+def cost_of(body: Body, step: Step) -> int:
+    """Return what a step counts against the budget: more where the mode ends again in no time."""
+    is_short = step.elapsed < _NO_TIME * (body.radius / body.gravity) ** 0.5
+    return _STALLED if step.is_over and step.event == Event.NONE and is_short else 1
+
+
+@compiled
+def out_of_budget(contact: Contact, y: Array, spent: Spent, ending: Ending) -> Passage:
+    """Return how a toss ends in contact as a budget is spent.
 
     Args:
-        body: the coin.
-        friction: `FloorFriction`.
-        mode: number of the `Mode`, in contact.
+        contact: the contact.
         y: state, (13,).
+        spent: so far.
         ending: named after the budget.
     """
-    if rolls_upright(body, friction, mode, y):
-        return Outcome.EDGE, Ending.ROLLING
-    return Outcome.UNDECIDED, ending
+    if rolls_upright(contact, y):
+        return ends(spent, Outcome.EDGE, Ending.ROLLING)
+    return ends(spent, Outcome.UNDECIDED, ending)

@@ -6,10 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.analytic.air.force import force_and_moment
-from cointoss.analytic.automaton import Mode
-from cointoss.analytic.contact.following import friction_in_contact, sample_contact
-from cointoss.analytic.contact.modes import floor_force
+from cointoss.analytic.automaton import Mode, contact_at
+from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.contact.sampling import floor_force, sample_contact
 from cointoss.analytic.events import EventLog, run
 from cointoss.analytic.flight.flying import sample
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
@@ -64,22 +65,23 @@ class Pieces:
         states = self.sample(times)
         rows = np.hstack([states.position, states.velocity, states.quaternion, states.angular_velocity])
         forces = [
-            floor_force(self.body, self.friction, int(self.modes[number]), row)
-            for number, row in zip(piece, rows, strict=True)
+            floor_force(self._contact(number, row), row) for number, row in zip(piece, rows, strict=True)
         ]
         return np.array(forces)
 
     def _piece(self, number: int, times: Array) -> Array:
         states = np.empty((len(times), STATE_SIZE))
-        start, start_time, mode = self.start_states[number], self.start_times[number], self.modes[number]
+        start, start_time = self.start_states[number], self.start_times[number]
         # Nothing starts at the end; as a flight, it is sampled as it is.
-        if mode in (Mode.FLIGHT, Mode.ENDED):
+        if self.modes[number] in (Mode.FLIGHT, Mode.ENDED):
             sample(self.body, start, start_time, times, states)
         else:
-            sample_contact(
-                self.body, self.friction, mode, start, start_time, times, self.contact_tolerance, states
-            )
+            contact = self._contact(number, start)
+            sample_contact(contact, start, start_time, times, self.contact_tolerance, states)
         return states
+
+    def _contact(self, number: int, y: Array) -> Contact:
+        return contact_at(self.body, self.friction, int(self.modes[number]), y)
 
 
 def state_of(release: Release) -> Array:

@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import dot, scale, solve
+from cointoss.models.kernel.vectors import Matrix, Vector, dot, scale, solve
 
 # The direction in which slip starts is sought from the best of these.
 _ANGLES = 2 * np.pi * np.arange(24) / 24
@@ -17,22 +17,22 @@ _COSINES, _SINES = np.cos(_ANGLES), np.sin(_ANGLES)
 
 
 @compiled
-def holding_force(K, b):
+def holding_force(K: Matrix, b: Vector) -> Vector:
     """Return the force at A that holds all of v_A, space frame, (3,) [N].
 
     Args:
-        K: mobility of A [1/kg].
+        K: Delassus matrix of A [1/kg].
         b: dv_A/dt of free flight, space frame, (3,) [m/s²].
     """
     return solve(K, scale(-1.0, b))
 
 
 @compiled
-def sliding_force(K, b, mu, slip):
+def sliding_force(K: Matrix, b: Vector, mu: float, slip: tuple[float, float]) -> Vector:
     """Return the force at A, against a slip in the direction `slip`, (2,), that holds v_Az, (3,) [N].
 
     Args:
-        K: mobility of A [1/kg].
+        K: Delassus matrix of A [1/kg].
         b: dv_A/dt of free flight, space frame, (3,) [m/s²].
         mu: coefficient of friction μ, 0 on a smooth floor.
         slip: unit vector, (2,).
@@ -42,13 +42,13 @@ def sliding_force(K, b, mu, slip):
 
 
 @compiled
-def friction_holds(mu, F):
+def friction_holds(mu: float, F: Vector) -> bool:
     """Return whether a force F at A presses and lies in the friction cone."""
     return F[2] > 0 and math.hypot(F[0], F[1]) <= mu * F[2]
 
 
 @compiled
-def slip_direction(v_A, mu):
+def slip_direction(v_A: Vector, mu: float) -> tuple[float, float]:
     """Return the direction of the slip of A, (2,); none on a smooth floor."""
     if mu == 0:
         return 0.0, 0.0
@@ -59,7 +59,7 @@ def slip_direction(v_A, mu):
 
 
 @compiled
-def starting_slip(K, b, mu):
+def starting_slip(K: Matrix, b: Vector, mu: float) -> tuple[float, float]:
     """Return the direction in which a point starts to slip that friction cannot hold, (2,).
 
     Slip keeps the direction s that its own acceleration has, b_t + N (K_tz - μ K_tt s) = λ s, with the N
@@ -67,7 +67,7 @@ def starting_slip(K, b, mu):
     from the best of a few angles.
 
     Args:
-        K: mobility of A [1/kg].
+        K: Delassus matrix of A [1/kg].
         b: dv_A/dt of free flight, space frame, (3,) [m/s²].
         mu: coefficient of friction μ.
     """
@@ -86,7 +86,7 @@ def starting_slip(K, b, mu):
 
 
 @compiled
-def _slip_turning(K, b, mu, s):
+def _slip_turning(K: Matrix, b: Vector, mu: float, s: tuple[float, float]) -> Vector:
     """Return s × q, its derivative by the angle of s, and s · q for the slip's direction s.
 
     q = D a_t, D = K_zz - μ K_zt · s: the acceleration of the slip, cleared of N's denominator.

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.resistance import has_resistance
 from cointoss.analytic.flight.state_vector import attitude_of, spin_of
 from cointoss.models.attitude import rotation_matrix
@@ -16,8 +17,8 @@ from cointoss.models.records import Array
 _NOTICEABLE = 1e-6
 
 
-class Tilting(NamedTuple):
-    """How often the tilt of a coin has turned back; the array is written to as it goes on."""
+class TiltHistory(NamedTuple):
+    """How often the tilt of a coin has turned back; the arrays are written to as the contact goes on."""
 
     periodic: bool
     """Whether the tilt is periodic while the mode lasts."""
@@ -30,46 +31,41 @@ class Tilting(NamedTuple):
 
 
 @compiled
-def start_tilting(body, friction, mode):
-    """Return the `Tilting` of a contact that starts.
+def start_tilt_history(contact: Contact) -> TiltHistory:
+    """Return the `TiltHistory` of a contact that starts.
 
     An ideal coin in vacuum that slides without friction, or rolls without slip, has one degree of freedom,
     its tilt: L_z and L_ζ, or what takes their place in rolling, are functions of it (S. A. Chaplygin 1897;
     P. Appell and D. J. Korteweg 1900). Its energy is kept, so the tilt goes to and fro between two extremes
     for ever, if the contact holds from the one to the other and back.
-
-    Args:
-        body: the coin.
-        friction: `FloorFriction`.
-        mode: number of the `Mode`, in contact.
     """
+    body, friction, mode = contact.body, contact.friction, contact.mode
     lossless = mode == Mode.STICKING or (mode == Mode.SLIDING and friction.sliding == 0)
     lossless = lossless and not has_resistance(friction)
     periodic = lossless and is_ideal(body) and in_vacuum(body)
     slowest = _NOTICEABLE * (body.gravity / body.radius) ** 0.5
-    return Tilting(periodic, slowest, np.zeros(1), np.zeros(1))
+    return TiltHistory(periodic, slowest, np.zeros(1), np.zeros(1))
 
 
 @compiled
-def repeats(tilting, y):
-    """Return whether a contact that came to the state y, (13,), has gone through a whole period.
-
-    Args:
-        tilting: of the contact; kept up.
-        y: state at the end of a step.
-    """
-    if not tilting.periodic:
-        return False
-    rate = tilt_rate(y)
-    if abs(rate) > tilting.slowest:
-        if rate * tilting.rate[0] < 0:
-            tilting.turns[0] += 1
-        tilting.rate[0] = rate
-    return tilting.turns[0] == 3
+def record_tilt(history: TiltHistory, y: Array) -> None:
+    """Add the state at the end of a step, (13,), to the history."""
+    if history.periodic:
+        rate = tilt_rate(y)
+        if abs(rate) > history.slowest:
+            if rate * history.rate[0] < 0:
+                history.turns[0] += 1
+            history.rate[0] = rate
 
 
 @compiled
-def tilt_rate(y):
+def repeats(history: TiltHistory) -> bool:
+    """Return whether a contact has gone through a whole period of its tilt."""
+    return history.turns[0] >= 3
+
+
+@compiled
+def tilt_rate(y: Array) -> float:
     """Return the rate of n_z in the state y, (13,) [1/s]."""
     up, w = rotation_matrix(attitude_of(y))[2], spin_of(y)
     return up[0] * w[1] - up[1] * w[0]

@@ -9,7 +9,9 @@ take energy at the rate N (δ |ω_h| + p |ω_z|). Below `slow_spin` either grows
 import math
 from typing import NamedTuple
 
+from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Vector
 from cointoss.models.rest import slow_spin
 
 
@@ -29,19 +31,19 @@ FRICTIONLESS = FloorFriction(0.0)
 
 
 @compiled
-def has_resistance(friction):
+def has_resistance(friction: FloorFriction) -> bool:
     """Return whether the floor resists rolling or pivoting."""
     return friction.rolling > 0 or friction.pivoting > 0
 
 
 @compiled
-def is_smooth(friction):
+def is_smooth(friction: FloorFriction) -> bool:
     """Return whether the floor acts on a coin by its normal force alone."""
     return friction.sliding == 0 and not has_resistance(friction)
 
 
 @compiled
-def moment_per_force(body, friction, w):
+def moment_per_force(body: Body, friction: FloorFriction, w: Vector) -> Vector:
     """Return the floor's moment on a coin for a unit normal force, space frame, (3,) [m].
 
     Args:

@@ -1,14 +1,20 @@
 """The rim point at which a coin touches the floor, and what a force there meets.
 
 The rim point A that is lowest moves round the rim; v_A is the velocity of the coin's matter there. With a
-force F at A, dv_A/dt = b + K F, K the mobility of A as in an impact and b what free flight gives.
+force F at A, dv_A/dt = b + K F, K the Delassus matrix of A, as in an impact, and b what free flight gives.
 """
 
 from typing import NamedTuple
 
-from cointoss.analytic.contact.resistance import FRICTIONLESS, has_resistance, moment_per_force
-from cointoss.analytic.flight.equations_of_motion import flight_of
+from cointoss.analytic.contact.resistance import (
+    FRICTIONLESS,
+    FloorFriction,
+    has_resistance,
+    moment_per_force,
+)
+from cointoss.analytic.flight.equations_of_motion import Flight, flight_of
 from cointoss.analytic.flight.state_vector import set_spin, set_velocity, spin_of, velocity_of
+from cointoss.models.body import Body
 from cointoss.models.geometry import FACE_SINE, tilt_sine_of
 from cointoss.models.kernel.compiled import compiled, inlined
 from cointoss.models.kernel.vectors import (
@@ -22,6 +28,7 @@ from cointoss.models.kernel.vectors import (
     scale,
     subtract,
 )
+from cointoss.models.records import Array
 
 
 class RimContact(NamedTuple):
@@ -34,8 +41,9 @@ class RimContact(NamedTuple):
     spins: Matrix
     """Changes of ω by unit impulses at A along x, y and z, body frame, row by row [rad/(N s²)]; the last one
     with the resistance that comes with it."""
-    mobility: Matrix
-    """K [1/kg], with resistance K + q ẑᵀ; see `cointoss.analytic.contact.resistance`."""
+    delassus: Matrix
+    """The Delassus matrix K (inverse effective mass) [1/kg], with resistance K + q ẑᵀ; see
+    `cointoss.analytic.contact.resistance`."""
     free_acceleration: Vector
     """b [m/s²]."""
     velocity: Vector
@@ -43,7 +51,7 @@ class RimContact(NamedTuple):
 
 
 @compiled
-def rim_contact(body, y, rim):
+def rim_contact(body: Body, y: Array, rim: float) -> RimContact:
     """Return the `RimContact` of a coin in the state y, without resistance.
 
     Args:
@@ -55,7 +63,7 @@ def rim_contact(body, y, rim):
 
 
 @compiled
-def both_rims(body, friction, y):
+def both_rims(body: Body, friction: FloorFriction, y: Array) -> tuple[RimContact, RimContact]:
     """Return the `RimContact` of tails' rim and that of heads', in the state y, (13,); see `rim_contact`."""
     flight = flight_of(body, y)
     return (
@@ -65,7 +73,7 @@ def both_rims(body, friction, y):
 
 
 @inlined
-def rim_point(body, up, w, rim):
+def rim_point(body: Body, up: Vector, w: Vector, rim: float) -> tuple[Vector, Vector, Vector]:
     """Return the lowest point A of a rim and how it moves; body frame.
 
     Args:
@@ -93,7 +101,7 @@ def rim_point(body, up, w, rim):
 
 
 @inlined
-def rim_contact_in_flight(body, friction, flight, rim):
+def rim_contact_in_flight(body: Body, friction: FloorFriction, flight: Flight, rim: float) -> RimContact:
     """Return the `RimContact` of a rim, with the resistance of the floor.
 
     Args:
@@ -131,18 +139,18 @@ def rim_contact_in_flight(body, friction, flight, rim):
         R=R,
         arm=arm,
         spins=spins,
-        mobility=K,
+        delassus=K,
         free_acceleration=(b[0], b[1], b[2] - body.gravity),
         velocity=apply(R, add(flight.velocity, turn)),
     )
 
 
 @compiled
-def contact_margin(body, up, N, rim):
+def contact_margin(body: Body, up: Vector, N: float, rim: float) -> float:
     """Return how far a contact is from what ends it in every mode: positive in it, 0 or below past it.
 
-    It ends when the floor would have to pull, when the coin comes upon its edge, so that the other rim lands,
-    or upon a face.
+    It ends when the floor would have to pull (Signorini's condition), when the coin comes upon its edge, so
+    that the other rim lands, or upon a face.
 
     Args:
         body: the coin.
@@ -155,7 +163,7 @@ def contact_margin(body, up, N, rim):
 
 
 @compiled
-def accelerate(body, A, F, dy):
+def accelerate(body: Body, A: RimContact, F: Vector, dy: Array) -> None:
     """Add what a force F at A, space frame, (3,) [N], gives to the rate of change dy of a state, (13,).
 
     Of an impulse [N s] and the state itself: the change that it makes.
@@ -165,6 +173,6 @@ def accelerate(body, A, F, dy):
 
 
 @compiled
-def add_quotient(a, b, divisor):
+def add_quotient(a: Vector, b: Vector, divisor: float) -> Vector:
     """Return a + b/divisor."""
     return a[0] + b[0] / divisor, a[1] + b[1] / divisor, a[2] + b[2] / divisor

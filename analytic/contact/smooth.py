@@ -3,6 +3,7 @@
 What `cointoss.analytic.contact.sliding` does without friction: nothing but A's vertical motion is left.
 """
 
+from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.rim_contact import contact_margin, rim_point
 from cointoss.analytic.flight.equations_of_motion import flight_of, write_rate
 from cointoss.analytic.flight.state_vector import (
@@ -13,39 +14,39 @@ from cointoss.analytic.flight.state_vector import (
     state_of,
     velocity_of,
 )
+from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled, inlined
-from cointoss.models.kernel.vectors import add, apply, apply_transposed, cross, dot, scale
+from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, cross, dot, scale
+from cointoss.models.records import Array
 
 
 @inlined
-def rate(body, rim, y, dy):
-    """Write the rate of change of the state y of a coin in contact at one rim into dy; both (13,).
-
-    Returns:
-        How far the contact is from its end, > 0 in it.
-    """
+def flow(contact: Contact, y: Array, dy: Array) -> float:
+    """Write the rate of change of the state y into dy, and return the margin; see `automaton.flow`."""
+    body = contact.body
     flight = flight_of(body, y)
     write_rate(body, flight, dy)
     up = flight.state.R[2]
-    a, _, turn_rate = rim_point(body, up, flight.state.spin, rim)
+    a, _, turn_rate = rim_point(body, up, flight.state.spin, contact.rim)
     turn_rate = add(cross(flight.spin_rate, a), turn_rate)
     b_z = dot(up, add(scale(1 / body.mass, flight.force), turn_rate)) - body.gravity
     N = stopping(body, up, a, b_z, dy)
-    return min(contact_margin(body, up, N, rim), -b_z / body.gravity)
+    return min(contact_margin(body, up, N, contact.rim), -b_z / body.gravity)
 
 
 @compiled
-def put_on_floor(body, rim, y):
-    """Bring A to the floor, and stop its fall or rise by an impulse there; y: state, (13,)."""
+def project(contact: Contact, y: Array) -> None:
+    """Bring A to the floor, and stop its fall or rise by an impulse there; see `automaton.project`."""
+    body = contact.body
     state = state_of(y)
     up = state.R[2]
-    a, turn, _ = rim_point(body, up, state.spin, rim)
+    a, turn, _ = rim_point(body, up, state.spin, contact.rim)
     set_height(y, -dot(up, a))
     stopping(body, up, a, dot(up, add(apply_transposed(state.R, state.velocity), turn)), y)
 
 
 @inlined
-def stopping(body, up, a, motion, change):
+def stopping(body: Body, up: Vector, a: Vector, motion: float, change: Array) -> float:
     """Add what takes the vertical motion of A: a force to a rate of change, or an impulse to a state.
 
     Args:

@@ -1,9 +1,9 @@
 """Coulomb friction integrated through the impact (Routh 1860; Keller 1986), the contact law `coulomb`.
 
 The impact takes no time but has an order: the normal impulse p = S_z grows from 0, and with it the velocity
-of the contact point A, dv_A/dp = K (-μ s, 1), s the direction of the slip and K the mobility. The slip may
-turn, slow down, stop, stick, or start anew. E. J. Routh, Dynamics of a System of Rigid Bodies, 1860; J. B.
-Keller, J. Appl. Mech. 53 (1986) 1; W. J. Stronge, Impact Mechanics.
+of the contact point A, dv_A/dp = K (-μ s, 1), s the direction of the slip and K the Delassus matrix. The slip
+may turn, slow down, stop, stick, or start anew. E. J. Routh, Dynamics of a System of Rigid Bodies, 1860;
+J. B. Keller, J. Appl. Mech. 53 (1986) 1; W. J. Stronge, Impact Mechanics.
 """
 
 import math
@@ -50,7 +50,7 @@ def coulomb(K, v_A, chi, mu, kind):
     normal impulse has given back the part χ² of the work that it took in compression; it never adds energy.
 
     Args:
-        K: mobility of A, space frame, a tuple of rows [1/kg].
+        K: Delassus matrix of A, space frame, a tuple of rows [1/kg].
         v_A: velocity of A before the impact, space frame, (3,), v_Az < 0 [m/s].
         chi: restitution χ.
         mu: coefficient of friction μ.
@@ -75,7 +75,7 @@ def grow_impulse(K, y, mu, no_slip, with_work, component, target):
     """Let the normal impulse grow until a component of the state has risen to its target.
 
     Args:
-        K: mobility of A [1/kg].
+        K: Delassus matrix of A [1/kg].
         y: state of the impact, (7,); advanced.
         mu: coefficient of friction μ.
         no_slip: slip that counts as none [m/s].
@@ -172,7 +172,7 @@ def straight_slip(K, y, mu, no_slip, component, target):
     it keeps, by Newton's method, where what it has across that counts as none.
 
     Args:
-        K: mobility of A [1/kg].
+        K: Delassus matrix of A [1/kg].
         y: state of the impact, (7,).
         mu: coefficient of friction μ.
         no_slip: slip that counts as none [m/s].
@@ -214,7 +214,7 @@ def die_away(K, y, mu, with_work, component, target, series, y_new):
     """Follow slip that dies away to its stop, or until a component of the state rises to its target.
 
     Args:
-        K: mobility of A [1/kg].
+        K: Delassus matrix of A [1/kg].
         y: state of the impact, (7,), which slips.
         mu: coefficient of friction μ.
         with_work: see `grow_impulse`.
@@ -269,7 +269,7 @@ def expand_slip(K, y, mu, speed, with_work, series):
     v_t and q, and the next one of q from q² = v_t².
 
     Args:
-        K: mobility of A [1/kg].
+        K: Delassus matrix of A [1/kg].
         y: state at the start, (7,), which slips.
         mu: coefficient of friction μ.
         speed: of A before the impact [m/s].
@@ -366,7 +366,7 @@ def friction_without_slip(K, mu):
     λ > 0, for its length falls with λ.
 
     Args:
-        K: mobility of A [1/kg].
+        K: Delassus matrix of A [1/kg].
         mu: coefficient of friction μ.
     """
     push = (K[0][2], K[1][2])

@@ -15,8 +15,8 @@ NO_IMPULSE = (0.0, 0.0, 0.0)
 
 
 @compiled
-def mobility(body, R, arm):
-    """Return K, with which an impulse S at A changes the velocity of A: v_A' = v_A + K S.
+def delassus(body, R, arm):
+    """Return the Delassus matrix K: an impulse S at A changes the velocity of A: v_A' = v_A + K S.
 
     K = I/m - [a] R J_C⁻¹ Rᵀ [a], [a] the matrix of a × : eqs (87)-(90), solved for v_A'.
 
@@ -123,7 +123,7 @@ def impulse(body, rules, chi, R, arm, tau, v_A, flat):
     law = rules.law
     if flat:
         return (0.0, 0.0, -(1 + chi) * body.mass * v_A[2]), Ending.NONE
-    K = mobility(body, R, arm)
+    K = delassus(body, R, arm)
     if law == ContactLaw.SHARP_EDGE:
         return sharp_edge(K, v_A, tau, chi), Ending.NONE
     if law == ContactLaw.KNURLED:

@@ -54,7 +54,7 @@ def expand_stop(K, mu, slip, with_path, series):
     """Expand what is left of a slip that dies away.
 
     Args:
-        K: mobility of A, space frame, a tuple of rows [1/kg].
+        K: Delassus matrix of A, space frame, a tuple of rows [1/kg].
         mu: coefficient of friction μ.
         slip: v_t, space frame, (2,), not 0 [m/s].
         with_path: whether X is wanted.
@@ -94,7 +94,7 @@ def kept_direction(K, mu, s):
     """Return the direction near s that slip keeps once it has it, h = 0, and whether one was found.
 
     Args:
-        K: mobility of A, space frame [1/kg].
+        K: Delassus matrix of A, space frame [1/kg].
         mu: coefficient of friction μ.
         s: unit vector, space frame, (2,).
     """

@@ -22,7 +22,7 @@ CHATTERING = 1e-2
 of its tilt [rad]. Contact has their impulse and mean force: it errs by the third power of the angle."""
 
 SLOW = rest.SLOW
-"""Against √(g r): slip slower than this is stopped where friction can hold it, and creeps elsewhere, for
+"""Against √(g r): slip slower than this is stopped where friction can hold it, and is incipient elsewhere:
 there friction would turn it in the time of slip/(μ g). Sliding is kept down to half of it."""
 BORDER = 1e-6
 """Friction holds a part more than it starts with, or a coin on the border would for ever start and stop."""

@@ -2,44 +2,65 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from cointoss import analytic
-from cointoss.analytic.automaton import Event, Mode, mode_after
-from cointoss.analytic.contact.following import friction_in_contact
-from cointoss.analytic.events import NO_LOSS, follow_to_event, run
+from cointoss.analytic.automaton import Event, Mode, margin_event, mode_after
+from cointoss.analytic.contact.edge.guards import comes_upright, stands_for_good
+from cointoss.analytic.contact.edge.rocking import rocks_on_edge
+from cointoss.analytic.contact.edge.standing import stands
+from cointoss.analytic.contact.floor_laws import friction_in_contact
+from cointoss.analytic.contact.landing import landing, time_to_landing
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.contact.rest import rests, rolls_upright
+from cointoss.analytic.events import NO_LOSS, Setup, Spent, Verdict, hold_to_event, run
+from cointoss.analytic.flight.touch_search import is_chattering
 from cointoss.analytic.settings import Settings, contact_limits
 from cointoss.analytic.toss import state_of
 from cointoss.models.perpetual import energy_history
 from cointoss.models.records import Ending, Outcome
+from tests.helpers.contacts import held, put_on_floor, upright_coin
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
-CONTACT = (Mode.SLIDING, Mode.CREEPING, Mode.STICKING, Mode.UPRIGHT)
+ONE_RIM = {Mode.SLIDING, Mode.INCIPIENT_SLIP, Mode.STICKING}
+CONTACT = ONE_RIM | {Mode.UPRIGHT}
+WAYS = {
+    Event.IMPACT: ({Mode.FLIGHT}, Mode.FLIGHT),
+    Event.CHATTERS: ({Mode.FLIGHT}, Mode.TOUCHING),
+    Event.LIFTS_OFF: (ONE_RIM | {Mode.TOUCHING}, Mode.FLIGHT),
+    Event.SECOND_RIM_LANDS: (ONE_RIM, Mode.FLIGHT),
+    Event.FACE_LANDS: (ONE_RIM, Mode.FLIGHT),
+    Event.FALLS_FLAT: (ONE_RIM, Mode.FLIGHT),
+    Event.SLIDES: (ONE_RIM | {Mode.TOUCHING}, Mode.SLIDING),
+    Event.SLIP_STARTS: (ONE_RIM | {Mode.TOUCHING}, Mode.INCIPIENT_SLIP),
+    Event.SLIP_STOPS: (ONE_RIM | {Mode.TOUCHING}, Mode.STICKING),
+    Event.COMES_UPRIGHT: (ONE_RIM, Mode.UPRIGHT),
+    Event.TIPS_OVER: ({Mode.UPRIGHT}, Mode.TOUCHING),
+    Event.NO_SOLUTION: (CONTACT, Mode.ENDED),
+    Event.ENDS: (CONTACT | {Mode.FLIGHT}, Mode.ENDED),
+}
+"""Which modes an event can end, and the mode after it."""
 
 
-@pytest.mark.parametrize("mode", [mode for mode in Mode if mode != Mode.ENDED])
-def test_every_mode_may_lift_off_slip_stick_and_end(mode):
-    expected = {
-        Event.LIFTS_OFF: Mode.FLIGHT,
-        Event.SLIPS: Mode.SLIDING,
-        Event.SLIP_STARTS: Mode.CREEPING,
-        Event.SLIP_STOPS: Mode.STICKING,
-        Event.ENDS: Mode.ENDED,
-    }
-    assert {event: mode_after(mode.value, event) for event in expected} == expected
+@given(st.lists(st.sampled_from(list(Event)), max_size=40))
+def test_any_sequence_of_events_keeps_to_the_table(events):
+    """A toss starts in flight; an event that cannot end its mode is refused, and leads nowhere."""
+    mode = Mode.FLIGHT
+    for event in events:
+        ended, following = WAYS.get(event, (set(), mode))
+        if mode in ended:
+            mode = Mode(mode_after(mode.value, event))
+            assert mode == following
+        else:
+            with pytest.raises(ValueError, match="cannot end this mode"):
+                mode_after(mode.value, event)
 
 
-def test_only_a_flying_coin_bounces_and_only_one_in_contact_at_one_rim_comes_upright_or_lands_another():
-    possible = {
-        event: [mode for mode in Mode if mode != Mode.ENDED and can_end(mode, event)]
-        for event in (Event.IMPACT, Event.RIM_LANDS, Event.FACE_LANDS, Event.COMES_UPRIGHT)
-    }
-    one_rim = [Mode.SLIDING, Mode.CREEPING, Mode.STICKING]
-    assert possible == {
-        Event.IMPACT: [Mode.FLIGHT],
-        Event.RIM_LANDS: one_rim,
-        Event.FACE_LANDS: one_rim,
-        Event.COMES_UPRIGHT: one_rim,
-    }
+def test_every_pair_of_mode_and_event_is_legal_or_refused():
+    for mode in Mode:
+        legal = {event for event in Event if can_end(mode, event)}
+        assert legal == {event for event, (ended, _) in WAYS.items() if mode in ended}
 
 
 def can_end(mode, event):
@@ -50,11 +71,46 @@ def can_end(mode, event):
     return True
 
 
-def test_a_mode_that_goes_on_and_an_ended_toss_have_no_mode_after_them():
-    forbidden = {Mode.UPRIGHT: Event.COMES_UPRIGHT, Mode.SLIDING: Event.NONE, Mode.ENDED: Event.ENDS}
-    for mode, event in forbidden.items():
-        with pytest.raises(ValueError, match="cannot end this mode"):
-            mode_after(mode.value, event)
+def contacts_with_states():
+    """Give a contact in every mode, and its state."""
+    body, friction = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}).body, FloorFriction(0.3)
+    for mode in sorted(CONTACT | {Mode.TOUCHING}):
+        y = upright_coin(body, 0.4, 3.0, 20.0)
+        if mode != Mode.UPRIGHT:
+            y[6:10] = state_of(scenario(release={"angles": [0.2, 1.2, 0.4]}).release)[6:10]
+            put_on_floor(body, friction, mode, y)
+        yield held(body, friction, mode, y), y
+
+
+GUARDS = {
+    "landing": landing,
+    "time to landing": lambda contact, y: time_to_landing(contact, y, np.ones(13)),
+    "margin event": margin_event,
+    "comes upright": comes_upright,
+    "stands for good, tried": lambda contact, y: stands_for_good(contact, 1, True, y),
+    "stands for good, untried": lambda contact, y: stands_for_good(contact, 64, False, y),
+    "stands": stands,
+    "rocks on edge": rocks_on_edge,
+    "rests": rests,
+    "rolls upright": rolls_upright,
+}
+
+
+@pytest.mark.parametrize("guard", GUARDS.values(), ids=GUARDS)
+def test_a_guard_of_a_contact_never_writes_to_the_state(guard):
+    for contact, y in contacts_with_states():
+        as_given = y.copy()
+        guard(contact, y)
+        assert np.array_equal(y, as_given)
+
+
+def test_the_guard_of_a_touch_never_writes_to_the_state():
+    body = scenario().body
+    y = np.array([0, 0, 0.01, 0.1, 0, -1e-3, *state_of(scenario().release)[6:10], 3.0, 1.0, 2.0])
+    for chi in (0.0, 0.5, 1.0):
+        as_given = y.copy()
+        is_chattering(body, chi, y)
+        assert np.array_equal(y, as_given)
 
 
 @pytest.mark.parametrize("changed", [{}, {"thickness": 0.0}, {"center_of_mass": PAPER_OFFSET}])
@@ -109,12 +165,12 @@ def test_a_contact_that_no_step_is_short_enough_to_follow_has_no_solution():
     case = scenario(floor={"contact": "coulomb", "friction": 0.3})
     y = state_of(case.release)
     y[6:10], y[12] = (0.8, 0.6, 0.0, 0.0), np.inf
-    mu, history = friction_in_contact(case.rules), energy_history(NO_LOSS)
+    friction, limits = friction_in_contact(case.rules), contact_limits(Settings())
+    toss = Setup(case.body, case.rules, friction, limits, energy_history(NO_LOSS))
     with np.errstate(all="ignore"):
-        event, time, _, outcome, ending = follow_to_event(
-            case.body, case.rules, mu, Mode.SLIDING.value, y, 2.0, 0, contact_limits(Settings()), history
-        )
-    assert (event, time, outcome, ending) == (Event.ENDS, 2.0, Outcome.UNDECIDED, Ending.NO_SOLUTION)
+        passage = hold_to_event(toss, Mode.SLIDING.value, y, Spent(2.0, 0, 0))
+    assert (passage.event, passage.spent) == (Event.NO_SOLUTION, Spent(2.0, 0, 0))
+    assert passage.verdict == Verdict(Outcome.UNDECIDED, Ending.NO_SOLUTION)
 
 
 def test_a_coin_whose_axis_all_but_passes_the_vertical_slaps_down_on_the_other_side():

@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from cointoss.analytic.automaton import Mode
-from cointoss.analytic.contact.following import sample_contact
-from cointoss.analytic.contact.one_rim import next_event
 from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.contact.sampling import sample_contact
 from cointoss.analytic.events import hit
 from cointoss.analytic.flight.flying import fly
 from cointoss.analytic.flight.touch_search import closing_speed, gap_acceleration
 from cointoss.analytic.numerics.tolerances import CHATTERING, CONTACT_STEP_ERROR
 from cointoss.models.attitude import quaternion_from_angles
 from cointoss.models.records import IMPACT_ROW
+from tests.helpers.contacts import end_mode, held
 from tests.helpers.draws import PAPER_OFFSET, ZLOTY, scenario
 
 THIN, UNBALANCED = {**ZLOTY, "thickness": 0.0}, {**ZLOTY, "center_of_mass": PAPER_OFFSET}
@@ -35,18 +35,10 @@ def at_the_end(case, speed, duration, *, bouncing):
         hit(body, rules, rules.restitution, y, rows[0])
         elapsed += fly(body, y, 1.0)[0]
     hit(body, rules, 0.0, y, rows[0])
-    next_event(body, FloorFriction(rules.friction), Mode.FLIGHT.value, y)
-    state = np.empty((1, 13))
-    sample_contact(
-        body,
-        FloorFriction(rules.friction),
-        Mode.SLIDING.value,
-        y,
-        elapsed,
-        np.array([duration]),
-        1e-12,
-        state,
-    )
+    friction, state = FloorFriction(rules.friction), np.empty((1, 13))
+    end_mode(body, friction, Mode.TOUCHING, y)
+    contact = held(body, friction, Mode.SLIDING, y)
+    sample_contact(contact, y, elapsed, np.array([duration]), 1e-12, state)
     return state[0]
 
 

@@ -1,36 +1,26 @@
 """A coin that stays in contact: against closed forms, an independent integration, and what is conserved."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from cointoss.analytic.automaton import Event, Mode
-from cointoss.analytic.contact import smooth
-from cointoss.analytic.contact.edge import held_on_edge, stands
+from cointoss.analytic.automaton import Event, Mode, flow, margin_event
+from cointoss.analytic.contact import sliding, smooth
+from cointoss.analytic.contact.edge.restoring import held_on_edge
+from cointoss.analytic.contact.edge.standing import stands
 from cointoss.analytic.contact.floor_force import friction_holds, holding_force, slip_direction, starting_slip
-from cointoss.analytic.contact.following import (
-    contact_step,
-    sample_contact,
-    short_contact_step,
-    start_following,
-)
-from cointoss.analytic.contact.modes import floor_force
-from cointoss.analytic.contact.one_rim import (
-    lower_rim_of,
-    next_event,
-    put_on_floor,
-    rate,
-    sliding_rate,
-    time_to_landing,
-)
+from cointoss.analytic.contact.integrator import contact_work, short_step, step_of_length
+from cointoss.analytic.contact.landing import time_to_landing
 from cointoss.analytic.contact.resistance import FloorFriction
-from cointoss.analytic.contact.rim_contact import accelerate, rim_contact
-from cointoss.analytic.contact.sliding import stopping_impulse
+from cointoss.analytic.contact.rim_contact import rim_contact
+from cointoss.analytic.contact.sampling import floor_force, sample_contact
 from cointoss.analytic.numerics.tolerances import STEP_ERROR
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import energy
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
-from tests.helpers.contacts import follow_for, follow_step
+from tests.helpers.contacts import end_mode, follow_for, follow_step, held, put_on_floor
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, scenario
 
 SMOOTH = FloorFriction(0.0)
@@ -57,7 +47,7 @@ def velocity_of_lowest(body, y):
 def on_floor(body, mode, angles, w, v=(0.0, 0.0)):
     """Give a coin in contact, of this attitude and spin; `mode` says what its lowest point may do."""
     y = np.array([0, 0, 0, *v, 0, *quaternion_from_angles(angles), *w], dtype=float)
-    put_on_floor(body, FloorFriction(0.0), mode, lower_rim_of(y), y)
+    put_on_floor(body, FloorFriction(0.0), mode, y)
     return y
 
 
@@ -65,8 +55,9 @@ def follow_to_its_end(body, friction, mode, y):
     """Advance y to the end of a contact that ends within a second; return what lands and the time."""
     time, dt, over, landing = 0.0, np.inf, False, Event.NONE
     while not over:
-        made, dt, over, landing = follow_step(body, friction, mode, y, dt)
-        time += made
+        step = follow_step(body, friction, mode, y, dt)
+        time += step.elapsed
+        dt, over, landing = step.next_dt, step.is_over, step.event
         assert time < 1
     return landing, time
 
@@ -86,10 +77,10 @@ def test_a_short_step_errs_by_the_third_power_of_its_length(backward):
         error = 0.0
         for _ in range(10):
             y = draw_wobble(rng, body, Mode.SLIDING)
-            stages, by_one, by_two = start_following(body, SMOOTH, Mode.SLIDING, y), y.copy(), y.copy()
-            made = (body, SMOOTH, Mode.SLIDING, lower_rim_of(y), y)
-            contact_step(*made, backward * dt, stages, by_one)
-            short_contact_step(*made, stages[0], backward * dt, by_two)
+            contact, by_one, by_two = held(body, SMOOTH, Mode.SLIDING, y), y.copy(), y.copy()
+            stages = contact_work(contact, y)
+            step_of_length(contact, y, backward * dt, stages, by_one)
+            short_step(contact, y, stages[0], backward * dt, by_two)
             error += np.abs(by_one - by_two)[10:13].max() / 12
         errors.append(error / 10)
         rng = np.random.default_rng(12)
@@ -105,14 +96,13 @@ def test_a_smooth_floor_is_one_whose_friction_is_0(seed):
     body = scenario(coin=coin, air=AIR).body
     y = draw_wobble(rng, body, Mode.SLIDING)
     y[3:6] += rng.uniform(-1, 1, 3)
-    dy, dy_general, rim = np.empty(13), np.empty(13), lower_rim_of(y)
-    left = smooth.rate(body, rim, y, dy)
-    assert left == pytest.approx(sliding_rate(body, SMOOTH, rim, y, dy_general), rel=1e-12)
+    dy, dy_general, contact = np.empty(13), np.empty(13), held(body, SMOOTH, Mode.SLIDING, y)
+    left = smooth.flow(contact, y, dy)
+    assert left == pytest.approx(sliding.flow_with_friction(contact, y, dy_general), rel=1e-12)
     assert dy == pytest.approx(dy_general, rel=1e-12, abs=1e-12)
-    stopped, A = y.copy(), rim_contact(body, y, rim)
-    smooth.put_on_floor(body, rim, stopped)
-    y[2] = -A.arm[2]
-    accelerate(body, A, stopping_impulse(A, 0.0), y)
+    stopped = y.copy()
+    smooth.project(contact, stopped)
+    sliding.project_with_friction(contact, y)
     assert stopped == pytest.approx(y, rel=1e-12, abs=1e-12)
 
 
@@ -123,12 +113,12 @@ def test_a_coin_on_a_smooth_floor_keeps_energy_and_momentum_and_does_not_leave_i
     start = draw_wobble(rng, body, Mode.SLIDING)
     y, time, turned = start.copy(), 0.0, 0.0
     while time < 0.2:
-        made, _, over, _ = follow_step(body, SMOOTH, Mode.SLIDING, y, 0.2 - time)
-        time += made
-        turned += made * np.linalg.norm(y[10:13])
+        step = follow_step(body, SMOOTH, Mode.SLIDING, y, 0.2 - time)
+        time += step.elapsed
+        turned += step.elapsed * np.linalg.norm(y[10:13])
         assert abs(gap(body, y[2], tuple(up_of(y)))) < 1e-14
         assert abs(velocity_of_lowest(body, y)[2]) < 1e-12
-        if over:
+        if step.is_over:
             break
     assert turned > 0.3, "it should move"
     assert energy_of(body, y) == pytest.approx(energy_of(body, start), rel=1e-11)
@@ -147,7 +137,7 @@ def test_eulers_disk_precesses_at_its_rate(mode, tilt):
     y = on_floor(body, mode, (0.2, tilt, 0.0), (0.0, rate * np.sin(tilt), 0.0))
     assert y[3:6] == pytest.approx(0, abs=1e-15)
     mu = 0.0 if mode == Mode.SLIDING else 0.5
-    assert floor_force(body, FloorFriction(mu), mode, y) == pytest.approx([0, 0, M * G], abs=1e-14)
+    assert floor_force(held(body, FloorFriction(mu), mode, y), y) == pytest.approx([0, 0, M * G], abs=1e-14)
     states, times = follow_for(body, FloorFriction(mu), mode, y, 30 / rate)
     heights = [up_of(s)[2] for s in states]
     assert np.array(heights) == pytest.approx(np.cos(tilt), abs=1e-9)
@@ -199,10 +189,10 @@ def test_a_coin_that_rolls_keeps_its_energy(seed):
     start = draw_wobble(rng, body, Mode.STICKING)
     y, time = start.copy(), 0.0
     while time < 0.1:
-        made, _, over, _ = follow_step(body, FloorFriction(100.0), Mode.STICKING, y, 0.1 - time)
-        time += made
+        step = follow_step(body, FloorFriction(100.0), Mode.STICKING, y, 0.1 - time)
+        time += step.elapsed
         assert np.abs(velocity_of_lowest(body, y)).max() < 1e-12
-        if over:
+        if step.is_over:
             break
     assert time > 0.01
     assert energy_of(body, y) == pytest.approx(energy_of(body, start), rel=1e-11)
@@ -210,7 +200,7 @@ def test_a_coin_that_rolls_keeps_its_energy(seed):
 
 @pytest.mark.parametrize("seed", range(4))
 def test_a_coin_that_slides_loses_what_friction_takes(seed):
-    """dE/dt = -μ N |v_A| and m dv/dt = -μ N s, with N from the height of C: not from the mobility."""
+    """dE/dt = -μ N |v_A| and m dv/dt = -μ N s, with N from the height of C: not from the Delassus matrix."""
     rng = np.random.default_rng([seed, 4])
     mu, body = 0.3, scenario(coin=draw_coin(rng)).body
     angles = rng.uniform(0, 6), rng.uniform(0.4, 1.0), rng.uniform(0, 6)
@@ -218,7 +208,7 @@ def test_a_coin_that_slides_loses_what_friction_takes(seed):
     time, n = 0.01, 401
     times = np.linspace(0, time, n)
     states = np.empty((n, 13))
-    sample_contact(body, FloorFriction(mu), Mode.SLIDING, y, 0.0, times, STEP_ERROR, states)
+    sample_contact(held(body, FloorFriction(mu), Mode.SLIDING, y), y, 0.0, times, STEP_ERROR, states)
     v_A = np.array([velocity_of_lowest(body, s) for s in states])
     slip = np.linalg.norm(v_A[:, :2], axis=1)
     assert slip.min() > 0.05
@@ -239,7 +229,7 @@ def test_slip_that_starts_keeps_the_direction_to_which_friction_turns_all_slip(s
     K = A @ A.T + 2 * np.eye(3)
     b = np.array([*rng.normal(size=2) * 4, -rng.uniform(0.5, 2)])
     mu = rng.uniform(0.05, 0.4)
-    rows = tuple(map(tuple, K))
+    rows: Any = tuple(map(tuple, K))
     if friction_holds(mu, holding_force(rows, tuple(b))):
         b[:2] *= 20
     assert not friction_holds(mu, holding_force(rows, tuple(b)))
@@ -262,15 +252,15 @@ def test_slip_that_starts_keeps_the_direction_to_which_friction_turns_all_slip(s
 def test_friction_holds_just_within_the_cone():
     body = scenario(coin=THIN).body
     y = on_floor(body, Mode.STICKING, (0.0, 1.0, 0.0), (1.0, 2.0, 3.0))
-    F = floor_force(body, SMOOTH, Mode.STICKING, y)
+    F = floor_force(held(body, SMOOTH, Mode.STICKING, y), y)
     needed = np.hypot(F[0], F[1]) / F[2]
     assert 0.1 < needed < 2
-    assert next_event(body, FloorFriction(1.001 * needed), Mode.FLIGHT, y.copy()) == Event.SLIP_STOPS
-    creeping = y.copy()
-    assert next_event(body, FloorFriction(0.999 * needed), Mode.FLIGHT, creeping) == Event.SLIP_STARTS
-    made, _, over, _ = follow_step(body, FloorFriction(0.999 * needed), Mode.CREEPING, creeping, 1e-3)
-    assert (made, over) == (1e-3, False)
-    slip = velocity_of_lowest(body, creeping)
+    assert end_mode(body, FloorFriction(1.001 * needed), Mode.TOUCHING, y.copy()) == Event.SLIP_STOPS
+    slipping, friction = y.copy(), FloorFriction(0.999 * needed)
+    assert end_mode(body, friction, Mode.TOUCHING, slipping) == Event.SLIP_STARTS
+    step = follow_step(body, friction, Mode.INCIPIENT_SLIP, slipping, 1e-3)
+    assert (step.elapsed, step.is_over) == (1e-3, False)
+    slip = velocity_of_lowest(body, slipping)
     assert 0 < np.hypot(slip[0], slip[1])
     assert slip[:2] @ F[:2] < 0, "slip starts against the force that would hold it"
 
@@ -282,7 +272,7 @@ def test_slip_stops_where_friction_can_hold_it():
     _, time = follow_to_its_end(body, FloorFriction(mu), Mode.SLIDING, y)
     # v falls by μ g t, and ω r rises by 2 μ g t: the slip v - ω r ends after v/(3 μ g), up to creep.
     assert time == pytest.approx(0.3 / (3 * mu * G), rel=2e-3)
-    assert next_event(body, FloorFriction(mu), Mode.SLIDING, y) == Event.SLIP_STOPS
+    assert end_mode(body, FloorFriction(mu), Mode.SLIDING, y) == Event.SLIP_STOPS
     assert y[3] == pytest.approx(0.2, rel=2e-3)
     assert abs(y[12]) == pytest.approx(0.2 / R_COIN, rel=2e-3)
     assert velocity_of_lowest(body, y) == pytest.approx(0, abs=1e-13)
@@ -292,9 +282,9 @@ def test_slip_stops_where_friction_can_hold_it():
     ("mode", "slip", "expected"),
     [
         (Mode.SLIDING, 0.5, Event.SLIP_STOPS),
-        (Mode.SLIDING, 0.6, Event.SLIPS),
-        (Mode.CREEPING, 1.0, Event.SLIPS),
-        (Mode.CREEPING, 0.9, Event.SLIP_STOPS),
+        (Mode.SLIDING, 0.6, Event.SLIDES),
+        (Mode.INCIPIENT_SLIP, 1.0, Event.SLIDES),
+        (Mode.INCIPIENT_SLIP, 0.9, Event.SLIP_STOPS),
     ],
 )
 @pytest.mark.parametrize("rounding", [-1e-12, 1e-12])
@@ -303,32 +293,33 @@ def test_a_mode_that_ends_at_its_bound_of_slip_does_not_go_on_for_rounding(mode,
     body = scenario(coin=THIN).body
     speed = slip * (1 + rounding) * 1e-3 * np.sqrt(G * R_COIN)
     y = on_floor(body, Mode.SLIDING, (0.0, np.pi / 2, 0.0), (0.0, 0.0, 0.0), (speed, 0.0))
-    assert next_event(body, FloorFriction(0.2), mode, y) == expected
+    assert margin_event(held(body, FloorFriction(0.2), mode, y), y) == expected
 
 
 def test_a_coin_leaves_the_floor_when_it_would_have_to_be_held_back():
     """It rises fast from a small tilt: the force falls to zero, and the gap opens from there."""
     body = scenario(coin=THIN).body
     y = on_floor(body, Mode.SLIDING, (0.0, 3.067, 2.019), (-100.5, 39.9, -9.4))
-    assert floor_force(body, SMOOTH, Mode.SLIDING, y)[2] > 0
+    assert floor_force(held(body, SMOOTH, Mode.SLIDING, y), y)[2] > 0
     landing, _ = follow_to_its_end(body, SMOOTH, Mode.SLIDING, y)
     assert landing == Event.NONE
-    assert floor_force(body, SMOOTH, Mode.SLIDING, y)[2] == pytest.approx(0, abs=1e-9 * M * G)
-    assert next_event(body, SMOOTH, Mode.SLIDING, y) == Event.LIFTS_OFF
+    assert floor_force(held(body, SMOOTH, Mode.SLIDING, y), y)[2] == pytest.approx(0, abs=1e-9 * M * G)
+    assert margin_event(held(body, SMOOTH, Mode.SLIDING, y), y) == Event.LIFTS_OFF
 
 
 def test_friction_does_not_press_down_a_point_that_free_flight_lifts():
-    """Painlevé: on a floor rough enough a creeping point would have a second answer: to be pressed."""
+    """Painlevé: on a floor rough enough incipient slip would have a second answer: to be pressed."""
     rng, body, mu = np.random.default_rng(3), scenario(coin=UNBALANCED).body, 1e4
     lifted = pressed = 0
     for _ in range(500):
         angles = rng.uniform(0, 6), rng.uniform(0.3, 1.5), rng.uniform(0, 6)
         y = on_floor(body, Mode.STICKING, angles, rng.uniform(-1, 1, 3) * [20, 20, 300])
-        if rim_contact(body, y, lower_rim_of(y)).free_acceleration[2] > 0:
+        contact = held(body, FloorFriction(mu), Mode.INCIPIENT_SLIP, y)
+        if rim_contact(body, y, contact.rim).free_acceleration[2] > 0:
             lifted += 1
-            pressed += floor_force(body, FloorFriction(mu), Mode.CREEPING, y)[2] > 0
-            assert rate(body, FloorFriction(mu), Mode.CREEPING, lower_rim_of(y), y, np.empty(13)) <= 0
-            assert next_event(body, FloorFriction(mu), Mode.CREEPING, y) == Event.LIFTS_OFF
+            pressed += floor_force(contact, y)[2] > 0
+            assert flow(contact, y, np.empty(13)) <= 0
+            assert margin_event(contact, y) == Event.LIFTS_OFF
     assert lifted > 100
     assert pressed > 10
 
@@ -337,7 +328,7 @@ def test_a_coin_that_tips_over_its_edge_lands_on_the_other_rim():
     body = scenario().body
     y = on_floor(body, Mode.SLIDING, (0.0, 1.45, 0.0), (6.0, 0.0, 0.0))
     landing, _ = follow_to_its_end(body, SMOOTH, Mode.SLIDING, y)
-    assert landing == Event.RIM_LANDS
+    assert landing == Event.SECOND_RIM_LANDS
     assert 0 <= up_of(y)[2] < 1e-9
     other = y.copy()
     other[6:10] = quaternion_from_angles((0.0, np.pi / 2 + 1e-6, 0.0))
@@ -362,7 +353,7 @@ def test_a_coin_stands_on_its_edge_while_it_does_not_turn_and_roll_too_fast(spin
     spin, roll = spins
     y = on_floor(body, Mode.SLIDING, (0.0, np.pi / 2, 0.0), (0.0, spin, roll))
     assert (body.inertia[2][2] * spin * roll < M * G * body.thickness / 2) == steady
-    assert stands(body, SMOOTH, Mode.SLIDING, y) == steady
+    assert stands(held(body, SMOOTH, Mode.SLIDING, y), y) == steady
 
 
 def test_an_unbalanced_coin_that_spins_upright_is_not_said_to_stand():
@@ -372,9 +363,9 @@ def test_an_unbalanced_coin_that_spins_upright_is_not_said_to_stand():
     spinning, still = (
         on_floor(body, Mode.SLIDING, (0.0, np.pi / 2, 3 * np.pi / 4), (s, -s, 0.0)) for s in (42.0, 0.0)
     )
-    assert held_on_edge(body, SMOOTH, Mode.SLIDING, spinning)
-    assert not stands(body, SMOOTH, Mode.SLIDING, spinning)
-    assert stands(body, SMOOTH, Mode.SLIDING, still)
+    assert held_on_edge(held(body, SMOOTH, Mode.SLIDING, spinning), spinning)
+    assert not stands(held(body, SMOOTH, Mode.SLIDING, spinning), spinning)
+    assert stands(held(body, SMOOTH, Mode.SLIDING, still), still)
 
 
 @pytest.mark.parametrize("mode", [Mode.SLIDING, Mode.STICKING])
@@ -384,18 +375,11 @@ def test_a_sampled_state_does_not_hang_on_the_other_times_asked_for(mode):
     mu, end = 0.0 if mode == Mode.SLIDING else 50.0, 2.0
     states, times = follow_for(body, FloorFriction(mu), mode, y, end)
     alone, among = np.empty((1, 13)), np.empty((301, 13))
-    sample_contact(body, FloorFriction(mu), mode, y, 0.0, times[-2:-1], STEP_ERROR, alone)
+    contact = held(body, FloorFriction(mu), mode, y)
+    sample_contact(contact, y, 0.0, times[-2:-1], STEP_ERROR, alone)
     assert alone[0] == pytest.approx(states[-2], abs=1e-10)
-    sample_contact(
-        body,
-        FloorFriction(mu),
-        mode,
-        y,
-        0.0,
-        np.append(np.linspace(0, times[-2], 301)[:-1], times[-2]),
-        STEP_ERROR,
-        among,
-    )
+    asked = np.append(np.linspace(0, times[-2], 301)[:-1], times[-2])
+    sample_contact(contact, y, 0.0, asked, STEP_ERROR, among)
     assert np.array_equal(among[-1], alone[0])
 
 
@@ -417,10 +401,10 @@ def test_the_direction_of_no_slip_is_none():
 def test_the_landing_ahead_is_where_the_other_rim_lands(turning):
     body, angle = scenario(coin=UNBALANCED).body, 0.01
     y = on_floor(body, Mode.SLIDING.value, (0.0, np.pi / 2 - angle, 0.0), (turning, 0.0, 0.0))
-    rim, dy, at_landing = lower_rim_of(y), np.empty(13), np.empty((1, 13))
-    rate(body, SMOOTH, Mode.SLIDING.value, rim, y, dy)
-    ahead = time_to_landing(body, rim, y, dy)
-    sample_contact(body, SMOOTH, Mode.SLIDING.value, y, 0.0, np.array([ahead]), 1e-12, at_landing)
+    contact, dy, at_landing = held(body, SMOOTH, Mode.SLIDING, y), np.empty(13), np.empty((1, 13))
+    flow(contact, y, dy)
+    ahead = time_to_landing(contact, y, dy)
+    sample_contact(contact, y, 0.0, np.array([ahead]), 1e-12, at_landing)
     assert abs(up_of(at_landing[0])[2]) < angle / 20
     assert abs(up_of(y)[2]) > 0.99 * angle
-    assert time_to_landing(scenario(coin=THIN).body, rim, y, dy) == np.inf
+    assert time_to_landing(contact._replace(body=scenario(coin=THIN).body), y, dy) == np.inf

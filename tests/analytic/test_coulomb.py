@@ -18,7 +18,7 @@ def after(K, v, S):
 
 
 def work_of(K, v, S):
-    """Energy gained by an impulse S at a point of mobility K: half the sum of the velocities times S."""
+    """Energy gained by an impulse S, K the Delassus matrix: half the sum of the velocities times S."""
     return (np.array(v) + after(K, v, S)) @ S / 2
 
 

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 
 from cointoss.analytic.automaton import Mode
-from cointoss.analytic.contact.one_rim import lower_rim_of, put_on_floor
-from cointoss.analytic.contact.periodic import repeats, start_tilting, tilt_rate
+from cointoss.analytic.contact.periodic import record_tilt, repeats, start_tilt_history, tilt_rate
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
-from tests.helpers.contacts import follow_step
+from tests.helpers.contacts import follow_step, held, put_on_floor
 from tests.helpers.draws import AIR, ZLOTY, scenario
 
 SMOOTH = FloorFriction(0.0)
@@ -17,19 +16,25 @@ THIN = {**ZLOTY, "thickness": 0.0}
 
 def wobbling(body, mode):
     y = np.array([0, 0, 0, 0, 0, 0, *quaternion_from_angles((0.0, 0.9, 0.0)), 2.0, 9.0, 4.0])
-    put_on_floor(body, FloorFriction(0.0), mode, lower_rim_of(y), y)
+    put_on_floor(body, FloorFriction(0.0), mode, y)
     return y
+
+
+def repeats_at(history, y):
+    record_tilt(history, y)
+    return repeats(history)
 
 
 @pytest.mark.parametrize(("mode", "mu"), [(Mode.SLIDING, 0.0), (Mode.STICKING, 50.0)])
 def test_after_a_period_the_tilt_and_its_rate_are_those_before(mode, mu):
     body = scenario(coin=THIN).body
     y = wobbling(body, mode)
-    tilting, at_turns, rates, time = start_tilting(body, FloorFriction(mu), mode), [], [tilt_rate(y)], 0.0
-    while not repeats(tilting, y):
-        made, _, over, _ = follow_step(body, FloorFriction(mu), mode, y, 1e-4)
-        assert not over
-        time += made
+    history = start_tilt_history(held(body, FloorFriction(mu), mode, y))
+    at_turns, rates, time = [], [tilt_rate(y)], 0.0
+    while not repeats_at(history, y):
+        step = follow_step(body, FloorFriction(mu), mode, y, 1e-4)
+        assert not step.is_over
+        time += step.elapsed
         rates.append(tilt_rate(y))
         if rates[-1] * rates[-2] < 0:
             at_turns.append(rotation_matrix(tuple(y[6:10]))[2][2])
@@ -45,16 +50,16 @@ def test_after_a_period_the_tilt_and_its_rate_are_those_before(mode, mu):
         ({**THIN, "center_of_mass": [-1e-3, -1e-3, 0.0]}, {}, Mode.SLIDING, 0.0),
         (THIN, AIR, Mode.SLIDING, 0.0),
         (THIN, {}, Mode.SLIDING, 0.3),
-        (THIN, {}, Mode.CREEPING, 0.3),
+        (THIN, {}, Mode.INCIPIENT_SLIP, 0.3),
     ],
 )
 def test_an_unbalanced_coin_air_and_friction_on_slip_repeat_nothing(coin, air, mode, mu):
     body = scenario(coin=coin, air=air).body
     y = wobbling(body, Mode.SLIDING)
-    tilting = start_tilting(body, FloorFriction(mu), mode)
+    history = start_tilt_history(held(body, FloorFriction(mu), mode, y))
     for k in range(10):
         y[11] = 9.0 * (-1) ** k
-        assert not repeats(tilting, y)
+        assert not repeats_at(history, y)
 
 
 @pytest.mark.parametrize(
@@ -65,12 +70,12 @@ def test_a_tilt_that_only_rounding_changes_repeats_nothing(rates, told):
     """An upright thin coin that stands still, or spins on the spot, would fall in the end."""
     body = scenario(coin=THIN).body
     y = wobbling(body, Mode.SLIDING)
-    tilting = start_tilting(body, SMOOTH, Mode.SLIDING)
+    history = start_tilt_history(held(body, SMOOTH, Mode.SLIDING, y))
     up = np.array(rotation_matrix(tuple(y[6:10]))[2])
     across = np.array([-up[1], up[0], 0.0]) / np.hypot(up[0], up[1]) ** 2
     found = []
     for rate in rates * 4:
         y[10:13] = rate * across
         assert tilt_rate(y) == pytest.approx(rate)
-        found.append(repeats(tilting, y))
+        found.append(repeats_at(history, y))
     assert any(found) == told

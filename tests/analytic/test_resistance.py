@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.analytic.automaton import Mode
-from cointoss.analytic.contact import modes, upright
-from cointoss.analytic.contact.following import follow, start_following
-from cointoss.analytic.contact.one_rim import lower_rim_of, put_on_floor
+from cointoss.analytic.automaton import Mode, flow
+from cointoss.analytic.contact import upright
+from cointoss.analytic.contact.contact import lower_rim_of
+from cointoss.analytic.contact.integrator import contact_work, step_contact
 from cointoss.analytic.contact.resistance import FloorFriction, moment_per_force
 from cointoss.analytic.contact.rest import rests
 from cointoss.analytic.contact.rim_contact import both_rims, rim_contact
+from cointoss.analytic.contact.sampling import floor_force
 from cointoss.analytic.numerics.tolerances import CONTACT_STEP_ERROR, SLOW
 from cointoss.analytic.settings import Settings
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
@@ -18,7 +19,7 @@ from cointoss.compare.reproduction.studies.endings import draw_toss
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.certificate import CONTACT_ENERGY
 from cointoss.models.records import Ending, Outcome
-from tests.helpers.contacts import follow_for
+from tests.helpers.contacts import follow_for, held, put_on_floor
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, scenario
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
@@ -90,7 +91,7 @@ def contact_states(seed):
     coin = draw_coin(rng)
     body = scenario(coin=coin).body
     friction = FloorFriction(*(rng.uniform(0.1, 0.9), *rng.uniform(1e-5, 4e-3, 2)))
-    for mode in (Mode.SLIDING, Mode.CREEPING, Mode.STICKING, Mode.UPRIGHT):
+    for mode in (Mode.SLIDING, Mode.INCIPIENT_SLIP, Mode.STICKING, Mode.UPRIGHT):
         angles = (rng.uniform(0, 6), rng.uniform(0.2, 1.4), rng.uniform(0, 6))
         y = np.array(
             [0, 0, 0, *rng.uniform(-0.3, 0.3, 3), *quaternion_from_angles(angles), *rng.uniform(-20, 20, 3)]
@@ -99,9 +100,7 @@ def contact_states(seed):
             if coin["thickness"] == 0:
                 continue
             y[6:10] = quaternion_from_angles((angles[0], np.pi / 2, angles[2]))
-            upright.put_on_floor(body, y)
-        else:
-            put_on_floor(body, friction, mode.value, lower_rim_of(y), y)
+        put_on_floor(body, friction, mode, y)
         yield body, friction, mode, y
 
 
@@ -113,10 +112,10 @@ def test_the_lowest_point_stays_on_the_floor_and_stays_there_where_friction_hold
         if mode == Mode.UPRIGHT:
             continue
         rim, dy, dt = lower_rim_of(y), np.empty(13), 1e-6
-        modes.rate(body, friction, mode.value, rim, y, dy)
+        flow(held(body, friction, mode, y), y, dy)
         after, before = (np.array(rim_contact(body, y + side * dt * dy, rim).velocity) for side in (1, -1))
-        held = slice(None) if mode == Mode.STICKING else slice(2, 3)
-        assert ((after - before) / (2 * dt))[held] == pytest.approx(0, abs=1e-6 * float(np.linalg.norm(dy)))
+        part = slice(None) if mode == Mode.STICKING else slice(2, 3)
+        assert ((after - before) / (2 * dt))[part] == pytest.approx(0, abs=1e-6 * float(np.linalg.norm(dy)))
         met += 1
     assert met == 3
 
@@ -126,8 +125,9 @@ def test_the_floor_takes_energy_at_the_rate_of_slip_roll_and_pivot(seed):
     """DE/dt = F · v_A - N (δ |ω_h| + p |ω_z|) in every mode, with the N of that very instant."""
     for body, friction, mode, y in contact_states(seed):
         dy, w = np.empty(13), np.array(rotation_matrix(tuple(y[6:10]))) @ y[10:13]
-        modes.rate(body, friction, mode.value, lower_rim_of(y), y, dy)
-        F = np.array(modes.floor_force(body, friction, mode.value, y))
+        contact = held(body, friction, mode, y)
+        flow(contact, y, dy)
+        F = np.array(floor_force(contact, y))
         power = M * np.dot(y[3:6], dy[3:6]) + M * G * y[5]
         power += y[10:13] @ np.array(body.inertia) @ dy[10:13]
         taken = F[2] * (friction.rolling * np.hypot(w[0], w[1]) + friction.pivoting * abs(w[2]))
@@ -152,8 +152,9 @@ def test_the_moment_on_the_coin_is_that_of_the_normal_force_of_the_same_instant(
         if mode == Mode.UPRIGHT:
             continue
         dy, Rm = np.empty(13), np.array(rotation_matrix(tuple(y[6:10])))
-        modes.rate(body, friction, mode.value, lower_rim_of(y), y, dy)
-        F = np.array(modes.floor_force(body, friction, mode.value, y))
+        contact = held(body, friction, mode, y)
+        flow(contact, y, dy)
+        F = np.array(floor_force(contact, y))
         J, w = np.array(body.inertia), y[10:13]
         arm = np.array(rim_contact(body, y, lower_rim_of(y)).arm)
         moment = Rm @ (J @ dy[10:13] + np.cross(w, J @ w)) - np.cross(arm, F)
@@ -169,14 +170,14 @@ def test_without_resistance_nothing_is_added():
     body, y = scenario().body, upright_state((1.0, 2.0, 3.0))
     A, _ = both_rims(body, FloorFriction(0.5), y)
     assert A == rim_contact(body, y, -1.0)
-    assert np.array_equal(np.array(A.mobility), np.array(A.mobility).T)
+    assert np.array_equal(np.array(A.delassus), np.array(A.delassus).T)
     assert A != both_rims(body, FloorFriction(0.5, 1e-9), y)[0]
 
 
 def test_little_resistance_changes_a_contact_in_proportion():
     body = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}).body
     start = np.array([0, 0, 0, 0.1, 0, 0, *quaternion_from_angles((0.0, 1.0, 0.3)), 3.0, 1.0, 30.0])
-    put_on_floor(body, FloorFriction(0.3), Mode.SLIDING.value, lower_rim_of(start), start)
+    put_on_floor(body, FloorFriction(0.3), Mode.SLIDING, start)
 
     def end(size):
         return follow_for(body, FloorFriction(0.3, size, size), Mode.SLIDING, start, 2e-3)[0][-1]
@@ -193,13 +194,13 @@ def test_a_coin_at_rest_stays_while_its_mass_centre_is_within_delta_of_the_conta
     delta, body = 1e-3, scenario(coin=THIN).body
     y = upright_state((0.0, 0.0, 0.0))
     y[6:10] = quaternion_from_angles((0.0, np.pi / 2 + np.arcsin(lean * delta / R), 0.0))
-    put_on_floor(body, FloorFriction(0.3), Mode.STICKING.value, lower_rim_of(y), y)
+    put_on_floor(body, FloorFriction(0.3), Mode.STICKING, y)
     for mu in (0.0, 0.3):
         mode = Mode.STICKING if mu else Mode.SLIDING
-        assert rests(body, FloorFriction(mu, delta, 0.0), mode.value, y) == (abs(lean) < 1)
-    assert not rests(body, FloorFriction(0.3, 0.0, delta), Mode.STICKING.value, y)
+        assert rests(held(body, FloorFriction(mu, delta, 0.0), mode, y), y) == (abs(lean) < 1)
+    assert not rests(held(body, FloorFriction(0.3, 0.0, delta), Mode.STICKING, y), y)
     y[10] = 0.1 * UNIT
-    assert not rests(body, FloorFriction(0.3, delta, 0.0), Mode.STICKING.value, y)
+    assert not rests(held(body, FloorFriction(0.3, delta, 0.0), Mode.STICKING, y), y)
 
 
 def standing_on_edge(**parts):
@@ -311,13 +312,14 @@ def euler_disk(tilt):
 def fall(body, friction, time, least=0.0):
     """Return times, tilts, energies and ω_z of Euler's disk, until a time or a tilt."""
     y, dt, seen = euler_disk(0.3), np.inf, [(0.0, 0.3, 0.0, 0.0)]
-    stages = start_following(body, friction, Mode.STICKING.value, y)
+    stages = contact_work(held(body, friction, Mode.STICKING, y), y)
     while seen[-1][0] < time and seen[-1][1] > least:
-        made, dt, over, _ = follow(body, friction, Mode.STICKING.value, y, dt, CONTACT_STEP_ERROR, stages)
-        assert not over
+        step = step_contact(held(body, friction, Mode.STICKING, y), y, dt, CONTACT_STEP_ERROR, stages)
+        assert not step.is_over
+        dt = step.next_dt
         Rm = np.array(rotation_matrix(tuple(y[6:10])))
         tilt = np.arcsin(np.hypot(*Rm[2][:2]))
-        seen.append((seen[-1][0] + made, tilt, energy_of(body, y), Rm[2] @ y[10:13]))
+        seen.append((seen[-1][0] + step.elapsed, tilt, energy_of(body, y), Rm[2] @ y[10:13]))
     return np.array(seen[1:]).T
 
 

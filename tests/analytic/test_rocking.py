@@ -4,25 +4,20 @@ import numpy as np
 import pytest
 
 from cointoss.analytic.automaton import Mode
-from cointoss.analytic.contact import one_rim, upright
-from cointoss.analytic.contact.edge import (
-    lean_and_rate,
-    on_edge,
-    rocks_on_edge,
-    rolled_on,
-    steady_lean,
-    to_lowest,
-    turned_back,
-)
-from cointoss.analytic.contact.following import friction_in_contact
-from cointoss.analytic.contact.one_rim import lower_rim_of
+from cointoss.analytic.contact import upright
+from cointoss.analytic.contact.contact import lower_rim_of
+from cointoss.analytic.contact.edge.restoring import lean_and_rate, restoring_acceleration
+from cointoss.analytic.contact.edge.rocking import rocks_on_edge, steady_lean
+from cointoss.analytic.contact.edge.rolling import roll_by, to_lowest
+from cointoss.analytic.contact.edge.standing import on_edge
+from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.rim_contact import rim_contact
 from cointoss.analytic.events import run
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.laws import ContactLaw, EndingTest
 from cointoss.models.records import Ending, Outcome
-from tests.helpers.contacts import upright_coin
+from tests.helpers.contacts import held, put_on_floor, upright_coin
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
 SMOOTH = FloorFriction(0.0)
@@ -31,7 +26,7 @@ UNBALANCED = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 
 
 def rocking(rng, body, rules):
-    """Give a coin that rocks on its edge while it rolls and turns, with its floor's friction and its mode."""
+    """Give a coin that rocks on its edge while it rolls and turns, with its contact."""
     friction = friction_in_contact(rules)
     mode = Mode.SLIDING if rules.law == ContactLaw.SMOOTH else Mode.STICKING
     turn, roll = rng.choice([(1, 3), (12, 2.5), (6, 12)])
@@ -40,8 +35,8 @@ def rocking(rng, body, rules):
     y[10:12] += rng.uniform(-0.8, 0.8) * most * (G / R_COIN) ** 0.5 * np.array([-up[1], up[0]])
     upright.tilt(y, rng.uniform(-0.2, 0.2) * most)
     y[3:5] -= rim_contact(body, y, lower_rim_of(y)).velocity[:2]
-    one_rim.put_on_floor(body, friction, mode.value, lower_rim_of(y), y)
-    return friction, mode.value, y
+    put_on_floor(body, friction, mode, y)
+    return held(body, friction, mode, y), y
 
 
 @pytest.mark.parametrize("count", [16, pytest.param(400, marks=pytest.mark.slow)])
@@ -61,8 +56,8 @@ def test_a_coin_that_is_said_to_stand_while_it_rocks_comes_to_stand(floor, count
         coin = {"thickness": rng.choice([6e-4, 1e-3, 2e-3, 4e-3]), "center_of_mass": center}
         case = scenario(coin=coin, floor={**floor, "restitution": rng.uniform(0.2, 0.9)}, air=AIR)
         body, rules = case.body, case.rules
-        friction, mode, y = rocking(rng, body, rules)
-        if not rocks_on_edge(body, friction, mode, y):
+        contact, y = rocking(rng, body, rules)
+        if not rocks_on_edge(contact, y):
             continue
         assert not on_edge(body, y)
         stood += 1
@@ -87,8 +82,8 @@ def test_a_coin_that_is_hardly_held_where_its_center_is_lowest_is_not_said_to_st
         y = upright_coin(body, 4.07, turn, 3.0)
         up = rotation_matrix(tuple(y[6:10]))[2]
         y[10:12] += rate * steady_lean(body) * (G / R_COIN) ** 0.5 * np.array([-up[1], up[0]])
-        one_rim.put_on_floor(body, SMOOTH, Mode.SLIDING.value, lower_rim_of(y), y)
-        assert not rocks_on_edge(body, SMOOTH, Mode.SLIDING.value, y)
+        put_on_floor(body, SMOOTH, Mode.SLIDING, y)
+        assert not rocks_on_edge(held(body, SMOOTH, Mode.SLIDING, y), y)
     assert run(body, case.rules, y).outcome == Outcome.TAILS
 
 
@@ -96,7 +91,7 @@ def test_the_lowest_phase_is_where_the_center_is_below():
     body = scenario(coin=UNBALANCED).body
     for phase in (0.3, 2.0, 5.0):
         y, rolled = upright_coin(body, phase, 3.0, 20.0), np.empty(13)
-        rolled_on(body, SMOOTH, Mode.SLIDING.value, False, y, to_lowest(body, y) / 2, rolled)
+        roll_by(held(body, SMOOTH, Mode.SLIDING, y), False, y, to_lowest(body, y) / 2, rolled)
         center = np.array(rotation_matrix(tuple(rolled[6:10]))) @ np.array(body.center)
         assert center[2] == pytest.approx(-np.hypot(*body.center[:2]), rel=1e-9)
 
@@ -107,8 +102,9 @@ def test_a_coin_that_rocks_leaves_its_edge_on_the_side_on_which_it_is_hardly_hel
     body = case.body
     y = upright_coin(body, 0.4, 2.5, -15.4)
     upright.tilt(y, -0.35 * steady_lean(body))
-    one_rim.put_on_floor(body, SMOOTH, Mode.SLIDING.value, lower_rim_of(y), y)
-    strong, weak = (turned_back(body, SMOOTH, Mode.SLIDING, side, 1e-9, y) for side in (1.0, -1.0))
+    put_on_floor(body, SMOOTH, Mode.SLIDING, y)
+    contact = held(body, SMOOTH, Mode.SLIDING, y)
+    strong, weak = (restoring_acceleration(contact, rim, 1e-9, y) for rim in (-1.0, 1.0))
     assert strong > 4 * weak > 0
-    assert not rocks_on_edge(body, SMOOTH, Mode.SLIDING.value, y)
+    assert not rocks_on_edge(held(body, SMOOTH, Mode.SLIDING, y), y)
     assert run(body, case.rules, y).outcome in {Outcome.HEADS, Outcome.TAILS}

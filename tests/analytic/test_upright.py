@@ -4,16 +4,12 @@ import numpy as np
 import pytest
 
 from cointoss.analytic.automaton import Event, Mode
-from cointoss.analytic.contact import modes, upright
-from cointoss.analytic.contact.edge import (
-    held_on_edge,
-    on_edge,
-    rolls,
-    stands,
-)
+from cointoss.analytic.contact import upright
+from cointoss.analytic.contact.edge.restoring import held_on_edge
+from cointoss.analytic.contact.edge.standing import on_edge, rolls, stands
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.rim_contact import both_rims
-from cointoss.analytic.contact.upright import rim_forces, start_creep
+from cointoss.analytic.contact.upright import rim_forces, start_slow_slip
 from cointoss.analytic.events import run
 from cointoss.analytic.numerics.tolerances import SLOW
 from cointoss.analytic.toss import state_of
@@ -23,7 +19,7 @@ from cointoss.models.barriers import energy
 from cointoss.models.geometry import gap
 from cointoss.models.laws import EndingTest
 from cointoss.models.records import Ending, Outcome
-from tests.helpers.contacts import follow_step, upright_coin
+from tests.helpers.contacts import end_mode, follow_step, held, upright_coin
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
 SMOOTH = FloorFriction(0.0)
@@ -40,10 +36,10 @@ def follow(body, y, time, longest, friction=SMOOTH):
     """Give the states and times of a coin that stays upright for `time`."""
     y, states, times = y.copy(), [y.copy()], [0.0]
     while times[-1] < time:
-        made, _, over, _ = follow_step(body, friction, Mode.UPRIGHT, y, min(longest, time - times[-1]))
-        assert not over
+        step = follow_step(body, friction, Mode.UPRIGHT, y, min(longest, time - times[-1]))
+        assert not step.is_over
         states.append(y.copy())
-        times.append(times[-1] + made)
+        times.append(times[-1] + step.elapsed)
     return np.array(states), np.array(times)
 
 
@@ -92,19 +88,18 @@ def test_a_coin_that_its_roll_tips_leaves_one_rim_and_falls_to_that_side():
     body = scenario(coin=UNBALANCED).body
     y = upright_coin(body, 3 * np.pi / 4, 59.4, 0.0)
     assert min(rim_forces(body, SMOOTH, y)) > 0
-    over, landing, time = False, Event.NONE, 0.0
-    while not over:
-        made, _, over, landing = follow_step(body, SMOOTH, Mode.UPRIGHT, y, 0.01)
-        time += made
+    step, time = follow_step(body, SMOOTH, Mode.UPRIGHT, y, 0.01), 0.0
+    while not step.is_over:
+        step = follow_step(body, SMOOTH, Mode.UPRIGHT, y, 0.01)
+        time += step.elapsed
         assert time < 0.2
-    assert landing == Event.NONE
+    assert step.event == Event.NONE
     N_tails, N_heads = rim_forces(body, SMOOTH, y)
     assert min(N_tails, N_heads) == pytest.approx(0, abs=1e-9 * M * G)
-    assert modes.next_event(body, SMOOTH, Mode.UPRIGHT, y) == Event.SLIPS
+    assert end_mode(body, SMOOTH, Mode.UPRIGHT, y) == Event.SLIDES
     side = 1 if N_tails > N_heads else -1
     for _ in range(20):
-        _, _, over, _ = follow_step(body, SMOOTH, Mode.SLIDING, y, 1e-3)
-        assert not over
+        assert not follow_step(body, SMOOTH, Mode.SLIDING, y, 1e-3).is_over
     assert side * rotation_matrix(tuple(y[6:10]))[2][2] > 1e-4
 
 
@@ -123,12 +118,12 @@ def test_a_coin_is_tried_on_either_rim_however_it_leans():
     body, found = scenario(coin=UNBALANCED).body, set()
     for turn in np.linspace(-70.0, 70.0, 29):
         level = upright_coin(body, 0.4, turn, 20.0)
-        held = held_on_edge(body, SMOOTH, Mode.SLIDING, level)
-        found.add(held)
+        is_held = held_on_edge(held(body, SMOOTH, Mode.SLIDING, level), level)
+        found.add(is_held)
         for lean in (-5e-7, 5e-7):
             leaning = level.copy()
             upright.tilt(leaning, lean)
-            assert held_on_edge(body, SMOOTH, Mode.SLIDING, leaning) == held
+            assert held_on_edge(held(body, SMOOTH, Mode.SLIDING, leaning), leaning) == is_held
     assert found == {True, False}
 
 
@@ -150,18 +145,21 @@ def test_a_coin_is_on_its_edge_by_parts_of_what_tips_it(thickness, part, is_on_i
 
 
 def test_without_loss_a_coin_stands_if_it_is_held_in_the_course_of_its_own_roll():
-    """The moment J_ζ ω_ζ Ω presses the rim on one side, for the other sense of turning that on the other."""
-    body = scenario(coin={**ZLOTY, "center_of_mass": (0.0, 0.0, 4e-4)}).body
-    in_air = scenario(coin={**ZLOTY, "center_of_mass": (0.0, 0.0, 4e-4)}, air=AIR).body
-    # Ω makes up for the lever of C beside B, so the coin would not be held at rest in the other sense.
-    roll = 0.8 * M * G * ZLOTY["thickness"] / 2 / (body.inertia[2][2] * 20.0)
-    found = {
-        (turn, air): stands(b, SMOOTH, Mode.SLIDING, upright_coin(b, 0.4, turn, roll))
-        for turn in (20.0, -20.0)
-        for air, b in (("vacuum", body), ("air", in_air))
-    }
-    assert sorted(found.values()) == [False, False, False, True]
-    assert found[20.0, "vacuum"] or found[-20.0, "vacuum"]
+    """(N_heads - N_tails) h/2 = m g c_ζ - J_ζ ω_ζ Ω, about C: below m g h/2 both rims are pressed.
+
+    In air the roll slows and may turn back: then the coin is not held.
+    """
+    coin, half = {**ZLOTY, "center_of_mass": (0.0, 0.0, 4e-4)}, ZLOTY["thickness"] / 2
+    vacuum, in_air = scenario(coin=coin).body, scenario(coin=coin, air=AIR).body
+    roll = 0.8 * M * G * half / (vacuum.inertia[2][2] * 20.0)
+    for turn, held_now in ((20.0, True), (-20.0, False)):
+        difference = M * G * 4e-4 - vacuum.inertia[2][2] * roll * turn
+        assert (abs(difference) < M * G * half) == held_now
+        y = upright_coin(vacuum, 0.4, turn, roll)
+        N_tails, N_heads = rim_forces(vacuum, SMOOTH, y)
+        assert (N_heads - N_tails) * half == pytest.approx(difference, rel=1e-9)
+        assert stands(held(vacuum, SMOOTH, Mode.SLIDING, y), y) == held_now
+        assert not stands(held(in_air, SMOOTH, Mode.SLIDING, y), y)
 
 
 def test_a_toss_that_comes_upright_is_followed_until_it_stands():
@@ -219,7 +217,7 @@ def test_a_coin_that_slides_upright_ends_rolling_at_two_thirds_of_its_speed():
     states, _ = follow(body, y, 2 * 0.5 / (mu * G), np.inf, FloorFriction(mu))
     assert states[-1][3:6] == pytest.approx(0.5 * 2 / 3 * along, abs=1e-6)
     assert rolls(body, FloorFriction(mu), states[-1])
-    assert stands(body, FloorFriction(mu), Mode.STICKING, states[-1])
+    assert stands(held(body, FloorFriction(mu), Mode.STICKING, states[-1]), states[-1])
 
 
 def test_an_unbalanced_coin_that_rolls_upright_keeps_its_energy_but_for_a_creep():
@@ -237,11 +235,12 @@ def test_an_unbalanced_coin_that_rolls_upright_keeps_its_energy_but_for_a_creep(
 
 
 @pytest.mark.parametrize(
-    ("roll_rate", "mu", "held"), [(12.0, 0.5, True), (12.0, 0.01, False), (100.0, 0.5, False)]
+    ("roll_rate", "mu", "is_held"), [(12.0, 0.5, True), (12.0, 0.01, False), (100.0, 0.5, False)]
 )
-def test_a_rolling_coin_stands_unless_it_skids_or_its_roll_tips_it(roll_rate, mu, held):
+def test_a_rolling_coin_stands_unless_it_skids_or_its_roll_tips_it(roll_rate, mu, is_held):
     body = scenario(coin=UNBALANCED).body
-    assert stands(body, FloorFriction(mu), Mode.STICKING, rolling(body, roll_rate)) == held
+    y = rolling(body, roll_rate)
+    assert stands(held(body, FloorFriction(mu), Mode.STICKING, y), y) == is_held
 
 
 @pytest.mark.parametrize("number", [5496, 6096, 4614, 7739])
@@ -297,7 +296,7 @@ def test_a_rim_that_stuck_takes_the_slow_slip_at_which_friction_holds_it(rim, mu
     body, dt = scenario(coin=UNBALANCED).body, 1e-8
     y = pivoting(body, turn_rate, rim)
     start = y.copy()
-    start_creep(body, FloorFriction(mu), rim, y)
+    start_slow_slip(held(body, FloorFriction(mu), Mode.STICKING, y)._replace(rim=rim), y)
     F = holding_force_of_the_rim_that_stuck(body, mu, rim, start)
     slip = -F[:2] / (mu * F[2]) * SLOW * max(mu, 1) * (G * R_COIN) ** 0.5
     assert np.hypot(*F[:2]) > 1e-2 * F[2]
@@ -318,7 +317,7 @@ def test_a_rim_that_friction_cannot_hold_takes_no_slip():
     body = scenario(coin=UNBALANCED).body
     y = pivoting(body, 30.0, -1.0)
     before = y.copy()
-    start_creep(body, FloorFriction(1e-3), -1.0, y)
+    start_slow_slip(held(body, FloorFriction(1e-3), Mode.STICKING, y)._replace(rim=-1.0), y)
     assert np.all(y == before)
 
 

@@ -250,10 +250,10 @@ def test_contact_in_air_is_the_engines():
     y = np.zeros(13)
     y[2], y[4], y[5] = np.array([-np.sin(tilt), drift / second, -np.cos(tilt) * spin / second]) * length
     y[6], y[7], y[10] = np.cos(tilt / 2), np.sin(tilt / 2), spin / second
-    over, step, lands = False, np.inf, Event.NONE
-    while not over:
-        _, step, over, lands = contact_step(scenario.body, FloorFriction(0.0), Mode.SLIDING, y, step)
-    assert lands == Event.FACE_LANDS
+    step = contact_step(scenario.body, FloorFriction(0.0), Mode.SLIDING, y, np.inf)
+    while not step.is_over:
+        step = contact_step(scenario.body, FloorFriction(0.0), Mode.SLIDING, y, step.next_dt)
+    assert step.event == Event.FACE_LANDS
     state = np.zeros((5, 2))
     state[:, 0] = [-np.sin(tilt), -np.cos(tilt) * spin, tilt, spin, drift]
     assert slide(coin, state, 1.0)[:4] == (False, False, 1.0, True)

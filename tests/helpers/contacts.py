@@ -2,28 +2,57 @@
 
 import numpy as np
 
-from cointoss.analytic.contact import upright
-from cointoss.analytic.contact.following import follow, start_following
+from cointoss.analytic.automaton import Event, Mode, contact_at, margin_event, mode_after, project
+from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.integrator import Step, contact_work, step_contact
+from cointoss.analytic.contact.resets import stop_slip
 from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.contact.upright import tip_over
 from cointoss.analytic.numerics.tolerances import STEP_ERROR
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.body import Body
 from cointoss.models.records import Array
 
+SMOOTH = FloorFriction(0.0)
 
-def follow_step(body: Body, friction: FloorFriction, mode: int, y: Array, dt: float):
-    """Follow a contact for one step, or to its end; see `cointoss.analytic.contact.following.follow`."""
-    return follow(body, friction, mode, y, dt, STEP_ERROR, start_following(body, friction, mode, y))
+
+def held(body: Body, friction: FloorFriction, mode: int, y: Array) -> Contact:
+    """Return the contact of a coin in the state y; see `cointoss.analytic.automaton.contact_at`."""
+    return contact_at(body, friction, int(mode), y)
+
+
+def put_on_floor(body: Body, friction: FloorFriction, mode: int, y: Array) -> None:
+    """Project y onto the floor, as its mode allows; see `cointoss.analytic.automaton.project`."""
+    project(held(body, friction, mode, y), y)
+
+
+def end_mode(body: Body, friction: FloorFriction, mode: int, y: Array) -> Event:
+    """Return the event of a mode whose margin is zero, past `TOUCHING`, and apply its reset to y."""
+    contact = held(body, friction, mode, y)
+    event = margin_event(contact, y)
+    if event == Event.TIPS_OVER:
+        tip_over(body, friction, y)
+        return end_mode(body, friction, Mode.TOUCHING, y)
+    if event in {Event.SLIP_STARTS, Event.SLIP_STOPS}:
+        stop_slip(contact, mode_after(int(mode), event), y)
+    return event
+
+
+def follow_step(body: Body, friction: FloorFriction, mode: int, y: Array, dt: float) -> Step:
+    """Advance y by one step in contact, or to its end; see `cointoss.analytic.contact.integrator`."""
+    contact = held(body, friction, mode, y)
+    return step_contact(contact, y, dt, STEP_ERROR, contact_work(contact, y))
 
 
 def follow_for(body: Body, friction: FloorFriction, mode: int, y: Array, time: float) -> tuple[Array, Array]:
     """Return the states and times after every step of a contact that goes on for `time`."""
     y, states, times, dt = y.copy(), [y.copy()], [0.0], np.inf
     while times[-1] < time:
-        made, dt, over, _ = follow_step(body, friction, mode, y, min(dt, time - times[-1]))
-        assert not over
+        step = follow_step(body, friction, mode, y, min(dt, time - times[-1]))
+        assert not step.is_over
+        dt = step.next_dt
         states.append(y.copy())
-        times.append(times[-1] + made)
+        times.append(times[-1] + step.elapsed)
     return np.array(states), np.array(times)
 
 
@@ -32,5 +61,5 @@ def upright_coin(body: Body, phase: float, turn_rate: float, roll_rate: float) -
     y = np.array([0, 0, 0, 0.1, -0.2, 0, *quaternion_from_angles((0.3, np.pi / 2, phase)), 0, 0, roll_rate])
     up = rotation_matrix(tuple(y[6:10]))[2]
     y[10:13] += turn_rate * np.array(up)
-    upright.put_on_floor(body, y)
+    put_on_floor(body, SMOOTH, Mode.UPRIGHT, y)
     return y

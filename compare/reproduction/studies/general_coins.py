@@ -12,8 +12,9 @@ from time import process_time
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.analytic.automaton import Mode
-from cointoss.analytic.contact.following import follow, friction_in_contact, start_following
+from cointoss.analytic.automaton import Mode, contact_at
+from cointoss.analytic.contact.floor_laws import friction_in_contact
+from cointoss.analytic.contact.integrator import contact_work, step_contact
 from cointoss.analytic.events import hit, run, toss_coin
 from cointoss.analytic.flight.flying import fly
 from cointoss.analytic.settings import MANY, contact_limits
@@ -254,14 +255,13 @@ def replay_contacts(body, rules, tolerance, start_times, modes, states, end_time
     """
     friction = friction_in_contact(rules)
     for i in range(len(states)):
-        y, mode, time, dt, over = states[i], modes[i], start_times[i], np.inf, False
-        stages = start_following(body, friction, mode, y)
+        y, mode, time, dt, over = states[i], int(modes[i]), start_times[i], np.inf, False
+        stages = contact_work(contact_at(body, friction, mode, y), y)
         while not over:
-            made, dt, over, _ = follow(
-                body, friction, mode, y, min(dt, rules.max_time - time), tolerance, stages
-            )
-            time += made
-            over = over or not time < end_times[i]
+            contact, longest = contact_at(body, friction, mode, y), min(dt, rules.max_time - time)
+            step = step_contact(contact, y, longest, tolerance, stages)
+            time += step.elapsed
+            dt, over = step.next_dt, step.is_over or not time < end_times[i]
 
 
 def claims(costs: GeneralCosts) -> tuple[Claim, ...]:

@@ -1,0 +1,52 @@
+"""Incipient slip: A slips slower than `SLOW`, and the force that would hold it is outside the friction cone.
+
+Friction turns such a slip at once into the direction in which it grows: see `starting_slip`.
+"""
+
+import math
+
+from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.floor_force import holding_force, sliding_force, starting_slip
+from cointoss.analytic.contact.one_rim import add_force, contact_in_flight, free_flow, put_on_floor
+from cointoss.analytic.contact.rim_contact import RimContact, accelerate
+from cointoss.analytic.numerics.tolerances import SLOW
+from cointoss.models.body import Body
+from cointoss.models.kernel.compiled import compiled, inlined
+from cointoss.models.kernel.vectors import subtract
+from cointoss.models.records import Array
+
+
+@inlined
+def flow(contact: Contact, y: Array, dy: Array) -> float:
+    """Write the rate of change of the state y into dy, and return the margin; see `automaton.flow`."""
+    A, mu = free_flow(contact, y, dy), contact.friction.sliding
+    K, b = A.delassus, A.free_acceleration
+    F = sliding_force(K, b, mu, starting_slip(K, b, mu))
+    return min(add_force(contact, A, F, dy), margin(contact.body, A, mu))
+
+
+@compiled
+def project(contact: Contact, y: Array) -> None:
+    """Leave A slip only in the direction in which it grows; see `automaton.project`."""
+    A = put_on_floor(contact, y)
+    B = contact_in_flight(contact, y)
+    s = starting_slip(B.delassus, B.free_acceleration, contact.friction.sliding)
+    v_A = A.velocity
+    speed = math.hypot(v_A[0], v_A[1]) if v_A[0] * s[0] + v_A[1] * s[1] > 0 else 0.0
+    S = holding_force(A.delassus, subtract(v_A, (speed * s[0], speed * s[1], 0.0)))
+    accelerate(contact.body, A, S, y)
+
+
+@compiled
+def margin(body: Body, A: RimContact, mu: float) -> float:
+    """Return how far incipient slip is from its end beside what ends every contact: > 0 in it.
+
+    It ends when friction holds A, when slip is no longer slow, or when friction would press a point down that
+    free flight lifts (Painlevé).
+    """
+    slip = math.hypot(A.velocity[0], A.velocity[1]) / (body.gravity * body.radius) ** 0.5
+    left = min(-A.free_acceleration[2] / body.gravity, SLOW - slip)
+    F = holding_force(A.delassus, A.free_acceleration)
+    if not F[2] > 0:
+        return left
+    return min(left, (math.hypot(F[0], F[1]) - mu * F[2]) / (body.mass * body.gravity))
