@@ -12,14 +12,28 @@ from cointoss.analytic.air.force import force_and_moment
 from cointoss.analytic.flight.equations_of_motion import derivative
 from cointoss.analytic.numerics.rotation import quaternion_rate
 from cointoss.models.attitude import rotation_matrix
-from tests.helpers import printed_equations as printed
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_quaternion, scenario
+from tests.helpers.printed_equations import EQUATIONS as PRINTED
 
 SEEDS = pytest.mark.parametrize("seed", range(10))
 EXACT = 1e-10
 """Agreement asked for, relative to the size of the terms."""
 WRONG = 1e-2
 """Above this part of the size of the terms a printed equation fails."""
+FIRST, SECOND = "- e1*d0 + e0*d1 + e3*d2 - e2*d3", "- e1*dd0 + e0*dd1 + e3*dd2 - e2*dd3"
+W_XI, W_ZETA = "e1*d0 - e0*d1 - e3*d2 + e2*d3", "e3*d0 - e2*d1 + e1*d2 - e0*d3"
+CORRECTED = {
+    # ω_ξ, not ω_ζ, in the first product: the two then cancel, as J_ξ = J_η asks.
+    36: PRINTED[36].corrected((W_ZETA, W_XI)),
+    # The factor 2 before all terms.
+    37: PRINTED[37].corrected(("e1*d3)) + ", "e1*d3) + "), ("e3*dd2 - e2*dd3)", "e3*dd2 - e2*dd3))")),
+    # Second derivatives in the last four terms, as in eq. (31).
+    38: PRINTED[38].corrected((FIRST, SECOND)),
+    # ω_ξ, not ω_ζ, in the first factors of the first and third products.
+    39: PRINTED[39].corrected((W_ZETA, W_XI)),
+    # Second derivatives.
+    42: PRINTED[42].corrected((FIRST[2:], SECOND[2:])),
+}
 
 IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 THIN_IMPERFECT = {**ZLOTY, "thickness": 0.0, "center_of_mass": [-1e-3, -1e-3, 0.0]}
@@ -97,10 +111,10 @@ def test_angular_velocity_is_the_rate_of_the_rotation_matrix(coin, seed):
     size = np.abs(motion.w).max()
     assert np.abs(R - motion.R).max() < 1e-15
     assert np.abs(R.T @ R_rate - skew(motion.w)).max() < EXACT * size
-    assert np.abs(printed.eq_17(**motion.symbols) - motion.w).max() < EXACT * size
-    assert np.abs(printed.eq_18(**motion.symbols) - motion.dw).max() < EXACT * size**2
+    assert np.abs(PRINTED[17](**motion.symbols) - motion.w).max() < EXACT * size
+    assert np.abs(PRINTED[18](**motion.symbols) - motion.dw).max() < EXACT * size**2
     # The space frame's Ω has its dot: Ṙ Rᵀ. Without it R Rᵀ is the unit matrix.
-    assert np.abs(R_rate @ R.T - skew(printed.eq_19(**motion.symbols))).max() < EXACT * size
+    assert np.abs(R_rate @ R.T - skew(PRINTED[19](**motion.symbols))).max() < EXACT * size
     assert np.abs(R.T @ (R_rate @ R.T) @ R - skew(motion.w)).max() < EXACT * size
     assert np.abs(R @ R.T - np.eye(3)).max() < 1e-14
 
@@ -108,13 +122,11 @@ def test_angular_velocity_is_the_rate_of_the_rotation_matrix(coin, seed):
 @SEEDS
 def test_eq_16_holds_in_two_entries_only(seed):
     motion = Motion(ZLOTY, seed)
-    error = np.abs(np.array(printed.eq_16(**motion.symbols)) - skew(motion.w)) / np.abs(motion.w).max()
+    error = np.abs(np.array(PRINTED[16](**motion.symbols)) - skew(motion.w)) / np.abs(motion.w).max()
     right = error < EXACT
     assert right.tolist() == [[True, True, True], [False, True, False], [False, False, True]]
     # What stands in the lower left corner is ω_z of eq. (19).
-    assert printed.eq_16(**motion.symbols)[2][0] == pytest.approx(
-        printed.eq_19(**motion.symbols)[2], rel=1e-12
-    )
+    assert PRINTED[16](**motion.symbols)[2][0] == pytest.approx(PRINTED[19](**motion.symbols)[2], rel=1e-12)
 
 
 @COINS
@@ -154,24 +166,24 @@ def test_vector_form_at_the_geometric_centre_eqs_23_24(coin, seed):
 @pytest.mark.parametrize("number", [26, 27, 28, 30, 31, 32])
 def test_scalar_forms_of_the_imperfect_coin_eqs_26_32(coin, seed, number):
     motion = Motion(coin, seed)
-    assert motion.misfit(getattr(printed, f"eq_{number}"), (number - 26) % 4) < EXACT
+    assert motion.misfit(PRINTED[number], (number - 26) % 4) < EXACT
 
 
 @COINS
 @SEEDS
 def test_constraint_on_the_euler_parameters_eq_33(coin, seed):
     motion = Motion(coin, seed)
-    assert abs(printed.eq_33(**motion.symbols)) < EXACT * (motion.w @ motion.w)
+    assert abs(PRINTED[33](**motion.symbols)) < EXACT * (motion.w @ motion.w)
 
 
 @SEEDS
 @pytest.mark.parametrize("thickness", [0.0, 2e-3])
 def test_scalar_forms_of_the_ideal_coin_eqs_34_36(seed, thickness):
     motion = Motion({**ZLOTY, "thickness": thickness}, seed)
-    assert motion.misfit(printed.eq_34, 0) < EXACT
-    assert motion.misfit(printed.eq_35, 1) < EXACT
-    assert motion.misfit(printed.eq_36, 2) > WRONG * abs(motion.w[1]) / 60
-    assert motion.misfit(corrected_36, 2) < EXACT
+    assert motion.misfit(PRINTED[34], 0) < EXACT
+    assert motion.misfit(PRINTED[35], 1) < EXACT
+    assert motion.misfit(PRINTED[36], 2) > WRONG * abs(motion.w[1]) / 60
+    assert motion.misfit(CORRECTED[36], 2) < EXACT
 
 
 @SEEDS
@@ -180,66 +192,10 @@ def test_scalar_forms_of_the_thin_coin_eqs_37_39(seed):
     assert motion.J[0, 2] == motion.J[1, 2] == 0
     assert abs(motion.J[0, 1]) > WRONG * motion.J[0, 0]
     for axis, (as_printed, corrected) in enumerate(
-        [(printed.eq_37, corrected_37), (printed.eq_38, corrected_38), (printed.eq_39, corrected_39)]
+        [(PRINTED[37], CORRECTED[37]), (PRINTED[38], CORRECTED[38]), (PRINTED[39], CORRECTED[39])]
     ):
         assert motion.misfit(as_printed, axis) > 1e-4
         assert motion.misfit(corrected, axis) < EXACT
-
-
-def corrected_36(*, m, r, h, e0, e1, e2, e3, d0, d1, d2, d3, dd0, dd1, dd2, dd3, **_):
-    """Give eq. (36) with ω_ξ, not ω_ζ, in the first product: the two then cancel, as J_ξ = J_η asks."""
-    return (m / 3) * (
-        (h**2 + 3 * r**2) * (e1 * d0 - e0 * d1 - e3 * d2 + e2 * d3) * (e2 * d0 + e3 * d1 - e0 * d2 - e1 * d3)
-        + (h**2 + 3 * r**2)
-        * (e2 * d0 + e3 * d1 - e0 * d2 - e1 * d3)
-        * (-e1 * d0 + e0 * d1 + e3 * d2 - e2 * d3)
-        + 3 * r**2 * (-e3 * dd0 + e2 * dd1 - e1 * dd2 + e0 * dd3)
-    )
-
-
-def corrected_37(*, J_xi, J_eta, J_zeta, J_xi_eta, e0, e1, e2, e3, d0, d1, d2, d3, dd0, dd1, dd2, dd3, **_):
-    """Give eq. (37) with the factor 2 before all its terms."""
-    return 2 * (
-        2 * J_zeta * (-e3 * d0 + e2 * d1 - e1 * d2 + e0 * d3) * (-e2 * d0 - e3 * d1 + e0 * d2 + e1 * d3)
-        - 2 * J_eta * (-e3 * d0 + e2 * d1 - e1 * d2 + e0 * d3) * (-e2 * d0 - e3 * d1 + e0 * d2 + e1 * d3)
-        + 2 * J_xi_eta * (-e3 * d0 + e2 * d1 - e1 * d2 + e0 * d3) * (-e1 * d0 + e0 * d1 + e3 * d2 - e2 * d3)
-        + J_xi_eta * (e2 * dd0 + e3 * dd1 - e0 * dd2 - e1 * dd3)
-        + J_xi * (-e1 * dd0 + e0 * dd1 + e3 * dd2 - e2 * dd3)
-    )
-
-
-def corrected_38(*, J_xi, J_eta, J_zeta, J_xi_eta, e0, e1, e2, e3, d0, d1, d2, d3, dd0, dd1, dd2, dd3, **_):
-    """Give eq. (38) with second derivatives in its last four terms, as in eq. (31)."""
-    return (
-        4 * J_zeta * (e3 * d0 - e2 * d1 + e1 * d2 - e0 * d3) * (-e1 * d0 + e0 * d1 + e3 * d2 - e2 * d3)
-        + 4 * J_xi * (-e3 * d0 + e2 * d1 - e1 * d2 + e0 * d3) * (-e1 * d0 + e0 * d1 + e3 * d2 - e2 * d3)
-        + 2 * J_eta * (-e2 * dd0 - e3 * dd1 + e0 * dd2 + e1 * dd3)
-        - 2
-        * J_xi_eta
-        * (
-            2 * (e3 * d0 - e2 * d1 + e1 * d2 - e0 * d3) * (e2 * d0 + e3 * d1 - e0 * d2 - e1 * d3)
-            - e1 * dd0
-            + e0 * dd1
-            + e3 * dd2
-            - e2 * dd3
-        )
-    )
-
-
-def corrected_39(*, J_xi, J_eta, J_zeta, J_xi_eta, e0, e1, e2, e3, d0, d1, d2, d3, dd0, dd1, dd2, dd3, **_):
-    """Give eq. (39) with ω_ξ, not ω_ζ, in the first factors of its first and third products."""
-    return (
-        4 * J_eta * (e1 * d0 - e0 * d1 - e3 * d2 + e2 * d3) * (e2 * d0 + e3 * d1 - e0 * d2 - e1 * d3)
-        + 4 * J_xi_eta * (e2 * d0 + e3 * d1 - e0 * d2 - e1 * d3) ** 2
-        + 4 * J_xi_eta * (e1 * d0 - e0 * d1 - e3 * d2 + e2 * d3) * (-e1 * d0 + e0 * d1 + e3 * d2 - e2 * d3)
-        + 4 * J_xi * (e2 * d0 + e3 * d1 - e0 * d2 - e1 * d3) * (-e1 * d0 + e0 * d1 + e3 * d2 - e2 * d3)
-        + 2 * J_zeta * (-e3 * dd0 + e2 * dd1 - e1 * dd2 + e0 * dd3)
-    )
-
-
-def corrected_42(*, J_xi_eta, e0, e1, e2, e3, dd0, dd1, dd2, dd3, **_):
-    """Give eq. (42) with second derivatives."""
-    return -2 * J_xi_eta * (-e1 * dd0 + e0 * dd1 + e3 * dd2 - e2 * dd3)
 
 
 SYMBOLS = {name: sympy.Symbol(name, real=True) for name in ["m", "r", "h", *E, *D, *DD]}
@@ -271,25 +227,25 @@ def vanishes(expression):
 @pytest.mark.parametrize(
     ("left", "axis", "moments", "holds"),
     [
-        (printed.eq_30, 0, {}, True),
-        (printed.eq_31, 1, {}, True),
-        (printed.eq_32, 2, {}, True),
-        (printed.eq_34, 0, NO_PRODUCTS | ideal_moments(), True),
-        (printed.eq_35, 1, NO_PRODUCTS | ideal_moments(), True),
-        (printed.eq_36, 2, NO_PRODUCTS | ideal_moments(), False),
-        (corrected_36, 2, NO_PRODUCTS | ideal_moments(), True),
-        (printed.eq_37, 0, FLAT, False),
-        (corrected_37, 0, FLAT, True),
-        (printed.eq_38, 1, FLAT, False),
-        (corrected_38, 1, FLAT, True),
-        (printed.eq_39, 2, FLAT, False),
-        (corrected_39, 2, FLAT, True),
+        (PRINTED[30], 0, {}, True),
+        (PRINTED[31], 1, {}, True),
+        (PRINTED[32], 2, {}, True),
+        (PRINTED[34], 0, NO_PRODUCTS | ideal_moments(), True),
+        (PRINTED[35], 1, NO_PRODUCTS | ideal_moments(), True),
+        (PRINTED[36], 2, NO_PRODUCTS | ideal_moments(), False),
+        (CORRECTED[36], 2, NO_PRODUCTS | ideal_moments(), True),
+        (PRINTED[37], 0, FLAT, False),
+        (CORRECTED[37], 0, FLAT, True),
+        (PRINTED[38], 1, FLAT, False),
+        (CORRECTED[38], 1, FLAT, True),
+        (PRINTED[39], 2, FLAT, False),
+        (CORRECTED[39], 2, FLAT, True),
     ],
-    ids=lambda value: getattr(value, "__name__", ""),
+    ids=lambda value: getattr(value, "name", ""),
 )
 def test_in_symbols_the_forms_in_euler_parameters_are_eq_22(left, axis, moments, holds):
     symbols = SYMBOLS | MOMENTS | moments
-    right = vector_form(symbols, printed.eq_17(**symbols), printed.eq_18(**symbols))[axis]
+    right = vector_form(symbols, PRINTED[17](**symbols), PRINTED[18](**symbols))[axis]
     assert vanishes(left(**symbols) - right) == holds
 
 
@@ -298,7 +254,7 @@ def test_in_symbols_the_forms_in_angular_velocity_are_eq_22(number):
     names = [f"{kind}_{axis}" for kind in ("w", "dw") for axis in ("xi", "eta", "zeta")]
     rates = {name: sympy.Symbol(name) for name in names}
     right = vector_form(MOMENTS, [rates[name] for name in names[:3]], [rates[name] for name in names[3:]])
-    assert vanishes(getattr(printed, f"eq_{number}")(**MOMENTS, **rates) - right[number - 26])
+    assert vanishes(PRINTED[number](**MOMENTS, **rates) - right[number - 26])
 
 
 def test_in_symbols_eq_18_is_the_derivative_of_eq_17():
@@ -306,7 +262,7 @@ def test_in_symbols_eq_18_is_the_derivative_of_eq_17():
     e = [sympy.Function(name)(t) for name in E]
     d, dd = [x.diff(t) for x in e], [x.diff(t, 2) for x in e]
     symbols = dict(zip([*E, *D, *DD], [*e, *d, *dd], strict=True))
-    for spin, rate in zip(printed.eq_17(**symbols), printed.eq_18(**symbols), strict=True):
+    for spin, rate in zip(PRINTED[17](**symbols), PRINTED[18](**symbols), strict=True):
         assert sympy.expand(sympy.diff(spin, t) - rate) == 0
 
 
@@ -329,10 +285,10 @@ def test_in_symbols_plane_motion_eqs_41_47():
     # Eqs (45)-(46).
     assert sympy.simplify(e0 * dd1 - e1 * dd0 - theta_acceleration / 2) == 0
     assert sympy.simplify(e1 * d0 - e0 * d1 + theta_rate / 2) == 0
-    assert sympy.simplify(printed.eq_41(**symbols) - M[0]) == 0
-    assert sympy.simplify(printed.eq_42(**symbols) - M[1]) != 0
-    assert sympy.simplify(corrected_42(**symbols) - M[1]) == 0
-    assert sympy.simplify(printed.eq_43(**symbols) - M[2]) == 0
+    assert sympy.simplify(PRINTED[41](**symbols) - M[0]) == 0
+    assert sympy.simplify(PRINTED[42](**symbols) - M[1]) != 0
+    assert sympy.simplify(CORRECTED[42](**symbols) - M[1]) == 0
+    assert sympy.simplify(PRINTED[43](**symbols) - M[2]) == 0
     # Eq. (47); the line before it prints 0 = M_ζ.
     assert sympy.expand(M[0] - symbols["J_xi"] * theta_acceleration) == 0
     assert sympy.expand(M[1] + symbols["J_xi_eta"] * theta_acceleration) == 0
@@ -343,7 +299,7 @@ def test_in_symbols_plane_motion_eqs_41_47():
 def test_in_symbols_plane_motion_needs_the_product_xi_zeta_to_vanish():
     product = MOMENTS["J_xi_zeta"]
     symbols, M, theta_rate, _ = planar(product)
-    assert sympy.simplify(M[1] - corrected_42(**symbols) - product * theta_rate**2) == 0
+    assert sympy.simplify(M[1] - CORRECTED[42](**symbols) - product * theta_rate**2) == 0
 
 
 @SEEDS

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from cointoss.models.laws import ContactLaw
-from tests.helpers import printed_equations as printed
 from tests.helpers.draws import PAPER_LAWS, PAPER_OFFSET
 from tests.helpers.impacts import draw_impact, struck
+from tests.helpers.printed_equations import EQUATIONS as PRINTED
 
 COUNT = 50
 EXACT = 1e-10
@@ -42,13 +42,13 @@ class Struck:
 def printed_90(symbols):
     """Give eq. (90) with the subscripts that it prints: J_ξξ, J_ηξ, J_ζξ in the places of J_ξζ, J_ηζ, J_ζ."""
     literal = {"J_xi_xi": "J_xi", "J_eta_xi": "J_xi_eta", "J_zeta_xi": "J_xi_zeta"}
-    return printed.eq_90(**symbols, **{name: symbols[meant] for name, meant in literal.items()})
+    return PRINTED[90](**symbols, **{name: symbols[meant] for name, meant in literal.items()})
 
 
 def corrected_90(symbols):
     """Give eq. (90) with J_ξζ, J_ηζ, J_ζ."""
     meant = {"J_xi_xi": "J_xi_zeta", "J_eta_xi": "J_eta_zeta", "J_zeta_xi": "J_zeta"}
-    return printed.eq_90(**symbols, **{name: symbols[other] for name, other in meant.items()})
+    return PRINTED[90](**symbols, **{name: symbols[other] for name, other in meant.items()})
 
 
 @pytest.mark.parametrize("law", PAPER_LAWS)
@@ -57,12 +57,12 @@ def test_every_law_obeys_eqs_86_to_90(law):
     for _ in range(COUNT):
         impact = Struck(rng, law)
         symbols = impact.symbols
-        assert abs(printed.eq_86(**symbols)) < EXACT * impact.speed
+        assert abs(PRINTED[86](**symbols)) < EXACT * impact.speed
         assert (
             np.abs(impact.m * (impact.v_after - impact.v) - impact.S).max() < EXACT * np.abs(impact.S).max()
         )
-        assert abs(printed.eq_88(**symbols)) < EXACT * impact.spin_size
-        assert abs(printed.eq_89(**symbols)) < EXACT * impact.spin_size
+        assert abs(PRINTED[88](**symbols)) < EXACT * impact.spin_size
+        assert abs(PRINTED[89](**symbols)) < EXACT * impact.spin_size
         assert abs(corrected_90(symbols)) < EXACT * impact.spin_size
 
 
@@ -81,10 +81,10 @@ def test_the_perfectly_rough_coin_obeys_eqs_91_and_92_and_the_smooth_one_does_no
     rng = np.random.default_rng(51)
     for _ in range(COUNT):
         rough = Struck(rng, ContactLaw.PERFECTLY_ROUGH)
-        assert abs(printed.eq_91(**rough.symbols)) < EXACT * rough.speed
-        assert abs(printed.eq_92(**rough.symbols)) < EXACT * rough.speed
+        assert abs(PRINTED[91](**rough.symbols)) < EXACT * rough.speed
+        assert abs(PRINTED[92](**rough.symbols)) < EXACT * rough.speed
         smooth = Struck(rng, ContactLaw.SMOOTH)
-        slip = abs(printed.eq_91(**smooth.symbols)) + abs(printed.eq_92(**smooth.symbols))
+        slip = abs(PRINTED[91](**smooth.symbols)) + abs(PRINTED[92](**smooth.symbols))
         assert slip > 1e-3 * smooth.speed
 
 
@@ -103,19 +103,19 @@ def test_the_smooth_ideal_coin_obeys_eqs_93_to_97_and_the_imperfect_one_does_not
     ideal, imperfect = ideal_and_imperfect(np.random.default_rng(52), ContactLaw.SMOOTH, COUNT)
     for impact in ideal:
         gained = impact.m * (impact.v_after - impact.v)
-        assert abs(printed.eq_93(**impact.symbols)) < EXACT * impact.speed
+        assert abs(PRINTED[93](**impact.symbols)) < EXACT * impact.speed
         assert gained[:2].tolist() == [0, 0]
         assert gained[2] == pytest.approx(impact.S[2], rel=EXACT)
-        for form in (printed.eq_95, printed.eq_96, printed.eq_97):
+        for form in (PRINTED[95], PRINTED[96], PRINTED[97]):
             assert abs(form(**impact.symbols)) < EXACT * impact.spin_size
-    errors = [abs(printed.eq_95(**impact.symbols)) / impact.spin_size for impact in imperfect]
+    errors = [abs(PRINTED[95](**impact.symbols)) / impact.spin_size for impact in imperfect]
     assert np.median(errors) > 1e-3, "the products of inertia count"
 
 
 def test_the_contact_point_is_measured_from_the_mass_centre():
     _, imperfect = ideal_and_imperfect(np.random.default_rng(53), ContactLaw.SMOOTH, COUNT, from_B=True)
-    newton = [abs(printed.eq_86(**impact.symbols)) / impact.speed for impact in imperfect]
-    turning = [abs(printed.eq_88(**impact.symbols)) / impact.spin_size for impact in imperfect]
+    newton = [abs(PRINTED[86](**impact.symbols)) / impact.speed for impact in imperfect]
+    turning = [abs(PRINTED[88](**impact.symbols)) / impact.spin_size for impact in imperfect]
     assert min(np.median(newton), np.median(turning)) > 1e-3
 
 
