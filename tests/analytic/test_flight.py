@@ -13,9 +13,9 @@ from cointoss.analytic.numerics.tableau import STAGES
 from cointoss.analytic.toss import state_of
 from cointoss.compare.metrics.trajectories import attitude_angle
 from cointoss.models.attitude import rotation_matrix
-from cointoss.models.geometry import gap
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
 from tests.helpers.referee import Referee
+from tests.helpers.states import energies, gaps
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
@@ -73,11 +73,9 @@ def test_energy_and_angular_momentum_are_kept_in_vacuum():
     for _ in range(1000):
         case = in_flight(rng, in_air=False)
         states = analytic.toss(case).sample(np.linspace(0, 0.5, 4))
-        J, w, v = case.coin.inertia_about_C, states.angular_velocity, states.velocity
         R = np.array([rotation_matrix(tuple(e)) for e in states.quaternion])
-        L = np.einsum("nij,jk,nk->ni", R, J, w)
-        E = np.einsum("ni,ij,nj->n", w, J, w) / 2
-        E += case.coin.mass * (np.sum(v * v, axis=1) / 2 + 9.81 * states.position[:, 2])
+        L = np.einsum("nij,jk,nk->ni", R, case.coin.inertia_about_C, states.angular_velocity)
+        E = energies(case, states)
         assert np.abs(E / E[0] - 1).max() < 1e-11
         assert np.linalg.norm(L - L[0], axis=1).max() < 1e-11 * np.linalg.norm(L[0])
 
@@ -88,10 +86,7 @@ def test_air_never_adds_energy(b, tosses):
     for _ in range(tosses):
         case = in_flight(rng, in_air=True, exponent=b)
         states = analytic.toss(case).sample(np.linspace(0, 0.5, 200))
-        w, v = states.angular_velocity, states.velocity
-        E = np.einsum("ni,ij,nj->n", w, case.coin.inertia_about_C, w) / 2
-        E += case.coin.mass * (np.sum(v * v, axis=1) / 2 + 9.81 * states.position[:, 2])
-        assert np.all(np.diff(E) < 0)
+        assert np.all(np.diff(energies(case, states)) < 0)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -162,14 +157,12 @@ def test_the_acceleration_of_the_gap_is_that_of_its_samples(seed):
     case = in_flight(rng, in_air=True)
     body, dt = case.body, 1e-4
     states = analytic.toss(case).sample([0.2 - dt, 0.2, 0.2 + dt])
-    gaps = [
-        gap(body, x[2], rotation_matrix(tuple(e))[2])
-        for x, e in zip(states.position, states.quaternion, strict=True)
-    ]
     columns = (states.position, states.velocity, states.quaternion, states.angular_velocity)
     y = np.concatenate([column[1] for column in columns])
     # Second differences err by the gap's fourth derivative, ~ r w^4 dt^2/12, and by rounding, 1e-15/dt^2.
-    assert gap_acceleration(body, y) == pytest.approx(np.diff(gaps, 2)[0] / dt**2, rel=1e-3, abs=1e-3)
+    assert gap_acceleration(body, y) == pytest.approx(
+        np.diff(gaps(body, states), 2)[0] / dt**2, rel=1e-3, abs=1e-3
+    )
 
 
 @pytest.mark.parametrize("sums", [(1e300, 1e302), (1e304, 1e308), (1e306, np.inf), (np.inf, np.inf)])

@@ -213,14 +213,7 @@ def test_a_toss_flies_no_more_steps_than_its_budget():
     settings = replace(MANY, flight_steps=7)
     one = coin_mj.toss(case, settings=settings)
     assert (one.outcome, one.ending) == (Outcome.UNDECIDED, Ending.FLIGHT_STEPS)
-    release = case.release
-    releases = Releases(
-        position=np.array([release.position]),
-        velocity=np.array([release.velocity]),
-        quaternion=np.array([release.attitude]),
-        angular_velocity=np.array([release.angular_velocity]),
-    )
-    many = coin_mj.toss_many(case, releases, settings=settings)
+    many = coin_mj.toss_many(case, Releases.of(case, 1), settings=settings)
     assert (many.ending[0], many.end_time[0]) == (Ending.FLIGHT_STEPS, one.end_time)
     whole = coin_mj.toss(case, settings=MANY)
     assert whole.ending == Ending.MAX_IMPACTS

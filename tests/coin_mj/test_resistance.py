@@ -16,6 +16,7 @@ from cointoss.models.attitude import rotation_matrix
 from cointoss.models.kernel.vectors import cross
 from cointoss.models.records import ApproximationWarning, Ending, Outcome, UnsupportedError
 from tests.helpers.draws import AIR, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
+from tests.helpers.states import energies
 
 pytestmark = [
     pytest.mark.filterwarnings(f"ignore::{ApproximationWarning.__module__}.ApproximationWarning"),
@@ -154,10 +155,7 @@ def test_energy_never_rises(law, size):
         floor.update(rolling_friction=size, pivoting_friction=size)
         case = scenario(coin=draw_coin(rng), floor=floor, release=draw_release(rng))
         tossed = coin_mj.toss(case)
-        states = tossed.sample(np.linspace(0, tossed.end_time, 1001))
-        v, w = states.velocity, states.angular_velocity
-        energy = M * ((v**2).sum(1) / 2 + G * states.position[:, 2])
-        energy += np.einsum("ni,ij,nj->n", w, np.array(case.body.inertia), w) / 2
+        energy = energies(case, tossed.sample(np.linspace(0, tossed.end_time, 1001)))
         gain = np.max(energy - np.minimum.accumulate(energy)) / energy[0]
         # As without resistance: MuJoCo's steps in a contact change about 1e-3 of the energy in a second.
         assert gain < 2e-3

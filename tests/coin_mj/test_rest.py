@@ -17,8 +17,8 @@ from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import energy
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
 from cointoss.models.records import Ending, Outcome
-from cointoss.models.releases import Releases
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.many import draw_releases
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
@@ -173,12 +173,6 @@ def test_a_coin_that_turns_upright_stands(rate):
     assert len(tossed.impacts) < 200
 
 
-def draw_releases(rng, n):
-    drawn = [draw_release(rng) for _ in range(n)]
-    names = ("position", "velocity", "quaternion", "angular_velocity")
-    return Releases(**{name: np.array([one[name] for one in drawn]) for name in names})
-
-
 @pytest.mark.parametrize("realisation", list(coin_mj.Realisation))
 @pytest.mark.parametrize("law", ["smooth", "coulomb"])
 @pytest.mark.parametrize("air", [{}, AIR])
@@ -193,7 +187,7 @@ def test_random_tosses_are_decided(realisation, law, air, thickness):
             floor={"contact": law, "friction": 0.3, "restitution": chi},
             air=air,
         )
-        outcomes = coin_mj.toss_many(case, draw_releases(rng, 6 if air else 2), settings=settings)
+        outcomes = coin_mj.toss_many(case, draw_releases(rng, 6 if air else 2)[1], settings=settings)
         assert set(outcomes.outcome.tolist()) <= DECIDED
         if air:
             assert Outcome.PERPETUAL not in outcomes.outcome
@@ -207,7 +201,7 @@ def test_outcomes_are_as_frequent_as_those_of_the_other_engine(law):
     case = scenario(floor={"contact": law, "friction": 0.3, "restitution": 0.6}, air=AIR)
     counts = {}
     for seed, (name, engine) in enumerate({"analytic": analytic, "mujoco": coin_mj}.items()):
-        outcomes = engine.toss_many(case, draw_releases(np.random.default_rng([7, seed]), 600))
+        outcomes = engine.toss_many(case, draw_releases(np.random.default_rng([7, seed]), 600)[1])
         counts[name] = [
             int(np.sum(outcomes.outcome == outcome))
             for outcome in (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE)

@@ -29,7 +29,7 @@ from cointoss.compare.output.files import UnwritableError, require_file, write_t
 from cointoss.compare.report.contents import FILES
 from cointoss.models.reading import load, named_scenarios, scenario_text
 from cointoss.models.scenario import Scenario
-from tests.helpers.command_line import HERE, cointoss
+from tests.helpers.command_line import HERE, cointoss, refused
 from tests.helpers.films import film_written
 from tests.helpers.processes import started
 
@@ -109,9 +109,6 @@ def test_a_number_of_flight_steps_ends_a_toss_in_mujoco_that_flies_on():
     assert answered.exit_code == 0
     assert "outcome   undecided" in answered.stdout
     assert "--flight-steps N" in answered.stdout
-    refused = cointoss("toss", "fig24a", "--flight-steps", 7)
-    assert refused.exit_code == 2
-    assert "--flight-steps 7: accepted: only beside --engine mujoco" in refused.stderr
 
 
 def test_text_shows_sequence_outcome_and_horizon():
@@ -187,20 +184,16 @@ def test_a_wrong_scenario_is_exit_status_2_and_one_line(tmp_path, command, text)
     source = tmp_path / "wrong.toml"
     source.write_text(text)
     out = tmp_path / ("film.mp4" if command == "video" else "folder")
-    answered = cointoss(command, source, *([] if command == "toss" else ["--out", out]))
-    assert answered.exit_code == 2
-    assert answered.stdout == ""
-    assert answered.stderr.startswith(f"cointoss: {source}: ")
-    assert len(answered.stderr.splitlines()) == 1
+    said = refused(command, source, *([] if command == "toss" else ["--out", out]))
+    assert said.startswith(f"cointoss: {source}: ")
     assert not out.exists()
 
 
 def test_what_an_engine_cannot_do_is_exit_status_2(tmp_path):
     source = tmp_path / "rough.toml"
     source.write_text(scenario_text("fig24a").replace('"smooth"', '"knurled"'))
-    answered = cointoss("toss", source, "--engine", "mujoco")
-    assert answered.exit_code == 2
-    assert answered.stderr.startswith(f'cointoss: {source}: floor.contact = "knurled": accepted by the')
+    said = refused("toss", source, "--engine", "mujoco")
+    assert said.startswith(f'cointoss: {source}: floor.contact = "knurled": accepted by the')
 
 
 def test_a_floor_that_mujoco_comes_near_to_is_told_in_one_line(tmp_path):
@@ -236,9 +229,6 @@ def test_a_contact_may_take_one_step(tmp_path):
     assert "floor.restitution = 0" in cointoss(*dead).stderr
     answered = cointoss(*dead, "--contact", "one_step", "--json")
     assert len(json.loads(answered.stdout)["impacts"]) == 1
-    answered = cointoss("toss", source, "--contact", "one_step")
-    assert answered.exit_code == 2
-    assert answered.stderr.startswith("cointoss: --contact one_step: accepted: only beside --engine mujoco")
 
 
 def test_without_a_command_it_prints_its_help():
@@ -296,23 +286,6 @@ def test_a_shell_completes_names(line, number, names):
     assert ("file,fig18" in completed(line, number)) == ("toss fig18" in line)
 
 
-def test_places_that_cannot_be_written_are_refused_before_the_work(tmp_path):
-    (tmp_path / "file").write_text("mine")
-    for command, target in (
-        (["compare", "fig24a", "--out"], tmp_path / "file"),
-        (["compare", "fig24a", "--out"], tmp_path / "file" / "below"),
-        (["video", "fig24a", "--out"], tmp_path / "nowhere" / "film.mp4"),
-        (["toss", "fig24a", "--trajectory"], tmp_path),
-        (["toss", "fig24a", "--trajectory"], tmp_path / "nowhere" / "path.csv"),
-    ):
-        answered = cointoss(*command, target)
-        assert answered.exit_code == 2
-        assert str(target) in answered.stderr
-        assert "accepted:" in answered.stderr or "can't be written" in answered.stderr
-    assert [path.name for path in tmp_path.iterdir()] == ["file"]
-    assert (tmp_path / "file").read_text() == "mine"
-
-
 def test_a_failed_write_leaves_what_was_there(tmp_path):
     target = tmp_path / "kept.txt"
     write_text(target, "first")
@@ -325,10 +298,9 @@ def test_a_failed_write_leaves_what_was_there(tmp_path):
 def test_what_would_split_the_message_is_shown_escaped(tmp_path):
     source = tmp_path / "two\nlines.toml"
     source.write_text('gravity = "a\\nb"\n"c\\td" = 1')
-    answered = cointoss("toss", source)
-    assert len(answered.stderr.splitlines()) == 1
-    assert "two\\nlines.toml" in answered.stderr
-    assert "c\\td" in answered.stderr
+    said = refused("toss", source)
+    assert "two\\nlines.toml" in said
+    assert "c\\td" in said
 
 
 def test_an_output_is_never_the_scenario(tmp_path):
@@ -341,9 +313,8 @@ def test_an_output_is_never_the_scenario(tmp_path):
         (["toss", "--trajectory"], "coin.csv", "link-coin.csv"),
         (["video", "--out"], "coin.mp4", "coin.mp4"),
     ):
-        answered = cointoss(*command, tmp_path / target, tmp_path / source)
-        assert answered.exit_code == 2
-        assert "is the scenario; accepted: another file" in answered.stderr
+        said = refused(*command, tmp_path / target, tmp_path / source)
+        assert "is the scenario; accepted: another file" in said
     assert (tmp_path / "coin.csv").read_text() == (tmp_path / "coin.mp4").read_text() == text
 
 
@@ -509,9 +480,8 @@ def test_an_interrupted_film_leaves_what_was_there(tmp_path, short):
 def test_a_law_that_mujoco_lacks_is_filmed_by_the_analytic_engine_only(tmp_path):
     film = tmp_path / "film.mp4"
     for engine in ("mujoco", "both"):
-        answered = cointoss("video", "contact_knurled", "--engine", engine, "--out", film)
-        assert answered.exit_code == 2
-        assert 'floor.contact = "knurled": accepted by the MuJoCo engine' in answered.stderr
+        said = refused("video", "contact_knurled", "--engine", engine, "--out", film)
+        assert 'floor.contact = "knurled": accepted by the MuJoCo engine' in said
         assert not film.exists()
     source = tmp_path / "knurled.toml"
     source.write_text(scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 1"))
@@ -565,9 +535,8 @@ def test_a_path_of_too_many_rows_is_refused(tmp_path):
     source = tmp_path / "long.toml"
     text = scenario_text("fig24a").replace("0.40001", "1e8")
     source.write_text(text + "\n[ending]\nmax_time = 2000\n")
-    answered = cointoss("toss", source, "--trajectory", tmp_path / "path.csv")
-    assert answered.exit_code == 2
-    assert answered.stderr.startswith(f"cointoss: {source}: ending.max_time = 2000: accepted")
+    said = refused("toss", source, "--trajectory", tmp_path / "path.csv")
+    assert said.startswith(f"cointoss: {source}: ending.max_time = 2000: accepted")
     assert not (tmp_path / "path.csv").exists()
 
 

@@ -20,7 +20,7 @@ from cointoss.compare.film.back_end import BackEndError
 from cointoss.compare.sweep import reading
 from cointoss.compare.sweep.grid import tile_shape, tiles
 from cointoss.compare.sweep.reading import read_map
-from tests.helpers.command_line import cointoss
+from tests.helpers.command_line import cointoss, refused
 from tests.helpers.explored import AXES, SCENARIO, got, small_map
 from tests.helpers.processes import started
 
@@ -36,14 +36,6 @@ def copy(whole, tmp_path):
     return shutil.copytree(whole, tmp_path / "map.zarr")
 
 
-def refused(*arguments):
-    answered = cointoss("explore", *arguments)
-    assert answered.exit_code == 2
-    assert answered.stdout == ""
-    assert len(answered.stderr.splitlines()) == 1
-    return answered.stderr
-
-
 def test_a_map_that_is_gone_or_foreign_is_refused(tmp_path):
     (tmp_path / "file.zarr").write_text("a file")
     (tmp_path / "empty.zarr").mkdir()
@@ -54,7 +46,7 @@ def test_a_map_that_is_gone_or_foreign_is_refused(tmp_path):
         ("empty.zarr", "is no map of cointoss (empty.zarr: no zarr.json)"),
         ("foreign.zarr", "is no map of cointoss (attribute cointoss_map is not 1)"),
     ):
-        said = refused(tmp_path / name)
+        said = refused("explore", tmp_path / name)
         assert said.startswith(f"cointoss: {tmp_path / name}: {reason}")
         assert "accepted: a map that cointoss basin made" in said
 
@@ -85,7 +77,7 @@ def changed(path, **attributes):
 )
 def test_a_damaged_map_is_refused(copy, attributes, reason):
     changed(copy, **attributes)
-    said = refused(copy)
+    said = refused("explore", copy)
     assert said.count(str(copy)) == 1
     assert reason in said
 
@@ -103,17 +95,17 @@ def test_a_map_by_mujoco_is_not_to_blame_for_a_back_end_that_is_missing(copy, mo
 
     changed(copy, engine=Engine.MUJOCO)
     monkeypatch.setattr(reading, "require_mujoco", missing)
-    assert refused(copy) == "cointoss: MUJOCO_GL = x: MuJoCo can't be used\n"
+    assert refused("explore", copy) == "cointoss: MUJOCO_GL = x: MuJoCo can't be used\n"
 
 
 def test_a_map_without_an_axis_or_of_another_shape_is_refused(copy):
     shutil.rmtree(copy / "release.position.z")
-    assert "is no map of cointoss (release.position.z: no zarr.json)" in refused(copy)
+    assert "is no map of cointoss (release.position.z: no zarr.json)" in refused("explore", copy)
 
 
 def test_a_map_of_too_many_pixels_is_refused(whole, monkeypatch):
     monkeypatch.setattr(reading, "MOST_READ", 400)
-    assert "has 24 by 18 pixels; accepted: a map of at most 400 pixels" in refused(whole)
+    assert "has 24 by 18 pixels; accepted: a map of at most 400 pixels" in refused("explore", whole)
 
 
 @pytest.mark.parametrize("tile", [None, 35, 64])
@@ -167,15 +159,18 @@ def test_margins_are_read(whole, tmp_path):
 def test_a_port_in_use_is_refused(whole):
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]
-        said = refused(whole, "--port", port)
+        said = refused("explore", whole, "--port", port)
     assert f"--port {port}: another program listens there; accepted: another port" in said
-    assert "accepted: an integer >= 1 and <= 65535" in refused(whole, "--port", 70000)
+    assert "accepted: an integer >= 1 and <= 65535" in refused("explore", whole, "--port", 70000)
 
 
 def test_the_static_page_takes_no_port(whole, tmp_path):
-    assert "--static: accepted" in refused(whole, "--static", tmp_path / "page.html", "--no-browser")
-    assert "ends in .html" in refused(whole, "--static", tmp_path / "page.txt")
-    assert "in a folder that exists" in refused(whole, "--static", tmp_path / "nowhere" / "page.html")
+    for name, more, said in (
+        ("page.html", ["--no-browser"], "--static: accepted"),
+        ("page.txt", [], "ends in .html"),
+        ("nowhere/page.html", [], "in a folder that exists"),
+    ):
+        assert said in refused("explore", whole, "--static", tmp_path / name, *more)
 
 
 @pytest.mark.parametrize(

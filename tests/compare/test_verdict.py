@@ -1,5 +1,6 @@
 """The verdict of a report: its words in every case, with the numbers of the comparison."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -43,173 +44,87 @@ def compared(a, b, prefix, horizon):
     return found
 
 
-DECIDE = "tiny errors decide, and neither engine is wrong."
-HEADS_TAILS = "Heads by the analytic engine, tails by MuJoCo:"
-HEADS, TAILS = made("HHT"), made("HTT", Outcome.TAILS)
-CAUGHT = made("", ending=Ending.CAUGHT)
-CAUGHT_AFTER = made("HT", ending=Ending.CAUGHT)
-CUT = made("HH", Outcome.UNDECIDED, ending=Ending.MAX_IMPACTS)
-ROLLED = made("HH", contacts=[(0.5, 0.7)])
-ROLLED_ON = made("HHH", Outcome.TAILS, contacts=[(0.5, 0.7)])
+TOSSES = {
+    "HHT": made("HHT"),
+    "HTT": made("HTT", Outcome.TAILS),
+    "HHTH": made("HHTH"),
+    "TTT": made("TTT", Outcome.TAILS),
+    "turned": made("HHT", Outcome.TAILS),
+    "rolled": made("HH", contacts=[(0.5, 0.7)]),
+    "rolled-upright": made("HH", Outcome.EDGE, contacts=[(0.5, 0.7)]),
+    "rolled-on": made("HHH", contacts=[(0.5, 0.7)]),
+    "rolled-over": made("HHH", Outcome.TAILS, contacts=[(0.5, 0.7)]),
+    "caught": made("", ending=Ending.CAUGHT),
+    "caught-turned": made("", Outcome.TAILS, ending=Ending.CAUGHT),
+    "bounced": made("HT", ending=Ending.CAUGHT),
+    "bounced-turned": made("HT", Outcome.TAILS, ending=Ending.CAUGHT),
+    "cut": made("HH", Outcome.UNDECIDED, ending=Ending.MAX_IMPACTS),
+    "flying": made("", Outcome.UNDECIDED, ending=Ending.MAX_TIME),
+}
+VERDICTS = """
+HHT HHT 3 3 AGREE
+    Heads by both engines: they agree on all 3 impacts, as they must.
+HHT HHT 3 1 AGREE
+    Heads by both engines: they agree on all 3 impacts. The first must agree; after that DECIDE
+HHT HHTH 3 2 DIFFER
+    Heads by both engines: they agree on the first 3 impacts. The first 2 must agree; after that DECIDE
+HHT HTT 1 1 DIFFER
+    HEADS, TAILS: they agree on the first impact, as they must; after that DECIDE
+HHT TTT 0 0 DIFFER
+    HEADS, TAILS: they differ from the first impact on. Not even that must agree: DECIDE
+HHT HTT 1 0 DIFFER
+    HEADS, TAILS: they agree on the first impact. Not even the first must agree: DECIDE
+HHT HTT 1 2 FAULT
+    HEADS, TAILS: they differ at impact 2, although the first 2 impacts must agree. FAULTY
+HHT turned 3 3 FAULT
+    HEADS, TAILS: they differ, although all 3 impacts must lead to the same. FAULTY
+rolled rolled-upright 2 2 DIFFER
+    HEADS, on its edge by MuJoCo: they agree on both impacts, as they must; what the floor does after that
+    decides.
+rolled rolled-on 2 2 AGREE
+    Heads by both engines: they agree on the 2 impacts that both count, as they must.
+rolled-over rolled 2 1 DIFFER
+    Tails by the analytic engine, heads by MuJoCo: they agree on the first 2 impacts. The first must agree;
+    after that DECIDE
+caught caught 0 0 AGREE
+    HELD by both engines: the coin is caught before it touches the floor, so that nothing amplifies small
+    errors.
+caught caught-turned 0 0 FAULT
+    HELD by the analytic engine, tails in the hand by MuJoCo: they differ, although the coin only flew. FAULTY
+bounced bounced 2 2 AGREE
+    HELD by both engines: they agree on both impacts before it is caught, as they must.
+bounced bounced-turned 2 2 DIFFER
+    HELD by the analytic engine, tails in the hand by MuJoCo: they agree on both impacts before it is caught,
+    as they must; the flight to the hand decides.
+cut cut 2 2 AGREE
+    Undecided by both engines: they agree on both impacts, as they must.
+flying flying 0 0 AGREE
+    Undecided by both engines: the coin does not touch the floor in the 1 s of the toss.
+"""
+"""Two tosses, how many impacts agree, how many must, and the verdict with its words."""
+WORDS = {
+    "DECIDE": "tiny errors decide, and neither engine is wrong.",
+    "HEADS": "Heads by the analytic engine",
+    "TAILS": "tails by MuJoCo",
+    "FAULTY": "One engine is wrong: please report it.",
+    "HELD": "Heads in the hand",
+}
 
 
 @pytest.mark.parametrize(
-    ("a", "b", "prefix", "horizon", "kind", "text"),
-    [
-        (
-            HEADS,
-            HEADS,
-            3,
-            3,
-            Kind.AGREE,
-            "Heads by both engines: they agree on all 3 impacts, as they must.",
-        ),
-        (
-            HEADS,
-            HEADS,
-            3,
-            1,
-            Kind.AGREE,
-            f"Heads by both engines: they agree on all 3 impacts. The first must agree; after that {DECIDE}",
-        ),
-        (
-            HEADS,
-            made("HHTH"),
-            3,
-            2,
-            Kind.DIFFER,
-            "Heads by both engines: they agree on the first 3 impacts. The first 2 must agree; after that "
-            f"{DECIDE}",
-        ),
-        (
-            HEADS,
-            TAILS,
-            1,
-            1,
-            Kind.DIFFER,
-            f"{HEADS_TAILS} they agree on the first impact, as they must; after that {DECIDE}",
-        ),
-        (
-            HEADS,
-            made("TTT", Outcome.TAILS),
-            0,
-            0,
-            Kind.DIFFER,
-            f"{HEADS_TAILS} they differ from the first impact on. Not even that must agree: {DECIDE}",
-        ),
-        (
-            HEADS,
-            TAILS,
-            1,
-            0,
-            Kind.DIFFER,
-            f"{HEADS_TAILS} they agree on the first impact. Not even the first must agree: {DECIDE}",
-        ),
-        (
-            HEADS,
-            TAILS,
-            1,
-            2,
-            Kind.FAULT,
-            f"{HEADS_TAILS} they differ at impact 2, although the first 2 impacts must agree. One engine is "
-            "wrong: please report it.",
-        ),
-        (
-            HEADS,
-            replace(HEADS, outcome=Outcome.TAILS),
-            3,
-            3,
-            Kind.FAULT,
-            f"{HEADS_TAILS} they differ, although all 3 impacts must lead to the same. One engine is wrong: "
-            "please report it.",
-        ),
-        (
-            ROLLED,
-            replace(ROLLED, outcome=Outcome.EDGE),
-            2,
-            2,
-            Kind.DIFFER,
-            "Heads by the analytic engine, on its edge by MuJoCo: they agree on both impacts, as they "
-            "must; what the floor does after that decides.",
-        ),
-        (
-            ROLLED,
-            replace(ROLLED_ON, outcome=Outcome.HEADS),
-            2,
-            2,
-            Kind.AGREE,
-            "Heads by both engines: they agree on the 2 impacts that both count, as they must.",
-        ),
-        (
-            ROLLED_ON,
-            ROLLED,
-            2,
-            1,
-            Kind.DIFFER,
-            "Tails by the analytic engine, heads by MuJoCo: they agree on the first 2 impacts. The first "
-            f"must agree; after that {DECIDE}",
-        ),
-        (
-            CAUGHT,
-            CAUGHT,
-            0,
-            0,
-            Kind.AGREE,
-            "Heads in the hand by both engines: the coin is caught before it touches the floor, so that "
-            "nothing amplifies small errors.",
-        ),
-        (
-            CAUGHT,
-            replace(CAUGHT, outcome=Outcome.TAILS),
-            0,
-            0,
-            Kind.FAULT,
-            "Heads in the hand by the analytic engine, tails in the hand by MuJoCo: they differ, although "
-            "the coin only flew. One engine is wrong: please report it.",
-        ),
-        (
-            CAUGHT_AFTER,
-            CAUGHT_AFTER,
-            2,
-            2,
-            Kind.AGREE,
-            "Heads in the hand by both engines: they agree on both impacts before it is caught, as they "
-            "must.",
-        ),
-        (
-            CAUGHT_AFTER,
-            replace(CAUGHT_AFTER, outcome=Outcome.TAILS),
-            2,
-            2,
-            Kind.DIFFER,
-            "Heads in the hand by the analytic engine, tails in the hand by MuJoCo: they agree on both "
-            "impacts before it is caught, as they must; the flight to the hand decides.",
-        ),
-        (
-            CUT,
-            CUT,
-            2,
-            2,
-            Kind.AGREE,
-            "Undecided by both engines: they agree on both impacts, as they must.",
-        ),
-        (
-            made("", Outcome.UNDECIDED, ending=Ending.MAX_TIME),
-            made("", Outcome.UNDECIDED, ending=Ending.MAX_TIME),
-            0,
-            0,
-            Kind.AGREE,
-            "Undecided by both engines: the coin does not touch the floor in the 1 s of the toss.",
-        ),
-    ],
+    "case", re.split(r"\n(?! )", VERDICTS.strip()), ids=lambda case: case.splitlines()[0]
 )
-def test_the_verdict_of_every_case(a, b, prefix, horizon, kind, text):
-    assert verdict_of(compared(a, b, prefix, horizon)) == (text, kind)
+def test_the_verdict_of_every_case(case):
+    first, *lines = case.splitlines()
+    a, b, prefix, horizon, kind = first.split()
+    text = re.sub("|".join(WORDS), lambda word: WORDS[word[0]], " ".join(map(str.strip, lines)))
+    found = verdict_of(compared(TOSSES[a], TOSSES[b], int(prefix), int(horizon)))
+    assert found == (text, Kind[kind])
 
 
 def test_what_mujoco_cannot_toss_is_said():
     alone = Comparison(
-        name="made", text="", analytic=HEADS, mujoco=None, not_realisable="no", settings=coin_mj.FINE
+        name="made", text="", analytic=TOSSES["HHT"], mujoco=None, not_realisable="no", settings=coin_mj.FINE
     )
     assert verdict_of(alone) == (
         "Heads by the analytic engine alone: MuJoCo can't toss this coin on this floor.",
@@ -227,7 +142,7 @@ def test_what_mujoco_cannot_toss_is_said():
     ],
 )
 def test_the_horizon_is_told_in_plain_words(horizon, begins):
-    told = horizon_sentence(compared(HEADS, HEADS, 3, horizon))
+    told = horizon_sentence(compared(TOSSES["HHT"], TOSSES["HHT"], 3, horizon))
     assert told.startswith(begins)
     assert told.endswith(".")
 

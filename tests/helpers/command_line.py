@@ -13,3 +13,12 @@ HERE = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2]), "PYTHONDONTW
 def cointoss(*arguments: object) -> Result:
     """Return the answer of `cointoss` to those arguments."""
     return CliRunner().invoke(main, [str(part) for part in arguments], catch_exceptions=False)
+
+
+def refused(*arguments: object) -> str:
+    """Return the one line that `cointoss` answers to those arguments, with exit status 2 and nothing else."""
+    answered = cointoss(*arguments)
+    assert (answered.exit_code, answered.stdout) == (2, ""), answered.stderr
+    assert answered.stderr.startswith("cointoss: ")
+    assert answered.stderr.count("\n") == answered.stderr.endswith("\n") == 1
+    return answered.stderr
