@@ -243,30 +243,6 @@ def edited(change):
     return damage
 
 
-def array_edited(name, **changed):
-    """Return a damage: entries of the description of a map's array, there and in the map's."""
-
-    def damage(out):
-        for path, part in ((out / name / "zarr.json", []), (out / "zarr.json", [name])):
-            described = json.loads(path.read_text())
-            (described["consolidated_metadata"]["metadata"][name] if part else described).update(changed)
-            path.write_text(json.dumps(described))
-
-    return damage
-
-
-def retyped(out):
-    """Make the outcomes int16, whole in themselves."""
-    there = pixels(out)["outcome"].astype(np.int16)
-    group: Any = zarr.open_group(out, mode="r+", use_consolidated=False)
-    chunks = group["outcome"].chunks
-    del group["outcome"]
-    group.create_array("outcome", data=there, chunks=chunks, fill_value=-1, dimension_names=("y", "x"))
-
-
-X = AXES[1].partition("=")[0]
-
-
 def test_a_map_that_holds_something_else_is_not_replaced(coin, tmp_path):
     out = tmp_path / "map.zarr"
     assert basin(coin, *AXES, "--out", out).exit_code == 0
@@ -276,59 +252,10 @@ def test_a_map_that_holds_something_else_is_not_replaced(coin, tmp_path):
     assert (out / "notes.txt").read_text() == "mine"
 
 
-@pytest.mark.parametrize(
-    ("damage", "said"),
-    [
-        (lambda out: shutil.rmtree(out / "outcome"), "outcome: no zarr.json"),
-        (lambda out: shutil.rmtree(out / "impacts"), "impacts: no zarr.json"),
-        (lambda out: shutil.rmtree(out / X), f"{X}: no zarr.json"),
-        (lambda out: (out / "outcome" / "zarr.json").unlink(), "outcome: no zarr.json"),
-        (lambda out: (out / "outcome" / "zarr.json").write_text("{"), "outcome/zarr.json: Expecting"),
-        (lambda out: (out / "outcome" / "zarr.json").write_text("{}"), "array outcome: described otherwise"),
-        (lambda out: (out / "outcome" / "zarr.json").write_bytes(b"\xff\xfe"), "outcome/zarr.json: "),
-        (lambda out: (out / X / "c" / "0").write_bytes(b"garbage"), "c/0: does not decode to 384 bytes"),
-        (lambda out: (out / X / "c" / "0").write_bytes(b""), "c/0: does not decode to 384 bytes"),
-        (lambda out: (out / X / "c" / "0").unlink(), "grid in x"),
-        (retyped, "array outcome: described otherwise"),
-        (array_edited("outcome", data_type="int16"), 'array outcome: data_type = "int16", not "int8"'),
-        (array_edited("outcome", shape=[40, 47]), "array outcome: shape = [40, 47], not [40, 48]"),
-        (array_edited("impacts", fill_value=0), "array impacts: fill_value = 0, not -1"),
-        (
-            array_edited(
-                "impacts",
-                chunk_grid={"name": "regular", "configuration": {"chunk_shape": [5, 5]}},
-            ),
-            "array impacts: chunk_grid = ",
-        ),
-        (edited(lambda all_: all_["attributes"].pop("versions")), "attribute versions missing"),
-        (edited(lambda all_: all_["attributes"].pop("after")), "attribute after missing"),
-        (edited(lambda all_: all_["attributes"].update(versions="1")), 'attribute versions = "1"'),
-        (edited(lambda all_: all_["attributes"].update(scenario=7)), "attribute scenario = 7"),
-        (edited(lambda all_: all_["attributes"].update(engine=None)), "attribute engine = None"),
-        (edited(lambda all_: all_.pop("consolidated_metadata")), "consolidated_metadata missing"),
-        (
-            edited(lambda all_: all_["consolidated_metadata"]["metadata"].pop("outcome")),
-            "array outcome missing",
-        ),
-        (
-            edited(lambda all_: all_["consolidated_metadata"]["metadata"].pop(X)),
-            "fields of its axes: ['release.position.z'], not two",
-        ),
-        (edited(lambda all_: all_.update(zarr_format=9)), "zarr_format = 9, not 3"),
-        (lambda out: (out / "zarr.json").write_text("{"), "is no map; "),
-    ],
-)
-def test_a_damaged_map_is_one_line(coin, tmp_path, damage, said):
-    out = tmp_path / "map.zarr"
-    with opened(out, sweep_of(), SCENARIO, overwrite=False):
-        pass
-    damage(out)
-    answered = basin(coin, *AXES, "--out", out, "--resume")
-    assert (answered.exit_code, answered.stdout) == (2, "")
-    assert len(answered.stderr.splitlines()) == 1
-    assert answered.stderr.startswith(f"cointoss: {out}: ")
-    assert said in answered.stderr
-    assert "accepted: a new name, or " in answered.stderr
+def test_a_map_that_lost_an_axis_is_not_gone_on_with(in_tiles, coin, tmp_path):
+    out = shutil.copytree(in_tiles, tmp_path / "map.zarr")
+    (out / "release.angular_velocity.eta" / "c" / "0").unlink()
+    assert "is a map with another grid in x" in refused("basin", coin, *AXES, "--out", out, "--resume")
 
 
 @pytest.mark.parametrize("value", [-7, 5, 100])

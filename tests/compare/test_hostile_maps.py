@@ -20,9 +20,10 @@ from cointoss.compare.sweep.errors import MapError
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.pixels import Pixels
 from cointoss.compare.sweep.store import opened
+from cointoss.models.errors import ScenarioError
 from cointoss.models.reading import parse
 from tests.helpers.basin_runs import SCENARIO
-from tests.helpers.command_line import cointoss as command
+from tests.helpers.command_line import refused
 
 X, Y = "release.angular_velocity.eta", "release.position.z"
 AXES = (f"{X}=20:60:12", f"{Y}=0.2:0.6:10")
@@ -63,19 +64,21 @@ def opened_by_zarr(monkeypatch):
 
 def is_refused(path, what=NO_MAP):
     """Check that no way to read or to continue a map accepts it, and that each says so in one line."""
-    with pytest.raises(MapError) as raised:
+    with pytest.raises((MapError, ScenarioError)) as raised:
         cointoss.read_map(path)
     page = path.parent / "page.html"
     asked = path.parent / "coin.toml", "--x", AXES[0], "--y", AXES[1], "--margin", "height", "--out", path
-    answers = [command("explore", path, "--static", page), command("basin", *asked, "--resume")]
-    for answered in answers:
-        assert (answered.exit_code, answered.stdout) == (2, "")
-        assert len(answered.stderr.splitlines()) == 1
-        assert len(answered.stderr) < 600
+    answers = [refused("explore", path, "--static", page), refused("basin", *asked, "--resume")]
+    assert str(raised.value).startswith(f"{path}: ")
+    for answer in answers:
+        assert answer.startswith(f"cointoss: {path}: ")
+        assert answer.count(str(path)) == 1
+        assert "accepted: " in answer
+        assert len(answer) < 600
     assert what in str(raised.value)
-    assert what in answers[0].stderr
+    assert what in answers[0]
     assert not page.exists()
-    return answers[1].stderr
+    return answers[1]
 
 
 def described(path, name):
@@ -253,7 +256,22 @@ def nested(count):
     return count * "[" + count * "]"
 
 
+def without(path, name):
+    """Take an array out of what the map says that it has."""
+    rewritten(path, lambda all_: all_["consolidated_metadata"]["metadata"].pop(name))
+
+
 FOLDERS = {
+    "outcome: no zarr.json": lambda path: shutil.rmtree(path / "outcome"),
+    "margin: no zarr.json": lambda path: (path / "margin" / "zarr.json").unlink(),
+    f"{X}: no zarr.json": lambda path: shutil.rmtree(path / X),
+    "outcome/zarr.json: Expecting": lambda path: (path / "outcome" / "zarr.json").write_text("{"),
+    "array outcome: described otherwise": lambda path: (path / "outcome" / "zarr.json").write_text("{}"),
+    "outcome/zarr.json: ": lambda path: (path / "outcome" / "zarr.json").write_bytes(b"\xff\xfe"),
+    "array outcome missing": lambda path: without(path, "outcome"),
+    "array margin missing": lambda path: without(path, "margin"),
+    "fields of its axes: ['release.position.z'], not two": lambda path: without(path, X),
+    "zarr_format = 9, not 3": lambda path: rewritten(path, lambda all_: all_.update(zarr_format=9)),
     "a linked array": lambda path: outside(path, X),
     "a linked description": lambda path: outside(path, "zarr.json"),
     "a linked description of an array": lambda path: outside(path, f"{X}/zarr.json"),
@@ -281,15 +299,45 @@ FOLDERS = {
     "consolidated of another kind": lambda path: rewritten(
         path, lambda all_: all_.update(consolidated_metadata=[{}])
     ),
-    "settings": lambda path: rewritten(path, lambda all_: all_["attributes"].update(engine_settings=[])),
 }
 
 
-@pytest.mark.parametrize("damage", FOLDERS.values(), ids=FOLDERS.keys())
-def test_folders_that_are_not_ours_are_refused(path, opened_by_zarr, damage):
-    damage(path)
-    is_refused(path)
+@pytest.mark.parametrize("name", FOLDERS)
+def test_folders_that_are_not_ours_are_refused(path, opened_by_zarr, name):
+    """What a name with a colon or an equals sign says is in the answer."""
+    FOLDERS[name](path)
+    is_refused(path, name if any(sign in name for sign in (":", "=", "missing")) else NO_MAP)
     assert not opened_by_zarr
+
+
+GONE = object()
+ATTRIBUTES = {
+    "(engine: 'abacus', accepted: analytic, mujoco)": {"engine": "abacus"},
+    "attribute engine = None": {"engine": None},
+    'attribute after = "two"': {"after": "two"},
+    "(after = True)": {"after": True},
+    "attribute after missing": {"after": GONE},
+    "gravity = -1: accepted: a number": {"scenario": "gravity = -1"},
+    "attribute scenario = 7": {"scenario": 7},
+    "(contact_steps: given -1": {"engine_settings": {"contact_steps": -1}},
+    "(contact_steps = 1000": {"engine_settings": {"contact_steps": 10**30}},
+    NO_MAP: {"engine_settings": {"contact_tolerance": "1"}},
+    "attribute engine_settings = ": {"engine_settings": []},
+    "attribute margin_along = 7": {"margin_along": 7},
+    "(attribute cointoss_map is not 1)": {"cointoss_map": 2},
+    "attribute versions missing": {"versions": GONE},
+    'attribute versions = "1"': {"versions": "1"},
+}
+
+
+@pytest.mark.parametrize("said", ATTRIBUTES)
+def test_attributes_that_are_not_ours_are_refused(path, said):
+    def change(all_):
+        given = {**all_["attributes"], **ATTRIBUTES[said]}
+        all_["attributes"] = {name: value for name, value in given.items() if value is not GONE}
+
+    rewritten(path, change)
+    is_refused(path, said)
 
 
 @pytest.mark.parametrize("damage", ["pipe", "deep", "long"])
@@ -300,11 +348,8 @@ def test_what_describes_no_map_is_not_replaced(path, damage):
         "long": lambda: (path / "zarr.json").write_bytes(b" " * (2 << 20)),
     }[damage]()
     asked = path.parent / "coin.toml", "--x", AXES[0], "--y", AXES[1], "--out", path
-    answered = command("basin", *asked, "--overwrite")
-    assert (answered.exit_code, answered.stdout) == (2, "")
     said = f"cointoss: {path}: is no map; accepted: a new name, or a map of cointoss\n"
-    assert answered.stderr == said
-    assert said == is_refused(path)
+    assert refused("basin", *asked, "--overwrite") == is_refused(path) == said
 
 
 def frame(size, length=8):
