@@ -32,14 +32,14 @@ def described(monkeypatch):
     """A copy of MuJoCo's descriptions to change."""
     structs = {name: SimpleNamespace(fields=list(s.fields)) for name, s in memory.STRUCTS.items()}
     monkeypatch.setattr(memory, "STRUCTS", structs)
-    memory._layout.cache_clear()
+    memory.layout_of.cache_clear()
     yield structs
-    memory._layout.cache_clear()
+    memory.layout_of.cache_clear()
 
 
 def places(struct, name, value):
     """Find a value in the whole of a struct."""
-    size = ctypes.sizeof(memory._layout(name))
+    size = ctypes.sizeof(memory.layout_of(name))
     held, step = ctypes.string_at(struct._address, size), ctypes.alignment(value)
     return [at for at in range(0, size - step + 1, step) if held.startswith(bytes(value), at)]
 

@@ -20,11 +20,8 @@ from cointoss.coin_mj import Realisation
 from cointoss.compare.engines import Engine
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.sweep import grid, run
-from cointoss.compare.sweep.axes import parse_axis
-from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.layers import NOT_TOSSED
 from cointoss.compare.sweep.store import Map, opened, require_place
-from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import (
     AXES,
@@ -35,6 +32,7 @@ from tests.helpers.basin_runs import (
     basin,
     begun,
     pixels,
+    sweep_of,
     wait_for,
     whole_tiles,
 )
@@ -49,18 +47,9 @@ def coin(tmp_path, monkeypatch):
     return tmp_path / "coin.toml"
 
 
-def sweep_of(x=AXES[1], y=AXES[3], text=SCENARIO, engine=Engine.ANALYTIC, **extra):
-    case = parse(text, "coin")
-    return Sweep(
-        **{
-            "scenario": case,
-            "engine": engine,
-            "x": parse_axis(x, case),
-            "y": parse_axis(y, case),
-            "settings": engine.package.MANY,
-            **extra,
-        }
-    )
+def map_sweep(**given):
+    """Return the sweep of the map, but for what is given."""
+    return sweep_of(**{"x": AXES[1], "y": AXES[3], **given})
 
 
 @pytest.fixture(scope="module")
@@ -170,7 +159,7 @@ def test_a_new_map_is_known_to_be_empty_without_reading_its_tiles(tmp_path, monk
     monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, SMALL)
     read, reads = Map.read, []
     monkeypatch.setattr(Map, "read", lambda map_, *asked: reads.append(asked) or read(map_, *asked))
-    sweep = sweep_of()
+    sweep = map_sweep()
     with opened(tmp_path / "map.zarr", sweep, SCENARIO, overwrite=False) as map_:
         assert map_.is_empty
         assert (run.missing(map_), reads) == (map_.tiles, [])
@@ -286,7 +275,7 @@ def test_a_map_is_replaced_only_where_asked(in_tiles, coin, tmp_path):
 @pytest.mark.parametrize(
     ("change", "named"),
     [
-        ({"text": SCENARIO.replace("0.6", "0.7")}, "scenario"),
+        ({"case": SCENARIO.replace("0.6", "0.7")}, "scenario"),
         ({"after": 0}, "number of impacts"),
         ({"x": "release.angular_velocity.eta=20:60:49"}, "grid in x"),
         ({"x": "release.angular_velocity.eta=20:61:48"}, "grid in x"),
@@ -296,12 +285,12 @@ def test_a_map_is_replaced_only_where_asked(in_tiles, coin, tmp_path):
 )
 def test_a_map_of_something_else_is_not_gone_on_with(tmp_path, change, named):
     out = tmp_path / "map.zarr"
-    with opened(out, sweep_of(), SCENARIO, overwrite=False):
+    with opened(out, map_sweep(), SCENARIO, overwrite=False):
         pass
     with pytest.raises(UnwritableError, match=f"is a map with another {named}"):
-        opened(out, sweep_of(**change), change.get("text", SCENARIO), overwrite=False).__enter__()
+        opened(out, map_sweep(**change), change.get("case", SCENARIO), overwrite=False).__enter__()
     same = SCENARIO + "# another word for the same coin\n"
-    with opened(out, sweep_of(text=same), same, overwrite=False) as map_:
+    with opened(out, map_sweep(case=same), same, overwrite=False) as map_:
         assert map_.group.attrs["scenario"] == SCENARIO
 
 
@@ -315,18 +304,18 @@ def test_a_map_of_something_else_is_not_gone_on_with(tmp_path, change, named):
 )
 def test_a_map_made_otherwise_is_not_gone_on_with(tmp_path, key, value, named):
     out = tmp_path / "map.zarr"
-    with opened(out, sweep_of(), SCENARIO, overwrite=False):
+    with opened(out, map_sweep(), SCENARIO, overwrite=False):
         pass
     edited(lambda described: described["attributes"].update({key: value}))(out)
     with pytest.raises(UnwritableError, match=f"is a map with another {named}"):
-        opened(out, sweep_of(), SCENARIO, overwrite=False).__enter__()
+        opened(out, map_sweep(), SCENARIO, overwrite=False).__enter__()
 
 
 @pytest.mark.parametrize(("made", "asked"), [("one_step", "spring"), ("spring", "one_step")])
 def test_a_map_with_another_contact_is_refused_before_the_first_toss(coin, tmp_path, made, asked):
     second = tmp_path / "map-mujoco.zarr"
     settings = replace(coin_mj.MANY, contact=Realisation(made))
-    with opened(second, sweep_of(engine=Engine.MUJOCO, settings=settings), SCENARIO, overwrite=False):
+    with opened(second, map_sweep(engine=Engine.MUJOCO, settings=settings), SCENARIO, overwrite=False):
         pass
     assert xr.open_zarr(second, chunks=None).attrs["engine_settings"]["contact"] == made
     both = ("--compare", "--contact", asked, "--out", tmp_path / "map.zarr")
@@ -337,11 +326,11 @@ def test_a_map_with_another_contact_is_refused_before_the_first_toss(coin, tmp_p
 
 def test_a_map_in_use_is_refused_and_free_again_after(tmp_path):
     out = tmp_path / "map.zarr"
-    with opened(out, sweep_of(), SCENARIO, overwrite=False):
+    with opened(out, map_sweep(), SCENARIO, overwrite=False):
         for overwrite in (False, True):
             with pytest.raises(UnwritableError, match="another process"):
-                opened(out, sweep_of(), SCENARIO, overwrite=overwrite).__enter__()
-    with opened(out, sweep_of(), SCENARIO, overwrite=True) as map_:
+                opened(out, map_sweep(), SCENARIO, overwrite=overwrite).__enter__()
+    with opened(out, map_sweep(), SCENARIO, overwrite=True) as map_:
         assert len(run.missing(map_)) == len(map_.tiles)
 
 
@@ -372,7 +361,7 @@ def test_only_a_place_for_a_map_is_accepted(tmp_path):
     (tmp_path / "link.zarr").symlink_to(tmp_path / "empty.zarr")
     for name, overwrite in (("new.zarr", False), ("link.zarr", True)):
         require_place(tmp_path / name, resume=False, overwrite=overwrite)
-        with opened(tmp_path / name, sweep_of(), SCENARIO, overwrite=overwrite):
+        with opened(tmp_path / name, map_sweep(), SCENARIO, overwrite=overwrite):
             pass
     assert (tmp_path / "link.zarr").is_symlink()
     assert (tmp_path / "empty.zarr" / "outcome").is_dir()
@@ -380,7 +369,7 @@ def test_only_a_place_for_a_map_is_accepted(tmp_path):
 
 def test_what_was_not_tossed_is_told_from_every_outcome(tmp_path):
     assert NOT_TOSSED not in set(Outcome)
-    with opened(tmp_path / "map.zarr", sweep_of(), SCENARIO, overwrite=False):
+    with opened(tmp_path / "map.zarr", map_sweep(), SCENARIO, overwrite=False):
         pass
     found = pixels(tmp_path / "map.zarr")
     assert np.all(found["outcome"] == NOT_TOSSED)

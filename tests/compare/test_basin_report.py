@@ -24,11 +24,10 @@ from cointoss.compare.report.folder import write_report
 from cointoss.compare.sweep import job, show
 from cointoss.compare.sweep.axes import parse_axis
 from cointoss.compare.sweep.describe import AWAY
-from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.store import opened
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
-from tests.helpers.basin_runs import SCENARIO, basin
+from tests.helpers.basin_runs import SCENARIO, basin, sweep_of
 from tests.helpers.command_line import HERE, cointoss, refused
 from tests.helpers.made_maps import halves
 
@@ -44,14 +43,9 @@ def coin(tmp_path, monkeypatch):
     return tmp_path / "coin.toml"
 
 
-def sweep_of(case, engine, after=None):
-    x, y, settings = parse_axis(X, case), parse_axis(Y, case), engine.package.MANY
-    return Sweep(scenario=case, engine=engine, x=x, y=y, settings=settings, after=after)
-
-
 def section_of(maps, after=None):
     case = parse(COIN, "coin")
-    sweeps = [sweep_of(case, engine, after) for engine in Engine]
+    sweeps = [sweep_of(X, Y, case, engine, after=after) for engine in Engine]
     return show.section(maps, sweeps, PictureStyle(dpi=20), "cointoss basin")
 
 
@@ -175,7 +169,7 @@ def test_a_folder_that_is_no_reports_is_refused_before_any_map(coin, tmp_path):
 def test_a_back_end_for_drawing_is_chosen_before_mujoco_is_imported(coin, tmp_path):
     case = parse(COIN, "coin")
     for engine, name in zip(Engine, ("map.zarr", "map-mujoco.zarr"), strict=True):
-        with opened(tmp_path / name, sweep_of(case, engine), COIN, overwrite=False):
+        with opened(tmp_path / name, sweep_of(X, Y, case, engine), COIN, overwrite=False):
             pass
     script = (
         "import sys; from cointoss.compare.cli import main; from cointoss.compare.sweep import job\n"

@@ -11,7 +11,6 @@ import sys
 import time
 from dataclasses import replace
 from importlib.metadata import version
-from pathlib import Path
 from unittest.mock import patch
 
 import imageio_ffmpeg
@@ -544,20 +543,6 @@ def test_foreign_modules_in_the_current_folder_are_not_run(tmp_path, monkeypatch
     (tmp_path / "random.py").write_text("raise RuntimeError('foreign')")
     monkeypatch.chdir(tmp_path)
     assert drawing_problem() is None
-
-
-def test_the_command_works_beside_a_foreign_models_folder(tmp_path):
-    (tmp_path / "models").mkdir()
-    (tmp_path / "models" / "__init__.py").write_text("raise RuntimeError('foreign')")
-    command = Path(sys.executable).with_name("cointoss")
-    done = subprocess.run(
-        [command, "toss", "fig24a", "--max-impacts", "1", "--json"],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-    )
-    assert done.returncode == 0, done.stderr
-    assert json.loads(done.stdout)["sequence"] == "H"
 
 
 HEAVY = {

@@ -24,15 +24,10 @@ from tests.helpers.explored import AXES, SCENARIO, got, small_map
 from tests.helpers.processes import started
 
 
-@pytest.fixture(scope="module")
-def whole(tmp_path_factory):
-    return small_map(tmp_path_factory.mktemp("map"))
-
-
 @pytest.fixture
-def copy(whole, tmp_path):
+def copy(map_path, tmp_path):
     """A copy of the map to be damaged."""
-    return shutil.copytree(whole, tmp_path / "map.zarr")
+    return shutil.copytree(map_path, tmp_path / "map.zarr")
 
 
 def test_a_map_that_is_gone_or_foreign_is_refused(tmp_path):
@@ -71,14 +66,14 @@ def test_a_map_by_mujoco_is_not_to_blame_for_a_back_end_that_is_missing(copy, mo
     assert refused("explore", copy) == "cointoss: MUJOCO_GL = x: MuJoCo can't be used\n"
 
 
-def test_a_map_of_too_many_pixels_is_refused(whole, monkeypatch):
+def test_a_map_of_too_many_pixels_is_refused(map_path, monkeypatch):
     monkeypatch.setattr(reading, "MOST_READ", 400)
-    assert "has 24 by 18 pixels; accepted: a map of at most 400 pixels" in refused("explore", whole)
+    assert "has 24 by 18 pixels; accepted: a map of at most 400 pixels" in refused("explore", map_path)
 
 
 @pytest.mark.parametrize("tile", [None, 35, 64])
-def test_of_a_large_map_every_so_many_th_pixel_is_shown(whole, tmp_path, monkeypatch, tile):
-    full, path = read_map(whole), whole
+def test_of_a_large_map_every_so_many_th_pixel_is_shown(map_path, tmp_path, monkeypatch, tile):
+    full, path = read_map(map_path), map_path
     if tile is not None:  # whose sides the stride crosses
         monkeypatch.setattr("cointoss.compare.sweep.grid.TILE_TOSSES", dict.fromkeys(Engine, tile))
         path = small_map(tmp_path)
@@ -111,7 +106,7 @@ def test_an_unfinished_map_is_shown_as_far_as_it_is(copy, monkeypatch):
     assert page_map(found)["tossed"] == pytest.approx(np.mean(outcome != -1))
 
 
-def test_margins_are_read(whole, tmp_path):
+def test_margins_are_read(map_path, tmp_path):
     (tmp_path / "coin.toml").write_text(SCENARIO)
     axes = ("--x", "release.angular_velocity.eta=20:60:3", "--y", "release.position.z=0.2:0.6:2")
     made = cointoss(
@@ -121,45 +116,45 @@ def test_margins_are_read(whole, tmp_path):
     told = page_map(read_map(tmp_path / "m.zarr"))
     assert told["margin"] == {"along": "height", "unit": "mm"}
     assert len(told["arrays"]["margin"]) == 4 * (3 * 2 * 4) // 3
-    assert page_map(read_map(whole))["margin"] is None
+    assert page_map(read_map(map_path))["margin"] is None
 
 
-def test_a_port_in_use_is_refused(whole):
+def test_a_port_in_use_is_refused(map_path):
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]
-        said = refused("explore", whole, "--port", port)
+        said = refused("explore", map_path, "--port", port)
     assert f"--port {port}: another program listens there; accepted: another port" in said
-    assert "accepted: an integer >= 1 and <= 65535" in refused("explore", whole, "--port", 70000)
+    assert "accepted: an integer >= 1 and <= 65535" in refused("explore", map_path, "--port", 70000)
 
 
-def test_the_static_page_takes_no_port(whole, tmp_path):
+def test_the_static_page_takes_no_port(map_path, tmp_path):
     for name, more, said in (
         ("page.html", ["--no-browser"], "--static: accepted"),
         ("page.txt", [], "ends in .html"),
         ("nowhere/page.html", [], "in a folder that exists"),
     ):
-        assert said in refused("explore", whole, "--static", tmp_path / name, *more)
+        assert said in refused("explore", map_path, "--static", tmp_path / name, *more)
 
 
 @pytest.mark.parametrize(
     ("opens", "options", "asked"), [(True, [], 1), (False, [], 1), (True, ["--no-browser"], 0)]
 )
-def test_the_address_is_printed_and_opened(whole, monkeypatch, opens, options, asked):
+def test_the_address_is_printed_and_opened(map_path, monkeypatch, opens, options, asked):
     opened = []
     monkeypatch.setattr(webbrowser, "open", lambda url: opened.append(url) or opens)
     monkeypatch.setattr(Explorer, "serve_forever", lambda _: None)
-    answered = cointoss("explore", whole, *options)
+    answered = cointoss("explore", map_path, *options)
     assert answered.exit_code == 0
     assert answered.stdout.startswith("http://127.0.0.1:")
     assert len(opened) == asked
     assert ("no browser was found" in answered.stderr) == (not opens)
 
 
-def test_ctrl_c_ends_it_within_a_second(whole):
+def test_ctrl_c_ends_it_within_a_second(map_path):
     """A second on a machine of one's own; ten on one that is busy."""
     script = "from cointoss.compare.cli import main; main()"
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    with started("-c", script, "explore", whole, "--no-browser", **pipes) as process:
+    with started("-c", script, "explore", map_path, "--no-browser", **pipes) as process:
         assert process.stdout
         port = int(process.stdout.readline().rstrip("/\n").rpartition(":")[2])
         assert got(port, "/")[0] == 200

@@ -12,10 +12,9 @@ from cointoss import analytic
 from cointoss.compare.explorer import static
 from cointoss.compare.sweep.reading import read_map
 from cointoss.models.reading import parse
-from tests.helpers.browser import Page, browser
 from tests.helpers.coins_shown import BLUE, GOLD, UNNAMED, box, faces, picture, set_time
 from tests.helpers.command_line import cointoss
-from tests.helpers.explored import FIELDS, SCENARIO, serving, small_map
+from tests.helpers.explored import FIELDS, SCENARIO, serving
 
 TOSSED = (
     "document.querySelectorAll('#outcome p').length === 2"
@@ -27,29 +26,6 @@ HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
   return kind.startsWith("webgl") ? null : own.call(this, kind, ...more);
 };
 """
-
-
-@pytest.fixture(scope="module")
-def map_path(tmp_path_factory):
-    return small_map(tmp_path_factory.mktemp("map"))
-
-
-@pytest.fixture(scope="module")
-def chromium(tmp_path_factory):
-    with browser(tmp_path_factory.mktemp("profile")) as started:
-        yield started
-
-
-@pytest.fixture(scope="module")
-def server(map_path):
-    with serving(map_path) as explorer:
-        yield explorer
-
-
-@pytest.fixture
-def page(chromium):
-    with Page(chromium) as opened:
-        yield opened
 
 
 def place_of(page, u, v, count=(24, 18)):

@@ -14,18 +14,7 @@ from cointoss.compare.explorer.page_files import page_files
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.reading import read_map
 from cointoss.models.reading import parse
-from tests.helpers.explored import FIELDS, SCENARIO, got, sent, serving, small_map
-
-
-@pytest.fixture(scope="module")
-def map_path(tmp_path_factory):
-    return small_map(tmp_path_factory.mktemp("map"))
-
-
-@pytest.fixture(scope="module")
-def server(map_path):
-    with serving(map_path) as explorer:
-        yield explorer
+from tests.helpers.explored import FIELDS, SCENARIO, got, sent
 
 
 def is_refused(answer, status):

@@ -15,14 +15,11 @@ import zarr
 import cointoss
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep import grid
-from cointoss.compare.sweep.axes import parse_axis
 from cointoss.compare.sweep.errors import MapError
-from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.pixels import Pixels
 from cointoss.compare.sweep.store import opened
 from cointoss.models.errors import ScenarioError
-from cointoss.models.reading import parse
-from tests.helpers.basin_runs import SCENARIO
+from tests.helpers.basin_runs import SCENARIO, sweep_of
 from tests.helpers.command_line import refused
 
 X, Y = "release.angular_velocity.eta", "release.position.z"
@@ -35,11 +32,7 @@ NO_MAP = "is no map of cointoss ("
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     """A map in one tile, filled without a toss."""
-    case = parse(SCENARIO, "coin")
-    x, y = (parse_axis(text, case) for text in AXES)
-    settings = Engine.ANALYTIC.package.MANY
-    sweep = Sweep(scenario=case, engine=Engine.ANALYTIC, x=x, y=y, settings=settings, margin="height")
-    path = tmp_path_factory.mktemp("made") / "map.zarr"
+    path, sweep = tmp_path_factory.mktemp("made") / "map.zarr", sweep_of(*AXES, margin="height")
     with opened(path, sweep, SCENARIO, overwrite=False) as map_:
         (tile,) = map_.tiles
         outcome = np.arange(120, dtype=np.int8).reshape(10, 12) % 3
@@ -436,11 +429,7 @@ def test_what_lies_beside_the_arrays_is_not_looked_at(path):
 @pytest.mark.parametrize("tile", [25, 1 << 14])
 def test_maps_of_all_tiles_are_read(tmp_path, monkeypatch, tile):
     monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, tile)
-    case = parse(SCENARIO, "coin")
-    x, y = (parse_axis(text, case) for text in AXES)
-    sweep = Sweep(
-        scenario=case, engine=Engine.ANALYTIC, x=x, y=y, settings=Engine.ANALYTIC.package.MANY, after=3
-    )
+    sweep = sweep_of(*AXES, after=3)
     with opened(tmp_path / "map.zarr", sweep, SCENARIO, overwrite=False) as map_:
         for number, part in enumerate(map_.tiles):
             shape = part.rows.stop - part.rows.start, part.columns.stop - part.columns.start

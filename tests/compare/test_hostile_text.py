@@ -16,8 +16,7 @@ from cointoss.compare.report.page import Page as Report
 from cointoss.compare.report.page import render
 from cointoss.compare.sweep.reading import read_map
 from cointoss.models.reading import parse
-from tests.helpers.browser import Page, browser
-from tests.helpers.explored import SCENARIO, got, serving, small_map
+from tests.helpers.explored import SCENARIO, got, serving
 
 HOSTILE = [
     "<script>document.title = 'run'</script>",
@@ -97,13 +96,8 @@ def test_a_report_shows_them_as_they_are(words):
 
 
 @pytest.fixture(scope="module")
-def plain(tmp_path_factory):
-    return small_map(tmp_path_factory.mktemp("map"))
-
-
-@pytest.fixture(scope="module")
-def named(plain, tmp_path_factory):
-    folder = shutil.copytree(plain, tmp_path_factory.mktemp("named") / NAME)
+def named(map_path, tmp_path_factory):
+    folder = shutil.copytree(map_path, tmp_path_factory.mktemp("named") / NAME)
     described = json.loads((folder / "zarr.json").read_text("utf-8"))
     described["attributes"]["name"] = NAME
     (folder / "zarr.json").write_text(json.dumps(described), encoding="utf-8")
@@ -126,8 +120,8 @@ def static_page(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("words", HOSTILE)
-def test_a_static_page_holds_them_as_data(plain, named, static_page, words):
-    expected = Parsed(static_page(plain, "out of reach").read_text("utf-8"))
+def test_a_static_page_holds_them_as_data(map_path, named, static_page, words):
+    expected = Parsed(static_page(map_path, "out of reach").read_text("utf-8"))
     found = Parsed(static_page(named, words).read_text("utf-8"))
     assert found.elements == expected.elements
     assert found.comments == expected.comments
@@ -146,17 +140,15 @@ def test_the_server_answers_them_as_data(named):
     assert page == page_files()["index.html"]
 
 
-def test_a_browser_runs_none_of_them(named, static_page, tmp_path_factory):
+def test_a_browser_runs_none_of_them(page, named, static_page):
     words = "".join(HOSTILE)
-    target = static_page(named, words)
-    with browser(tmp_path_factory.mktemp("profile")) as chromium, Page(chromium) as page:
-        page.open(f"{target.as_uri()}#x=40&y=0.4")
-        page.wait_for("document.getElementById('outcome').textContent.includes('MuJoCo: <script>')")
-        assert page.value("document.title") == f"{NAME}: 2 g, 25 mm: cointoss explore"
-        assert page.text("name") == f"{NAME}: 2 g, 25 mm"
-        assert page.text("outcome").count(words) == 2
-        assert page.value("document.querySelectorAll('img, #outcome script, #name *').length") == 0
-        assert page.complaints() == []
+    page.open(f"{static_page(named, words).as_uri()}#x=40&y=0.4")
+    page.wait_for("document.getElementById('outcome').textContent.includes('MuJoCo: <script>')")
+    assert page.value("document.title") == f"{NAME}: 2 g, 25 mm: cointoss explore"
+    assert page.text("name") == f"{NAME}: 2 g, 25 mm"
+    assert page.text("outcome").count(words) == 2
+    assert page.value("document.querySelectorAll('img, #outcome script, #name *').length") == 0
+    assert page.complaints() == []
 
 
 def test_a_notebook_shows_the_name_of_a_map_as_it_is(named):

@@ -1,6 +1,8 @@
 """Maps from Python: the same as the command's, and what a notebook, xarray and pandas see of them."""
 
+import ast
 import json
+import re
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
@@ -172,32 +174,35 @@ def test_a_map_that_is_not_finished_says_so(found):
         part.plot()
 
 
-@pytest.mark.parametrize(
-    ("wrong", "named"),
-    [
-        ({"engine": "paper"}, "engine: 'paper', accepted: analytic, mujoco"),
-        ({"after": -1}, "after: -1, accepted: a whole number from 0"),
-        ({"after": "2"}, "after: '2', accepted: a whole number"),
-        ({"after": True}, "after: True, accepted: a whole number"),
-        ({"after": 1.5}, "after: 1.5, accepted: a whole number"),
-        ({"x": None}, "x: None, accepted: FIELD=START:STOP:N, such as"),
-        ({"y": (1, 2)}, r"y: \(1, 2\), accepted: FIELD=START:STOP:N, such as"),
-        ({"engine": None}, "engine: None, accepted: analytic, mujoco"),
-        ({"margin": 3}, "margin: 3, accepted: text"),
-        (
-            {"x": "release.position.z=0.1:1:100000", "y": "gravity=1:9:100000"},
-            "100000 by 100000 pixels, accepted: at most 1e",
-        ),
-        ({"x": "release.position.z=1"}, "accepted: FIELD=START:STOP:N"),
-        ({"x": Y}, "release.position.z: on both axes; accepted: two fields"),
-        ({"margin": "luck"}, "margin luck: accepted: height"),
-        ({"margin": "height", "engine": "mujoco"}, "margin: 'height' by mujoco, accepted: only by"),
-        ({"y": "release.position.z=-1:1:3"}, "release.position.z"),
-    ],
-)
-def test_what_makes_no_map_is_refused(wrong, named):
-    with pytest.raises(ValueError, match=named):
-        cointoss.basin("fig24a", **{"x": X, "y": Y, **wrong})
+NO_MAPS = """
+engine 'paper' -> engine: 'paper', accepted: analytic, mujoco
+engine None -> engine: None, accepted: analytic, mujoco
+after -1 -> after: -1, accepted: a whole number from 0
+after '2' -> after: '2', accepted: a whole number
+after True -> after: True, accepted: a whole number
+after 1.5 -> after: 1.5, accepted: a whole number
+x None -> x: None, accepted: FIELD=START:STOP:N, such as
+y (1, 2) -> y: (1, 2), accepted: FIELD=START:STOP:N, such as
+x 'release.position.z=1' -> accepted: FIELD=START:STOP:N
+x 'release.position.z=0.1:1:9' -> release.position.z: on both axes; accepted: two fields
+y 'gravity=1:9:1000000' -> 7 by 1000000 pixels, accepted: at most
+y 'release.position.z=-1:1:3' -> release.position.z
+margin 3 -> margin: 3, accepted: text
+margin 'luck' -> margin luck: accepted: height
+"""
+
+
+@pytest.mark.parametrize("case", NO_MAPS.strip().splitlines())
+def test_what_makes_no_map_is_refused(case):
+    given, _, named = case.partition(" -> ")
+    name, _, value = given.partition(" ")
+    with pytest.raises(ValueError, match=re.escape(named)):
+        cointoss.basin("fig24a", **{"x": X, "y": Y, name: ast.literal_eval(value)})
+
+
+def test_margins_are_of_the_analytic_engine_alone():
+    with pytest.raises(ValueError, match="margin: 'height' by mujoco, accepted: only by"):
+        cointoss.basin("fig24a", x=X, y=Y, margin="height", engine="mujoco")
 
 
 @pytest.mark.parametrize("wrong", [None, {}, np.zeros(3)], ids=lambda wrong: type(wrong).__name__)

@@ -11,7 +11,6 @@ from cointoss.compare.report.folder import write_report
 from cointoss.compare.report.page import Film, render
 from cointoss.compare.report.page import Page as Contents
 from cointoss.models.reading import parse, scenario_text
-from tests.helpers.browser import Page, browser
 from tests.helpers.coins_shown import UNNAMED, faces, picture, set_time
 
 TEXT = scenario_text("fig24a") + "\n[ending]\nmax_impacts = 6\n"
@@ -25,18 +24,6 @@ def folder(tmp_path_factory):
     target = tmp_path_factory.mktemp("report")
     write_report(compared(parse(TEXT, "made"), TEXT, "made"), target, "none here")
     return target
-
-
-@pytest.fixture(scope="module")
-def chromium(tmp_path_factory):
-    with browser(tmp_path_factory.mktemp("profile")) as started:
-        yield started
-
-
-@pytest.fixture
-def page(chromium):
-    with Page(chromium) as opened:
-        yield opened
 
 
 def place(page, name, part):

@@ -50,14 +50,14 @@ def test_where_nothing_can_be_drawn_the_reason_is_told(monkeypatch):
 def test_a_back_end_that_ends_the_process_is_told_too(monkeypatch):
     monkeypatch.setenv("MUJOCO_GL", "egl")
     dying = "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"
-    monkeypatch.setattr("cointoss.compare.film.back_end._DRAW_ONE_FRAME", dying)
+    monkeypatch.setattr("cointoss.compare.film.back_end.DRAW_ONE_FRAME", dying)
     told = stills(scenario(), faces(HEADS))
     assert told == f"{ADVICE} (ended by signal 9)"
 
 
 @pytest.mark.usefixtures("fresh_back_end")
 def test_the_back_end_is_tried_once(monkeypatch):
-    with patch("cointoss.compare.film.back_end._drawing_complaint", return_value=None) as tried:
+    with patch("cointoss.compare.film.back_end.drawing_complaint", return_value=None) as tried:
         assert drawing_problem() is None
         monkeypatch.setenv("MUJOCO_GL", "nonsense")
         assert drawing_problem() is None
@@ -70,7 +70,7 @@ def test_a_back_end_that_is_chosen_already_is_said_to_be_too_late(monkeypatch):
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.setenv("MUJOCO_GL", "")
     assert "mujoco" in sys.modules
-    with patch("cointoss.compare.film.back_end._drawing_complaint", return_value=None):
+    with patch("cointoss.compare.film.back_end.drawing_complaint", return_value=None):
         assert drawing_problem() == TOO_LATE
 
 

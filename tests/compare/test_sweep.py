@@ -20,6 +20,7 @@ from cointoss.models.fields import UNITS, split
 from cointoss.models.records import UnsupportedError
 from cointoss.models.scenario import Scenario
 from cointoss.models.unused import UnusedFieldWarning
+from tests.helpers import basin_runs
 from tests.helpers.draws import AIR, scenario
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
@@ -34,17 +35,8 @@ HERE = scenario(
 WHOLE = Tile(slice(0, 3), slice(0, 4))
 
 
-def sweep_of(x: str, y: str, case: Scenario = HERE, engine: Engine = Engine.ANALYTIC, **extra: Any) -> Sweep:
-    return Sweep(
-        **{
-            "scenario": case,
-            "engine": engine,
-            "settings": engine.package.MANY,
-            "x": parse_axis(x, case),
-            "y": parse_axis(y, case),
-            **extra,
-        }
-    )
+def sweep_of(x: str, y: str, case: Scenario = HERE, **given: Any) -> Sweep:
+    return basin_runs.sweep_of(x, y, case, **given)
 
 
 def numeric_fields(model: type[BaseModel], path: str = "") -> set[str]:
