@@ -137,7 +137,7 @@ def test_shorter_fixed_steps_make_a_coins_restitution_better(realisation, dt):
 
 
 def test_the_example_of_the_docs_rebounds_as_it_says(capsys):
-    page = (Path(__file__).parents[2] / "docs" / "MUJOCO.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[4] / "docs" / "MUJOCO.md").read_text(encoding="utf-8")
     (example,) = (code for code in re.findall(r"```python\n(.*?)```", page, re.DOTALL) if "mj_step" in code)
     exec(example, {})
     assert float(capsys.readouterr().out) == pytest.approx(0.8, abs=1e-5)
