@@ -1,6 +1,8 @@
 """The command line, run in this process or in another that finds this checkout."""
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 from click.testing import CliRunner, Result
@@ -22,3 +24,15 @@ def refused(*arguments: object) -> str:
     assert answered.stderr.startswith("cointoss: ")
     assert answered.stderr.count("\n") == answered.stderr.endswith("\n") == 1
     return answered.stderr
+
+
+def in_a_shell(command, folder):
+    """Run a shell's line in a folder, `cointoss` being the command."""
+    line = f'cointoss() {{ "{sys.executable}" -m cointoss "$@"; }}; {command}'
+    return subprocess.run(
+        ["bash", "-c", line],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        env=HERE,
+    )

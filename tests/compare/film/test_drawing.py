@@ -8,7 +8,6 @@ The tosses are made by formulas, and drawn small.
 
 from unittest.mock import patch
 
-import mujoco
 import numpy as np
 import pytest
 
@@ -25,80 +24,26 @@ from cointoss.compare.film.drawing import (
 )
 from cointoss.compare.film.encodings import Format
 from cointoss.compare.film.filmed import Filmed
-from cointoss.compare.film.play import SHOWN_FOR, WEAKEST, Play, Shown, play_of
-from cointoss.compare.film.shadow import add_shadow
-from cointoss.compare.film.slow_motion import FAST, LONGEST, SLOW, SLOW_FOR, WEAK, film_times
-from cointoss.compare.film.video import HELD, frame_count, frames, write_video
-from cointoss.compare.film.visual_model import build_visual_model
-from cointoss.models.records import Ending, Outcome
-from tests.helpers.draws import ZLOTY, scenario
-from tests.helpers.films import FLAT, TURNED, UPRIGHT, MadePath, Written, drawn, film_written, made, shown
+from cointoss.compare.film.play import SHOWN_FOR, Play, Shown, play_of
+from cointoss.models.records import Ending
+from tests.helpers.draws import ZLOTY
+from tests.helpers.films import (
+    FLAT,
+    TURNED,
+    UPRIGHT,
+    MadePath,
+    blue,
+    center,
+    drawn,
+    golden,
+    green,
+    made,
+    pink,
+    shown,
+)
 
 TINY = Format(64, 48, 4)
 R = ZLOTY["radius"]
-
-
-def golden(picture):
-    return (picture[..., 0] > picture[..., 2] + 60) & (picture[..., 1] > picture[..., 2] + 30)
-
-
-def blue(picture):
-    return picture[..., 2] > picture[..., 0] + 60
-
-
-def pink(picture):
-    return (picture[..., 0] > picture[..., 1] + 60) & (picture[..., 2] > picture[..., 1] + 30)
-
-
-def green(picture):
-    return (picture[..., 1] > picture[..., 0] + 50) & (picture[..., 1] > picture[..., 2] + 15)
-
-
-def center(mask):
-    """Give the mean row and column of a mask that is not empty."""
-    assert mask.any()
-    return np.argwhere(mask).mean(axis=0)
-
-
-# What is shown when.
-
-
-def test_the_film_runs_from_release_to_the_last_end_and_slows_down_at_impacts():
-    path = MadePath(position=(0, 0, 0.1))
-    tosses = [made(path, impacts=[(0.3, 1e-3)]), made(path, impacts=[(0.7, 1e-3)], end=1.5)]
-    times, speeds = film_times([shown(toss) for toss in tosses], 60)
-    assert (times[0], times[-1]) == (0, 1.5)
-    assert np.all(np.diff(times) > 0)
-    for impact in (0.3, 0.7):
-        assert speeds[np.abs(times - impact).argmin()] == pytest.approx(SLOW, rel=0.05)
-    far = np.abs(times[:, None] - [0.3, 0.7]).min(axis=1) > SLOW_FOR
-    assert speeds[far] == pytest.approx(FAST, rel=1e-12)
-    # One frame further the clock goes by the film's speed over the frames' rate.
-    mean = (speeds[1:] + speeds[:-1]) / 2
-    assert np.diff(times) * 60 / mean == pytest.approx(1, abs=0.1)
-
-
-def test_the_film_is_not_slowed_down_for_weak_impacts_which_show_no_arrow():
-    path = MadePath(position=(0, 0, 0.1))
-    toss = made(path, impacts=[(0.3, 1e-3), (0.6, 0.99 * WEAK * 1e-3), (0.8, 0.99 * WEAKEST * 1e-3)])
-    times, speeds = film_times([shown(toss)], 60)
-    assert min(speeds[times > 0.5]) == pytest.approx(FAST, rel=1e-12)
-    assert [len(play_of(shown(toss), np.array([t])).impulses(0)) for t in (0.301, 0.601, 0.801)] == [1, 1, 0]
-
-
-@pytest.mark.parametrize("impacts", [0, 2000])
-def test_the_longest_toss_has_no_more_frames_than_fit(impacts):
-    path = MadePath(position=(0, 0, 0.1))
-    end = 5000.0
-    toss = made(path, impacts=[(t, 1e-3) for t in np.linspace(1, end, impacts)], end=end)
-    times, speeds = film_times([shown(toss)], 60)
-    assert len(times) == LONGEST * 60
-    assert (times[0], times[-1]) == (0, end)
-    assert np.mean(speeds) == pytest.approx(end / LONGEST, rel=0.1)
-    assert len(film_times([shown(toss)], 60, longest=5.0)[0]) == 300
-
-
-# The coin.
 
 
 @pytest.mark.parametrize("thickness", [0.0, 2e-3])
@@ -124,49 +69,6 @@ def test_the_face_that_is_seen_is_the_face_that_is_up(camera, steepest, up, colo
         (picture,) = drawn(made(path), [0], camera, height=96, width=128)
         assert color(picture).sum() > 10
         assert not other(picture).any()
-
-
-def test_a_shadow_is_what_the_coin_hides_of_the_light_from_above():
-    case, rng = scenario(coin={"center_of_mass": [1e-3, -2e-3, 2e-4]}), np.random.default_rng(1)
-    model = build_visual_model(case, extent=1.0, tile=0.1)
-    data, scene = mujoco.MjData(model), mujoco.MjvScene(model, maxgeom=1)
-    turns = np.linspace(0, 2 * np.pi, 721)
-    R_, H = ZLOTY["radius"], ZLOTY["thickness"]
-    rims = [[R_ * np.cos(a), R_ * np.sin(a), z] for a in turns for z in (-H / 2, H / 2)]
-    for quaternion in (FLAT, UPRIGHT, *rng.normal(size=(5, 4))):
-        data.qpos[:] = [0.3, -0.2, 0.5, *np.array(quaternion) / np.linalg.norm(quaternion)]
-        mujoco.mj_forward(model, data)
-        scene.ngeom = 0
-        add_shadow(scene, data, case.coin)
-        shadow = scene.geoms[0]
-        assert shadow.pos == pytest.approx([0.3, -0.2, 0])
-        axes = shadow.mat[:2, :2]
-        below = (rims @ data.body("coin").xmat.reshape(3, 3).T)[:, :2] @ axes
-        assert np.abs(below).max(axis=0) == pytest.approx(shadow.size[:2], rel=1e-4)
-
-
-def test_the_faces_and_their_letters_differ_in_brightness_too():
-    model = build_visual_model(scenario(), extent=1.0, tile=0.1)
-
-    def luminance(name):
-        color = model.material(name).rgba[:3]
-        linear = np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
-        return float(linear @ [0.2126, 0.7152, 0.0722]) + 0.05  # as contrast is told on the web
-
-    assert luminance("heads") / luminance("tails") > 3
-    assert luminance("heads") / luminance("heads_letter") > 3
-    assert luminance("tails_letter") / luminance("tails") > 3
-
-
-def test_the_visual_coin_has_no_contacts_and_the_same_mass():
-    case = scenario(coin={"center_of_mass": [-1e-3, -1e-3, -2e-4]})
-    model = build_visual_model(case, extent=1.0, tile=0.1)
-    data = mujoco.MjData(model)
-    data.qpos[2] = 0
-    mujoco.mj_forward(model, data)
-    assert data.ncon == 0
-    assert model.body("coin").mass[0] == case.coin.mass
-    assert model.body("coin").ipos == pytest.approx(case.coin.center_of_mass)
 
 
 def test_the_coin_is_where_its_path_is_seen_from_above():
@@ -224,9 +126,6 @@ def test_a_coin_high_up_is_seen_close_by():
     box = box_of([play_of(shown(toss), np.array([0, 0.99]))])
     (picture,) = drawn(toss, [0], Camera.CLOSE_UP, box=box)
     assert golden(picture).any()
-
-
-# Arrows.
 
 
 def test_an_impulse_is_an_arrow_from_the_impact_on_and_not_for_long():
@@ -307,94 +206,3 @@ def test_the_longest_arrows_stay_clear_of_the_caption(width):
     words = np.flatnonzero((picture != written(picture, [caption], "")).any(axis=(1, 2)))
     arrows = pink(picture.astype(int)) | green(picture.astype(int))
     assert np.argwhere(arrows)[:, 0].min() > words.max()
-
-
-# Words.
-
-
-def test_the_label_has_the_colour_of_the_face_and_then_of_the_outcome():
-    blank = np.full((480, 640, 3), 220, np.uint8)
-    for quaternion, outcome, labels in (
-        (FLAT, Outcome.TAILS, ["HEADS UP", "TAILS"]),
-        (TURNED, Outcome.HEADS, ["TAILS UP", "HEADS"]),
-        (TURNED, Outcome.UNDECIDED, ["TAILS UP", "UNDECIDED"]),
-    ):
-        toss = made(MadePath(position=(0, 0, 0.1), quaternion=quaternion), outcome=outcome)
-        play = play_of(shown(toss), np.array([0, 1]))
-        captions = [caption_of(play, i) for i in range(2)]
-        assert [caption.label for caption in captions] == labels
-        for caption in captions:
-            corner = written(blank, [caption], "").astype(int)[:90, :200]
-            assert bool(golden(corner).sum() > 1000) is caption.label.startswith("HEADS")
-            assert bool(blue(corner).sum() > 1000) is caption.label.startswith("TAILS")
-
-
-def test_the_caption_tells_impacts_height_and_the_floors_action():
-    path = MadePath(position=(0, 0, 0.123))
-    toss = made(path, impacts=[(0.2, 1e-3), (0.5, 2.5e-3)], contacts=[(0.6, 0.8)])
-    play = play_of(shown(toss), np.array([0.1, 0.3, 0.5, 0.7, 1]))
-    lines = ["; ".join(line.text for line in caption_of(play, i).lines) for i in range(5)]
-    assert lines == [
-        "0 impacts, height 12.3 cm",
-        "1 impact, height 12.3 cm",
-        "2 impacts, height 12.3 cm; impulse 2.50 mN s",
-        "2 impacts, height 12.3 cm; floor's force 1.00 m g",
-        "2 impacts, height 12.3 cm; settled at 1.000 s",
-    ]
-
-
-def test_the_time_is_written_into_the_frame():
-    """A still coin's frames differ in the line below alone."""
-    form = Format(320, 240, 8)
-    toss = made(MadePath(position=(0, 0, 0.1)))
-    film = frames([shown(toss)], Camera.CLOSE_UP, form)
-    first, second = next(film), next(film)
-    rows = np.flatnonzero((first != second).any(axis=(1, 2)))
-    assert len(rows) > 3
-    assert min(rows) > 0.9 * 240
-
-
-# The film.
-
-
-def test_two_tosses_stand_side_by_side_and_differ_where_their_paths_do():
-    path = MadePath(position=(0, 0, 0.1))
-    parting = MadePath(position=(0, 0, 0.1), velocity=(0.1, 0, 0), start=0.5)
-    tosses = [shown(made(path)), shown(made(parting))]
-    film = list(frames(tosses, Camera.TOP, Format(256, 128, 2)))
-    times, _ = film_times(tosses, 2)
-    scale = 128 / (MARGIN * (0.05 + 4 * R))
-    for i, part in ((0, 0.0), (len(times) - 1, 0.1 * 0.5)):
-        below = film[i][60:].astype(int)  # the captions
-        left, right = center(golden(below[:, :126])), center(golden(below[:, 130:]))
-        assert right - left == pytest.approx([0, part * scale - 2], abs=0.7)
-
-
-def test_frames_are_drawn_one_at_a_time_and_the_last_one_stays():
-    toss = made(MadePath(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), end=0.5)
-    draws = []
-    draw = Drawer.draw
-
-    def counted(self, i):
-        draws.append(i)
-        return draw(self, i)
-
-    with patch.object(Drawer, "draw", counted):
-        film = frames([shown(toss)], Camera.OVERVIEW, TINY)
-        next(film)
-        assert draws == [0]
-        rest = list(film)
-    held = round(HELD * TINY.frames_per_second)
-    assert len(draws) + held == 1 + len(rest) == frame_count([shown(toss)], TINY)
-    assert all(np.array_equal(frame, rest[-1]) for frame in rest[-held - 1 :])
-    assert not np.array_equal(rest[-held - 2], rest[-1])
-
-
-def test_the_file_plays_at_its_size_and_rate(tmp_path):
-    toss = made(MadePath(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), impacts=[(0.1, 1e-3)], end=0.2)
-    form, told = Format(64, 48, 12), []
-    path = tmp_path / "film.mp4"
-    write_video([shown(toss)] * 2, Camera.TOP, form, path, lambda done, count: told.append((done, count)))
-    count = frame_count([shown(toss)], form)
-    assert told == [(i + 1, count) for i in range(count)]
-    assert film_written(path) == Written(codec="h264", size=(64, 48), rate=12, frames=count)

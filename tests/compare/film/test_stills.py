@@ -1,12 +1,9 @@
 """Stills of a toss, and what is said where none can be drawn."""
 
-import sys
-from unittest.mock import patch
-
 import numpy as np
 import pytest
 
-from cointoss.compare.film.back_end import ADVICE, TOO_LATE, UNKNOWN, drawing_problem
+from cointoss.compare.film.back_end import ADVICE, UNKNOWN
 from cointoss.compare.film.stills import stills
 from cointoss.compare.reproduction import runner
 from cointoss.compare.reproduction.claim import unexpected
@@ -53,25 +50,6 @@ def test_a_back_end_that_ends_the_process_is_told_too(monkeypatch):
     monkeypatch.setattr("cointoss.compare.film.back_end.DRAW_ONE_FRAME", dying)
     told = stills(scenario(), faces(HEADS))
     assert told == f"{ADVICE} (ended by signal 9)"
-
-
-@pytest.mark.usefixtures("fresh_back_end")
-def test_the_back_end_is_tried_once(monkeypatch):
-    with patch("cointoss.compare.film.back_end.drawing_complaint", return_value=None) as tried:
-        assert drawing_problem() is None
-        monkeypatch.setenv("MUJOCO_GL", "nonsense")
-        assert drawing_problem() is None
-    assert tried.call_count == 1
-
-
-@pytest.mark.usefixtures("fresh_back_end")
-def test_a_back_end_that_is_chosen_already_is_said_to_be_too_late(monkeypatch):
-    monkeypatch.setattr("sys.platform", "linux")
-    monkeypatch.delenv("DISPLAY", raising=False)
-    monkeypatch.setenv("MUJOCO_GL", "")
-    assert "mujoco" in sys.modules
-    with patch("cointoss.compare.film.back_end.drawing_complaint", return_value=None):
-        assert drawing_problem() == TOO_LATE
 
 
 def test_the_figure_comes_without_stills_too(monkeypatch, tmp_path):

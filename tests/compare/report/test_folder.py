@@ -280,16 +280,6 @@ def test_a_toss_without_impacts_has_a_report_too(tmp_path):
     assert "Vertical lines are impacts" not in text
 
 
-@pytest.mark.usefixtures("fresh_back_end")
-def test_a_missing_back_end_is_found_in_a_child_process(monkeypatch):
-    monkeypatch.setenv("MUJOCO_GL", "egl")
-    monkeypatch.setenv("PYOPENGL_PLATFORM", "osmesa")
-    problem = drawing_problem()
-    assert problem is not None
-    assert problem.startswith(ADVICE)
-    assert "PYOPENGL_PLATFORM" in problem
-
-
 def test_the_papers_scenario_says_what_it_assumes():
     said = " ".join(line[2:] for line in scenario_text("fig24a").splitlines() if line.startswith("# "))
     assert "not which coin, which floor, or g. Here: the ideal coin with h = 2 mm on a smooth floor" in said
