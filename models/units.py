@@ -19,7 +19,7 @@ _TERM = rf"\(?(?:{_NAME})(?:{_POWER})?\)?"
 _UNIT = rf"{_TERM}(?:(?:\s*[*/·]\s*|\s+){_TERM})*"
 _NUMBER_AND_UNIT = re.compile(rf"\s*({_NUMBER})\s*((?:{_UNIT})?)\s*")
 
-_COMMON = {
+COMMON = {
     "": {"%": 0.01},
     "kg": {"kg": 1.0, "g": 0.001},
     "m": {"m": 1.0, "cm": 0.01, "mm": 0.001},
@@ -28,6 +28,7 @@ _COMMON = {
     "rad": {"rad": 1.0, "deg": 0.017453292519943295},
     "rad/s": {"rad/s": 1.0, "deg/s": 0.017453292519943295, "rpm": 0.10471975511965977},
 }
+"""What a unit is in the unit of SI, of those written often: they are read without pint."""
 """Pint's factors from units that are written often, lest half a second goes by until pint is there."""
 
 
@@ -44,11 +45,11 @@ def in_si(text: str, unit: str) -> float:
     parts = _NUMBER_AND_UNIT.fullmatch(text) if len(text) <= LONGEST else None
     if parts is None or (unit and not parts[2]) or not math.isfinite(float(parts[1])):
         raise ValueError(_accepted(unit))
-    factor = _COMMON.get(unit, {}).get(parts[2])
+    factor = COMMON.get(unit, {}).get(parts[2])
     if factor is not None:
         return float(parts[1]) * factor
     try:
-        registry = _registry()
+        registry = pint_registry()
         given = registry.parse_units(parts[2])
         # Pint counts radians as numbers: it would take 40 Hz for 40 rad/s, and 7 % for an angle.
         if registry.get_root_units(given)[1] != registry.get_root_units(registry.parse_units(unit))[1]:
@@ -67,7 +68,8 @@ def _accepted(unit: str) -> str:
 
 
 @cache
-def _registry() -> "UnitRegistry":
+def pint_registry() -> "UnitRegistry":
+    """Return pint's units, which take long to import."""
     import pint
 
     return pint.UnitRegistry()

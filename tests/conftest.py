@@ -9,6 +9,8 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from cointoss.compare.film.back_end import drawing_problem
+from tests.helpers.browser import Page, browser
+from tests.helpers.explored import serving, small_map
 
 os.environ.setdefault("MUJOCO_GL", "egl")
 # A busy machine is slow, and of what is slow the commands speak.
@@ -48,3 +50,30 @@ def fresh_back_end():
     drawing_problem.cache_clear()
     yield
     drawing_problem.cache_clear()
+
+
+@pytest.fixture(scope="module")
+def chromium(tmp_path_factory):
+    """A browser for the tests of a module."""
+    with browser(tmp_path_factory.mktemp("profile")) as started:
+        yield started
+
+
+@pytest.fixture
+def page(chromium):
+    """A tab of the browser."""
+    with Page(chromium) as opened:
+        yield opened
+
+
+@pytest.fixture(scope="module")
+def map_path(tmp_path_factory):
+    """A small map to explore."""
+    return small_map(tmp_path_factory.mktemp("map"))
+
+
+@pytest.fixture(scope="module")
+def server(map_path):
+    """The explorer's server of that map."""
+    with serving(map_path) as explorer:
+        yield explorer

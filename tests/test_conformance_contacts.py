@@ -10,7 +10,8 @@ from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Ending, Outcome
 from tests.helpers import engines
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
-from tests.helpers.engines import as_releases
+from tests.helpers.many import as_releases
+from tests.helpers.states import energies
 from tests.helpers.symmetries import SYMMETRIES
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
@@ -70,12 +71,6 @@ def lowest_points(case, states):
     arm = np.einsum("nij,nj->ni", turn, point - case.coin.center_of_mass)
     spin = np.einsum("nij,nj->ni", turn, states.angular_velocity)
     return states.position[:, 2] + arm[:, 2], states.velocity + np.cross(spin, arm)
-
-
-def energies(case, states):
-    m, J, w = case.coin.mass, np.array(case.body.inertia), states.angular_velocity
-    kinetic = m * (states.velocity**2).sum(1) / 2 + np.einsum("ni,ij,nj->n", w, J, w) / 2
-    return kinetic + m * 9.81 * states.position[:, 2]
 
 
 def longest_contact(tossed, inside=0.0):

@@ -11,10 +11,11 @@ from cointoss.compare.reproduction.setups.hands import releases_of_hands
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import AIR, ZLOTY, scenario
 from tests.helpers.engines import toss, toss_many
+from tests.helpers.states import energies
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
-R, G = ZLOTY["radius"], 9.81
+R = ZLOTY["radius"]
 THIN, THICK = {**ZLOTY, "thickness": 0.0}, {**ZLOTY, "thickness": 4e-3}
 RESISTANCE = {"rolling_friction": 5e-4, "pivoting_friction": 1e-4}
 
@@ -75,10 +76,7 @@ def test_engines_agree_on_when_and_where(name):
 @pytest.mark.parametrize(("engine", "name"), BOTH)
 def test_energy_falls(engine, name):
     found, case = tossed(engine, name), CASES[name][0]
-    states = found.sample(np.linspace(0, found.end_time, 1001))
-    v, w, J = states.velocity, states.angular_velocity, np.array(case.body.inertia)
-    energy = case.coin.mass * ((v**2).sum(1) / 2 + G * states.position[:, 2])
-    energy += np.einsum("ni,ij,nj->n", w, J, w) / 2
+    energy = energies(case, found.sample(np.linspace(0, found.end_time, 1001)))
     gain = np.max(energy - np.minimum.accumulate(energy)) / energy[0]
     # MuJoCo's steps in a contact change about 1e-3 of the energy in a second.
     assert gain < {Engine.ANALYTIC: 1e-9, Engine.MUJOCO: 2e-3}[engine]

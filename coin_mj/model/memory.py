@@ -62,7 +62,7 @@ def offset_of(struct: str, field: str) -> int:
     Raises:
         LayoutError: if there is no such field, or a field of a type that is not known.
     """
-    offset, kind = 0, _layout(struct)
+    offset, kind = 0, layout_of(struct)
     for name in field.split("."):
         kinds = dict(kind._fields_)
         if name not in kinds:
@@ -91,7 +91,8 @@ def require_layout(model: mujoco.MjModel, data: mujoco.MjData) -> None:
 
 
 @cache
-def _layout(struct: str) -> Any:
+def layout_of(struct: str) -> Any:
+    """Return the ctypes structure of one of `STRUCTS`."""
     return _structure(struct, STRUCTS[struct].fields)
 
 
@@ -113,7 +114,7 @@ def _kind(struct: str, field: str, described: Any) -> Any:
     if isinstance(described, ast_nodes.AnonymousStructDecl):
         return _structure(struct, described.fields)
     if described.name in STRUCTS:
-        return _layout(described.name)
+        return layout_of(described.name)
     if described.name not in _SCALARS:
         raise _misplaced(struct, field)
     return _SCALARS[described.name]

@@ -13,7 +13,7 @@ from importlib import import_module
 
 from cointoss.models.stages import stage
 
-_DRAW_ONE_FRAME = """
+DRAW_ONE_FRAME = """
 import mujoco
 model = mujoco.MjModel.from_xml_string("<mujoco><worldbody><geom size='1'/></worldbody></mujoco>")
 data = mujoco.MjData(model)
@@ -64,7 +64,7 @@ def drawing_problem() -> str | None:
     needs_egl = sys.platform == "linux" and "DISPLAY" not in os.environ and not os.environ.get("MUJOCO_GL")
     if needs_egl:
         os.environ["MUJOCO_GL"] = "egl"
-    said = _drawing_complaint()
+    said = drawing_complaint()
     if said is None:
         return TOO_LATE if needs_egl and "mujoco" in sys.modules else None
     # Importing MuJoCo for a back end that is missing would fail too.
@@ -75,10 +75,10 @@ def drawing_problem() -> str | None:
     return f"{ADVICE if lacks_library else UNKNOWN} ({said})"
 
 
-def _drawing_complaint() -> str | None:
+def drawing_complaint() -> str | None:
     """Return the last thing that a child process says which fails to draw a frame; None where it draws it."""
     # -P: a module of the current folder must not stand in for one of Python's.
-    command = [sys.executable, "-P", "-c", _DRAW_ONE_FRAME]
+    command = [sys.executable, "-P", "-c", DRAW_ONE_FRAME]
     try:
         with stage("trying whether MuJoCo can draw here"):
             tried = subprocess.run(command, capture_output=True, check=False, timeout=120, errors="replace")

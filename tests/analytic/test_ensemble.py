@@ -13,35 +13,19 @@ from cointoss.models.laws import ContactLaw
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.parts import Release
 from cointoss.models.records import Ending, Face, Outcome
-from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.many import as_releases, assert_same_toss, draw_releases, releases_of
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
 IDEAL, OFF_CENTER = [0.0, 0.0, 0.0], np.array(PAPER_OFFSET)
 
 
-def draw_releases(rng: np.random.Generator, n: int) -> tuple[list[dict[str, Any]], Releases]:
-    """Draw releases, one by one and as arrays."""
-    drawn = [draw_release(rng) for _ in range(n)]
-    return drawn, as_arrays(drawn)
-
-
-def as_arrays(drawn: list[dict[str, Any]]) -> Releases:
-    names = ("position", "velocity", "quaternion", "angular_velocity")
-    return Releases(**{name: np.array([one[name] for one in drawn]) for name in names})
-
-
 def assert_each_is_a_toss(case: Scenario, drawn: list[dict[str, Any]], outcomes: Outcomes) -> None:
     for i, release in enumerate(drawn):
         # What `toss` makes its record of; it also follows the errors, which takes ten times as long.
-        tossed = run(case.body, case.rules, state_of(Release.model_validate(release)))
-        assert outcomes.outcome[i] == tossed.outcome
-        assert outcomes.ending[i] == tossed.ending
-        assert outcomes.impacts[i] == len(tossed.rows)
-        assert outcomes.end_time[i] == tossed.end_time
-        assert outcomes.last_face[i] == (tossed.rows["face"][-1] if len(tossed.rows) else 0)
+        assert_same_toss(outcomes, i, run(case.body, case.rules, state_of(Release.model_validate(release))))
 
 
 @pytest.mark.parametrize("law", list(ContactLaw))
@@ -100,7 +84,7 @@ def test_the_order_is_that_of_the_releases_over_many_tiles():
     rng = np.random.default_rng(3)
     case = scenario(air=AIR, ending={"max_impacts": 3})
     drawn, releases = draw_releases(rng, 1000)
-    here, there = analytic.toss_many(case, releases), analytic.toss_many(case, as_arrays(drawn[::-1]))
+    here, there = analytic.toss_many(case, releases), analytic.toss_many(case, as_releases(drawn[::-1]))
     assert np.array_equal(here.end_time, there.end_time[::-1])
     assert np.array_equal(here.outcome, there.outcome[::-1])
     assert len(np.unique(here.end_time)) == 1000
@@ -124,21 +108,13 @@ def test_the_face_after_impacts_is_the_face_of_that_touch_or_the_final_face():
 
 
 def test_no_releases_give_no_outcomes():
-    _, one = draw_releases(np.random.default_rng(0), 1)
-    none = Releases(**{name: array[:0] for name, array in vars(one).items()})
-    outcomes = analytic.toss_many(scenario(), none)
+    outcomes = analytic.toss_many(scenario(), releases_of(0))
     assert len(outcomes) == 0
     assert outcomes.after(0).shape == (0,)
 
 
 def test_a_flat_drop_shows_its_face():
-    drop = Releases(
-        position=np.array([[0, 0, 0.3]] * 2),
-        velocity=np.zeros((2, 3)),
-        quaternion=np.array([[1.0, 0, 0, 0], [0, 1, 0, 0]]),
-        angular_velocity=np.zeros((2, 3)),
-    )
-    outcomes = analytic.toss_many(scenario(), drop)
+    outcomes = analytic.toss_many(scenario(), releases_of(2, quaternion=[[1, 0, 0, 0], [0, 1, 0, 0]]))
     assert outcomes.outcome.tolist() == [Outcome.HEADS, Outcome.TAILS]
     assert outcomes.last_face.tolist() == [Face.HEADS, Face.TAILS]
 

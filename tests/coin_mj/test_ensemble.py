@@ -16,21 +16,9 @@ from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.toss import run
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.records import ApproximationWarning, Ending, UnsupportedError
-from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
-
-NAMES = ("position", "velocity", "quaternion", "angular_velocity")
-
-
-def draw_releases(rng: np.random.Generator, n: int) -> tuple[list[dict[str, Any]], Releases]:
-    """Draw releases, one by one and as arrays."""
-    drawn = [draw_release(rng) for _ in range(n)]
-    return drawn, as_arrays(drawn)
-
-
-def as_arrays(drawn: list[dict[str, Any]]) -> Releases:
-    return Releases(**{name: np.array([one[name] for one in drawn]) for name in NAMES})
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.many import as_releases, assert_same_toss, draw_releases, releases_of
 
 
 def assert_same(a: Outcomes, b: Outcomes) -> None:
@@ -44,12 +32,7 @@ def assert_each_is_a_toss(
     for i, release in enumerate(drawn):
         one = case.replace("release", release)
         # What `toss` makes its record of; it also tosses softer coins, for its horizon of trust.
-        tossed = run(machine_of(one, settings, shape_thickness(one)), one.rules)
-        assert outcomes.outcome[i] == tossed.outcome
-        assert outcomes.ending[i] == tossed.ending
-        assert outcomes.impacts[i] == len(tossed.rows)
-        assert outcomes.end_time[i] == tossed.end_time
-        assert outcomes.last_face[i] == (tossed.rows["face"][-1] if len(tossed.rows) else 0)
+        assert_same_toss(outcomes, i, run(machine_of(one, settings, shape_thickness(one)), one.rules))
 
 
 @pytest.mark.parametrize("law", ["smooth", "coulomb", "perfectly_rough"])
@@ -107,25 +90,22 @@ def test_neither_threads_nor_tiles_nor_order_change_a_toss(exponent, n, longest,
     assert_same(answers[0], answers[1])
     assert_same(answers[0], answers[2])
     assert len(np.unique(answers[0].end_time)) > (n - 1 if exponent == 0 else 1)
-    there = coin_mj.toss_many(case, as_arrays(drawn[::-1]))
+    there = coin_mj.toss_many(case, as_releases(drawn[::-1]))
     assert_same(answers[0], Outcomes(**{name: array[::-1].copy() for name, array in vars(there).items()}))
     part = Outcomes(**{name: array[TILE - 2 : TILE + 2].copy() for name, array in vars(answers[0]).items()})
     assert_each_is_a_toss(case, drawn[TILE - 2 : TILE + 2], part)
 
 
 def test_no_releases_give_no_outcomes():
-    _, one = draw_releases(np.random.default_rng(0), 1)
-    none = Releases(**{name: array[:0] for name, array in vars(one).items()})
-    assert len(coin_mj.toss_many(scenario(), none)) == 0
+    assert len(coin_mj.toss_many(scenario(), releases_of(0))) == 0
 
 
 def test_what_toss_refuses_is_refused_and_what_it_warns_of_is_warned_of():
     _, releases = draw_releases(np.random.default_rng(0), 1)
     with pytest.raises(UnsupportedError, match=r"floor\.restitution = 0"):
         coin_mj.toss_many(scenario(floor={"restitution": 0.0}), releases)
-    below = Releases(**{**vars(releases), "position": np.zeros((1, 3))})
     with pytest.raises(ValueError, match="a coin above the floor"):
-        coin_mj.toss_many(scenario(), below)
+        coin_mj.toss_many(scenario(), releases_of(1, position=[0, 0, 0]))
     rough = scenario(floor={"contact": "perfectly_rough"}, ending={"max_impacts": 1})
     with pytest.warns(ApproximationWarning, match="friction 100"):
         outcomes = coin_mj.toss_many(rough, releases)

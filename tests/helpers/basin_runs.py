@@ -6,6 +6,10 @@ import time
 import numpy as np
 import xarray as xr
 
+from cointoss.compare.engines import Engine
+from cointoss.compare.sweep.axes import parse_axis
+from cointoss.compare.sweep.grid import Sweep
+from cointoss.models.reading import parse
 from tests.helpers.command_line import cointoss
 from tests.helpers.processes import started
 
@@ -23,6 +27,13 @@ position = [0, 0, 0.4]
 AXES = ("--x", "release.angular_velocity.eta=20:60:48", "--y", "release.position.z=0.2:0.6:40")
 SMALL, TILES = 64, 30
 """Tosses in a tile of these tests, and tiles in a map."""
+
+
+def sweep_of(x, y, case=SCENARIO, engine=Engine.ANALYTIC, **extra):
+    """Return the sweep of two axes over a scenario or its text, with the engine's settings for many."""
+    case = parse(case, "coin") if isinstance(case, str) else case
+    given = {"scenario": case, "engine": engine, "settings": engine.package.MANY, **extra}
+    return Sweep(x=parse_axis(x, case), y=parse_axis(y, case), **given)
 
 
 def basin(*arguments):

@@ -1,6 +1,8 @@
 """The command line, run in this process or in another that finds this checkout."""
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 from click.testing import CliRunner, Result
@@ -13,3 +15,24 @@ HERE = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2]), "PYTHONDONTW
 def cointoss(*arguments: object) -> Result:
     """Return the answer of `cointoss` to those arguments."""
     return CliRunner().invoke(main, [str(part) for part in arguments], catch_exceptions=False)
+
+
+def refused(*arguments: object) -> str:
+    """Return the one line that `cointoss` answers to those arguments, with exit status 2 and nothing else."""
+    answered = cointoss(*arguments)
+    assert (answered.exit_code, answered.stdout) == (2, ""), answered.stderr
+    assert answered.stderr.startswith("cointoss: ")
+    assert answered.stderr.count("\n") == answered.stderr.endswith("\n") == 1
+    return answered.stderr
+
+
+def in_a_shell(command, folder):
+    """Run a shell's line in a folder, `cointoss` being the command."""
+    line = f'cointoss() {{ "{sys.executable}" -m cointoss "$@"; }}; {command}'
+    return subprocess.run(
+        ["bash", "-c", line],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        env=HERE,
+    )

@@ -1,10 +1,6 @@
 """Both engines by their verbs, without the warnings of what MuJoCo tosses approximately."""
 
 import warnings
-from collections.abc import Sequence
-from typing import Any
-
-import numpy as np
 
 from cointoss.compare.engines import Engine
 from cointoss.models.outcomes import Outcomes
@@ -32,9 +28,3 @@ def toss_many(engine: Engine, case: Scenario, releases: Releases) -> Outcomes:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ApproximationWarning)
         return engine.package.toss_many(case, releases)
-
-
-def as_releases(drawn: Sequence[dict[str, Any]]) -> Releases:
-    """Return releases, one by one, as arrays."""
-    names = ("position", "velocity", "quaternion", "angular_velocity")
-    return Releases(**{name: np.array([one[name] for one in drawn]) for name in names})

@@ -109,3 +109,25 @@ def film_written(path: Path) -> Written:
     codec, width, height, rate = stream.groups()
     frames = re.findall(r"frame= *(\d+)", told)[-1]
     return Written(codec, (int(width), int(height)), float(rate), int(frames))
+
+
+def golden(picture):
+    return (picture[..., 0] > picture[..., 2] + 60) & (picture[..., 1] > picture[..., 2] + 30)
+
+
+def blue(picture):
+    return picture[..., 2] > picture[..., 0] + 60
+
+
+def pink(picture):
+    return (picture[..., 0] > picture[..., 1] + 60) & (picture[..., 2] > picture[..., 1] + 30)
+
+
+def green(picture):
+    return (picture[..., 1] > picture[..., 0] + 50) & (picture[..., 1] > picture[..., 2] + 15)
+
+
+def center(mask):
+    """Give the mean row and column of a mask that is not empty."""
+    assert mask.any()
+    return np.argwhere(mask).mean(axis=0)

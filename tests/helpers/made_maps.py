@@ -61,3 +61,8 @@ def uncertain_fraction(distance, scale, hurst):
     """
     once, twice = (np.arcsin(correlation(part * distance, scale, hurst)) for part in (1, 2))
     return 0.75 - (2 * once + twice) / (2 * np.pi)
+
+
+def line(text):
+    """Outcomes by their letters; ? is undecided."""
+    return np.array([{"H": HEADS, "T": TAILS, "E": EDGE, "?": UNDECIDED}[letter] for letter in text], np.int8)

@@ -11,6 +11,7 @@ from cointoss.models.clearance import acceleration_bounds, clear_time, damping_r
 from cointoss.models.ending import idle_energy
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
+from tests.helpers.states import gaps
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
@@ -188,12 +189,8 @@ def test_a_grazing_coin_hardly_sinks_in_its_grazing_time(tilt, seed):
         ending={"max_time": max(2 * time, 1e-12)},
     )
     states = analytic.toss(case).sample(np.linspace(0, time, 200))
-    sunk = [
-        1.0 - gap(body, x[2], rotation_matrix(tuple(e))[2])
-        for x, e in zip(states.position, states.quaternion, strict=True)
-    ]
     # Rounding of heights near 1 m.
-    assert max(sunk) <= 3 * sink + 1e-14
+    assert max(1.0 - gaps(body, states)) <= 3 * sink + 1e-14
 
 
 def test_linear_air_is_the_same_whether_its_exponent_is_none_or_0():

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from cointoss.models.interruptible import begun, interruptible
-from cointoss.models.releases import Releases
 from cointoss.models.tiles import toss_in_tiles
+from tests.helpers.many import releases_of
 
 
 def test_the_main_thread_waits_for_another_which_does_nested_work_itself():
@@ -43,15 +43,6 @@ def test_warnings_and_numpy_errors_are_treated_as_the_caller_asks():
         assert begun(lambda: np.float64(1) / np.float64(0)).result() == np.inf
 
 
-def many(n):
-    return Releases(
-        position=np.ones((n, 3)),
-        velocity=np.zeros((n, 3)),
-        quaternion=np.tile([1.0, 0, 0, 0], (n, 1)),
-        angular_velocity=np.zeros((n, 3)),
-    )
-
-
 @pytest.mark.parametrize(("n", "size"), [(0, 5), (1, 1), (4, 1), (15, 1), (24, 3), (1000, 5), (1003, 5)])
 def test_every_tile_is_made_once_and_each_thread_has_some(n, size, monkeypatch):
     monkeypatch.setattr("cointoss.models.tiles.config.NUMBA_NUM_THREADS", 2)
@@ -62,7 +53,7 @@ def test_every_tile_is_made_once_and_each_thread_has_some(n, size, monkeypatch):
         for column in others:
             column[:] = len(states)
 
-    made = toss_in_tiles(many(n), 5, number, lambda *so_far: told.append(so_far))
+    made = toss_in_tiles(releases_of(n), 5, number, lambda *so_far: told.append(so_far))
     assert made.outcome.tolist() == [3] * n
     assert made.impacts.tolist() == [size] * (n - n % size) + [n % size] * (n % size)
     assert sorted(told) == told
@@ -77,5 +68,5 @@ def test_a_tile_that_fails_keeps_those_not_begun_from_being_made():
         raise LookupError("a tile")
 
     with pytest.raises(LookupError, match="a tile"):
-        toss_in_tiles(many(1000), 1, failing, lambda *_: None)
+        toss_in_tiles(releases_of(1000), 1, failing, lambda *_: None)
     assert 1 <= len(made) <= threading.active_count() + 64

@@ -9,6 +9,7 @@ from cointoss.models.parts import Release
 from cointoss.models.reading import load
 from cointoss.models.releases import QUANTITIES, Releases, check_releases
 from tests.helpers.draws import scenario
+from tests.helpers.many import releases_of
 
 GOOD = {
     "position": np.full((2, 3), 0.4),
@@ -48,12 +49,7 @@ def test_euler_parameters_are_brought_to_norm_1_as_those_of_one_release():
     rng = np.random.default_rng(1)
     e = rng.normal(size=(50, 4))
     e /= np.linalg.norm(e, axis=1)[:, None] * (1 + rng.uniform(-9e-4, 9e-4, 50))[:, None]
-    many = Releases(
-        position=np.full((50, 3), 0.4),
-        velocity=np.zeros((50, 3)),
-        quaternion=e,
-        angular_velocity=np.zeros((50, 3)),
-    )
+    many = releases_of(50, position=[0.4, 0.4, 0.4], quaternion=e)
     for i in range(50):
         one = Release(position=(0.4, 0.4, 0.4), quaternion=tuple(e[i].tolist()))
         assert tuple(many.quaternion[i].tolist()) == one.attitude
@@ -76,7 +72,7 @@ def test_an_attitude_from_angles_is_that_of_one_release_to_the_bit():
         [Release(position=(0, 0, 1), angles=tuple(row)).attitude for row in angles.tolist()]
     )
     assert np.any(np.sum(one_by_one**2, axis=1) != 1), "some norm should be off by rounding"
-    many = Releases(**{**{name: np.zeros((200, 3)) for name in GOOD}, "quaternion": one_by_one})
+    many = releases_of(200, quaternion=one_by_one)
     assert np.array_equal(many.quaternion, one_by_one)
     again = [Release(position=(0, 0, 1), quaternion=tuple(row)).attitude for row in one_by_one.tolist()]
     assert np.array_equal(again, one_by_one)

@@ -12,7 +12,7 @@ from cointoss.models.notebook import shares_picture, shortened, with_bar
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.reading import load
 from cointoss.models.records import Ending, Face, Outcome
-from cointoss.models.releases import Releases
+from tests.helpers.many import releases_of
 
 
 @pytest.fixture(scope="module")
@@ -49,8 +49,7 @@ def test_one_line_says_how_it_ended(tossed, outcomes):
     assert repr(tossed.impacts) == f"<Impacts: {len(tossed.impacts)}, {tossed.sequence}>"
     assert repr(tossed.sample([0, 0.25])) == "<States: 2 from 0 to 0.25 s>"
     assert repr(outcomes) == "<Outcomes of 3 tosses: 2 heads, 1 tails>"
-    one = {"position": np.zeros((1, 3)), "velocity": np.zeros((1, 3)), "angular_velocity": np.zeros((1, 3))}
-    assert repr(Releases(**one, quaternion=np.array([[1.0, 0, 0, 0]]))) == "<Releases: 1>"
+    assert repr(releases_of(1)) == "<Releases: 1>"
 
 
 def test_sequences_are_shortened_and_have_their_bar():

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.helpers.browser import Page, browser
+from tests.helpers.browser import Page
 
 SITE = Path(__file__).parents[2] / "out" / "site"
 COMPLETE = "document.readyState === 'complete' && location.href !== 'about:blank'"
@@ -27,12 +27,6 @@ PAGES = (
 )
 
 
-@pytest.fixture(scope="module")
-def chromium(tmp_path_factory):
-    with browser(tmp_path_factory.mktemp("profile")) as started:
-        yield started
-
-
 def foreign(page):
     return [
         address for address in page.asked() if not address.startswith(("file:", "data:", "blob:", "about:"))
@@ -50,16 +44,14 @@ def test_a_page_is_quiet_and_fits_its_window(chromium, name):
             assert foreign(page) == []
 
 
-def test_the_search_finds_a_page(chromium):
-    with Page(chromium) as page:
-        page.open(f"{(SITE / 'search.html').as_uri()}?q=restitution", ready=COMPLETE)
-        page.wait_for("document.querySelectorAll('#search-results li a').length > 5")
-        assert page.complaints() == []
-        assert foreign(page) == []
+def test_the_search_finds_a_page(page):
+    page.open(f"{(SITE / 'search.html').as_uri()}?q=restitution", ready=COMPLETE)
+    page.wait_for("document.querySelectorAll('#search-results li a').length > 5")
+    assert page.complaints() == []
+    assert foreign(page) == []
 
 
-def test_the_map_of_the_site_can_be_explored(chromium):
-    with Page(chromium) as page:
-        page.open((SITE / "explorer.html").as_uri())
-        assert page.complaints() == []
-        assert foreign(page) == []
+def test_the_map_of_the_site_can_be_explored(page):
+    page.open((SITE / "explorer.html").as_uri())
+    assert page.complaints() == []
+    assert foreign(page) == []

@@ -1,0 +1,103 @@
+"""Where MuJoCo's numbers lie: as a search of its memory finds them; a new layout ends in one clear line."""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
+import ctypes
+from types import SimpleNamespace
+
+import mujoco
+import numpy as np
+import pytest
+
+from cointoss.coin_mj.model import memory
+from cointoss.coin_mj.model.memory import LayoutError, joint_arrays, offset_of, require_layout
+from tests.helpers.command_line import refused
+
+ON_FLOOR = """<mujoco><option timestep="0.123456789"/><worldbody><geom type="plane" size="0 0 1" condim="1"/>
+<body pos="0 0 0.9"><freejoint/><geom size="1" condim="1"/></body></worldbody></mujoco>"""
+
+
+@pytest.fixture
+def machine():
+    """A ball in contact with the floor: MuJoCo's model and data."""
+    model = mujoco.MjModel.from_xml_string(ON_FLOOR)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+@pytest.fixture
+def described(monkeypatch):
+    """A copy of MuJoCo's descriptions to change."""
+    structs = {name: SimpleNamespace(fields=list(s.fields)) for name, s in memory.STRUCTS.items()}
+    monkeypatch.setattr(memory, "STRUCTS", structs)
+    memory.layout_of.cache_clear()
+    yield structs
+    memory.layout_of.cache_clear()
+
+
+def places(struct, name, value):
+    """Find a value in the whole of a struct."""
+    size = ctypes.sizeof(memory.layout_of(name))
+    held, step = ctypes.string_at(struct._address, size), ctypes.alignment(value)
+    return [at for at in range(0, size - step + 1, step) if held.startswith(bytes(value), at)]
+
+
+@pytest.mark.parametrize("name", ["qvel", "qfrc_passive", "efc_J", "efc_pos", "efc_D", "efc_R", "efc_aref"])
+def test_an_array_lies_where_its_address_is_found_and_nowhere_else(machine, name):
+    _, data = machine
+    address = ctypes.c_size_t(getattr(data, name).ctypes.data)
+    assert places(data, "mjData", address) == [offset_of("mjData", name)]
+
+
+def test_the_first_array_has_the_address_of_their_buffer_too(machine):
+    _, data = machine
+    address = ctypes.c_size_t(data.qpos.ctypes.data)
+    assert places(data, "mjData", address) == [offset_of("mjData", name) for name in ("buffer", "qpos")]
+
+
+def test_numbers_lie_where_their_values_are_found(machine):
+    model, data = machine
+    step = ctypes.c_double(model.opt.timestep)
+    assert places(model, "mjModel", step) == [offset_of("mjModel", "opt.timestep")]
+    assert data.nefc == 1
+    assert offset_of("mjData", "nefc") in places(data, "mjData", ctypes.c_int32(1))
+
+
+def test_the_arrays_of_the_joint_are_views(machine):
+    _, data = machine
+    joint = joint_arrays(data)
+    for name in joint.dtype.names:
+        getattr(data, name)[:] = np.random.default_rng(len(name)).normal(size=joint[name].size)
+        assert np.array_equal(joint[name], getattr(data, name))
+
+
+@pytest.mark.parametrize(("struct", "named"), [("mjData", "qpos"), ("mjModel", "opt.timestep")])
+def test_a_field_more_than_described_is_noticed(machine, described, struct, named):
+    del described[struct].fields[0]
+    expected = rf"^MuJoCo {mujoco.__version__}: {struct}\.{named} does not lie where .*; accepted: "
+    with pytest.raises(LayoutError, match=expected):
+        require_layout(*machine)
+
+
+@pytest.mark.parametrize("struct", ["mjData", "mjModel"])
+def test_a_field_more_behind_those_used_is_noticed_too(machine, described, struct):
+    del described[struct].fields[-2]
+    with pytest.raises(LayoutError, match=rf"{struct}\.signature"):
+        require_layout(*machine)
+
+
+def test_a_field_that_is_gone_or_of_an_unknown_type_is_named(described):
+    described["mjData"].fields = [field for field in described["mjData"].fields if field.name != "efc_J"]
+    with pytest.raises(LayoutError, match=r"mjData\.efc_J"):
+        offset_of("mjData", "efc_J")
+    described["mjModel"].fields[0] = SimpleNamespace(name="nq", type=SimpleNamespace(name="quadruple"))
+    with pytest.raises(LayoutError, match=r"mjModel\.nq"):
+        offset_of("mjModel", "opt.timestep")
+
+
+def test_a_new_layout_is_one_line_and_exit_status_2(described):
+    del described["mjData"].fields[0]
+    said = refused("toss", "fig24a", "--engine", "mujoco")
+    assert said.startswith(f"cointoss: MuJoCo {mujoco.__version__}: mjData.qpos does not lie")

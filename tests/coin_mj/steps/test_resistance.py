@@ -1,0 +1,234 @@
+"""MuJoCo's coin on a floor that resists rolling and pivoting: closed forms, rest, energy, Euler's disk."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from cointoss import coin_mj
+from cointoss.coin_mj.model.machine import machine_of
+from cointoss.coin_mj.model.scene import shape_thickness
+from cointoss.coin_mj.model.settings import Friction, Settings
+from cointoss.coin_mj.model.state import state_of
+from cointoss.coin_mj.steps.resistance import resisted_force, shortest_stop
+from cointoss.coin_mj.steps.sustained_contact import next_step, sustained_step
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.kernel.vectors import cross
+from cointoss.models.records import ApproximationWarning, Ending, Outcome, UnsupportedError
+from tests.helpers.draws import AIR, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
+from tests.helpers.states import energies
+
+pytestmark = [
+    pytest.mark.filterwarnings(f"ignore::{ApproximationWarning.__module__}.ApproximationWarning"),
+    pytest.mark.usefixtures("without_horizon"),
+]
+
+G, R, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
+UNIT = (G / R) ** 0.5
+THIN = {**ZLOTY, "thickness": 0.0}
+HOOP = {**THIN, "inertia": (np.diag([0.5, 0.5, 1.0]) * M * R * R).tolist()}
+
+
+def set_down(speed, spin=0.0, coin=THIN, law="coulomb", **floor):
+    """Give a coin that is set down upright: it rolls along x, or turns about the vertical."""
+    return scenario(
+        coin=coin,
+        floor={"contact": law, "friction": 0.5, "restitution": 0.3, **floor},
+        release={
+            "position": [0, 0, R],
+            "velocity": [speed, 0, 0],
+            "angles": [0, np.pi / 2, 0],
+            "angular_velocity": [0, spin, -speed / R],
+        },
+    )
+
+
+@pytest.mark.parametrize("law", ["perfectly_rough", "coulomb"])
+@pytest.mark.parametrize(("coin", "share"), [(THIN, 0.5), (HOOP, 1.0)])
+def test_a_disc_and_a_hoop_that_roll_upright_come_to_rest_where_the_closed_form_says(law, coin, share):
+    """(J_ζ + m r²) dω_ζ/dt = -δ m g: v falls by δ g/(r (1 + J_ζ/(m r²))) a second."""
+    delta, speed = 1e-3, 0.3
+    slowing = delta * G / (R * (1 + share))
+    tossed = coin_mj.toss(set_down(speed, coin=coin, law=law, rolling_friction=delta))
+    assert (tossed.outcome, tossed.ending) == (Outcome.EDGE, Ending.AT_REST)
+    # Rest is found at 1e-3 √(g/r).
+    assert tossed.end_time == pytest.approx(speed / slowing, rel=2e-3)
+    end = tossed.sample(tossed.end_time)
+    assert end.position[0, 0] == pytest.approx(speed**2 / (2 * slowing), rel=1e-4)
+    times = np.linspace(0, 0.9 * tossed.end_time, 9)
+    # Within a step of the path states are interpolated.
+    assert tossed.sample(times).velocity[:, 0] == pytest.approx(speed - slowing * times, rel=2e-4)
+
+
+def test_a_disc_that_turns_upright_is_slowed_by_resistance_to_pivoting():
+    """J_ξ dω_z/dt = -p m g."""
+    p, spin = 1e-3, 80.0
+    case = set_down(0.0, spin, pivoting_friction=p, rolling_friction=p)
+    slowing = p * M * G / case.body.inertia[1][1]
+    tossed = coin_mj.toss(case)
+    times = np.linspace(0, 0.95 * spin / slowing, 9)
+    left = tossed.sample(times).angular_velocity[:, 1]
+    assert left == pytest.approx(spin - slowing * times, rel=1e-4)
+    assert tossed.end_time == pytest.approx(spin / slowing, rel=1e-3)
+
+
+def test_on_a_smooth_floor_a_coin_pivots_to_rest_and_slides_on():
+    case = set_down(0.0, 20.0, law="smooth", pivoting_friction=1e-3, rolling_friction=1e-3)
+    case = case.replace("release.velocity.x", 0.2)
+    tossed = coin_mj.toss(case)
+    assert tossed.end_time == pytest.approx(20.0 / (1e-3 * M * G / case.body.inertia[1][1]), rel=2e-3)
+    assert tossed.sample(tossed.end_time).velocity[0, :2] == pytest.approx([0.2, 0], abs=1e-12)
+
+
+def draw_contact(rng):
+    """Draw the mobility of a disc of mass 1 and radius 1 at its rim, and the motion there."""
+    turn, angle = np.array(rotation_matrix(tuple(draw_quaternion(rng)))), rng.uniform(0, 2 * np.pi)
+    arm = turn @ [np.cos(angle), np.sin(angle), 0.0]
+    J_inverse = turn @ np.diag([4.0, 4.0, 2.0]) @ turn.T
+    # v_A = v + ω × a, and the moment of an impulse there about C is a × S.
+    across = np.array([[0, -arm[2], arm[1]], [arm[2], 0, -arm[0]], [-arm[1], arm[0], 0]])
+    K = np.block(
+        [[np.eye(3) - across @ J_inverse @ across, -across @ J_inverse], [J_inverse @ across, J_inverse]]
+    )
+    return K, tuple(rng.uniform(0.02, 0.3, 3)), tuple(rng.normal(size=6))
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_no_moment_is_larger_than_the_floor_has_and_each_takes_energy(seed):
+    """In a short step: against the motion where it goes on."""
+    rng = np.random.default_rng(seed)
+    K, coefficients, motion = draw_contact(rng)
+    dt, normal = 1e-3, 3.0
+    free = np.array(motion) + dt * rng.normal(size=6)
+    F, moment = resisted_force(K, coefficients, normal, motion, tuple(free), dt)
+    mu, delta, p = coefficients
+    N = normal + F[2]
+    middle = free + dt * (K @ np.array([*F, *moment])) / 2
+    assert N > 0
+    assert F[:2] == pytest.approx(-mu * N * middle[:2] / np.hypot(*middle[:2]), abs=1e-2 * mu * N)
+    assert moment[:2] == pytest.approx(
+        -delta * N * middle[3:5] / np.hypot(*middle[3:5]), abs=1e-2 * delta * N
+    )
+    assert moment[2] == pytest.approx(-p * N * np.sign(middle[5]), rel=1e-9)
+    # MuJoCo prescribes the vertical acceleration: nothing else changes it.
+    assert K[2] @ np.array([*F, *moment]) == pytest.approx(0, abs=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_coin_at_rest_is_held_by_what_pulls_it_and_no_more(seed):
+    rng = np.random.default_rng([3, seed])
+    K, _, _ = draw_contact(rng)
+    dt, still, normal = 1e-3, (0.0,) * 6, 10.0
+    free = tuple(dt * K @ (rng.uniform(-1, 1, 6) * [1, 1, 0, 1, 1, 1]))
+    F, moment = resisted_force(K, (1.0, 0.5, 0.5), normal, still, free, dt)
+    after = np.array(free) + dt * K @ np.array([*F, *moment])
+    assert np.delete(after, 2) == pytest.approx(0, abs=1e-11)
+    F, weak = resisted_force(K, (0.0, 1e-3, 2e-3), normal, still, free, dt)
+    assert F[:2] == (0.0, 0.0)
+    assert np.hypot(*weak[:2]) == pytest.approx(1e-3 * (normal + F[2]), rel=1e-9)
+    assert abs(weak[2]) == pytest.approx(2e-3 * (normal + F[2]), rel=1e-9)
+
+
+def test_without_resistance_no_bit_of_a_toss_changes():
+    rng = np.random.default_rng(8)
+    for law in ("smooth", "coulomb"):
+        floor = {"contact": law, "friction": 0.3, "restitution": 0.4}
+        case = scenario(coin=draw_coin(rng), floor=floor, air=AIR, release=draw_release(rng))
+        zeros = case.replace("floor.rolling_friction", 0.0, "floor.pivoting_friction", 0.0)
+        tiny = case.replace("floor.rolling_friction", 1e-12, "floor.pivoting_friction", 1e-12)
+        plain, zero, near = (coin_mj.toss(each) for each in (case, zeros, tiny))
+        assert np.array_equal(plain.impacts.impulse, zero.impacts.impulse)
+        assert (plain.end_time, plain.outcome, plain.ending) == (zero.end_time, zero.outcome, zero.ending)
+        # Impacts have no resistance, so those before the first contact have no other bits either.
+        first = plain.contacts[0, 0] if len(plain.contacts) else np.inf
+        before = plain.impacts.time < first
+        assert before.any()
+        assert np.array_equal(plain.impacts.impulse[before], near.impacts.impulse[: before.sum()])
+
+
+@pytest.mark.parametrize("size", [5e-5, 5e-4])
+@pytest.mark.parametrize("law", ["smooth", "coulomb", "perfectly_rough"])
+def test_energy_never_rises(law, size):
+    rng = np.random.default_rng([int(1e6 * size), len(law)])
+    for _ in range(4):
+        floor = {"contact": law, "friction": 0.3, "restitution": 0.4}
+        floor.update(rolling_friction=size, pivoting_friction=size)
+        case = scenario(coin=draw_coin(rng), floor=floor, release=draw_release(rng))
+        tossed = coin_mj.toss(case)
+        energy = energies(case, tossed.sample(np.linspace(0, tossed.end_time, 1001)))
+        gain = np.max(energy - np.minimum.accumulate(energy)) / energy[0]
+        # As without resistance: MuJoCo's steps in a contact change about 1e-3 of the energy in a second.
+        assert gain < 2e-3
+        assert tossed.outcome in (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE)
+
+
+def eulers_disk(**floor):
+    """Follow a thin disc that rolls round its resting mass centre: times, tilts, energies and ω_z."""
+    tilt = 0.3
+    rate = 2 * (G * np.sin(tilt) / R) ** 0.5
+    case = scenario(
+        coin=THIN,
+        floor={"contact": "perfectly_rough", "restitution": 0.3, **floor},
+        release={
+            "position": [0, 0, R * np.sin(tilt)],
+            "angles": [0, tilt, 0],
+            "angular_velocity": [0, rate, 0],
+        },
+    )
+    machine = machine_of(case, Settings(), shape_thickness(case))
+    coin, J, time, rows = machine.coin, np.array(case.body.inertia), 0.0, []
+    while time < 1.6:
+        x, v, e, w = state_of(coin)
+        turn = np.array(rotation_matrix(e))
+        kinetic = (np.dot(v, v) * M + np.array(w) @ J @ np.array(w)) / 2
+        rows.append(
+            (time, np.arcsin(np.hypot(*turn[2, :2])), kinetic / (M * G * R) + x[2] / R, turn[2] @ np.array(w))
+        )
+        up = tuple(turn[2])
+        dt, lands = next_step(coin, 0.3, up, cross(up, w), w, 0.0)
+        assert not lands
+        dt = min(dt, shortest_stop(coin, w))
+        sustained_step(coin, 0.3, w, dt)
+        time += dt
+    return np.array(rows).T
+
+
+def test_eulers_disk_falls_flat_as_the_square_of_the_time_left_under_resistance_to_rolling():
+    """dα/dt = -(4/3) √(g/r) (δ/r) √α, so √α falls steadily: the disk lies after a finite time."""
+    delta = 2e-4
+    times, tilts, energies, _ = eulers_disk(rolling_friction=delta)
+    low = tilts < 0.05
+    slope, root = np.polyfit(times[low], tilts[low] ** 0.5, 1)
+    # Corrections of √α, and of the steps.
+    assert slope == pytest.approx(-2 / 3 * UNIT * delta / R, rel=3e-2)
+    assert -root / slope == pytest.approx(1.5 * R / (delta * UNIT) * 0.3**0.5, rel=0.06)
+    assert np.max(energies - np.minimum.accumulate(energies)) < 1e-6
+
+
+def test_eulers_disk_loses_its_pivoting_at_first_at_the_rate_of_the_closed_form():
+    """DE/dt = -p m g |ω_z|."""
+    p = 2e-4
+    times, _, energies, pivots = eulers_disk(pivoting_friction=p)
+    first = times < 0.1
+    rate = -np.polyfit(times[first], energies[first], 1)[0]
+    assert rate == pytest.approx(p / R * np.mean(pivots[first]), rel=5e-3)
+    assert abs(pivots[-1]) < 0.05 * pivots[0]
+
+
+def test_a_coin_that_still_rolls_upright_when_a_budget_ends_is_named_so():
+    thick = {**ZLOTY, "thickness": 4e-3}
+    case = set_down(0.6, coin=thick, rolling_friction=5e-5, pivoting_friction=1e-5)
+    by_time = coin_mj.toss(case.replace("ending.max_time", 0.3))
+    by_steps = coin_mj.toss(case, settings=Settings(contact_steps=200))
+    # After 64 √(r/g), or 2.3 s, a coin that nothing slows would stand.
+    late = coin_mj.toss(case.replace("ending.max_time", 4.0))
+    for tossed in (by_time, by_steps, late):
+        assert (tossed.outcome, tossed.ending) == (Outcome.EDGE, Ending.ROLLING)
+    assert by_time.end_time == pytest.approx(0.3)
+    assert coin_mj.toss(set_down(0.6, coin=thick)).ending == Ending.STANDING
+
+
+def test_beside_native_friction_resistance_is_refused_by_name():
+    native = replace(coin_mj.FINE, friction=Friction.NATIVE)
+    with pytest.raises(UnsupportedError, match=r"floor\.pivoting_friction = 0\.0002: .*native friction: 0"):
+        coin_mj.toss(set_down(0.1, pivoting_friction=2e-4), settings=native)

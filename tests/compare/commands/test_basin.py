@@ -1,0 +1,105 @@
+"""`cointoss basin` draws: one map as asked, or both engines' and their difference, with their agreement."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from PIL import Image
+
+from cointoss.compare.basins.agreement import Agreement, Share
+from cointoss.compare.basins.picture import MapAxis, draw_comparison
+from cointoss.compare.basins.picture_style import Palette
+from cointoss.compare.sweep import describe
+from tests.helpers.basin_runs import SCENARIO, basin
+from tests.helpers.command_line import refused
+from tests.helpers.made_maps import halves
+
+AXES = ("--x", "release.angular_velocity.eta=20:60:6", "--y", "release.position.z=0.2:0.6:5", "--after", 0)
+
+
+@pytest.fixture
+def coin(tmp_path):
+    (tmp_path / "coin.toml").write_text(SCENARIO)
+    return tmp_path / "coin.toml"
+
+
+def test_both_engines_make_a_map_each_and_are_compared(coin, tmp_path):
+    out, png = tmp_path / "map.zarr", tmp_path / "map.png"
+    answered = basin(coin, *AXES, "--compare", "--out", out, "--png", png)
+    assert answered.exit_code == 0, answered.stderr
+    maps = [xr.open_zarr(tmp_path / name, chunks=None) for name in ("map.zarr", "map-mujoco.zarr")]
+    assert [found.attrs["engine"] for found in maps] == ["analytic", "mujoco"]
+    assert maps[1].attrs["versions"].keys() >= {"mujoco"}
+    # Keller's hyperbolas at first touch: away from them, and here near them too, both engines agree.
+    assert np.array_equal(maps[0].outcome, maps[1].outcome)
+    lines = answered.stdout.splitlines()
+    assert [line.split()[0] for line in lines if not line.startswith(" ")] == [
+        *("map", "engine", "tosses", "heads", "tails"),
+        *("map", "engine", "tosses", "heads", "tails"),
+        *("agreement", "picture"),
+    ]
+    near = lines[-3].split()
+    away = lines[-4].split()
+    assert int(near[3]) + int(away[away.index("of") + 1]) == 30
+    assert near[0] == "100.000"
+    with Image.open(png) as image:
+        assert image.size == (2250, 675)
+    again = basin(coin, *AXES, "--compare", "--out", out, "--resume")
+    assert again.stdout.splitlines() == lines[:-1]
+
+
+def test_what_mujoco_comes_near_to_is_told_once(coin, tmp_path):
+    coin.write_text(SCENARIO.replace('"smooth"', '"perfectly_rough"'))
+    answered = basin(coin, *AXES, "--engine", "mujoco", "--out", tmp_path / "map.zarr")
+    assert answered.exit_code == 0
+    assert len(answered.stderr.splitlines()) == 1
+    assert 'floor.contact = "perfectly_rough": MuJoCo tosses on a floor of' in answered.stderr
+
+
+def test_what_mujoco_cannot_do_is_refused_before_any_map(coin, tmp_path):
+    coin.write_text(SCENARIO.replace('"smooth"', '"knurled"'))
+    said = refused("basin", coin, *AXES, "--compare", "--out", tmp_path / "map.zarr")
+    assert 'floor.contact = "knurled"' in said
+    assert [path.name for path in tmp_path.iterdir()] == ["coin.toml"]
+
+
+def test_a_map_is_drawn_in_the_size_and_colours_asked(coin, tmp_path):
+    out, png = tmp_path / "map.zarr", tmp_path / "map.png"
+    asked = ("--png", png, "--size", "4x3", "--dpi", 50, "--palette", "paper", "--boundaries")
+    assert basin(coin, *AXES, "--out", out, *asked).exit_code == 0
+    gold, vermilion = (245, 171, 31), (213, 94, 0)
+
+    def colours():
+        with Image.open(png) as image:
+            assert image.size == (200, 150)
+            return {color for _, color in image.convert("RGB").getcolors(1 << 16) or []}
+
+    assert {(0, 0, 0), vermilion} <= colours()
+    assert gold not in colours()
+    assert basin(coin, *AXES, "--out", out, "--resume", *asked[:6]).exit_code == 0
+    assert gold in colours()
+
+
+def test_the_agreement_is_told_near_the_boundaries_and_away_from_them():
+    measured = Agreement(near=Share(agreeing=3, compared=4), away=Share(agreeing=0, compared=0), undecided=2)
+    said = describe.describe_agreement(measured).splitlines()
+    assert said[0].startswith("agreement  none of 0 more than 2 pixels")
+    assert said[1].startswith("           75.000 % of 4 nearer")
+    assert said[2].startswith("           2 pixels are undecided")
+
+
+def test_the_difference_bears_the_note():
+    axis = MapAxis(name="gravity", unit="", start=0, stop=1)
+    figure = draw_comparison(
+        halves(2, 4), halves(2, 4), x=axis, y=axis, palette=Palette.SAFE, note="all\nalike"
+    )
+    assert figure.axes[2].get_title() == "different: 0 % of the pixels both decide\nall\nalike"
+
+
+def test_the_boundaries_that_count_are_those_of_the_paper():
+    """A pixel that MuJoCo has wrong far from any boundary must not excuse itself as one."""
+    right = halves(20, 20)
+    wrong = right.copy()
+    wrong[10, 3] = 3 - wrong[10, 3]
+    measured = describe.measure(right, wrong)
+    assert measured.away.compared - measured.away.agreeing == 1
+    assert measured.near.agreeing == measured.near.compared

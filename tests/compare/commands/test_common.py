@@ -1,0 +1,103 @@
+"""The answers of the command line to bad input: one line each, what was given, and what is accepted."""
+
+import shlex
+
+import pytest
+
+from tests.helpers.command_line import refused
+
+AXES = "basin fig24a --x release.position.z=1:2:3 --y gravity=9:10:2"
+
+# What stands in each answer.
+ANSWERS = {
+    # what is missing
+    "toss": "SCENARIO: missing; accepted: a TOML file, or a name that cointoss scenarios lists",
+    "explore": "MAP.zarr: missing; accepted: a map that cointoss basin made (see ",
+    "basin fig24a": "--x: missing; accepted: --x FIELD=START:STOP:N, the field that varies along x, and its ",
+    AXES: "--out: missing; accepted: --out MAP.zarr, the Zarr store to write (see ",
+    "video fig24a": "--out: missing; accepted: --out PATH, the file to write: .mp4, .webm or .gif (see ",
+    "solref --restitution 0.8": "--dt: missing; accepted: --dt DT, the model's timestep, such as 0.002 ",
+    "reproduce all": "--out: missing; accepted: main reproduce all --out DIR (see ",
+    # names and choices
+    "throw": "throw: no such command; accepted: basin, compare, ",
+    "toss nofile": "nofile: no such file; accepted: a TOML file, or one of: contact_coulomb, ",
+    "toss tabel": " (did you mean table?)",
+    "toss ''": "(no name): no such file; accepted: a TOML file, or one of: ",
+    "compare fig24a --no-video --out ''": "'--out': an empty name; accepted: a path",
+    "toss fig24a --engine bullet": "'--engine': 'bullet' is not one of 'analytic', 'mujoco' (",
+    "video fig24a --out a.mp4 --camera below": "'--camera': 'below' is not one of 'overview', ",
+    "toss fig24a --max-impact 3 --jsn": "No such option '--max-impact'",
+    "reproduce nothing": "nothing: no such name; accepted: accuracy-and-stripes, ",
+    # numbers
+    "toss fig24a --max-impacts 0": "'--max-impacts': 0; accepted: an integer >= 1 and <= 30000000",
+    "toss fig24a --max-impacts 1e9": "'--max-impacts': 1e9; accepted: an integer >= 1 and ",
+    "toss fig24a --contact-steps 0": "'--contact-steps': 0; accepted: an integer >= 1 and ",
+    "hands fig24a --tosses 0": "'--tosses': 0; accepted: an integer >= 1 and <= 10000000 (",
+    "solref --restitution 0.5 --dt x": "'--dt': x; accepted: a number in s, or a string with a ",
+    "solref --restitution 0.5 --dt 0": "--dt 0: accepted: a number of seconds from 1e-7 to 0.1",
+    "solref --restitution 0.5 --dt '2 m'": "'--dt': 2 m; accepted: a number in s, or ",
+    "solref --restitution 120% --dt 2ms": "--restitution 120%: accepted: a number from 0 to 1",
+    "solref --restitution 0 --dt 2ms --spring": "--restitution 0: accepted: a number from 0.01 to 1 by a ",
+    "solref --restitution 0.5 --dt 2ms --spring --steps 2": "'--steps': 2; accepted: an integer",
+    # numbers with units
+    "hands fig24a --psi 100deg": "--psi 100deg: accepted: an angle from 0 to 90 deg",
+    "hands fig24a --psi '2 rad'": "--psi 2 rad: accepted: an angle from 0 to 90 deg",
+    "hands fig24a --psi x": "'--psi': x; accepted: a number in rad, or a string with a unit like ",
+    "hands fig24a --psi-scatter '91 deg'": "--psi-scatter 91 deg: accepted: an angle from 0 to 90 deg",
+    "hands fig24a --scatter 40%": "--scatter 40%: accepted: a part from 0 to 30 %",
+    "hands fig24a --height '-3 cm'": "--height -3 cm: accepted: a length above 0, such as 1 m",
+    "hands fig24a --speed -1": "--speed -1: accepted: a speed of 0 or more, such as 2 m/s",
+    "hands fig24a --spin 1e7": "fig24a: Releases.angular_velocity: row ",
+    "hands fig24a --caught '1 mm'": "--caught 1 mm: accepted: more than 0.0125399 m, so that the coin is ",
+    "hands fig24a --caught '1 s'": "'--caught': 1 s; accepted: a number in m, or ",
+    # what excludes another
+    "solref --restitution 0.5 --dt 2ms --steps 40": "--steps 40: accepted: only beside --spring",
+    "basin fig24a --x ending.max_impacts=1:3:3 --y gravity=9:10:2 --after 2 --out a.zarr": (
+        "fig24a: ending.max_impacts: an axis beside after = 2; accepted: one of the two"
+    ),
+    f"{AXES} --resume --overwrite --out a.zarr": "one of them",
+    f"{AXES} --compare --engine mujoco --out a.zarr": "one of them",
+    f"{AXES} --palette safe --out a.zarr": "only beside --png or --report",
+    f"{AXES} --contact one_step --out a.zarr": "accepted: only beside --engine mujoco or --compare",
+    f"{AXES} --engine analytic --contact spring --out a.zarr": "only beside --engine mujoco or --compare",
+    f"{AXES} --engine mujoco --contact hard --out a.zarr": "'spring', 'one_step'",
+    f"{AXES} --report report --out a.zarr": "only beside --compare",
+    f"{AXES} --compare --no-video --out a.zarr": "--no-video: accepted: only beside --report",
+    f"{AXES} --engine mujoco --report report --out a.zarr": "only beside --compare",
+    "toss fig24a --flight-steps 7": "--flight-steps 7: accepted: only beside --engine mujoco",
+    "toss fig24a --contact one_step": "--contact one_step: accepted: only beside --engine mujoco",
+    # axes of a map
+    "basin fig24a --x floor.contact=0:1:3 --y gravity=9:10:2 --out a.zarr": "no numeric field",
+    "basin fig24a --x gravity=9:9:3 --y coin.mass=1:2:2 --out a.zarr": "START = STOP",
+    "basin fig24a --x release.position.z=-1:1:3 --y gravity=9:10:3 --out a.zarr": "above the floor",
+    f"{AXES} --after -1 --out a.zarr": "accepted: an integer >= 0",
+    f"{AXES} --png map.png --size 6 --out a.zarr": "WIDTHxHEIGHT",
+    f"{AXES} --png map.png --size 0x4 --out a.zarr": "WIDTHxHEIGHT",
+    "basin fig24a --x release.position.x=0:1:1000000 --y release.position.y=0:1:1000000 --out a.zarr": (
+        "need up to 5,000"
+    ),
+    # places
+    f"{AXES} --compare --report file --out a.zarr": "file: is no folder; accepted: a folder",
+    f"{AXES} --compare --report file/report --out a.zarr": "can't be written",
+    f"{AXES} --compare --report a.zarr --out a.zarr": "lies in the map a.zarr; ",
+    f"{AXES} --compare --report a-mujoco.zarr/report --out a.zarr": "lies in the map a-mujoco.zarr; ",
+    f"{AXES} --png map.gif --out a.zarr": "ends in .png",
+    "compare fig24a --out file/below": "below: can't be written (",
+    "toss fig24a --trajectory .": ".: another kind of file; accepted: a name that ends in .csv",
+    "toss fig24a --trajectory no/path.csv": "no/path.csv: no folder no; accepted: a file in a folder that ",
+    "compare fig24a --out file": "file: is no folder; accepted: a folder",
+    "video fig24a --out a.avi": "a.avi: another kind of file; accepted: a name that ends in .mp4 or .webm",
+    "video fig24a --out no/a.mp4": "no/a.mp4: no folder no; accepted: a file in a folder that exists",
+    f"{AXES} --out a.map": "a.map: another kind of name; accepted: one that ends in .zarr",
+    f"{AXES} --out no/a.zarr": "no/a.zarr: no folder no; accepted: a name in a folder that exists",
+    f"{AXES} --out other.zarr": "other.zarr: is no map; accepted: a new name, or a map of cointoss",
+}
+
+
+@pytest.mark.parametrize("line", ANSWERS)
+def test_bad_input_is_answered_in_one_line_with_what_is_accepted(line, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "file").write_text("")
+    (tmp_path / "other.zarr").write_text("")
+    assert ANSWERS[line] in refused(*shlex.split(line))
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["file", "other.zarr"]

@@ -1,0 +1,165 @@
+"""`cointoss explore`: what it refuses, where it listens, and how it ends."""
+
+import json
+import shutil
+import signal
+import socket
+import subprocess
+import time
+import webbrowser
+
+import numpy as np
+import pytest
+import zarr
+
+from cointoss.compare.engines import Engine
+from cointoss.compare.explorer.page_map import page_map
+from cointoss.compare.explorer.server import Explorer
+from cointoss.compare.film.back_end import BackEndError
+from cointoss.compare.sweep import reading
+from cointoss.compare.sweep.grid import tile_shape, tiles
+from cointoss.compare.sweep.reading import read_map
+from tests.helpers.command_line import cointoss, refused
+from tests.helpers.explored import AXES, SCENARIO, got, small_map
+from tests.helpers.processes import started
+
+
+@pytest.fixture
+def copy(map_path, tmp_path):
+    """A copy of the map to be damaged."""
+    return shutil.copytree(map_path, tmp_path / "map.zarr")
+
+
+def test_a_map_that_is_gone_or_foreign_is_refused(tmp_path):
+    (tmp_path / "file.zarr").write_text("a file")
+    (tmp_path / "empty.zarr").mkdir()
+    zarr.create_group(tmp_path / "foreign.zarr", attributes={"title": "rain"})
+    for name, reason in (
+        ("gone.zarr", "no such folder"),
+        ("file.zarr", "is no folder"),
+        ("empty.zarr", "is no map of cointoss (empty.zarr: no zarr.json)"),
+        ("foreign.zarr", "is no map of cointoss (attribute cointoss_map is not 1)"),
+    ):
+        said = refused("explore", tmp_path / name)
+        assert said.startswith(f"cointoss: {tmp_path / name}: {reason}")
+        assert "accepted: a map that cointoss basin made" in said
+
+
+def changed(path, **attributes):
+    description = json.loads((path / "zarr.json").read_text())
+    description["attributes"].update(attributes)
+    (path / "zarr.json").write_text(json.dumps(description))
+
+
+@pytest.mark.parametrize("name", [7, 300 * "a"])
+def test_a_map_with_a_name_that_is_none_is_refused(copy, name):
+    changed(copy, name=name)
+    assert "is no map of cointoss (name = " in refused("explore", copy)
+
+
+def test_a_map_by_mujoco_is_not_to_blame_for_a_back_end_that_is_missing(copy, monkeypatch):
+    def missing():
+        raise BackEndError("MUJOCO_GL = x: MuJoCo can't be used")
+
+    changed(copy, engine=Engine.MUJOCO)
+    monkeypatch.setattr(reading, "require_mujoco", missing)
+    assert refused("explore", copy) == "cointoss: MUJOCO_GL = x: MuJoCo can't be used\n"
+
+
+def test_a_map_of_too_many_pixels_is_refused(map_path, monkeypatch):
+    monkeypatch.setattr(reading, "MOST_READ", 400)
+    assert "has 24 by 18 pixels; accepted: a map of at most 400 pixels" in refused("explore", map_path)
+
+
+@pytest.mark.parametrize("tile", [None, 35, 64])
+def test_of_a_large_map_every_so_many_th_pixel_is_shown(map_path, tmp_path, monkeypatch, tile):
+    full, path = read_map(map_path), map_path
+    if tile is not None:  # whose sides the stride crosses
+        monkeypatch.setattr("cointoss.compare.sweep.grid.TILE_TOSSES", dict.fromkeys(Engine, tile))
+        path = small_map(tmp_path)
+        cut = list(tiles(full.sweep.shape, tile_shape(full.sweep)))
+        for sides in ([part.rows for part in cut], [part.columns for part in cut]):
+            assert {side.start % 3 for side in sides} == {0, 1, 2}
+    part = read_map(path, most=100)
+    assert (full.stride, part.stride) == (1, 3)
+    assert part.outcome.shape == (6, 8)
+    for name, array in part.layers.items():
+        assert np.array_equal(array, full.layers[name][::3, ::3])
+
+
+def test_an_unfinished_map_is_shown_as_far_as_it_is(copy, monkeypatch):
+    monkeypatch.setattr("cointoss.compare.sweep.grid.TILE_TOSSES", dict.fromkeys(("analytic", "mujoco"), 64))
+    made = cointoss("basin", copy.parent / "coin.toml", *AXES, "--out", copy, "--overwrite")
+    assert made.exit_code == 2  # there is no such scenario here
+    (copy.parent / "coin.toml").write_text(SCENARIO)
+    made = cointoss("basin", copy.parent / "coin.toml", *AXES, "--out", copy, "--overwrite")
+    assert made.exit_code == 0, made.stderr
+    before = read_map(copy).outcome
+    chunks = sorted(path for path in (copy / "outcome" / "c").rglob("*") if path.is_file())
+    assert len(chunks) > 3
+    chunks[0].unlink()
+    chunks[1].write_bytes(b"broken")
+    found = read_map(copy)
+    outcome = found.outcome
+    assert 0 < (outcome == -1).mean() < 0.8
+    assert np.array_equal(outcome[outcome != -1], before[outcome != -1])
+    assert page_map(found)["tossed"] == pytest.approx(np.mean(outcome != -1))
+
+
+def test_margins_are_read(map_path, tmp_path):
+    (tmp_path / "coin.toml").write_text(SCENARIO)
+    axes = ("--x", "release.angular_velocity.eta=20:60:3", "--y", "release.position.z=0.2:0.6:2")
+    made = cointoss(
+        "basin", tmp_path / "coin.toml", *axes, "--margin", "height", "--out", tmp_path / "m.zarr"
+    )
+    assert made.exit_code == 0, made.stderr
+    told = page_map(read_map(tmp_path / "m.zarr"))
+    assert told["margin"] == {"along": "height", "unit": "mm"}
+    assert len(told["arrays"]["margin"]) == 4 * (3 * 2 * 4) // 3
+    assert page_map(read_map(map_path))["margin"] is None
+
+
+def test_a_port_in_use_is_refused(map_path):
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = other.getsockname()[1]
+        said = refused("explore", map_path, "--port", port)
+    assert f"--port {port}: another program listens there; accepted: another port" in said
+    assert "accepted: an integer >= 1 and <= 65535" in refused("explore", map_path, "--port", 70000)
+
+
+def test_the_static_page_takes_no_port(map_path, tmp_path):
+    for name, more, said in (
+        ("page.html", ["--no-browser"], "--static: accepted"),
+        ("page.txt", [], "ends in .html"),
+        ("nowhere/page.html", [], "in a folder that exists"),
+    ):
+        assert said in refused("explore", map_path, "--static", tmp_path / name, *more)
+
+
+@pytest.mark.parametrize(
+    ("opens", "options", "asked"), [(True, [], 1), (False, [], 1), (True, ["--no-browser"], 0)]
+)
+def test_the_address_is_printed_and_opened(map_path, monkeypatch, opens, options, asked):
+    opened = []
+    monkeypatch.setattr(webbrowser, "open", lambda url: opened.append(url) or opens)
+    monkeypatch.setattr(Explorer, "serve_forever", lambda _: None)
+    answered = cointoss("explore", map_path, *options)
+    assert answered.exit_code == 0
+    assert answered.stdout.startswith("http://127.0.0.1:")
+    assert len(opened) == asked
+    assert ("no browser was found" in answered.stderr) == (not opens)
+
+
+def test_ctrl_c_ends_it_within_a_second(map_path):
+    """A second on a machine of one's own; ten on one that is busy."""
+    script = "from cointoss.compare.cli import main; main()"
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with started("-c", script, "explore", map_path, "--no-browser", **pipes) as process:
+        assert process.stdout
+        port = int(process.stdout.readline().rstrip("/\n").rpartition(":")[2])
+        assert got(port, "/")[0] == 200
+        sent = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=60)
+        assert time.monotonic() - sent < 10
+    assert (process.returncode, said) == (130, "cointoss: interrupted by SIGINT\n")

@@ -1,0 +1,128 @@
+"""`cointoss toss`: what it answers, in which form, and where it stops."""
+
+import csv
+import json
+from importlib.metadata import version
+
+import pytest
+
+from cointoss import analytic
+from cointoss.models.reading import load, scenario_text
+from cointoss.models.scenario import Scenario
+from tests.helpers.command_line import cointoss, refused
+
+
+def test_json_has_the_agreed_form():
+    answered = cointoss("toss", "fig24a", "--json", "--max-impacts", 3)
+    assert answered.exit_code == 0
+    toss = json.loads(answered.stdout)
+    of_toss = [
+        "engine",
+        "sequence",
+        "outcome",
+        "ending",
+        "end_time",
+        "trusted_impacts",
+        "impacts",
+        "contacts",
+    ]
+    assert list(toss) == [*of_toss, "scenario", "settings", "versions"]
+    limited = load("fig24a").replace("ending.max_impacts", 3)
+    assert Scenario.model_validate(toss["scenario"]) == limited
+    assert toss["scenario"]["floor"]["restitution_kind"] == "kinematic"
+    assert toss["end_time"] == toss["impacts"][-1]["time"]
+    assert toss["settings"] == analytic.FINE.as_dict()
+    assert toss["versions"]["cointoss"] == version("cointoss")
+    assert (toss["engine"], toss["sequence"], toss["ending"]) == ("analytic", "HHH", "max_impacts")
+    assert len(toss["impacts"]) == 3
+    sizes = {name: len(value) for name, value in toss["impacts"][0].items() if isinstance(value, list)}
+    assert sizes == {
+        "impulse": 3,
+        "point": 3,
+        "position": 3,
+        "quaternion": 4,
+        "velocity_before": 3,
+        "velocity_after": 3,
+        "angular_velocity_before": 3,
+        "angular_velocity_after": 3,
+        "contact_velocity_before": 3,
+        "contact_velocity_after": 3,
+        "flags": 0,
+    }
+    assert {"time", "face", "energy"} == set(toss["impacts"][0]) - set(sizes)
+    assert toss["impacts"][0]["face"] == "H"
+
+
+def test_both_engines_answer_in_the_same_form():
+    a, b = (
+        json.loads(cointoss("toss", "fig24a", "--json", "--max-impacts", 2, "--engine", engine).stdout)
+        for engine in ("analytic", "mujoco")
+    )
+    assert a["impacts"][0].keys() == b["impacts"][0].keys()
+    assert a["impacts"][0]["impulse"] == pytest.approx(b["impacts"][0]["impulse"], abs=1e-3 * 0.01)
+
+
+@pytest.mark.parametrize("engine", ["analytic", "mujoco"])
+def test_a_number_of_contact_steps_ends_a_toss_that_rolls_on(tmp_path, engine):
+    source = tmp_path / "rolls.toml"
+    source.write_text(
+        '[coin]\nmass = "2 g"\nradius = "1.25 cm"\nthickness = 0\n'
+        '[floor]\ncontact = "coulomb"\nfriction = 0.9\nrestitution = 0.1\n'
+        "[release]\nposition = [0, 0, 0.013]\nangles = [0, 1.5, 0]\nangular_velocity = [0, 0, 60]\n"
+    )
+    answered = cointoss("toss", source, "--engine", engine, "--contact-steps", 7)
+    assert answered.exit_code == 0
+    assert "outcome   undecided" in answered.stdout
+    assert "--contact-steps N" in answered.stdout
+
+
+def test_a_number_of_flight_steps_ends_a_toss_in_mujoco_that_flies_on():
+    answered = cointoss("toss", "fig24a", "--engine", "mujoco", "--flight-steps", 7)
+    assert answered.exit_code == 0
+    assert "outcome   undecided" in answered.stdout
+    assert "--flight-steps N" in answered.stdout
+
+
+def test_the_trajectory_is_written_as_csv(tmp_path):
+    target = tmp_path / "path.csv"
+    assert cointoss("toss", "fig24a", "--max-impacts", 1, "--trajectory", target).exit_code == 0
+    rows = list(csv.reader(target.read_text().splitlines()))
+    assert rows[0][:4] == ["t [s]", "x [m]", "y [m]", "z [m]"]
+    assert [float(number) for number in rows[1][:4]] == [0, 0, 0, 0.40001]
+    assert float(rows[-1][0]) == pytest.approx(0.283275791, abs=1e-8)
+    assert [path.name for path in tmp_path.iterdir()] == ["path.csv"]
+
+
+def test_what_an_engine_cannot_do_is_exit_status_2(tmp_path):
+    source = tmp_path / "rough.toml"
+    source.write_text(scenario_text("fig24a").replace('"smooth"', '"knurled"'))
+    said = refused("toss", source, "--engine", "mujoco")
+    assert said.startswith(f'cointoss: {source}: floor.contact = "knurled": accepted by the')
+
+
+def test_a_floor_that_mujoco_comes_near_to_is_told_in_one_line(tmp_path):
+    source = tmp_path / "rough.toml"
+    source.write_text(scenario_text("fig24a").replace('"smooth"', '"perfectly_rough"'))
+    answered = cointoss("toss", source, "--engine", "mujoco", "--max-impacts", 1)
+    assert answered.exit_code == 0
+    assert len(answered.stderr.splitlines()) == 1
+    assert answered.stderr.startswith(f'cointoss: {source}: floor.contact = "perfectly_rough": MuJoCo tosses')
+    assert cointoss("toss", source, "--max-impacts", 1).stderr == ""
+
+
+def test_a_contact_may_take_one_step(tmp_path):
+    source = tmp_path / "dead.toml"
+    source.write_text(scenario_text("fig24a").replace("restitution = 0.8", "restitution = 0"))
+    dead = ("toss", source, "--engine", "mujoco", "--max-impacts", 1)
+    assert "floor.restitution = 0" in cointoss(*dead).stderr
+    answered = cointoss(*dead, "--contact", "one_step", "--json")
+    assert len(json.loads(answered.stdout)["impacts"]) == 1
+
+
+def test_a_path_of_too_many_rows_is_refused(tmp_path):
+    source = tmp_path / "long.toml"
+    text = scenario_text("fig24a").replace("0.40001", "1e8")
+    source.write_text(text + "\n[ending]\nmax_time = 2000\n")
+    said = refused("toss", source, "--trajectory", tmp_path / "path.csv")
+    assert said.startswith(f"cointoss: {source}: ending.max_time = 2000: accepted")
+    assert not (tmp_path / "path.csv").exists()

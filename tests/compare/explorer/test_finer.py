@@ -1,0 +1,30 @@
+"""Finer tiles of a map, where the explorer is zoomed in."""
+
+import numpy as np
+import pytest
+
+from cointoss import analytic
+from cointoss.compare.explorer.finer import SIDE, toss_tile
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.reading import read_map
+from cointoss.models.reading import parse
+from tests.helpers.explored import FIELDS, SCENARIO
+
+
+def test_a_finer_tile_has_the_outcomes_of_its_points(map_path):
+    sweep = read_map(map_path).sweep
+    assert np.array_equal(toss_tile(sweep, 0, 0, 0)[:18, :24], read_map(map_path).outcome)
+    tile = toss_tile(sweep, 2, 1, 1)
+    assert tile.shape == (SIDE, SIDE)
+    assert {1, 2} <= set(tile.ravel())
+    scenario = parse(SCENARIO, "here").replace("ending.max_impacts", 2)
+    for row, column in ((0, 0), (5, 20), (31, 31)):
+        u, v = ((SIDE + place + 0.5) / 4 - 0.5 for place in (column, row))
+        values = FIELDS[0], 20 + u * 40 / 23, FIELDS[1], 0.2 + v * 0.4 / 17
+        assert tile[row, column] == analytic.toss(scenario.replace(*values)).impacts.face[1]
+    first = toss_tile(sweep, 1, 0, 0)
+    assert (first[0] == -1).all()  # below the map's first row
+    assert (first[:, 0] == -1).all()
+    assert (first[1:, 1:] > 0).all()
+    with pytest.raises(SweepError):
+        toss_tile(sweep, 1, 2, 0)

@@ -1,0 +1,208 @@
+"""A film shows the coin where its path is, the floor's action as arrows, and says what it shows.
+
+The tosses are made by formulas, and drawn small.
+"""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+from cointoss.compare.film.captions import caption_of, written
+from cointoss.compare.film.drawing import (
+    LONGEST_FAR,
+    LONGEST_NEAR,
+    MARGIN,
+    VIEWS,
+    Box,
+    Camera,
+    Drawer,
+    box_of,
+)
+from cointoss.compare.film.encodings import Format
+from cointoss.compare.film.filmed import Filmed
+from cointoss.compare.film.play import SHOWN_FOR, Play, Shown, play_of
+from cointoss.models.records import Ending
+from tests.helpers.draws import ZLOTY
+from tests.helpers.films import (
+    FLAT,
+    TURNED,
+    UPRIGHT,
+    MadePath,
+    blue,
+    center,
+    drawn,
+    golden,
+    green,
+    made,
+    pink,
+    shown,
+)
+
+TINY = Format(64, 48, 4)
+R = ZLOTY["radius"]
+
+
+@pytest.mark.parametrize("thickness", [0.0, 2e-3])
+@pytest.mark.parametrize(("quaternion", "color"), [(FLAT, golden), (TURNED, blue)])
+def test_the_face_that_is_up_shows_its_colour(thickness, quaternion, color):
+    """The faces of a thin coin are in one plane, too."""
+    toss = made(MadePath(position=(0, 0, 0.05), quaternion=quaternion), coin={"thickness": thickness})
+    (picture,) = drawn(toss, [0], Camera.TOP, height=96, width=128)
+    other = blue if color is golden else golden
+    assert not other(picture).any()
+    # Of the disc a ring of 12 % and a letter of 10 to 15 % have other colours; some pixels hold several.
+    disc = np.pi * (96 * VIEWS[Camera.TOP].part * R / (4 * R * MARGIN)) ** 2
+    assert color(picture).sum() / disc == pytest.approx(0.76, abs=0.1)
+
+
+@pytest.mark.parametrize(("camera", "steepest"), [(Camera.CLOSE_UP, 35.0), (Camera.OVERVIEW, 20.0)])
+@pytest.mark.parametrize(("up", "color", "other"), [(0.0, golden, blue), (180.0, blue, golden)])
+def test_the_face_that_is_seen_is_the_face_that_is_up(camera, steepest, up, color, other):
+    """It is so on a coin that lies, and on one that is tilted towards the camera or away from it."""
+    for tilt in (0.0, steepest, -steepest):
+        half = np.radians(up + tilt) / 2
+        path = MadePath(position=(0, 0, 0.02), quaternion=(np.cos(half), np.sin(half), 0, 0))
+        (picture,) = drawn(made(path), [0], camera, height=96, width=128)
+        assert color(picture).sum() > 10
+        assert not other(picture).any()
+
+
+def test_the_coin_is_where_its_path_is_seen_from_above():
+    """From afar, so a length is the same number of pixels at every height."""
+    toss = made(MadePath(position=(0, 0, 0.3), velocity=(0.06, 0.04, -0.25)))
+    first, last = drawn(toss, [0, 1], Camera.TOP)
+    deep = 0.04 + 4 * R
+    scale = 48 / (MARGIN * max(deep / VIEWS[Camera.TOP].part, (0.06 + 4 * R) * 48 / 64))
+    assert center(golden(last)) - center(golden(first)) == pytest.approx(
+        [-0.04 * scale, 0.06 * scale], abs=0.7
+    )
+    assert golden(last).sum() == pytest.approx(golden(first).sum(), rel=0.15)
+
+
+def test_the_overview_sees_the_coin_from_release_to_the_floor():
+    toss = made(MadePath(position=(0, 0, 0.2), velocity=(0, 0, -0.19), quaternion=UPRIGHT))
+    pictures = drawn(toss, [0, 0.5, 1], Camera.OVERVIEW, height=96, width=128)
+    rows = [center(blue(picture) | golden(picture))[0] / 96 for picture in pictures]
+    view = VIEWS[Camera.OVERVIEW]
+    middle = 0.5 + view.aim
+    assert middle - view.part / 2 < rows[0] < middle - view.part / 4
+    assert middle + view.part / 5 < rows[2] < middle + view.part / 2
+    # What is above is nearer to the camera, and so larger.
+    assert rows[1] == pytest.approx((rows[0] + rows[2]) / 2, abs=0.04)
+
+
+@pytest.mark.parametrize("camera", [Camera.OVERVIEW, Camera.TOP])
+def test_a_camera_at_rest_shows_the_path_up_to_now(camera):
+    toss = made(MadePath(position=(0, 0, 0.2), velocity=(0.3, 0.002, -0.002)))
+    # The shadow, which is dark too, moves with the coin.
+    with patch("cointoss.compare.film.drawing.add_shadow"):
+        pictures = drawn(toss, [0, 0.5, 1], camera, height=192, width=256)
+    first, middle, last = (picture.sum(axis=2) for picture in pictures)
+    # Between where the coin is at these times, which is some ten pixels large.
+    at = [round(center(golden(picture))[1]) for picture in pictures]
+    early, late = slice(at[0] + 15, at[1] - 15), slice(at[1] + 15, at[2] - 15)
+    # The floor's texture is rounded one way or the other; the path is darker than it by more than 60.
+    assert np.abs(middle[:, early] - last[:, early]).max() <= 3
+    assert np.abs(first[:, late] - middle[:, late]).max() <= 3
+    for columns in (early, late):
+        darker = np.argwhere(first[:, columns] - last[:, columns] > 60)
+        assert len(set(darker[:, 1])) > 0.9 * (columns.stop - columns.start) > 30
+        assert np.ptp(darker[:, 0]) < 4
+
+
+def test_the_close_up_follows_the_coin():
+    toss = made(MadePath(position=(0, 0, 0.3), velocity=(0.3, 0.2, -0.25)))
+    for picture in drawn(toss, [0, 0.5, 1], Camera.CLOSE_UP):
+        assert center(golden(picture)) == pytest.approx([48 * (0.5 + VIEWS[Camera.CLOSE_UP].aim), 32], abs=2)
+
+
+def test_a_coin_high_up_is_seen_close_by():
+    """The nearest that a camera draws is a part of the scene's extent."""
+    toss = made(MadePath(position=(0, 0, 1000.0), velocity=(0, 0, -1000.0)))
+    box = box_of([play_of(shown(toss), np.array([0, 0.99]))])
+    (picture,) = drawn(toss, [0], Camera.CLOSE_UP, box=box)
+    assert golden(picture).any()
+
+
+def test_an_impulse_is_an_arrow_from_the_impact_on_and_not_for_long():
+    toss = made(MadePath(position=(0, 0, 0.001), quaternion=FLAT), impacts=[(0.5, 1e-3)])
+    times = [0.499, 0.5, 0.5 + SHOWN_FOR / 2, 0.5 + 1.01 * SHOWN_FOR]
+    pictures = drawn(toss, times, Camera.CLOSE_UP, height=96, width=128)
+    seen = [pink(picture).sum() for picture in pictures]
+    assert seen[0] == seen[3] == 0
+    assert seen[1] > 10
+    fading = [each.freshness for i in (1, 2) for each in play_of(shown(toss), np.array(times)).impulses(i)]
+    assert fading == pytest.approx([1, 0.5])
+
+
+@pytest.mark.parametrize(
+    ("camera", "part"), [(Camera.CLOSE_UP, LONGEST_NEAR), (Camera.OVERVIEW, LONGEST_FAR)]
+)
+def test_an_arrow_is_as_long_as_the_impulse_is_large(camera, part):
+    toss = made(MadePath(position=(0, 0, 0.001)), impacts=[(0.4, 2e-3), (0.6, 1e-3)])
+    high, box = [], Box(np.array([-0.1, -0.02, -0.02]), np.array([0.1, 0.02, 0.5]))
+    for picture in drawn(toss, [0.4, 0.6], camera, height=192, width=192, box=box):
+        rows = np.argwhere(pink(picture))[:, 0]
+        high.append(rows.max() - rows.min())
+    assert high[1] / high[0] == pytest.approx(0.5, abs=0.1)
+    # It is seen from above, and the floor is farther away than what the camera aims at.
+    assert high[0] == pytest.approx(192 * part * np.cos(np.radians(VIEWS[camera].elevation)), rel=0.2)
+
+
+def test_the_coin_does_not_hide_an_arrow():
+    toss = made(MadePath(position=(0, 0, R), quaternion=UPRIGHT), impacts=[(0.5, 1e-3)])
+    with_arrow = pink(drawn(toss, [0.5], Camera.CLOSE_UP)[0]).sum()
+    away = made(MadePath(position=(0, 0, 20 * R), quaternion=UPRIGHT), impacts=[(0.5, 1e-3)])
+    assert pink(drawn(away, [0.5], Camera.CLOSE_UP)[0]).sum() == pytest.approx(with_arrow, rel=0.3)
+
+
+def test_a_force_is_an_arrow_as_long_as_the_contact_lasts():
+    toss = made(MadePath(position=(0, 0, R), quaternion=UPRIGHT), contacts=[(0.4, 0.6)])
+    pictures = drawn(toss, [0.3, 0.5, 0.7], Camera.CLOSE_UP, height=96, width=128)
+    seen = [green(picture).sum() for picture in pictures]
+    assert seen[0] == seen[2] == 0
+    assert seen[1] > 10
+
+
+def test_the_arrow_of_a_large_force_is_as_long_as_that_of_the_largest_impulse():
+    high = []
+    for force in ((0, 0, 200 * ZLOTY["mass"] * 9.81), (0, 0, 2 * ZLOTY["mass"] * 9.81)):
+        path = MadePath(position=(0, 0, R), quaternion=UPRIGHT, force=force)
+        toss = made(path, contacts=[(0.4, 0.6)])
+        (picture,) = drawn(toss, [0.5], Camera.CLOSE_UP, height=192, width=192)
+        high.append(np.ptp(np.argwhere(green(picture))[:, 0]))
+    assert high[0] == high[1] > 20
+
+
+@pytest.mark.parametrize("end", [Ending.LYING, Ending.STANDING, Ending.AT_REST])
+def test_the_floor_shows_no_action_on_a_coin_that_is_still(end):
+    path = MadePath(position=(0, 0, 0.001), force=(0, 0, np.nan))
+    toss = made(path, impacts=[(0.99, 1e-3)], contacts=[(0.995, 1.0)], ending=end)
+    play = play_of(shown(toss), np.array([1.0, 1.1]))
+    assert not play.forces.any()
+    assert play.impulses(0) == play.impulses(1) == []
+
+
+@pytest.mark.parametrize("width", [160, 320])
+def test_the_longest_arrows_stay_clear_of_the_caption(width):
+    """They are where they reach highest in the picture: at the rim behind."""
+    path, impacts = MadePath(position=(0, 0, 0.001), force=(0, 0, 1.0)), [(0.5, 1e-3)]
+    settled = made(path, impacts=impacts, end=0.5)
+    goes_on = made(path, impacts=impacts, contacts=[(0.5, 0.51)], end=0.51, ending=Ending.MAX_TIME)
+    play = play_of(Filmed(toss=settled, motion=goes_on), np.array([0.5, 0.51]))
+    behind = np.array([0, ZLOTY["radius"], 0])
+    impulse = Shown(point=behind, impulse=np.array([0, 0, 1e-3]), freshness=1.0)
+    with (
+        patch.object(Play, "lowest_point", lambda *_: behind),
+        patch.object(Play, "impulses", lambda *_: [impulse]),
+        Drawer(play, Camera.CLOSE_UP, box_of([play]), height=180, width=width) as drawer,
+    ):
+        picture, caption = drawer.draw(1), caption_of(play, 1)
+    assert len(caption.lines) == 4
+    words = np.flatnonzero((picture != written(picture, [caption], "")).any(axis=(1, 2)))
+    arrows = pink(picture.astype(int)) | green(picture.astype(int))
+    assert np.argwhere(arrows)[:, 0].min() > words.max()

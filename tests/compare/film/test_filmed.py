@@ -1,0 +1,78 @@
+"""How a film ends: the coin lies still, or is caught."""
+
+import numpy as np
+import pytest
+
+from cointoss.compare.engines import Engine
+from cointoss.compare.film.captions import caption_of
+from cointoss.compare.film.drawing import Camera
+from cointoss.compare.film.encodings import Format
+from cointoss.compare.film.filmed import FOLLOWED_FOR, Filmed, followed
+from cointoss.compare.film.play import play_of
+from cointoss.compare.film.slow_motion import FAST, SETTLED, SLOW, SPEEDS_UP_FOR, film_times
+from cointoss.models.ending import face_up
+from cointoss.models.reading import load
+from cointoss.models.records import Ending, Outcome
+from tests.helpers.films import FLAT, MadePath, drawn, made, shown
+
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
+TINY = Format(64, 48, 4, longest=2.0)
+
+
+@pytest.mark.parametrize("engine", list(Engine))
+@pytest.mark.parametrize(("name", "ending"), [("fig12_ideal", Ending.LYING), ("fig24a", Ending.MAX_TIME)])
+def test_a_coin_is_followed_until_it_lies_still_and_keeps_its_settled_face(engine, name, ending):
+    toss = engine.package.toss(load(name))
+    motion = followed(toss).motion
+    assert motion.ending == ending
+    assert toss.end_time < motion.end_time <= toss.end_time + FOLLOWED_FOR
+    assert np.array_equal(motion.impacts.impulse[: len(toss.impacts)], toss.impacts.impulse)
+    rest = motion.sample(np.linspace(toss.end_time, motion.end_time, 500))
+    assert {face_up(n_z) for n_z in rest.normal[:, 2]} == {toss.outcome}
+    tilt = np.degrees(np.arccos(np.abs(rest.normal[-1, 2])))
+    assert tilt < 0.1 if ending == Ending.LYING else tilt > 0.5
+
+
+@pytest.mark.parametrize("ending", [Ending.CAUGHT, Ending.LYING, Ending.PERIODIC, Ending.PERPETUAL, Ending.MAX_IMPACTS])
+def test_what_has_ended_otherwise_is_filmed_as_it_is(ending):
+    toss = made(MadePath(position=(0, 0, 0.1)), ending=ending)
+    assert followed(toss).motion is toss
+
+
+def going_on(end=1.0, until=2.0, then=Ending.LYING):
+    path = MadePath(position=(0, 0, 0.1))
+    toss = made(path, impacts=[(0.3, 1e-3)], end=end)
+    return Filmed(toss=toss, motion=made(path, impacts=[(0.3, 1e-3), (1.5, 9e-4)], end=until, ending=then))
+
+
+def test_the_film_goes_on_at_real_speed_when_all_faces_are_settled():
+    later = shown(made(MadePath(position=(0, 0, 0.1)), end=1.2))
+    times, speeds = film_times([going_on(), later], 60)
+    assert times[-1] == 2
+    assert speeds[np.abs(times - 0.3).argmin()] == pytest.approx(SLOW, rel=0.05)
+    assert speeds[np.abs(times - 1.15).argmin()] == pytest.approx(FAST, rel=1e-9)
+    assert speeds[times > 1.2 + SPEEDS_UP_FOR] == pytest.approx(SETTLED, rel=1e-9)
+
+
+@pytest.mark.parametrize(("then", "says"), [(Ending.LYING, "lies still"), (Ending.MAX_TIME, "still moves")])
+def test_the_caption_marks_when_the_face_was_settled(then, says):
+    play = play_of(going_on(then=then), np.array([0.9, 1.0, 1.7, 2.0]))
+    captions = [caption_of(play, i) for i in range(4)]
+    assert [caption.label for caption in captions] == ["HEADS UP", "HEADS", "HEADS", "HEADS"]
+    lines = [[line.text for line in caption.lines if "settled" in line.text] for caption in captions]
+    assert lines == [[], ["settled at 1.000 s"], ["settled at 1.000 s"], [f"settled at 1.000 s, {says}"]]
+
+
+def test_a_hand_catches_the_coin():
+    """It is under the coin at the end, and was not there when the coin came up."""
+    path = MadePath(position=(0, 0, 0.1), velocity=(0, 0, 2), acceleration=(0, 0, -9.81), quaternion=FLAT)
+    toss = made(path, end=0.38, ending=Ending.CAUGHT, outcome=Outcome.HEADS)
+    _, speeds = film_times([shown(toss)], 60)
+    assert speeds[-1] == pytest.approx(SLOW, rel=0.05)
+    pictures = drawn(toss, [0.0, 0.02, 0.38], Camera.CLOSE_UP, height=96, width=128)
+    palm = [np.argwhere((np.abs(picture - [200, 155, 125]) < 40).all(axis=-1)) for picture in pictures]
+    assert [len(found) > 100 for found in palm] == [False, False, True]
+    assert palm[2][:, 0].mean() > 48
+    caption = caption_of(play_of(shown(toss), np.array([0.38])), 0)
+    assert caption.lines[1].text == "caught at 0.380 s"

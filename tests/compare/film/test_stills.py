@@ -1,0 +1,60 @@
+"""Stills of a toss, and what is said where none can be drawn."""
+
+import numpy as np
+import pytest
+
+from cointoss.compare.film.back_end import ADVICE, UNKNOWN
+from cointoss.compare.film.stills import stills
+from cointoss.compare.reproduction import runner
+from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.paper import fig5
+from cointoss.models.records import States
+from tests.helpers.draws import scenario
+
+
+def faces(*quaternions):
+    n = len(quaternions)
+    zeros, e = np.zeros((n, 3)), np.array(quaternions, dtype=float)
+    position = np.tile([0, 0, 0.03], (n, 1))
+    return States(time=np.zeros(n), position=position, velocity=zeros, quaternion=e, angular_velocity=zeros)
+
+
+HEADS, TAILS = [1, 0, 0, 0], [0, 1, 0, 0]
+
+
+def test_each_face_has_its_colour():
+    drawn = stills(scenario(), faces(HEADS, TAILS))
+    assert not isinstance(drawn, str)
+    # Golden and blue pixels, of the floor's grey none.
+    red, _, blue = np.moveaxis(drawn.astype(float), 3, 0)
+    golden, bluish = (np.sum(difference > 80, axis=(1, 2)) for difference in (red - blue, blue - red))
+    assert golden[0] > 100
+    assert bluish[0] == 0
+    assert golden[1] == 0
+    assert bluish[1] > 100
+
+
+@pytest.mark.usefixtures("fresh_back_end")
+def test_where_nothing_can_be_drawn_the_reason_is_told(monkeypatch):
+    monkeypatch.setenv("MUJOCO_GL", "nonsense")
+    told = stills(scenario(), faces(HEADS))
+    assert isinstance(told, str)
+    assert told.startswith(UNKNOWN)
+    assert "nonsense" in told
+
+
+@pytest.mark.usefixtures("fresh_back_end")
+def test_a_back_end_that_ends_the_process_is_told_too(monkeypatch):
+    monkeypatch.setenv("MUJOCO_GL", "egl")
+    dying = "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"
+    monkeypatch.setattr("cointoss.compare.film.back_end.DRAW_ONE_FRAME", dying)
+    told = stills(scenario(), faces(HEADS))
+    assert told == f"{ADVICE} (ended by signal 9)"
+
+
+def test_the_figure_comes_without_stills_too(monkeypatch, tmp_path):
+    monkeypatch.setattr(fig5, "stills", lambda *_: "no library")
+    result = runner.reproduce("fig5", tmp_path, lambda *_: None, quick=True)
+    assert unexpected(result.claims, quick=True) == ()
+    assert any("no stills: no library" in claim.mujoco for claim in result.claims)
+    assert (runner.folder_of("fig5", tmp_path) / "figure.png").exists()

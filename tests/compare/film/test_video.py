@@ -1,0 +1,84 @@
+"""Frames of two tosses side by side, one at a time, and the file they are written to."""
+
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+from cointoss.compare.film.drawing import (
+    MARGIN,
+    Camera,
+    Drawer,
+)
+from cointoss.compare.film.encodings import Format
+from cointoss.compare.film.slow_motion import film_times
+from cointoss.compare.film.video import HELD, frame_count, frames, write_video
+from tests.helpers.draws import ZLOTY
+from tests.helpers.films import (
+    MadePath,
+    Written,
+    center,
+    film_written,
+    golden,
+    made,
+    shown,
+)
+
+TINY = Format(64, 48, 4)
+
+
+R = ZLOTY["radius"]
+
+
+def test_two_tosses_stand_side_by_side_and_differ_where_their_paths_do():
+    path = MadePath(position=(0, 0, 0.1))
+    parting = MadePath(position=(0, 0, 0.1), velocity=(0.1, 0, 0), start=0.5)
+    tosses = [shown(made(path)), shown(made(parting))]
+    film = list(frames(tosses, Camera.TOP, Format(256, 128, 2)))
+    times, _ = film_times(tosses, 2)
+    scale = 128 / (MARGIN * (0.05 + 4 * R))
+    for i, part in ((0, 0.0), (len(times) - 1, 0.1 * 0.5)):
+        below = film[i][60:].astype(int)  # the captions
+        left, right = center(golden(below[:, :126])), center(golden(below[:, 130:]))
+        assert right - left == pytest.approx([0, part * scale - 2], abs=0.7)
+
+
+def test_frames_are_drawn_one_at_a_time_and_the_last_one_stays():
+    toss = made(MadePath(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), end=0.5)
+    draws = []
+    draw = Drawer.draw
+
+    def counted(self, i):
+        draws.append(i)
+        return draw(self, i)
+
+    with patch.object(Drawer, "draw", counted):
+        film = frames([shown(toss)], Camera.OVERVIEW, TINY)
+        next(film)
+        assert draws == [0]
+        rest = list(film)
+    held = round(HELD * TINY.frames_per_second)
+    assert len(draws) + held == 1 + len(rest) == frame_count([shown(toss)], TINY)
+    assert all(np.array_equal(frame, rest[-1]) for frame in rest[-held - 1 :])
+    assert not np.array_equal(rest[-held - 2], rest[-1])
+
+
+def test_the_file_plays_at_its_size_and_rate(tmp_path):
+    toss = made(MadePath(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), impacts=[(0.1, 1e-3)], end=0.2)
+    form, told = Format(64, 48, 12), []
+    path = tmp_path / "film.mp4"
+    write_video([shown(toss)] * 2, Camera.TOP, form, path, lambda done, count: told.append((done, count)))
+    count = frame_count([shown(toss)], form)
+    assert told == [(i + 1, count) for i in range(count)]
+    assert film_written(path) == Written(codec="h264", size=(64, 48), rate=12, frames=count)
+
+
+def test_the_time_is_written_into_the_frame():
+    """A still coin's frames differ in the line below alone."""
+    form = Format(320, 240, 8)
+    toss = made(MadePath(position=(0, 0, 0.1)))
+    film = frames([shown(toss)], Camera.CLOSE_UP, form)
+    first, second = next(film), next(film)
+    rows = np.flatnonzero((first != second).any(axis=(1, 2)))
+    assert len(rows) > 3
+    assert min(rows) > 0.9 * 240

@@ -1,0 +1,68 @@
+"""A toss in lines: sequence, horizon, impacts, contacts, and what it measured of itself."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+
+from cointoss import analytic
+from cointoss.compare.output.answer import as_lines, contact_line
+from cointoss.models.reading import load
+from tests.helpers.command_line import cointoss
+
+
+def test_text_shows_sequence_outcome_and_horizon():
+    text = cointoss("toss", "fig24a").stdout
+    assert "outcome   heads" in text
+    assert "settled: The coin can no longer turn over" in text
+    assert "|" in text.split("sequence")[1].splitlines()[0]
+
+
+def test_text_shows_what_the_toss_measured_of_itself():
+    shown = cointoss("toss", "contact_coulomb", "--max-impacts", 2).stdout
+    number = r"-?\de[-+]\d\d"
+    pattern = rf"^checked   contact law {number}, energy {number} m g r, \|e\| {number}, gap {number} r$"
+    found = re.search(pattern, shown, re.MULTILINE)
+    assert found
+    numbers = [float(part) for part in re.findall(number, found[0])]
+    assert max(abs(part) for part in numbers) < 1e-10
+    assert numbers[0] > 0
+    in_the_air = analytic.toss(load("fig24a").replace("ending.max_time", 0.01))
+    assert "checked" not in as_lines(in_the_air)
+
+
+ROW = re.compile(r"^ *(\d+) +\d+\.\d+ +[HT]", re.MULTILINE)
+
+
+def test_text_shows_the_first_of_thousands_of_impacts():
+    text = cointoss("toss", "zloty").stdout
+    assert len(text.splitlines()) < 40
+    assert re.search(r"^sequence  [HT|]{60} \.\.\. and 1251 more$", text, re.MULTILINE)
+    assert ROW.findall(text) == [str(number) for number in range(1, 21)]
+    assert text.endswith("\n... and 1290 more; --all prints all 1310\n")
+
+
+def test_all_impacts_and_contacts_are_printed_where_they_are_asked_for():
+    toss = analytic.toss(load("zloty"))
+    text = as_lines(toss, whole=True)
+    assert ROW.findall(text) == [str(number) for number in range(1, len(toss.impacts) + 1)]
+    assert " more" not in text
+    spells = re.findall(r"^contact   from (\S+) s to (\S+) s$", text, re.MULTILINE)
+    assert [[float(start), float(end)] for start, end in spells] == toss.contacts.round(6).tolist()
+    assert cointoss("toss", "zloty", "--all").stdout == f"{text}\n"
+
+
+def test_contacts_are_summed_in_one_line():
+    toss = analytic.toss(load("fig24a").replace("ending.max_impacts", 1))
+    spells = np.array([(0.1, 0.15), (0.2, toss.end_time)])
+    assert contact_line(toss) == ""
+    assert contact_line(replace(toss, contacts=spells[:1])) == "from 0.100000 s to 0.150000 s"
+    end = f"{toss.end_time - 0.15:.6f} s in all, the last from 0.200000 s to the end"
+    assert contact_line(replace(toss, contacts=spells)) == f"2 times, {end}"
+    assert f"\ncontact   2 times, {end}\n\n" in as_lines(replace(toss, contacts=spells))
+
+
+def test_what_rounds_to_zero_has_no_sign():
+    toss = analytic.toss(load("fig24a").replace("ending.max_impacts", 1))
+    tiny = replace(toss.impacts, impulse=np.array([[-1e-12, 1e-12, 0.01]]))
+    assert "   0.00000     0.00000    10.00000" in as_lines(replace(toss, impacts=tiny))

@@ -1,0 +1,97 @@
+"""Files are whole or not there: which are accepted, and what cannot be written."""
+
+import os
+
+import pytest
+
+from cointoss.compare.output.files import UnwritableError, require_file, write_text
+from cointoss.models.reading import scenario_text
+from tests.helpers.command_line import in_a_shell, refused
+
+
+def test_a_failed_write_leaves_what_was_there(tmp_path):
+    target = tmp_path / "kept.txt"
+    write_text(target, "first")
+    with pytest.raises(UnicodeEncodeError):
+        write_text(target, "second, up to what can't be encoded: \ud800")
+    assert target.read_text() == "first"
+    assert [path.name for path in tmp_path.iterdir()] == ["kept.txt"]
+
+
+def test_an_output_is_never_the_scenario(tmp_path):
+    text = scenario_text("fig24a")
+    for name in ("coin.csv", "coin.mp4"):
+        (tmp_path / name).write_text(text)
+        (tmp_path / f"link-{name}").symlink_to(tmp_path / name)
+    for command, source, target in (
+        (["toss", "--trajectory"], "coin.csv", "coin.csv"),
+        (["toss", "--trajectory"], "coin.csv", "link-coin.csv"),
+        (["video", "--out"], "coin.mp4", "coin.mp4"),
+    ):
+        said = refused(*command, tmp_path / target, tmp_path / source)
+        assert "is the scenario; accepted: another file" in said
+    assert (tmp_path / "coin.csv").read_text() == (tmp_path / "coin.mp4").read_text() == text
+
+
+def test_only_files_that_may_be_replaced_are_accepted(tmp_path):
+    (tmp_path / "folder.csv").mkdir()
+    (tmp_path / "kept.csv").write_text("mine")
+    (tmp_path / "kept.csv").chmod(0o444)
+    os.mkfifo(tmp_path / "pipe.csv")
+    for name, reason in (
+        ("folder.csv", "is a folder; accepted: a new name"),
+        ("kept.csv", "read-only"),
+        ("pipe.csv", "a device"),
+        ("coin.toml", r"ends in \.csv"),
+        (300 * "a" + ".csv", "name too long"),
+        ("nowhere/path.csv", "no folder .*nowhere; accepted: a file in a folder that exists"),
+    ):
+        with pytest.raises(UnwritableError, match=reason):
+            require_file(tmp_path / name, ".csv", "fig24a")
+    require_file(tmp_path / "NEW.CSV", ".csv", "fig24a")
+    require_file(tmp_path / (251 * "a" + ".csv"), ".csv", "fig24a")
+    assert (tmp_path / "kept.csv").read_text() == "mine"
+
+
+def test_a_replaced_file_keeps_its_mode_and_a_link_its_place(tmp_path):
+    (tmp_path / "path.csv").write_text("old")
+    (tmp_path / "path.csv").chmod(0o640)
+    (tmp_path / "link.csv").symlink_to("path.csv")
+    write_text(tmp_path / "link.csv", "new")
+    assert (tmp_path / "link.csv").is_symlink()
+    assert (tmp_path / "path.csv").read_text() == "new"
+    assert (tmp_path / "path.csv").stat().st_mode & 0o777 == 0o640
+
+
+def test_a_stream_is_written_to_directly(tmp_path):
+    # By links, or a fault here would replace the system's own devices.
+    toss = "cointoss toss fig24a --max-impacts 1 --trajectory"
+    done = in_a_shell(f"ln -s /dev/stdout out; {toss} out > both.txt; {toss} out | cat", tmp_path)
+    both = (tmp_path / "both.txt").read_text()
+    assert both == done.stdout
+    assert both.startswith("t [s],x [m]")
+    assert "sequence  H" in both
+    done = in_a_shell(f"mkfifo pipe; cat pipe > copy & {toss} pipe; wait; stat -c %F pipe", tmp_path)
+    assert done.stdout.endswith("fifo\n")
+    assert (tmp_path / "copy").read_text().startswith("t [s],x [m]")
+
+
+@pytest.mark.parametrize(
+    ("command", "status", "named"),
+    [
+        ("cointoss toss fig24a --max-impacts 1 > /dev/full", 1, "standard output"),
+        ("cointoss --help > /dev/full", 1, "standard output"),
+        ("ln -s /dev/full full; cointoss toss fig24a --max-impacts 1 --trajectory full", 2, "full"),
+        (
+            "ulimit -f 1; cointoss toss fig24a --max-impacts 1 --trajectory path.csv",
+            2,
+            "path.csv",
+        ),
+    ],
+)
+def test_what_cannot_be_written_is_one_line(tmp_path, command, status, named):
+    done = in_a_shell(f"{command}; echo $?", tmp_path)
+    assert done.stdout.endswith(f"{status}\n")
+    assert done.stderr.startswith(f"cointoss: {named}: can't be written (")
+    assert len(done.stderr.splitlines()) == 1
+    assert {path.name for path in tmp_path.iterdir()} <= {"full"}

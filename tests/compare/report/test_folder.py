@@ -1,0 +1,288 @@
+"""The report's folder: a self-contained page, numbers, paths, and a film that plays."""
+
+import json
+import re
+import shutil
+from html.parser import HTMLParser
+from unittest.mock import patch
+
+import pytest
+
+from cointoss import analytic
+from cointoss.compare.film import encodings
+from cointoss.compare.film.back_end import ADVICE, drawing_problem
+from cointoss.compare.film.encodings import SMALL
+from cointoss.compare.film.filmed import followed
+from cointoss.compare.film.video import frame_count
+from cointoss.compare.output.files import UnwritableError
+from cointoss.compare.report.comparison import compare, compared
+from cointoss.compare.report.contents import FILES, NOT_ASKED, require_folder
+from cointoss.compare.report.folder import BEING_DRAWN, write_report
+from cointoss.compare.report.page import versions
+from cointoss.models import certificate
+from cointoss.models.reading import load, parse, scenario_text
+from tests.helpers.command_line import cointoss, refused
+from tests.helpers.draws import AIR, scenario
+from tests.helpers.films import film_written
+
+SHORT = scenario_text("zloty").replace("0.40001", "0.05") + "\n[ending]\nmax_impacts = 2\n"
+
+
+class ParsedPage(HTMLParser):
+    """Collects what a page asks for from outside, its headings, and checks that its tags nest."""
+
+    VOID = frozenset({"meta", "br", "wbr", "img", "link", "input", "hr"})
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.outside, self.headings, self.videos = [], [], [], 0
+        self.feed(text)
+        assert self.open == []
+
+    def handle_starttag(self, tag, attrs):
+        for name, value in attrs:
+            if name in ("src", "href") and not (value or "").startswith(("data:", "#")):
+                self.outside.append(value)
+        self.videos += tag == "video"
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        pass
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if self.open and self.open[-1] in ("h1", "h2"):
+            self.headings.append(data.strip())
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    target = tmp_path_factory.mktemp("report")
+    assert drawing_problem() is None, ADVICE
+    write_report(compared(parse(SHORT, "short"), SHORT, "short"), target, None)
+    return target
+
+
+def test_the_folder_holds_page_film_numbers_and_paths(folder):
+    names = {"report.html", "toss.mp4", "numbers.json", "path-analytic.csv", "path-mujoco.csv"}
+    assert {path.name for path in folder.iterdir()} == names
+
+
+def test_the_page_stands_alone_and_has_its_parts(folder):
+    text = (folder / "report.html").read_text(encoding="utf-8")
+    page = ParsedPage(text)
+    assert page.outside == []
+    assert "url(" not in text.replace("url(#", "")
+    assert page.videos == 1
+    expected = [
+        "short: do two engines toss this coin alike?",
+        "Heads and tails",
+        "Film",
+        "Motion",
+        "Impacts",
+        "Scenario",
+        "Settings and versions",
+    ]
+    assert page.headings == expected
+    assert "center_of_mass" in text
+    assert "°" in text
+    assert "<code>floor.restitution_kind</code></td><td>kinematic</td>" in text.replace("<wbr>", "")
+    assert text.count("Measured in this toss") == 2
+    for name in (certificate.LAW, certificate.FLIGHT_ENERGY, certificate.GAP):
+        rows = re.findall(f"<td>{re.escape(name)}</td><td>(-?[0-9.]+e[-+][0-9]+) ", text)
+        assert len(rows) == 2
+        assert abs(float(rows[0])) < 1e-11
+        assert abs(float(rows[1])) > 1e-9 or name != certificate.LAW, "a contact of MuJoCo takes time"
+    for name, version in versions().items():
+        assert name in text
+        assert version in text
+
+
+def test_the_numbers_are_those_of_the_tosses(folder):
+    numbers = json.loads((folder / "numbers.json").read_text(encoding="utf-8"))
+    found = compare(parse(SHORT, "short"))
+    assert [toss["engine"] for toss in numbers["tosses"]] == ["analytic", "mujoco"]
+    assert numbers["tosses"][0]["impacts"][1]["time"] == found.analytic.impacts.time[1]
+    assert numbers["comparison"]["impulse_difference"] == found.differences.impulse.tolist()
+    assert numbers["comparison"]["horizon"] == found.horizon
+
+
+def test_the_film_has_its_frames(folder):
+    found = compare(parse(SHORT, "short"))
+    written = film_written(folder / "toss.mp4")
+    assert written.frames == frame_count(found.filmed(), SMALL)
+    assert written.rate == SMALL.frames_per_second
+
+
+@pytest.mark.parametrize("name", ["zloty", "contact_knurled"])
+def test_the_page_stands_before_the_film_is_drawn_and_after_it_was_interrupted(tmp_path, name):
+    """It says which command draws the film, of the engines that toss the coin."""
+    said, text = [], scenario_text(name).replace("max_impacts = 100", "max_impacts = 1")
+    text = SHORT if name == "zloty" else text
+
+    def interrupt(*_):
+        said.append((tmp_path / "report.html").read_text(encoding="utf-8"))
+        raise KeyboardInterrupt
+
+    with patch("cointoss.compare.film.video.write_video", interrupt), pytest.raises(KeyboardInterrupt):
+        write_report(compared(parse(text, name), text, name), tmp_path, None)
+    assert said == [(tmp_path / "report.html").read_text(encoding="utf-8")]
+    engines, missing = ("both", []) if name == "zloty" else ("analytic", ["path-mujoco.csv"])
+    assert BEING_DRAWN.format(engines=engines) in said[0]
+    assert {path.name for path in tmp_path.iterdir()} == set(FILES) - {"toss.mp4", *missing}
+
+
+def test_no_video_is_drawn_where_none_is_asked_for(tmp_path):
+    (tmp_path / "short.toml").write_text(SHORT)
+    assert (
+        cointoss("compare", tmp_path / "short.toml", "--out", tmp_path / "out", "--no-video").exit_code == 0
+    )
+    assert {path.name for path in (tmp_path / "out").iterdir()} == set(FILES) - {"toss.mp4"}
+    assert NOT_ASKED in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_report_has_a_default_folder_named_as_its_scenario(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "euros").mkdir()
+    (tmp_path / "euros" / "short.toml").write_text(SHORT)
+    for _ in range(2):
+        answered = cointoss("compare", "euros/short.toml", "--no-video")
+        assert (answered.exit_code, answered.stdout) == (0, "short-report/report.html\n")
+    assert {path.name for path in tmp_path.iterdir()} == {"euros", "short-report"}
+    (tmp_path / "short-report" / "numbers.json").write_text("mine")
+    said = refused("compare", "euros/short.toml", "--no-video")
+    assert "belongs to no report; accepted: a folder without files of these names" in said
+    assert (tmp_path / "short-report" / "numbers.json").read_text() == "mine"
+
+
+def test_without_opengl_the_report_says_what_to_install(tmp_path):
+    text = SHORT.replace("max_impacts = 2", "max_impacts = 1")
+    page = write_report(compared(parse(text, "short"), text, "short"), tmp_path, ADVICE)
+    html = page.read_text(encoding="utf-8")
+    assert "No video." in html
+    assert "libegl1" in html
+    assert ParsedPage(html).videos == 0
+    assert not (tmp_path / "toss.mp4").exists()
+
+
+def test_what_mujoco_cannot_realise_is_a_report_of_one_engine(tmp_path, monkeypatch):
+    stamp = SMALL._replace(width=96, height=54, frames_per_second=4)
+    monkeypatch.setattr(encodings, "SMALL", stamp)
+    text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 2")
+    page = write_report(compared(parse(text, "knurled"), text, "knurled"), tmp_path, None)
+    html = page.read_text(encoding="utf-8")
+    assert "Not realisable in MuJoCo" in html
+    assert "No video." not in html
+    assert ParsedPage(html).videos == 1
+    assert 'aria-label="Film of the toss"' in html
+    assert "The toss by the analytic engine, drawn by MuJoCo, which can’t toss it." in html
+    frames = frame_count([followed(analytic.toss(parse(text, "knurled")))], stamp)
+    assert film_written(tmp_path / "toss.mp4").frames == frames
+    assert re.search(r'"not_realisable": ".*knurled', (tmp_path / "numbers.json").read_text(encoding="utf-8"))
+    assert {path.name for path in tmp_path.iterdir()} == set(FILES) - {"path-mujoco.csv"}
+
+
+def test_a_comparison_in_python_writes_the_report_and_the_film_of_the_commands(tmp_path, monkeypatch):
+    stamp = SMALL._replace(width=96, height=54, frames_per_second=4)
+    monkeypatch.setattr(encodings, "SMALL", stamp)
+    monkeypatch.setitem(encodings.ENCODINGS, ".mp4", encodings.ENCODINGS[".mp4"]._replace(form=stamp))
+    source = tmp_path / "mine.toml"
+    source.write_text(SHORT.replace("max_impacts = 2", "max_impacts = 1"))
+    found = compare(source)
+    html = found.report(tmp_path / "report").read_text(encoding="utf-8")
+    assert "mine: do two engines toss this coin alike?" in html
+    assert source.read_text().strip().splitlines()[-1] in html
+    assert {path.name for path in (tmp_path / "report").iterdir()} == set(FILES)
+    assert found.film(str(tmp_path / "mine.mp4")) == tmp_path / "mine.mp4"
+    assert film_written(tmp_path / "mine.mp4").frames == frame_count(found.filmed(), stamp)
+    with pytest.raises(
+        UnwritableError, match=r"mine\.avi: another kind of file; accepted: a name that ends in \.mp4 or"
+    ):
+        found.film(tmp_path / "mine.avi")
+    with pytest.raises(UnwritableError, match=r"mine\.toml: is no folder; accepted: a folder"):
+        found.report(source)
+
+
+def test_a_report_replaces_an_earlier_one_as_a_whole_and_nothing_else(folder, tmp_path):
+    earlier = tmp_path / "report"
+    shutil.copytree(folder, earlier)
+    (earlier / "notes.txt").write_text("mine")
+    require_folder(earlier, "fig24a")
+    before = {path.name: path.read_bytes() for path in earlier.iterdir()}
+    text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 2")
+    case = parse(text, "knurled")
+    interrupted = patch("cointoss.compare.report.folder.render", side_effect=KeyboardInterrupt)
+    with interrupted, pytest.raises(KeyboardInterrupt):
+        write_report(compared(case, text, "knurled"), earlier, None)
+    assert {path.name: path.read_bytes() for path in earlier.iterdir()} == before
+    write_report(compared(case, text, "knurled"), earlier, ADVICE)
+    kept = {"report.html", "numbers.json", "path-analytic.csv", "notes.txt"}
+    assert {path.name for path in earlier.iterdir()} == kept
+
+
+def test_a_report_that_fails_leaves_no_folder(tmp_path):
+    case = scenario(ending={"max_time": 0.05})
+    full = patch("cointoss.compare.report.folder.render", side_effect=OSError(28, "No space left"))
+    with full, pytest.raises(UnwritableError, match=r"new.deep: can't be written \(No space"):
+        write_report(compared(case, "", "failing"), tmp_path / "new" / "deep", ADVICE)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("numbers", [None, "{}", "[1]", "my own", '{"versions": 3}'])
+def test_a_folder_with_files_of_the_user_is_refused(tmp_path, name, numbers):
+    if numbers is not None:
+        (tmp_path / "numbers.json").write_text(numbers)
+    if not (tmp_path / name).exists():
+        (tmp_path / name).write_text("mine")
+    with pytest.raises(UnwritableError, match=r"in the way.*accepted: a folder without files") as caught:
+        require_folder(tmp_path, "fig24a")
+    assert str(tmp_path) in str(caught.value)
+
+
+def test_what_is_no_file_of_a_report_is_refused(folder, tmp_path):
+    earlier = tmp_path / "report"
+    shutil.copytree(folder, earlier)
+    (earlier / "report.html").unlink()
+    (earlier / "report.html").mkdir()
+    with pytest.raises(UnwritableError, match=r"report\.html: is a folder; accepted"):
+        require_folder(earlier, "fig24a")
+    (earlier / "report.html").rmdir()
+    with pytest.raises(UnwritableError, match="is the scenario; accepted: another file"):
+        require_folder(earlier, str(earlier / "path-mujoco.csv"))
+    with pytest.raises(UnwritableError, match="is no folder; accepted: a folder"):
+        require_folder(earlier / "numbers.json", "fig24a")
+
+
+@pytest.mark.parametrize("max_time", [1e-9, 1e-3])
+def test_the_shortest_toss_has_a_report(tmp_path, max_time):
+    page = write_report(compared(scenario(ending={"max_time": max_time}), "", "short"), tmp_path, ADVICE)
+    assert "max_time" in page.read_text(encoding="utf-8")
+    numbers = json.loads((tmp_path / "numbers.json").read_text(encoding="utf-8"))
+    assert [(toss["ending"], toss["impacts"]) for toss in numbers["tosses"]] == [("max_time", [])] * 2
+    for engine in ("analytic", "mujoco"):
+        rows = (tmp_path / f"path-{engine}.csv").read_text(encoding="utf-8").splitlines()
+        assert [float(row.split(",")[0]) for row in rows[1:]] == [0, max_time]
+
+
+def test_a_toss_without_impacts_has_a_report_too(tmp_path):
+    case = scenario(air=AIR, ending={"max_time": 0.05})
+    page = write_report(compared(case, "# made", "falling"), tmp_path, ADVICE)
+    text = page.read_text(encoding="utf-8")
+    assert "max_time" in text
+    assert "The coin does not touch the floor." in text
+    assert "No impact." in text
+    assert "S is the impulse" not in text
+    assert "dots are impacts" not in text
+    assert "Vertical lines are impacts" not in text
+
+
+def test_the_papers_scenario_says_what_it_assumes():
+    said = " ".join(line[2:] for line in scenario_text("fig24a").splitlines() if line.startswith("# "))
+    assert "not which coin, which floor, or g. Here: the ideal coin with h = 2 mm on a smooth floor" in said
+    case = load("fig24a")
+    assert (case.coin.center_of_mass, case.coin.thickness) == ((0, 0, 0), 2e-3)
+    assert (str(case.floor.contact), case.gravity) == ("smooth", 9.81)

@@ -1,0 +1,198 @@
+"""The report's page in a headless Chromium: mouse and keyboard, light and dark, wide and narrow."""
+
+import json
+from base64 import b64decode
+
+import numpy as np
+import pytest
+
+from cointoss.compare.report.comparison import compared
+from cointoss.compare.report.folder import write_report
+from cointoss.compare.report.page import Film, render
+from cointoss.compare.report.page import Page as Contents
+from cointoss.models.reading import parse, scenario_text
+from tests.helpers.coins_shown import UNNAMED, faces, picture, set_time
+
+TEXT = scenario_text("fig24a") + "\n[ending]\nmax_impacts = 6\n"
+LEFT, RIGHT = 66, 14
+"""Margins of a plot, those of plot.js."""
+PLOTS = ["height", "tilt", "energy", "apart", "spin", "place"]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    target = tmp_path_factory.mktemp("report")
+    write_report(compared(parse(TEXT, "made"), TEXT, "made"), target, "none here")
+    return target
+
+
+def place(page, name, part):
+    """Return where a plot has a part of the time that it shows."""
+    page.value(f"document.getElementById('plot-{name}').scrollIntoView()")
+    left, top, width = page.value(
+        f"(() => {{ const b = document.querySelector('#plot-{name} > svg').getBoundingClientRect();"
+        " return [b.left, b.top, b.width]; })()"
+    )
+    return left + LEFT + part * (width - LEFT - RIGHT), top + 120
+
+
+SMALLEST = (
+    "Math.min(...[...document.querySelectorAll('body *')].filter((one) => one.checkVisibility() &&"
+    " [...one.childNodes].some((part) => part.nodeType === 3 && part.data.trim()))"
+    ".map((one) => parseFloat(getComputedStyle(one).fontSize)))"
+)
+"""The smallest type on the page [px]."""
+
+
+def texts(page, selector):
+    return page.value(f"[...document.querySelectorAll('{selector}')].map((one) => one.textContent)")
+
+
+def told(page, name):
+    """Return what a plot says of the pointer: its time, and the first two values."""
+    parts = page.value(
+        f"[...document.querySelectorAll('#plot-{name} .values span')].map((one) => one.textContent)"
+    )
+    return float(parts[-1].split()[1]), [float(part.split()[-1]) for part in parts[:2]]
+
+
+def ticks(page, name):
+    return texts(page, f"#plot-{name} text[text-anchor=middle]")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [1280, 420])
+def test_the_page_fits_and_needs_nothing_else(page, folder, width, scheme):
+    page.open((folder / "report.html").as_uri(), width=width, scheme=scheme)
+    drawn = page.value(
+        "[...document.querySelectorAll('.plot')]"
+        ".map((plot) => [plot.id.slice(5), plot.querySelectorAll('polyline').length])"
+    )
+    assert dict(drawn) == {name: 4 if name in ("spin", "place") else 2 for name in PLOTS}
+    assert page.value("document.documentElement.scrollWidth <= innerWidth")
+    assert page.value(SMALLEST) >= 16
+    # In the dark no block is white.
+    grounds = page.value(
+        "[...document.querySelectorAll('body, .card, .figure')]"
+        ".map((one) => getComputedStyle(one).backgroundColor)"
+    )
+    levels = [np.mean([int(part) for part in ground[4:-1].split(",")]) for ground in grounds]
+    assert min(levels) > 200 if scheme == "light" else max(levels) < 60
+    # Both coins are there, each in its half.
+    page.value("document.getElementById('played').scrollIntoView()")
+    for half in np.array_split(picture(page, "coins"), 2, axis=1):
+        assert faces(half) > 500
+    assert page.value(UNNAMED) == 0
+    assert page.complaints() == []
+    assert {address.partition(":")[0] for address in page.asked()} <= {"file", "data", "about"}
+
+
+@pytest.mark.parametrize("width", [1280, 420])
+def test_a_key_presents_verdict_coins_and_faces_in_large_type_and_another_returns(page, folder, width):
+    page.open((folder / "report.html").as_uri(), width=width, height=800)
+    shown = (
+        "['.verdict', '#coins', '.sequences', 'h1', '.two', '.plot', '.numbers', 'figcaption', 'details']"
+        ".map((one) => document.querySelector(one).checkVisibility())"
+    )
+    button = "document.getElementById('present')"
+    assert all(page.value(shown))
+    page.value("scrollTo(0, 700)")
+    page.press("p")
+    assert page.value(shown) == [True] * 3 + [False] * 6
+    assert page.value("parseFloat(getComputedStyle(document.querySelector('.verdict')).fontSize)") > 25
+    assert page.value(SMALLEST) >= 16
+    assert page.value("document.documentElement.scrollWidth <= innerWidth")
+    if width == 1280:
+        assert page.value("document.documentElement.scrollHeight <= innerHeight")
+    assert faces(picture(page, "coins")) > 500
+    assert page.value("document.activeElement.id") == "play"
+    page.press("Escape")
+    assert all(page.value(shown))
+    assert page.value("scrollY") == 700
+    assert page.value("document.activeElement.id") == "present"
+    # By its button too; a letter in a list chooses there.
+    page.value(f"{button}.click()")
+    assert page.value(shown) == [True] * 3 + [False] * 6
+    page.value("document.getElementById('speed').focus()")
+    page.press("p")
+    assert page.value(shown) == [True] * 3 + [False] * 6
+    page.value(f"{button}.click()")
+    assert all(page.value(shown))
+    assert page.complaints() == []
+
+
+def test_the_coins_play_when_the_page_is_opened_and_stand_at_the_end_where_motion_is_unwanted(page, folder):
+    time, end = (f"Number(document.getElementById('time').{name})" for name in ("value", "max"))
+    page.open((folder / "report.html").as_uri())
+    assert page.value(f"{time} > 0.999 * {end}")
+    page.open((folder / "report.html").as_uri(), moving=True)
+    page.wait_for(f"{time} > 0.01")
+
+
+def test_a_film_can_be_saved_from_the_page(page, tmp_path):
+    film = Film(b"a film", b"a frame")
+    shown = Contents(
+        comparison=compared(parse(TEXT, "made"), TEXT, "made"), film=film, no_video=None, maps=None
+    )
+    (tmp_path / "report.html").write_text(render(shown), encoding="utf-8")
+    page.open((tmp_path / "report.html").as_uri())
+    saved, name = page.value("(({ href, download }) => [href, download])(document.getElementById('save'))")
+    assert name == "made.mp4"
+    assert b64decode(saved.removeprefix("data:video/mp4;base64,")) == film.video
+
+
+def test_a_plot_tells_its_values_and_zooms(page, folder):
+    page.open((folder / "report.html").as_uri())
+    numbers = json.loads((folder / "numbers.json").read_text(encoding="utf-8"))
+    end = max(toss["end_time"] for toss in numbers["tosses"])
+    page.mouse("mouseMoved", *place(page, "height", 0.1))
+    time, heights = told(page, "height")
+    assert time == pytest.approx(0.1 * end, abs=0.01 * end)
+    # Its first fall; the air takes little of it.
+    assert heights == pytest.approx([400 - 1e3 * 9.81 * time**2 / 2] * 2, rel=0.01)
+
+    from_, to = place(page, "tilt", 0.4), place(page, "tilt", 0.6)
+    page.mouse("mousePressed", *from_, button="left", buttons=1, clickCount=1)
+    page.mouse("mouseMoved", *to, button="left", buttons=1)
+    page.mouse("mouseReleased", *to, button="left", clickCount=1)
+    for name in PLOTS:
+        shown = [float(text) for text in ticks(page, name) if text != "horizon"]
+        assert 0.39 * end < min(shown) < max(shown) < 0.61 * end
+
+    page.value("document.querySelector('#plot-energy > svg').focus()")
+    page.mouse("mouseMoved", *place(page, "energy", 0.5))
+    before, _ = told(page, "energy")
+    page.press("ArrowRight")
+    after, _ = told(page, "energy")
+    assert after - before == pytest.approx(0.2 * end / 100, rel=0.01)
+    page.press("0")
+    assert ticks(page, "energy")[0] == "0"
+    page.value("document.getElementById('zoom-in').click()")
+    assert "0" not in ticks(page, "energy")
+    assert page.complaints() == []
+
+
+def test_a_click_on_a_plot_shows_the_coins_then_and_the_clock_marks_the_plots(page, folder):
+    page.open((folder / "report.html").as_uri())
+    end = float(page.value("document.getElementById('time').max"))
+    page.click(*place(page, "spin", 0.3))
+    assert float(page.value("document.getElementById('time').value")) == pytest.approx(0.3 * end, abs=0.01)
+    set_time(page, 0.5 * end)
+    marks = page.value("[...document.querySelectorAll('.plot .now')].map((one) => one.getAttribute('x1'))")
+    assert len(marks) == len(PLOTS)
+    width = page.value("document.querySelector('#plot-tilt > svg').clientWidth")
+    assert float(marks[1]) == pytest.approx(LEFT + 0.5 * (width - LEFT - RIGHT), abs=1)
+    page.value("document.getElementById('play').click()")
+    page.wait_for(f"Number(document.getElementById('time').value) > {0.51 * end}")
+    page.value("document.getElementById('play').click()")
+    assert page.text("play") == "Play"
+    assert page.complaints() == []
+
+
+def test_the_page_of_one_engine_shows_one_coin(page, tmp_path):
+    text = scenario_text("contact_knurled").replace("max_impacts = 100", "max_impacts = 2")
+    write_report(compared(parse(text, "knurled"), text, "knurled"), tmp_path, "none here")
+    page.open((tmp_path / "report.html").as_uri())
+    assert page.value("document.querySelector('.panel.mujoco').hidden")
+    assert faces(picture(page, "coins")) > 500
+    assert page.complaints() == []

@@ -1,0 +1,174 @@
+"""The verdict of a report: its words in every case, with the numbers of the comparison."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import cointoss
+from cointoss import coin_mj
+from cointoss.compare.report.comparison import Comparison
+from cointoss.compare.report.verdict import Kind, horizon_sentence, verdict_of
+from cointoss.models.records import IMPACT_ROW, Ending, Face, Impacts, Outcome
+from tests.helpers.draws import scenario
+from tests.helpers.films import MadePath
+from tests.helpers.films import made as made_by_formulas
+
+TOSS = made_by_formulas(MadePath(position=(0, 0, 0.4)))
+"""What the tosses of these tests are made of, with other impacts and endings."""
+
+
+def made(sequence, outcome=Outcome.HEADS, *, engine="analytic", ending=Ending.SETTLED, contacts=()):
+    rows = np.zeros(len(sequence), IMPACT_ROW)
+    for i, symbol in enumerate(sequence):
+        rows[i]["time"], rows[i]["face"] = 0.1 * (i + 1), Face.HEADS if symbol == "H" else Face.TAILS
+    return replace(
+        TOSS,
+        engine=engine,
+        impacts=Impacts.from_rows(rows),
+        contacts=np.array(contacts, dtype=float).reshape(-1, 2),
+        outcome=outcome,
+        ending=ending,
+        end_time=1.0,
+        trusted_impacts=len(sequence),
+    )
+
+
+def compared(a, b, prefix, horizon):
+    """Return a comparison of which two numbers are as given."""
+    found = Comparison(
+        name="made", text="", analytic=a, mujoco=replace(b, engine="mujoco"), settings=coin_mj.FINE
+    )
+    vars(found).update(common_prefix=prefix, horizon=horizon)
+    return found
+
+
+TOSSES = {
+    "HHT": made("HHT"),
+    "HTT": made("HTT", Outcome.TAILS),
+    "HHTH": made("HHTH"),
+    "TTT": made("TTT", Outcome.TAILS),
+    "turned": made("HHT", Outcome.TAILS),
+    "rolled": made("HH", contacts=[(0.5, 0.7)]),
+    "rolled-upright": made("HH", Outcome.EDGE, contacts=[(0.5, 0.7)]),
+    "rolled-on": made("HHH", contacts=[(0.5, 0.7)]),
+    "rolled-over": made("HHH", Outcome.TAILS, contacts=[(0.5, 0.7)]),
+    "caught": made("", ending=Ending.CAUGHT),
+    "caught-turned": made("", Outcome.TAILS, ending=Ending.CAUGHT),
+    "bounced": made("HT", ending=Ending.CAUGHT),
+    "bounced-turned": made("HT", Outcome.TAILS, ending=Ending.CAUGHT),
+    "cut": made("HH", Outcome.UNDECIDED, ending=Ending.MAX_IMPACTS),
+    "flying": made("", Outcome.UNDECIDED, ending=Ending.MAX_TIME),
+}
+VERDICTS = """
+HHT HHT 3 3 AGREE
+    Heads by both engines: they agree on all 3 impacts, as they must.
+HHT HHT 3 1 AGREE
+    Heads by both engines: they agree on all 3 impacts. The first must agree; after that DECIDE
+HHT HHTH 3 2 DIFFER
+    Heads by both engines: they agree on the first 3 impacts. The first 2 must agree; after that DECIDE
+HHT HTT 1 1 DIFFER
+    HEADS, TAILS: they agree on the first impact, as they must; after that DECIDE
+HHT TTT 0 0 DIFFER
+    HEADS, TAILS: they differ from the first impact on. Not even that must agree: DECIDE
+HHT HTT 1 0 DIFFER
+    HEADS, TAILS: they agree on the first impact. Not even the first must agree: DECIDE
+HHT HTT 1 2 FAULT
+    HEADS, TAILS: they differ at impact 2, although the first 2 impacts must agree. FAULTY
+HHT turned 3 3 FAULT
+    HEADS, TAILS: they differ, although all 3 impacts must lead to the same. FAULTY
+rolled rolled-upright 2 2 DIFFER
+    HEADS, on its edge by MuJoCo: they agree on both impacts, as they must; what the floor does after that
+    decides.
+rolled rolled-on 2 2 AGREE
+    Heads by both engines: they agree on the 2 impacts that both count, as they must.
+rolled-over rolled 2 1 DIFFER
+    Tails by the analytic engine, heads by MuJoCo: they agree on the first 2 impacts. The first must agree;
+    after that DECIDE
+caught caught 0 0 AGREE
+    HELD by both engines: the coin is caught before it touches the floor, so that nothing amplifies small
+    errors.
+caught caught-turned 0 0 FAULT
+    HELD by the analytic engine, tails in the hand by MuJoCo: they differ, although the coin only flew. FAULTY
+bounced bounced 2 2 AGREE
+    HELD by both engines: they agree on both impacts before it is caught, as they must.
+bounced bounced-turned 2 2 DIFFER
+    HELD by the analytic engine, tails in the hand by MuJoCo: they agree on both impacts before it is caught,
+    as they must; the flight to the hand decides.
+cut cut 2 2 AGREE
+    Undecided by both engines: they agree on both impacts, as they must.
+flying flying 0 0 AGREE
+    Undecided by both engines: the coin does not touch the floor in the 1 s of the toss.
+"""
+"""Two tosses, how many impacts agree, how many must, and the verdict with its words."""
+WORDS = {
+    "DECIDE": "tiny errors decide, and neither engine is wrong.",
+    "HEADS": "Heads by the analytic engine",
+    "TAILS": "tails by MuJoCo",
+    "FAULTY": "One engine is wrong: please report it.",
+    "HELD": "Heads in the hand",
+}
+
+
+@pytest.mark.parametrize(
+    "case", re.split(r"\n(?! )", VERDICTS.strip()), ids=lambda case: case.splitlines()[0]
+)
+def test_the_verdict_of_every_case(case):
+    first, *lines = case.splitlines()
+    a, b, prefix, horizon, kind = first.split()
+    text = re.sub("|".join(WORDS), lambda word: WORDS[word[0]], " ".join(map(str.strip, lines)))
+    found = verdict_of(compared(TOSSES[a], TOSSES[b], int(prefix), int(horizon)))
+    assert found == (text, Kind[kind])
+
+
+def test_what_mujoco_cannot_toss_is_said():
+    alone = Comparison(
+        name="made", text="", analytic=TOSSES["HHT"], mujoco=None, not_realisable="no", settings=coin_mj.FINE
+    )
+    assert verdict_of(alone) == (
+        "Heads by the analytic engine alone: MuJoCo can't toss this coin on this floor.",
+        Kind.ALONE,
+    )
+
+
+@pytest.mark.parametrize(
+    ("horizon", "begins"),
+    [
+        (3, "All faces must agree: errors"),
+        (2, "The first 2 faces, up to the bar, must agree. Each"),
+        (1, "The first face, up to the bar, must agree. Each"),
+        (0, "Not even the first face must agree: errors"),
+    ],
+)
+def test_the_horizon_is_told_in_plain_words(horizon, begins):
+    told = horizon_sentence(compared(TOSSES["HHT"], TOSSES["HHT"], 3, horizon))
+    assert told.startswith(begins)
+    assert told.endswith(".")
+
+
+def thrown(height, up):
+    """Throw a coin up or down, flat, to be caught at 1.2 m, and compare both engines."""
+    release = {"position": [0, 0, height], "velocity": [0, 0, up]}
+    compared = cointoss.compare(scenario(release=release, ending={"caught": 1.2}))
+    assert [toss.ending for toss in compared.both] == [Ending.CAUGHT, Ending.CAUGHT]
+    return compared
+
+
+def test_what_the_hand_cuts_short_is_said_of_real_tosses():
+    flown, bounced = thrown(1.0, 3.0), thrown(1.0, -5.0)
+    assert verdict_of(flown) == (
+        "Heads in the hand by both engines: the coin is caught before it touches the floor, so that nothing "
+        "amplifies small errors.",
+        Kind.AGREE,
+    )
+    assert horizon_sentence(flown) == (
+        "The coin is caught before its first impact: without an impact nothing amplifies small errors."
+    )
+    assert verdict_of(bounced) == (
+        "Heads in the hand by both engines: they agree on its only impact before it is caught, as they must.",
+        Kind.AGREE,
+    )
+    assert horizon_sentence(bounced) == (
+        "All faces must agree: the coin is caught before errors as small as the engines’ own change one."
+    )

@@ -1,0 +1,174 @@
+"""Each pixel is the toss of its own scenario, to the bit; what is no scenario is refused before."""
+
+import warnings
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from cointoss import analytic, coin_mj
+from cointoss.coin_mj import Realisation, Settings
+from cointoss.compare.engines import Engine
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.grid import Sweep, Tile
+from cointoss.compare.sweep.pixels import check, pixel_scenario, toss_pixels
+from cointoss.models.records import UnsupportedError
+from cointoss.models.scenario import Scenario
+from cointoss.models.unused import UnusedFieldWarning
+from tests.helpers import basin_runs
+from tests.helpers.draws import AIR, scenario
+
+pytestmark = pytest.mark.usefixtures("without_horizon")
+
+HERE = scenario(
+    coin={"center_of_mass": [1e-4, 0, 0]},
+    air=AIR,
+    floor={"restitution": 0.4},
+    release={"angles": [0.1, 0.2, 0.3], "angular_velocity": [1.0, 30.0, 2.0]},
+    ending={"max_impacts": 12},
+)
+WHOLE = Tile(slice(0, 3), slice(0, 4))
+
+
+def sweep_of(x: str, y: str, case: Scenario = HERE, **given: Any) -> Sweep:
+    return basin_runs.sweep_of(x, y, case, **given)
+
+
+@pytest.mark.parametrize(
+    ("x", "y"),
+    [
+        ("release.angular_velocity.eta=20:60:4", "release.position.z=0.2:0.6:3"),
+        ("release.angles.theta=0.1:3:4", "release.angles.psi=-1:1:3"),
+        ("floor.restitution=0.2:0.6:4", "release.velocity.x=0:1:3"),
+        ("release.velocity.z=0:1:4", "coin.thickness=0:3 mm:3"),
+        ("coin.mass=1 g:5 g:4", "air.normal=0:0.8:3"),
+    ],
+)
+@pytest.mark.parametrize("after", [None, 0, 2])
+def test_each_pixel_is_its_own_toss_to_the_bit(x, y, after):
+    assert_each_pixel_is_its_own_toss(x, y, after)
+
+
+def test_each_pixel_of_a_largest_number_of_impacts_is_its_own_toss_to_the_bit():
+    assert_each_pixel_is_its_own_toss("gravity=1:20:4", "ending.max_impacts=1:9:3", None)
+
+
+def assert_each_pixel_is_its_own_toss(x, y, after):
+    sweep = sweep_of(x, y, after=after)
+    pixels = toss_pixels(sweep, WHOLE)
+    assert pixels.outcome.shape == (3, 4)
+    for i, at_y in enumerate(sweep.y.values):
+        for j, at_x in enumerate(sweep.x.values):
+            given = [
+                (axis.field, int(at) if axis.field == "ending.max_impacts" else at)
+                for axis, at in ((sweep.x, at_x), (sweep.y, at_y))
+            ]
+            toss = analytic.toss(sweep.scenario.replace(*given[0], *given[1]))
+            if after is None or len(toss.impacts) <= after:
+                assert pixels.outcome[i, j] == toss.outcome
+                assert pixels.impacts[i, j] == len(toss.impacts)
+            else:
+                assert pixels.outcome[i, j] == toss.impacts.face[after]
+                assert pixels.impacts[i, j] == after + 1
+
+
+def test_the_impacts_of_the_last_digit_are_those_of_one_toss():
+    """Long tosses multiply a difference in the last digit: their numbers of impacts would tell."""
+    case = scenario(floor={"restitution": 0.9}, release={"angular_velocity": [3.0, 40.0, 5.0]})
+    sweep = sweep_of("release.angles.theta=0.1:3:4", "release.angles.phi=-1:1:3", case)
+    pixels = toss_pixels(sweep, WHOLE)
+    for i, at_y in enumerate(sweep.y.values.tolist()):
+        for j, at_x in enumerate(sweep.x.values.tolist()):
+            toss = analytic.toss(pixel_scenario(sweep, at_y, at_x))
+            assert (pixels.outcome[i, j], pixels.impacts[i, j]) == (toss.outcome, len(toss.impacts))
+    assert pixels.impacts.max() > 1000
+
+
+def test_a_part_of_a_map_is_that_part_of_the_whole():
+    sweep = sweep_of("floor.restitution=0.2:0.6:4", "release.position.z=0.2:0.6:3")
+    whole, part = toss_pixels(sweep, WHOLE), toss_pixels(sweep, Tile(slice(1, 3), slice(2, 4)))
+    assert np.array_equal(part.outcome, whole.outcome[1:3, 2:4])
+    assert np.array_equal(part.impacts, whole.impacts[1:3, 2:4])
+
+
+def test_both_engines_agree_at_the_first_touch():
+    case = scenario(coin={"thickness": 0.0})
+    maps = [
+        toss_pixels(
+            sweep_of(
+                "release.angular_velocity.eta=20:60:4",
+                "release.position.z=0.2:0.6:3",
+                case,
+                engine=engine,
+                after=0,
+            ),
+            WHOLE,
+        )
+        for engine in Engine
+    ]
+    assert np.array_equal(maps[0].outcome, maps[1].outcome)
+    assert len(np.unique(maps[0].outcome)) == 2
+    assert np.all(maps[1].impacts == 1)
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "said"),
+    [
+        ("release.position.z=-1:1:4", "gravity=9:10:3", r"release\.position\.z = -1.*above the floor"),
+        # Flat it is clear of the floor, and upright again: in between it is not.
+        ("release.angles.theta=0:3.14159:21", "release.position.z=2 mm:1:3", r"\(at release\.angles\.theta"),
+        ("floor.restitution=0.5:1.5:4", "release.position.z=0.2:1:3", r"floor\.restitution = 1\.5"),
+        ("coin.radius=1 cm:10 m:4", "release.position.x=0:1:3", r"above the floor.*coin\.radius = \d"),
+        ("release.angular_velocity.xi=0:1e8:4", "release.position.x=0:1:3", r"angular_velocity.*spin of at"),
+        ("release.quaternion.e0=1:0.9:4", "release.position.x=0:1:3", "either angles or quaternion"),
+        ("coin.center_of_mass.xi=-2 cm:2 cm:4", "release.position.x=0:1:3", "center_of_mass"),
+        ("release.velocity.x=0:2e9:4", "release.position.x=0:1:3", r"release\.velocity"),
+    ],
+)
+def test_a_pixel_that_is_no_scenario_is_refused_before_the_first_toss(x, y, said):
+    with pytest.raises(SweepError, match=said):
+        check(sweep_of(x, y))
+
+
+def test_euler_parameters_off_norm_are_refused_inside_an_axis():
+    case = scenario(release={"quaternion": [1.0, 0, 0, 0]})
+    check(sweep_of("release.quaternion.e1=-0.01:0.01:9", "release.position.x=0:1:3", case))
+    with pytest.raises(SweepError, match="norm 1 within 1e-3"):
+        check(sweep_of("release.quaternion.e1=0:0.1:9", "release.position.x=0:1:3", case))
+
+
+def test_what_mujoco_cannot_toss_is_refused_at_either_end_of_an_axis():
+    axes = ("floor.restitution=0.5:0:4", "release.position.z=0.2:1:3")
+    check(sweep_of(*axes))
+    with pytest.raises(UnsupportedError, match=r"floor\.restitution = 0"):
+        check(sweep_of(*axes, engine=Engine.MUJOCO))
+    one_step = replace(coin_mj.MANY, contact=Realisation.ONE_STEP)
+    check(sweep_of(*axes, engine=Engine.MUJOCO, settings=one_step))
+
+
+def test_a_field_that_a_map_varies_is_one_that_is_used():
+    rough = scenario(floor={"contact": "coulomb"})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check(sweep_of("floor.friction=0:0.5:3", "release.position.z=0.3:0.4:3", rough))
+        check(sweep_of("floor.friction=-0.0:0.5:2", "floor.restitution=0.5:0:2", rough))
+    z = "release.position.z=0.3:0.4:3"
+    for case, x, y in ((HERE, "floor.friction=0.5:0:3", z), (rough, "gravity=9:10:2", z)):
+        with pytest.warns(UnusedFieldWarning, match=r"^floor\.friction = "):
+            check(sweep_of(x, y, case))
+
+
+@pytest.mark.parametrize("contact", ["spring", "one_step"])
+def test_a_pixel_by_mujoco_is_the_toss_with_the_settings_that_its_map_records(contact):
+    axes = ("release.angular_velocity.eta=20:40:2", "release.position.z=0.2:0.3:2")
+    chosen = replace(coin_mj.MANY, contact=Realisation(contact))
+    sweep = sweep_of(*axes, engine=Engine.MUJOCO, settings=chosen)
+    made = toss_pixels(sweep, Tile(slice(0, 2), slice(0, 2)))
+    recorded: dict[str, Any] = sweep.settings.as_dict()
+    assert recorded["contact"] == contact
+    for row, y in enumerate(sweep.y.values):
+        for column, x in enumerate(sweep.x.values):
+            one = coin_mj.toss(pixel_scenario(sweep, y, x), settings=Settings(**recorded))
+            assert made.outcome[row, column] == one.outcome
+            assert made.impacts[row, column] == len(one.impacts) > 0

@@ -1,0 +1,50 @@
+"""A tile is tossed in parts of a second."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from cointoss.compare.sweep import run
+from cointoss.compare.sweep.grid import Sweep, Tile
+from cointoss.compare.sweep.pixels import Pixels
+from cointoss.models.scenario import Scenario
+from tests.helpers import basin_runs
+from tests.helpers.draws import AIR, scenario
+
+HERE = scenario(
+    coin={"center_of_mass": [1e-4, 0, 0]},
+    air=AIR,
+    floor={"restitution": 0.4},
+    release={"angles": [0.1, 0.2, 0.3], "angular_velocity": [1.0, 30.0, 2.0]},
+    ending={"max_impacts": 12},
+)
+
+
+def sweep_of(x: str, y: str, case: Scenario = HERE, **given: Any) -> Sweep:
+    return basin_runs.sweep_of(x, y, case, **given)
+
+
+@pytest.mark.parametrize(("cost", "most"), [(1e-5, 1 << 14), (4e-3, 250), (3.0, 8)])
+def test_a_tile_is_tossed_in_parts_of_a_second(monkeypatch, cost, most):
+    sweep, now, sizes = sweep_of("release.position.z=1:2:128", "release.velocity.z=1:2:128"), [0.0], []
+
+    def toss(_, part):
+        size = (part.rows.stop - part.rows.start) * (part.columns.stop - part.columns.start)
+        now[0] += cost * size
+        sizes.append(size)
+        return Pixels(np.zeros(size, np.int8), np.zeros(size, np.int32), None)
+
+    class Clock:
+        working_time = property(lambda _: now[0])
+
+    monkeypatch.setattr(run, "toss_pixels", toss)
+    monkeypatch.setattr(run, "compiling", Clock())
+    whole = Tile(slice(0, 128), slice(0, 128 if cost < 1 else 2))
+    tossed = list(run.toss_here(sweep, [whole]))
+    assert sum(sizes) == 128 * (whole.columns.stop)
+    assert len(tossed) == len(sizes)
+    assert max(sizes) <= most
+    # None takes much longer than a second, once the cost is known; and a cheap map has few parts.
+    assert all(size * cost <= run.SECOND * 1.01 or size == 1 for size in sizes[1:])
+    assert cost > 1e-4 or len(sizes) <= 6

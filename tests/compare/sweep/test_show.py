@@ -1,0 +1,184 @@
+"""`cointoss basin --compare --report` writes the side-by-side report with a section on both maps."""
+
+import base64
+import io
+import json
+import re
+import shlex
+import subprocess
+import sys
+from html import unescape
+
+import numpy as np
+import pytest
+import xarray as xr
+from PIL import Image
+
+from cointoss.coin_mj import Realisation, Settings
+from cointoss.compare.basins.picture_style import PictureStyle
+from cointoss.compare.engines import Engine
+from cointoss.compare.film.back_end import ADVICE
+from cointoss.compare.report.comparison import compare, compared
+from cointoss.compare.report.contents import FILES, NOT_ASKED, require_folder
+from cointoss.compare.report.folder import write_report
+from cointoss.compare.sweep import job, show
+from cointoss.compare.sweep.axes import parse_axis
+from cointoss.compare.sweep.describe import AWAY
+from cointoss.compare.sweep.store import opened
+from cointoss.models.reading import parse
+from cointoss.models.records import Outcome
+from tests.helpers.basin_runs import SCENARIO, basin, sweep_of
+from tests.helpers.command_line import HERE, cointoss, refused
+from tests.helpers.made_maps import halves
+
+COIN = f"{SCENARIO}[ending]\nmax_impacts = 2\n"
+X, Y = "release.angular_velocity.eta=20:60:5", "release.position.z=0.2:0.6:4"
+
+
+@pytest.fixture
+def coin(tmp_path, monkeypatch):
+    """A scenario's file; no film is drawn."""
+    monkeypatch.setattr(job, "drawing_problem", lambda: ADVICE)
+    (tmp_path / "coin.toml").write_text(COIN)
+    return tmp_path / "coin.toml"
+
+
+def section_of(maps, after=None):
+    case = parse(COIN, "coin")
+    sweeps = [sweep_of(X, Y, case, engine, after=after) for engine in Engine]
+    return show.section(maps, sweeps, PictureStyle(dpi=20), "cointoss basin")
+
+
+def shown_of(section, folder):
+    """Give the text of the section on a report's page."""
+    page = write_report(compared(parse(COIN, "coin"), COIN, "coin"), folder, ADVICE, maps=section)
+    html = page.read_text(encoding="utf-8").split(">Basin map</h2>")[1].split("<h2>")[0]
+    return " ".join(unescape(re.sub(r"<[^>]+>", " ", html)).split())
+
+
+@pytest.mark.parametrize("contact", ["spring", "one_step"])
+def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path, contact):
+    out, report, png = tmp_path / "map.zarr", tmp_path / "new" / "report", tmp_path / "map.png"
+    asked = ("--x", X, "--y", Y, "--after", 1, "--compare", "--contact", contact, "--out", out)
+    answered = basin(coin, *asked, "--report", report, "--png", png, "--palette", "safe", "--dpi", 60)
+    assert answered.exit_code == 0, answered.stderr
+    assert answered.stdout.endswith(f"picture    {png}\nreport     {report}/report.html\n")
+    names = {"report.html", "numbers.json", "path-analytic.csv", "path-mujoco.csv"}
+    assert {path.name for path in report.iterdir()} == names
+    require_folder(report, str(coin))
+
+    found = json.loads((report / "numbers.json").read_text(encoding="utf-8"))
+    numbers = found["map"]
+    stores = [xr.open_zarr(tmp_path / name, chunks=None) for name in ("map.zarr", "map-mujoco.zarr")]
+    maps = [store.outcome.to_numpy() for store in stores]
+    assert numbers["after"] == stores[0].attrs["after"] == 1
+    for name, text in (("x", X), ("y", Y)):
+        axis = parse_axis(text, parse(COIN, "coin"))
+        assert numbers["axes"][name] == {
+            "field": axis.field,
+            "unit": axis.unit,
+            "start": axis.start,
+            "stop": axis.stop,
+            "count": axis.count,
+        }
+    for engine, store, outcomes in zip(("analytic", "mujoco"), stores, maps, strict=True):
+        assert numbers["settings"][engine] == store.attrs["engine_settings"]
+        shares = {str(Outcome(code)): np.mean(outcomes == code) for code in Outcome}
+        assert numbers["fractions"][engine] == pytest.approx(shares, abs=1e-15)
+    assert numbers["settings"]["mujoco"]["contact"] == contact
+    alike, undecided = int(np.sum(maps[0] == maps[1])), numbers["agreement"]["undecided"]
+    near, away = numbers["agreement"]["near"], numbers["agreement"]["away"]
+    assert (near["agreeing"] + away["agreeing"], near["compared"] + away["compared"]) == (alike, 20)
+    assert (undecided, numbers["agreement"]["distance"]) == (0, AWAY)
+    assert shlex.split(numbers["command"]) == [
+        *("cointoss", "basin", str(coin)),
+        *map(str, asked),
+        *("--report", str(report), "--resume", "--palette", "safe", "--dpi", "60"),
+    ]
+    assert cointoss(*shlex.split(numbers["command"])[1:]).exit_code == 0
+
+    html = (report / "report.html").read_text(encoding="utf-8")
+    assert html.index(">Impacts<") < html.index(">Basin map<") < html.index(">Scenario<")
+    shown = re.search('src="data:image/png;base64,([^"]+)"', html)
+    assert shown is not None
+    with Image.open(io.BytesIO(base64.b64decode(shown[1]))) as ours, Image.open(png) as theirs:
+        assert ours.size == (900, 270)
+        assert np.array_equal(np.asarray(ours), np.asarray(theirs))
+
+    # The report's own toss is by the contact of the maps.
+    mujoco = compare(parse(COIN, "coin"), Settings(contact=Realisation(contact))).both[1]
+    assert found["tosses"][1]["impacts"][1]["impulse"] == mujoco.impacts.impulse[1].tolist()
+
+
+def test_the_section_tells_what_is_on_made_maps(tmp_path):
+    right = halves(20, 20)
+    wrong = right.copy()
+    wrong[10, 3], wrong[0, 0] = Outcome.TAILS, Outcome.UNDECIDED
+    section = section_of([right, wrong], after=2)
+    # Away are 16 rows of two bands of 6 columns: neither at the rim of the map nor at the boundary.
+    assert section.numbers["agreement"] == {
+        "distance": 2.0,
+        "near": {"agreeing": 207, "compared": 207},
+        "away": {"agreeing": 191, "compared": 192},
+        "undecided": 1,
+    }
+    text = shown_of(section, tmp_path)
+    for said in (
+        "shows the face at touch 3, or the outcome of a toss that ended before",
+        "heads 50.000 % 49.500 % tails 50.000 % 50.250 %",
+        "undecided 0.000 % 0.250 %",
+        "more than 2 pixels from the boundaries of the analytic map 192 99.479 %",
+        "nearer to the boundaries 207 100.000 %",
+        "undecided by one or both, not compared 1 –",
+        "x spin about η release.angular_velocity.eta 20 rad/s 60 rad/s 5",
+        "y height release.position.z 0.2 m 0.6 m 4",
+        "tolerance 1e-13",
+        "stiffness 1e+11 1/s²",
+        "cointoss basin",
+    ):
+        assert said in text
+    assert "edge" not in text
+
+
+def test_a_share_of_no_pixels_is_a_dash(tmp_path):
+    text = shown_of(section_of([halves(2, 2), halves(2, 2)]), tmp_path)
+    assert "shows the final outcome." in text
+    assert "boundaries of the analytic map 0 – nearer to the boundaries 4 100.000 %" in text
+
+
+def test_a_report_without_a_video_is_made_by_the_command_that_it_names(coin, tmp_path, monkeypatch):
+    monkeypatch.setattr(job, "drawing_problem", lambda: pytest.fail("no video is asked for"))
+    asked = ("--x", X, "--y", Y, "--compare", "--out", tmp_path / "map.zarr", "--report", tmp_path / "report")
+    answered = basin(coin, *asked, "--no-video")
+    assert answered.exit_code == 0, answered.stderr
+    assert set(FILES) - {path.name for path in (tmp_path / "report").iterdir()} == {"toss.mp4"}
+    assert NOT_ASKED in (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
+    numbers = json.loads((tmp_path / "report" / "numbers.json").read_text(encoding="utf-8"))
+    assert "--no-video" in shlex.split(numbers["map"]["command"])
+
+
+def test_a_folder_that_is_no_reports_is_refused_before_any_map(coin, tmp_path):
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "report.html").write_text("mine")
+    asked = ("--compare", "--out", tmp_path / "map.zarr", "--report", tmp_path / "mine")
+    assert "report.html is in the way" in refused("basin", coin, "--x", X, "--y", Y, *asked)
+    assert {path.name for path in tmp_path.iterdir()} == {"coin.toml", "mine"}
+    assert (tmp_path / "mine" / "report.html").read_text() == "mine"
+
+
+def test_a_back_end_for_drawing_is_chosen_before_mujoco_is_imported(coin, tmp_path):
+    case = parse(COIN, "coin")
+    for engine, name in zip(Engine, ("map.zarr", "map-mujoco.zarr"), strict=True):
+        with opened(tmp_path / name, sweep_of(X, Y, case, engine), COIN, overwrite=False):
+            pass
+    script = (
+        "import sys; from cointoss.compare.cli import main; from cointoss.compare.sweep import job\n"
+        "job.drawing_problem = lambda: sys.exit(f'imported: {\"mujoco\" in sys.modules}')\n"
+        "main()"
+    )
+    asked = ("--x", X, "--y", Y, "--compare", "--resume", "--out", "map.zarr", "--report", "report")
+    done = subprocess.run(
+        [sys.executable, "-c", script, "basin", coin, *asked],
+        **{"env": HERE, "cwd": tmp_path, "capture_output": True, "text": True, "check": False},
+    )
+    assert done.stderr == "imported: False\n"

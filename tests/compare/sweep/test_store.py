@@ -1,0 +1,387 @@
+"""A map on disk: it survives whatever ends the process, and belongs to one process and one sweep."""
+
+import errno
+import json
+import os
+import shutil
+import signal
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+import zarr
+from matplotlib.figure import Figure
+from zarr.storage import LocalStore
+
+from cointoss import coin_mj
+from cointoss.coin_mj import Realisation
+from cointoss.compare.engines import Engine
+from cointoss.compare.output.files import UnwritableError
+from cointoss.compare.sweep import grid, run
+from cointoss.compare.sweep.layers import NOT_TOSSED
+from cointoss.compare.sweep.store import Map, opened, require_place
+from cointoss.models.records import Outcome
+from tests.helpers.basin_runs import (
+    AXES,
+    SCENARIO,
+    SMALL,
+    TILES,
+    assert_same,
+    basin,
+    begun,
+    pixels,
+    sweep_of,
+    wait_for,
+    whole_tiles,
+)
+from tests.helpers.command_line import refused
+
+
+@pytest.fixture
+def coin(tmp_path, monkeypatch):
+    """A scenario's file; the tiles of its maps are small."""
+    monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, SMALL)
+    (tmp_path / "coin.toml").write_text(SCENARIO)
+    return tmp_path / "coin.toml"
+
+
+def map_sweep(**given):
+    """Return the sweep of the map, but for what is given."""
+    return sweep_of(**{"x": AXES[1], "y": AXES[3], **given})
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory):
+    """The pixels of the map, made at one go in one tile."""
+    folder = tmp_path_factory.mktemp("undisturbed")
+    (folder / "coin.toml").write_text(SCENARIO)
+    assert basin(folder / "coin.toml", *AXES, "--out", folder / "map.zarr").exit_code == 0
+    return pixels(folder / "map.zarr")
+
+
+@pytest.fixture(scope="module")
+def in_tiles(tmp_path_factory):
+    """The map, made in small tiles; tests copy it."""
+    folder = tmp_path_factory.mktemp("in_tiles")
+    (folder / "coin.toml").write_text(SCENARIO)
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, SMALL)
+        assert basin(folder / "coin.toml", *AXES, "--out", folder / "map.zarr").exit_code == 0
+    assert whole_tiles(folder / "map.zarr") == TILES
+    return folder / "map.zarr"
+
+
+def tosses_of(monkeypatch, resumed):
+    """Count the pixels that a call of `resumed` tosses."""
+    count, toss = [0], run.toss_pixels
+
+    def counted(*arguments):
+        tossed = toss(*arguments)
+        count[0] += tossed.outcome.size
+        return tossed
+
+    with monkeypatch.context() as patched:
+        patched.setattr(run, "toss_pixels", counted)
+        answered = resumed()
+    assert answered.exit_code == 0, answered.stderr
+    return count[0]
+
+
+def test_the_map_has_the_agreed_form(undisturbed, coin, tmp_path):
+    out = tmp_path / "map.zarr"
+    answered = basin(coin, *AXES, "--out", out)
+    assert answered.exit_code == 0
+    assert answered.stdout.startswith(f"map        {out}\nengine     analytic\ntosses     48 by 40: final")
+    found = xr.open_zarr(out, chunks=None)  # warnings are errors: a plain call must have none
+    assert (found.outcome.dims, found.outcome.dtype) == (("y", "x"), np.int8)
+    assert (found.impacts.dims, found.impacts.dtype) == (("y", "x"), np.int32)
+    z, eta = found.outcome["release.position.z"], found.outcome["release.angular_velocity.eta"]
+    assert (z.dims, z.attrs["units"], z.to_numpy().tolist()) == (
+        ("y",),
+        "m",
+        np.linspace(0.2, 0.6, 40).tolist(),
+    )
+    assert (eta.dims, eta.attrs["units"]) == (("x",), "rad/s")
+    assert eta.attrs["long_name"] == "spin about η"
+    meanings = dict(
+        zip(found.outcome.attrs["flag_values"], found.outcome.attrs["flag_meanings"].split(), strict=True)
+    )
+    assert meanings == {-1: "not_tossed", **{item.value: str(item) for item in Outcome}}
+    axes = found.outcome.plot(x=eta.name, y=z.name, ax=Figure().add_subplot()).axes
+    labels = [" ".join(label.split()) for label in (axes.get_xlabel(), axes.get_ylabel())]  # they are wrapped
+    assert labels == ["spin about η [rad/s]", "height [m]"]
+    assert (eta.to_numpy() == np.linspace(20, 60, 48)).all()
+    assert found.attrs["scenario"] == SCENARIO
+    assert (found.attrs["engine"], found.attrs["after"]) == ("analytic", None)
+    assert found.attrs["engine_settings"].keys() == {"tolerance", "contact_tolerance", "contact_steps"}
+    assert found.attrs["versions"].keys() == {"cointoss", "numba", "numpy", "zarr"}
+    assert_same(out, undisturbed)
+    heads = 100 * np.mean(undisturbed["outcome"] == Outcome.HEADS)
+    assert f"heads      {heads:.3f} %\n" in answered.stdout
+    assert not list(tmp_path.glob(".cointoss-*"))
+
+
+def test_a_killed_map_is_resumed_to_the_same_pixels(undisturbed, coin, tmp_path, monkeypatch):
+    out = tmp_path / "map.zarr"
+    with begun(coin, out, most=6) as process:
+        wait_for(process, out, 6)
+        meanwhile = refused("basin", coin, *AXES, "--out", out, "--resume")
+        overwritten = refused("basin", coin, *AXES, "--out", out, "--overwrite")
+        process.kill()
+    said = f"cointoss: {out}: another process is at this map; accepted: wait for its end\n"
+    assert meanwhile == overwritten == said
+    done = whole_tiles(out)
+    assert 6 <= done < TILES
+    left = 1920 - np.sum(pixels(out)["outcome"] >= 0)
+    assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == left
+    assert_same(out, undisturbed)
+    assert not list(out.rglob("*.partial"))
+    assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 0
+
+
+def test_an_interrupted_map_is_resumed_to_the_same_pixels(undisturbed, coin, tmp_path, monkeypatch):
+    out = tmp_path / "map.zarr"
+    with begun(coin, out, most=4) as process:
+        wait_for(process, out, 4)
+        process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=60)[1]
+    assert process.returncode == 130
+    kept = int(said.split("map.zarr: ")[1].split(" of 1920 tosses are saved; --resume continues")[0])
+    saved = np.sum(pixels(out)["outcome"] >= 0)
+    assert saved - SMALL <= kept <= saved
+    assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 1920 - saved
+    assert_same(out, undisturbed)
+
+
+def test_a_new_map_is_known_to_be_empty_without_reading_its_tiles(tmp_path, monkeypatch):
+    monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, SMALL)
+    read, reads = Map.read, []
+    monkeypatch.setattr(Map, "read", lambda map_, *asked: reads.append(asked) or read(map_, *asked))
+    sweep = map_sweep()
+    with opened(tmp_path / "map.zarr", sweep, SCENARIO, overwrite=False) as map_:
+        assert map_.is_empty
+        assert (run.missing(map_), reads) == (map_.tiles, [])
+        last = map_.tiles[-1]
+        map_.write(last, run.toss_pixels(sweep, last))
+        assert not map_.is_empty
+        assert run.missing(map_) == map_.tiles[:-1]
+        assert reads
+
+
+def test_a_full_disk_is_one_line_and_what_was_tossed_is_kept(undisturbed, coin, tmp_path, monkeypatch):
+    out, room, put = tmp_path / "map.zarr", [20], LocalStore.set
+
+    async def set_while_there_is_room(self, key, value):
+        if "/c/" in key and "map.zarr" in str(self.root):
+            room[0] -= 1
+            if room[0] < 0:
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        await put(self, key, value)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(LocalStore, "set", set_while_there_is_room)
+        said = refused("basin", coin, *AXES, "--out", out)
+    assert said == f"cointoss: {out}: can't be written (No space left on device)\n"
+    kept = np.sum(pixels(out)["outcome"] >= 0)
+    assert 0 < kept < 20 * SMALL
+    assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 1920 - kept
+    assert_same(out, undisturbed)
+
+
+def test_a_disk_that_is_full_at_the_start_leaves_nothing(coin, tmp_path, monkeypatch):
+    async def full(*_):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(LocalStore, "set", full)
+    assert "No space left" in basin(coin, *AXES, "--out", tmp_path / "map.zarr").stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["coin.toml"]
+
+
+@pytest.mark.parametrize("damage", ["empty", "cut", "flipped", "lost"])
+@pytest.mark.parametrize("name", ["outcome", "impacts"])
+def test_a_damaged_tile_is_tossed_again(undisturbed, in_tiles, coin, tmp_path, monkeypatch, name, damage):
+    out = shutil.copytree(in_tiles, tmp_path / "map.zarr")
+    part = next((out / name / "c").glob("2/*"))
+    whole = part.read_bytes()
+    middle = len(whole) // 2
+    if damage == "lost":
+        part.unlink()
+    else:
+        flipped = bytes([whole[middle] ^ 1])
+        part.write_bytes(
+            {
+                "empty": b"",
+                "cut": whole[:middle],
+                "flipped": whole[:middle] + flipped + whole[middle + 1 :],
+            }[damage]
+        )
+    assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == SMALL
+    assert_same(out, undisturbed)
+
+
+def edited(change):
+    """Return a damage: a change of what a map's zarr.json holds."""
+
+    def damage(out):
+        described = json.loads((out / "zarr.json").read_text())
+        change(described)
+        (out / "zarr.json").write_text(json.dumps(described))
+
+    return damage
+
+
+def test_a_map_that_holds_something_else_is_not_replaced(coin, tmp_path):
+    out = tmp_path / "map.zarr"
+    assert basin(coin, *AXES, "--out", out).exit_code == 0
+    (out / "notes.txt").write_text("mine")
+    said = refused("basin", coin, *AXES, "--out", out, "--overwrite")
+    assert said == f"cointoss: {out}: holds notes.txt, which is no part of a map; accepted: a new name\n"
+    assert (out / "notes.txt").read_text() == "mine"
+
+
+def test_a_map_that_lost_an_axis_is_not_gone_on_with(in_tiles, coin, tmp_path):
+    out = shutil.copytree(in_tiles, tmp_path / "map.zarr")
+    (out / "release.angular_velocity.eta" / "c" / "0").unlink()
+    assert "is a map with another grid in x" in refused("basin", coin, *AXES, "--out", out, "--resume")
+
+
+@pytest.mark.parametrize("value", [-7, 5, 100])
+@pytest.mark.parametrize("name", ["outcome", "impacts"])
+def test_a_pixel_with_a_number_that_means_nothing_is_tossed_again(
+    undisturbed, in_tiles, coin, tmp_path, monkeypatch, name, value
+):
+    out = shutil.copytree(in_tiles, tmp_path / "map.zarr")
+    if name == "impacts":
+        value = -abs(value)
+    array: Any = zarr.open_group(out, mode="r+", use_consolidated=False)[name]
+    array[7, 7] = value
+    assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 1
+    assert_same(out, undisturbed)
+
+
+def test_a_map_is_replaced_only_where_asked(in_tiles, coin, tmp_path):
+    out = shutil.copytree(in_tiles, tmp_path / "map.zarr")
+    first = pixels(out)
+    said = refused("basin", coin, *AXES, "--after", 0, "--out", out)
+    assert ": exists; accepted: a new name, --resume to continue it, or --overwrite to replace it" in said
+    assert_same(out, first)
+    assert basin(coin, *AXES, "--after", 0, "--out", out, "--overwrite").exit_code == 0
+    assert np.all(pixels(out)["impacts"] == 1)
+    assert not list(tmp_path.glob(".cointoss-*"))
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        ({"case": SCENARIO.replace("0.6", "0.7")}, "scenario"),
+        ({"after": 0}, "number of impacts"),
+        ({"x": "release.angular_velocity.eta=20:60:49"}, "grid in x"),
+        ({"x": "release.angular_velocity.eta=20:61:48"}, "grid in x"),
+        ({"y": "release.position.y=0.2:0.6:40"}, "grid in y"),
+        ({"x": AXES[3], "y": AXES[1]}, "grid in x"),
+    ],
+)
+def test_a_map_of_something_else_is_not_gone_on_with(tmp_path, change, named):
+    out = tmp_path / "map.zarr"
+    with opened(out, map_sweep(), SCENARIO, overwrite=False):
+        pass
+    with pytest.raises(UnwritableError, match=f"is a map with another {named}"):
+        opened(out, map_sweep(**change), change.get("case", SCENARIO), overwrite=False).__enter__()
+    same = SCENARIO + "# another word for the same coin\n"
+    with opened(out, map_sweep(case=same), same, overwrite=False) as map_:
+        assert map_.group.attrs["scenario"] == SCENARIO
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "named"),
+    [
+        ("engine", "mujoco", "engine"),
+        ("engine_settings", {"tolerance": 1e-9}, "engine's settings"),
+        ("versions", {"cointoss": "0.0.1"}, "versions"),
+    ],
+)
+def test_a_map_made_otherwise_is_not_gone_on_with(tmp_path, key, value, named):
+    out = tmp_path / "map.zarr"
+    with opened(out, map_sweep(), SCENARIO, overwrite=False):
+        pass
+    edited(lambda described: described["attributes"].update({key: value}))(out)
+    with pytest.raises(UnwritableError, match=f"is a map with another {named}"):
+        opened(out, map_sweep(), SCENARIO, overwrite=False).__enter__()
+
+
+@pytest.mark.parametrize(("made", "asked"), [("one_step", "spring"), ("spring", "one_step")])
+def test_a_map_with_another_contact_is_refused_before_the_first_toss(coin, tmp_path, made, asked):
+    second = tmp_path / "map-mujoco.zarr"
+    settings = replace(coin_mj.MANY, contact=Realisation(made))
+    with opened(second, map_sweep(engine=Engine.MUJOCO, settings=settings), SCENARIO, overwrite=False):
+        pass
+    assert xr.open_zarr(second, chunks=None).attrs["engine_settings"]["contact"] == made
+    both = ("--compare", "--contact", asked, "--out", tmp_path / "map.zarr")
+    said = refused("basin", coin, *AXES, *both, "--resume")
+    assert f'is a map with another engine\'s settings, {{"contact": "{made}"' in said
+    assert not (tmp_path / "map.zarr").exists()
+
+
+def test_a_map_in_use_is_refused_and_free_again_after(tmp_path):
+    out = tmp_path / "map.zarr"
+    with opened(out, map_sweep(), SCENARIO, overwrite=False):
+        for overwrite in (False, True):
+            with pytest.raises(UnwritableError, match="another process"):
+                opened(out, map_sweep(), SCENARIO, overwrite=overwrite).__enter__()
+    with opened(out, map_sweep(), SCENARIO, overwrite=True) as map_:
+        assert len(run.missing(map_)) == len(map_.tiles)
+
+
+def test_only_a_place_for_a_map_is_accepted(tmp_path):
+    for name in ("mine.zarr", "half.zarr", "other.zarr"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "mine.zarr" / "letter.txt").write_text("mine")
+    (tmp_path / "half.zarr" / "zarr.json").write_text('{"attributes": ')
+    other = {"zarr_format": 3, "node_type": "group", "attributes": {}}
+    (tmp_path / "other.zarr" / "zarr.json").write_text(json.dumps(other))
+    (tmp_path / "file.zarr").write_text("mine")
+    for name, said in (
+        ("map", "ends in .zarr"),
+        ("nowhere/map.zarr", "no folder .*nowhere; accepted: a name in a folder that exists"),
+        ("mine.zarr", "is no map; "),
+        ("half.zarr", "is no map; "),
+        ("other.zarr", "is no map; "),
+        ("file.zarr", "is no map; "),
+        ("file.zarr/map.zarr", "a folder that exists"),
+        (300 * "a" + ".zarr", "name too long"),
+    ):
+        for overwrite in (False, True):
+            with pytest.raises(UnwritableError, match=said):
+                require_place(tmp_path / name, resume=not overwrite, overwrite=overwrite)
+    assert (tmp_path / "mine.zarr" / "letter.txt").read_text() == "mine"
+    assert (tmp_path / "file.zarr").read_text() == "mine"
+    (tmp_path / "empty.zarr").mkdir()
+    (tmp_path / "link.zarr").symlink_to(tmp_path / "empty.zarr")
+    for name, overwrite in (("new.zarr", False), ("link.zarr", True)):
+        require_place(tmp_path / name, resume=False, overwrite=overwrite)
+        with opened(tmp_path / name, map_sweep(), SCENARIO, overwrite=overwrite):
+            pass
+    assert (tmp_path / "link.zarr").is_symlink()
+    assert (tmp_path / "empty.zarr" / "outcome").is_dir()
+
+
+def test_what_was_not_tossed_is_told_from_every_outcome(tmp_path):
+    assert NOT_TOSSED not in set(Outcome)
+    with opened(tmp_path / "map.zarr", map_sweep(), SCENARIO, overwrite=False):
+        pass
+    found = pixels(tmp_path / "map.zarr")
+    assert np.all(found["outcome"] == NOT_TOSSED)
+    assert np.all(found["impacts"] == NOT_TOSSED)
+
+
+def test_a_grid_beyond_disk_or_memory_is_refused_with_its_need(coin, tmp_path, monkeypatch):
+    usage = shutil.disk_usage(tmp_path)
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage._replace(free=5000))
+    said = refused("basin", coin, *AXES, "--out", tmp_path / "map.zarr")
+    assert "48 by 40 tosses need up to 0.00 GB of disk" in said
+    monkeypatch.undo()
+    monkeypatch.setattr(os, "sysconf", lambda _: 100)
+    said = refused("basin", coin, *AXES, "--out", tmp_path / "map.zarr", "--png", tmp_path / "map.png")
+    assert "of memory; accepted: a grid for" in said
