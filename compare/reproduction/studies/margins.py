@@ -9,13 +9,14 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss import analytic
-from cointoss.compare.metrics.margin import MANY, QUANTITIES, Codes, Quantity, proved_change, smallest_changes
+from cointoss.compare.metrics.margin import MANY, QUANTITIES, Codes, Quantity, smallest_changes
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
 from cointoss.compare.output.tables import table
 from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
 from cointoss.compare.reproduction.estimates import quantile, share
 from cointoss.compare.reproduction.parts import Part, kept
+from cointoss.compare.reproduction.precision.proved_change import proved_change
 from cointoss.compare.reproduction.result import Reproduction, Result
 from cointoss.compare.reproduction.saving import read_numbers
 from cointoss.compare.reproduction.setups.general_coins import CoinClass

@@ -15,10 +15,10 @@ from scipy.constants import hbar
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE
 from cointoss.compare.output.tables import table
-from cointoss.compare.precision.planar_state import HEIGHT, SPIN, TILT
 from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
 from cointoss.compare.reproduction.estimates import jackknife
 from cointoss.compare.reproduction.parts import Part, kept
+from cointoss.compare.reproduction.precision.planar_state import HEIGHT, SPIN, TILT
 from cointoss.compare.reproduction.result import Reproduction, Result
 from cointoss.compare.reproduction.saving import read_numbers
 from cointoss.compare.reproduction.setups.planar_maps import case
