@@ -7,9 +7,7 @@ import pytest
 
 from cointoss.coin_mj.bounce import SPEED
 from cointoss.compare.reproduction.claim import unexpected
-from cointoss.compare.reproduction.saving import read_numbers
-from cointoss.compare.reproduction.setups.mujoco_bodies import SHAPES, SIZE, rebounds, resting_depth
-from cointoss.compare.reproduction.studies.mujoco_bodies import (
+from cointoss.compare.reproduction.mujoco.mujoco_bodies import (
     FINE,
     RESTITUTION,
     STEP,
@@ -17,6 +15,8 @@ from cointoss.compare.reproduction.studies.mujoco_bodies import (
     claims,
     touch_of,
 )
+from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups.mujoco_bodies import SHAPES, SIZE, rebounds, resting_depth
 from tests.helpers.pages import pictures, saved
 
 SAVED = read_numbers(saved("mujoco-bodies"), Bodies)

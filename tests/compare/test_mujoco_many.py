@@ -3,9 +3,7 @@
 from dataclasses import replace
 
 from cointoss.compare.reproduction.claim import unexpected
-from cointoss.compare.reproduction.saving import read_numbers, save
-from cointoss.compare.reproduction.setups.mujoco_study import Spread
-from cointoss.compare.reproduction.studies.mujoco_many import (
+from cointoss.compare.reproduction.mujoco.mujoco_many import (
     FixedSteps,
     TossSpeeds,
     claims,
@@ -13,6 +11,8 @@ from cointoss.compare.reproduction.studies.mujoco_many import (
     result,
     tables,
 )
+from cointoss.compare.reproduction.saving import read_numbers, save
+from cointoss.compare.reproduction.setups.mujoco_study import Spread
 from tests.helpers.pages import saved
 
 SAVED = read_numbers(saved("mujoco-many"), TossSpeeds)

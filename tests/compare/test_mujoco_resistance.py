@@ -5,8 +5,7 @@ from dataclasses import replace
 import pytest
 
 from cointoss.compare.reproduction.claim import unexpected
-from cointoss.compare.reproduction.saving import read_numbers
-from cointoss.compare.reproduction.studies.mujoco_resistance import (
+from cointoss.compare.reproduction.mujoco.mujoco_resistance import (
     CONTACTS,
     STARTS,
     NativeResistance,
@@ -15,6 +14,7 @@ from cointoss.compare.reproduction.studies.mujoco_resistance import (
     explicit,
     native,
 )
+from cointoss.compare.reproduction.saving import read_numbers
 from tests.helpers.pages import pictures, saved
 
 SAVED = read_numbers(saved("mujoco-resistance"), NativeResistance)

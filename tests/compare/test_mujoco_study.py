@@ -11,6 +11,7 @@ from cointoss.coin_mj import Realisation, Settings
 from cointoss.coin_mj.bounce import one_step_solref, restitutions_of_a_ball, spring_solref
 from cointoss.compare.reproduction import runner
 from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.mujoco import mujoco_laws
 from cointoss.compare.reproduction.setups.mujoco_fixed_steps import restitutions_of_coins
 from cointoss.compare.reproduction.setups.mujoco_impacts import (
     by_law,
@@ -28,7 +29,6 @@ from cointoss.compare.reproduction.setups.mujoco_study import (
     over_stiffness,
     tilted_touch,
 )
-from cointoss.compare.reproduction.studies import mujoco_laws
 from cointoss.models.laws import ContactLaw
 
 
