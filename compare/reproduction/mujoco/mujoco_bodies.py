@@ -1,6 +1,7 @@
 """Restitution of bodies of other mass and shape, of several contacts at once, and of other settings."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -15,10 +16,7 @@ from cointoss.coin_mj.bounce import (
     spring_solref,
 )
 from cointoss.compare.output.progress import Progress
-from cointoss.compare.output.tables import table
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
-from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.mujoco_bodies import (
     SHAPES,
     SIZE,
@@ -28,6 +26,7 @@ from cointoss.compare.reproduction.setups.mujoco_bodies import (
     resting_depth,
 )
 from cointoss.compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
+from cointoss.compare.reproduction.setups.study import study
 
 RESTITUTION = 0.8
 STEP, FINE = 1e-3, 1e-4
@@ -165,164 +164,70 @@ def _resting(mass: float) -> float:
     return resting_depth(touch) / ((1 - impedance) * GRAVITY / k)
 
 
-def result(found: Bodies) -> Result:
-    """Return the study's tables and claims."""
-    return Result(claims=claims(found), data=found, tables=tables(found))
-
-
-def claims(found: Bodies) -> tuple[Claim, ...]:
-    """Return the claims of the study."""
-    turning = [name for name in SHAPES if name != "ball" and "flat" not in name]
+def measures(found: Bodies) -> dict[str, Any]:
+    """Return what the claims name."""
+    shapes = found.shapes.values()
+    turning = [found.shapes[name] for name in SHAPES if name != "ball" and "flat" not in name]
     coarse, fine, _, spring = CONTACTS
-    orders = [found.shapes[name][coarse].error / found.shapes[name][fine].error for name in turning]
-    depths = [each[label].depth for label in (fine, spring) for each in found.shapes.values()]
-    ball = {label: found.shapes["ball"][label].depth for label in (fine, spring)}
-    other = [
-        abs(each[label].depth / ball[label] - 1) for label in (fine, spring) for each in found.shapes.values()
-    ]
+    orders = [each[coarse].error / each[fine].error for each in turning]
+    ball = found.shapes["ball"]
+    depths = [each[label].depth / ball[label].depth for label in (fine, spring) for each in shapes]
     hard = [each["box flat"] for label, each in found.flat.items() if "0.9999" in label and "one" in label]
-    soft = {label: each["box flat"].error for label, each in found.flat.items() if "by default" in label}
-    with_exact = next(
-        error for label, error in soft.items() if "one step" in label and "without" not in label
-    )
-    without = next(error for label, error in soft.items() if "one step" in label and "without" in label)
-    best, equal, weighted, worst, same = found.mixed.values()
-    return (
-        Claim(
-            claim="neither the restitution nor the depth depends on the mass",
-            criteria=[
-                Criterion(
-                    "largest change, 10 g to 100 kg", max(found.by_mass.values()), "<", 1e-8, "rounding"
-                )
-            ],
-        ),
-        Claim(
-            claim="nor, with solimp 0.9999, does the depth depend on the shape",
-            criteria=[
-                Criterion(
-                    "largest relative difference", max(other), "<", 1e-2, "a body turns in the contact"
-                ),
-                Criterion("depths compared", len(depths), ">", 10, "all shapes"),
-            ],
-        ),
-        Claim(
-            claim="a body that the impact turns misses e by how far it turns in the contact",
-            criteria=[
-                Criterion("least error of 1 ms over that of 0.1 ms", min(orders), ">", 8, "first order"),
-                Criterion("largest", max(orders), "<", 12, "likewise"),
-            ],
-        ),
-        Claim(
-            claim="a box that lands flat on four corners rebounds evenly, in one step with solimp 0.9999",
-            criteria=[
-                Criterion(
-                    "largest error", max(each.error for each in hard), "<", 1e-3, "1 - 0.9999 and more"
-                ),
-                Criterion("largest unevenness", max(each.unevenness for each in hard), "<", 1e-9, "rounding"),
-            ],
-        ),
-        Claim(
-            claim="with MuJoCo's default solimp it does not get e, and with diagexact less so",
-            criteria=[
-                Criterion("error without diagexact", without, ">", 0.05, "far from e"),
-                Criterion("error with it", with_exact, ">", 2 * without, "twice as far"),
-            ],
-        ),
-        Claim(
-            claim="of the plane's default settings only solimp is mixed in, unless the plane has priority",
-            criteria=[
-                Criterion("|e' - e| with priority", abs(best - RESTITUTION), "<", 1e-9, "rounding"),
-                Criterion("with equal priorities", abs(equal - RESTITUTION), ">", 0.01, "solimp is the mean"),
-                Criterion("with solmix 1e6", abs(weighted - RESTITUTION), "<", 1e-3, "it is the body's"),
-                Criterion("with the plane's own", abs(same - RESTITUTION), "<", 1e-9, "rounding"),
-                Criterion(
-                    "e' by the plane's own, less exp(-2)",
-                    worst - np.exp(-2),
-                    "within ±",
-                    0.02,
-                    "that of ζ = 1",
-                ),
-            ],
-        ),
-        Claim(
-            claim="with speculative contacts one step keeps e however far a ball goes, a spring does not",
-            criteria=[
-                Criterion(
-                    "largest error in one step",
-                    max(abs(e - RESTITUTION) for pair in found.speculative["one step"] for e in pair),
-                    "<",
-                    1e-9,
-                    "rounding",
-                ),
-                Criterion(
-                    "least error of a spring of a ball that goes further than its size",
-                    min(RESTITUTION - most for _, most in found.speculative["spring"][-2:]),
-                    ">",
-                    0.2,
-                    "far from e",
-                ),
-            ],
-        ),
-        Claim(
-            claim="at rest a ball of any mass sinks (1 - d) g/k",
-            criteria=[
-                Criterion(
-                    "largest relative difference",
-                    max(abs(part - 1) for part in found.resting),
-                    "<",
-                    1e-3,
-                    "it has come to rest",
-                )
-            ],
-        ),
-    )
+    default = "one step, solimp by default, {} diagexact"
+    best, equal, weighted, plane, same = found.mixed.values()
+    return {
+        "by_mass": max(found.by_mass.values()),
+        "depth": max(abs(ratio - 1) for ratio in depths),
+        "depths": len(depths),
+        "orders": (min(orders), max(orders)),
+        "hard": max(each.error for each in hard),
+        "uneven": max(each.unevenness for each in hard),
+        "inexact": found.flat[default.format("without")]["box flat"].error,
+        "exact": found.flat[default.format("with")]["box flat"].error,
+        "twice": 2 * found.flat[default.format("without")]["box flat"].error,
+        "mixed": [abs(e - RESTITUTION) for e in (best, equal, weighted, same)],
+        "plane": plane - np.exp(-2),
+        "one_step": max(abs(e - RESTITUTION) for pair in found.speculative["one step"] for e in pair),
+        "spring": min(RESTITUTION - most for _, most in found.speculative["spring"][-2:]),
+        "resting": max(abs(part - 1) for part in found.resting),
+    }
 
 
 def tables(found: Bodies) -> str:
     """Return the tables, in Markdown."""
-    shapes = table(
-        ["error of e = 0.8", *CONTACTS, "depth, one step [v dt]", f"depth, spring [v × {SPRING_STEPS} dt]"],
+    shapes = [
         [
-            [
-                name,
-                *(f"{each[label].error:.0e}" for label in CONTACTS),
-                *(f"{each[label].depth:.4f}" for label in list(CONTACTS)[1::2]),
-            ]
-            for name, each in found.shapes.items()
-        ],
-    )
-    flat = table(
-        ["error of e = 0.8, unevenness", *FLAT],
-        [
-            [label, *(f"{each[name].error:.0e}, {each[name].unevenness:.0e}" for name in FLAT)]
-            for label, each in found.flat.items()
-        ],
-    )
-    mixed = table(
-        ["a ball, one step, e = 0.8", "e'"], [[name, f"{e:.4f}"] for name, e in found.mixed.items()]
-    )
-    speculative = table(
-        ["a ball with speculative contacts that goes, in a step", *(f"{way:g} r" for way in WAYS)],
-        [
-            [f"{contact}: e' from, to", *(f"{least:.3f}, {most:.3f}" for least, most in each)]
-            for contact, each in found.speculative.items()
-        ],
-    )
+            name,
+            *(f"{each[label].error:.0e}" for label in CONTACTS),
+            *(f"{each[label].depth:.4f}" for label in list(CONTACTS)[1::2]),
+        ]
+        for name, each in found.shapes.items()
+    ]
+    flat = [
+        [label, *(f"{each[name].error:.0e}, {each[name].unevenness:.0e}" for name in FLAT)]
+        for label, each in found.flat.items()
+    ]
+    speculative = [
+        [f"{contact}: e' from, to", *(f"{least:.3f}, {most:.3f}" for least, most in each)]
+        for contact, each in found.speculative.items()
+    ]
     resting = ", ".join(f"{part:.5f}" for part in found.resting)
     masses = ", ".join(f"{mass:g}" for mass in MASSES)
-    return "\n\n".join(
-        [
-            f"Bodies of about {1e2 * SIZE:g} cm that come down at {SPEED:g} m/s without spin and weight, "
-            f"{PHASES} touches anywhere between two steps; a spring has {SPRING_STEPS} steps:",
-            shapes,
-            f"Largest change of e' and of the depth, over itself, with masses of {masses} kg: "
-            + ", ".join(f"{contact} {change:.0e}" for contact, change in found.by_mass.items())
-            + f". At rest these balls lie {resting} (1 - d) g/k deep.",
-            f"Several contacts at once, {1e3 * STEP:g} ms:",
-            flat,
-            mixed,
+    depths = "depth, one step [v dt]", f"depth, spring [v × {SPRING_STEPS} dt]"
+    return paragraphs(
+        f"Bodies of about {1e2 * SIZE:g} cm that come down at {SPEED:g} m/s without spin and weight, "
+        f"{PHASES} touches anywhere between two steps; a spring has {SPRING_STEPS} steps:",
+        table(["error of e = 0.8", *CONTACTS, *depths], shapes),
+        f"Largest change of e' and of the depth, over itself, with masses of {masses} kg: "
+        + ", ".join(f"{contact} {change:.0e}" for contact, change in found.by_mass.items())
+        + f". At rest these balls lie {resting} (1 - d) g/k deep.",
+        f"Several contacts at once, {1e3 * STEP:g} ms:",
+        table(["error of e = 0.8, unevenness", *FLAT], flat),
+        table("a ball, one step, e = 0.8 | e'", [[name, f"{e:.4f}"] for name, e in found.mixed.items()]),
+        table(
+            ["a ball with speculative contacts that goes, in a step", *(f"{way:g} r" for way in WAYS)],
             speculative,
-        ]
+        ),
     )
 
 
@@ -336,17 +241,11 @@ def draw(found: Bodies) -> Figure:
         axes.barh(rows + 0.2 * (number - 1.5), errors, height=0.18, left=1e-13, label=label)
     axes.set_yticks(rows, list(found.shapes))
     axes.invert_yaxis()
-    axes.set_xscale("log")
-    axes.set_xlim(1e-12, 1)
-    axes.set_xlabel("largest error of e = 0.8")
+    axes.set(xscale="log", xlim=(1e-12, 1), xlabel="largest error of e = 0.8")
     axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
     return picture
 
 
-REPRODUCTION = Reproduction(
-    title="the restitution of bodies of other mass and shape in MuJoCo, and of several contacts at once",
-    seconds=60,
-    make=lambda progress: result(compute(progress)),
-    read=lambda folder: result(read_numbers(folder, Bodies)),
-    draw={"errors": draw},
+REPRODUCTION = study(
+    __name__, compute, record=Bodies, measures=measures, tables=tables, draw={"errors": draw}
 )
