@@ -84,9 +84,12 @@ def toss(
             write_text(trajectory, answer.path_csv(result.sample(times)))
         extra = []
         if margin:
-            from cointoss.compare.metrics.margin import margins
+            from cointoss.compare.metrics.margin import is_planar, margins
 
-            extra = margins(described)
+            prove = None
+            if is_planar(described):  # a proof takes intervals in long arithmetic
+                from cointoss.compare.reproduction.precision.proved_change import proved_change as prove
+            extra = margins(described, prove)
         if as_json:
             told = {
                 item.quantity.name: {"change": item.finite, "proved": item.proved, "unit": item.quantity.unit}

@@ -3,14 +3,11 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss import analytic
-from cointoss.compare.precision.certified import PlanarRelease, proved_part
-from cointoss.compare.precision.planar_coin import planar_coin, units
 from cointoss.models.records import Array
 from cointoss.models.releases import Releases, check_releases
 from cointoss.models.scenario import Scenario
@@ -82,6 +79,11 @@ class Margin:
         return f"margin    {self.quantity.name:18}  {found}{proved}"
 
 
+Proof = Callable[[Scenario, Quantity, float], float]
+"""Returns how far a release may change with a proof that the outcome stays, given a change that changes it
+along a quantity, both in SI units; 0 where none is proved."""
+
+
 def _moved(field: str, axis: int) -> Callable[[Releases, Array], Releases]:
     def change(start: Releases, by: Array) -> Releases:
         arrays = {name: getattr(start, name) for name in Releases.__dataclass_fields__}
@@ -141,12 +143,22 @@ def _latin(name: str) -> str:
     return name.replace("ξ", "xi").replace("η", "eta").replace("ζ", "zeta")
 
 
-def margins(scenario: Scenario) -> tuple[Margin, ...]:
+def is_planar(scenario: Scenario) -> bool:
+    """Return whether a thin coin is released flat in vacuum, at rest but for its spin about ξ."""
+    release = scenario.release
+    others = (*release.velocity, *release.attitude[1:], *release.angular_velocity[1:])
+    return not (scenario.coin.thickness or any(others) or any(scenario.body.drag))
+
+
+def margins(scenario: Scenario, proved_change: Proof | None = None) -> tuple[Margin, ...]:
     """Return the margin of a scenario's toss along each of `QUANTITIES`.
 
     Changes are tried on a ladder, up and down; the first that changes the outcome is cut down by bisection.
-    A stripe between two rungs goes unseen, so the margin is an upper bound. That of a planar coin released
-    flat in vacuum is proved to be above a lower one, in height, and in attitude and spin about ξ.
+    A stripe between two rungs goes unseen, so the margin is an upper bound.
+
+    Args:
+        scenario: whose coin is tossed.
+        proved_change: gives a lower bound too; none is given without.
     """
     release = scenario.release
     rows = (release.position, release.velocity, release.attitude, release.angular_velocity)
@@ -159,39 +171,10 @@ def margins(scenario: Scenario) -> tuple[Margin, ...]:
     def margin_along(quantity: Quantity) -> Margin:
         found = smallest_changes(scenario, start, quantity, outcomes=outcomes, search=FINE)
         change = float(found[0])
-        proved = proved_change(scenario, quantity, change)
+        proved = proved_change(scenario, quantity, change) if proved_change else 0.0
         return Margin(quantity, change * quantity.factor, proved * quantity.factor)
 
     return tuple(map(margin_along, counted("margins", "quantities", QUANTITIES)))
-
-
-PROVED = {"height": "height", "attitude about ξ": "tilt", "spin about ξ": "spin"}
-"""Quantities with a proof, and their names in a `PlanarRelease`."""
-
-
-def proved_change(scenario: Scenario, quantity: Quantity, change: float) -> float:
-    """Return a change of a release, to both sides, within which the outcome is proved to be the same.
-
-    Args:
-        scenario: whose coin is tossed.
-        quantity: what changes.
-        change: one that changes the outcome [SI].
-
-    Returns:
-        The change [SI]; 0 where none is proved. A proof needs a thin ideal coin released flat in vacuum, at
-        rest but for its spin about ξ, on a smooth or perfectly rough floor.
-    """
-    release, drag = scenario.release, scenario.body.drag
-    others = (*release.velocity, *release.attitude[1:], *release.angular_velocity[1:])
-    if quantity.name not in PROVED or not math.isfinite(change) or any(others) or any(drag):
-        return 0.0
-    try:
-        coin = planar_coin(scenario)
-    except ValueError:
-        return 0.0
-    start = PlanarRelease(height=Fraction(release.position[2]), spin=Fraction(release.angular_velocity[0]))
-    whole = PlanarRelease(**{PROVED[quantity.name]: Fraction(abs(change))})
-    return abs(change) * float(proved_part(coin, units(scenario), release=start, change=whole))
 
 
 def smallest_changes(

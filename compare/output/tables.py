@@ -13,16 +13,22 @@ _ESTIMATE = re.compile(rf"({_NUMBER})( %)? \[({_NUMBER}|-inf), ({_NUMBER}|inf)\]
 _THOUSANDS = re.compile(r"-?\d{1,3}(,\d{3})+(\.\d+)?")
 
 
-def table(head: Sequence[str], rows: Iterable[Sequence[str]], *, words: bool = False) -> str:
+def table(head: Sequence[str] | str, rows: Iterable[Sequence[str]], *, words: bool = False) -> str:
     """Return a table.
 
     Args:
-        head: names of the columns.
+        head: names of the columns, or all in one text, with bars between them.
         rows: cells, as many as columns; a bar in one is escaped.
         words: whether the columns after the first are words; numbers stand at the right.
     """
+    head = head.split(" | ") if isinstance(head, str) else head
     ruled = ["---", *(["---" if words else "---:"] * (len(head) - 1))]
     return "\n".join([_line(head), f"| {' | '.join(ruled)} |", *map(_line, rows)])
+
+
+def paragraphs(*blocks: str) -> str:
+    """Return the blocks, empty ones left out, as paragraphs of one text."""
+    return "\n\n".join(filter(None, blocks))
 
 
 def folded(text: str, folder: str) -> str:

@@ -1,10 +1,12 @@
 """Estimates from random samples, with their confidence intervals."""
 
 from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.stats import binom, binomtest, norm, t
+from scipy.stats import binom, binomtest, chi2_contingency, norm, t
 
 from cointoss.compare.reproduction.claim import Estimate
 from cointoss.models.records import Array
@@ -25,8 +27,13 @@ def share(met: ArrayLike, counted: str = "tosses") -> Estimate:
         counted: what the sample is of.
     """
     flags = np.asarray(met, dtype=bool)
-    interval = binomtest(int(flags.sum()), flags.size).proportion_ci(LEVEL, "wilson")
-    return Estimate(float(flags.mean()), float(interval.low), float(interval.high), flags.size, counted)
+    return share_of(int(flags.sum()), flags.size, counted)
+
+
+def share_of(met: int, count: int, counted: str = "tosses") -> Estimate:
+    """Return the share of a sample that meets something, from its number and that of all; see `share`."""
+    interval = binomtest(met, count).proportion_ci(LEVEL, "wilson")
+    return Estimate(met / count, float(interval.low), float(interval.high), count, counted)
 
 
 def mean_share(shares: ArrayLike, counted: str = "tosses") -> Estimate:
@@ -146,6 +153,29 @@ def ratio_of_shares(
     return Estimate(
         float(value), float(value * np.exp(-half)), float(value * np.exp(half)), len(first), counted
     )
+
+
+def less(found: Estimate, number: float) -> Estimate:
+    """Return an estimate less a number."""
+    value, low, high = (x - number for x in (found.value, found.low, found.high))
+    return replace(found, value=value, low=low, high=high)
+
+
+def chance_alike(counts: ArrayLike) -> float:
+    """Return the probability by chance of counts that differ so much between two samples, by a χ² test.
+
+    Args:
+        counts: of each kind, by sample, (2, kinds).
+    """
+    met = np.asarray(counts)
+    test: Any = chi2_contingency(met[:, met.any(axis=0)])
+    return float(test.pvalue)
+
+
+def in_words(found: Estimate, spec: str, factor: float = 1.0) -> str:
+    """Return an estimate and its interval, all times a factor, each by a format as in ".1%"."""
+    value, low, high = (f"{factor * x:{spec}}" for x in (found.value, found.low, found.high))
+    return f"{value} [{low}, {high}]"
 
 
 def _about(value: float, half: float, count: int, counted: str) -> Estimate:

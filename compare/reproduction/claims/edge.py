@@ -15,9 +15,6 @@ from cointoss.compare.reproduction.setups.edge_classes import (
     DIAMETRAL,
     HANDS,
     WOBBLING,
-    Ends,
-    ended_as,
-    tosses,
 )
 from cointoss.compare.reproduction.setups.edge_pages import (
     PUBLISHED,
@@ -39,6 +36,7 @@ from cointoss.compare.reproduction.setups.edge_record import (
     Sizes,
     record_of,
 )
+from cointoss.compare.reproduction.setups.ends import Ends, ended_as, tosses
 from cointoss.models.records import Outcome
 
 FACTOR = 2

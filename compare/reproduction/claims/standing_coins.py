@@ -19,13 +19,13 @@ from cointoss.analytic.settings import Settings
 from cointoss.analytic.toss import Pieces
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, VERMILION
-from cointoss.compare.precision.double_double import pair_of
-from cointoss.compare.precision.planar_coin import planar_coin, units
-from cointoss.compare.precision.planar_state import HEIGHT, release
-from cointoss.compare.precision.planar_toss import toss_many
-from cointoss.compare.precision.splitting import spread
 from cointoss.compare.reproduction.claim import Claim, Criterion
 from cointoss.compare.reproduction.estimates import mean, share
+from cointoss.compare.reproduction.precision.double_double import pair_of
+from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
+from cointoss.compare.reproduction.precision.planar_state import HEIGHT, release
+from cointoss.compare.reproduction.precision.planar_toss import toss_many
+from cointoss.compare.reproduction.precision.splitting import spread
 from cointoss.compare.reproduction.result import Reproduction, Result
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
 from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case

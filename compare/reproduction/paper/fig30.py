@@ -16,12 +16,12 @@ from cointoss import analytic, coin_mj
 from cointoss.compare.basins.picture import MapAxis, draw_panel
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY
-from cointoss.compare.precision.magnified import MAGNIFICATION, Magnified, magnify
-from cointoss.compare.precision.planar_coin import planar_coin, units
-from cointoss.compare.precision.planar_state import HEIGHT, release
 from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
 from cointoss.compare.reproduction.estimates import jackknife, share
 from cointoss.compare.reproduction.parts import Part, kept
+from cointoss.compare.reproduction.precision.magnified import MAGNIFICATION, Magnified, magnify
+from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
+from cointoss.compare.reproduction.precision.planar_state import HEIGHT, release
 from cointoss.compare.reproduction.result import Reproduction, Result
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHTS,

@@ -16,6 +16,7 @@ from cointoss.models.laws import ContactLaw, RestitutionKind
 from cointoss.models.reading import load
 from cointoss.models.records import Array, Flag, Impacts, raised_flags
 
+COUNT, SEED = 20_000, 2008
 LAWS = {
     **{str(law): (law, RestitutionKind.KINEMATIC) for law in ContactLaw if law != ContactLaw.COULOMB},
     "coulomb, kinematic": (ContactLaw.COULOMB, RestitutionKind.KINEMATIC),
@@ -91,13 +92,13 @@ class ContactRecord:
     `FRICTIONS_WITHOUT_SOLUTION`."""
 
 
-def compute(count: int, seed: int, progress: Progress) -> ContactRecord:
+def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> ContactRecord:
     """Try every law on random impacts, and search for the onsets.
 
     Args:
+        progress: called after each part.
         count: impacts for each law and restitution.
         seed: of the draws and of the searches.
-        progress: called after each part.
     """
     parts, done = len(LAWS) + 3 * len(COINS) + 2 * len(FRICTIONS_OF_ONSETS), 0
 

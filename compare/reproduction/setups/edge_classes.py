@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.reproduction.parts import Part, kept
+from cointoss.compare.reproduction.setups.ends import Ends
 from cointoss.models.attitude import quaternion_product
 from cointoss.models.hand import Hand
 from cointoss.models.kernel.sources import source_hash
@@ -41,9 +42,6 @@ LONGEST = 60.0
 """Of a toss [s]."""
 _ENTRIES = {Engine.ANALYTIC: "cointoss.analytic.events", Engine.MUJOCO: "cointoss.coin_mj.events"}
 _HALF_TURN = (0.0, 1.0, 0.0, 0.0)
-
-Ends = dict[str, int]
-"""Numbers of tosses by outcome and ending, as in "edge, paper"."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,16 +123,6 @@ def _part(kind: EdgeClass, number: int, count: int, engine: Engine) -> Part:
     counts = np.zeros((len(Outcome), len(Ending)), dtype=np.int64)
     np.add.at(counts, (ended.outcome, ended.ending), 1)
     return {"counts": counts}
-
-
-def tosses(ends: Ends) -> int:
-    """Return how many tosses there are."""
-    return sum(ends.values())
-
-
-def ended_as(ends: Ends, outcome: Outcome) -> int:
-    """Return how many tosses have an outcome."""
-    return sum(number for name, number in ends.items() if name.startswith(f"{outcome}, "))
 
 
 def corner(aspect: float | Array) -> Any:

@@ -1,16 +1,13 @@
 """What the edge study shows: shares with their intervals, tables and the figure."""
 
-from typing import Any
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from scipy.stats import chi2_contingency
 
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
-from cointoss.compare.output.tables import table
+from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.claim import Estimate
-from cointoss.compare.reproduction.estimates import LEVEL, share
+from cointoss.compare.reproduction.estimates import LEVEL, chance_alike, in_words
 from cointoss.compare.reproduction.setups.edge_classes import (
     DIAMETER,
     DIAMETRAL,
@@ -18,15 +15,13 @@ from cointoss.compare.reproduction.setups.edge_classes import (
     NICKEL,
     SEED,
     WOBBLING,
-    Ends,
     corner,
     edge_by_angle,
     edge_by_solid_angle,
-    ended_as,
     three_way,
-    tosses,
 )
 from cointoss.compare.reproduction.setups.edge_record import ANGLE, LAWS, SOLID_ANGLE, EdgeRecord
+from cointoss.compare.reproduction.setups.ends import Ends, ended_as, on_edge, tosses
 from cointoss.models.records import Outcome
 
 PUBLISHED = 1 / 6000
@@ -36,11 +31,6 @@ DRAWS = 2000
 COLORS = (INK, BLUE, GREEN, ORANGE, VERMILION)
 FLOOR, LEAST_SCATTER = 5e-5, 0.03
 """The least share that is drawn, and where no scatter of ψ is [deg]."""
-
-
-def on_edge(ends: Ends) -> Estimate:
-    """Return the share of tosses that end on edge."""
-    return share(np.arange(tosses(ends)) < ended_as(ends, Outcome.EDGE))
 
 
 def fair(found: EdgeRecord, wobble: str, chi: str) -> Estimate:
@@ -59,9 +49,7 @@ def fair(found: EdgeRecord, wobble: str, chi: str) -> Estimate:
 
 def alike(counts: dict[str, Ends]) -> float:
     """Return the probability by chance of ends that differ so much between the engines, by a χ² test."""
-    met = np.array([[ended_as(ends, outcome) for outcome in Outcome] for ends in counts.values()])
-    test: Any = chi2_contingency(met[:, met.any(axis=0)])
-    return float(test.pvalue)
+    return chance_alike([[ended_as(ends, outcome) for outcome in Outcome] for ends in counts.values()])
 
 
 def percent(part: Estimate) -> str:
@@ -73,53 +61,42 @@ def percent(part: Estimate) -> str:
 
 def tables(found: EdgeRecord) -> str:
     """Return the tables, in Markdown."""
-    return "\n\n".join(
+    nickel = [
+        [factor, *(percent(on_edge(found.nickel[wobble][factor])) for wobble in HANDS)]
+        for factor in found.nickel[DIAMETRAL]
+    ]
+    wobbles = [[f"{scatter}°", percent(on_edge(ends))] for scatter, ends in found.wobbles.items()]
+    touches = []
+    for turned, touch in found.touches.items():
+        aspect, law, formula = LAWS[turned]
+        parts = [percent(part) for part in (touch.touched, touch.let_go)]
+        touches.append(
+            [turned, f"{aspect:.3f}", f"{formula} = {law(aspect):.3f}", *parts, f"{touch.energy:.1f}"]
+        )
+    fairest = [
+        [f"χ = {chi}", *(_fair(found, wobble, chi) for wobble in HANDS)] for chi in found.curves[DIAMETRAL]
+    ]
+    engines = [
         [
-            "Shares are of tosses that end on edge, in brackets their 99 % intervals.",
-            table(
-                ["the nickel", *HANDS],
-                [
-                    [factor, *(percent(on_edge(found.nickel[wobble][factor])) for wobble in HANDS)]
-                    for factor in found.nickel[DIAMETRAL]
-                ],
-            ),
-            table(
-                ["the nickel, scatter of ψ", "on edge"],
-                [[f"{scatter}°", percent(on_edge(ends))] for scatter, ends in found.wobbles.items()],
-            ),
-            _tipping(),
-            _ways(found),
-            table(
-                [
-                    "at the first touch, turned",
-                    "h/D",
-                    "its law",
-                    "C on the edge's side",
-                    "let go at rest",
-                    "energy left",
-                ],
-                [
-                    [
-                        turned,
-                        f"{LAWS[turned][0]:.3f}",
-                        f"{LAWS[turned][2]} = {LAWS[turned][1](LAWS[turned][0]):.3f}",
-                        percent(touch.touched),
-                        percent(touch.let_go),
-                        f"{touch.energy:.1f}",
-                    ]
-                    for turned, touch in found.touches.items()
-                ],
-            ),
-            *(_curves(found, wobble) for wobble in HANDS),
-            table(
-                ["h/D of the coin that is fair three ways", *HANDS],
-                [
-                    [f"χ = {chi}", *(_fair(found, wobble, chi) for wobble in HANDS)]
-                    for chi in found.curves[DIAMETRAL]
-                ],
-            ),
-            _engines(found),
+            name,
+            *(percent(on_edge(ends)) for ends in counts.values()),
+            *(str(ended_as(ends, Outcome.UNDECIDED)) for ends in counts.values()),
+            f"{alike(counts):.2g}",
         ]
+        for name, counts in found.engines.items()
+    ]
+    touched = "h/D | its law | C on the edge's side | let go at rest | energy left"
+    by_both = "on edge, analytic | MuJoCo | undecided, analytic | MuJoCo | probability by chance"
+    return paragraphs(
+        "Shares are of tosses that end on edge, in brackets their 99 % intervals.",
+        table(["the nickel", *HANDS], nickel),
+        table("the nickel, scatter of ψ | on edge", wobbles),
+        _tipping(),
+        _ways(found),
+        table(f"at the first touch, turned | {touched}", touches),
+        *(_curves(found, wobble) for wobble in HANDS),
+        table(["h/D of the coin that is fair three ways", *HANDS], fairest),
+        table(f"by both engines | {by_both}", engines),
     )
 
 
@@ -159,26 +136,7 @@ def _curves(found: EdgeRecord, wobble: str) -> str:
 
 def _fair(found: EdgeRecord, wobble: str, chi: str) -> str:
     one = fair(found, wobble, chi)
-    if not np.isfinite(one.value):
-        return "none"
-    return f"{one.value:.3f} [{one.low:.3f}, {one.high:.3f}]"
-
-
-def _engines(found: EdgeRecord) -> str:
-    rows = []
-    for name, counts in found.engines.items():
-        parts = [percent(on_edge(ends)) for ends in counts.values()]
-        open_ends = [str(ended_as(ends, Outcome.UNDECIDED)) for ends in counts.values()]
-        rows.append([name, *parts, *open_ends, f"{alike(counts):.2g}"])
-    heads = [
-        "by both engines",
-        "on edge, analytic",
-        "MuJoCo",
-        "undecided, analytic",
-        "MuJoCo",
-        "probability by chance",
-    ]
-    return table(heads, rows)
+    return in_words(one, ".3f") if np.isfinite(one.value) else "none"
 
 
 def draw(found: EdgeRecord) -> Figure:

@@ -20,7 +20,6 @@ from cointoss.compare.reproduction.setups.edge_classes import (
     SEED,
     WOBBLING,
     EdgeClass,
-    Ends,
     edge_by_angle,
     edge_by_solid_angle,
     ends_of,
@@ -34,6 +33,7 @@ from cointoss.compare.reproduction.setups.edge_touches import (
     tossed,
     way_to_rest,
 )
+from cointoss.compare.reproduction.setups.ends import Ends
 from cointoss.models.kernel.sources import source_hash
 
 ANGLE, SOLID_ANGLE = 3**-0.5, 8**-0.5

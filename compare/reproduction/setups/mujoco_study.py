@@ -4,12 +4,13 @@
 # pyright: reportAttributeAccessIssue=false
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
+from matplotlib.axes import Axes
 
 from cointoss.coin_mj import Friction, Realisation, Settings
 from cointoss.coin_mj.model.machine import machine_of
@@ -59,6 +60,12 @@ class Spread(NamedTuple):
 def spread(errors: Array) -> Spread:
     """Return median and worst of errors, (n,)."""
     return Spread(float(np.median(errors)), float(errors.max()), len(errors))
+
+
+def draw_spreads(axes: Axes, spreads: Mapping[float, Any]) -> None:
+    """Draw the median and the worst of some errors over what they depend on."""
+    for name, style in (("median", "o-"), ("worst", "s--")):
+        axes.plot(list(spreads), [getattr(fit, name) for fit in spreads.values()], style, label=name)
 
 
 def order(sizes: Sequence[float], errors: Sequence[float]) -> float:

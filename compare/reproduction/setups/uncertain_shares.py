@@ -5,9 +5,9 @@ from math import sqrt
 
 import numpy as np
 
-from cointoss.compare.precision.planar_coin import planar_coin, units
-from cointoss.compare.precision.planar_state import HEIGHT, SPIN, TILT, release
-from cointoss.compare.precision.splitting import Replica, replica
+from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
+from cointoss.compare.reproduction.precision.planar_state import HEIGHT, SPIN, TILT, release
+from cointoss.compare.reproduction.precision.splitting import Replica, replica
 from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS
 from cointoss.models.scenario import Scenario
 

@@ -1,15 +1,13 @@
 """When each contact law adds energy, pulls on the coin, leaves the friction cone, or has no solution."""
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 from matplotlib.figure import Figure
 
 from cointoss.compare.output.style import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION
-from cointoss.compare.output.tables import table
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
-from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.contact_study import (
     COINS,
     FRICTIONS_OF_ONSETS,
@@ -18,15 +16,18 @@ from cointoss.compare.reproduction.setups.contact_study import (
     LAWS,
     RESTITUTIONS,
     ContactRecord,
+    LawRecord,
     compute,
 )
+from cointoss.compare.reproduction.setups.study import study
 
-COUNT, SEED = 20_000, 2008
 SHOWN = (0.2, 0.5, 0.8, 1.0)
 """Restitutions of the table."""
 ROUNDING = 1e-12
 SEARCH_ERROR = 1e-7
 PASSIVE = ("smooth", "coulomb, energetic")
+PULLING = ("sharp_edge", "knurled", "perfectly_rough")
+LEAVING = (*PULLING, "slip_preserving")
 THIN_ROUGH, THIN_SLIDING = math.sqrt(5) / 3, math.sqrt(5) / 2
 _NAMES = {
     law: f"({letter}) {law}"
@@ -43,139 +44,47 @@ _LINES: dict[str, dict[str, Any]] = {
 }
 
 
-def result(found: ContactRecord) -> Result:
-    """Return the study's tables and claims."""
-    return Result(claims=claims(found), data=found, tables=tables(found))
-
-
-def claims(found: ContactRecord) -> tuple[Claim, ...]:
-    """Return the claims of the study."""
-    laws, onsets, every = found.laws, found.onsets, range(len(RESTITUTIONS))
+def measures(found: ContactRecord) -> dict[str, Any]:
+    """Return what the claims name."""
+    laws, onsets = found.laws, found.onsets
     gaining = ("knurled", "slip_preserving", "sliding_friction")
-    pulling = ("sharp_edge", "knurled", "perfectly_rough")
-    leaving = (*pulling, "slip_preserving")
     below_onset = [
-        laws[law].gains_by_coin[number][i]
+        share
         for law, onset in (
             ("sharp_edge", onsets.sharp_edge),
             ("perfectly_rough", onsets.perfectly_rough),
             ("coulomb, kinematic", onsets.perfectly_rough),
         )
-        for number, coin in enumerate(COINS)
-        for i in every
-        if RESTITUTIONS[i] < onset[coin]
+        for coin, shares in zip(COINS, laws[law].gains_by_coin, strict=True)
+        for chi, share in zip(RESTITUTIONS, shares, strict=True)
+        if chi < onset[coin]
     ]
-    return (
-        Claim(
-            claim="smooth and coulomb with energetic restitution never add energy",
-            criteria=[
-                _largest("change of the energy", [max(laws[law].largest_change) for law in PASSIVE], ROUNDING)
-            ],
+    of_closed_forms = [(onsets.coulomb, kane_onset), (onsets.sliding_friction, sliding_onset)]
+    return {
+        "passive": max(max(laws[law].largest_change) for law in PASSIVE),
+        "least_gain": min(max(laws[law].largest_change) for law in laws if law not in PASSIVE),
+        "always": min(min(laws[law].gains) for law in gaining),
+        "imperfect": max(onsets.sharp_edge[coin] for coin in COINS if "imperfect" in coin),
+        "ideal": min(onsets.sharp_edge[coin] for coin in COINS if "imperfect" not in coin),
+        "ideal_least": THIN_ROUGH - SEARCH_ERROR,
+        "below_onset": max(below_onset),
+        "thin_rough": max(
+            abs(one["thin ideal"] - THIN_ROUGH) for one in (onsets.sharp_edge, onsets.perfectly_rough)
         ),
-        Claim(
-            claim="every other law does",
-            criteria=[
-                Criterion(
-                    "largest gain of the law that gains least",
-                    min(max(laws[law].largest_change) for law in laws if law not in PASSIVE),
-                    ">",
-                    0.1,
-                    "a tenth of the kinetic energy is seen",
-                )
-            ],
+        "closed_forms": max(
+            abs(chi - closed_form(mu))
+            for onset, closed_form in of_closed_forms
+            for chi, mu in zip(onset, FRICTIONS_OF_ONSETS, strict=True)
         ),
-        Claim(
-            claim="knurled, slip_preserving and sliding_friction do at every restitution",
-            criteria=[
-                Criterion(
-                    "least share of impacts that gain energy",
-                    min(laws[law].gains[i] for law in gaining for i in every),
-                    ">",
-                    0,
-                    "some do",
-                )
-            ],
-        ),
-        Claim(
-            claim="sharp_edge does so at every restitution to the imperfect coins, and only to them",
-            criteria=[
-                Criterion(
-                    "largest onset of the imperfect coins",
-                    max(onsets.sharp_edge[coin] for coin in COINS if "imperfect" in coin),
-                    "=",
-                    0,
-                    "at every restitution",
-                ),
-                Criterion(
-                    "least of the ideal ones",
-                    min(onsets.sharp_edge[coin] for coin in COINS if "imperfect" not in coin),
-                    "≥",
-                    THIN_ROUGH - SEARCH_ERROR,
-                    "√5/3, less the error of the search",
-                ),
-            ],
-        ),
-        Claim(
-            claim="no random impact of sharp_edge, perfectly_rough or coulomb adds energy below its onset",
-            criteria=[Criterion("largest share that does", max(below_onset), "=", 0, "none")],
-        ),
-        Claim(
-            claim="for the thin ideal coin sharp_edge and perfectly_rough begin at χ = √5/3",
-            criteria=[
-                _largest(
-                    "difference from it",
-                    [
-                        abs(one["thin ideal"] - THIN_ROUGH)
-                        for one in (onsets.sharp_edge, onsets.perfectly_rough)
-                    ],
-                )
-            ],
-        ),
-        Claim(
-            claim="for the thin ideal coin coulomb and sliding_friction begin where the closed forms say",
-            criteria=[
-                _largest(
-                    "difference from them",
-                    [
-                        abs(chi - closed_form(mu))
-                        for onset, closed_form in (
-                            (onsets.coulomb, kane_onset),
-                            (onsets.sliding_friction, sliding_onset),
-                        )
-                        for chi, mu in zip(onset, FRICTIONS_OF_ONSETS, strict=True)
-                    ],
-                )
-            ],
-        ),
-        Claim(
-            claim="for the thin ideal coin sliding_friction has a solution up to μ = √5/2",
-            criteria=[
-                _largest("difference from it", [abs(onsets.without_solution["thin ideal"] - THIN_SLIDING)])
-            ],
-        ),
-        Claim(
-            claim="sharp_edge, knurled and perfectly_rough pull in some impacts, and no other law",
-            criteria=_only({law: max(record.pulls) for law, record in laws.items()}, pulling),
-        ),
-        Claim(
-            claim="smooth, sliding_friction and coulomb stay in the friction cone, the others do not",
-            criteria=_only({law: max(record.leaves_cone) for law, record in laws.items()}, leaving),
-        ),
-    )
+        "unsolved": abs(onsets.without_solution["thin ideal"] - THIN_SLIDING),
+        "pull": _only({law: max(record.pulls) for law, record in laws.items()}, PULLING),
+        "leave": _only({law: max(record.leaves_cone) for law, record in laws.items()}, LEAVING),
+    }
 
 
-def _largest(quantity: str, values: list[float], threshold: float = SEARCH_ERROR) -> Criterion:
-    reason = "rounding" if threshold == ROUNDING else "the error of the search"
-    return Criterion(f"largest {quantity}", max(values), "<", threshold, reason)
-
-
-def _only(shares: dict[str, float], chosen: tuple[str, ...]) -> list[Criterion]:
-    """Return as criteria that the chosen laws do it in some impacts, the others in none."""
-    least, most = min(shares[law] for law in chosen), max(shares[law] for law in shares if law not in chosen)
-    return [
-        Criterion("least of their largest shares", least, ">", 0, "some impacts"),
-        Criterion("largest share of the others", most, "=", 0, "no impact"),
-    ]
+def _only(shares: dict[str, float], chosen: tuple[str, ...]) -> tuple[float, float]:
+    """Return the least share of the chosen laws, and the largest of the others."""
+    return min(shares[law] for law in chosen), max(shares[law] for law in shares if law not in chosen)
 
 
 def kane_onset(mu: float) -> float:
@@ -215,76 +124,60 @@ def tables(found: ContactRecord) -> str:
     """Return the results as tables, in Markdown."""
     laws, onsets = found.laws, found.onsets
     shown = [RESTITUTIONS.index(chi) for chi in SHOWN]
-    frictions = [f"μ = {mu:g}" for mu in FRICTIONS_OF_ONSETS]
-    energy = [
-        [
-            _NAMES.get(law, law),
-            *(_percent(record.gains[i]) for i in shown),
-            _number(record.median_gain[shown[2]]),
-            _number(max(record.largest_change)),
-        ]
-        for law, record in laws.items()
-    ]
-    coins = [
-        [_NAMES.get(law, law), *(_percent(of_coin[shown[2]]) for of_coin in record.gains_by_coin)]
-        for law, record in laws.items()
-    ]
-    friction = [
-        [
-            _NAMES.get(law, law),
-            *(_percent(record.pulls[shown[i]]) for i in (1, 2)),
-            *(_percent(record.leaves_cone[shown[i]]) for i in (1, 2)),
-            *(_number(mu) for mu in (record.friction_for_half, record.friction_for_most)),
-            _percent(_mean(record.without_solution)),
-        ]
-        for law, record in laws.items()
-    ]
+    at_05, at_08 = shown[1:3]
+
+    def of_laws(cells: Callable[[LawRecord], list[str]]) -> list[list[str]]:
+        return [[_NAMES.get(law, law), *cells(record)] for law, record in laws.items()]
+
+    def energy(record: LawRecord) -> list[str]:
+        much = record.median_gain[at_08], max(record.largest_change)
+        return [*(_percent(record.gains[i]) for i in shown), *map(_number, much)]
+
+    def friction(record: LawRecord) -> list[str]:
+        shares = [part[i] for part in (record.pulls, record.leaves_cone) for i in (at_05, at_08)]
+        enough = record.friction_for_half, record.friction_for_most
+        unsolved = sum(record.without_solution) / len(record.without_solution)
+        return [*map(_percent, shares), *map(_number, enough), _percent(unsolved)]
+
     extremes = [
-        ["sharp_edge adds energy from χ =", *(f"{onsets.sharp_edge[coin]:.6f}" for coin in COINS)],
-        ["perfectly_rough adds energy from χ =", *(f"{onsets.perfectly_rough[coin]:.6f}" for coin in COINS)],
-        ["sliding_friction has no solution from μ =", *(f"{onsets.without_solution[c]:.6f}" for c in COINS)],
+        [words, *(f"{onset[coin]:.6f}" for coin in COINS)]
+        for words, onset in (
+            ("sharp_edge adds energy from χ =", onsets.sharp_edge),
+            ("perfectly_rough adds energy from χ =", onsets.perfectly_rough),
+            ("sliding_friction has no solution from μ =", onsets.without_solution),
+        )
     ]
     kane = [
-        ["sliding_friction, from χ =", *(f"{chi:.4f}" for chi in onsets.sliding_friction)],
-        ["the same, closed form", *(f"{sliding_onset(mu):.4f}" for mu in FRICTIONS_OF_ONSETS)],
-        ["coulomb, kinematic, from χ =", *(f"{chi:.4f}" for chi in onsets.coulomb)],
-        ["the same, closed form", *(f"{kane_onset(mu):.4f}" for mu in FRICTIONS_OF_ONSETS)],
+        [words, *(f"{chi:.4f}" for chi in chis)]
+        for words, chis in (
+            ("sliding_friction, from χ =", onsets.sliding_friction),
+            ("the same, closed form", map(sliding_onset, FRICTIONS_OF_ONSETS)),
+            ("coulomb, kinematic, from χ =", onsets.coulomb),
+            ("the same, closed form", map(kane_onset, FRICTIONS_OF_ONSETS)),
+        )
     ]
-    unsolved = [["share of impacts", *(_percent(share) for share in found.share_without_solution)]]
-    return "\n\n".join(
-        [
-            f"{found.count} random impacts for each law and restitution χ, seed {found.seed}.",
-            "Impacts that add energy; gains over the kinetic energy before the impact.",
-            table(
-                ["law", *(f"χ = {chi:g}" for chi in SHOWN), "median gain, χ = 0.8", "largest, any χ"],
-                energy,
-            ),
-            "The same by coin, at χ = 0.8.",
-            table(["law", *COINS], coins),
-            "Impacts that pull on the coin (S_z < 0), and that leave the friction cone, μ drawn from 0 to 1. "
-            "Over all χ: the μ that would do for a half and for 95 % of the impacts, and the share without a "
-            "solution.",
-            table(
-                [
-                    "law",
-                    "pull, χ = 0.5",
-                    "χ = 0.8",
-                    "leave cone, χ = 0.5",
-                    "χ = 0.8",
-                    "μ for half",
-                    "μ for 95 %",
-                    "no solution",
-                ],
-                friction,
-            ),
-            "The extremes over all impacts, found by search. "
-            f"For the thin ideal coin √5/3 = {THIN_ROUGH:.6f} and √5/2 = {THIN_SLIDING:.6f}.",
-            table(["coin", *COINS], extremes),
-            "The thin ideal coin gains energy from the floor:",
-            table(["law", *frictions], kane),
-            "Impacts in which sliding_friction has no solution: as printed it would pull (S_z < 0).",
-            table(["", *(f"μ = {mu:g}" for mu in FRICTIONS_WITHOUT_SOLUTION)], unsolved),
-        ]
+    unsolved = [["share of impacts", *map(_percent, found.share_without_solution)]]
+    pull = "pull, χ = 0.5 | χ = 0.8 | leave cone, χ = 0.5 | χ = 0.8 | μ for half | μ for 95 % | no solution"
+    return paragraphs(
+        f"{found.count} random impacts for each law and restitution χ, seed {found.seed}.",
+        "Impacts that add energy; gains over the kinetic energy before the impact.",
+        table(
+            ["law", *(f"χ = {chi:g}" for chi in SHOWN), "median gain, χ = 0.8", "largest, any χ"],
+            of_laws(energy),
+        ),
+        "The same by coin, at χ = 0.8.",
+        table(["law", *COINS], of_laws(lambda law: [_percent(coin[at_08]) for coin in law.gains_by_coin])),
+        "Impacts that pull on the coin (S_z < 0), and that leave the friction cone, μ drawn from 0 to 1. "
+        "Over all χ: the μ that would do for a half and for 95 % of the impacts, and the share without a "
+        "solution.",
+        table(f"law | {pull}", of_laws(friction)),
+        "The extremes over all impacts, found by search. "
+        f"For the thin ideal coin √5/3 = {THIN_ROUGH:.6f} and √5/2 = {THIN_SLIDING:.6f}.",
+        table(["coin", *COINS], extremes),
+        "The thin ideal coin gains energy from the floor:",
+        table(["law", *(f"μ = {mu:g}" for mu in FRICTIONS_OF_ONSETS)], kane),
+        "Impacts in which sliding_friction has no solution: as printed it would pull (S_z < 0).",
+        table(["", *(f"μ = {mu:g}" for mu in FRICTIONS_WITHOUT_SOLUTION)], unsolved),
     )
 
 
@@ -294,10 +187,6 @@ def _percent(share: float) -> str:
 
 def _number(value: float | None) -> str:
     return "none" if value is None else "0" if value == 0 else f"{value:.3g}"
-
-
-def _mean(values: list[float]) -> float:
-    return sum(values) / len(values)
 
 
 def _energy(found: ContactRecord) -> Figure:
@@ -313,8 +202,7 @@ def _energy(found: ContactRecord) -> Figure:
     much.set_ylabel("median gain / kinetic energy before [%]")
     much.set_ylim(bottom=0)
     for axes in (often, much):
-        axes.set_xlabel("restitution χ")
-        axes.set_xticks([0.2, 0.4, 0.6, 0.8, 1.0])
+        axes.set(xlabel="restitution χ", xticks=[0.2, 0.4, 0.6, 0.8, 1.0])
     picture.legend(loc="outside lower center", ncols=4)
     return picture
 
@@ -325,10 +213,8 @@ def _friction(found: ContactRecord) -> Figure:
     for law in ("slip_preserving", "sharp_edge", "perfectly_rough", "knurled"):
         share = [100 * part for part in found.laws[law].friction_sufficient]
         axes.plot(FRICTIONS_SUFFICIENT, share, label=law, markevery=6, **_LINES[law])
-    axes.set_xlabel("friction μ of the floor")
-    axes.set_ylabel("impacts within its cone [%]")
-    axes.set_xlim(0, FRICTIONS_SUFFICIENT[-1])
-    axes.set_ylim(0, 101)
+    axes.set(xlabel="friction μ of the floor", ylabel="impacts within its cone [%]")
+    axes.set(xlim=(0, FRICTIONS_SUFFICIENT[-1]), ylim=(0, 101))
     axes.legend(loc="lower right")
     return picture
 
@@ -349,18 +235,17 @@ def _onset(found: ContactRecord) -> Figure:
     axes.text(
         top, THIN_ROUGH - 0.015, "perfectly_rough, sharp_edge: √5/3", va="top", ha="right", color=VERMILION
     )
-    axes.set_xlabel("friction μ")
-    axes.set_ylabel("restitution from which\nthe law can add energy")
-    axes.set_xlim(0, top)
-    axes.set_ylim(0, 1.02)
+    axes.set(xlabel="friction μ", ylabel="restitution from which\nthe law can add energy")
+    axes.set(xlim=(0, top), ylim=(0, 1.02))
     axes.legend(loc="center right")
     return picture
 
 
-REPRODUCTION = Reproduction(
-    title="when each contact law adds energy, pulls, leaves the friction cone, or has no solution",
-    seconds=60,
-    make=lambda progress: result(compute(COUNT, SEED, progress)),
-    read=lambda folder: result(read_numbers(folder, ContactRecord)),
+REPRODUCTION = study(
+    __name__,
+    compute,
+    record=ContactRecord,
+    measures=measures,
+    tables=tables,
     draw={"energy": _energy, "friction": _friction, "onset": _onset},
 )

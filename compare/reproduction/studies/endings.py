@@ -2,7 +2,7 @@
 
 import os
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import product
@@ -10,15 +10,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
-from scipy.stats import chi2_contingency
 
 from cointoss import analytic, coin_mj
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY, OUTCOMES
-from cointoss.compare.output.tables import table
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
-from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.output.tables import paragraphs, table
+from cointoss.compare.reproduction.estimates import chance_alike
+from cointoss.compare.reproduction.setups.ends import Ends, ended_as, tosses
+from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.parts import Release
 from cointoss.models.records import Ending, Outcome
 from cointoss.models.releases import Releases
@@ -39,8 +38,8 @@ BY_BOTH, MEDIA = FLOORS[:2], ("air", "vacuum")
 _SHOWN = (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.PERPETUAL, Outcome.UNDECIDED)
 
 
-Counts = dict[str, dict[str, int]]
-"""By the kind of toss, and by outcome and ending."""
+Counts = dict[str, Ends]
+"""By the kind of toss."""
 
 
 class Kind(NamedTuple):
@@ -66,12 +65,9 @@ class EndingCounts:
     """Of any of those [s]."""
 
 
-def result(counts: EndingCounts) -> Result:
-    """Return the study's tables and claims."""
-    return Result(claims=claims(counts), data=counts, tables=tables(counts))
-
-
-def compute(count: int, count_mujoco: int, seed: int, progress: Progress) -> EndingCounts:
+def compute(
+    progress: Progress, count: int = COUNT, count_mujoco: int = COUNT_MUJOCO, seed: int = SEED
+) -> EndingCounts:
     """Toss `count` coins of each of `COINS` by the analytic engine, and `count_mujoco` by MuJoCo."""
     jobs = [(seed, coin, number) for coin in range(len(COINS)) for number in range(count)]
     jobs_mujoco = [(seed + 1, coin, number) for coin in range(len(COINS)) for number in range(count_mujoco)]
@@ -90,9 +86,7 @@ def compute(count: int, count_mujoco: int, seed: int, progress: Progress) -> End
         for done, (kind, outcome, ending) in enumerate(ended, start=len(jobs) + 1):
             mujoco.setdefault(_name(kind), Counter())[f"{outcome}, {ending}"] += 1
             progress(done, whole)
-    return EndingCounts(
-        outcomes=_ordered(outcomes), mujoco=_ordered(mujoco), most_impacts=most, longest=longest
-    )
+    return EndingCounts(_ordered(outcomes), _ordered(mujoco), most, longest)
 
 
 def _ordered(counts: dict[str, Counter[str]]) -> Counts:
@@ -167,141 +161,89 @@ def _name(kind: Kind) -> str:
     )
 
 
-def share(outcomes: Counts, outcome: str, within: Iterable[str] = ()) -> tuple[int, int]:
-    """Count the tosses of an outcome, and all, of the kinds whose names have all of `within`."""
-    words = list(within)
-    kinds = [ends for name, ends in outcomes.items() if all(f", {word}, " in f", {name}, " for word in words)]
-    of_outcome = sum(n for ends in kinds for end, n in ends.items() if end.startswith(f"{outcome}, "))
-    return of_outcome, sum(sum(ends.values()) for ends in kinds)
+def within(outcomes: Counts, *words: str) -> Ends:
+    """Return the ends of all kinds of tosses whose names have all of the words."""
+    named = [ends for name, ends in outcomes.items() if all(f", {word}, " in f", {name}, " for word in words)]
+    return dict(sum(map(Counter, named), Counter[str]()))
 
 
-def by_both(counts: EndingCounts, within: Iterable[str]) -> dict[str, list[int]]:
-    """Count the tosses of each outcome shown, by engine, of the kinds whose names have all of `within`."""
-    words = list(within)
-    engines = {"analytic": counts.outcomes, "mujoco": counts.mujoco}
+def by_both(counts: EndingCounts, *words: str) -> list[list[int]]:
+    """Return how many tosses have each of the outcomes shown, by engine; see `within` for the words."""
+    return [_shown(within(outcomes, *words)) for outcomes in (counts.outcomes, counts.mujoco)]
+
+
+def _shown(ends: Ends) -> list[int]:
+    return [ended_as(ends, outcome) for outcome in _SHOWN]
+
+
+def measures(counts: EndingCounts) -> dict[str, Any]:
+    """Return what the claims name."""
+    engines = [within(counts.outcomes), within(counts.mujoco)]
+    pooled = [
+        *((floor, "air") for floor in BY_BOTH),
+        *((name,) for name in counts.mujoco if name.endswith(", air")),
+    ]
     return {
-        engine: [share(outcomes, str(outcome), words)[0] for outcome in _SHOWN]
-        for engine, outcomes in engines.items()
+        "perpetual": sum(
+            ended_as(within(one, "air"), Outcome.PERPETUAL) for one in (counts.outcomes, counts.mujoco)
+        ),
+        "undecided": max(ended_as(ends, Outcome.UNDECIDED) / tosses(ends) for ends in engines),
+        "tests": len(pooled),
+        "probability": min(chance_alike(by_both(counts, *words)) for words in pooled),
     }
-
-
-def probability(counts: dict[str, list[int]]) -> float:
-    """Return the probability by chance of ends that differ so much between the engines, by a χ² test."""
-    met = np.array([counts["analytic"], counts["mujoco"]])
-    test: Any = chi2_contingency(met[:, met.any(axis=0)])
-    return float(test.pvalue)
-
-
-def claims(counts: EndingCounts) -> tuple[Claim, ...]:
-    """Return the claims of the counts."""
-    engines = (counts.outcomes, counts.mujoco)
-    undecided = [number / whole for number, whole in (share(one, "undecided") for one in engines)]
-    pooled = [*([floor, "air"] for floor in BY_BOTH), *([name] for name in _in_air(counts))]
-    return (
-        Claim(
-            claim="only in vacuum a coin goes on for ever",
-            criteria=[
-                Criterion(
-                    "perpetual tosses in air",
-                    sum(share(one, "perpetual", ["air"])[0] for one in engines),
-                    "=",
-                    0,
-                    "none",
-                )
-            ],
-        ),
-        Claim(
-            claim="at most 1 toss in 10,000 stays undecided",
-            criteria=[Criterion("larger share of both engines", max(undecided), "≤", 1e-4, "1 in 10,000")],
-            expected=False,
-        ),
-        Claim(
-            claim="in air the engines' ends differ no more than by chance",
-            criteria=[
-                Criterion(
-                    f"least probability of {len(pooled)} χ² tests",
-                    min(probability(by_both(counts, words)) for words in pooled),
-                    ">",
-                    LEAST_PROBABLE,
-                    "by chance one falls below it once in a hundred runs",
-                )
-            ],
-        ),
-    )
-
-
-def _in_air(counts: EndingCounts) -> list[str]:
-    return [name for name in counts.mujoco if name.endswith(", air")]
 
 
 def _rows(counts: EndingCounts) -> Iterator[tuple[str, list[float]]]:
     for name, ends in counts.outcomes.items():
-        number = sum(ends.values())
-        parts = [sum(n for end, n in ends.items() if end.startswith(f"{o}, ")) for o in _SHOWN]
-        yield f"{name} ({number})", [100 * part / number for part in parts]
+        yield f"{name} ({tosses(ends)})", [100 * part / tosses(ends) for part in _shown(ends)]
 
 
 def tables(counts: EndingCounts) -> str:
     """Return the tables, in Markdown."""
     shown = [f"{outcome} [%]" for outcome in _SHOWN]
-    parts = []
-    for outcome in _SHOWN:
-        number, whole = share(counts.outcomes, str(outcome))
-        parts.append([str(outcome), f"{number} of {whole}", f"{100 * number / whole:.2f}"])
-    number, whole = share(counts.outcomes, "perpetual", ["vacuum"])
-    parts.append(["perpetual, of those in vacuum", f"{number} of {whole}", f"{100 * number / whole:.2f}"])
-    pooled = {f"{floor}, {medium}": [floor, medium] for floor, medium in product(BY_BOTH, MEDIA)}
-    by_mujoco = []
-    for name, words in {**{name: [name] for name in counts.mujoco}, **pooled}.items():
-        ends = by_both(counts, words)
-        tosses = sum(ends["mujoco"])
-        shares = [f"{100 * n / tosses:.2f}" for n in ends["mujoco"]]
-        by_mujoco.append([f"{name} ({tosses})", *shares, f"{probability(ends):.2g}"])
-    number, whole = share(counts.mujoco, "undecided")
-    return "\n\n".join(
-        [
-            table(
-                ["coin, floor, air (tosses)", *shown],
-                [[name, *(f"{part:.2f}" for part in parts)] for name, parts in _rows(counts)],
-            ),
-            table(["of all", "tosses", "share [%]"], parts),
-            f"A toss that was decided took at most {counts.most_impacts} impacts and {counts.longest:.0f} s.",
-            table(["by MuJoCo (tosses)", *shown, "probability by chance"], by_mujoco),
-            f"MuJoCo leaves {number} of {whole} undecided.",
-        ]
+    by_mujoco = within(counts.mujoco)
+    of_all = [(str(outcome), within(counts.outcomes), outcome) for outcome in _SHOWN]
+    of_all.append(("perpetual, of those in vacuum", within(counts.outcomes, "vacuum"), Outcome.PERPETUAL))
+    parts = [(name, ended_as(ends, end), tosses(ends)) for name, ends, end in of_all]
+    pooled = {f"{floor}, {medium}": (floor, medium) for floor, medium in product(BY_BOTH, MEDIA)}
+    rows = []
+    for name, words in {**{name: (name,) for name in counts.mujoco}, **pooled}.items():
+        both = by_both(counts, *words)
+        number = sum(both[1])
+        shares = [f"{100 * n / number:.2f}" for n in both[1]]
+        rows.append([f"{name} ({number})", *shares, f"{chance_alike(both):.2g}"])
+    return paragraphs(
+        table(
+            ["coin, floor, air (tosses)", *shown],
+            [[name, *(f"{part:.2f}" for part in parts)] for name, parts in _rows(counts)],
+        ),
+        table(
+            "of all | tosses | share [%]",
+            [[name, f"{part} of {whole}", f"{100 * part / whole:.2f}"] for name, part, whole in parts],
+        ),
+        f"A toss that was decided took at most {counts.most_impacts} impacts and {counts.longest:.0f} s.",
+        table(["by MuJoCo (tosses)", *shown, "probability by chance"], rows),
+        f"MuJoCo leaves {ended_as(by_mujoco, Outcome.UNDECIDED)} of {tosses(by_mujoco)} undecided.",
     )
 
 
 def draw(counts: EndingCounts) -> Figure:
     """Draw the shares of the outcomes as bars."""
-    rows = list(_rows(counts))[::-1]
-    picture = Figure(figsize=(9, 0.28 * len(rows) + 1.2))
+    names, shares = zip(*list(_rows(counts))[::-1], strict=True)
+    picture = Figure(figsize=(9, 0.28 * len(names) + 1.2))
     axes = picture.subplots()
-    names, left = [name for name, _ in rows], np.zeros(len(rows))
-    for i, outcome in enumerate(_SHOWN):
-        parts = np.array([shares[i] for _, shares in rows])
-        axes.barh(
-            names,
-            parts,
-            left=left,
-            color=OUTCOMES[outcome],
-            edgecolor=GREY,
-            linewidth=0.4,
-            label=str(outcome),
-        )
+    left = np.zeros(len(names))
+    for outcome, parts in zip(_SHOWN, np.transpose(shares), strict=True):
+        style: Any = {"color": OUTCOMES[outcome], "edgecolor": GREY, "linewidth": 0.4, "label": str(outcome)}
+        axes.barh(names, parts, left=left, **style)
         left += parts
     axes.grid(visible=False)
-    axes.set_xlim(0, 100)
-    axes.set_xlabel("share of the tosses [%]")
+    axes.set(xlim=(0, 100), xlabel="share of the tosses [%]")
     axes.margins(y=0.01)
     picture.legend(loc="outside upper center", ncols=len(_SHOWN))
     return picture
 
 
-REPRODUCTION = Reproduction(
-    title="how thousands of random tosses end, and whether both engines end them alike",
-    seconds=3200,
-    make=lambda progress: result(compute(COUNT, COUNT_MUJOCO, SEED, progress)),
-    read=lambda folder: result(read_numbers(folder, EndingCounts)),
-    draw={"endings": draw},
+REPRODUCTION = study(
+    __name__, compute, record=EndingCounts, measures=measures, tables=tables, draw={"endings": draw}
 )

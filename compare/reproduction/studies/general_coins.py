@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from time import process_time
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,26 +20,28 @@ from cointoss.analytic.events import hit, run, toss_coin
 from cointoss.analytic.flight.flying import fly
 from cointoss.analytic.settings import MANY, contact_limits
 from cointoss.compare.output.progress import Progress
-from cointoss.compare.output.tables import table
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
-from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.general_coins import CLASSES, CoinClass
 from cointoss.compare.reproduction.setups.map_times import map_times
+from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.body import Body, Rules
 from cointoss.models.interruptible import interruptible
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import IMPACT_ROW, Array, Ending, Outcome
 from cointoss.models.scenario import Scenario
 
-COUNT, QUICK = 400, 20
+COUNT = 400
 """Tosses of each class."""
 CALLS = 101
 """Timed to know what a call from Python takes, which is no part of a toss."""
 MOST_PIECES = 100_000
 """Flights and contacts that are replayed together, more or less; each is a state."""
-MOST_IN_AIR, MOST_IDEAL, MOST_IMPERFECT = 0.5e-3, 1e-3, 5e-3
-"""Bars of the mean time of a toss in a class: in air, and in vacuum of an ideal and an imperfect coin [s]."""
+BARS: dict[str, tuple[float, Callable[[CoinClass], bool]]] = {
+    "in air": (0.5e-3, lambda kind: kind.air),
+    "of an ideal coin in vacuum": (1e-3, lambda kind: not kind.air and not kind.imperfect),
+    "of an imperfect coin in vacuum": (5e-3, lambda kind: not kind.air and kind.imperfect),
+}
+"""Bars of the mean time of a toss [s], and the classes of which they are."""
 LONGEST = 1.0
 """Bar of the time of any toss [s]."""
 
@@ -102,12 +105,7 @@ class FlightsAndContacts:
         )
 
 
-def result(costs: GeneralCosts) -> Result:
-    """Return the study's tables and claims."""
-    return Result(claims=claims(costs), data=costs, tables=tables(costs))
-
-
-def compute(count: int, progress: Progress) -> GeneralCosts:
+def compute(progress: Progress, count: int = COUNT) -> GeneralCosts:
     """Toss `count` coins of each class, each by itself, and replay the parts of their tosses."""
     whole = count * len(CLASSES)
     _measured(CLASSES[0], 1, lambda _: None)  # compiles
@@ -264,100 +262,46 @@ def replay_contacts(body, rules, tolerance, start_times, modes, states, end_time
             dt, over = step.next_dt, step.is_over or not time < end_times[i]
 
 
-def claims(costs: GeneralCosts) -> tuple[Claim, ...]:
-    """Return the claims: a bar each for the means in air and in vacuum, and one for the longest toss."""
-    return (
-        _claim_of_mean(costs, "in air", MOST_IN_AIR, lambda kind: kind.air, met=False),
-        _claim_of_mean(
-            costs,
-            "of an ideal coin in vacuum",
-            MOST_IDEAL,
-            lambda kind: not kind.air and not kind.imperfect,
-            met=False,
-        ),
-        _claim_of_mean(
-            costs,
-            "of an imperfect coin in vacuum",
-            MOST_IMPERFECT,
-            lambda kind: not kind.air and kind.imperfect,
-            met=False,
-        ),
-        Claim(
-            claim=f"no toss takes more than {LONGEST:g} s",
-            criteria=[
-                Criterion(
-                    "longest toss [s]",
-                    max(one.worst for one in costs.classes.values()),
-                    "≤",
-                    LONGEST,
-                    "a pixel that takes longer holds up its tile",
-                )
-            ],
-            expected=False,
-        ),
-    )
-
-
-def _claim_of_mean(
-    costs: GeneralCosts, which: str, most: float, chosen: Callable[[CoinClass], bool], *, met: bool
-) -> Claim:
-    """Return the claim that the mean time in each chosen class is at most so long [s]."""
-    means = {kind.name: costs.classes[kind.name].mean for kind in CLASSES if chosen(kind)}
-    slowest = max(means, key=means.__getitem__)
-    return Claim(
-        claim=f"a toss {which} takes at most {1e3 * most:g} ms on average, in every class",
-        criteria=[
-            Criterion(
-                f"mean of the slowest class, {slowest} [ms]",
-                1e3 * means[slowest],
-                "≤",
-                1e3 * most,
-                f"1e6 tosses within {1e6 * most / 2 / 60:.2g} min on two cores",
-            )
-        ],
-        expected=met,
-    )
+def measures(costs: GeneralCosts) -> dict[str, Any]:
+    """Return what the claims name: of each of `BARS` the slowest class, and of all the longest toss."""
+    bars = {}
+    for which, (most, is_of) in BARS.items():
+        means = {kind.name: costs.classes[kind.name].mean for kind in CLASSES if is_of(kind)}
+        slowest = max(means, key=means.__getitem__)
+        minutes = 1e6 * most / 2 / 60
+        bars[which] = {
+            "slowest": slowest,
+            "mean": 1e3 * means[slowest],
+            "most": 1e3 * most,
+            "minutes": minutes,
+        }
+    return {"bars": bars, "worst": max(one.worst for one in costs.classes.values())}
 
 
 def tables(costs: GeneralCosts) -> str:
     """Return the tables, in Markdown."""
-    tosses = max(one.tosses for one in costs.classes.values())
-    ends = sorted({end for one in costs.classes.values() for end in one.ends})
+    classes = costs.classes
+    ends = sorted({end for one in classes.values() for end in one.ends})
     media = {
         f"general coin {'in air' if air else 'in vacuum'}": float(
-            np.mean([costs.classes[kind.name].mean for kind in CLASSES if kind.air == air])
+            np.mean([classes[kind.name].mean for kind in CLASSES if kind.air == air])
         )
         for air in (True, False)
     }
-    return "\n\n".join(
-        [
-            f"Processor time of a toss on one core, over {tosses} tosses of each class [ms]; "
-            "flight, impact, contact and the rest (verdict and loop) are parts of the mean.",
-            table(
-                [
-                    "coin, air, floor",
-                    "mean",
-                    "median",
-                    "99 %",
-                    "worst",
-                    "flight",
-                    "impact",
-                    "contact",
-                    "rest",
-                ],
-                [
-                    [name, *(f"{1e3 * time:.3g}" for time in _times(one))]
-                    for name, one in costs.classes.items()
-                ],
-            ),
-            "How they ended.",
-            table(
-                ["coin, air, floor", *ends],
-                [[name, *(str(one.ends.get(end, 0)) for end in ends)] for name, one in costs.classes.items()],
-            ),
-            "Times of maps, by the mean over the classes.",
-            map_times(media),
-        ]
+    return paragraphs(
+        f"Processor time of a toss on one core, over {max(one.tosses for one in classes.values())} tosses of "
+        "each class [ms]; flight, impact, contact and the rest (verdict and loop) are parts of the mean.",
+        table(
+            "coin, air, floor | mean | median | 99 % | worst | flight | impact | contact | rest",
+            [[name, *(f"{1e3 * time:.3g}" for time in _times(one))] for name, one in classes.items()],
+        ),
+        "How they ended.",
+        table(
+            ["coin, air, floor", *ends],
+            [[name, *(str(one.ends.get(end, 0)) for end in ends)] for name, one in classes.items()],
+        ),
+        "Times of maps, by the mean over the classes.",
+        map_times(media),
     )
 
 
@@ -367,12 +311,4 @@ def _times(costs: ClassCosts) -> tuple[float, ...]:
     return (*whole, parts.flight, parts.impact, parts.contact, costs.rest)
 
 
-REPRODUCTION = Reproduction(
-    title="what a toss of a general coin costs, in 16 classes, and where the time goes",
-    seconds=600,
-    make=lambda progress: result(compute(COUNT, progress)),
-    read=lambda folder: result(read_numbers(folder, GeneralCosts)),
-    draw={},
-    quick=lambda progress: result(compute(QUICK, progress)),
-    quick_seconds=60,
-)
+REPRODUCTION = study(__name__, compute, record=GeneralCosts, measures=measures, tables=tables, draw={})

@@ -3,23 +3,24 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss import analytic
-from cointoss.compare.metrics.margin import MANY, QUANTITIES, Codes, Quantity, proved_change, smallest_changes
+from cointoss.compare.metrics.margin import MANY, QUANTITIES, Codes, Quantity, smallest_changes
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
-from cointoss.compare.output.tables import table
-from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
-from cointoss.compare.reproduction.estimates import quantile, share
+from cointoss.compare.output.tables import paragraphs, table
+from cointoss.compare.reproduction.claim import Estimate
+from cointoss.compare.reproduction.estimates import in_words, quantile, share
 from cointoss.compare.reproduction.parts import Part, kept
-from cointoss.compare.reproduction.result import Reproduction, Result
-from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.precision.proved_change import proved_change
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
 from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
+from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.kernel.sources import source_hash
 from cointoss.models.reading import load
 from cointoss.models.records import Array
@@ -27,11 +28,11 @@ from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 
 SEED = 316
-COUNT, QUICK = 120, 12
+COUNT = 120
 """Tosses of the general coin."""
-PLANAR, QUICK_PLANAR = 1000, 100
+PLANAR = 1000
 """Tosses of the planar coin."""
-PROOFS, QUICK_PROOFS = 200, 20
+PROOFS = 200
 """The first of them whose margin is proved from below too."""
 FAMILY = CoinClass(thick=True, imperfect=True, air=True, coulomb=False)
 """Whose releases the general coin has."""
@@ -62,7 +63,9 @@ class Margins:
     """Whether a release ε higher, or ε lower, of those tosses has another outcome, by ε in mm."""
 
 
-def compute(progress: Progress, parts: Path, *, count: int, planar: int, proofs: int) -> Margins:
+def compute(
+    progress: Progress, parts: Path, count: int = COUNT, planar: int = PLANAR, proofs: int = PROOFS
+) -> Margins:
     """Find the margins of random tosses; what an interrupted computation found is not searched again.
 
     Args:
@@ -159,41 +162,45 @@ def not_proved_above(proved: Sequence[float], accuracy: float) -> Estimate:
     return share(np.array(proved) < accuracy)
 
 
+def measures(found: Margins) -> dict[str, Any]:
+    """Return what the claims name: by coin, the share of tosses whose margin a hand's accuracy exceeds."""
+    tossed = {
+        "the paper's zloty in air, χ = 0.8": found.general["height"],
+        "the planar coin in vacuum, χ = 0.6": found.planar,
+    }
+    return {"coins": {name: {"small": below(margins, HAND)} for name, margins in tossed.items()}}
+
+
 def tables(found: Margins) -> str:
     """Return the tables, in Markdown."""
-    units = {quantity.name: quantity.unit for quantity in QUANTITIES}
-    head = ["what varies", *(f"{part:.0%}" for part in PARTS), "none found"]
-    rows = [
+    general = []
+    for quantity in QUANTITIES:
+        sizes = sizes_of(found.general[quantity.name])
+        parts = [_words(quantile(sizes, part)) for part in PARTS]
+        general.append([f"{quantity.name} [{quantity.unit}]", *parts, f"{np.mean(np.isinf(sizes)):.1%}"])
+    planar = [
         [
-            f"{name} [{units[name]}]",
-            *(_words(quantile(sizes_of(margins), part)) for part in PARTS),
-            f"{np.mean(np.isinf(sizes_of(margins))):.1%}",
-        ]
-        for name, margins in found.general.items()
-    ]
-    count = len(next(iter(found.general.values())))
-    return "\n\n".join(
-        [
-            f"The margins of {count} random tosses of the paper's zloty in air, χ = 0.8: this part of all "
-            "tosses has a smaller one than",
-            table(head, rows),
-            f"{len(found.planar)} random planar tosses in vacuum, χ = 0.6, along height:",
-            table(
-                ["ε [mm]", "P(margin ≤ ε), at least", "at most, as proved", "f(ε)"],
-                [
-                    [
-                        f"{one:g}",
-                        _share(below(found.planar, one)),
-                        _share(not_proved_above(found.proved, one)),
-                        _share(share(found.uncertain[f"{one:g}"])),
-                    ]
-                    for one in ACCURACIES
-                ],
+            f"{one:g}",
+            *(
+                in_words(part, ".3f")
+                for part in (
+                    below(found.planar, one),
+                    not_proved_above(found.proved, one),
+                    share(found.uncertain[f"{one:g}"]),
+                )
             ),
-            f"The margin of {len(found.proved)} of them is proved from below, half of them to a part of "
-            f"1/{1 / np.median(parts_proved(found)):.0f} of what was found or better, a tenth only to "
-            f"1/{1 / np.quantile(parts_proved(found), 0.1):.0f} or worse.",
         ]
+        for one in ACCURACIES
+    ]
+    half, tenth = 1 / np.median(parts_proved(found)), 1 / np.quantile(parts_proved(found), 0.1)
+    return paragraphs(
+        f"The margins of {len(found.general[HEIGHT.name])} random tosses of the paper's zloty in air, "
+        "χ = 0.8: this part of all tosses has a smaller one than",
+        table(["what varies", *(f"{part:.0%}" for part in PARTS), "none found"], general),
+        f"{len(found.planar)} random planar tosses in vacuum, χ = 0.6, along height:",
+        table("ε [mm] | P(margin ≤ ε), at least | at most, as proved | f(ε)", planar),
+        f"The margin of {len(found.proved)} of them is proved from below, half of them to a part of "
+        f"1/{half:.0f} of what was found or better, a tenth only to 1/{tenth:.0f} or worse.",
     )
 
 
@@ -207,10 +214,6 @@ def _words(found: Estimate) -> str:
     return f"{value} [{'0' if np.isneginf(found.low) else low}, {high}]"
 
 
-def _share(found: Estimate) -> str:
-    return f"{found.value:.3f} [{found.low:.3f}, {found.high:.3f}]"
-
-
 def draw(found: Margins) -> Figure:
     """Draw the distribution functions of both coins."""
     picture = Figure(figsize=(11, 4.6))
@@ -218,13 +221,8 @@ def draw(found: Margins) -> Figure:
     for quantity in QUANTITIES:
         kind = quantity.name.split(" ")[0]
         number = [other.name for other in QUANTITIES if other.name.startswith(kind)].index(quantity.name)
-        _steps(
-            right,
-            sizes_of(found.general[quantity.name]) / quantity.factor,
-            color=KINDS[kind],
-            linestyle=STYLES[number],
-            label=quantity.name,
-        )
+        sizes = sizes_of(found.general[quantity.name]) / quantity.factor
+        _steps(right, sizes, color=KINDS[kind], linestyle=STYLES[number], label=quantity.name)
     si = 1 / HEIGHT.factor
     _steps(left, sizes_of(found.planar) * si, color=INK, label="P(margin < ε)")
     _steps(left, np.array(found.proved) * si, color=GREY, label="at most, as proved")
@@ -237,17 +235,12 @@ def draw(found: Margins) -> Figure:
         color=VERMILION,
         label="f(ε), at both ends only",
     )
-    left.set(
-        title="planar coin in vacuum, χ = 0.6",
-        xlabel="margin in height [m]",
-        ylabel="part of the tosses with a smaller margin",
-    )
-    right.set(
-        title="the paper's zloty in air, χ = 0.8", xlabel="margin [m, m/s, rad or rad/s]", ylim=(0, 1.02)
-    )
+    left.set(title="planar coin in vacuum, χ = 0.6", xlabel="margin in height [m]")
+    left.set(ylabel="part of the tosses with a smaller margin")
+    right.set(title="the paper's zloty in air, χ = 0.8", xlabel="margin [m, m/s, rad or rad/s]")
+    right.set(ylim=(0, 1.02))
     for axes in (left, right):
-        axes.set_xscale("log")
-        axes.set_xlim(1e-14, 1)
+        axes.set(xscale="log", xlim=(1e-14, 1))
         axes.axvline(HAND * si, color=GREY, linewidth=0.8)
         axes.annotate(
             "a hand's 1 mm", (HAND * si, 0.03), rotation=90, ha="right", va="bottom", color=GREY, fontsize=9
@@ -261,43 +254,6 @@ def _steps(axes, sizes: Array, **style) -> None:
     axes.step(x[np.isfinite(x)], (np.arange(len(x)) + 1)[np.isfinite(x)] / len(x), where="post", **style)
 
 
-def claims(found: Margins) -> list[Claim]:
-    """Return the claims of the margins."""
-    tossed = {
-        "the paper's zloty in air, χ = 0.8": found.general["height"],
-        "the planar coin in vacuum, χ = 0.6": found.planar,
-    }
-    return [
-        Claim(
-            claim=f"a hand's {HAND:g} mm of height exceeds the margin of most tosses ({name})",
-            criteria=[
-                Criterion(
-                    f"share with a margin of at most {HAND:g} mm",
-                    below(margins, HAND),
-                    ">",
-                    0.5,
-                    "most",
-                )
-            ],
-        )
-        for name, margins in tossed.items()
-    ]
-
-
-def result(found: Margins) -> Result:
-    """Return the study's tables and claims."""
-    return Result(claims=claims(found), data=found, tables=tables(found))
-
-
-REPRODUCTION = Reproduction(
-    title="the smallest change of a release that changes its outcome, over random tosses",
-    seconds=240,
-    make=lambda progress, parts: result(compute(progress, parts, count=COUNT, planar=PLANAR, proofs=PROOFS)),
-    read=lambda folder: result(read_numbers(folder, Margins)),
-    draw={"margins": draw},
-    quick=lambda progress, parts: result(
-        compute(progress, parts, count=QUICK, planar=QUICK_PLANAR, proofs=QUICK_PROOFS)
-    ),
-    quick_seconds=30,
-    resumes=True,
+REPRODUCTION = study(
+    __name__, compute, record=Margins, measures=measures, tables=tables, draw={"margins": draw}
 )

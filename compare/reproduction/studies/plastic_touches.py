@@ -1,17 +1,16 @@
 """What a threshold of restitution does: how many impacts it leaves of a rattle, and the odds of the faces."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from cointoss import analytic
 from cointoss.compare.output.progress import Progress
-from cointoss.compare.output.tables import table
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.estimates import difference, share
-from cointoss.compare.reproduction.result import Reproduction, Result
-from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.output.tables import paragraphs, table
+from cointoss.compare.reproduction.estimates import difference, in_words, share
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.reading import load
 from cointoss.models.records import Outcome
 from cointoss.models.scenario import Scenario
@@ -52,11 +51,6 @@ class PlasticTouchesRecord:
     hands: dict[str, HandTosses]
 
 
-def result(found: PlasticTouchesRecord) -> Result:
-    """Return the study's tables and claims."""
-    return Result(claims=claims(found), data=found, tables=tables(found))
-
-
 def zloty(threshold: float) -> Scenario:
     """Return the zloty's scenario with such a threshold of restitution."""
     return load("zloty").replace("floor.restitution_threshold", threshold)
@@ -76,7 +70,7 @@ def hand_tosses(threshold: float, count: int, seed: int) -> HandTosses:
     return HandTosses(ended.impacts.tolist(), ended.outcome.tolist())
 
 
-def compute(count: int, seed: int, progress: Progress) -> PlasticTouchesRecord:
+def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> PlasticTouchesRecord:
     """Toss the zloty once, and by `count` hands, for each of `THRESHOLDS`."""
     alone, hands = {}, {}
     for done, threshold in enumerate(THRESHOLDS, start=1):
@@ -91,22 +85,14 @@ def ended(tosses: HandTosses, outcome: Outcome) -> list[bool]:
     return [found == outcome for found in tosses.outcomes]
 
 
-def claims(found: PlasticTouchesRecord) -> tuple[Claim, ...]:
-    """Return the claims of the study."""
+def measures(found: PlasticTouchesRecord) -> dict[str, Any]:
+    """Return what the claims name: the share of impacts left, and the change of the share of heads."""
     name = f"{MODERATE:g}"
-    free, cut = found.hands["0"], found.hands[name]
-    kept = found.zloty[name].impacts / found.zloty["0"].impacts
-    moved = difference(ended(cut, Outcome.HEADS), ended(free, Outcome.HEADS))
-    return (
-        Claim(
-            claim=f"plastic touches up to {MODERATE:g} m/s end the rattle of the zloty",
-            criteria=[Criterion("share of its impacts that is left", kept, "<", 0.2, "a fifth")],
-        ),
-        Claim(
-            claim="they leave the odds of the faces as they are",
-            criteria=[Criterion("change of the share of heads", moved, "within ±", 0.1, "what counts here")],
-        ),
-    )
+    cut, free = (ended(found.hands[one], Outcome.HEADS) for one in (name, "0"))
+    return {
+        "kept": found.zloty[name].impacts / found.zloty["0"].impacts,
+        "moved": difference(cut, free),
+    }
 
 
 def tables(found: PlasticTouchesRecord) -> str:
@@ -115,41 +101,23 @@ def tables(found: PlasticTouchesRecord) -> str:
         [f"{1e3 * float(name):g}", str(toss.impacts), str(toss.contacts), f"{toss.end_time:.3f}", toss.end]
         for name, toss in found.zloty.items()
     ]
-    free, rows = found.hands["0"], []
-    for name, tosses in found.hands.items():
-        same = np.equal(tosses.outcomes, free.outcomes)
-        shares = [share(flags) for flags in (ended(tosses, Outcome.HEADS), ended(tosses, Outcome.EDGE))]
-        rows.append(
-            [
-                f"{1e3 * float(name):g}",
-                f"{np.median(tosses.impacts):g}",
-                str(max(tosses.impacts)),
-                f"{100 * same.mean():.1f}",
-                *(f"{100 * s.value:.1f} [{100 * s.low:.1f}, {100 * s.high:.1f}]" for s in shares),
-            ]
-        )
-    return "\n\n".join(
+    hands = [
         [
-            table(["`zloty`, plastic up to [mm/s]", "impacts", "contacts", "ends at [s]", "as"], alone),
-            table(
-                [
-                    "hand tosses, plastic up to [mm/s]",
-                    "impacts, median",
-                    "at most",
-                    "outcome as without [%]",
-                    "heads [%]",
-                    "edge [%]",
-                ],
-                rows,
-            ),
+            f"{1e3 * float(name):g}",
+            f"{np.median(tosses.impacts):g}",
+            str(max(tosses.impacts)),
+            f"{100 * np.equal(tosses.outcomes, found.hands['0'].outcomes).mean():.1f}",
+            *(in_words(share(ended(tosses, end)), ".1f", 100) for end in (Outcome.HEADS, Outcome.EDGE)),
         ]
+        for name, tosses in found.hands.items()
+    ]
+    heads = "impacts, median | at most | outcome as without [%] | heads [%] | edge [%]"
+    return paragraphs(
+        table("`zloty`, plastic up to [mm/s] | impacts | contacts | ends at [s] | as", alone),
+        table(f"hand tosses, plastic up to [mm/s] | {heads}", hands),
     )
 
 
-REPRODUCTION = Reproduction(
-    title="what a threshold of restitution does: how many impacts are left of a rattle",
-    seconds=120,
-    make=lambda progress: result(compute(COUNT, SEED, progress)),
-    read=lambda folder: result(read_numbers(folder, PlasticTouchesRecord)),
-    draw={},
+REPRODUCTION = study(
+    __name__, compute, record=PlasticTouchesRecord, measures=measures, tables=tables, draw={}
 )

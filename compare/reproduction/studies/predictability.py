@@ -1,11 +1,12 @@
 """Is coin tossing predictable? The share of tosses left uncertain, by accuracy and restitution."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from math import log10, sqrt
 from os import cpu_count
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.colors import BoundaryNorm
@@ -14,14 +15,13 @@ from scipy.constants import hbar
 
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE
-from cointoss.compare.output.tables import table
-from cointoss.compare.precision.planar_state import HEIGHT, SPIN, TILT
-from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
-from cointoss.compare.reproduction.estimates import jackknife
+from cointoss.compare.output.tables import paragraphs, table
+from cointoss.compare.reproduction.claim import Estimate
+from cointoss.compare.reproduction.estimates import in_words, jackknife
 from cointoss.compare.reproduction.parts import Part, kept
-from cointoss.compare.reproduction.result import Reproduction, Result
-from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.precision.planar_state import HEIGHT, SPIN, TILT
 from cointoss.compare.reproduction.setups.planar_maps import case
+from cointoss.compare.reproduction.setups.study import study
 from cointoss.compare.reproduction.setups.uncertain_shares import uncertain_shares
 from cointoss.models.kernel.sources import source_hash
 from cointoss.models.records import Array
@@ -40,7 +40,6 @@ CHIS = {
     ROUGH: (0.3, 0.6),
 }
 """By floor and medium. A rough floor adds energy above χ = √5/3, and a face is then never settled."""
-QUICK_CHIS = {SMOOTH: (0.0, 0.3, 0.6), AIR: (0.3, 0.6), ROUGH: (0.6,)}
 RUNS = {SMOOTH: 16, AIR: 8, ROUGH: 40}
 """Independent runs of the splitting for each case; in air a toss takes longest."""
 OTHERS = {"spin": SPIN, "tilt": TILT}
@@ -106,11 +105,10 @@ class Predictability:
 def compute(
     progress: Progress,
     parts: Path,
-    *,
-    runs: dict[str, int],
-    population: int,
-    chis: dict[str, Sequence[float]],
-    levels: int,
+    runs: Mapping[str, int] = RUNS,
+    population: int = POPULATION,
+    chis: Mapping[str, Sequence[float]] = CHIS,
+    levels: int = len(ACCURACIES),
 ) -> Predictability:
     """Run the splitting for every case; what an interrupted computation finished is not run again.
 
@@ -242,54 +240,40 @@ def of(found: Predictability, floor: str, quantity: str = "height") -> list[Case
 
 def tables(found: Predictability) -> str:
     """Return the tables, in Markdown."""
-    starts = ACCURACIES[: len(found.cases[0].shares[0]) - WINDOW : WINDOW]
+    cases = found.cases
+    starts = ACCURACIES[: len(cases[0].shares[0]) - WINDOW : WINDOW]
     shown = [x for x in (HAND, 1e-6, FINE, 1e-12, QUANTUM, 1e-20, LAST) if x >= _last(found) * 0.9]
     head = "floor, restitution, what varies"
-    return "\n\n".join(
+    shares = [[one.name, *(in_words(share_at(one, x), ".2g") for x in shown)] for one in cases]
+    slopes = [[one.name, *(in_words(slope_from(one, x), ".2g") for x in starts)] for one in cases]
+    accuracies = [
         [
-            "The share f(ε) of tosses that ε leaves uncertain:",
-            table(
-                [f"{head}: f at ε =", *(f"{x:.0e}" for x in shown)],
-                [[one.name, *(_words(share_at(one, x)) for x in shown)] for one in found.cases],
-            ),
-            f"The exponent α over {WINDOW} decades:",
-            table(
-                [f"{head}: α from ε =", *(f"{x:.0e}" for x in starts)],
-                [[one.name, *(_words(slope_from(one, x)) for x in starts)] for one in found.cases],
-            ),
-            "Accuracies:",
-            table(
-                [
-                    head,
-                    f"ε for which {1 - PREDICTABLE:.0%} of the tosses are predictable",
-                    f"ε from which on α > {NEARLY_SMOOTH}",
-                    "largest hidden part of f",
-                    "tosses",
-                    "undecided",
-                ],
-                [
-                    [
-                        one.name,
-                        _power(accuracy_for(one, PREDICTABLE)),
-                        _power(smooth_from(one)),
-                        f"{one.hidden:.2f}",
-                        f"{one.tosses:,d}",
-                        str(one.undecided),
-                    ]
-                    for one in found.cases
-                ],
-            ),
-            f"The coin's quantum width √(ħ t/m) is {found.quantum_width:.1e} m.",
+            one.name,
+            _power(accuracy_for(one, PREDICTABLE)),
+            _power(smooth_from(one)),
+            f"{one.hidden:.2f}",
+            f"{one.tosses:,d}",
+            str(one.undecided),
         ]
+        for one in cases
+    ]
+    return paragraphs(
+        "The share f(ε) of tosses that ε leaves uncertain:",
+        table([f"{head}: f at ε =", *(f"{x:.0e}" for x in shown)], shares),
+        f"The exponent α over {WINDOW} decades:",
+        table([f"{head}: α from ε =", *(f"{x:.0e}" for x in starts)], slopes),
+        "Accuracies:",
+        table(
+            f"{head} | ε for which {1 - PREDICTABLE:.0%} of the tosses are predictable | ε from which on "
+            f"α > {NEARLY_SMOOTH} | largest hidden part of f | tosses | undecided",
+            accuracies,
+        ),
+        f"The coin's quantum width √(ħ t/m) is {found.quantum_width:.1e} m.",
     )
 
 
 def _last(found: Predictability) -> float:
     return float(ACCURACIES[len(found.cases[0].shares[0]) - 1])
-
-
-def _words(found: Estimate) -> str:
-    return f"{found.value:.2g} [{found.low:.2g}, {found.high:.2g}]"
 
 
 def _power(accuracy: float) -> str:
@@ -317,30 +301,14 @@ def draw(found: Predictability) -> Figure:
         x, chi, logs, levels=[log10(PREDICTABLE)], colors=INK, linewidths=2, linestyles="solid"
     )
     map_axes.clabel(lines, fmt={log10(PREDICTABLE): f"{1 - PREDICTABLE:.0%} predictable"}, fontsize=11)
-    for accuracy, name in (
-        (HAND, "a hand"),
-        (1e-6, "1 µm"),
-        (FINE, "1 nm"),
-        (found.quantum_width, "quantum width √(ħt/m)"),
-    ):
+    names = {HAND: "a hand", 1e-6: "1 µm", FINE: "1 nm", found.quantum_width: "quantum width √(ħt/m)"}
+    for accuracy, name in names.items():
         map_axes.axvline(log10(accuracy), color=GREY, linewidth=0.8)
-        map_axes.annotate(
-            name,
-            (log10(accuracy), 0),
-            xycoords=("data", "axes fraction"),
-            xytext=(4, 4),
-            textcoords="offset points",
-            rotation=90,
-            va="bottom",
-            color=INK,
-            bbox={"facecolor": "white", "alpha": 0.7, "edgecolor": "none", "pad": 1},
-        )
-    map_axes.set(
-        title="share of tosses that stay uncertain (smooth floor, vacuum)",
-        xlabel="accuracy of the release ε [m]",
-        ylabel="restitution χ",
-        xlim=(x[0], x[-1]),
-    )
+        at: Any = {"xycoords": ("data", "axes fraction"), "xytext": (4, 4), "textcoords": "offset points"}
+        box = {"facecolor": "white", "alpha": 0.7, "edgecolor": "none", "pad": 1}
+        map_axes.annotate(name, (log10(accuracy), 0), rotation=90, va="bottom", color=INK, bbox=box, **at)
+    map_axes.set_title("share of tosses that stay uncertain (smooth floor, vacuum)")
+    map_axes.set(xlabel="accuracy of the release ε [m]", ylabel="restitution χ", xlim=(x[0], x[-1]))
     map_axes.set_xticks(x[::3], [f"$10^{{{value:.0f}}}$" for value in x[::3]])
     map_axes.grid(visible=False)
     bar = picture.colorbar(shade, ax=map_axes, location="bottom", aspect=40, pad=0.02)
@@ -354,11 +322,8 @@ def draw(found: Predictability) -> Figure:
         slopes = np.log10(mean[:-WINDOW] / mean[WINDOW:]) / WINDOW
         slope_axes.semilogx(ACCURACIES[: levels - WINDOW], slopes, style, color=color, label=label)
     share_axes.set(title="f(ε)", ylim=(1e-16, 2))
-    slope_axes.set(
-        title=f"its slope α over {WINDOW} decades",
-        xlabel="ε [m]; smooth —, air – –, rough ···",
-        ylim=(0, 1.15),
-    )
+    slope_axes.set(title=f"its slope α over {WINDOW} decades", ylim=(0, 1.15))
+    slope_axes.set(xlabel="ε [m]; smooth —, air – –, rough ···")
     slope_axes.axhline(1, color=GREY, linewidth=0.8)
     share_axes.legend(fontsize=8)
     for axes in (share_axes, slope_axes):
@@ -366,92 +331,30 @@ def draw(found: Predictability) -> Figure:
     return picture
 
 
-def claims(found: Predictability) -> list[Claim]:
-    """Return the claims of the shares."""
+def measures(found: Predictability) -> dict[str, Any]:
+    """Return what the claims name."""
     by_key = {(one.floor, one.chi): one for one in found.cases if one.quantity == "height"}
-    end, last = _last(found), _last(found) * 10**WINDOW
-    soft = slope_from(by_key[SMOOTH, 0.0], HAND)
-    made = [
-        Claim(
-            claim=f"at χ = 0 boundaries are smooth lines (Strzalko et al. 2008; {SMOOTH})",
-            criteria=[
-                Criterion(
-                    f"α from {HAND:.0e} to {HAND / 10**WINDOW:.0e} m",
-                    soft,
-                    ">",
-                    NEARLY_SMOOTH,
-                    "a smooth boundary has 1",
-                )
-            ],
-        )
-    ]
-    for floor in (SMOOTH, AIR, ROUGH):
-        one = by_key[floor, CHI]
-        made += [
-            Claim(
-                claim=(
-                    f"at χ = {CHI:g} the share falls as ε¹ by {end:.0e} m, as at smooth boundaries "
-                    f"(Strzalko et al. 2008; {floor})"
-                ),
-                headline=_headline(found, one) if floor == SMOOTH else "",
-                expected=False,
-                criteria=[
-                    Criterion(
-                        f"α from {last:.0e} to {end:.0e} m",
-                        slope_from(one, last),
-                        ">",
-                        NEARLY_SMOOTH,
-                        "a smooth boundary has 1",
-                    )
-                ],
-            ),
-            Claim(
-                claim=f"at χ = {CHI:g} a release exact to its quantum width is predictable ({floor})",
-                criteria=[
-                    Criterion(
-                        f"share uncertain at {QUANTUM:.0e} m",
-                        share_at(one, QUANTUM),
-                        "<",
-                        PREDICTABLE,
-                        "99 % of the tosses are predictable",
-                    )
-                ],
-            ),
-        ]
-    made.append(
-        Claim(
-            claim=(
-                f"at χ = {CHI:g} the outcome is as sensitive as of a fractal at every accuracy "
-                f"(Yue 2014, 2016; {SMOOTH})"
-            ),
-            criteria=[
-                Criterion(
-                    f"α from {first:.0e} to {first / 10**WINDOW:.0e} m",
-                    slope_from(by_key[SMOOTH, CHI], first),
-                    "<",
-                    FRACTAL,
-                    "a smooth boundary has 1",
-                )
-                for first in (1e-6, last)
-            ],
-        )
-    )
-    if (SMOOTH, BOUNCY) in by_key:
-        made.append(
-            Claim(
-                claim=f"at χ = {BOUNCY:g} no release is exact enough (Yue 2014, 2016; {SMOOTH})",
-                criteria=[
-                    Criterion(
-                        f"share uncertain at the quantum width, {QUANTUM:.0e} m",
-                        share_at(by_key[SMOOTH, BOUNCY], QUANTUM),
-                        ">",
-                        PREDICTABLE,
-                        "more than one toss in a hundred is left to chance",
-                    )
-                ],
-            )
-        )
-    return made
+    last, smooth = _last(found) * 10**WINDOW, by_key[SMOOTH, CHI]
+    bouncy = by_key.get((SMOOTH, BOUNCY))
+    return {
+        "end": _last(found),
+        "last": last,
+        "hand_end": HAND / 10**WINDOW,
+        "soft": slope_from(by_key[SMOOTH, 0.0], HAND),
+        "floors": {
+            floor: {
+                "alpha": slope_from(by_key[floor, CHI], last),
+                "share": share_at(by_key[floor, CHI], QUANTUM),
+                "headline": _headline(found, smooth) if floor == SMOOTH else "",
+            }
+            for floor in (SMOOTH, AIR, ROUGH)
+        },
+        "alphas": {
+            f"α from {first:.0e} to {first / 10**WINDOW:.0e} m": slope_from(smooth, first)
+            for first in (1e-6, last)
+        },
+        "bouncy": {SMOOTH: {"share": share_at(bouncy, QUANTUM)}} if bouncy else {},
+    }
 
 
 def _headline(found: Predictability, one: Case) -> str:
@@ -468,29 +371,11 @@ def _headline(found: Predictability, one: Case) -> str:
     )
 
 
-def result(found: Predictability) -> Result:
-    """Return the study's tables and claims."""
-    return Result(claims=claims(found), data=found, tables=tables(found))
-
-
-def _make(progress: Progress, parts: Path) -> Result:
-    return result(
-        compute(progress, parts, runs=RUNS, population=POPULATION, chis=CHIS, levels=len(ACCURACIES))
-    )
-
-
-def _quick(progress: Progress, parts: Path) -> Result:
-    runs = dict.fromkeys(CHIS, 4)
-    return result(compute(progress, parts, runs=runs, population=20, chis=QUICK_CHIS, levels=18))
-
-
-REPRODUCTION = Reproduction(
-    title="the share of tosses that stay uncertain, down to 1e-24 m, by restitution, floor and air",
-    seconds=600,
-    make=_make,
-    read=lambda folder: result(read_numbers(folder, Predictability)),
+REPRODUCTION = study(
+    __name__,
+    compute,
+    record=Predictability,
+    measures=measures,
+    tables=tables,
     draw={"predictability": draw},
-    quick_seconds=60,
-    quick=_quick,
-    resumes=True,
 )

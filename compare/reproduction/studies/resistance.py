@@ -2,6 +2,7 @@
 
 from collections import Counter
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -12,12 +13,11 @@ from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.sampling import sample_contact
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, ORANGE
-from cointoss.compare.output.tables import table
-from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
-from cointoss.compare.reproduction.estimates import share
-from cointoss.compare.reproduction.result import Reproduction, Result
-from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.output.tables import paragraphs, table
+from cointoss.compare.reproduction.estimates import in_words
+from cointoss.compare.reproduction.setups.ends import Ends, ended_as, on_edge
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.attitude import quaternion_from_angles
 from cointoss.models.certificate import energies, turned
 from cointoss.models.records import Ending, Outcome, States
@@ -37,6 +37,8 @@ DISKS = {"rolling": (2e-5, 17.8), "pivoting": (1e-4, 3.0)}
 """δ, or p, on the floor of Euler's disk [m], and how long it is followed [s]."""
 LONGEST = 60.0
 """Of a nickel's toss [s]."""
+PUBLISHED = 1 / 6000
+"""Murray and Teare's share of a nickel's tosses on edge."""
 _DISC = {"mass": 2e-3, "radius": 1.25e-2, "thickness": 0.0}
 _NICKEL = {"mass": 5e-3, "radius": 10.605e-3, "thickness": 1.95e-3}
 _UPRIGHT = [0.0, np.pi / 2, 0.0]
@@ -72,13 +74,8 @@ class ResistanceRecord:
 
     stops: dict[str, Stop]
     disks: dict[str, EulersDisk]
-    nickel: dict[str, dict[str, int]]
-    """Numbers of tosses by δ and by outcome and ending."""
-
-
-def result(found: ResistanceRecord) -> Result:
-    """Return the study's tables and claims."""
-    return Result(claims=claims(found), data=found, tables=tables(found))
+    nickel: dict[str, Ends]
+    """By δ."""
 
 
 def on_floor(coin: dict, release: dict, floor: dict, ending: dict | None = None) -> Scenario:
@@ -173,7 +170,7 @@ def power_law(disk: EulersDisk) -> tuple[float, float]:
     return float(1 / (1 - slope)), float(np.median(falls[chosen] / closed))
 
 
-def nickel_ends(size: float, count: int, seed: int) -> dict[str, int]:
+def nickel_ends(size: float, count: int, seed: int) -> Ends:
     """Count the ends of hand tosses of a nickel, in air, where δ = p = `size`."""
     case = Scenario.model_validate(
         {
@@ -198,7 +195,7 @@ def nickel_ends(size: float, count: int, seed: int) -> dict[str, int]:
     return dict(sorted(names.items()))
 
 
-def compute(count: int, seed: int, progress: Progress) -> ResistanceRecord:
+def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> ResistanceRecord:
     """Roll, pivot, and toss `count` nickels for each of `SIZES`."""
     stops = {"disc rolls": rolling_stop(0.5), "hoop rolls": rolling_stop(1.0), "disc pivots": pivoting_stop()}
     disks = {resistance: eulers_disk(resistance) for resistance in DISKS}
@@ -209,79 +206,32 @@ def compute(count: int, seed: int, progress: Progress) -> ResistanceRecord:
     return ResistanceRecord(stops, disks, nickel)
 
 
-def edge_share(ends: dict[str, int]) -> Estimate:
-    """Return the share of tosses that end on edge."""
-    on_edge = sum(number for end, number in ends.items() if end.startswith("edge"))
-    return share(np.arange(sum(ends.values())) < on_edge)
-
-
-def claims(found: ResistanceRecord) -> tuple[Claim, ...]:
-    """Return the claims of the study."""
-    errors = [
-        abs(stop.time / stop.expected_time - 1)
-        + (abs(stop.distance / stop.expected_distance - 1) if stop.expected_distance else 0.0)
-        for stop in found.stops.values()
-    ]
-    undecided = sum(
-        n for ends in found.nickel.values() for end, n in ends.items() if end.startswith(("und", "per"))
-    )
-    rolling = sum(
-        n
-        for size, ends in found.nickel.items()
-        for end, n in ends.items()
-        if size != "0" and end == f"edge, {Ending.ROLLING}"
-    )
+def measures(found: ResistanceRecord) -> dict[str, Any]:
+    """Return what the claims name."""
     exponent, rate = power_law(found.disks["rolling"])
-    pivots = found.disks["pivoting"]
-    tenth = len(pivots.energies) // 10
-    early, late = (part[0] - part[-1] for part in (pivots.energies[:tenth], pivots.energies[-tenth:]))
-    return (
-        Claim(
-            claim="a disc and a hoop that roll upright, and a disc that pivots, stop as the closed forms say",
-            criteria=[
-                Criterion("largest relative error", max(errors), "<", 5e-3, "rest is found at 1e-3 √(g/r)")
-            ],
+    energies = found.disks["pivoting"].energies
+    tenth = len(energies) // 10
+    early, late = (part[0] - part[-1] for part in (energies[:tenth], energies[-tenth:]))
+    return {
+        "error": max(
+            abs(stop.time / stop.expected_time - 1)
+            + (abs(stop.distance / stop.expected_distance - 1) if stop.expected_distance else 0.0)
+            for stop in found.stops.values()
         ),
-        Claim(
-            claim="Euler's disk under resistance to rolling: α ~ (t₀ - t)², by the closed form of its rate",
-            criteria=[
-                Criterion("fitted exponent, less 2", exponent - 2, "within ±", 0.05, "corrections of √α"),
-                Criterion("rate over its closed form, less 1", rate - 1, "within ±", 0.05, "likewise"),
-            ],
+        "exponent": exponent - 2,
+        "rate": rate - 1,
+        "left": energies[-1],
+        "slowing": late / early,
+        "undecided": sum(
+            ended_as(ends, outcome)
+            for ends in found.nickel.values()
+            for outcome in (Outcome.UNDECIDED, Outcome.PERPETUAL)
         ),
-        Claim(
-            claim="Euler's disk under resistance to pivoting alone does not fall flat: its pivoting stops",
-            criteria=[
-                Criterion("energy left [m g r]", pivots.energies[-1], ">", 0.3, "two thirds and more"),
-                Criterion(
-                    "rate of the last tenth's loss over that of the first",
-                    late / early,
-                    "<",
-                    0.01,
-                    "its pivoting is slow",
-                ),
-            ],
+        "rolling": sum(
+            ends.get(f"edge, {Ending.ROLLING}", 0) for size, ends in found.nickel.items() if size != "0"
         ),
-        Claim(
-            claim="every nickel comes to rest",
-            criteria=[
-                Criterion("tosses that stay undecided", undecided, "=", 0, "none"),
-                Criterion("tosses that still roll where δ > 0 after a minute", rolling, "=", 0, "none"),
-            ],
-        ),
-        Claim(
-            claim="resistance in contact does not keep a nickel off its edge",
-            criteria=[
-                Criterion(
-                    "least share of tosses on edge",
-                    min(map(edge_share, found.nickel.values()), key=lambda part: part.value),
-                    ">",
-                    1 / 6000,
-                    "as Murray and Teare (1993) have it",
-                )
-            ],
-        ),
-    )
+        "least": min(map(on_edge, found.nickel.values()), key=lambda part: part.value),
+    }
 
 
 def tables(found: ResistanceRecord) -> str:
@@ -291,8 +241,7 @@ def tables(found: ResistanceRecord) -> str:
             name,
             f"{stop.time:.5f}",
             f"{stop.expected_time:.5f}",
-            f"{stop.distance:.6f}" if stop.expected_distance else "-",
-            f"{stop.expected_distance:.6f}" if stop.expected_distance else "-",
+            *(f"{d:.6f}" if stop.expected_distance else "-" for d in (stop.distance, stop.expected_distance)),
         ]
         for name, stop in found.stops.items()
     ]
@@ -300,38 +249,28 @@ def tables(found: ResistanceRecord) -> str:
     disks = [
         [
             resistance,
-            f"{disk.energies[0]:.4f}",
-            f"{disk.energies[-1]:.4f}",
-            f"{disk.pivots[0]:.3f}",
-            f"{disk.pivots[-1]:.3f}",
+            *(f"{disk.energies[i]:.4f}" for i in (0, -1)),
+            *(f"{disk.pivots[i]:.3f}" for i in (0, -1)),
             f"{disk.times[-1]:.3f}",
         ]
         for resistance, disk in found.disks.items()
     ]
     endings = sorted({end for ends in found.nickel.values() for end in ends})
-    rows = []
-    for size, ends in found.nickel.items():
-        part = edge_share(ends)
-        shown = f"{100 * part.value:.2f} [{100 * part.low:.2f}, {100 * part.high:.2f}]"
-        rows.append([f"{1e3 * float(size):g}", *(str(ends.get(end, 0)) for end in endings), shown])
-    return "\n\n".join(
+    nickel = [
         [
-            table(["a coin upright", "stops after [s]", "closed form", "comes [m]", "closed form"], stops),
-            table(
-                [
-                    "Euler's disk, resistance to",
-                    "energy at first [m g r]",
-                    "at last",
-                    "ω_z at first [rad/s]",
-                    "at last",
-                    "after [s]",
-                ],
-                disks,
-            ),
-            f"Under resistance to rolling α ~ (t₀ - t)ⁿ with n = {exponent:.4f} between {SMALL[0]:g} and "
-            f"{SMALL[1]:g} rad; -dα/dt is {rate:.4f} of its closed form there.",
-            table(["nickel, δ = p [mm]", *endings, "on edge [%]"], rows),
+            f"{1e3 * float(size):g}",
+            *(str(ends.get(end, 0)) for end in endings),
+            in_words(on_edge(ends), ".2f", 100),
         ]
+        for size, ends in found.nickel.items()
+    ]
+    at = "energy at first [m g r] | at last | ω_z at first [rad/s] | at last | after [s]"
+    return paragraphs(
+        table("a coin upright | stops after [s] | closed form | comes [m] | closed form", stops),
+        table(f"Euler's disk, resistance to | {at}", disks),
+        f"Under resistance to rolling α ~ (t₀ - t)ⁿ with n = {exponent:.4f} between {SMALL[0]:g} and "
+        f"{SMALL[1]:g} rad; -dα/dt is {rate:.4f} of its closed form there.",
+        table(["nickel, δ = p [mm]", *endings, "on edge [%]"], nickel),
     )
 
 
@@ -346,16 +285,11 @@ def draw(found: ResistanceRecord) -> Figure:
     chosen = tilts > SMALL[0]
     line = np.polyval(np.polyfit(times[chosen], tilts[chosen] ** 0.5, 1), times)
     axes.plot(times, np.degrees(np.maximum(line, 0) ** 2), color=GREY, linestyle="--", label="(t₀ - t)²")
-    axes.set_xlabel("t [s]")
-    axes.set_ylabel("tilt [deg]")
+    axes.set(xlabel="t [s]", ylabel="tilt [deg]")
     axes.legend(title="resistance to")
     return picture
 
 
-REPRODUCTION = Reproduction(
-    title="what resistance to rolling and pivoting does: where a coin stops, how Euler's disk falls",
-    seconds=300,
-    make=lambda progress: result(compute(COUNT, SEED, progress)),
-    read=lambda folder: result(read_numbers(folder, ResistanceRecord)),
-    draw={"disk": draw},
+REPRODUCTION = study(
+    __name__, compute, record=ResistanceRecord, measures=measures, tables=tables, draw={"disk": draw}
 )

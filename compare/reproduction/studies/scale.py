@@ -8,16 +8,16 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from time import process_time
+from typing import Any
 
 import numpy as np
 from numba import config
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.output.progress import Progress
-from cointoss.compare.output.tables import table
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.map_times import map_times
+from cointoss.compare.reproduction.setups.study import study
 from cointoss.compare.sweep import run as sweep_run
 from cointoss.compare.sweep.axes import parse_axis
 from cointoss.compare.sweep.grid import Sweep, Tile, tiles
@@ -69,18 +69,13 @@ class MapCosts:
     """In that map."""
 
 
-def result(costs: MapCosts) -> Result:
-    """Return the study's tables and its claim."""
-    return Result(claims=claims(costs), data=costs, tables=tables(costs))
-
-
-def compute(side: int, mujoco_side: int, progress: Progress) -> MapCosts:
+def compute(progress: Progress, side: int = SIDE, mujoco_side: int = MUJOCO_SIDE) -> MapCosts:
     """Measure on maps of a thin coin on a smooth floor.
 
     Args:
+        progress: called after each of the measurements.
         side: pixels along a side of the map that is made whole, and of the largest tile.
         mujoco_side: of MuJoCo's map.
-        progress: called after each of the measurements.
     """
     cores = int(config.__dict__["NUMBA_NUM_THREADS"])
     kinds = {
@@ -166,55 +161,27 @@ def _steps(sweep: Sweep, cores: int) -> dict[str, float]:
     }
 
 
-def claims(costs: MapCosts) -> tuple[Claim, ...]:
-    """Return the claim of the study."""
-    return (
-        Claim(
-            claim=f"a map of {costs.tosses} tosses takes most of its time for the tosses",
-            criteria=[
-                Criterion(
-                    "share of the time that they take",
-                    costs.parts[TOSS] / sum(costs.parts.values()),
-                    "≥",
-                    LEAST_SHARE,
-                    "a tenth at most for all else",
-                )
-            ],
-        ),
-    )
+def measures(costs: MapCosts) -> dict[str, Any]:
+    """Return what the claim names."""
+    return {"tosses": costs.tosses, "share": costs.parts[TOSS] / sum(costs.parts.values())}
 
 
 def tables(costs: MapCosts) -> str:
     """Return the tables, in Markdown."""
     whole = sum(costs.parts.values())
-    return "\n\n".join(
-        [
-            table(
-                ["toss", "on one core [ms]", "tosses/s on one core"],
-                [
-                    [name, f"{1e3 * cost:.3g}", f"{float(f'{1 / cost:.3g}'):,g}"]
-                    for name, cost in costs.toss.items()
-                ],
-            ),
-            table(
-                ["tosses in a tile", "of a toss, planar thin coin, on one core [ms]"],
-                [[str(count), f"{1e3 * cost:.3g}"] for count, cost in costs.tile.items()],
-            ),
-            table(
-                [f"a map of {costs.tosses} tosses on {costs.cores} cores", "[s]", "[%]"],
-                [
-                    [name, f"{seconds:.3g}", f"{100 * seconds / whole:.2g}"]
-                    for name, seconds in costs.parts.items()
-                ],
-            ),
-            map_times(costs.toss),
-        ]
+    toss = [
+        [name, f"{1e3 * cost:.3g}", f"{float(f'{1 / cost:.3g}'):,g}"] for name, cost in costs.toss.items()
+    ]
+    tile = [[str(count), f"{1e3 * cost:.3g}"] for count, cost in costs.tile.items()]
+    parts = [
+        [name, f"{seconds:.3g}", f"{100 * seconds / whole:.2g}"] for name, seconds in costs.parts.items()
+    ]
+    return paragraphs(
+        table("toss | on one core [ms] | tosses/s on one core", toss),
+        table("tosses in a tile | of a toss, planar thin coin, on one core [ms]", tile),
+        table(f"a map of {costs.tosses} tosses on {costs.cores} cores | [s] | [%]", parts),
+        map_times(costs.toss),
     )
 
 
-REPRODUCTION = Reproduction(
-    title="what maps of planar coins cost, and how long those of up to 1e12 tosses take",
-    seconds=120,
-    make=lambda progress: result(compute(SIDE, MUJOCO_SIDE, progress)),
-    draw={},
-)
+REPRODUCTION = study(__name__, compute, record=MapCosts, measures=measures, tables=tables, draw={})

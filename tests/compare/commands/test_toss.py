@@ -7,6 +7,7 @@ from importlib.metadata import version
 import pytest
 
 from cointoss import analytic
+from cointoss.models.distribution import DISTRIBUTION
 from cointoss.models.reading import load, scenario_text
 from cointoss.models.scenario import Scenario
 from tests.helpers.command_line import cointoss, refused
@@ -32,7 +33,7 @@ def test_json_has_the_agreed_form():
     assert toss["scenario"]["floor"]["restitution_kind"] == "kinematic"
     assert toss["end_time"] == toss["impacts"][-1]["time"]
     assert toss["settings"] == analytic.FINE.as_dict()
-    assert toss["versions"]["cointoss"] == version("cointoss")
+    assert toss["versions"]["cointoss"] == version(DISTRIBUTION)
     assert (toss["engine"], toss["sequence"], toss["ending"]) == ("analytic", "HHH", "max_impacts")
     assert len(toss["impacts"]) == 3
     sizes = {name: len(value) for name, value in toss["impacts"][0].items() if isinstance(value, list)}

@@ -1,6 +1,8 @@
 """The margin of a toss: its change changes the outcome, and a smaller one does not."""
 
 import json
+import subprocess
+import sys
 from dataclasses import fields
 
 import numpy as np
@@ -12,13 +14,13 @@ from cointoss.compare.basins.picture import MapAxis, draw_margins, write_png
 from cointoss.compare.engines import Engine
 from cointoss.compare.metrics.margin import (
     MANY,
-    PROVED,
     QUANTITIES,
     accepted,
     margins,
     quantity_of,
     smallest_changes,
 )
+from cointoss.compare.reproduction.precision.proved_change import PROVED, proved_change
 from cointoss.compare.reproduction.setups.planar_maps import releases
 from cointoss.compare.sweep import grid
 from cointoss.models.reading import load
@@ -28,8 +30,12 @@ from tests.helpers.command_line import cointoss
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
 
-def by_name(scenario):
-    return {margin.quantity.name: margin for margin in margins(scenario)}
+def by_name(scenario, prove=None):
+    return {margin.quantity.name: margin for margin in margins(scenario, prove)}
+
+
+def proves_any(scenario):
+    return any(proved_change(scenario, quantity, 1e-9) for quantity in QUANTITIES)
 
 
 def test_every_quantity_has_a_margin_and_what_changes_nothing_has_none():
@@ -61,14 +67,14 @@ def test_a_change_of_the_margin_changes_the_outcome_and_half_of_it_does_not(name
 @pytest.mark.parametrize("law", ["smooth", "perfectly_rough"])
 def test_the_margin_of_a_planar_coin_in_vacuum_is_proved_from_below(law):
     vacuum = load("fig29").replace("air.normal", 0.0, "air.tangential", 0.0, "floor.restitution", 0.3)
-    found = by_name(vacuum.replace("floor.contact", law))
+    found = by_name(vacuum.replace("floor.contact", law), proved_change)
     assert {name for name, margin in found.items() if margin.proved} == set(PROVED)
     for name in PROVED:
         assert 2**-14 * abs(found[name].change) < found[name].proved < abs(found[name].change)
         assert f"proved to be above {found[name].proved:.2g} {found[name].quantity.unit}" in found[name].line
-    assert not any(margin.proved for margin in margins(vacuum.replace("release.velocity", [0.0, 0.0, 1e-3])))
-    assert not any(margin.proved for margin in margins(vacuum.replace("coin.thickness", 1e-3)))
-    assert not any(margin.proved for margin in margins(load("fig29")))
+    assert not proves_any(vacuum.replace("release.velocity", [0.0, 0.0, 1e-3]))
+    assert not proves_any(vacuum.replace("coin.thickness", 1e-3))
+    assert not proves_any(load("fig29"))
 
 
 def test_a_boundary_that_was_passed_lies_behind():
@@ -91,6 +97,38 @@ def test_the_command_prints_margins():
     refused = cointoss("toss", "fig29", "--margin", "--engine", "mujoco")
     assert refused.exit_code == 2
     assert "--margin" in refused.stderr
+
+
+PLANAR = """
+[coin]
+mass = "2 g"
+radius = "1.25 cm"
+thickness = 0
+[floor]
+restitution = 0.3
+contact = "smooth"
+[release]
+position = [0, 0, 0.4]
+angular_velocity = [40, 0, 0]
+"""
+
+
+@pytest.mark.parametrize("is_planar", [False, True])
+def test_long_arithmetic_is_imported_only_where_a_margin_is_proved(tmp_path, is_planar):
+    (tmp_path / "planar.toml").write_text(PLANAR)
+    scenario = str(tmp_path / "planar.toml") if is_planar else "fig24a"
+    code = (
+        "import atexit, sys; from cointoss.compare.cli import main; atexit.register(lambda: "
+        "print([name for name in sys.modules if 'reproduction' in name or 'flint' in name])); "
+        f"main.main(['toss', {scenario!r}, '--margin'])"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=True
+    )
+    *lines, imported = ran.stdout.splitlines()
+    assert sum(line.startswith("margin") for line in lines) == len(QUANTITIES)
+    assert ("proved to be above" in ran.stdout) == is_planar
+    assert (imported != "[]") == is_planar
 
 
 SIDES = ("--x", "release.angular_velocity.xi=20:60:8", "--y", "release.position.z=0.2:0.6:6")

@@ -7,9 +7,9 @@ from matplotlib.figure import Figure
 
 from cointoss.compare.output.tables import OPEN, folded, sheets, table
 from cointoss.compare.reproduction import pages, runner
-from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate, unexpected
 from cointoss.compare.reproduction.result import Reproduction, Result
-from tests.helpers.pages import DOCS
+from tests.helpers.pages import DOCS, pictures, saved
 
 WRITTEN = {
     name
@@ -99,6 +99,14 @@ def test_a_figure_of_the_paper_has_a_page_and_a_study_has_none(tmp_path):
 def test_every_study_that_was_kept_has_a_place_on_a_page_and_only_those():
     assert WRITTEN == {name for name in KEPT if runner.find(name).read}
     assert len(WRITTEN) == 12
+
+
+@pytest.mark.parametrize("name", sorted(WRITTEN))
+def test_the_verdicts_of_a_kept_study_are_the_known_ones_and_a_page_shows_its_pictures(name):
+    assert unexpected(runner.kept(name, DOCS).claims) == ()
+    drawn = {f"{picture}.png" for picture in runner.find(name).draw}
+    assert drawn in [pictures(page.name, name) for page in DOCS.glob("*.md")]
+    assert all((saved(name) / picture).stat().st_size < 150_000 for picture in drawn)
 
 
 @pytest.mark.parametrize("name", KEPT)

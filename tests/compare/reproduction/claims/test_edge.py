@@ -19,11 +19,9 @@ from cointoss.compare.reproduction.setups.edge_classes import (
     EdgeClass,
     edge_by_angle,
     edge_by_solid_angle,
-    ended_as,
     ends_of,
     hand_of,
     three_way,
-    tosses,
 )
 from cointoss.compare.reproduction.setups.edge_pages import alike, fair, on_edge
 from cointoss.compare.reproduction.setups.edge_record import ANGLE, SOLID_ANGLE, EdgeRecord
@@ -34,6 +32,7 @@ from cointoss.compare.reproduction.setups.edge_touches import (
     tossed,
     way_to_rest,
 )
+from cointoss.compare.reproduction.setups.ends import ended_as, tosses
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.records import Outcome
 from tests.helpers.pages import pictures, saved

@@ -4,25 +4,19 @@ from dataclasses import replace
 
 import pytest
 
-from cointoss.compare.reproduction.claim import unexpected
-from cointoss.compare.reproduction.saving import read_numbers
-from cointoss.compare.reproduction.studies.mujoco_resistance import (
+from cointoss.compare.reproduction.mujoco.mujoco_resistance import (
     CONTACTS,
     STARTS,
     NativeResistance,
-    claims,
     closed_form,
     explicit,
     native,
 )
-from tests.helpers.pages import pictures, saved
+from cointoss.compare.reproduction.saving import read_numbers
+from tests.helpers.pages import saved
+from tests.helpers.studies import missed
 
 SAVED = read_numbers(saved("mujoco-resistance"), NativeResistance)
-
-
-def test_the_saved_claims_come_out_as_known():
-    assert pictures("MUJOCO.md", "mujoco-resistance") == {"ball.png"}
-    assert unexpected(claims(SAVED)) == ()
 
 
 def test_the_closed_forms_are_those_of_the_paths():
@@ -42,5 +36,5 @@ def test_mujocos_friction_does_now_what_it_did():
 def test_a_friction_that_stops_both_motions_at_once_is_seen():
     name = "elliptic, solimp 0.9999"
     fair = {**SAVED.native, name: {**SAVED.native[name], "ball does both": SAVED.closed["ball does both"]}}
-    (wrong,) = unexpected(claims(replace(SAVED, native=fair)))
+    (wrong,) = missed("mujoco-resistance", replace(SAVED, native=fair))
     assert "share one bound" in wrong

@@ -9,18 +9,31 @@ from flint import arb, ctx
 from cointoss import analytic
 from cointoss.analytic.automaton import Event, Mode
 from cointoss.analytic.contact.resistance import FloorFriction
-from cointoss.compare.precision import double_double, planar_state, planar_toss
-from cointoss.compare.precision.certified import PlanarRelease, certified_toss, outcome_within, proved_part
-from cointoss.compare.precision.divergence import toss_lines
-from cointoss.compare.precision.double_double import add, pair_of, scale
-from cointoss.compare.precision.magnified import magnify
-from cointoss.compare.precision.planar_coin import planar_coin, units
-from cointoss.compare.precision.planar_contact import keep_contact, nearest_upright
-from cointoss.compare.precision.planar_flight import ORDER, fly
-from cointoss.compare.precision.planar_slide import slide
-from cointoss.compare.precision.planar_state import DRIFT, FALL, HEIGHT, SPIN, TILT, release, turned_within
-from cointoss.compare.precision.planar_toss import toss_many
-from cointoss.compare.precision.splitting import chances, replica, spread
+from cointoss.compare.reproduction.precision import double_double, planar_state, planar_toss
+from cointoss.compare.reproduction.precision.certified import (
+    PlanarRelease,
+    certified_toss,
+    outcome_within,
+    proved_part,
+)
+from cointoss.compare.reproduction.precision.divergence import toss_lines
+from cointoss.compare.reproduction.precision.double_double import add, pair_of, scale
+from cointoss.compare.reproduction.precision.magnified import magnify
+from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
+from cointoss.compare.reproduction.precision.planar_contact import keep_contact, nearest_upright
+from cointoss.compare.reproduction.precision.planar_flight import ORDER, fly
+from cointoss.compare.reproduction.precision.planar_slide import slide
+from cointoss.compare.reproduction.precision.planar_state import (
+    DRIFT,
+    FALL,
+    HEIGHT,
+    SPIN,
+    TILT,
+    release,
+    turned_within,
+)
+from cointoss.compare.reproduction.precision.planar_toss import toss_many
+from cointoss.compare.reproduction.precision.splitting import chances, replica, spread
 from cointoss.compare.reproduction.setups.planar_maps import case, releases
 from cointoss.compare.reproduction.setups.uncertain_shares import uncertain_shares
 from cointoss.models.records import Outcome

@@ -5,7 +5,7 @@ import math
 import pytest
 from flint import arb, arb_series, ctx
 
-from cointoss.compare.precision.taylor_models import (
+from cointoss.compare.reproduction.precision.taylor_models import (
     ORDER,
     TaylorModel,
     UndecidedError,

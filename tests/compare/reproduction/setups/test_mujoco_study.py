@@ -11,6 +11,7 @@ from cointoss.coin_mj import Realisation, Settings
 from cointoss.coin_mj.bounce import one_step_solref, restitutions_of_a_ball, spring_solref
 from cointoss.compare.reproduction import runner
 from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.mujoco import mujoco_laws
 from cointoss.compare.reproduction.setups.mujoco_fixed_steps import restitutions_of_coins
 from cointoss.compare.reproduction.setups.mujoco_impacts import (
     by_law,
@@ -28,7 +29,6 @@ from cointoss.compare.reproduction.setups.mujoco_study import (
     over_stiffness,
     tilted_touch,
 )
-from cointoss.compare.reproduction.studies import mujoco_laws
 from cointoss.models.laws import ContactLaw
 
 
@@ -88,21 +88,12 @@ def test_one_step_with_the_native_cone_is_moreaus_law():
 
 
 def test_the_native_cone_with_its_slip_undamped_preserves_slip():
-    found = mujoco_laws.compute(10, 5, unseen)
-    assert unexpected(mujoco_laws.claims(found)) == ()
+    result = mujoco_laws.REPRODUCTION.make(unseen, count=10, seed=5)
+    found = result.data
+    assert unexpected(result.claims) == ()
     assert found.best("(d) slip_preserving") == "native cone, μ = 100, slip undamped"
     assert found.growing[1000.0].median < 1e-3 < found.growing[0.1].median
-    assert "| (e) smooth | **" in mujoco_laws.tables(found)
-
-
-def test_a_law_that_mujoco_misses_fails_its_claim():
-    found = mujoco_laws.compute(4, 6, unseen)
-    name = "(e) smooth"
-    worse = {contact: mujoco_laws.Fit(median=0.1, worst=0.1) for contact in found.contacts}
-    broken = mujoco_laws.LawFits(
-        laws=found.laws, contacts=found.contacts, fits={**found.fits, name: worse}, growing=found.growing
-    )
-    assert len(unexpected(mujoco_laws.claims(broken))) == 1
+    assert "| (e) smooth | **" in result.tables
 
 
 @pytest.mark.parametrize("e", [0.0, 0.3, 1.0])

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.compare.reproduction.claim import unexpected
+from cointoss.compare.reproduction.estimates import chance_alike
 from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups.ends import ended_as, tosses
 from cointoss.compare.reproduction.studies.endings import (
     BY_BOTH,
     COINS,
@@ -17,34 +18,23 @@ from cointoss.compare.reproduction.studies.endings import (
     MEDIA,
     EndingCounts,
     by_both,
-    claims,
     compute,
     draw_toss,
-    probability,
-    share,
     toss_by_mujoco,
+    within,
 )
 from cointoss.models.records import Outcome
-from tests.helpers.pages import pictures, saved
+from tests.helpers.pages import saved
+from tests.helpers.studies import missed
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
 SAVED = read_numbers(saved("endings"), EndingCounts)
 
 
-def check(counts: EndingCounts) -> tuple[str, ...]:
-    return unexpected(claims(counts))
-
-
 def test_the_saved_counts_are_of_all_tosses():
-    assert share(SAVED.outcomes, "heads")[1] == len(COINS) * COUNT
-    assert share(SAVED.mujoco, "heads")[1] == len(COINS) * COUNT_MUJOCO
-    assert pictures("CONTACT.md", "endings") == {"endings.png"}
-    assert (saved("endings") / "endings.png").stat().st_size < 150_000
-
-
-def test_the_claims_come_out_as_known():
-    assert check(SAVED) == ()
+    assert tosses(within(SAVED.outcomes)) == len(COINS) * COUNT
+    assert tosses(within(SAVED.mujoco)) == len(COINS) * COUNT_MUJOCO
 
 
 def test_other_tosses_end_as_the_saved_ones_do():
@@ -62,16 +52,16 @@ def test_other_tosses_end_as_the_saved_ones_do():
             assert tossed.outcome != Outcome.PERPETUAL or scenario.air.normal == 0
             seen[tossed.outcome] += 1
     for outcome in (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.PERPETUAL):
-        of_outcome, whole = share(SAVED.outcomes, str(outcome))
-        p = of_outcome / whole
+        ends = within(SAVED.outcomes)
+        p = ended_as(ends, outcome) / tosses(ends)
         assert seen[outcome] / (2 * number) == pytest.approx(p, abs=5 * np.sqrt(p / (2 * number)))
 
 
 def test_a_small_study_counts_every_toss():
     told = []
-    study = compute(2, 1, 3, lambda done, whole: told.append((done, whole)))
-    assert share(study.outcomes, "heads")[1] == 4
-    assert share(study.mujoco, "heads")[1] == 2
+    study = compute(lambda done, whole: told.append((done, whole)), 2, 1, 3)
+    assert tosses(within(study.outcomes)) == 4
+    assert tosses(within(study.mujoco)) == 2
     assert told == [(n, 6) for n in range(1, 7)]
 
 
@@ -79,7 +69,10 @@ def test_a_claim_that_the_counts_do_not_bear_out_is_told():
     kind = "ideal, thin, smooth, air"
     for engine, outcomes in (("outcomes", SAVED.outcomes), ("mujoco", SAVED.mujoco)):
         changed = {**outcomes, kind: {**outcomes[kind], "perpetual, perpetual": 1000}}
-        assert any(told.startswith("only in vacuum") for told in check(replace(SAVED, **{engine: changed})))
+        assert any(
+            told.startswith("only in vacuum")
+            for told in missed("endings", replace(SAVED, **{engine: changed}))
+        )
 
 
 def test_were_all_tosses_of_both_engines_decided_it_would_be_told():
@@ -89,30 +82,29 @@ def test_were_all_tosses_of_both_engines_decided_it_would_be_told():
             for kind, ends in outcomes.items()
         }
 
-    assert check(replace(SAVED, outcomes=decided(SAVED.outcomes))) == ()
+    assert missed("endings", replace(SAVED, outcomes=decided(SAVED.outcomes))) == ()
     both = replace(SAVED, outcomes=decided(SAVED.outcomes), mujoco=decided(SAVED.mujoco))
-    assert check(both) == ("at most 1 toss in 10,000 stays undecided",)
+    assert missed("endings", both) == ("at most 1 toss in 10,000 stays undecided",)
 
 
 def test_engines_that_end_otherwise_are_told_apart():
-    assert probability({"analytic": [50, 50, 100], "mujoco": [55, 45, 100]}) > 0.1
-    apart = {"analytic": [50, 50, 100], "mujoco": [90, 45, 65]}
-    assert probability(apart) < 1e-3
+    assert chance_alike([[50, 50, 100], [55, 45, 100]]) > 0.1
+    assert chance_alike([[50, 50, 100], [90, 45, 65]]) < 1e-3
     kind = "ideal, thick, smooth, air"
     changed = replace(SAVED, mujoco={**SAVED.mujoco, kind: {**SAVED.mujoco[kind], "edge, standing": 1000}})
-    assert check(changed) == ("in air the engines' ends differ no more than by chance",)
+    assert missed("endings", changed) == ("in air the engines' ends differ no more than by chance",)
 
 
 def test_the_engines_are_compared_on_the_floors_that_both_realise():
-    both = {f"{floor}, {medium}": by_both(SAVED, [floor, medium]) for floor in BY_BOTH for medium in MEDIA}
+    both = {f"{floor}, {medium}": by_both(SAVED, floor, medium) for floor in BY_BOTH for medium in MEDIA}
     assert list(both) == [
         "smooth, air",
         "smooth, vacuum",
         "coulomb, kinematic, air",
         "coulomb, kinematic, vacuum",
     ]
-    for engine, outcomes in (("analytic", SAVED.outcomes), ("mujoco", SAVED.mujoco)):
-        energetic = share(outcomes, "heads", ["energetic"])[1]
-        assert sum(sum(counts[engine]) for counts in both.values()) == share(outcomes, "heads")[1] - energetic
-    assert share(SAVED.outcomes, "heads", ["energetic"])[1] > 6000
+    for engine, outcomes in enumerate((SAVED.outcomes, SAVED.mujoco)):
+        others = tosses(within(outcomes)) - tosses(within(outcomes, "energetic"))
+        assert sum(sum(counts[engine]) for counts in both.values()) == others
+    assert tosses(within(SAVED.outcomes, "energetic")) > 6000
     assert toss_by_mujoco((3, 1, 1))[0].floor in BY_BOTH

@@ -9,8 +9,7 @@ from cointoss import analytic
 from cointoss.analytic.automaton import Mode
 from cointoss.analytic.events import run
 from cointoss.analytic.settings import MANY
-from cointoss.compare.reproduction.claim import unexpected
-from cointoss.compare.reproduction.saving import read_numbers, save
+from cointoss.compare.reproduction.saving import read_numbers
 from cointoss.compare.reproduction.setups.general_coins import CLASSES
 from cointoss.compare.reproduction.studies import general_coins
 from cointoss.compare.reproduction.studies.general_coins import (
@@ -18,7 +17,6 @@ from cointoss.compare.reproduction.studies.general_coins import (
     GeneralCosts,
     TossParts,
     call_time,
-    claims,
     compute,
     joined,
     pieces_of,
@@ -26,12 +24,11 @@ from cointoss.compare.reproduction.studies.general_coins import (
     replay_contacts,
     replay_flights,
     replay_impacts,
-    result,
-    tables,
     timed_toss,
 )
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.pages import saved
+from tests.helpers.studies import result_of
 
 SAVED = read_numbers(saved("general-coins"), GeneralCosts)
 FAST = ClassCosts(
@@ -50,10 +47,6 @@ IN_AIR = [kind for kind in CLASSES if kind.air]
 def test_the_saved_numbers_are_of_all_classes():
     assert list(SAVED.classes) == [kind.name for kind in CLASSES]
     assert all(sum(one.ends.values()) == one.tosses for one in SAVED.classes.values())
-
-
-def test_the_verdicts_are_the_known_ones():
-    assert unexpected(claims(SAVED)) == ()
 
 
 def test_the_classes_are_the_corners_of_coin_air_and_floor():
@@ -138,14 +131,15 @@ def test_a_timed_toss_is_one_of_toss_many():
     ],
 )
 def test_a_bar_is_missed_by_one_class_that_is_too_slow(name, changed, missed):
-    assert all(claim.holds for claim in claims(ALL_FAST))
+    assert all(claim.holds for claim in result_of("general-coins", ALL_FAST).claims)
     slow = GeneralCosts({**ALL_FAST.classes, name: replace(FAST, **changed)})
-    assert [missed in claim.claim for claim in claims(slow) if not claim.holds] == [True]
+    found = result_of("general-coins", slow).claims
+    assert [missed in claim.claim for claim in found if not claim.holds] == [True]
 
 
 def test_the_tables_follow_from_the_times():
     slow = {kind.name: replace(FAST, mean=2e-3) for kind in CLASSES if not kind.air}
-    lines = tables(GeneralCosts({**ALL_FAST.classes, **slow})).splitlines()
+    lines = result_of("general-coins", GeneralCosts({**ALL_FAST.classes, **slow})).tables.splitlines()
     assert "| thin, ideal, air, smooth | 0.4 | 0.3 | 0.6 | 0.7 | 0.1 | 0.05 | 0.2 | 0.05 |" in lines
     # 1e6 * 4e-4 s / 2 and 1e9 * 2e-3 s / 16
     assert next(line for line in lines if line.startswith("| general coin in air, 2 |")).count("3.3 min") == 1
@@ -155,11 +149,6 @@ def test_the_tables_follow_from_the_times():
 def test_a_small_study_is_made(monkeypatch):
     monkeypatch.setattr(general_coins, "CLASSES", tuple(IN_AIR[:2]))
     told = []
-    study = compute(2, lambda *progress: told.append(progress))
+    study = compute(lambda *progress: told.append(progress), 2)
     assert told == [(i, 4) for i in range(1, 5)]
     assert [one.tosses for one in study.classes.values()] == [2, 2]
-
-
-def test_the_saved_numbers_are_read_again(tmp_path):
-    save(tmp_path, result(ALL_FAST), {})
-    assert read_numbers(tmp_path, GeneralCosts) == ALL_FAST

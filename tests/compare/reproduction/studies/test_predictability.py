@@ -3,29 +3,17 @@
 import numpy as np
 import pytest
 
-from cointoss.compare.reproduction.claim import unexpected
-from cointoss.compare.reproduction.saving import read_numbers
 from cointoss.compare.reproduction.studies import predictability
 from cointoss.compare.reproduction.studies.predictability import (
     ACCURACIES,
     SMOOTH,
     Case,
-    Predictability,
     accuracy_for,
-    claims,
     compute,
     share_at,
     slope_from,
     smooth_from,
 )
-from tests.helpers.pages import pictures, saved
-
-SAVED = read_numbers(saved("predictability"), Predictability)
-
-
-def test_the_saved_claims_come_out_as_known():
-    assert pictures("PREDICTABILITY.md", "predictability") == {"predictability.png"}
-    assert unexpected(claims(SAVED)) == ()
 
 
 def made(shares):

@@ -7,8 +7,6 @@ import pytest
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.metrics.first_side import caught_side, first_side
-from cointoss.compare.reproduction.claim import unexpected
-from cointoss.compare.reproduction.saving import read_numbers
 from cointoss.compare.reproduction.setups.same_side_fit import (
     Flips,
     by_wobble,
@@ -20,11 +18,9 @@ from cointoss.compare.reproduction.setups.same_side_fit import (
     log_likelihood,
     read_flips,
 )
-from cointoss.compare.reproduction.studies.same_side import SameSide, claims
 from cointoss.models.hand import Hand, same_side_probability
 from cointoss.models.reading import load
 from tests.helpers.command_line import cointoss
-from tests.helpers.pages import pictures, saved
 
 
 def drawn(probabilities, people=200, flips=7000, seed=3):
@@ -135,9 +131,3 @@ def test_the_command_counts_what_a_hand_tosses():
     told = json.loads(cointoss(*arguments, "--json").stdout)
     assert told["hand"]["psi"] == pytest.approx(np.pi / 3)
     assert told["same_side"]["at rest"]["value"] == 1
-
-
-def test_the_saved_claims_come_out_as_known():
-    found = read_numbers(saved("same-side"), SameSide)
-    assert pictures("HANDS.md", "same-side") == {"same-side.png"}
-    assert unexpected(claims(found)) == ()

@@ -1,8 +1,8 @@
 """The study of what maps cost: its tables follow from its times, and it runs."""
 
-from cointoss.compare.reproduction.claim import unexpected
 from cointoss.compare.reproduction.studies import scale
-from cointoss.compare.reproduction.studies.scale import MapCosts, claims, tables
+from cointoss.compare.reproduction.studies.scale import MapCosts
+from tests.helpers.studies import missed, result_of
 
 COSTS = MapCosts(
     cores=2,
@@ -14,7 +14,7 @@ COSTS = MapCosts(
 
 
 def test_the_tables_follow_from_the_times():
-    lines = tables(COSTS).splitlines()
+    lines = result_of("scale", COSTS).tables.splitlines()
     assert "| thin coin | 0.2 | 5,000 |" in lines
     assert "| 100 | 0.3 |" in lines
     assert "| toss | 9.5 | 95 |" in lines
@@ -25,16 +25,16 @@ def test_the_tables_follow_from_the_times():
 
 
 def test_a_map_that_does_not_consist_of_tosses_fails_its_claim():
-    assert unexpected(claims(COSTS)) == ()
+    assert missed("scale", COSTS) == ()
     slow = MapCosts(**{**vars(COSTS), "parts": {"check the grid": 1.2, scale.TOSS: 9.5}})
-    assert "a map of 100000 tosses" in unexpected(claims(slow))[0]
+    assert "a map of 100000 tosses" in missed("scale", slow)[0]
 
 
 def test_the_study_runs(monkeypatch):
     monkeypatch.setattr(scale, "TILE_SIDES", (50,))
     done = []
-    study = scale.compute(9, 2, lambda *progress: done.append(progress))
+    study = scale.compute(lambda *progress: done.append(progress), 9, 2)
     assert done == [(i, 7) for i in range(1, 8)]
     assert study.tosses == 81
     assert all(cost > 0 for cost in [*study.toss.values(), *study.tile.values()])
-    assert tables(study)
+    assert result_of("scale", study).tables

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from cointoss.analytic.numerics.tableau import STAGES, A, B
-from cointoss.compare.precision.double_double import (
+from cointoss.compare.reproduction.precision.double_double import (
     ONE,
     add,
     divide,
@@ -20,7 +20,7 @@ from cointoss.compare.precision.double_double import (
     sine_cosine,
     subtract,
 )
-from cointoss.compare.precision.planar_state import (
+from cointoss.compare.reproduction.precision.planar_state import (
     DRIFT,
     FALL,
     HEIGHT,

@@ -5,6 +5,7 @@
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -14,11 +15,9 @@ from cointoss import coin_mj
 from cointoss.coin_mj.bounce import HARDEST
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
-from cointoss.compare.output.tables import table
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
-from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
+from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.scenario import Scenario
 
 MASS, RADIUS, GRAVITY = 2e-3, 1.25e-2, 9.81
@@ -248,108 +247,46 @@ def errors(found: NativeResistance, stopped: dict[str, Stopped]) -> dict[str, tu
     }
 
 
-def result(found: NativeResistance) -> Result:
-    """Return the study's tables and claims."""
-    return Result(claims=claims(found), data=found, tables=tables(found))
-
-
-def claims(found: NativeResistance) -> tuple[Claim, ...]:
-    """Return the claims of the study."""
+def measures(found: NativeResistance) -> dict[str, Any]:
+    """Return what the claims name."""
     by_contact = {name: errors(found, each) for name, each in found.native.items()}
     hard, default = by_contact["elliptic, solimp 0.9999"], by_contact["MuJoCo's default: pyramidal"]
-    alone = [abs(part) for label, pair in hard.items() if label != "ball does both" for part in pair]
-    changes = [abs(fine / coarse - 1) for runs in found.by_step.values() for coarse, fine in pairwise(runs)]
-    return (
-        Claim(
-            claim="explicit moments stop a hoop and a disc as the closed forms say",
-            criteria=[
-                Criterion(
-                    "largest relative error",
-                    max(abs(part) for pair in errors(found, found.explicit).values() for part in pair),
-                    "<",
-                    2e-3,
-                    "the samples of the path",
-                )
-            ],
+    return {
+        "explicit": max(abs(part) for pair in errors(found, found.explicit).values() for part in pair),
+        "alone": max(abs(part) for label, pair in hard.items() if label != "ball does both" for part in pair),
+        "further": 1 + default["ball rolls"][0],
+        "longer": 1 + hard["ball does both"][1],
+        "change": max(
+            abs(fine / coarse - 1) for runs in found.by_step.values() for coarse, fine in pairwise(runs)
         ),
-        Claim(
-            claim="MuJoCo's own friction does so to a few per cent, one motion at a time, in the elliptic "
-            "cone with the hardest solimp",
-            criteria=[Criterion("largest relative error", max(alone), "<", 0.1, "its cone makes a body hop")],
-        ),
-        Claim(
-            claim="by MuJoCo's default it lets a ball roll on much further",
-            criteria=[
-                Criterion(
-                    "distance over the closed form",
-                    1 + default["ball rolls"][0],
-                    ">",
-                    1.5,
-                    "half as far again",
-                )
-            ],
-        ),
-        Claim(
-            claim="in its cone rolling and pivoting share one bound: a ball that does both turns longer",
-            criteria=[
-                Criterion(
-                    "duration over the closed form, hardest elliptic cone",
-                    1 + hard["ball does both"][1],
-                    ">",
-                    1.5,
-                    "half as long again",
-                )
-            ],
-        ),
-        Claim(
-            claim="shorter steps change none of this",
-            criteria=[
-                Criterion("largest change of a ball's way between steps", max(changes), "<", 2e-2, "2 %")
-            ],
-        ),
-    )
+    }
 
 
 def tables(found: NativeResistance) -> str:
     """Return the tables, in Markdown."""
-    head = [
-        "",
-        "hoop rolls [m]",
-        "ball rolls [m]",
-        "disc turns [s]",
-        "ball turns [s]",
-        "ball does both [m, s]",
-        "highest hop [µm]",
-    ]
 
     def row(name: str, stopped: dict[str, Stopped]) -> list[str]:
-        cells = [name]
+        cells = []
         for label, start in STARTS.items():
-            each = stopped.get(label)
-            parts = (
-                []
-                if each is None
-                else [each.distance] * (start.speed > 0) + [each.duration] * (start.spin > 0)
-            )
-            cells.append(", ".join(f"{part:.4f}" for part in parts) or "-")
-        return [*cells, f"{1e6 * max(each.hop for each in stopped.values()):.0f}"]
+            each = stopped.get(label, Stopped(0.0, 0.0))
+            parts = [each.distance] * (start.speed > 0) + [each.duration] * (start.spin > 0)
+            cells.append(", ".join(f"{part:.4f}" for part in parts) if label in stopped else "-")
+        return [name, *cells, f"{1e6 * max(each.hop for each in stopped.values()):.0f}"]
 
-    rows = [
-        row("closed form", found.closed),
-        row("explicit moments", found.explicit),
-        *(row(name, each) for name, each in found.native.items()),
-    ]
-    steps = table(
-        ["the ball that rolls comes [m], steps of", *(f"{1e3 * step:g} ms" for step in STEPS)],
-        [[name, *(f"{way:.4f}" for way in ways)] for name, ways in found.by_step.items()],
-    )
-    words = (
+    stopped = {"closed form": found.closed, "explicit moments": found.explicit, **found.native}
+    steps = [[name, *(f"{way:.4f}" for way in ways)] for name, ways in found.by_step.items()]
+    return paragraphs(
         f"A body of {1e3 * MASS:g} g and r = {1e3 * RADIUS:g} mm, upright on a floor with μ = 1 and "
         f"δ = p = {1e3 * SIZE:g} mm, that rolls at {SPEED:g} m/s or turns about the vertical at "
         f"{SPIN:g} rad/s, until {LEFT:.0%} of that is left; `mj_step` with implicitfast and steps of "
-        f"{1e3 * STEP:g} ms:"
+        f"{1e3 * STEP:g} ms:",
+        table(
+            " | hoop rolls [m] | ball rolls [m] | disc turns [s] | ball turns [s] | ball does both [m, s] | "
+            "highest hop [µm]",
+            [row(name, each) for name, each in stopped.items()],
+        ),
+        table(["the ball that rolls comes [m], steps of", *(f"{1e3 * step:g} ms" for step in STEPS)], steps),
     )
-    return "\n\n".join([words, table(head, rows), steps])
 
 
 def draw(found: NativeResistance) -> Figure:
@@ -360,16 +297,11 @@ def draw(found: NativeResistance) -> Figure:
         axes.plot(run.times, run.rolling, color=color, label=name)
     slowing = SIZE * GRAVITY / (RADIUS * (1 + INERTIA["ball"][1]))
     axes.plot([0, SPEED / slowing], [SPEED, 0], color=INK, linestyle=":", label="closed form")
-    axes.set_xlabel("t [s]")
-    axes.set_ylabel("speed of the ball [m/s]")
+    axes.set(xlabel="t [s]", ylabel="speed of the ball [m/s]")
     axes.legend()
     return picture
 
 
-REPRODUCTION = Reproduction(
-    title="what MuJoCo's own torsional and rolling friction does, against moments applied explicitly",
-    seconds=60,
-    make=lambda progress: result(compute(progress)),
-    read=lambda folder: result(read_numbers(folder, NativeResistance)),
-    draw={"ball": draw},
+REPRODUCTION = study(
+    __name__, compute, record=NativeResistance, measures=measures, tables=tables, draw={"ball": draw}
 )

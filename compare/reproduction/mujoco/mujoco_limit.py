@@ -9,9 +9,7 @@ from matplotlib.figure import Figure
 
 from cointoss.coin_mj.bounce import HARDEST, one_step_solref, restitutions_of_a_ball, spring_solref
 from cointoss.compare.output.progress import Progress
-from cointoss.compare.output.tables import table
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
 from cointoss.compare.reproduction.setups.mujoco_impacts import draw_touches
 from cointoss.compare.reproduction.setups.mujoco_study import (
@@ -23,6 +21,7 @@ from cointoss.compare.reproduction.setups.mujoco_study import (
     StepErrors,
     StiffnessErrors,
     cone_formula,
+    draw_spreads,
     native_cone,
     over_friction,
     over_kinds,
@@ -33,6 +32,7 @@ from cointoss.compare.reproduction.setups.mujoco_study import (
     over_tilt,
     smooth_and_rubbed,
 )
+from cointoss.compare.reproduction.setups.study import study
 
 SEED = 4
 STIFFNESSES = tuple(10.0**power for power in range(6, 17))
@@ -43,6 +43,8 @@ SPINS = (3.0, 10.0, 30.0, 100.0, 300.0)
 TILTS = (5.0, 20.0, 45.0, 70.0, 85.0)
 CONE_TILTS, CONE_RESTITUTION = (20.0, 45.0, 70.0), 0.5
 INTEGRATORS = ("Euler", "implicitfast", "RK4")
+SPIN, TILT = f"spin up to [rad/s], μ = {RUBBED:g}", f"tilt [deg], μ = {RUBBED:g}"
+"""What is varied."""
 USERS_STEP = 1e-3
 """Of the table for `mj_step` [s]; the restitution does not depend on it."""
 USERS_RESTITUTIONS, USERS_STEPS = (0.1, 0.3, 0.5, 0.8, 1.0), (10, 20, 40, 80, 160)
@@ -55,6 +57,9 @@ class Sizes:
     impacts: int = 24
     kinds: int = 150
     cells: int = 13
+
+
+FULL = Sizes()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +79,7 @@ class ImpactErrors:
     """Largest |e' - e| of a ball stepped by `mj_step`, for each of `USERS_RESTITUTIONS`, by contact."""
 
 
-def compute(sizes: Sizes, seed: int, progress: Progress) -> ImpactErrors:
+def compute(progress: Progress, sizes: Sizes = FULL, seed: int = SEED) -> ImpactErrors:
     """Return the errors of all parts of the study."""
     rng = np.random.default_rng(seed)
     floors = smooth_and_rubbed(draw_touches(rng, sizes.impacts, (0.3, 1.0)))
@@ -122,153 +127,62 @@ def _users() -> dict[str, list[float]]:
     return answers
 
 
-def result(found: ImpactErrors) -> Result:
-    """Return the study's tables and claims."""
-    return Result(claims=claims(found), data=found, tables=tables(found))
-
-
-def claims(found: ImpactErrors) -> tuple[Claim, ...]:
-    """Return the claims of the study."""
+def measures(found: ImpactErrors) -> dict[str, Any]:
+    """Return what the claims name."""
     explicit = [fit for name in ("spring", "one step") for fit in found.kinds[name].values()]
     native = [fit for name, kinds in found.kinds.items() if "cone" in name for fit in kinds.values()]
-    smooth, stiffness_orders = found.stiffness["smooth"], [part.order for part in found.stiffness.values()]
-    nearer = [
-        limit / error
-        for k, error, limit in zip(smooth.stiffness, smooth.impulse, smooth.limit, strict=True)
-        if k <= 1e12
-    ]
-    return (
-        Claim(
-            claim="impulses at the default settings: median below 2e-4, worst below 1e-3",
-            criteria=[
-                Criterion(
-                    "largest median error", max(fit.median for fit in explicit), "<", 2e-4, "as claimed"
-                ),
-                Criterion("worst error", max(fit.worst for fit in explicit), "<", 1e-3, "as claimed"),
-            ],
+    smooth, orders = found.stiffness["smooth"], [part.order for part in found.stiffness.values()]
+    return {
+        "median": max(fit.median for fit in explicit),
+        "worst": max(fit.worst for fit in explicit),
+        "native": min(fit.median for fit in native),
+        "orders": (min(orders), max(orders)),
+        "nearer": max(
+            limit / error
+            for k, error, limit in zip(smooth.stiffness, smooth.impulse, smooth.limit, strict=True)
+            if k <= 1e12
         ),
-        Claim(
-            claim="MuJoCo's native cone errs by more than 1e-3",
-            criteria=[
-                Criterion("least median error", min(fit.median for fit in native), ">", 1e-3, "as claimed")
-            ],
-        ),
-        Claim(
-            claim="the error falls with the root of the stiffness",
-            criteria=[
-                Criterion("least order", min(stiffness_orders), ">", 0.45, "1/2, less a tenth"),
-                Criterion("largest order", max(stiffness_orders), "<", 0.55, "1/2 and a tenth"),
-            ],
-        ),
-        Claim(
-            claim="Richardson's limit is nearer than the hardest of its two springs, up to 1e12",
-            criteria=[Criterion("largest ratio of the errors", max(nearer), "<", 1, "it is nearer")],
-        ),
-        Claim(
-            claim="ten steps resolve a contact",
-            criteria=[
-                Criterion(
-                    "largest median change of the impulse by more steps",
-                    max(part.impulse[0] for part in found.steps.values()),
-                    "<",
-                    5e-6,
-                    "a third of the error of the default spring",
-                )
-            ],
-        ),
-        Claim(
-            claim="the formulas of the native cone hold",
-            criteria=[
-                Criterion(
-                    "worst error of v_n'",
-                    found.formula.normal_speed.worst,
-                    "<",
-                    2e-3,
-                    "the impedance is 0.9999",
-                ),
-                Criterion("of ΔE", found.formula.energy.worst, "<", 2e-3, "the same"),
-            ],
-        ),
-        Claim(
-            claim="Moreau's law gains no energy",
-            criteria=[
-                Criterion(
-                    "part of the impacts that gain",
-                    found.formula.gains["one step, native cone"][0],
-                    "=",
-                    0,
-                    "none",
-                )
-            ],
-        ),
-        Claim(
-            claim="one step of Euler is exact",
-            criteria=[
-                Criterion("largest |e' - e|", max(found.users["one step, Euler"]), "<", 1e-9, "rounding")
-            ],
-        ),
-    )
+        "steps": max(part.impulse[0] for part in found.steps.values()),
+        "formula": found.formula,
+        "gain": found.formula.gains["one step, native cone"][0],
+        "one_step": max(found.users["one step, Euler"]),
+    }
 
 
 def tables(found: ImpactErrors) -> str:
     """Return the tables, in Markdown."""
     kinds = list(next(iter(found.kinds.values())))
-    parts = [
-        "Errors of impulses by kind of impact, median (worst; number):",
-        table(
-            ["contact", *kinds],
-            [
-                [
-                    name,
-                    *(
-                        f"{fits[kind].median:.1e} ({fits[kind].worst:.1e}; {fits[kind].number})"
-                        if kind in fits
-                        else "as frictionless"
-                        for kind in kinds
-                    ),
-                ]
-                for name, fits in found.kinds.items()
-            ],
-        ),
-    ]
+    of_kinds = [[name, *(_of_kind(fits.get(kind)) for kind in kinds)] for name, fits in found.kinds.items()]
+    parts = ["Errors of impulses by kind of impact, median (worst; number):"]
+    parts.append(table(["contact", *kinds], of_kinds))
     for name, part in found.stiffness.items():
-        columns = {
-            "impulse": part.impulse,
-            "velocity": part.velocity,
-            "spin": part.spin,
-            "impulse without diagexact": part.guessed_mass,
-            "2 S(k) - S(k/4)": part.limit,
-            f"with {FINE} steps": part.fine_limit,
-        }
-        rows = zip(part.stiffness, *columns.values(), strict=True)
+        columns = part.impulse, part.velocity, part.spin, part.guessed_mass, part.limit, part.fine_limit
+        rows = zip(part.stiffness, *columns, strict=True)
         parts += [
             f"Median errors over the stiffness, {name}; order {part.order:.2f}:",
-            table(["k [1/s²]", *columns], [[f"{k:.0e}", *map(_short, errors)] for k, *errors in rows]),
-        ]
-    for name, part in found.steps.items():
-        parts += [
-            f"Change of the impulse against {MOST_STEPS} steps, {name}:",
             table(
-                ["steps", "median"],
-                [[str(n), _short(error)] for n, error in zip(part.steps, part.impulse, strict=True)],
+                "k [1/s²] | impulse | velocity | spin | impulse without diagexact | 2 S(k) - S(k/4) | "
+                f"with {FINE} steps",
+                [[f"{k:.0e}", *map(_short, errors)] for k, *errors in rows],
             ),
         ]
+    for name, part in found.steps.items():
+        rows = [[str(n), _short(error)] for n, error in zip(part.steps, part.impulse, strict=True)]
+        parts += [f"Change of the impulse against {MOST_STEPS} steps, {name}:", table("steps | median", rows)]
     parts += ["Restitution asked for, and |obtained - asked|, smooth:", _spreads("χ", found.restitution)]
-    for name, spreads in (
-        ("μ", found.friction),
-        (f"spin up to [rad/s], μ = {RUBBED:g}", found.spin),
-        (f"tilt [deg], μ = {RUBBED:g}", found.tilt),
-    ):
+    for name, spreads in {"μ": found.friction, SPIN: found.spin, TILT: found.tilt}.items():
         parts += ["Error of the impulse at the default settings:", _spreads(name, spreads)]
-    parts += [
+    users = [[name, *(f"{error:.0e}" for error in errors)] for name, errors in found.users.items()]
+    return paragraphs(
+        *parts,
         *_cone_parts(found),
         "Largest |e' - e| of a ball, mj_step with a fixed step:",
-        table(
-            ["contact", *(f"e = {e:g}" for e in USERS_RESTITUTIONS)],
-            [[name, *(f"{error:.0e}" for error in errors)] for name, errors in found.users.items()],
-        ),
-    ]
-    return "\n\n".join(parts)
+        table(["contact", *(f"e = {e:g}" for e in USERS_RESTITUTIONS)], users),
+    )
+
+
+def _of_kind(fit: Spread | None) -> str:
+    return f"{fit.median:.1e} ({fit.worst:.1e}; {fit.number})" if fit else "as frictionless"
 
 
 def _short(error: float) -> str:
@@ -282,26 +196,20 @@ def _spreads(name: str, spreads: dict[float, Spread]) -> str:
 
 def _cone_parts(found: ImpactErrors) -> list[str]:
     cone, formula = found.cone, found.formula
+    rows = []
+    for tilt, plane in zip(cone.tilts, cone.obtained, strict=True):
+        slip, mu = divmod(int(plane.argmax()), plane.shape[1])
+        at = f"{cone.frictions[mu]:.2f}", f"{cone.slips[slip]:.2f}"
+        rows.append([f"{tilt:g}", f"{plane.max():.3f}", *at])
     return [
         f"Largest restitution of the spring with MuJoCo's native cone, {cone.restitution:g} asked for:",
-        table(
-            ["tilt [deg]", "restitution", "at μ", "at slip/normal speed"],
-            [
-                [
-                    f"{tilt:g}",
-                    f"{plane.max():.3f}",
-                    f"{cone.frictions[int(plane.argmax()) % plane.shape[1]]:.2f}",
-                    f"{cone.slips[int(plane.argmax()) // plane.shape[1]]:.2f}",
-                ]
-                for tilt, plane in zip(cone.tilts, cone.obtained, strict=True)
-            ],
-        ),
+        table("tilt [deg] | restitution | at μ | at slip/normal speed", rows),
         "In one step with the native cone:",
         f"- v_n' = χ |v_n| + μ |v_t' + χ v_t| holds to {formula.normal_speed.worst:.0e} |v_n|\n"
         f"- ΔE = (1 - χ) S · v_A/2 holds to {formula.energy.worst:.0e} E\n"
         f"- v_n' reaches {formula.pushed:.2f} χ |v_n|",
         table(
-            ["contact", "impacts that gain energy", "largest change over the energy before"],
+            "contact | impacts that gain energy | largest change over the energy before",
             [[name, f"{part:.0%}", f"{largest:+.1e}"] for name, (part, largest) in formula.gains.items()],
         ),
     ]
@@ -321,33 +229,18 @@ def draw_convergence(found: ImpactErrors) -> Figure:
             (f"the same with {FINE} steps", part.fine_limit, "v-."),
         ):
             place.loglog(part.stiffness, column, style, label=label, markersize=4)
-        place.set_title(f"{name}: order {part.order:.2f}")
-        place.set_xlabel("stiffness k [1/s²]")
-        place.set_ylabel("median error")
+        place.set(title=f"{name}: order {part.order:.2f}", xlabel="stiffness k [1/s²]", ylabel="median error")
     picture.legend(*axes[0][0].get_legend_handles_labels(), loc="outside upper left", ncols=6, fontsize=8)
     for name, part in found.steps.items():
         axes[0][2].loglog(part.steps, part.impulse, "o-", label=name)
-    axes[0][2].set_title(f"against {MOST_STEPS} steps")
-    axes[0][2].set_xlabel("steps in a contact")
+    axes[0][2].set(title=f"against {MOST_STEPS} steps", xlabel="steps in a contact")
     axes[0][2].set_ylabel("median change of the impulse")
     axes[0][2].legend()
-    for place, (label, spreads, scale) in zip(
-        axes[1],
-        (
-            ("friction μ", found.friction, "linear"),
-            (f"spin up to [rad/s], μ = {RUBBED:g}", found.spin, "log"),
-            (f"tilt [deg], μ = {RUBBED:g}", found.tilt, "linear"),
-        ),
-        strict=True,
-    ):
-        place.plot(list(spreads), [fit.median for fit in spreads.values()], "o-", label="median")
-        place.plot(list(spreads), [fit.worst for fit in spreads.values()], "s--", label="worst")
-        place.set_xscale(scale)
-        place.set_yscale("log")
-        place.set_ylim(1e-6, 2e-3)
-        place.set_xlabel(label)
-        place.set_ylabel("error of the impulse")
-        place.set_title("default settings")
+    panels = (found.friction, "friction μ", "linear"), (found.spin, SPIN, "log"), (found.tilt, TILT, "linear")
+    for place, (spreads, label, scale) in zip(axes[1], panels, strict=True):
+        draw_spreads(place, spreads)
+        place.set(xscale=scale, yscale="log", ylim=(1e-6, 2e-3), title="default settings")
+        place.set(xlabel=label, ylabel="error of the impulse")
     picture.legend(*axes[1][0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return picture
 
@@ -357,28 +250,20 @@ def draw_cone(found: ImpactErrors) -> Figure:
     cone = found.cone
     picture = Figure(figsize=(12, 3.6))
     axes = picture.subplots(1, len(cone.tilts), sharey=True)
+    style: Any = {"vmin": cone.restitution, "vmax": cone.obtained.max(), "cmap": "viridis"}
     meshes = []
     for place, tilt, plane in zip(axes, cone.tilts, cone.obtained, strict=True):
-        mesh = place.pcolormesh(
-            cone.frictions,
-            cone.slips,
-            plane,
-            vmin=cone.restitution,
-            vmax=cone.obtained.max(),
-            cmap="viridis",
-            shading="nearest",
-        )
-        meshes.append(mesh)
-        place.set_title(f"tilt {tilt:g}°")
-        place.set_xlabel("friction μ")
+        meshes.append(place.pcolormesh(cone.frictions, cone.slips, plane, shading="nearest", **style))
+        place.set(title=f"tilt {tilt:g}°", xlabel="friction μ")
     axes[0].set_ylabel("slip over normal speed")
     picture.colorbar(meshes[0], ax=axes, label=f"restitution; {cone.restitution:g} asked for")
     return picture
 
 
-REPRODUCTION = Reproduction(
-    title="how MuJoCo's contacts tend to the paper's laws of impact",
-    seconds=200,
-    make=lambda progress: result(compute(Sizes(), SEED, progress)),
+REPRODUCTION = study(
+    __name__,
+    compute,
+    measures=measures,
+    tables=tables,
     draw={"convergence": draw_convergence, "native-cone": draw_cone},
 )

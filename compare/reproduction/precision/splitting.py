@@ -15,10 +15,10 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.precision.divergence import toss_lines
-from cointoss.compare.precision.double_double import add, pair_of, scale
-from cointoss.compare.precision.planar_coin import PlanarCoin
-from cointoss.compare.precision.planar_state import part, put
+from cointoss.compare.reproduction.precision.divergence import toss_lines
+from cointoss.compare.reproduction.precision.double_double import add, pair_of, scale
+from cointoss.compare.reproduction.precision.planar_coin import PlanarCoin
+from cointoss.compare.reproduction.precision.planar_state import part, put
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import Array
 

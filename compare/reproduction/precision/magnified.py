@@ -6,10 +6,10 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.precision.double_double import exact, pair_of
-from cointoss.compare.precision.planar_coin import PlanarCoin
-from cointoss.compare.precision.planar_toss import toss_many
-from cointoss.compare.precision.splitting import spread
+from cointoss.compare.reproduction.precision.double_double import exact, pair_of
+from cointoss.compare.reproduction.precision.planar_coin import PlanarCoin
+from cointoss.compare.reproduction.precision.planar_toss import toss_many
+from cointoss.compare.reproduction.precision.splitting import spread
 from cointoss.models.records import Array
 
 MAGNIFICATION = 10

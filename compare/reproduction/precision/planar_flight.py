@@ -11,7 +11,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from cointoss.compare.precision.double_double import (
+from cointoss.compare.reproduction.precision.double_double import (
     ONE,
     add,
     cosine_minus_parabola,
@@ -23,7 +23,7 @@ from cointoss.compare.precision.double_double import (
     sine_minus_angle,
     subtract,
 )
-from cointoss.compare.precision.planar_state import DRIFT, FALL, HEIGHT, SPIN, TILT, part, put
+from cointoss.compare.reproduction.precision.planar_state import DRIFT, FALL, HEIGHT, SPIN, TILT, part, put
 from cointoss.models.kernel.compiled import compiled
 
 ORDER = 60

@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.precision.double_double import (
+from cointoss.compare.reproduction.precision.double_double import (
     ONE,
     add,
     multiply,
@@ -15,7 +15,7 @@ from cointoss.compare.precision.double_double import (
     sine_cosine,
     subtract,
 )
-from cointoss.compare.precision.planar_coin import Units, square_root
+from cointoss.compare.reproduction.precision.planar_coin import Units, square_root
 from cointoss.models.kernel.compiled import compiled
 
 HEIGHT, FALL, TILT, SPIN, DRIFT, SIZE = 0, 1, 2, 3, 4, 5

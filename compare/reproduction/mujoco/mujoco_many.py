@@ -5,7 +5,7 @@
 
 import time
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
@@ -15,10 +15,7 @@ from cointoss import coin_mj
 from cointoss.coin_mj import MANY, Realisation, Settings
 from cointoss.coin_mj.model.state import of_release
 from cointoss.compare.output.progress import Progress
-from cointoss.compare.output.tables import table
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
-from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.mujoco_fixed_steps import loop_model, restitutions_of_coins
 from cointoss.compare.reproduction.setups.mujoco_impacts import (
     by_law,
@@ -29,6 +26,7 @@ from cointoss.compare.reproduction.setups.mujoco_impacts import (
     relative_errors,
 )
 from cointoss.compare.reproduction.setups.mujoco_study import RESTITUTIONS, RUBBED, Spread, spread
+from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.laws import ContactLaw
 from cointoss.models.reading import load
 from cointoss.models.records import Array
@@ -87,12 +85,7 @@ class TossSpeeds:
     """By realisation."""
 
 
-def result(found: TossSpeeds) -> Result:
-    """Return the study's tables and claims."""
-    return Result(claims=claims(found), data=found, tables=tables(found))
-
-
-def compute(tosses: int, touches: int, seed: int, progress: Progress) -> TossSpeeds:
+def compute(progress: Progress, tosses: int = TOSSES, touches: int = TOUCHES, seed: int = SEED) -> TossSpeeds:
     """Time `tosses` tosses by each realisation, and measure the errors of `touches` impacts."""
     rng = np.random.default_rng(seed)
     scenario, releases = load(SCENARIO), draw_releases(rng, tosses)
@@ -183,77 +176,38 @@ def _loop_seconds(scenario: Scenario, settings: Settings, step: float) -> float:
     return (time.process_time() - start) / data.time
 
 
-def claims(found: TossSpeeds) -> tuple[Claim, ...]:
-    """Return the claims of the study."""
+def measures(found: TossSpeeds) -> dict[str, Any]:
+    """Return what the claims name."""
     times_faster = [
         speed.tosses_per_second / speed.loop_enough.tosses_per_second
         for speed in found.speeds.values()
         if speed.loop_enough is not None
     ]
-    return (
-        Claim(
-            claim="restitution errs by at most 1e-2",
-            criteria=[
-                Criterion(
-                    "worst error",
-                    max(speed.restitution.worst for speed in found.speeds.values()),
-                    "<",
-                    ENOUGH,
-                    "an error that may do",
-                )
-            ],
-        ),
-        Claim(
-            claim="no loop of fixed steps whose restitution errs by at most 1e-2 is a tenth as fast",
-            criteria=[
-                Criterion(
-                    "least ratio of speeds", min(times_faster, default=np.inf), ">", 10, "ten times as fast"
-                )
-            ],
-        ),
-    )
+    return {
+        "worst": max(speed.restitution.worst for speed in found.speeds.values()),
+        "ratio": min(times_faster, default=np.inf),
+    }
 
 
 def tables(found: TossSpeeds) -> str:
     """Return the tables, in Markdown."""
-
-    def errors(fit: Spread) -> str:
-        return f"{fit.median:.0e} ({fit.worst:.0e})"
-
-    speeds = [
-        [
-            name,
-            f"{speed.tosses_per_second:.0f}",
-            *map(errors, (speed.restitution, speed.smooth, speed.coulomb)),
-        ]
-        for name, speed in found.speeds.items()
-    ]
-    loops = []
+    speeds, loops = [], []
     for name, speed in found.speeds.items():
+        fits = speed.restitution, speed.smooth, speed.coulomb
+        errors = [f"{fit.median:.0e} ({fit.worst:.0e})" for fit in fits]
+        speeds.append([name, f"{speed.tosses_per_second:.0f}", *errors])
         for error, loop in ((speed.restitution.worst, speed.loop), (ENOUGH, speed.loop_enough)):
-            row = f"{name}, restitution to {error:.0e}"
-            if loop is None:
-                loops.append([row, f"none down to {FINEST_STEP:.0e}", "", ""])
-                continue
-            ratio = float(f"{speed.tosses_per_second / loop.tosses_per_second:.2g}")
-            loops.append([row, f"{loop.step:.1e}", f"{loop.tosses_per_second:.2g}", f"{ratio:,g}"])
-    duration = found.speeds[Realisation.SPRING.value].duration
-    return "\n\n".join(
-        [
-            table(
-                ["contact", "tosses per second", "restitution", "impulse, smooth", "impulse, Coulomb"], speeds
-            ),
-            table(["`mj_step` with fixed steps", "step [s]", "tosses per second", "times fewer"], loops),
-            f"On {found.threads} threads with a core each, by the processor's time; "
-            f"a toss lasts {duration:.1f} s on average.",
-        ]
+            cells = [f"none down to {FINEST_STEP:.0e}", "", ""]
+            if loop is not None:
+                ratio = float(f"{speed.tosses_per_second / loop.tosses_per_second:.2g}")
+                cells = [f"{loop.step:.1e}", f"{loop.tosses_per_second:.2g}", f"{ratio:,g}"]
+            loops.append([f"{name}, restitution to {error:.0e}", *cells])
+    return paragraphs(
+        table("contact | tosses per second | restitution | impulse, smooth | impulse, Coulomb", speeds),
+        table("`mj_step` with fixed steps | step [s] | tosses per second | times fewer", loops),
+        f"On {found.threads} threads with a core each, by the processor's time; "
+        f"a toss lasts {found.speeds[Realisation.SPRING.value].duration:.1f} s on average.",
     )
 
 
-REPRODUCTION = Reproduction(
-    title="how fast MuJoCo makes many tosses, how exactly, and beside a loop of fixed steps",
-    seconds=200,
-    make=lambda progress: result(compute(TOSSES, TOUCHES, SEED, progress)),
-    read=lambda folder: result(read_numbers(folder, TossSpeeds)),
-    draw={},
-)
+REPRODUCTION = study(__name__, compute, record=TossSpeeds, measures=measures, tables=tables, draw={})

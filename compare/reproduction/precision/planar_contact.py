@@ -2,7 +2,7 @@
 
 import math
 
-from cointoss.compare.precision.double_double import (
+from cointoss.compare.reproduction.precision.double_double import (
     ONE,
     add,
     divide,
@@ -13,7 +13,7 @@ from cointoss.compare.precision.double_double import (
     square_root,
     subtract,
 )
-from cointoss.compare.precision.planar_state import (
+from cointoss.compare.reproduction.precision.planar_state import (
     DRIFT,
     FALL,
     HEIGHT,

@@ -15,10 +15,10 @@ from typing import Any, NamedTuple
 
 from flint import acb, arb, ctx, fmpq
 
-from cointoss.compare.precision.certified_gap import Gap, polynomial
-from cointoss.compare.precision.double_double import exact
-from cointoss.compare.precision.planar_coin import PlanarCoin, Units, square_root
-from cointoss.compare.precision.taylor_models import (
+from cointoss.compare.reproduction.precision.certified_gap import Gap, polynomial
+from cointoss.compare.reproduction.precision.double_double import exact
+from cointoss.compare.reproduction.precision.planar_coin import PlanarCoin, Units, square_root
+from cointoss.compare.reproduction.precision.taylor_models import (
     ORDER,
     TaylorModel,
     UndecidedError,

@@ -5,10 +5,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.precision.planar_coin import PlanarCoin
-from cointoss.compare.precision.planar_flight import ORDER
-from cointoss.compare.precision.planar_state import SIZE, copy_state
-from cointoss.compare.precision.planar_toss import MOST_IMPACTS, toss
+from cointoss.compare.reproduction.precision.planar_coin import PlanarCoin
+from cointoss.compare.reproduction.precision.planar_flight import ORDER
+from cointoss.compare.reproduction.precision.planar_state import SIZE, copy_state
+from cointoss.compare.reproduction.precision.planar_toss import MOST_IMPACTS, toss
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import Array
 

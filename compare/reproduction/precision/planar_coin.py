@@ -4,7 +4,7 @@ from fractions import Fraction
 from math import isqrt
 from typing import NamedTuple
 
-from cointoss.compare.precision.double_double import Pair, pair_of
+from cointoss.compare.reproduction.precision.double_double import Pair, pair_of
 from cointoss.models.laws import ContactLaw
 from cointoss.models.parts import RESISTANCES
 from cointoss.models.scenario import Scenario

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -10,9 +11,7 @@ from cointoss.coin_mj import Friction, Settings
 from cointoss.coin_mj.model.settings import ROUGH
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, VERMILION
-from cointoss.compare.output.tables import table
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.mujoco_impacts import (
     by_law,
     by_mujoco,
@@ -21,6 +20,8 @@ from cointoss.compare.reproduction.setups.mujoco_impacts import (
     on_floor,
     relative_errors,
 )
+from cointoss.compare.reproduction.setups.mujoco_study import draw_spreads
+from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Array
 
@@ -52,6 +53,10 @@ NAMES = {law: f"({letter}) {law}" for letter, law in zip("abcdef", ContactLaw, s
 }
 
 
+MADE = (ContactLaw.SMOOTH, ContactLaw.PERFECTLY_ROUGH, ContactLaw.SLIP_PRESERVING, ContactLaw.COULOMB)
+"""The laws that MuJoCo realises."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Fit:
     """How a contact of MuJoCo's meets a law: |S_law - S|/|S_law| over the impacts."""
@@ -78,7 +83,7 @@ class LawFits:
         return min(self.fits[law], key=lambda name: self.fits[law][name].median)
 
 
-def compute(count: int, seed: int, progress: Progress) -> LawFits:
+def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> LawFits:
     """Return the impulses of `count` random impacts."""
     parts = len(CONTACTS) + len(FRICTIONS) + 1
     cases = draw_touches(np.random.default_rng(seed), count, RESTITUTIONS)
@@ -110,58 +115,15 @@ def _fit(S_law: Array, S: Array) -> Fit:
     return Fit(median=float(np.median(errors)), worst=float(errors.max()))
 
 
-def result(found: LawFits) -> Result:
-    """Return the study's tables and claims."""
-    return Result(claims=claims(found), data=found, tables=tables(found))
-
-
-def claims(found: LawFits) -> tuple[Claim, ...]:
-    """Return the claims of the study."""
-    best = {law: found.fits[law][found.best(law)].median for law in found.laws}
-    realised = (
-        ContactLaw.SMOOTH,
-        ContactLaw.PERFECTLY_ROUGH,
-        ContactLaw.SLIP_PRESERVING,
-        ContactLaw.COULOMB,
-    )
-    return (
-        Claim(
-            claim="MuJoCo realises the smooth, the perfectly rough, the slip-preserving and Coulomb's law",
-            criteria=[
-                Criterion(
-                    "largest of their median errors",
-                    max(best[NAMES[law]] for law in realised),
-                    "<",
-                    REALISED / 100,
-                    "a hundredth of what tells a law from others",
-                )
-            ],
-        ),
-        Claim(
-            claim="MuJoCo realises neither the sharp edge nor the knurled one",
-            criteria=[
-                Criterion(
-                    "smaller of their median errors",
-                    min(best[NAMES[law]] for law in (ContactLaw.SHARP_EDGE, ContactLaw.KNURLED)),
-                    ">",
-                    REALISED,
-                    "another law's error is as large",
-                )
-            ],
-        ),
-        Claim(
-            claim="MuJoCo's native cone with one damping is not Coulomb's law",
-            criteria=[
-                Criterion(
-                    "median error",
-                    found.fits["coulomb"]["native cone"].median,
-                    ">",
-                    1e-3,
-                    "ten times that of Coulomb's force",
-                )
-            ],
-        ),
-    )
+def measures(found: LawFits) -> dict[str, Any]:
+    """Return what the claims name."""
+    best = {law: found.fits[NAMES[law]][found.best(NAMES[law])].median for law in ContactLaw}
+    return {
+        "realised": max(best[law] for law in MADE),
+        "hundredth": REALISED / 100,
+        "others": min(best[law] for law in (ContactLaw.SHARP_EDGE, ContactLaw.KNURLED)),
+        "native": found.fits["coulomb"]["native cone"].median,
+    }
 
 
 def tables(found: LawFits) -> str:
@@ -171,23 +133,17 @@ def tables(found: LawFits) -> str:
         said = f"{fit.median:.0e} ({fit.worst:.0e})"
         return f"**{said}**" if contact == found.best(law) and fit.median < REALISED else said
 
-    return "\n\n".join(
-        [
-            f"|S_law - S|/|S_law| of {len(next(iter(found.laws.values())))} random impacts, median (worst); "
-            f"restitution {RESTITUTIONS[0]:g} to {RESTITUTIONS[1]:g}, friction {FRICTION:g} unless named",
-            table(
-                ["law", *CONTACTS],
-                [
-                    [law, *(cell(law, name, fit) for name, fit in fits.items())]
-                    for law, fits in found.fits.items()
-                ],
-            ),
-            "Coulomb's force against the perfectly rough law:",
-            table(
-                ["μ", "median", "worst"],
-                [[f"{mu:g}", f"{fit.median:.0e}", f"{fit.worst:.0e}"] for mu, fit in found.growing.items()],
-            ),
-        ]
+    fits = [
+        [law, *(cell(law, name, fit) for name, fit in by_contact.items())]
+        for law, by_contact in found.fits.items()
+    ]
+    growing = [[f"{mu:g}", f"{fit.median:.0e}", f"{fit.worst:.0e}"] for mu, fit in found.growing.items()]
+    return paragraphs(
+        f"|S_law - S|/|S_law| of {len(next(iter(found.laws.values())))} random impacts, median (worst); "
+        f"restitution {RESTITUTIONS[0]:g} to {RESTITUTIONS[1]:g}, friction {FRICTION:g} unless named",
+        table(["law", *CONTACTS], fits),
+        "Coulomb's force against the perfectly rough law:",
+        table("μ | median | worst", growing),
     )
 
 
@@ -199,36 +155,20 @@ def draw(found: LawFits) -> Figure:
         best = found.best(law)
         S = found.contacts[best]
         for column, color in enumerate((VERMILION, GREEN, BLUE)):
-            label = "xyz"[column]
-            place.plot(
-                1e3 * S_law[:, column],
-                1e3 * S[:, column],
-                ".",
-                color=color,
-                markersize=4,
-                label=f"$S_{label}$",
-            )
+            x, y, label = 1e3 * S_law[:, column], 1e3 * S[:, column], f"$S_{'xyz'[column]}$"
+            place.plot(x, y, ".", color=color, markersize=4, label=label)
         ends = [1e3 * min(S_law.min(), S.min()), 1e3 * max(S_law.max(), S.max())]
         place.plot(ends, ends, color=GREY, linewidth=0.7)
         realised = found.fits[law][best].median < REALISED
         place.set_title(f"{law}\n{'by' if realised else 'not; nearest:'} {best}", fontsize=8.5)
-        place.set_xlabel("by the law [mN s]")
-        place.set_ylabel("by MuJoCo [mN s]")
+        place.set(xlabel="by the law [mN s]", ylabel="by MuJoCo [mN s]")
     axes.flat[0].legend()
     grow = axes.flat[-1]
-    mu = list(found.growing)
-    grow.loglog(mu, [fit.median for fit in found.growing.values()], "o-", label="median")
-    grow.loglog(mu, [fit.worst for fit in found.growing.values()], "s--", label="worst")
+    draw_spreads(grow, found.growing)
     grow.set_title("perfectly rough, as μ grows", fontsize=8.5)
-    grow.set_xlabel("μ of Coulomb's force")
-    grow.set_ylabel("error of the impulse")
+    grow.set(xscale="log", yscale="log", xlabel="μ of Coulomb's force", ylabel="error of the impulse")
     grow.legend()
     return picture
 
 
-REPRODUCTION = Reproduction(
-    title="which of the paper's contact laws MuJoCo's contacts can realise",
-    seconds=60,
-    make=lambda progress: result(compute(COUNT, SEED, progress)),
-    draw={"impulses": draw},
-)
+REPRODUCTION = study(__name__, compute, measures=measures, tables=tables, draw={"impulses": draw})

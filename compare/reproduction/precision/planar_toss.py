@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.precision.planar_coin import PlanarCoin
-from cointoss.compare.precision.planar_contact import (
+from cointoss.compare.reproduction.precision.planar_coin import PlanarCoin
+from cointoss.compare.reproduction.precision.planar_contact import (
     LIES,
     LIFTS,
     drawn_up,
@@ -17,9 +17,9 @@ from cointoss.compare.precision.planar_contact import (
     slap,
     stop,
 )
-from cointoss.compare.precision.planar_flight import ORDER, fly
-from cointoss.compare.precision.planar_slide import slide
-from cointoss.compare.precision.planar_state import (
+from cointoss.compare.reproduction.precision.planar_flight import ORDER, fly
+from cointoss.compare.reproduction.precision.planar_slide import slide
+from cointoss.compare.reproduction.precision.planar_state import (
     FALL,
     HEIGHT,
     SIZE,

@@ -5,8 +5,8 @@ from typing import Any
 
 from flint import arb, ctx
 
-from cointoss.compare.precision.planar_flight import safe_step
-from cointoss.compare.precision.taylor_models import UndecidedError
+from cointoss.compare.reproduction.precision.planar_flight import safe_step
+from cointoss.compare.reproduction.precision.taylor_models import UndecidedError
 
 MOST_STEPS = 20_000
 """Of the search for a touch."""

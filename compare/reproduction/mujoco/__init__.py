@@ -1,0 +1,1 @@
+"""Studies of MuJoCo's contacts, a module each, as `REPRODUCTION`."""

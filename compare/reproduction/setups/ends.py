@@ -1,0 +1,23 @@
+"""How many tosses end how."""
+
+from cointoss.compare.reproduction.claim import Estimate
+from cointoss.compare.reproduction.estimates import share_of
+from cointoss.models.records import Outcome
+
+Ends = dict[str, int]
+"""Numbers of tosses by outcome and ending, as in "edge, paper"."""
+
+
+def tosses(ends: Ends) -> int:
+    """Return how many tosses there are."""
+    return sum(ends.values())
+
+
+def ended_as(ends: Ends, outcome: Outcome) -> int:
+    """Return how many tosses have an outcome."""
+    return sum(number for name, number in ends.items() if name.startswith(f"{outcome}, "))
+
+
+def on_edge(ends: Ends) -> Estimate:
+    """Return the share of tosses that end on edge."""
+    return share_of(ended_as(ends, Outcome.EDGE), tosses(ends))
