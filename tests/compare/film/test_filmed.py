@@ -34,7 +34,9 @@ def test_a_coin_is_followed_until_it_lies_still_and_keeps_its_settled_face(engin
     assert tilt < 0.1 if ending == Ending.LYING else tilt > 0.5
 
 
-@pytest.mark.parametrize("ending", [Ending.CAUGHT, Ending.LYING, Ending.PERIODIC, Ending.PERPETUAL, Ending.MAX_IMPACTS])
+@pytest.mark.parametrize(
+    "ending", [Ending.CAUGHT, Ending.LYING, Ending.PERIODIC, Ending.PERPETUAL, Ending.MAX_IMPACTS]
+)
 def test_what_has_ended_otherwise_is_filmed_as_it_is(ending):
     toss = made(MadePath(position=(0, 0, 0.1)), ending=ending)
     assert followed(toss).motion is toss
