@@ -52,3 +52,13 @@ def test_a_toss_in_plain_mode_is_the_same_to_the_bit(tmp_path, engine):
     words = ("-m", "cointoss", "toss", "fig24a", "--engine", engine, "--json")
     plain, tested = run(tmp_path, *words, COINTOSS_COMPILER="plain"), run(tmp_path, *words)
     assert json.loads(plain.stdout) == json.loads(tested.stdout)
+
+
+def test_without_a_compiler_mujoco_is_refused_in_one_line():
+    words = ("-m", "cointoss", "toss", "fig24a", "--engine", "mujoco")
+    done = subprocess.run(
+        [sys.executable, *words], env={**HERE, "NUMBA_DISABLE_JIT": "1"}, capture_output=True, text=True
+    )
+    (line,) = done.stderr.splitlines()
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "NUMBA_DISABLE_JIT" in line
