@@ -3,6 +3,7 @@
 import math
 from typing import NamedTuple
 
+from cointoss.models.body import is_linear
 from cointoss.models.geometry import FLAT_SINE, height_of_center, tilt_sine_of
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import cross, dot, norm
@@ -35,9 +36,7 @@ def drag_bound(body, v, w, window):
         k [kg/s], ℓ [m], and d [kg m²/s].
     """
     air, drag, r, h = body.air, body.drag, body.radius, body.thickness
-    b = body.air.exponent
-    # `is_linear`, spelt out: only so does a type say that the power below is not to be compiled.
-    if b is None or b == 0:
+    if is_linear(air):
         return (
             max(drag.force_tangential, drag.force_normal),
             norm(body.center),
@@ -47,8 +46,14 @@ def drag_bound(body, v, w, window):
     spin, ratio = _spin_bound(body, w), body.inertia_smallest / body.mass
     start = (dot(v, v) + ratio * spin * spin) ** 0.5
     fastest = (start + body.gravity * window) * (1 + arm * arm / ratio) ** 0.5
-    k = math.pi * r * (r + h) * (air.normal + 2 * air.tangential) * fastest**b
+    k = math.pi * r * (r + h) * (air.normal + 2 * air.tangential) * _power(fastest, air.exponent)
     return k, arm, 0.0
+
+
+@compiled
+def _power(x: float, b: float | None) -> float:
+    """Return x^b, with b = 0 in linear air."""
+    return 1.0 if b is None else x**b
 
 
 @compiled

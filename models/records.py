@@ -199,10 +199,9 @@ class Impacts:
         }
 
 
-IMPACT_ROW = np.dtype(
-    [(item.name, item.metadata["kind"], item.metadata["shape"]) for item in fields(Impacts)], align=True
-)
-"""One impact as a row: the columns of `Impacts`."""
+_ROW = [(item.name, item.metadata["kind"], item.metadata["shape"]) for item in fields(Impacts)]
+IMPACT_ROW = np.dtype((np.record, np.dtype(_ROW, align=True)))
+"""One impact as a row: the columns of `Impacts`. A record: to Python, too, its fields are attributes."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -49,28 +49,16 @@ def foreign(tmp_path):
     return tmp_path
 
 
-# A row of an array shows its fields as attributes to Python only where the type is a record.
-INTERPRETED = """
-import numpy, cointoss
-from cointoss.models import records
-assert cointoss.__file__ == "FOLDER/cointoss/__init__.py", cointoss.__file__
-records.IMPACT_ROW = numpy.dtype((numpy.record, records.IMPACT_ROW))
-import runpy; runpy.run_path("FOLDER/bin/cointoss", run_name="__main__")
-"""
-
-
-def run(installed, folder, *words, interpreted=False):
-    """Run the command that pip made, and see that the packages are those installed."""
-    script = INTERPRETED.replace("FOLDER", str(installed))
-    command = ["-c", script] if interpreted else [str(installed / "bin" / "cointoss")]
+def run(installed, folder, *words, **environment):
+    """Run Python, which finds what is installed there; a foreign folder comes first."""
     return subprocess.run(
-        [sys.executable, "-P", *command, *words],
+        [sys.executable, "-P", *words],
         cwd=folder,
         env={
             **os.environ,
             "PYTHONPATH": os.pathsep.join([str(folder), str(installed)]),
             "PYTHONDONTWRITEBYTECODE": "1",
-            **({"NUMBA_DISABLE_JIT": "1"} if interpreted else {}),
+            **environment,
         },
         capture_output=True,
         text=True,
@@ -91,17 +79,20 @@ def test_a_wheel_has_every_file_under_one_name_and_no_other(wheel):
 
 
 @pytest.mark.parametrize(
-    "interpreted",
+    "environment",
     # To compile what is installed anew takes minutes.
-    [True, pytest.param(False, marks=pytest.mark.slow)],
+    [{"NUMBA_DISABLE_JIT": "1"}, pytest.param({}, marks=pytest.mark.slow)],
 )
-def test_the_installed_command_tosses_a_coin_beside_foreign_packages(installed, foreign, interpreted):
-    done = run(installed, foreign, "toss", "fig24a", "--max-impacts", "1", interpreted=interpreted)
+def test_the_installed_command_tosses_a_coin_beside_foreign_packages(installed, foreign, environment):
+    command = str(installed / "bin" / "cointoss")
+    done = run(installed, foreign, command, "toss", "fig24a", "--max-impacts", "1", **environment)
     assert (done.returncode, done.stderr) == (0, "")
     assert "sequence  H" in done.stdout
 
 
 def test_the_installed_command_knows_its_version(installed, foreign):
     project = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    done = run(installed, foreign, "--version")
+    done = run(installed, foreign, str(installed / "bin" / "cointoss"), "--version")
     assert done.stdout.split() == ["cointoss,", "version", project["version"]]
+    done = run(installed, foreign, "-c", "import cointoss; print(cointoss.__file__)")
+    assert done.stdout.strip() == str(installed / "cointoss" / "__init__.py")

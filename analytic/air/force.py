@@ -4,8 +4,9 @@ from cointoss.analytic.air.face_friction import face_friction_change
 from cointoss.analytic.air.pressure import pressure_change
 from cointoss.analytic.air.quadrature import CHANGE_NODES, FORCE_NODES
 from cointoss.analytic.air.wall_friction import wall_friction_change
+from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import add, cross, scale, subtract
+from cointoss.models.kernel.vectors import Vector, add, cross, scale, subtract
 
 _AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
@@ -28,7 +29,13 @@ def force_and_moment(body, v, w):
         f: force, body frame, (3,) [N].
         m_C: moment about C, body frame, (3,) [N m].
     """
-    if body.air.exponent is not None:
+    return _force_and_moment(body.air.exponent, body, v, w)
+
+
+@compiled
+def _force_and_moment(exponent: float | None, body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]:
+    """Return them by the exponent: only of an argument that is None numba leaves out what it rules out."""
+    if exponent is not None:
         return _by_quadrature(body, v, w)
     drag = body.drag
     v_B = subtract(v, cross(w, body.center))
@@ -63,7 +70,14 @@ def force_and_moment_change(body, v, w, dv, dw):
         df: change of the force, body frame, (3,) [N].
         dm_C: change of the moment about C, body frame, (3,) [N m].
     """
-    if body.air.exponent is None:
+    return _force_and_moment_change(body.air.exponent, body, v, w, dv, dw)
+
+
+@compiled
+def _force_and_moment_change(
+    exponent: float | None, body: Body, v: Vector, w: Vector, dv: Vector, dw: Vector
+) -> tuple[Vector, Vector]:
+    if exponent is None:
         return force_and_moment(body, dv, dw)
     v_B, dv_B = subtract(v, cross(w, body.center)), subtract(dv, cross(dw, body.center))
     df, dm_B = change_about_B(body, v_B, w, dv_B, dw, CHANGE_NODES)

@@ -8,8 +8,10 @@ from typing import Any
 
 import llvmlite.binding
 import mujoco
-from numba import types
+from numba import config, types
 from numba.extending import intrinsic
+
+from cointoss.models.records import UnusableEngineError
 
 # The library that the bindings have loaded already: compiled code finds its functions by their names.
 PATH = str(next(Path(mujoco.__file__).parent.glob("*mujoco.*")))
@@ -55,3 +57,12 @@ def _pointer_to(_context, _address, kind):
 
 pointer_to: Any = _pointer_to
 """Takes an address and a type, in compiled code: gives the address as a pointer to values of the type."""
+
+
+def require_compiled_code() -> None:
+    """Raise UnusableEngineError where nothing is compiled: Python cannot call these functions."""
+    if config.DISABLE_JIT:
+        raise UnusableEngineError(
+            "NUMBA_DISABLE_JIT is set, but MuJoCo's functions are called by compiled code alone; "
+            "unset it, or toss by --engine analytic"
+        )

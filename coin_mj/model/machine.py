@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 
+from cointoss.coin_mj.model.library import require_compiled_code
 from cointoss.coin_mj.model.memory import joint_arrays, offset_of, require_layout
 from cointoss.coin_mj.model.scene import build, floor_height
 from cointoss.coin_mj.model.settings import (
@@ -107,8 +108,10 @@ def machine_of(scenario: Scenario, settings: Settings, thickness: float) -> Mach
     """Return the MuJoCo coin of a scenario, with the thickness of its shape [m], at its release.
 
     Raises:
+        UnusableEngineError: if nothing is compiled.
         LayoutError: if MuJoCo's memory is not laid out as it describes.
     """
+    require_compiled_code()
     rebound, body, mu = (
         rebound_of(scenario.floor.restitution, settings),
         _with_air_of_any_kind(scenario.body),

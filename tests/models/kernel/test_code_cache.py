@@ -12,7 +12,8 @@ from subprocess import PIPE
 import pytest
 
 import cointoss.models.kernel.code_cache as code_cache
-from cointoss.models.kernel.code_cache import UNUSED, CodeFiles, cache_folder, remove_unused
+from cointoss.models.kernel.code_cache import UNUSED, cache_folder, remove_unused
+from cointoss.models.kernel.fork.code_files import CodeFiles
 from tests.helpers.modules import write
 
 TOP = Path(code_cache.__file__).parents[2]
@@ -110,6 +111,20 @@ def test_an_edit_compiles_anew_what_it_can_change_and_no_more(folder, callee, ru
     assert run_caller() == [32, 0, 0, 1]
     write(folder, "cointoss.analytic.other", "unused = 1\n")
     assert run_caller() == [32, 1, 0, 0]
+
+
+def test_plain_mode_compiles_anew_what_an_edit_can_change(folder, run):
+    script = (
+        "import os\nos.environ['COINTOSS_COMPILER'] = 'plain'\n"
+        "from cointoss.analytic.caller import part, whole\n"
+        "print(whole(10.0), *(sum(f.stats.cache_hits.values()) for f in (whole, part)))"
+    )
+    write(folder, "cointoss.analytic.callee", CALLEE.format(2.0))
+    write(folder, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
+    assert run(folder, script) == [21, 0, 0]
+    assert run(folder, script) == [21, 1, 0]
+    write(folder, "cointoss.analytic.callee", CALLEE.format(3.0))
+    assert run(folder, script) == [31, 0, 0]
 
 
 def test_code_of_a_source_edited_since_it_was_imported_is_not_kept(folder, run):
@@ -336,7 +351,7 @@ def test_code_that_cannot_be_written_is_not_kept(folder, run, run_caller, writte
     write(folder, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
     (folder / "cache").mkdir()
     full_disk = (
-        "from pathlib import Path\nfrom cointoss.models.kernel.code_cache import CodeFiles\n"
+        "from pathlib import Path\nfrom cointoss.models.kernel.fork.code_files import CodeFiles\n"
         "def full(*_, **__): raise OSError(28, 'No space left on device')\n"
         f"{written} = full\n"
     )

@@ -31,11 +31,9 @@ from numba.core.untyped_passes import (
     LiteralPropagationSubPipelinePass,
     LiteralUnroll,
     MakeFunctionToJitFunction,
-    RewriteSemanticConstants,
     WithLifting,
 )
 
-from cointoss.models.kernel.none_fields import DecideNoneFields
 from cointoss.models.kernel.sources import part_of, source_hash
 
 
@@ -295,11 +293,10 @@ class CalleeCompiler(Compiler):
         self.state.typingctx = callee_codegen().typing
 
     def define_pipelines(self) -> list[PassManager]:
-        """Return numba's passes, without those for what compiled functions here do not contain, and ours."""
+        """Return numba's passes, without those for what compiled functions here do not contain."""
         (pipeline,) = super().define_pipelines()
         needed = PassManager(pipeline.pipeline_name)
         needed.passes = [step for step in pipeline.passes if step[0] not in _NOT_NEEDED]
-        needed.add_pass_after(DecideNoneFields, RewriteSemanticConstants)
         needed.finalize()
         return [needed]
 

@@ -1,0 +1,64 @@
+"""Plain mode: compiled by what numba makes public, to the same bits; and nothing compiled at all."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from cointoss.models.kernel.vectors import solve
+from tests.helpers.command_line import HERE
+
+SOLVED = """
+import sys
+{first}
+from cointoss.models.kernel.vectors import solve
+print(*(x.hex() for x in solve({matrix}, {vector})))
+assert "cointoss.models.kernel.fork.functions" not in sys.modules
+"""
+MATRIX, VECTOR = ((2.0, 0.1, 1.0), (0.3, 3.0, 0.0), (0.5, 0.0, 4.0)), (1.0, 2.0, 3.0)
+
+
+def run(cache, *words, **environment):
+    """Run Python with a cache of its own."""
+    done = subprocess.run(
+        [sys.executable, *words],
+        env={**HERE, "NUMBA_CACHE_DIR": str(cache), **environment},
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    return done
+
+
+@pytest.mark.parametrize(
+    ("first", "asked", "version"),
+    [("", "plain", ""), ("import numba; numba.__version__ = '0.99.1'", "", "0.99.1")],
+)
+def test_plain_mode_gives_the_same_bits_and_says_once_that_it_takes_longer(tmp_path, first, asked, version):
+    script = SOLVED.format(first=first, matrix=MATRIX, vector=VECTOR)
+    done = run(tmp_path, "-c", script, COINTOSS_COMPILER=asked)
+    assert done.stdout.split() == [x.hex() for x in solve(MATRIX, VECTOR)]
+    (line,) = done.stderr.splitlines()
+    assert "compiling in plain mode" in line
+    assert version in line
+    again = run(tmp_path, "-c", script, COINTOSS_COMPILER=asked)
+    assert (again.stdout, again.stderr) == (done.stdout, ""), "read from disk"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", ["analytic", "mujoco"])
+def test_a_toss_in_plain_mode_is_the_same_to_the_bit(tmp_path, engine):
+    words = ("-m", "cointoss", "toss", "fig24a", "--engine", engine, "--json")
+    plain, tested = run(tmp_path, *words, COINTOSS_COMPILER="plain"), run(tmp_path, *words)
+    assert json.loads(plain.stdout) == json.loads(tested.stdout)
+
+
+def test_without_a_compiler_mujoco_is_refused_in_one_line():
+    words = ("-m", "cointoss", "toss", "fig24a", "--engine", "mujoco")
+    done = subprocess.run(
+        [sys.executable, *words], env={**HERE, "NUMBA_DISABLE_JIT": "1"}, capture_output=True, text=True
+    )
+    (line,) = done.stderr.splitlines()
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "NUMBA_DISABLE_JIT" in line
