@@ -61,19 +61,19 @@ class Rules(NamedTuple):
 
 
 @compiled
-def resists(rules):
+def resists(rules: Rules) -> bool:
     """Return whether the floor resists rolling or pivoting."""
     return rules.rolling_friction > 0 or rules.pivoting_friction > 0
 
 
 @compiled
-def is_to_be_caught(rules):
+def is_to_be_caught(rules: Rules) -> bool:
     """Return whether a hand catches the coin."""
     return rules.caught < math.inf
 
 
 @compiled
-def is_ideal(body):
+def is_ideal(body: Body) -> bool:
     """Return whether the coin is balanced, with the inertia of a symmetric top about its normal."""
     c, J = body.center, body.inertia
     balanced = c[0] == 0 and c[1] == 0 and c[2] == 0
@@ -81,12 +81,12 @@ def is_ideal(body):
 
 
 @compiled
-def is_linear(air):
+def is_linear(air: AirLaw) -> bool:
     """Return whether the air's force is linear in the velocity, or none."""
     return air.exponent is None or air.exponent == 0
 
 
 @compiled
-def in_vacuum(body):
+def in_vacuum(body: Body) -> bool:
     """Return whether there is no air."""
     return body.air.normal == 0 and body.air.tangential == 0

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from contextlib import nullcontext, suppress
 from copy import copy
 from inspect import signature
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 from llvmlite import binding
 from numba import _dynfunc
@@ -25,6 +25,8 @@ from cointoss.models.kernel.code_cache import CALLEE, CodeCache, LocatedImpl, ke
 from cointoss.models.kernel.compiling import compiling
 from cointoss.models.kernel.sources import is_as_imported, part_of
 
+P = ParamSpec("P")
+R = TypeVar("R")
 _OPTIONS = {"nopython": True, "nogil": True, "error_model": "numpy"}
 _WITHOUT_WRAPPERS = {**_OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
@@ -288,7 +290,7 @@ def _keep_code(dispatcher: CPUDispatcher, cache: type[CodeCache]) -> None:
             dispatcher._cache = cache(dispatcher.py_func)
 
 
-def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
+def compiled(function: Callable[P, R]) -> Callable[P, R]:
     """Compile `function` when it is first called, without the GIL, and keep the code on disk.
 
     Code of functions outside this project is not kept.
@@ -297,7 +299,7 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     return CompiledFunction(function)
 
 
-def inlined(function: Callable[..., Any]) -> Callable[..., Any]:
+def inlined(function: Callable[P, R]) -> Callable[P, R]:
     """Compile `function` as `compiled` does, into each of its compiled callers.
 
     For what is called many times over with many numbers, which a call would pass through memory.

@@ -1,5 +1,7 @@
 """Flights by power series: against an independent integration; and the proof that they are clear."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -88,9 +90,7 @@ def test_what_is_surely_clear_is_clear_and_a_touch_is_not(thickness):
         assert degree <= 2 * order
         assert 0 < rounding < 1e-12 * closing_speed(body, y)[0]
 
-        def clear(inside: float, window: float, made=(body, polynomials, degree, rounding)) -> float:
-            return time_surely_clear(*made, 0.0, inside, window, 0.0)
-
+        clear = partial(time_surely_clear, body, polynomials, degree, rounding, 0.0, least=0.0)
         assert clear(0.0, length) <= 5e-3 * (1 + 1e-11)
         proved += clear(0.0, length) > 5e-3 * (1 - 1e-9)
         assert clear(1e-3, 3e-3) == 3e-3
