@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from cointoss.models import notebook
 from cointoss.models.interruptible import interruptible
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.labelled import AXES, Column, dataset, meanings_of, table
 from cointoss.models.plots import axes_or_new, draw_height
 from cointoss.models.scenario import Scenario
@@ -20,9 +21,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from cointoss.models.plots import Axes
-
-Array = NDArray[np.float64]
-
 
 _DRAWN = 600
 """Times at which a path is drawn."""

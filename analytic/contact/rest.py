@@ -5,9 +5,9 @@ from cointoss.analytic.contact.edge import on_edge, stands
 from cointoss.analytic.contact.one_rim import lower_rim_of
 from cointoss.analytic.contact.resistance import has_resistance
 from cointoss.analytic.contact.rim_contact import rim_contact
-from cointoss.analytic.flight.state_vector import spin_of, velocity_of
+from cointoss.analytic.flight.state_vector import state_of
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.rest import is_held, lever_of
+from cointoss.models.rest import is_held
 
 
 @compiled
@@ -23,8 +23,7 @@ def rests(body, friction, mode, y):
     if not friction.rolling > 0:
         return False
     A = rim_contact(body, y, lower_rim_of(y))
-    lever = lever_of(A.R, A.arm, mode == Mode.UPRIGHT)
-    return is_held(body, friction.rolling, friction.sliding, velocity_of(y), spin_of(y), A.arm, lever)
+    return is_held(body, friction.rolling, friction.sliding, state_of(y), A.arm, mode == Mode.UPRIGHT)
 
 
 @compiled

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic.impact.laws import mobility, sliding_friction
+from cointoss.analytic.impact.laws import delassus, sliding_friction
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.barriers import energy
 from cointoss.models.laws import ContactLaw
@@ -83,11 +83,11 @@ def test_the_energy_recorded_is_that_of_the_state_after():
     assert row["energy_change"] == pytest.approx(E[1] - E[0], rel=1e-15)
 
 
-def test_mobility_is_symmetric_and_positive_definite():
+def test_the_delassus_matrix_is_symmetric_and_positive_definite():
     rng = np.random.default_rng(14)
     for _ in range(COUNT):
         case, y = draw_impact(rng, ContactLaw.SMOOTH)
-        K = np.array(mobility(case.body, rotation_matrix(tuple(y[6:10])), tuple(rng.uniform(-0.01, 0.01, 3))))
+        K = np.array(delassus(case.body, rotation_matrix(tuple(y[6:10])), tuple(rng.uniform(-0.01, 0.01, 3))))
         assert np.abs(K - K.T).max() < 1e-15 * np.abs(K).max()
         assert np.linalg.eigvalsh(K)[0] > 0
 

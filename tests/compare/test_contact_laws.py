@@ -5,7 +5,7 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from cointoss.analytic.impact.laws import mobility
+from cointoss.analytic.impact.laws import delassus
 from cointoss.compare.reproduction.claim import unexpected
 from cointoss.compare.reproduction.saving import read_numbers
 from cointoss.compare.reproduction.setups import contact_study
@@ -121,11 +121,11 @@ def test_the_onset_of_sliding_friction_is_the_closed_form():
 
 
 @pytest.mark.parametrize("tilt", [0.3, np.pi / 4, 1.3])
-def test_the_mobility_of_the_thin_ideal_coin_is_that_of_the_closed_forms(tilt):
+def test_the_delassus_matrix_of_the_thin_ideal_coin_is_that_of_the_closed_forms(tilt):
     body = body_of("thin ideal")
     R = rotation_matrix(tuple(touching_state(tilt, 0.0)[6:10]))
     point, _ = lowest_point(body, R[2], (0.0, 0.0, 0.0))
-    K, t = np.array(mobility(body, R, apply(R, point))), np.tan(tilt)
+    K, t = np.array(delassus(body, R, apply(R, point))), np.tan(tilt)
     expected = np.array([1 + 5 * t**2, 5 + t**2, 4 * t]) / (1 + t**2)
     assert body.mass * np.abs([K[1, 1], K[2, 2], K[1, 2]]) == pytest.approx(expected, rel=1e-12)
     assert body.mass * K[0] == pytest.approx([3, 0, 0], abs=1e-12)
