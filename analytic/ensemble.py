@@ -3,7 +3,8 @@
 import numpy as np
 
 from cointoss.analytic.events import toss_coin
-from cointoss.analytic.settings import MANY, Settings, contact_limits
+from cointoss.analytic.settings import MANY, ContactLimits, Settings, contact_limits
+from cointoss.models.body import Body, Rules
 from cointoss.models.errors import require_type
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.outcomes import Outcomes
@@ -11,7 +12,7 @@ from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import IMPACT_ROW
 from cointoss.models.releases import Releases, check_releases
 from cointoss.models.stages import stage
-from cointoss.models.tiles import toss_in_tiles
+from cointoss.models.tiles import Tile, toss_in_tiles
 
 TILE, SLOW_TILE = 512, 8
 """Most tosses that a thread makes at a time, in air with b > 0 the second."""
@@ -36,18 +37,17 @@ def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Setting
     check_releases(described, releases)
     body, rules = described.body, described.rules
     limits = contact_limits(settings)
-    tile = TILE if body.air.exponent is None else SLOW_TILE
+    most = TILE if body.air.exponent is None else SLOW_TILE
     with stage("tossing by the analytic engine", "tosses") as progress:
-        return toss_in_tiles(
-            releases, tile, lambda *columns: _toss_each(body, rules, limits, *columns), progress
-        )
+        return toss_in_tiles(releases, most, lambda tile: _toss_each(body, rules, limits, tile), progress)
 
 
 @compiled
-def _toss_each(body, rules, limits, states, outcomes, endings, faces, impacts, end_times):
+def _toss_each(body: Body, rules: Rules, limits: ContactLimits, tile: Tile) -> None:
     # Two rows: the last impact's, and the work space after it.
     rows = np.zeros(2, IMPACT_ROW)
-    for i in range(len(states)):
-        n, _, _, outcome, ending, end_time = toss_coin(body, rules, limits, states[i], rows, False)
-        outcomes[i], endings[i], impacts[i], end_times[i] = outcome.value, ending.value, n, end_time
-        faces[i] = rows[(n - 1) % 2]["face"] if n > 0 else 0
+    for i in range(len(tile.states)):
+        n, _, _, outcome, ending, end_time = toss_coin(body, rules, limits, tile.states[i], rows, False)
+        tile.outcome[i], tile.ending[i], tile.impacts[i] = outcome.value, ending.value, n
+        tile.end_time[i] = end_time
+        tile.last_face[i] = rows[(n - 1) % 2]["face"] if n > 0 else 0

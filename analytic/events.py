@@ -25,12 +25,12 @@ from cointoss.analytic.flight.state_vector import (
     set_velocity,
     state_of,
 )
-from cointoss.analytic.flight.touch_search import closing_speed, is_chattering
-from cointoss.analytic.impact.laws import impulse, spin_gained
+from cointoss.analytic.flight.touch_search import is_chattering
+from cointoss.analytic.impact.laws import ImpactPoint, impulse, spin_gained
 from cointoss.analytic.settings import FINE, ContactLimits, Settings, contact_limits
 from cointoss.models.body import Body, Rules, is_to_be_caught
 from cointoss.models.ending import classify_ending, endless, face_outcome, unless_caught
-from cointoss.models.geometry import contact_velocity, lowest_point
+from cointoss.models.geometry import contact_velocity, evaluate_gap, lowest_point
 from cointoss.models.impact_row import FIRST_ROOM, with_room, write_impact
 from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
@@ -38,6 +38,7 @@ from cointoss.models.kernel.vectors import add, apply, scale, subtract
 from cointoss.models.laws import EndingTest
 from cointoss.models.perpetual import EnergyHistory, energy_history, start_history
 from cointoss.models.records import IMPACT_ROW, Array, Ending, Outcome
+from cointoss.models.state import State
 
 # A step that takes less than this part of √(r/g) counts as so many, or changes without time could go on.
 _NO_TIME, _STALLED = 1e-12, 1000
@@ -147,17 +148,17 @@ def hit(body: Body, rules: Rules, chi: float, y: Array, row: Any) -> Ending:
     Returns:
         `Ending.NO_SOLUTION` where the contact law has none, else `Ending.NONE`.
     """
-    x, v, e, w, R = state_of(y)
+    before = state_of(y)
+    x, v, e, w, R = before
     point, flat = lowest_point(body, R[2], w)
     arm = apply(R, subtract(point, body.center))
     out = (point[0] ** 2 + point[1] ** 2) ** 0.5
     tau = apply(R, (-point[1] / out, point[0] / out, 0.0)) if out > 0 else (1.0, 0.0, 0.0)
     v_A = contact_velocity(body, R, v, w, point)
-    S, ending = impulse(body, rules, chi, R, arm, tau, v_A, flat)
+    S, ending = impulse(body, rules, chi, ImpactPoint(R, arm, tau, v_A, flat))
     v_after = add(v, scale(1 / body.mass, S))
     w_after = w if flat else add(w, spin_gained(body, R, arm, S))
-    v_A_after = contact_velocity(body, R, v_after, w_after, point)
-    write_impact(body, S, point, R[2][2], (x, v, e, w, v_A), (x[2], v_after, w_after, v_A_after), row)
+    write_impact(body, S, point, before, State(x, v_after, e, w_after, R), row)
     set_velocity(y, v_after)
     set_spin(y, w_after)
     return ending
@@ -167,7 +168,7 @@ def hit(body: Body, rules: Rules, chi: float, y: Array, row: Any) -> Ending:
 def restitution_at(body: Body, rules: Rules, y: Array) -> float:
     """Return χ of the touch in the state y, (13,): 0 up to the floor's threshold of the speed of approach."""
     threshold = rules.restitution_threshold
-    is_plastic = threshold > 0 and -closing_speed(body, y)[1] <= threshold
+    is_plastic = threshold > 0 and -evaluate_gap(body, state_of(y)).speed <= threshold
     return 0.0 if is_plastic else rules.restitution
 
 
@@ -288,7 +289,7 @@ def bounce(setup: Setup, y: Array, time: float, row: Any) -> Ending:
     if ending == Ending.NONE:
         row.time = time
         # A step forced at a grazing point may have left the coin a little below the floor.
-        set_height(y, position_of(y)[2] - min(closing_speed(setup.body, y)[0], 0.0))
+        set_height(y, position_of(y)[2] - min(evaluate_gap(setup.body, state_of(y)).gap, 0.0))
     return ending
 
 
@@ -323,7 +324,7 @@ def fly_to_event(setup: Setup, y: Array, spent: Spent) -> Passage:
     spent = after_flight(spent, flown)
     if not touches:
         return ends(spent, Outcome.UNDECIDED, Ending.MAX_TIME)
-    if not is_chattering(body, restitution_at(body, rules, y), y):
+    if not is_chattering(body, restitution_at(body, rules, y), state_of(y)):
         return Passage(Event.IMPACT, spent, GOES_ON)
     spent = Spent(spent.time, spent.impacts, spent.steps + 1)
     verdict = classified(setup, y, spent.time)

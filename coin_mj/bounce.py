@@ -113,15 +113,15 @@ def solref(restitution: float, timestep: float, *, spring: bool = False, steps: 
     )
     whole = isinstance(steps, Integral) and 5 <= steps <= LONGEST // 4
     _require("steps", steps, whole, f"a whole number from 5 to {LONGEST // 4}")
-    found = spring_solref(restitution, timestep, steps) if spring else one_step_solref(restitution, timestep)
+    solref = spring_solref(restitution, timestep, steps) if spring else one_step_solref(restitution, timestep)
     integrator = "RK4" if spring else "implicitfast"
-    restitutions, depth = drops_of_a_ball(found, timestep, integrator)
-    with_weight = restitutions_of_a_ball(found, timestep, integrator, gravity=GRAVITY)
+    restitutions, depth = drops_of_a_ball(solref, timestep, integrator)
+    with_weight = restitutions_of_a_ball(solref, timestep, integrator, gravity=GRAVITY)
     return Bounce(
         restitution=restitution,
         timestep=timestep,
         integrator=integrator,
-        solref=found,
+        solref=solref,
         solimp=HARDEST,
         error=float(np.abs(restitutions - restitution).max()),
         error_with_weight=float(np.abs(with_weight - restitution).max()),

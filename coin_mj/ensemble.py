@@ -1,19 +1,19 @@
 """Many tosses in MuJoCo, on all cores."""
 
 import threading
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cointoss.coin_mj.events import toss_coin
 from cointoss.coin_mj.model.air_callback import air_of
 from cointoss.coin_mj.model.clock import clock_stopped
 from cointoss.coin_mj.model.machine import machine_of
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.model.scene import shape_thickness
-from cointoss.coin_mj.model.settings import MANY, Settings
+from cointoss.coin_mj.model.settings import MANY, Budgets, Settings
 from cointoss.coin_mj.model.state import put_at
 from cointoss.coin_mj.toss import require_supported, warn_of_approximation
+from cointoss.models.body import Rules
 from cointoss.models.errors import require_type
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.outcomes import Outcomes
@@ -21,7 +21,7 @@ from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import IMPACT_ROW
 from cointoss.models.releases import Releases, check_releases
 from cointoss.models.stages import stage
-from cointoss.models.tiles import toss_in_tiles
+from cointoss.models.tiles import Tile, toss_in_tiles
 
 TILE = 8
 """Most tosses that a thread makes at a time."""
@@ -57,21 +57,22 @@ def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Setting
 
     of_thread = threading.local()
 
-    def toss_tile(*columns: NDArray[Any]) -> None:
+    def toss_tile(tile: Tile) -> None:
         if not hasattr(of_thread, "machine"):
             of_thread.machine = machine_of(described, settings, thickness)
         with air_of(of_thread.machine.model), clock_stopped():
-            _toss_each(of_thread.machine.coin, of_thread.machine.plastic, rules, settings.budgets, *columns)
+            _toss_each(of_thread.machine.coin, of_thread.machine.plastic, rules, settings.budgets, tile)
 
     with stage("tossing by MuJoCo", "tosses") as progress:
         return toss_in_tiles(releases, TILE, toss_tile, progress)
 
 
 @compiled
-def _toss_each(coin, plastic, rules, budgets, states, outcomes, endings, faces, impacts, end_times):
+def _toss_each(coin: MujocoCoin, plastic: MujocoCoin, rules: Rules, budgets: Budgets, tile: Tile) -> None:
     rows = np.zeros(1, IMPACT_ROW)
-    for i in range(len(states)):
-        put_at(coin, states[i])
+    for i in range(len(tile.states)):
+        put_at(coin, tile.states[i])
         n, _, _, _, outcome, ending, end_time = toss_coin(coin, plastic, rules, budgets, rows, False)
-        outcomes[i], endings[i], impacts[i], end_times[i] = outcome.value, ending.value, n, end_time
-        faces[i] = rows[0].face if n > 0 else 0
+        tile.outcome[i], tile.ending[i], tile.impacts[i] = outcome.value, ending.value, n
+        tile.end_time[i] = end_time
+        tile.last_face[i] = rows[0].face if n > 0 else 0

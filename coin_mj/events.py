@@ -1,25 +1,34 @@
 """The event loop of a toss in MuJoCo: flight, impact, sustained contact, ending."""
 
-import numpy as np
+from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.coin_mj.model.settings import Budgets
 from cointoss.coin_mj.model.state import state_of
 from cointoss.coin_mj.steps.flight import FlightExit, fly
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
 from cointoss.coin_mj.steps.impact import TouchResult, resolve_impact
-from cointoss.coin_mj.steps.knots import Step, add_knot, knot_of
+from cointoss.coin_mj.steps.knots import Knot, Step, add_knot, knot_of
 from cointoss.coin_mj.steps.sustained_contact import NO_LOSS, ContactExit, follow_contact, slow_speed
-from cointoss.models.attitude import rotation_matrix
+from cointoss.models.body import Body, Rules
 from cointoss.models.ending import classify_ending, face_outcome, unless_caught
-from cointoss.models.geometry import contact_velocity, lowest_point
-from cointoss.models.impact_row import with_room, write_impact
+from cointoss.models.geometry import lowest_point
+from cointoss.models.impact_row import ImpactRow, with_room, write_impact
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Vector
 from cointoss.models.perpetual import energy_history, start_history
 from cointoss.models.records import Ending, Outcome
-from cointoss.models.state import state
+from cointoss.models.state import State
 
 
 @compiled
-def toss_coin(coin, plastic, rules, budgets, rows, keep_all):
+def toss_coin(
+    coin: MujocoCoin, plastic: MujocoCoin, rules: Rules, budgets: Budgets, rows: NDArray[Any], keep_all: bool
+) -> tuple[int, NDArray[Any], Array, Array, Outcome, Ending, float]:
     """Toss the coin from its present state until the toss is decided.
 
     Args:
@@ -50,7 +59,7 @@ def toss_coin(coin, plastic, rules, budgets, rows, keep_all):
         if not lands:
             time, way, flight_steps_left = fly(coin, rules, time, flight_steps_left, knots)
             if way == FlightExit.CAUGHT:
-                outcome, ending = face_outcome(state(*state_of(coin))), Ending.CAUGHT
+                outcome, ending = face_outcome(state_of(coin)), Ending.CAUGHT
                 break
             if way == FlightExit.BUDGET:
                 ending = Ending.MAX_TIME if time >= rules.max_time else Ending.FLIGHT_STEPS
@@ -59,16 +68,16 @@ def toss_coin(coin, plastic, rules, budgets, rows, keep_all):
         speed = -evaluate_gap(coin).speed
         is_plastic = rules.restitution_threshold > 0 and speed <= rules.restitution_threshold
         chi = 0.0 if is_plastic else rules.restitution
-        sustained = not lands and speed < slow_speed(coin, chi, touch[3])
+        sustained = not lands and speed < slow_speed(coin, chi, touch.spin)
         if not sustained:
             result, time, impulse = resolve_impact(plastic if is_plastic else coin, time, knots)
             sustained = result == TouchResult.SUSTAINED
             if result == TouchResult.IMPACT:
                 if keep_all:
                     rows = with_room(rows, n)
-                record(coin.body, start, touch, impulse, state_of(coin), rows[n % len(rows)])
+                now = state_of(coin)
+                record(coin.body, start, touch, impulse, now, rows[n % len(rows)])
                 n += 1
-                now = state(*state_of(coin))
                 outcome, ending = classify_ending(coin.body, rules, now, time, history)
         lands = False
         if sustained:
@@ -86,30 +95,24 @@ def toss_coin(coin, plastic, rules, budgets, rows, keep_all):
 
 
 @compiled
-def record(body, time, touch, impulse, release, row):
+def record(body: Body, time: float, touch: State, impulse: Vector, release: State, row: ImpactRow) -> None:
     """Record an impact.
 
     Args:
         body: the coin.
         time: of first touch [s].
-        touch: position and velocity of C (space), Euler parameters and angular velocity (body) then.
+        touch: state then.
         impulse: integral of the floor's force, space frame, (3,) [N s].
-        release: as `touch`, at release.
-        row: where it goes, one `IMPACT_ROW`.
+        release: state at release.
+        row: where it goes.
     """
-    x, v, e, w = touch
-    x_after, v_after, e_after, w_after = release
-    R, R_after = rotation_matrix(e), rotation_matrix(e_after)
-    point, _ = lowest_point(body, R[2], w)
-    v_A = contact_velocity(body, R, v, w, point)
-    v_A_after = contact_velocity(body, R_after, v_after, w_after, point)
-    after = (x_after[2], v_after, w_after, v_A_after)
-    write_impact(body, impulse, point, R[2][2], (x, v, e, w, v_A), after, row)
+    point, _ = lowest_point(body, touch.R[2], touch.spin)
+    write_impact(body, impulse, point, touch, release, row)
     row.time = time
 
 
 @compiled
-def _table(knots):
+def _table(knots: list[Knot]) -> Array:
     table = np.empty((len(knots), 15))
     for i in range(len(knots)):
         for j in range(15):
@@ -118,7 +121,7 @@ def _table(knots):
 
 
 @compiled
-def _pairs(contacts):
+def _pairs(contacts: list[tuple[float, float]]) -> Array:
     pairs = np.empty((len(contacts), 2))
     for i in range(len(contacts)):
         pairs[i, 0], pairs[i, 1] = contacts[i]

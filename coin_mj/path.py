@@ -51,7 +51,7 @@ class Knots:
                     set_motion(coin, between[MOTION])
                 elif time > knot[TIME]:
                     free_step(coin, time - knot[TIME])
-                row[:] = np.concatenate(state_of(coin))
+                row[:] = np.concatenate(state_of(coin)[:4])
         x, v, e, w = (part.copy() for part in np.split(rows, (3, 6, 10), axis=1))
         return States(time=times.copy(), position=x, velocity=v, quaternion=e, angular_velocity=w)
 

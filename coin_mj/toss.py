@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 
 from cointoss.coin_mj.events import toss_coin
-from cointoss.coin_mj.model.air import air_force
+from cointoss.coin_mj.model.air import PowerLaw, air_force
 from cointoss.coin_mj.model.air_callback import air_of
 from cointoss.coin_mj.model.clock import clock_stopped
 from cointoss.coin_mj.model.machine import Machine, machine_of
@@ -229,15 +229,15 @@ def _contact_energies(body: Body, contacts: Array, path: Knots) -> Array:
     """Return the energies at start and end of parts of the longest contacts, (n, 2) [J]."""
     longest = contacts[np.argsort(contacts[:, 0] - contacts[:, 1], kind="stable")[:CONTACTS_MEASURED]]
     times = np.linspace(longest[:, 0], longest[:, 1], PARTS_MEASURED + 1, axis=1)
-    found = energies(body, path.sample(times.ravel())).reshape(times.shape)
-    return np.stack([found[:, :-1].ravel(), found[:, 1:].ravel()], axis=1)
+    values = energies(body, path.sample(times.ravel())).reshape(times.shape)
+    return np.stack([values[:, :-1].ravel(), values[:, 1:].ravel()], axis=1)
 
 
 def _force_and_moment(body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]:
     """Return the air's force and its moment about C for b > 0; see `cointoss.models.certificate.Air`."""
-    law, c = body.air, body.center
-    v_B = subtract(v, cross(w, c))
-    f, m_B = air_force(body.radius, body.thickness, law.normal, law.tangential, law.exponent, v_B, w)
+    c = body.center
+    law = PowerLaw(body.air.normal, body.air.tangential, body.air.exponent or 0.0)
+    f, m_B = air_force(body.radius, body.thickness, law, subtract(v, cross(w, c)), w)
     return f, subtract(m_B, cross(c, f))
 
 

@@ -2,8 +2,9 @@
 
 import math
 
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import Vector
+from cointoss.models.kernel.vectors import Matrix, Vector
 
 Quaternion = tuple[float, float, float, float]
 
@@ -31,7 +32,7 @@ def quaternion_from_angles(angles: Vector) -> Quaternion:
 
 
 @compiled
-def quaternion_product(a, b):
+def quaternion_product(a: Quaternion, b: Quaternion) -> Quaternion:
     """Return the quaternion product a b: of Euler parameters the turn b and then a, R(a b) = R(a) R(b)."""
     return (
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
@@ -42,7 +43,7 @@ def quaternion_product(a, b):
 
 
 @compiled
-def rotation_matrix(e):
+def rotation_matrix(e: Quaternion | Array) -> Matrix:
     """Return R(e), body to space: x_space = R x_body. Strzalko et al. 2008, eq. (15).
 
     The diagonal is written with the sum of squares in place of 2 e0^2 - 1, so that a small tilt keeps

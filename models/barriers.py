@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 
-from cointoss.models.body import is_ideal
-from cointoss.models.geometry import tilt_sine_of
+from cointoss.models.body import Body, is_ideal
+from cointoss.models.geometry import lower_rim, tilt_sine_of
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import apply, dot
+from cointoss.models.kernel.vectors import Matrix, Vector, apply, dot
+from cointoss.models.state import State
 
 # Tilts at which what a coin needs is computed, from just off a face to upright: their sines and cosines.
 _TILTS = np.pi / 2 * np.arange(1, 129) / 128
@@ -17,7 +18,7 @@ BEYOND_ROUNDING = 1 + 1e-12
 
 
 @compiled
-def energy(body, z, v, w):
+def energy(body: Body, z: float, v: Vector, w: Vector) -> float:
     """Return the mechanical energy T + m g z_C [J], zero at rest with C on the floor.
 
     Args:
@@ -30,7 +31,7 @@ def energy(body, z, v, w):
 
 
 @compiled
-def energy_without_spin(body, state):
+def energy_without_spin(body: Body, state: State) -> float:
     """Return the energy without that of horizontal motion and of spin about the normal, eq. (20) [J].
 
     Args:
@@ -43,7 +44,7 @@ def energy_without_spin(body, state):
 
 
 @compiled
-def barrier(body, n_z):
+def barrier(body: Body, n_z: float) -> float:
     """Return the lowest energy at which a coin can roll over its rim to the other face [J].
 
     m g sqrt((r - |c_perp|)^2 + (h/2 ± c_zeta)^2), with + where heads is up: C must pass above the point of
@@ -58,11 +59,11 @@ def barrier(body, n_z):
 
 
 @compiled
-def rim_offset(body, n_z):
+def rim_offset(body: Body, n_z: float) -> tuple[float, float]:
     """Return how far outward of C the nearest point of the lower rim lies, and how far below C [m]."""
     c = body.center
     out = body.radius - math.hypot(c[0], c[1])
-    up = body.thickness / 2 + (c[2] if n_z > 0 else -c[2])
+    up = body.thickness / 2 - lower_rim(n_z) * c[2]
     return out, up
 
 
@@ -73,7 +74,7 @@ def highest_on_floor(body):
 
 
 @compiled
-def spin_barrier(body, up, w):
+def spin_barrier(body: Body, up: Vector, w: Vector) -> float:
     """Bound from below the energy at which a coin on a smooth floor in vacuum can turn over [J].
 
     It leaves the horizontal motion out, and counts what the conserved spin needs.
@@ -87,7 +88,7 @@ def spin_barrier(body, up, w):
 
 
 @compiled
-def spin_barrier_bound(body, up, w):
+def spin_barrier_bound(body: Body, up: Vector, w: Vector) -> float:
     """Bound `spin_barrier` from above without trying tilts [J].
 
     Args:
@@ -99,7 +100,7 @@ def spin_barrier_bound(body, up, w):
 
 
 @compiled
-def _top_barrier(body, up, w):
+def _top_barrier(body: Body, up: Vector, w: Vector) -> float:
     """Bound from below the energy at which the ideal coin on a smooth floor in vacuum can turn over [J].
 
     There L_z and L_ζ are conserved, through impacts too, so that at tilt s the coin needs at least
@@ -109,7 +110,7 @@ def _top_barrier(body, up, w):
     J_across, J_normal = body.inertia[0][0], body.inertia[2][2]
     L = apply(body.inertia, w)
     L_z = dot(up, L)
-    L_zeta = L[2] if up[2] > 0 else -L[2]
+    L_zeta = -lower_rim(up[2]) * L[2]
     today, highest = min(tilt_sine_of(up), 1.0), 0.0
     for i in range(len(_SINES)):
         sine, cosine = _SINES[i], _COSINES[i]
@@ -121,7 +122,7 @@ def _top_barrier(body, up, w):
 
 
 @compiled
-def _top_bound(body, up, w):
+def _top_bound(body: Body, up: Vector, w: Vector) -> float:
     """Bound `_top_barrier` from above without trying tilts [J].
 
     What the spin needs has no maximum inside: it is largest at today's tilt, where L_z - L_ζ cos s is the
@@ -136,7 +137,7 @@ def _top_bound(body, up, w):
 
 
 @compiled
-def _general_barrier(body, up, w):
+def _general_barrier(body: Body, up: Vector, w: Vector) -> float:
     """Bound from below the energy at which a coin on a smooth floor in vacuum can turn over [J].
 
     Vertical impulses keep L_z, with which the coin has at least the energy L_z²/(2 uᵀ J u), u the upward unit
@@ -146,7 +147,7 @@ def _general_barrier(body, up, w):
     J = body.inertia
     L_z = dot(up, apply(J, w))
     today = min(tilt_sine_of(up), 1.0)
-    side = 1.0 if up[2] > 0 else -1.0
+    upper = -lower_rim(up[2])
     c_across = math.hypot(body.center[0], body.center[1])
     highest, J_across = 0.0, _largest_across(J)
     for i in range(len(_SINES)):
@@ -154,7 +155,7 @@ def _general_barrier(body, up, w):
         if sine < today:
             continue
         # The lowest height and the largest moment of inertia of all directions, each for itself.
-        z = (body.radius - c_across) * sine + (body.thickness / 2 + side * body.center[2]) * cosine
+        z = (body.radius - c_across) * sine + (body.thickness / 2 + upper * body.center[2]) * cosine
         moment = J_across * sine * sine + J[2][2] * cosine * cosine
         moment += 2 * sine * cosine * math.hypot(J[0][2], J[1][2])
         highest = max(highest, body.mass * body.gravity * z + L_z * L_z / (2 * moment))
@@ -162,14 +163,14 @@ def _general_barrier(body, up, w):
 
 
 @compiled
-def _general_bound(body, up, w):
+def _general_bound(body: Body, up: Vector, w: Vector) -> float:
     """Bound `_general_barrier` from above without trying tilts [J]."""
     L_z = dot(up, apply(body.inertia, w))
     return BEYOND_ROUNDING * (barrier(body, up[2]) + L_z * L_z / (2 * body.inertia_smallest))
 
 
 @compiled
-def _largest_across(J):
+def _largest_across(J: Matrix) -> float:
     """Return the largest moment of inertia about an axis in the coin's plane."""
     mean, half = (J[0][0] + J[1][1]) / 2, (J[0][0] - J[1][1]) / 2
     return mean + math.hypot(half, J[0][1])

@@ -24,7 +24,7 @@ def read_bounded(path: Path, most: int) -> bytes:
         return number
 
     with open(path, "rb", opener=at_once) as file:
-        found = file.read(most + 1)
-    if len(found) > most:
+        content = file.read(most + 1)
+    if len(content) > most:
         raise TooLargeError(f"more than {most} bytes")
-    return found
+    return content

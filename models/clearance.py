@@ -3,14 +3,14 @@
 import math
 from typing import NamedTuple
 
-from cointoss.models.body import is_linear
+from cointoss.models.body import Body, is_linear
 from cointoss.models.geometry import FLAT_SINE, height_of_center, tilt_sine_of
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import cross, dot, norm
+from cointoss.models.kernel.vectors import Vector, cross, dot, norm
 
 
 @compiled
-def _spin_bound(body, w):
+def _spin_bound(body: Body, w: Vector) -> float:
     """Return ω̃ = √(2 T_rot/J_min) ≥ |ω| [rad/s]; without air it never changes."""
     J = body.inertia
     energy_twice = dot(w, (dot(J[0], w), dot(J[1], w), dot(J[2], w)))
@@ -18,7 +18,7 @@ def _spin_bound(body, w):
 
 
 @compiled
-def drag_bound(body, v, w, window):
+def drag_bound(body: Body, v: Vector, w: Vector, window: float) -> tuple[float, float, float]:
     """Bound the air's force and moment about C by k p and ℓ k p + d ω̃, with p = |v_C| + ω̃ ℓ, over a window.
 
     For b = 0 p bounds the speed of B: k and d are the largest coefficients, ℓ is B's distance from C.
@@ -57,7 +57,7 @@ def _power(x: float, b: float | None) -> float:
 
 
 @compiled
-def damping_rate(body, v, w, window):
+def damping_rate(body: Body, v: Vector, w: Vector, window: float) -> float:
     """Return κ = k (1/m + ℓ²/J_min), bounding the rate at which drag changes velocities [1/s].
 
     Args:
@@ -71,7 +71,9 @@ def damping_rate(body, v, w, window):
 
 
 @compiled
-def fastest_motion(body, v, w, window):
+def fastest_motion(
+    body: Body, v: Vector, w: Vector, window: float
+) -> tuple[float, float, float, float, float]:
     """Bound p = |v_C| + ω̃ ℓ and ω̃ over a time window, and return k, ℓ and d of `drag_bound` before them."""
     drag, arm, turn_drag = drag_bound(body, v, w, window)
     spin = _spin_bound(body, w)
@@ -94,7 +96,7 @@ class Accelerations(NamedTuple):
 
 
 @compiled
-def acceleration_bounds(body, v, up, w, window):
+def acceleration_bounds(body: Body, v: Vector, up: Vector, w: Vector, window: float) -> Accelerations:
     """Bound the accelerations of a flying coin over a time window.
 
     The spin: ω̃ = √(2 T_rot/J_min) ≥ |ω| changes only by the air: dω̃/dt ≤ ℓ k p/J_min, with k, ℓ and
@@ -136,7 +138,7 @@ def acceleration_bounds(body, v, up, w, window):
 
 
 @compiled
-def clear_time(body, z, v, up, w, window):
+def clear_time(body: Body, z: float, v: Vector, up: Vector, w: Vector, window: float) -> float:
     """Return a time during which a flying coin surely does not reach the floor [s].
 
     The rim of the face at ζ = ±h/2, whose centre is at height q, is clear while F = q² - r² (1 - n_z²) > 0.
@@ -174,14 +176,14 @@ def clear_time(body, z, v, up, w, window):
 
 
 @compiled
-def useful_window(body, v, w, window):
+def useful_window(body: Body, v: Vector, w: Vector, window: float) -> float:
     """Return a window no longer than half of the drag's own time: beyond, bounds are too wide."""
     rate = damping_rate(body, v, w, window)
     return 0.5 / rate if rate * window > 0.5 else window
 
 
 @compiled
-def first_root(F, rate, K):
+def first_root(F: float, rate: float, K: float) -> float:
     """Return the positive root of F + rate t - K t²/2, or 0 where F = 0 falls; F >= 0 and K > 0."""
     root = (rate * rate + 2 * K * F) ** 0.5
     # Of its two forms, each sign of the rate takes the one without cancellation.
@@ -191,7 +193,7 @@ def first_root(F, rate, K):
 
 
 @compiled
-def grazing_time(body, v, up, w, sink):
+def grazing_time(body: Body, v: Vector, up: Vector, w: Vector, sink: float) -> tuple[float, float]:
     """Return a time in which a coin that touches, its lowest point not moving down, hardly sinks.
 
     With q the height of the lower face's centre and p the horizontal part of the normal, |p| the sine of the

@@ -10,14 +10,15 @@ from cointoss.models.barriers import (
     spin_barrier,
     spin_barrier_bound,
 )
-from cointoss.models.body import in_vacuum, is_ideal, is_linear, is_to_be_caught, resists
+from cointoss.models.body import Body, Rules, in_vacuum, is_ideal, is_linear, is_to_be_caught, resists
 from cointoss.models.clearance import drag_bound
 from cointoss.models.geometry import tilt_sine_of
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import apply, dot, norm
+from cointoss.models.kernel.vectors import Vector, apply, dot, norm
 from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
-from cointoss.models.perpetual import energy_loss_converges
+from cointoss.models.perpetual import EnergyHistory, energy_loss_converges
 from cointoss.models.records import Ending, Face, Outcome
+from cointoss.models.state import State
 
 # What is left of the energy of tilting, against m g r, in a coin that lies flat; and in one that lies still
 # to the eye, where that is waited for.
@@ -25,13 +26,15 @@ WOBBLE, STILL = 1e-9, 1e-3
 
 
 @compiled
-def face_up(n_z):
+def face_up(n_z: float) -> Face:
     """Return the face that is up, from the upward component of the coin's normal, eq. (4)."""
     return Face.HEADS if n_z > 0 else Face.TAILS
 
 
 @compiled
-def classify_ending(body, rules, state, time, history):
+def classify_ending(
+    body: Body, rules: Rules, state: State, time: float, history: EnergyHistory
+) -> tuple[Outcome, Ending]:
     """Return how a toss in this state ends; `Outcome.UNDECIDED` and `Ending.NONE` where it goes on.
 
     Args:
@@ -50,7 +53,7 @@ def classify_ending(body, rules, state, time, history):
 
 
 @compiled
-def cannot_be_caught(body, rules, state):
+def cannot_be_caught(body: Body, rules: Rules, state: State) -> bool:
     """Return whether the coin is to be caught at a height to which its energy can never lift it.
 
     Args:
@@ -66,7 +69,7 @@ def cannot_be_caught(body, rules, state):
 
 
 @compiled
-def unless_caught(rules, outcome, ending):
+def unless_caught(rules: Rules, outcome: Outcome, ending: Ending) -> tuple[Outcome, Ending]:
     """Return how a toss ends: of a coin that is to be caught its face on the floor is not asked for.
 
     Args:
@@ -81,7 +84,7 @@ def unless_caught(rules, outcome, ending):
 
 
 @compiled
-def endless(body, rules, state, ending):
+def endless(body: Body, rules: Rules, state: State, ending: Ending) -> tuple[Outcome, Ending]:
     """Return how a toss ends whose coin goes on for ever without meeting the test of its scenario.
 
     Where one of the paper's tests never comes true, the face may still be settled.
@@ -99,7 +102,7 @@ def endless(body, rules, state, ending):
 
 
 @compiled
-def final_face(body, rules, state):
+def final_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Ending]:
     """Return the face that stays up and why, or the edge; UNDECIDED and NONE where either may still come.
 
     "rigorous" is `settled_face`, "paper" is E < m g r and "paper_smooth" is eq. (20) of Strzalko et al. 2008;
@@ -126,13 +129,13 @@ def final_face(body, rules, state):
 
 
 @compiled
-def face_outcome(state):
+def face_outcome(state: State) -> Outcome:
     """Return the face that is up, as an outcome."""
     return Outcome.HEADS if state.R[2][2] > 0 else Outcome.TAILS
 
 
 @compiled
-def settled_face(body, rules, state):
+def settled_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Ending]:
     """Return the face that is proved to stay up and why, or the edge; UNDECIDED and NONE where none is.
 
     The energy is below the pass to the other face and the tilt is on this face's side of it. On a smooth
@@ -172,7 +175,7 @@ def settled_face(body, rules, state):
 
 
 @compiled
-def idle_energy(body, rules, v, w):
+def idle_energy(body: Body, rules: Rules, v: Vector, w: Vector) -> float:
     """Return energy that a coin in air on a smooth floor never turns into height [J].
 
     (1 - a) m v_h²/2, a the `sliding_share`, and of a balanced coin J_ζ ω_ζ²/2: without them its energy
@@ -192,14 +195,14 @@ def idle_energy(body, rules, v, w):
 
 
 @compiled
-def _is_on_face(body, up):
+def _is_on_face(body: Body, up: Vector) -> bool:
     """Return whether the tilt is on the face's side of every pass to the other face or to the edge."""
     out, high = rim_offset(body, up[2])
     return tilt_sine_of(up) * high < out * abs(up[2])
 
 
 @compiled
-def _beyond_the_pass(body, up, tilt_sine):
+def _beyond_the_pass(body: Body, up: Vector, tilt_sine: float) -> bool:
     """Return whether C is on the edge's side of the pass over the rim point that is lowest."""
     if tilt_sine == 0:
         return False
@@ -210,7 +213,7 @@ def _beyond_the_pass(body, up, tilt_sine):
 
 
 @compiled
-def _lies(body, rules, state):
+def _lies(body: Body, rules: Rules, state: State) -> bool:
     """Return whether the coin lies flat for good, whatever it has of sliding and of spin about its normal.
 
     What is left of its tilt, of its turning about diameters and of its vertical motion is nothing, and the

@@ -1,7 +1,11 @@
 """Where a coin is above the floor: its tilt, its gap, its lower rim and its lowest point."""
 
+from typing import NamedTuple
+
+from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import add, cross, dot
+from cointoss.models.kernel.vectors import Matrix, Vector, add, cross, dot
+from cointoss.models.state import State
 
 # Below this sine of the tilt a face counts as flat: its whole rim is at one height within rounding.
 FLAT_SINE = 1e-14
@@ -9,8 +13,17 @@ FACE_SINE = 1e-7
 """Below this sine of the tilt the lowest point runs round the rim too fast to follow: a face lands."""
 
 
+class GapEvaluation(NamedTuple):
+    """The gap between coin and floor in one state."""
+
+    gap: float
+    """Negative in the floor [m]."""
+    speed: float
+    """Vertical velocity of the lowest point [m/s]."""
+
+
 @compiled
-def tilt_sine_of(up):
+def tilt_sine_of(up: Vector) -> float:
     """Return the sine of the angle between the coin's normal and the vertical.
 
     Args:
@@ -20,7 +33,7 @@ def tilt_sine_of(up):
 
 
 @compiled
-def lower_rim(n_z):
+def lower_rim(n_z: float) -> float:
     """Return which rim is the lower one, as the sign of its ζ: -1, tails', with heads up, else 1, heads'.
 
     Args:
@@ -30,7 +43,7 @@ def lower_rim(n_z):
 
 
 @compiled
-def height_of_center(body, z, up):
+def height_of_center(body: Body, z: float, up: Vector) -> float:
     """Return the height of the geometric centre B [m].
 
     Args:
@@ -42,7 +55,7 @@ def height_of_center(body, z, up):
 
 
 @compiled
-def gap(body, z, up):
+def gap(body: Body, z: float, up: Vector) -> float:
     """Return the height of the coin's lowest point above the floor [m], negative below it.
 
     Args:
@@ -55,7 +68,7 @@ def gap(body, z, up):
 
 
 @compiled
-def lowest_point(body, up, w):
+def lowest_point(body: Body, up: Vector, w: Vector) -> tuple[Vector, bool]:
     """Return the point of the coin that is lowest, or about to be.
 
     On the rim, unless a face lies flat or the coin stands on its edge. The whole rim of a flat face is
@@ -87,7 +100,7 @@ def lowest_point(body, up, w):
 
 
 @compiled
-def contact_velocity(body, R, v, w, point):
+def contact_velocity(body: Body, R: Matrix, v: Vector, w: Vector, point: Vector) -> Vector:
     """Return the velocity of the coin's point `point` in space: v_C + R (ω × (A - C)).
 
     Args:
@@ -100,3 +113,12 @@ def contact_velocity(body, R, v, w, point):
     arm = (point[0] - body.center[0], point[1] - body.center[1], point[2] - body.center[2])
     turn = cross(w, arm)
     return add(v, (dot(R[0], turn), dot(R[1], turn), dot(R[2], turn)))
+
+
+@compiled
+def evaluate_gap(body: Body, state: State) -> GapEvaluation:
+    """Return the `GapEvaluation` of a state."""
+    R, v, w = state.R, state.velocity, state.spin
+    point, flat = lowest_point(body, R[2], w)
+    v_A = contact_velocity(body, R, v, w, point)
+    return GapEvaluation(gap(body, state.position[2], R[2]), v[2] if flat else v_A[2])

@@ -1,37 +1,67 @@
 """How either engine writes down its impacts."""
 
+from typing import Any, Protocol
+
 import numpy as np
+from numpy.typing import NDArray
 
 from cointoss.models.barriers import energy
+from cointoss.models.body import Body
 from cointoss.models.ending import face_up
+from cointoss.models.geometry import contact_velocity
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Vector
 from cointoss.models.records import IMPACT_ROW
+from cointoss.models.state import State
+
+
+class ImpactRow(Protocol):
+    """One impact as `IMPACT_ROW` lays it out, for compiled code; see `cointoss.models.records.Impacts`."""
+
+    time: float
+    face: int
+    impulse: Array
+    point: Array
+    position: Array
+    quaternion: Array
+    velocity_before: Array
+    velocity_after: Array
+    angular_velocity_before: Array
+    angular_velocity_after: Array
+    contact_velocity_before: Array
+    contact_velocity_after: Array
+    energy: float
+    energy_change: float
+
 
 FIRST_ROOM = 64
 """A toss of which all is kept starts with room for so many impacts."""
 
 
 @compiled
-def write_impact(body, impulse, point, n_z, touch, release, row):
+def write_impact(
+    body: Body, impulse: Vector, point: Vector, before: State, after: State, row: ImpactRow
+) -> None:
     """Write an impact, all but its time, into a row.
 
     Args:
         body: the coin.
         impulse: of the floor, space frame, (3,) [N s].
         point: that touches, from B, body frame, (3,) [m].
-        n_z: upward component of the coin's normal at first touch.
-        touch: position and velocity of C (space), Euler parameters, angular velocity (body), and velocity of
-            the point (space), at first touch.
-        release: height of C, then as `touch` without the attitude, when the floor has acted.
-        row: one `IMPACT_ROW`.
+        before: state at first touch.
+        after: state when the floor has acted.
+        row: where it goes.
     """
-    x, v, e, w, v_A = touch
-    z_after, v_after, w_after, v_A_after = release
-    E_before, E_after = energy(body, x[2], v, w), energy(body, z_after, v_after, w_after)
+    v, w, v_after, w_after = before.velocity, before.spin, after.velocity, after.spin
+    v_A = contact_velocity(body, before.R, v, w, point)
+    v_A_after = contact_velocity(body, after.R, v_after, w_after, point)
+    E_before = energy(body, before.position[2], v, w)
+    E_after = energy(body, after.position[2], v_after, w_after)
     for i in range(3):
         row.impulse[i] = impulse[i]
         row.point[i] = point[i]
-        row.position[i] = x[i]
+        row.position[i] = before.position[i]
         row.velocity_before[i] = v[i]
         row.velocity_after[i] = v_after[i]
         row.angular_velocity_before[i] = w[i]
@@ -39,14 +69,14 @@ def write_impact(body, impulse, point, n_z, touch, release, row):
         row.contact_velocity_before[i] = v_A[i]
         row.contact_velocity_after[i] = v_A_after[i]
     for i in range(4):
-        row.quaternion[i] = e[i]
-    row.face = face_up(n_z)
+        row.quaternion[i] = before.attitude[i]
+    row.face = face_up(before.R[2][2])
     row.energy = E_after
     row.energy_change = E_after - E_before
 
 
 @compiled
-def with_room(rows, n):
+def with_room(rows: NDArray[Any], n: int) -> NDArray[Any]:
     """Return rows with room for impact number n: these, or twice as many."""
     if n < len(rows):
         return rows

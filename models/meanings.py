@@ -17,9 +17,9 @@ def meanings(part: type[BaseModel]) -> dict[str, str]:
     """
     (definition,) = ast.parse(dedent(inspect.getsource(part))).body
     assert isinstance(definition, ast.ClassDef)
-    found = {}
+    meanings = {}
     for field, below in pairwise(definition.body):
         match field, below:
             case ast.AnnAssign(target=ast.Name(id=name)), ast.Expr(value=ast.Constant(value=str(text))):
-                found[name] = inspect.cleandoc(text)
-    return found
+                meanings[name] = inspect.cleandoc(text)
+    return meanings

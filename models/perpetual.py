@@ -6,11 +6,12 @@ from typing import NamedTuple
 import numpy as np
 
 from cointoss.models.barriers import barrier, energy, energy_without_spin, spin_barrier
-from cointoss.models.body import in_vacuum, resists
+from cointoss.models.body import Body, Rules, in_vacuum, resists
 from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.laws import ContactLaw, EndingTest
 from cointoss.models.records import Array
+from cointoss.models.state import State
 
 # The energy is checked so many √(r/g) after the first sustained contact, then whenever the time since it has
 # doubled.
@@ -37,13 +38,13 @@ class EnergyHistory(NamedTuple):
 
 
 @compiled
-def energy_history(no_loss):
+def energy_history(no_loss: float) -> EnergyHistory:
     """Return the `EnergyHistory`, with this `no_loss`, of a toss that was not in sustained contact yet."""
     return EnergyHistory(np.full(1, np.inf), np.full(1, np.inf), np.full(_REMEMBERED, np.inf), no_loss)
 
 
 @compiled
-def start_history(body, history, time):
+def start_history(body: Body, history: EnergyHistory, time: float) -> None:
     """Begin the history at a sustained contact that starts now, `time` [s], unless one was before."""
     if history.start[0] == np.inf:
         history.start[0] = time
@@ -51,7 +52,9 @@ def start_history(body, history, time):
 
 
 @compiled
-def energy_loss_converges(body, rules, state, time, history):
+def energy_loss_converges(
+    body: Body, rules: Rules, state: State, time: float, history: EnergyHistory
+) -> bool:
     """Return whether a coin in vacuum keeps enough energy to turn over for ever, as its losses suggest.
 
     Where the floor resists rolling or pivoting it never does: a small loss there goes on.
@@ -88,7 +91,7 @@ def energy_loss_converges(body, rules, state, time, history):
 
 
 @compiled
-def _energy_and_need(body, rules, state):
+def _energy_and_need(body: Body, rules: Rules, state: State) -> tuple[float, float]:
     """Return the energy that losses take from, and what must be left of it to go on undecided [J]."""
     v, w = state.velocity, state.spin
     if rules.test == EndingTest.PAPER_SMOOTH:
@@ -104,7 +107,7 @@ def _energy_and_need(body, rules, state):
 
 
 @compiled
-def loss_to_come(energies, none, doublings):
+def loss_to_come(energies: Array, none: float, doublings: float) -> float:
     """Estimate the energy that will be lost while the elapsed time doubles so many times [J].
 
     The loss of the last doubling grows in each that comes as it grew at most in the last few; it shrinks
@@ -136,7 +139,7 @@ def loss_to_come(energies, none, doublings):
 
 
 @compiled
-def _largest_growth(losses, none):
+def _largest_growth(losses: Array, none: float) -> float:
     """Return the largest ratio of a loss to the one before, but for losses that are none; 0 without any."""
     growth = 0.0
     for i in range(1, len(losses)):

@@ -23,7 +23,7 @@ ScenarioSource = Scenario | str | PathLike[str]
 
 
 def named_scenarios() -> list[str]:
-    """Give the names of the scenarios that come with the package."""
+    """Return the names of the scenarios that come with the package."""
     folder = resources.files("cointoss.models") / "scenarios"
     return sorted(
         entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml")
@@ -41,7 +41,7 @@ def title_of(name: str) -> str:
 
 
 def scenario_text(source: str | PathLike[str]) -> str:
-    """Give the text of a scenario file, or of a scenario of the package by its name.
+    """Return the text of a scenario file, or of a scenario of the package by its name.
 
     Raises:
         ScenarioError: if there is no such file, it can't be read as text, or `source` is of another type.

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from cointoss.models import notebook
 from cointoss.models.drawing import plots
 from cointoss.models.interruptible import interruptible
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.labelled import AXES, Column, dataset, meanings_of, table
 from cointoss.models.scenario import Scenario
 from cointoss.models.words import Word
@@ -18,9 +19,6 @@ from cointoss.models.words import Word
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-
-
-Array = NDArray[np.float64]
 
 
 _DRAWN = 600

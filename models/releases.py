@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
+from cointoss.models.body import Body
 from cointoss.models.clearance import damping_rate
 from cointoss.models.errors import require_type, shown
 from cointoss.models.fields import UNITS, split
@@ -173,16 +174,9 @@ def check_releases(scenario: Scenario, releases: Releases) -> None:
         ValueError: for a coin below the floor, and for a spin or a drag too fast to follow.
     """
     require_type("releases", releases, Releases, "Releases, as of Releases.of(scenario, n, height=...)")
-    body, n = scenario.body, len(releases)
-    clearance, damping = np.empty(n), np.empty(n)
-    _clearance_and_damping(
-        body,
-        releases.position,
-        releases.velocity,
-        releases.quaternion,
-        releases.angular_velocity,
-        clearance,
-        damping,
+    body = scenario.body
+    clearance, damping = _clearance_and_damping(
+        body, releases.position, releases.velocity, releases.quaternion, releases.angular_velocity
     )
     rate = (body.gravity / body.radius) ** 0.5
     w = releases.angular_velocity
@@ -203,9 +197,14 @@ def _refuse(name: str, rows: Array, refused: ArrayLike, accepted: str) -> None:
 
 
 @compiled
-def _clearance_and_damping(body, positions, velocities, attitudes, spins, clearance, damping):
+def _clearance_and_damping(
+    body: Body, positions: Array, velocities: Array, attitudes: Array, spins: Array
+) -> tuple[Array, Array]:
+    """Return the gap [m] and the rate at which drag changes velocities [1/s] of each release, (n,) both."""
+    clearance, damping = np.empty(len(positions)), np.empty(len(positions))
     for i in range(len(positions)):
         z, v, e, w = positions[i, 2], velocities[i], attitudes[i], spins[i]
         clearance[i] = gap(body, z, rotation_matrix(e)[2])
         fall = (2 * max(z, 0.0) / body.gravity) ** 0.5
         damping[i] = damping_rate(body, (v[0], v[1], v[2]), (w[0], w[1], w[2]), fall)
+    return clearance, damping

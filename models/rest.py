@@ -2,21 +2,23 @@
 
 import math
 
+from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import apply, dot
+from cointoss.models.kernel.vectors import Matrix, Vector, apply, dot
+from cointoss.models.state import State
 
 SLOW = 1e-3
 """Against √(g/r): a spin slower than this is as good as none."""
 
 
 @compiled
-def slow_spin(body):
+def slow_spin(body: Body) -> float:
     """Return the spin that is as good as none [rad/s]."""
     return SLOW * (body.gravity / body.radius) ** 0.5
 
 
 @compiled
-def is_held(body, rolling, sliding, v, w, arm, lever):
+def is_held(body: Body, rolling: float, sliding: float, state: State, arm: Vector, on_line: bool) -> bool:
     """Return whether resistance to rolling holds a coin in contact where it is, on its edge.
 
     At rest the weight's moment about the line of contact is m g a, a the horizontal distance of C from it:
@@ -27,15 +29,15 @@ def is_held(body, rolling, sliding, v, w, arm, lever):
         body: the coin.
         rolling: δ [m].
         sliding: μ in sustained contact.
-        v: velocity of C, space frame, (3,) [m/s].
-        w: angular velocity, body frame, (3,) [rad/s].
-        arm: of the contact point A from C, (3,) [m].
-        lever: a [m].
+        state: of the coin.
+        arm: of the contact point A from C, space frame, (3,) [m].
+        on_line: whether the coin stands on a line, both rims on the floor.
     """
+    v, w = state.velocity, state.spin
     slow = slow_spin(body)
     if not rolling > 0 or dot(w, w) > slow * slow:
         return False
-    spare = rolling - lever
+    spare = rolling - lever_of(state.R, arm, on_line)
     if not spare > 0 or (sliding > 0 and math.hypot(v[0], v[1]) > slow * body.radius):
         return False
     energy = (body.mass * v[2] * v[2] + dot(w, apply(body.inertia, w))) / 2
@@ -47,7 +49,7 @@ def is_held(body, rolling, sliding, v, w, arm, lever):
 
 
 @compiled
-def lever_of(R, arm, on_line):
+def lever_of(R: Matrix, arm: Vector, on_line: bool) -> float:
     """Return the horizontal distance of C from A, or from the line on which a thick coin stands [m].
 
     Args:
@@ -61,7 +63,7 @@ def lever_of(R, arm, on_line):
 
 
 @compiled
-def is_slowing(body, rolling, pivoting, w):
+def is_slowing(body: Body, rolling: float, pivoting: float, w: Vector) -> bool:
     """Return whether resistance will bring a coin that stands to rest, or is still to stop its roll.
 
     Without resistance to rolling it may roll on for ever; without that to pivoting, spin.

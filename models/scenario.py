@@ -213,12 +213,12 @@ def _rows(M: NDArray[np.floating]) -> Matrix:
 
 
 def vector(row: NDArray[np.floating]) -> Vector:
-    """Give three numbers of an array as a tuple, as a scenario keeps them."""
+    """Return three numbers of an array as a tuple, as a scenario keeps them."""
     x, y, z = row.tolist()
     return x, y, z
 
 
 def euler_parameters(row: NDArray[np.floating]) -> Quaternion:
-    """Give four numbers of an array as a tuple, as a scenario keeps them."""
+    """Return four numbers of an array as a tuple, as a scenario keeps them."""
     e0, e1, e2, e3 = row.tolist()
     return e0, e1, e2, e3

@@ -108,7 +108,7 @@ def stage(
 
 
 def counted(name: str, unit: str, items: Sequence[Item]) -> Iterator[Item]:
-    """Give items one after the other; with the last, the stage of that name ends."""
+    """Yield items one after the other; with the last, the stage of that name ends."""
     with stage(name, unit, total=len(items)) as progress:
         for number, item in enumerate(items, start=1):
             yield item

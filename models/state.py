@@ -23,6 +23,6 @@ class State(NamedTuple):
 
 
 @compiled
-def state(position, velocity, attitude, spin):
+def state(position: Vector, velocity: Vector, attitude: Quaternion, spin: Vector) -> State:
     """Return the `State` with these parts; for their meaning see there."""
     return State(position, velocity, attitude, spin, rotation_matrix(attitude))

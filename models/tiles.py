@@ -4,12 +4,14 @@ import threading
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import wait
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 from numba import config
+from numpy.typing import NDArray
 
 from cointoss.models.interruptible import begun
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.releases import Releases
 
@@ -17,16 +19,27 @@ PARTS = 4
 """Tiles that each thread has at least, where there are tosses enough: all end at about the same time."""
 
 
+class Tile(NamedTuple):
+    """Some tosses, a row each: where they start, and room for how they end."""
+
+    states: Array
+    """At time 0, (k, 13)."""
+    outcome: NDArray[np.int8]
+    ending: NDArray[np.int8]
+    last_face: NDArray[np.int8]
+    impacts: NDArray[np.int32]
+    end_time: Array
+
+
 def toss_in_tiles(
-    releases: Releases, most: int, toss_tile: Callable[..., Any], progress: Callable[[int, int], None]
+    releases: Releases, most: int, toss_tile: Callable[[Tile], None], progress: Callable[[int, int], None]
 ) -> Outcomes:
     """Make tosses, tile by tile, on the cores that this process may use or `NUMBA_NUM_THREADS` sets.
 
     Args:
         releases: the states at time 0.
         most: tosses that a thread makes at a time, at most; Ctrl-C leaves them to their thread.
-        toss_tile: makes some tosses. It is given their states (k, 13), and outcomes, endings, last faces,
-            numbers of impacts and end times, (k,) each, to be written. It should not hold Python's lock.
+        toss_tile: makes some tosses, and writes how they end. It should not hold Python's lock.
         progress: called after each tile with the number of tosses so far and of all, on any thread.
 
     Returns:
@@ -36,7 +49,7 @@ def toss_in_tiles(
     states = np.hstack([releases.position, releases.velocity, releases.quaternion, releases.angular_velocity])
     outcome, ending, face = (np.empty(n, dtype=np.int8) for _ in range(3))
     impacts, end_time = np.empty(n, dtype=np.int32), np.empty(n)
-    columns = (states, outcome, ending, face, impacts, end_time)
+    columns = Tile(states, outcome, ending, face, impacts, end_time)
 
     cores = config.__dict__["NUMBA_NUM_THREADS"]
     tile = min(most, max(1, n // (PARTS * cores)))
@@ -50,7 +63,7 @@ def toss_in_tiles(
             except IndexError:
                 return
             try:
-                toss_tile(*(column[first : first + tile] for column in columns))
+                toss_tile(Tile._make(column[first : first + tile] for column in columns))
             except BaseException:
                 left.clear()
                 raise

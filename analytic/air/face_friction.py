@@ -2,20 +2,24 @@
 
 import math
 
-from cointoss.analytic.air.law import power
+from cointoss.analytic.air.law import AirMotion, power
+from cointoss.analytic.air.quadrature import Nodes
+from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Vector
 
 FAR = 1.5
 """Beyond so many radii the instantaneous centre is far enough for the series."""
 
 
 @compiled
-def face_friction_change(body, v, w, dv, dw, nodes):
+def face_friction_change(body: Body, motion: AirMotion, nodes: Nodes) -> tuple[Vector, Vector]:
     """Return how the friction on both faces, at B, changes with the motion, from eqs (51) and (73).
 
     Arguments and returns as those of `air.force.change_about_B`.
     """
-    b, r, half = body.air.exponent, body.radius, body.thickness / 2
+    b, v, w, dv, dw = motion
+    r, half = body.radius, body.thickness / 2
     f_0, f_1, m_0, m_1, m_2 = 0.0, 0.0, 0.0, 0.0, 0.0
     for side in (half, -half):
         U_0, U_1 = v[0] + side * w[1], v[1] - side * w[0]
@@ -38,7 +42,9 @@ def face_friction_change(body, v, w, dv, dw, nodes):
 
 
 @compiled
-def disc_dissipation(b, r, U, w, nodes):
+def disc_dissipation(
+    b: float, r: float, U: float, w: float, nodes: Nodes
+) -> tuple[float, float, float, float]:
     """Return the second derivatives of D(U, ω) = ∫ |V|^(b+2)/(b+2) dA over a disc that slides and spins.
 
     V = U + ω ζ × p. The gradient of D is force and moment for λ_τ = 1, so its second derivatives are their
@@ -86,7 +92,7 @@ def disc_dissipation(b, r, U, w, nodes):
 
 
 @compiled
-def _from_afar(b, r, U, w):
+def _from_afar(b: float, r: float, U: float, w: float) -> tuple[float, float, float, float]:
     """Sum the series of `disc_dissipation` until a term is below rounding."""
     a, y, turn = b + 2, (w * r / U) ** 2, w * r / U
     D_UU, D_U, D_Uw, D_ww = a * (a - 1), a, 0.0, 0.0

@@ -1,10 +1,12 @@
 """The air's force on a flying coin and its moment."""
 
 from cointoss.analytic.air.face_friction import face_friction_change
+from cointoss.analytic.air.law import AirMotion
 from cointoss.analytic.air.pressure import pressure_change
-from cointoss.analytic.air.quadrature import CHANGE_NODES, FORCE_NODES
+from cointoss.analytic.air.quadrature import CHANGE_NODES, FORCE_NODES, Nodes
 from cointoss.analytic.air.wall_friction import wall_friction_change
 from cointoss.models.body import Body
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, add, cross, scale, subtract
 
@@ -12,7 +14,7 @@ _AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 @compiled
-def force_and_moment(body, v, w):
+def force_and_moment(body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]:
     """Return the air's force and its moment about the mass centre.
 
     Strzalko et al. 2008, eqs (49)-(74). For b = 0 in the closed form of `cointoss.models.drag`: at B,
@@ -36,7 +38,7 @@ def force_and_moment(body, v, w):
 def _force_and_moment(exponent: float | None, body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]:
     """Return them by the exponent: only of an argument that is None numba leaves out what it rules out."""
     if exponent is not None:
-        return _by_quadrature(body, v, w)
+        return _by_quadrature(body, exponent, v, w)
     drag = body.drag
     v_B = subtract(v, cross(w, body.center))
     f = (
@@ -53,7 +55,9 @@ def _force_and_moment(exponent: float | None, body: Body, v: Vector, w: Vector) 
 
 
 @compiled
-def force_and_moment_change(body, v, w, dv, dw):
+def force_and_moment_change(
+    body: Body, v: Vector, w: Vector, dv: Vector, dw: Vector
+) -> tuple[Vector, Vector]:
     """Return how the air's force and moment about C change with the motion, to first order in (dv, dw).
 
     For b = 0 they are linear. For b > 0 the same quadrature is applied to the change of the force on dA,
@@ -80,12 +84,12 @@ def _force_and_moment_change(
     if exponent is None:
         return force_and_moment(body, dv, dw)
     v_B, dv_B = subtract(v, cross(w, body.center)), subtract(dv, cross(dw, body.center))
-    df, dm_B = change_about_B(body, v_B, w, dv_B, dw, CHANGE_NODES)
+    df, dm_B = change_about_B(body, AirMotion(body.air.exponent, v_B, w, dv_B, dw), CHANGE_NODES)
     return df, subtract(dm_B, cross(body.center, df))
 
 
 @compiled
-def write_jacobian(body, v, w, jacobian):
+def write_jacobian(body: Body, v: Vector, w: Vector, jacobian: Array) -> None:
     """Write the derivatives of the air's force and moment about C by the motion.
 
     Args:
@@ -103,23 +107,20 @@ def write_jacobian(body, v, w, jacobian):
 
 
 @compiled
-def _by_quadrature(body, v, w):
+def _by_quadrature(body: Body, b: float, v: Vector, w: Vector) -> tuple[Vector, Vector]:
     """Return force and moment for b > 0."""
-    v_B, share = subtract(v, cross(w, body.center)), 1 / (1 + body.air.exponent)
-    df, dm_B = change_about_B(body, v_B, w, v_B, w, FORCE_NODES)
+    v_B, share = subtract(v, cross(w, body.center)), 1 / (1 + b)
+    df, dm_B = change_about_B(body, AirMotion(b, v_B, w, v_B, w), FORCE_NODES)
     return scale(share, df), scale(share, subtract(dm_B, cross(body.center, df)))
 
 
 @compiled
-def change_about_B(body, v, w, dv, dw, nodes):
+def change_about_B(body: Body, motion: AirMotion, nodes: Nodes) -> tuple[Vector, Vector]:
     """Return the change of the air's force and of its moment about B for b > 0, with given nodes.
 
     Args:
         body: the coin.
-        v: velocity of B, body frame, (3,) [m/s].
-        w: angular velocity, body frame, (3,) [rad/s].
-        dv: change of v, (3,) [m/s].
-        dw: change of w, (3,) [rad/s].
+        motion: of the coin, and its change.
         nodes: of the graded rules.
 
     Returns:
@@ -128,11 +129,11 @@ def change_about_B(body, v, w, dv, dw, nodes):
     """
     df, dm = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     if body.air.normal > 0:
-        df, dm = pressure_change(body, v, w, dv, dw, nodes)
+        df, dm = pressure_change(body, motion, nodes)
     if body.air.tangential > 0:
-        df_faces, dm_faces = face_friction_change(body, v, w, dv, dw, nodes)
+        df_faces, dm_faces = face_friction_change(body, motion, nodes)
         df, dm = add(df, df_faces), add(dm, dm_faces)
         if body.thickness > 0:
-            df_wall, dm_wall = wall_friction_change(body, v, w, dv, dw, nodes)
+            df_wall, dm_wall = wall_friction_change(body, motion, nodes)
             df, dm = add(df, df_wall), add(dm, dm_wall)
     return df, dm

@@ -2,26 +2,28 @@
 
 import math
 
-from cointoss.analytic.air.law import changed_law, power
+from cointoss.analytic.air.law import AirMotion, changed_law, power
+from cointoss.analytic.air.quadrature import Nodes
+from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import add
+from cointoss.models.kernel.vectors import Vector, add
 
 
 @compiled
-def pressure_change(body, v, w, dv, dw, nodes):
+def pressure_change(body: Body, motion: AirMotion, nodes: Nodes) -> tuple[Vector, Vector]:
     """Return how pressure's force and moment at B change with the motion, from eqs (52), (54), (73), (74).
 
     Arguments and returns as those of `air.force.change_about_B`.
     """
-    df, dm = _on_faces(body, v, w, dv, dw, nodes)
+    df, dm = _on_faces(body, motion, nodes)
     if body.thickness > 0:
-        df_wall, dm_wall = _on_wall(body, v, w, dv, dw, nodes)
+        df_wall, dm_wall = _on_wall(body, motion, nodes)
         df, dm = add(df, df_wall), add(dm, dm_wall)
     return df, dm
 
 
 @compiled
-def _on_faces(body, v, w, dv, dw, nodes):
+def _on_faces(body: Body, motion: AirMotion, nodes: Nodes) -> tuple[Vector, Vector]:
     """Integrate over both faces: eqs (80) and (83), which hold at any thickness.
 
     The normal velocity v_ζ + ω_ξ η - ω_η ξ is the same on both faces, and outward on exactly one of them:
@@ -29,7 +31,8 @@ def _on_faces(body, v, w, dv, dw, nodes):
     across, chords are integrated in closed form. Both pieces of φ are graded towards where it vanishes, or
     nearly.
     """
-    b, r = body.air.exponent, body.radius
+    b, v, w, dv, dw = motion
+    r = body.radius
     W = math.hypot(w[0], w[1])
     along = (-w[1] / W, w[0] / W) if W > 0 else (1.0, 0.0)
     d_along = -dw[1] * along[0] + dw[0] * along[1]
@@ -57,14 +60,15 @@ def _on_faces(body, v, w, dv, dw, nodes):
 
 
 @compiled
-def _on_wall(body, v, w, dv, dw, nodes):
+def _on_wall(body: Body, motion: AirMotion, nodes: Nodes) -> tuple[Vector, Vector]:
     """Integrate over the wall.
 
     At the height z the normal velocity is |A| cos(θ - θ_A) with A = (v_ξ + ω_η z, v_η - ω_ξ z). Over the half
     turn in which it points outwards ∫ cos^(b+2) = √π Γ((b+3)/2)/Γ(b/2+2), which leaves |A|^b A along z. Both
     pieces of z are graded towards where |A| is least.
     """
-    b, r, half = body.air.exponent, body.radius, body.thickness / 2
+    b, v, w, dv, dw = motion
+    r, half = body.radius, body.thickness / 2
     W_square = w[0] * w[0] + w[1] * w[1]
     nearest = (v[1] * w[0] - v[0] * w[1]) / W_square if W_square > 0 else 0.0
     nearest = min(max(nearest, -half), half)

@@ -10,10 +10,13 @@ import math
 
 import numpy as np
 
-from cointoss.analytic.air.quadrature import gauss_rule
-from cointoss.analytic.air.wall_strip import phi_series, strip_change
+from cointoss.analytic.air.law import AirMotion
+from cointoss.analytic.air.quadrature import Nodes, gauss_rule
+from cointoss.analytic.air.wall_strip import PhiSeries, phi_series, strip_change
+from cointoss.models.body import Body
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import norm, scale
+from cointoss.models.kernel.vectors import Vector, norm, scale
 
 TURN = 96
 """Points of the full rectangle rule around; coarser ones take every second, third, fourth or sixth."""
@@ -23,40 +26,43 @@ _SHORT_X, _SHORT_WEIGHTS = gauss_rule(16)
 # smooth: its path lies between the rims.
 _HIGHEST = 2.0
 _MOST_BREAKS = 6
-_NO_SUMS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+Sums = tuple[float, float, float, float, float, float]
+"""Force and moment."""
+_NO_SUMS: Sums = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @compiled
-def wall_friction_change(body, v, w, dv, dw, nodes):
+def wall_friction_change(body: Body, motion: AirMotion, nodes: Nodes) -> tuple[Vector, Vector]:
     """Return how the friction on the wall, at B, changes with the motion, from eqs (53) and (74).
 
     Arguments and returns as those of `air.force.change_about_B`.
     """
-    b, r = body.air.exponent, body.radius
+    b, v, w, dv, dw = motion
+    r = body.radius
     size = norm(v) + r * norm(w)
     if size == 0:
         return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     # It is homogeneous of degree b in the motion.
-    v, w = scale(1 / size, v), scale(1 / size, w)
-    total = _around(body, v, w, dv, dw, phi_series(b), nodes)
+    of_size_one = AirMotion(b, scale(1 / size, v), scale(1 / size, w), dv, dw)
+    total = _around(body, of_size_one, nodes)
     k = -body.air.tangential * r * size**b
     f_0, f_1, f_2, m_0, m_1, m_2 = total
     return (k * f_0, k * f_1, k * f_2), (k * m_0, k * m_1, k * m_2)
 
 
 @compiled
-def _around(body, v, w, dv, dw, series, nodes):
+def _around(body: Body, motion: AirMotion, nodes: Nodes) -> Sums:
     """Integrate over θ: by the rectangle rule, or by rules between the points at which it is not smooth."""
     breaks, away = np.empty(_MOST_BREAKS), np.empty(_MOST_BREAKS)
-    number, nearest = _breaks(body, v, w, breaks, away)
-    total = _NO_SUMS
+    number, nearest = _breaks(body, motion.v, motion.w, breaks, away)
+    series, total = phi_series(motion.exponent), _NO_SUMS
     if nearest * TURN > nodes.digits:
         stride = 1
         for part in (2, 3, 4, 6):
             if nearest * TURN > part * nodes.digits:
                 stride = part
         for i in range(0, TURN, stride):
-            strip = _strip(body, v, w, dv, dw, series, _TURN_COS[i], _TURN_SIN[i])
+            strip = _strip(body, motion, series, _TURN_COS[i], _TURN_SIN[i])
             total = _add(total, 2 * math.pi * stride / TURN, strip)
         return total
     for i in range(number):
@@ -72,13 +78,13 @@ def _around(body, v, w, dv, dw, series, nodes):
             for j in range(len(x)):
                 theta = breaks[i] + length * x[j]
                 cosine, sine = math.cos(theta), math.sin(theta)
-                strip = _strip(body, v, w, dv, dw, series, cosine, sine)
+                strip = _strip(body, motion, series, cosine, sine)
                 total = _add(total, abs(length) * weights[j], strip)
     return total
 
 
 @compiled
-def _add(total, k, part):
+def _add(total: Sums, k: float, part: Sums) -> Sums:
     return (
         total[0] + k * part[0],
         total[1] + k * part[1],
@@ -90,7 +96,7 @@ def _add(total, k, part):
 
 
 @compiled
-def _distance(breaks, away, number, theta):
+def _distance(breaks: Array, away: Array, number: int, theta: float) -> float:
     """Return the distance of θ from the nearest point at which the integrand is not smooth."""
     least = np.inf
     for i in range(number):
@@ -100,7 +106,7 @@ def _distance(breaks, away, number, theta):
 
 
 @compiled
-def _breaks(body, v, w, breaks, away):
+def _breaks(body: Body, v: Vector, w: Vector, breaks: Array, away: Array) -> tuple[int, float]:
     """Find where the integral along the wall is not smooth in θ.
 
     Args:
@@ -127,7 +133,7 @@ def _breaks(body, v, w, breaks, away):
 
 
 @compiled
-def _insert(breaks, away, number, theta, distance):
+def _insert(breaks: Array, away: Array, number: int, theta: float, distance: float) -> int:
     """Insert a break in its place unless it is infinitely far away, and return how many there are."""
     if distance == np.inf:
         return number
@@ -140,7 +146,7 @@ def _insert(breaks, away, number, theta, distance):
 
 
 @compiled
-def _rest_on_rim(body, v, w, z):
+def _rest_on_rim(body: Body, v: Vector, w: Vector, z: float) -> tuple[float, float, float, float]:
     """Find where T_θ + i T_ζ = g_0 + g_c cos θ + g_s sin θ vanishes at the height z, for complex θ.
 
     Returns:
@@ -166,7 +172,7 @@ def _rest_on_rim(body, v, w, z):
 
 
 @compiled
-def _rest_between_rims(body, v, w):
+def _rest_between_rims(body: Body, v: Vector, w: Vector) -> tuple[float, float, float, float]:
     """Find where B vanishes and C + D z at a height of the wall, or near it, for complex θ.
 
     With α = θ - φ, φ the direction of ω's part across ζ and W its size: B = v_ζ + r W sin α, D = -W cos α and
@@ -193,12 +199,12 @@ def _rest_between_rims(body, v, w):
 
 
 @compiled
-def _strip(body, v, w, dv, dw, series, cosine, sine):
+def _strip(body: Body, motion: AirMotion, series: PhiSeries, cosine: float, sine: float) -> Sums:
     """Return the change of |T|^b T at one θ, integrated along the wall, as force and moment, per length."""
     r = body.radius
-    B, C, D = _velocity(r, v, w, cosine, sine)
-    dB, dC, dD = _velocity(r, dv, dw, cosine, sine)
-    H = strip_change(body.air.exponent, series, body.thickness / 2, B, C, D)
+    B, C, D = _velocity(r, motion.v, motion.w, cosine, sine)
+    dB, dC, dD = _velocity(r, motion.dv, motion.dw, cosine, sine)
+    H = strip_change(motion.exponent, series, body.thickness / 2, B, C, D)
     K_around = H.around * dC + H.around_z * dD + H.mixed * dB
     K_around_z = H.around_z * dC + H.around_zz * dD + H.mixed_z * dB
     K_along = H.mixed * dC + H.mixed_z * dD + H.along * dB
@@ -213,7 +219,7 @@ def _strip(body, v, w, dv, dw, series, cosine, sine):
 
 
 @compiled
-def _velocity(r, v, w, cosine, sine):
+def _velocity(r: float, v: Vector, w: Vector, cosine: float, sine: float) -> tuple[float, float, float]:
     """Return B, C and D of the wall at one θ."""
     return (
         v[2] + r * (w[0] * sine - w[1] * cosine),

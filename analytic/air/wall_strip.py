@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from cointoss.analytic.air.law import power
 from cointoss.analytic.air.quadrature import gauss_rule
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 
 _X, _WEIGHTS = gauss_rule(6)
@@ -52,7 +53,7 @@ class StripChange(NamedTuple):
 
 
 @compiled
-def strip_change(b, series, half, B, C, D):
+def strip_change(b: float, series: PhiSeries, half: float, B: float, C: float, D: float) -> StripChange:
     """Return the `StripChange` of the strip from z = -half to half.
 
     Where T vanishes, at a complex z, far from the strip, Gauss's rule does; near it the closed forms do not
@@ -92,7 +93,7 @@ def strip_change(b, series, half, B, C, D):
 
 
 @compiled
-def _by_gauss(b, half, B, C, D):
+def _by_gauss(b: float, half: float, B: float, C: float, D: float) -> StripChange:
     """Return the `StripChange` by Gauss's rule; for the arguments see `strip_change`."""
     around, around_z, around_zz, mixed, mixed_z, along = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(len(_X)):
@@ -112,7 +113,7 @@ def _by_gauss(b, half, B, C, D):
 
 
 @compiled
-def phi_series(b):
+def phi_series(b: float) -> PhiSeries:
     """Return the `PhiSeries` of b."""
     near, far = np.empty(_NEAR_TERMS), np.empty(_FAR_TERMS)
     term = 1.0
@@ -130,7 +131,7 @@ def phi_series(b):
 
 
 @compiled
-def _phi(b, series, x, B, speed_power):
+def _phi(b: float, series: PhiSeries, x: float, B: float, speed_power: float) -> float:
     """Return Φ(x) = ∫_0^x (t² + B²)^(b/2) dt.
 
     Args:
@@ -150,7 +151,7 @@ def _phi(b, series, x, B, speed_power):
 
 
 @compiled
-def _polynomial(coefficients, x):
+def _polynomial(coefficients: Array, x: float) -> float:
     """Return the value of a polynomial whose coefficients are four times some number.
 
     Its four sums do not wait for each other.
@@ -167,7 +168,7 @@ def _polynomial(coefficients, x):
 
 
 @compiled
-def _logarithm(b, x, B):
+def _logarithm(b: float, x: float, B: float) -> float:
     """Return ((x/B)^(b-1) - 1)/(b - 1), for b = 1 its limit ln(x/B)."""
     logarithm = math.log(x) - math.log(B)
     return math.expm1((b - 1) * logarithm) / (b - 1) if b != 1 else logarithm

@@ -5,10 +5,10 @@ from cointoss.analytic.contact.contact import Contact, lower_rim_of
 from cointoss.analytic.contact.edge.standing import on_edge, stands
 from cointoss.analytic.contact.resistance import has_resistance
 from cointoss.analytic.contact.rim_contact import rim_contact
-from cointoss.analytic.flight.state_vector import spin_of, velocity_of
+from cointoss.analytic.flight.state_vector import state_of
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import Array
-from cointoss.models.rest import is_held, lever_of
+from cointoss.models.rest import is_held
 
 
 @compiled
@@ -18,8 +18,8 @@ def rests(contact: Contact, y: Array) -> bool:
     if not friction.rolling > 0:
         return False
     A = rim_contact(body, y, lower_rim_of(y))
-    lever = lever_of(A.R, A.arm, contact.mode == Mode.UPRIGHT)
-    return is_held(body, friction.rolling, friction.sliding, velocity_of(y), spin_of(y), A.arm, lever)
+    on_line = contact.mode == Mode.UPRIGHT
+    return is_held(body, friction.rolling, friction.sliding, state_of(y), A.arm, on_line)
 
 
 @compiled

@@ -3,14 +3,15 @@
 import numpy as np
 
 from cointoss.analytic.flight.flying import fly
-from cointoss.analytic.flight.state_vector import position_of, spin_of, velocity_of
+from cointoss.analytic.flight.state_vector import position_of, state_of
+from cointoss.models.body import Body
 from cointoss.models.catch import approach_hand
-from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.kernel.arrays import Array, copy_into
 from cointoss.models.kernel.compiled import compiled
 
 
 @compiled
-def fly_to_hand(body, height, y, longest):
+def fly_to_hand(body: Body, height: float, y: Array, longest: float) -> float:
     """Fly until the mass centre first comes down to a height, if it does before the coin touches the floor.
 
     Args:
@@ -22,15 +23,15 @@ def fly_to_hand(body, height, y, longest):
     Returns:
         The time of flight [s]; infinite where the coin is not caught.
     """
-    state = y.copy()
-    flown, elapsed, is_above = fly(body, state, longest)[0], 0.0, position_of(y)[2] > height
-    copy_into(state, y)
+    flying = y.copy()
+    flown, elapsed, is_above = fly(body, flying, longest)[0], 0.0, position_of(y)[2] > height
+    copy_into(flying, y)
     while elapsed < flown:
-        z, v, w = position_of(state)[2], velocity_of(state), spin_of(state)
-        caught, is_above, step = approach_hand(body, height, is_above, z, v, w, flown - elapsed)
-        if caught:
-            copy_into(y, state)
+        approach = approach_hand(body, height, is_above, state_of(flying), flown - elapsed)
+        if approach.is_caught:
+            copy_into(y, flying)
             return elapsed
-        fly(body, state, step)
-        elapsed += step
+        fly(body, flying, approach.step)
+        is_above = approach.is_above
+        elapsed += approach.step
     return np.inf

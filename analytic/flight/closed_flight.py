@@ -2,39 +2,47 @@
 
 import numpy as np
 
-from cointoss.analytic.flight.fall import ORDER, clock, expand, fall_freely, fallen, slowing_of, time_of
-from cointoss.analytic.flight.first_touch import Found, bounds_of, first_touch, lowest_dip
-from cointoss.analytic.flight.state_vector import (
-    attitude_of,
-    position_of,
-    spin_of,
-    velocity_of,
+from cointoss.analytic.flight.fall import (
+    ORDER,
+    Piece,
+    clock,
+    expand,
+    fall_freely,
+    fallen,
+    slowing_of,
+    time_of,
 )
-from cointoss.analytic.flight.touch_search import closing_speed, smallest_flight
-from cointoss.analytic.flight.turning import turn, turning_of
-from cointoss.models.body import in_vacuum
+from cointoss.analytic.flight.first_touch import Bounds, Found, bounds_of, first_touch, lowest_dip
+from cointoss.analytic.flight.state_vector import position_of, state_of, velocity_of
+from cointoss.analytic.flight.touch_search import smallest_flight
+from cointoss.analytic.flight.turning import Turning, turn, turning_of
+from cointoss.models.body import Body, in_vacuum
+from cointoss.models.geometry import evaluate_gap
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import norm
+from cointoss.models.kernel.vectors import Vector, norm
 
 
 @compiled
-def fly_closed(body, y, longest):
+def fly_closed(body: Body, y: Array, longest: float) -> tuple[float, bool, int]:
     """Fly a coin that `turns_in_closed_form` until it first touches the floor; see `flying.fly`."""
     time, inside, evaluations = 0.0, 0.0, 0
     while True:
-        found, flown, made = _search(body, y, inside, longest - time)
+        result, flown, made = _search(body, y, inside, longest - time)
         time, evaluations = time + flown, evaluations + made
-        if found == Found.TOUCH and time == 0 and closing_speed(body, y)[1] >= -smallest_flight(body, y)[1]:
+        state = state_of(y)
+        starts_on_floor = result == Found.TOUCH and time == 0
+        if starts_on_floor and evaluate_gap(body, state).speed >= -smallest_flight(body, state).speed:
             # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch.
-            found = Found.GRAZE
-        if found != Found.GRAZE:
-            return time, found == Found.TOUCH, evaluations
+            result = Found.GRAZE
+        if result != Found.GRAZE:
+            return time, result == Found.TOUCH, evaluations
         # It flies on from there, where it hardly sinks for a while.
-        inside = smallest_flight(body, y)[0]
+        inside = smallest_flight(body, state).time
 
 
 @compiled
-def _search(body, y, inside, longest):
+def _search(body: Body, y: Array, inside: float, longest: float) -> tuple[Found, float, int]:
     """Fly to a touch, to a graze or to the end; y becomes the state there.
 
     Args:
@@ -47,26 +55,26 @@ def _search(body, y, inside, longest):
         What is `Found`, when [s], and the number of gap evaluations.
     """
     if in_vacuum(body):
-        turning, heights = turning_of(body, attitude_of(y), spin_of(y)), _parabola(body, y)
+        turning, heights = turning_of(body, state_of(y)), _parabola(body, y)
         bounds = bounds_of(turning, body.gravity, 0.0, 0.0)
-        found, t, evaluations = first_touch(body, turning, heights, inside, longest, bounds)
+        result, t, evaluations = first_touch(body, turning, heights, inside, longest, bounds)
         fall_freely(body, y, t, y)
         turn(turning, y, t, 1.0, y)
-        return found, t, evaluations
+        return result, t, evaluations
     series = np.empty((4, ORDER + 1))
-    time, found, evaluations = 0.0, Found.NOTHING, 0
-    while time < longest and found == Found.NOTHING:
-        turning = turning_of(body, attitude_of(y), spin_of(y))
+    time, result, evaluations = 0.0, Found.NOTHING, 0
+    while time < longest and result == Found.NOTHING:
+        turning = turning_of(body, state_of(y))
         piece = expand(body, turning, y, clock(slowing_of(body), longest - time), series)
         heights, bounds = series[3, : piece.order + 1], _bounds(body, turning, piece, velocity_of(y))
-        found, s, made = first_touch(body, turning, heights, inside, piece.length, bounds)
+        result, s, made = first_touch(body, turning, heights, inside, piece.length, bounds)
         fly_on(turning, piece, series, s, y, y)
         time, inside, evaluations = time + time_of(piece.slowing, s), 0.0, evaluations + made
-    return found, min(time, longest), evaluations
+    return result, min(time, longest), evaluations
 
 
 @compiled
-def closed_graze(body, start, duration):
+def closed_graze(body: Body, start: Array, duration: float) -> float:
     """Return a height such that no minimum of the gap in a flight is below half of it [m].
 
     Args:
@@ -74,13 +82,13 @@ def closed_graze(body, start, duration):
         start: state at the start of the flight, (13,).
         duration: of the flight [s].
     """
-    turning = turning_of(body, attitude_of(start), spin_of(start))
+    turning = turning_of(body, state_of(start))
     if in_vacuum(body):
         heights, bounds = _parabola(body, start), bounds_of(turning, body.gravity, 0.0, 0.0)
         return lowest_dip(body, turning, heights, duration, bounds)
     series, y, time, lowest = np.empty((4, ORDER + 1)), start.copy(), 0.0, np.inf
     while time < duration:
-        turning = turning_of(body, attitude_of(y), spin_of(y))
+        turning = turning_of(body, state_of(y))
         piece = expand(body, turning, y, clock(slowing_of(body), duration - time), series)
         heights, bounds = series[3, : piece.order + 1], _bounds(body, turning, piece, velocity_of(y))
         lowest = min(lowest, lowest_dip(body, turning, heights, piece.length, bounds))
@@ -93,14 +101,14 @@ def closed_graze(body, start, duration):
 
 
 @compiled
-def fly_on(turning, piece, series, s, y, y_new):
+def fly_on(turning: Turning, piece: Piece, series: Array, s: float, y: Array, y_new: Array) -> None:
     """Write the state at the clock s of a piece, that starts with the state y, into y_new; both (13,)."""
     fallen(piece, series, s, y, y_new)
     turn(turning, y, s, 1 - piece.slowing * s, y_new)
 
 
 @compiled
-def _bounds(body, turning, piece, v):
+def _bounds(body: Body, turning: Turning, piece: Piece, v: Vector) -> Bounds:
     """Return the `Bounds` of a piece that starts with the velocity v; drag never speeds the coin up."""
     rate = max(body.drag.force_tangential, body.drag.force_normal) / body.mass
     # The clock is slower than time: dt = ds/left.
@@ -113,19 +121,19 @@ def _bounds(body, turning, piece, v):
 
 
 @compiled
-def _parabola(body, y):
+def _parabola(body: Body, y: Array) -> tuple[float, float, float]:
     """Return the coefficients of the height of C as a polynomial of time, on a parabola from the state y."""
     return position_of(y)[2], velocity_of(y)[2], -body.gravity / 2
 
 
 @compiled
-def sample_closed(body, start, start_time, times, states):
+def sample_closed(body: Body, start: Array, start_time: float, times: Array, states: Array) -> int:
     """Write the states of one flight at `times` into `states`; see `flying.sample`.
 
     Returns:
         The number of pieces of the flight up to the last time.
     """
-    y, time, pieces, turning = start.copy(), 0.0, 1, turning_of(body, attitude_of(start), spin_of(start))
+    y, time, pieces, turning = start.copy(), 0.0, 1, turning_of(body, state_of(start))
     if in_vacuum(body):
         for i in range(len(times)):
             t = times[i] - start_time
@@ -138,7 +146,7 @@ def sample_closed(body, start, start_time, times, states):
         while times[i] - start_time > time + time_of(piece.slowing, piece.length):
             fly_on(turning, piece, series, piece.length, y, y)
             time += time_of(piece.slowing, piece.length)
-            turning = turning_of(body, attitude_of(y), spin_of(y))
+            turning = turning_of(body, state_of(y))
             piece = expand(body, turning, y, np.inf, series)
             pieces += 1
         s = clock(piece.slowing, times[i] - start_time - time)

@@ -5,6 +5,8 @@ from typing import NamedTuple
 from cointoss.analytic.air.force import force_and_moment
 from cointoss.analytic.flight.state_vector import set_attitude, set_position, set_spin, set_velocity, state_of
 from cointoss.analytic.numerics.rotation import quaternion_rate
+from cointoss.models.body import Body
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled, inlined
 from cointoss.models.kernel.vectors import Vector, apply, apply_transposed, cross, subtract
 from cointoss.models.state import State
@@ -23,12 +25,17 @@ class Flight(NamedTuple):
 
 
 @inlined
-def flight_of(body, y):
-    """Return the `Flight` of a coin in the state y, (13,).
+def flight_of(body: Body, y: Array) -> Flight:
+    """Return the `Flight` of a coin in the state y, (13,)."""
+    return flight_in(body, state_of(y))
+
+
+@inlined
+def flight_in(body: Body, state: State) -> Flight:
+    """Return the `Flight` of a coin in a state.
 
     J_C ω̇ + ω × J_C ω = m_C; Strzalko et al. 2008, eq. (22).
     """
-    state = state_of(y)
     v, w = apply_transposed(state.R, state.velocity), state.spin
     f, m_C = force_and_moment(body, v, w)
     gyroscopic = cross(w, apply(body.inertia, w))
@@ -36,7 +43,7 @@ def flight_of(body, y):
 
 
 @compiled
-def write_rate(body, flight, dy):
+def write_rate(body: Body, flight: Flight, dy: Array) -> None:
     """Write the rate of change of a flying coin's state into dy, (13,); m a_C = f, eq. (21)."""
     state, f = flight.state, apply(flight.state.R, flight.force)
     set_position(dy, state.velocity)
@@ -46,7 +53,7 @@ def write_rate(body, flight, dy):
 
 
 @compiled
-def derivative(body, y, dy):
+def derivative(body: Body, y: Array, dy: Array) -> None:
     """Write the time derivative of the state y into dy.
 
     Args:

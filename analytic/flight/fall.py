@@ -17,6 +17,9 @@ from typing import NamedTuple
 import numpy as np
 
 from cointoss.analytic.flight.state_vector import position_of, set_position, set_velocity, velocity_of
+from cointoss.analytic.flight.turning import Turning
+from cointoss.models.body import Body
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, add, cross, dot, norm, scale, subtract
 
@@ -34,7 +37,7 @@ _INVERSE = 1 / np.arange(1, ORDER + 1)
 
 
 @compiled
-def fall_freely(body, y, t, y_new):
+def fall_freely(body: Body, y: Array, t: float, y_new: Array) -> None:
     """Write position and velocity of the state at the time t of a flight on a parabola into y_new.
 
     Args:
@@ -65,25 +68,25 @@ class Piece(NamedTuple):
 
 
 @compiled
-def slowing_of(body):
+def slowing_of(body: Body) -> float:
     """Return δ = d_t/J_ξ, at which linear air slows the turning [1/s]."""
     return body.drag.moment_tangential / body.inertia[0][0]
 
 
 @compiled
-def clock(slowing, t):
+def clock(slowing: float, t: float) -> float:
     """Return the clock s [s] at the time t [s]."""
     return -math.expm1(-slowing * t) / slowing if slowing > 0 else t
 
 
 @compiled
-def time_of(slowing, s):
+def time_of(slowing: float, s: float) -> float:
     """Return the time t [s] at the clock s [s]."""
     return -math.log1p(-slowing * s) / slowing if slowing > 0 else s
 
 
 @compiled
-def longest_piece(body, rate, y):
+def longest_piece(body: Body, rate: float, y: Array) -> float:
     """Return by the clock how long a piece from the state y, (13,), is: the series holds to rounding [s].
 
     Where the coin will touch before, fewer terms do for a shorter piece.
@@ -96,7 +99,7 @@ def longest_piece(body, rate, y):
 
 
 @compiled
-def expand(body, turning, y, longest, series):
+def expand(body: Body, turning: Turning, y: Array, longest: float, series: Array) -> Piece:
     """Expand the fall of a coin from the state y on.
 
     Args:
@@ -143,13 +146,13 @@ def expand(body, turning, y, longest, series):
 
 
 @compiled
-def _across(a):
+def _across(a: Vector) -> Vector:
     """Return axis × a."""
     return -a[1], a[0], 0.0
 
 
 @compiled
-def fallen(piece, series, s, y, y_new):
+def fallen(piece: Piece, series: Array, s: float, y: Array, y_new: Array) -> None:
     """Write position and velocity of the state at the clock s of a piece into y_new.
 
     Args:

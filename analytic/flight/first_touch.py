@@ -11,8 +11,11 @@ import math
 from enum import IntEnum
 from typing import NamedTuple
 
+from cointoss.analytic.flight.turning import Turning
 from cointoss.analytic.numerics.tolerances import CLOSED_TOUCH, SINK
+from cointoss.models.body import Body
 from cointoss.models.geometry import FLAT_SINE, lower_rim
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, add, scale
 
@@ -20,6 +23,9 @@ from cointoss.models.kernel.vectors import Vector, add, scale
 _HIGH, _NEAR = 2.0, 1.1
 # On the way to a sure touch; two are common.
 _MOST_EVALUATIONS = 10
+
+Polynomial = tuple[float, float, float] | Array
+"""Coefficients, that of t⁰ first."""
 
 
 class Found(IntEnum):
@@ -65,7 +71,7 @@ class HeightAndTilt(NamedTuple):
 
 
 @compiled
-def bounds_of(turning, down, up, jerk):
+def bounds_of(turning: Turning, down: float, up: float, jerk: float) -> Bounds:
     """Return the `Bounds` of a turning coin, those of C given."""
     rate, mean = turning.rate, abs(turning.mean[2])
     swing = math.hypot(turning.cosine[2], turning.sine[2])
@@ -75,7 +81,7 @@ def bounds_of(turning, down, up, jerk):
 
 
 @compiled
-def height_and_tilt(turning, heights, t):
+def height_and_tilt(turning: Turning, heights: Polynomial, t: float) -> HeightAndTilt:
     """Return the `HeightAndTilt` of a turning coin at the time t [s]; for the arguments see `first_touch`."""
     z, z_rate, z_half = 0.0, 0.0, 0.0
     for k in range(len(heights) - 1, -1, -1):
@@ -91,7 +97,7 @@ def height_and_tilt(turning, heights, t):
 
 
 @compiled
-def rim_clearance(body, now, rim):
+def rim_clearance(body: Body, now: HeightAndTilt, rim: float) -> tuple[float, float, float]:
     """Return F, F'/2 and F''/2 of one rim.
 
     Args:
@@ -107,14 +113,14 @@ def rim_clearance(body, now, rim):
 
 
 @compiled
-def lower_rim_of(now):
+def lower_rim_of(now: HeightAndTilt) -> float:
     """Return the `lower_rim` at one time."""
     n_z = now.normal[2] if abs(now.normal[2]) > FLAT_SINE else now.normal_rate[2]
     return lower_rim(n_z)
 
 
 @compiled
-def closing(body, now):
+def closing(body: Body, now: HeightAndTilt) -> tuple[float, float]:
     """Return the gap [m] and its rate [m/s]; of a flat coin that turns, that of the point going down."""
     rim = lower_rim_of(now)
     arm, r, n, n_rate = rim * body.thickness / 2, body.radius, now.normal, now.normal_rate
@@ -126,7 +132,7 @@ def closing(body, now):
 
 
 @compiled
-def _reach(body):
+def _reach(body: Body) -> float:
     """Return how far the rim is from C [m]."""
     return (body.radius * body.radius + body.thickness * body.thickness / 4) ** 0.5
 
@@ -151,20 +157,20 @@ class TouchBound(NamedTuple):
 
 
 @compiled
-def high(body, z):
+def high(body: Body, z: float) -> bool:
     """Return whether a coin whose C is at the height z is far above the reach of its rim."""
     return z > _HIGH * _reach(body)
 
 
 @compiled
-def time_to_fall(body, now, down):
+def time_to_fall(body: Body, now: HeightAndTilt, down: float) -> float:
     """Return a time in which a high coin surely does not come down to the reach of its rim [s]."""
     fall = now.z - _NEAR * _reach(body)
     return (now.z_rate + (now.z_rate * now.z_rate + 2 * down * fall) ** 0.5) / down
 
 
 @compiled
-def touch_bound(body, now, bounds, window):
+def touch_bound(body: Body, now: HeightAndTilt, bounds: Bounds, window: float) -> TouchBound:
     """Return the `TouchBound` of a coin that is not high, over a window of time [s]."""
     r, half = body.radius, body.thickness / 2
     if now.z_rate > 0:
@@ -190,13 +196,15 @@ def touch_bound(body, now, bounds, window):
 
 
 @compiled
-def falls_through(ahead):
+def falls_through(ahead: TouchBound) -> bool:
     """Return whether F surely falls through zero once, and when at the latest; of a `TouchBound`."""
     return ahead.latest > 0 and ahead.F_rate * ahead.F_rate > ahead.rise * ahead.F
 
 
 @compiled
-def first_touch(body, turning, heights, inside, length, bounds):
+def first_touch(
+    body: Body, turning: Turning, heights: Polynomial, inside: float, length: float, bounds: Bounds
+) -> tuple[Found, float, int]:
     """Search a piece of a flight for the first touch.
 
     Args:
@@ -234,7 +242,7 @@ def first_touch(body, turning, heights, inside, length, bounds):
 
 
 @compiled
-def lowest_dip(body, turning, heights, length, bounds):
+def lowest_dip(body: Body, turning: Turning, heights: Polynomial, length: float, bounds: Bounds) -> float:
     """Bound the minima of the gap in a piece of a flight; for the arguments see `first_touch`.
 
     In a quarter of the time that is surely clear F keeps three quarters. So a minimum between an evaluation
@@ -263,7 +271,7 @@ def lowest_dip(body, turning, heights, length, bounds):
 
 
 @compiled
-def _clear(F, F_rate, bend):
+def _clear(F: float, F_rate: float, bend: float) -> float:
     """Return the positive root of F + 2 F_rate t - bend t²: a rim is clear up to it."""
     F = max(F, 0.0)
     root = (F_rate * F_rate + bend * F) ** 0.5
@@ -274,7 +282,9 @@ def _clear(F, F_rate, bend):
 
 
 @compiled
-def _sure_touch(body, turning, heights, low, now, to_come):
+def _sure_touch(
+    body: Body, turning: Turning, heights: Polynomial, low: float, now: HeightAndTilt, to_come: TouchBound
+) -> tuple[float, int]:
     """Find the one zero of F in a time to come, to `CLOSED_TOUCH`.
 
     Args:

@@ -7,11 +7,13 @@ from cointoss.analytic.flight.integrated_flight import sample_flight
 from cointoss.analytic.flight.state_vector import STATE_SIZE, spin_of
 from cointoss.analytic.flight.touch_search import fly_by_steps
 from cointoss.analytic.flight.turning import turns_in_closed_form
+from cointoss.models.body import Body
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 
 
 @compiled
-def fly(body, y, longest):
+def fly(body: Body, y: Array, longest: float) -> tuple[float, bool, int]:
     """Fly until the coin first touches the floor.
 
     Args:
@@ -29,7 +31,7 @@ def fly(body, y, longest):
 
 
 @compiled
-def fly_with_graze(body, y, longest):
+def fly_with_graze(body: Body, y: Array, longest: float) -> tuple[float, float]:
     """Fly as `fly` does, and return how near to the floor the coin came before.
 
     Returns:
@@ -45,7 +47,7 @@ def fly_with_graze(body, y, longest):
 
 
 @compiled
-def sample(body, start, start_time, times, states):
+def sample(body: Body, start: Array, start_time: float, times: Array, states: Array) -> int:
     """Write the states of one flight at `times` into `states`; for the arguments see `sample_flight`.
 
     Returns:
@@ -57,6 +59,6 @@ def sample(body, start, start_time, times, states):
 
 
 @compiled
-def steps_of(body, start, duration):
+def steps_of(body: Body, start: Array, duration: float) -> int:
     """Return the number of steps of a flight of this duration [s] from the state `start`, (13,)."""
     return sample(body, start, 0.0, np.array([duration]), np.empty((1, STATE_SIZE)))

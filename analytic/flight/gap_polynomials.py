@@ -5,9 +5,13 @@ and u are polynomials of time, and so is F. By Descartes' rule it has no more ze
 sign among its Bernstein coefficients: none where all are positive, and one where they change once.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from cointoss.analytic.flight.power_series import HEIGHT, ORDER, UP
+from cointoss.models.body import Body
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 
 DEGREE = 2 * ORDER
@@ -20,19 +24,39 @@ _SHORTER, _TRIES = 1 / 3, 8
 _START, _MOST_STEPS, _STEP, _BEFORE = 0.8, 20, 1e-7, 1e-13
 
 
+class GapPolynomials(NamedTuple):
+    """F of tails' and of heads' rim as polynomials of the time since the start of a step."""
+
+    coefficients: Array
+    """(2, DEGREE + 1)."""
+    degree: int
+    rounding: float
+    """By how much rounding changes F at most [m²]."""
+
+
+class Window(NamedTuple):
+    """A time of interest within a step."""
+
+    start: float
+    """Since the start of the step [s]."""
+    length: float
+    """The longest time of interest [s]."""
+    least: float
+    """Shorter times are of no use [s]."""
+
+
 @compiled
-def gap_polynomials(body, series, order, length, polynomials):
-    """Write F of tails' and of heads' rim as polynomials of the time since the start of a step.
+def gap_polynomials(
+    body: Body, series: Array, order: int, length: float, coefficients: Array
+) -> GapPolynomials:
+    """Return the `GapPolynomials` of a step.
 
     Args:
         body: the coin.
         series: of the flight, see `power_series.expand_flight`.
         order: of the series.
         length: of the step [s].
-        polynomials: where the coefficients go, (2, DEGREE + 1).
-
-    Returns:
-        Their degree, and by how much rounding changes them at most [m²].
+        coefficients: where they go, (2, DEGREE + 1).
     """
     # Of q, r u_ξ, r u_η and (h/2) u_ζ.
     parts, c = np.empty((4, order + 1)), body.center
@@ -54,43 +78,40 @@ def gap_polynomials(body, series, order, length, polynomials):
             i = k - j
             squares += q[j] * q[i] + lift[j] * lift[i] - across[j] * across[i] - along[j] * along[i]
             product += q[j] * lift[i]
-        polynomials[0, k], polynomials[1, k] = squares - 2 * product, squares + 2 * product
+        coefficients[0, k], coefficients[1, k] = squares - 2 * product, squares + 2 * product
         if (abs(squares) + 2 * abs(product)) * power > _SMALLEST * size:
             degree = k
         elif k > max(degree + 2, order):
             break
         power *= length
-    return degree, _ROUNDING * size
+    return GapPolynomials(coefficients, degree, _ROUNDING * size)
 
 
 @compiled
-def time_surely_clear(body, polynomials, degree, rounding, sink, inside, window, least):
-    """Return a time from `inside` on during which a coin above the floor surely stays there.
+def time_surely_clear(body: Body, polynomials: GapPolynomials, sink: float, window: Window) -> float:
+    """Return a time from the window's start on during which a coin above the floor surely stays there.
 
     Args:
         body: the coin.
-        polynomials: see `gap_polynomials`.
-        degree: of them.
-        rounding: by how much it changes them at most [m²].
-        sink: how far below zero they may be before the touch: not at all, or what rounding hides [m²].
-        inside: time since the start of the step [s].
-        window: the longest time of interest [s].
-        least: shorter times are of no use [s].
+        polynomials: of the step.
+        sink: how far below zero F may be before the touch: not at all, or what rounding hides [m²].
+        window: of time.
 
     Returns:
         The time, all but that to the touch where it is found, 0 where none of use is [s].
     """
+    degree, inside, least = polynomials.degree, window.start, window.least
     shifted, bernstein = np.empty((2, degree + 1)), np.empty(degree + 1)
     rims = 2 if body.thickness > 0 else 1
     for rim in range(rims):
         for k in range(degree + 1):
-            shifted[rim, k] = polynomials[rim, k]
-        shifted[rim, 0] += sink - rounding
+            shifted[rim, k] = polynomials.coefficients[rim, k]
+        shifted[rim, 0] += sink - polynomials.rounding
         if inside > 0:
             for i in range(degree):
                 for k in range(degree - 1, i - 1, -1):
                     shifted[rim, k] += inside * shifted[rim, k + 1]
-    time = window
+    time = window.length
     for _ in range(_TRIES):
         if time < least:
             break
@@ -105,7 +126,7 @@ def time_surely_clear(body, polynomials, degree, rounding, sink, inside, window,
 
 
 @compiled
-def _positive_until(polynomial, length, sink, bernstein):
+def _positive_until(polynomial: Array, length: float, sink: float, bernstein: Array) -> float:
     """Return a time up to which a polynomial is positive, at most `length`; 0 where none is known.
 
     Args:
@@ -133,7 +154,7 @@ def _positive_until(polynomial, length, sink, bernstein):
 
 
 @compiled
-def _before_fall(polynomial, length, least):
+def _before_fall(polynomial: Array, length: float, least: float) -> float:
     """Return a time just before a polynomial falls through `least` for good, by Newton's method.
 
     Args:
@@ -160,7 +181,7 @@ def _before_fall(polynomial, length, least):
 
 
 @compiled
-def _value_and_rate(polynomial, t):
+def _value_and_rate(polynomial: Array, t: float) -> tuple[float, float]:
     """Return the value of a polynomial and its derivative."""
     value, rate = 0.0, 0.0
     for k in range(len(polynomial) - 1, -1, -1):

@@ -8,13 +8,14 @@ from cointoss.analytic.flight.runge_kutta import end_point, stage_point, step_er
 from cointoss.analytic.flight.state_vector import STATE_SIZE, normalise, spin_of
 from cointoss.analytic.numerics.tableau import STAGES
 from cointoss.analytic.numerics.tolerances import STEP_ERROR
-from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.body import Body
+from cointoss.models.kernel.arrays import Array, copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import norm
 
 
 @compiled
-def step(body, y, dt, stages, y_new):
+def step(body: Body, y: Array, dt: float, stages: Array, y_new: Array) -> None:
     """Advance the state by one step of order 8, its quaternion brought back to norm 1.
 
     Args:
@@ -32,13 +33,15 @@ def step(body, y, dt, stages, y_new):
 
 
 @compiled
-def first_step(body, y):
+def first_step(body: Body, y: Array) -> float:
     """Return a step with which to start a flight [s]: a twentieth of a radian, or of the time to fall r."""
     return 0.05 / (norm(spin_of(y)) + (body.gravity / body.radius) ** 0.5)
 
 
 @compiled
-def accepted_step(body, y, dt, tolerance, stages, y_new):
+def accepted_step(
+    body: Body, y: Array, dt: float, tolerance: float, stages: Array, y_new: Array
+) -> tuple[float, float]:
     """Advance the state by a step at most dt long.
 
     Args:
@@ -67,7 +70,7 @@ def accepted_step(body, y, dt, tolerance, stages, y_new):
 
 
 @compiled
-def flight_work(body):
+def flight_work(body: Body) -> Array:
     """Return the work space of a flight: for its series, or where b > 0 a Runge-Kutta step and its end."""
     if body.air.exponent is None:
         return np.empty((ORDER + 1, COLUMNS))
@@ -75,7 +78,7 @@ def flight_work(body):
 
 
 @compiled
-def flight_step(body, y, dt, longest, work):
+def flight_step(body: Body, y: Array, dt: float, longest: float, work: Array) -> tuple[float, float, int]:
     """Prepare a step of a flight: expand it, or where b > 0 find how long a Runge-Kutta step may be.
 
     Args:
@@ -96,7 +99,7 @@ def flight_step(body, y, dt, longest, work):
 
 
 @compiled
-def within_step(body, y, t, order, work, y_new):
+def within_step(body: Body, y: Array, t: float, order: int, work: Array, y_new: Array) -> None:
     """Write the state at the time t within a step into y_new.
 
     Args:
@@ -114,7 +117,7 @@ def within_step(body, y, t, order, work, y_new):
 
 
 @compiled
-def finish_step(body, made, order, work, y, scratch):
+def finish_step(body: Body, made: float, order: int, work: Array, y: Array, scratch: Array) -> None:
     """Advance the state y to the end of a step.
 
     Args:
@@ -133,7 +136,7 @@ def finish_step(body, made, order, work, y, scratch):
 
 
 @compiled
-def sample_flight(body, start, start_time, times, states):
+def sample_flight(body: Body, start: Array, start_time: float, times: Array, states: Array) -> int:
     """Write the states of one flight at `times` into `states`.
 
     Args:

@@ -18,10 +18,12 @@ from cointoss.analytic.flight.state_vector import (
     set_velocity,
     state_of,
 )
-from cointoss.analytic.numerics.rotation import attitude_near
-from cointoss.models.body import in_vacuum
+from cointoss.analytic.numerics.rotation import Four, attitude_near
+from cointoss.models.body import Body, in_vacuum
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import add, apply, apply_transposed, cross, norm, scale, subtract
+from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, cross, norm, scale, subtract
+from cointoss.models.state import State
 
 ORDER = 24
 # The last two terms of a step are at most this part of the coin's scales.
@@ -32,11 +34,11 @@ _FOURS, _ROWS = (0, 4, 8), ((0, 4, 8), (1, 5, 9), (2, 6, 10))
 UP, _VELOCITY, _MOMENTUM, _SPIN, _POSITION = _ROWS[2], (3, 7, 11), (12, 13, 14), (15, 16, 17), (18, 19, 20)
 # The position of C is one of four columns too, of which the last is work space.
 HEIGHT, COLUMNS = _POSITION[2], 22
-_NONE = (0.0, 0.0, 0.0, 0.0)
+_NONE: Four = (0.0, 0.0, 0.0, 0.0)
 
 
 @compiled
-def expand_flight(body, y, longest, series):
+def expand_flight(body: Body, y: Array, longest: float, series: Array) -> tuple[float, int]:
     """Expand a flight in vacuum or in linear air from the state y, (13,), on.
 
     Args:
@@ -78,7 +80,7 @@ def expand_flight(body, y, longest, series):
 
 
 @compiled
-def _next_terms(body, k, series, speed, spin):
+def _next_terms(body: Body, k: int, series: Array, speed: float, spin: float) -> float:
     """Write the coefficients of order k + 1.
 
     Args:
@@ -123,7 +125,7 @@ def _next_terms(body, k, series, speed, spin):
 
 
 @compiled
-def state_in_flight(body, series, order, t, y, y_new):
+def state_in_flight(body: Body, series: Array, order: int, t: float, y: Array, y_new: Array) -> None:
     """Write the state at the time t [s] of an expanded flight that starts with the state y into y_new.
 
     Args:
@@ -149,39 +151,39 @@ def state_in_flight(body, series, order, t, y, y_new):
 
 
 @compiled
-def _fall_time(body, state):
+def _fall_time(body: Body, state: State) -> float:
     """Return the time in which C falls in vacuum to the floor, or by a radius if that is farther [s]."""
     depth, rise = max(state.position[2], body.radius), state.velocity[2]
     return (rise + (rise * rise + 2 * body.gravity * depth) ** 0.5) / body.gravity
 
 
 @compiled
-def _read(series, k, columns):
+def _read(series: Array, k: int, columns: tuple[int, int, int]) -> Vector:
     """Return the coefficients of order k of the vector in these columns."""
     return series[k, columns[0]], series[k, columns[1]], series[k, columns[2]]
 
 
 @compiled
-def _write(series, k, columns, a):
+def _write(series: Array, k: int, columns: tuple[int, int, int], a: Vector) -> None:
     """Set what `_read` returns."""
     series[k, columns[0]], series[k, columns[1]], series[k, columns[2]] = a
 
 
 @compiled
-def _read_four(series, k, column):
+def _read_four(series: Array, k: int, column: int) -> Four:
     """Return the coefficients of order k in four columns from this one on."""
     return series[k, column], series[k, column + 1], series[k, column + 2], series[k, column + 3]
 
 
 @compiled
-def _write_four(series, k, column, factor, a):
+def _write_four(series: Array, k: int, column: int, factor: float, a: Four) -> None:
     """Set what `_read_four` returns, to a product."""
     series[k, column], series[k, column + 1] = factor * a[0], factor * a[1]
     series[k, column + 2], series[k, column + 3] = factor * a[2], factor * a[3]
 
 
 @compiled
-def _add_product(total, a, factor):
+def _add_product(total: Four, a: Four, factor: float) -> Four:
     """Return a sum, (4,), with the product of four numbers and a factor added."""
     return (
         total[0] + a[0] * factor,
@@ -192,12 +194,12 @@ def _add_product(total, a, factor):
 
 
 @compiled
-def _add_to_fourth(a, b):
+def _add_to_fourth(a: Four, b: float) -> Four:
     """Return four numbers with b added to the last."""
     return a[0], a[1], a[2], a[3] + b
 
 
 @compiled
-def _part(values, columns):
+def _part(values: Array, columns: tuple[int, int, int]) -> Vector:
     """Return the vector in these columns."""
     return values[columns[0]], values[columns[1]], values[columns[2]]

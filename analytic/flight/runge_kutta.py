@@ -18,14 +18,17 @@ from cointoss.analytic.flight.state_vector import (
     velocity_of,
 )
 from cointoss.analytic.numerics.tableau import END, ERROR_3, ERROR_5, TERMS, WEIGHTED, WEIGHTS
+from cointoss.models.attitude import Quaternion
+from cointoss.models.body import Body
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import norm
+from cointoss.models.kernel.vectors import Vector, norm
 
 _SAFETY, _SHRINK_MOST, _GROW_MOST = 0.8, 0.2, 6.0
 
 
 @compiled
-def stage_point(y, dt, stages, stage, point):
+def stage_point(y: Array, dt: float, stages: Array, stage: int, point: Array) -> None:
     """Write the place of a stage, whose slope is wanted, into `point`, all but the position of C.
 
     Args:
@@ -40,7 +43,7 @@ def stage_point(y, dt, stages, stage, point):
 
 
 @compiled
-def end_point(y, dt, stages, point):
+def end_point(y: Array, dt: float, stages: Array, point: Array) -> None:
     """Write into `point`, (13,), the end of the step; for the arguments see `stage_point`."""
     x, v, e, w = _weighted_slope(stages, END)
     set_position(point, _plus(position_of(y), dt, x))
@@ -48,7 +51,7 @@ def end_point(y, dt, stages, point):
 
 
 @compiled
-def _advance(y, dt, v, e, w, point):
+def _advance(y: Array, dt: float, v: Vector, e: Quaternion, w: Vector, point: Array) -> None:
     """Write y + dt (v, e, w) into the parts of `point` after the position; LLVM makes vectors of them."""
     set_velocity(point, _plus(velocity_of(y), dt, v))
     set_attitude(point, _plus_4(attitude_of(y), dt, e))
@@ -56,7 +59,7 @@ def _advance(y, dt, v, e, w, point):
 
 
 @compiled
-def _weighted_slope(stages, row):
+def _weighted_slope(stages: Array, row: int) -> tuple[Vector, Vector, Quaternion, Vector]:
     """Return the sum of the slopes with the weights of a row of the tableau, part by part of the state."""
     x, v, w, e = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
     for term in range(TERMS[row]):
@@ -69,19 +72,19 @@ def _weighted_slope(stages, row):
 
 
 @compiled
-def _plus(a, k, b):
+def _plus(a: Vector, k: float, b: Vector) -> Vector:
     """Return a + k b for vectors."""
     return a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2]
 
 
 @compiled
-def _plus_4(a, k, b):
+def _plus_4(a: Quaternion, k: float, b: Quaternion) -> Quaternion:
     """Return a + k b for Euler parameters."""
     return a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2], a[3] + k * b[3]
 
 
 @compiled
-def step_error(body, y, dt, stages):
+def step_error(body: Body, y: Array, dt: float, stages: Array) -> float:
     """Estimate the error of the step just made, relative to the scales of the coin.
 
     The scales: r for positions, √(g r) beside |v| for velocities, 1 for Euler parameters, √(g/r) beside
@@ -95,7 +98,9 @@ def step_error(body, y, dt, stages):
 
 
 @compiled
-def _sum_of_squares(slope, length, speed, spin):
+def _sum_of_squares(
+    slope: tuple[Vector, Vector, Quaternion, Vector], length: float, speed: float, spin: float
+) -> float:
     """Return the sum of the squares of a slope's components, each relative to its scale."""
     x, v, e, w = slope
     total = 0.0
@@ -111,7 +116,7 @@ def _sum_of_squares(slope, length, speed, spin):
 
 
 @compiled
-def combined_error(dt, sum_5, sum_3, size):
+def combined_error(dt: float, sum_5: float, sum_3: float, size: int) -> float:
     """Return the error of a step of a system of `size` components, as Hairer's code combines the estimates.
 
     Args:
@@ -130,7 +135,7 @@ def combined_error(dt, sum_5, sum_3, size):
 
 
 @compiled
-def step_factor(error):
+def step_factor(error: float) -> float:
     """Return the factor from a step to the next, or to its next try.
 
     Args:

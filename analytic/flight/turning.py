@@ -10,10 +10,12 @@ import math
 from typing import NamedTuple
 
 from cointoss.analytic.flight.state_vector import attitude_of, normalise, set_attitude, set_spin, spin_of
-from cointoss.models.attitude import quaternion_product, rotation_matrix
-from cointoss.models.body import in_vacuum, is_ideal
+from cointoss.models.attitude import quaternion_product
+from cointoss.models.body import Body, in_vacuum, is_ideal
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, apply, cross, dot, norm, scale, subtract
+from cointoss.models.state import State
 
 # Turning slower than that is none [rad/s]: the squares of its parts would be below the range of numbers.
 _STILL = 1e-150
@@ -35,7 +37,7 @@ class Turning(NamedTuple):
 
 
 @compiled
-def turns_in_closed_form(body, w):
+def turns_in_closed_form(body: Body, w: Vector) -> bool:
     """Return whether a coin with the angular velocity w turns in closed form.
 
     Args:
@@ -46,15 +48,14 @@ def turns_in_closed_form(body, w):
 
 
 @compiled
-def turning_of(body, e, w):
+def turning_of(body: Body, state: State) -> Turning:
     """Return the `Turning` of a coin that turns in closed form.
 
     Args:
         body: the coin.
-        e: Euler parameters at the start, body to space, (4,).
-        w: angular velocity at the start, body frame, (3,) [rad/s].
+        state: at the start.
     """
-    R, J = rotation_matrix(e), body.inertia
+    R, w, J = state.R, state.spin, body.inertia
     ratio = J[2][2] / J[0][0]
     turn = apply(R, (w[0], w[1], ratio * w[2]))
     rate = norm(turn)
@@ -70,7 +71,7 @@ def turning_of(body, e, w):
 
 
 @compiled
-def turn(turning, y, s, left, y_new):
+def turn(turning: Turning, y: Array, s: float, left: float, y_new: Array) -> None:
     """Write attitude and angular velocity of a later state into y_new.
 
     e = (turn by φ about the axis) ∘ e_0 ∘ (turn by spin s about ζ), brought back to norm 1.

@@ -5,26 +5,27 @@ the derivative of the very numbers that these steps compute, their lengths held.
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cointoss.analytic.air.force import force_and_moment, write_jacobian
 from cointoss.analytic.flight.equations_of_motion import derivative
 from cointoss.analytic.flight.integrated_flight import accepted_step, first_step, step
 from cointoss.analytic.flight.runge_kutta import end_point, stage_point
-from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, spin_of, velocity_of
+from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, spin_of, state_of, velocity_of
 from cointoss.analytic.numerics.rotation import quaternion_rate, rotation_change
 from cointoss.analytic.numerics.tableau import STAGES
 from cointoss.analytic.numerics.tolerances import STEP_ERROR
-from cointoss.models.attitude import rotation_matrix
-from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.body import Body
+from cointoss.models.kernel.arrays import Array, copy_into
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import add, apply, apply_transposed, cross, subtract
+from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, cross, subtract
 
 STEP_ERROR_OF_GROWTH = 1e-7
 """Error allowed in one step where b > 0 and each step takes many quadratures: a growth is wanted to 1e-3."""
 
 
 @compiled
-def derivative_change(body, y, force, jacobian, dy, rate):
+def derivative_change(body: Body, y: Array, force: Array, jacobian: Array, dy: Array, rate: Array) -> None:
     """Write the change of `flight.derivative` with the state into `rate`.
 
     Args:
@@ -35,9 +36,9 @@ def derivative_change(body, y, force, jacobian, dy, rate):
         dy: change of the state, (13,).
         rate: where the change of its rate of change goes, (13,).
     """
-    v, e, w = velocity_of(y), attitude_of(y), spin_of(y)
+    _, v, e, w, R = state_of(y)
     dv, de, dw = velocity_of(dy), attitude_of(dy), spin_of(dy)
-    R, dR = rotation_matrix(e), rotation_change(e, de)
+    dR = rotation_change(e, de)
     dv_body = add(apply_transposed(dR, v), apply_transposed(R, dv))
     df, dm_C = _part(jacobian, 0, dv_body, dw), _part(jacobian, 3, dv_body, dw)
     df_space = add(apply(dR, force), apply(R, df))
@@ -52,15 +53,21 @@ def derivative_change(body, y, force, jacobian, dy, rate):
 
 
 @compiled
-def _part(jacobian, first, dv, dw):
+def _part(jacobian: Array, first: int, dv: Vector, dw: Vector) -> Vector:
     """Return three rows of a jacobian, from this one on, times a change of the motion."""
-    by_v = (jacobian[first, :3], jacobian[first + 1, :3], jacobian[first + 2, :3])
-    by_w = (jacobian[first, 3:], jacobian[first + 1, 3:], jacobian[first + 2, 3:])
+    by_v = (_row(jacobian, first, 0), _row(jacobian, first + 1, 0), _row(jacobian, first + 2, 0))
+    by_w = (_row(jacobian, first, 3), _row(jacobian, first + 1, 3), _row(jacobian, first + 2, 3))
     return add(apply(by_v, dv), apply(by_w, dw))
 
 
 @compiled
-def step_change(body, y, dt, stages, changes):
+def _row(jacobian: Array, row: int, column: int) -> Vector:
+    """Return three numbers of a row, from a column on."""
+    return jacobian[row, column], jacobian[row, column + 1], jacobian[row, column + 2]
+
+
+@compiled
+def step_change(body: Body, y: Array, dt: float, stages: Array, changes: Array) -> None:
     """Carry small changes of the state through the step that `flight.step` has just made.
 
     Args:
@@ -78,7 +85,8 @@ def step_change(body, y, dt, stages, changes):
     for stage in range(STAGES):
         point = points[stage]
         stage_point(y, dt, stages, stage, point)
-        v, w = apply_transposed(rotation_matrix(attitude_of(point)), velocity_of(point)), spin_of(point)
+        at_stage = state_of(point)
+        v, w = apply_transposed(at_stage.R, at_stage.velocity), at_stage.spin
         (forces[stage, 0], forces[stage, 1], forces[stage, 2]), _ = force_and_moment(body, v, w)
         write_jacobian(body, v, w, jacobians[stage])
     end = np.empty(STATE_SIZE)
@@ -99,7 +107,7 @@ def step_change(body, y, dt, stages, changes):
 
 
 @compiled
-def flight_tangent(body, y, duration, changes, moved):
+def flight_tangent(body: Body, y: Array, duration: float, changes: Array, moved: NDArray[np.bool_]) -> None:
     """Carry small changes of the state through a flight.
 
     Args:

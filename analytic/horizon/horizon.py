@@ -9,7 +9,7 @@ import numpy as np
 
 from cointoss.analytic.events import EventLog
 from cointoss.analytic.flight.flying import fly_with_graze, steps_of
-from cointoss.analytic.flight.state_vector import STATE_SIZE
+from cointoss.analytic.flight.state_vector import STATE_SIZE, spin_of
 from cointoss.analytic.flight.turning import turns_in_closed_form
 from cointoss.analytic.horizon.flight_tangent import flight_tangent
 from cointoss.analytic.horizon.sensitivity import delay_of, flight_map, impact_map, touch_map
@@ -63,7 +63,7 @@ def trusted_impacts(body: Body, rules: Rules, toss: EventLog) -> int:
         carried += TOUCH_COST + _turning(body, y, row["time"] - toss.start_times[i])
         if carried > MOST_CARRIED:
             return i
-        closed = turns_in_closed_form(body, y[10:13])
+        closed = turns_in_closed_form(body, spin_of(y))
         at_start, flight, at_end, duration, graze = _flight(
             body, rules, y, toss.start_times[i], CLOSED_FORM if closed else 1.0
         )
@@ -127,7 +127,7 @@ def _flight(
 
 
 def _step_errors(body: Body, y: Array) -> Array:
-    """Give the errors of a step in the components of the state, (13,); x and y change no impact.
+    """Return the errors of a step in the components of the state, (13,); x and y change no impact.
 
     The scales are those of `flight.step_error`, but for the height's.
     """
@@ -139,18 +139,18 @@ def _step_errors(body: Body, y: Array) -> Array:
 
 
 def _size(errors: Array) -> float:
-    """Give `SAFETY` standard deviations of what the error vectors change, one in each column."""
+    """Return `SAFETY` standard deviations of what the error vectors change, one in each column."""
     return SAFETY * float(np.linalg.norm(errors))
 
 
 def _sinking(body: Body, errors: Array) -> float:
-    """Give by how much the errors lower the gap of any rim point at the end of a flight, at most [m]."""
+    """Return by how much the errors lower the gap of any rim point at the end of a flight, at most [m]."""
     reach = np.linalg.norm(body.center) + body.radius + body.thickness / 2
     return _size(errors[2]) + 2 * float(reach) * _size(errors[6:10])
 
 
 def _holds(rules: Rules, row: np.void, touch: Touch, errors: Array) -> bool:
-    """Tell whether an impact keeps its time, face, place and impulse within the errors.
+    """Return whether an impact keeps its time, face, place and impulse within the errors.
 
     Args:
         rules: floor and ending.

@@ -22,27 +22,27 @@ from cointoss.models.records import Array
 
 
 def flight_map(tangents: Array) -> Array:
-    """Give the map of a flight of fixed duration, (14, 14), from its `tangents`, one in a row, (13, 13)."""
+    """Return the map of a flight of fixed duration, (14, 14), from its `tangents`, one in a row, (13, 13)."""
     return _with_time(tangents.T)
 
 
 def delay_of(touch: Touch) -> Array:
-    """Give the delay of a touch as a row that acts on a change at the touch's undisturbed time, (14,) [s]."""
+    """Return the delay of a touch, a row that acts on a change at the touch's undisturbed time, (14,) [s]."""
     return -np.append(touch.gap, 0) / touch.closing
 
 
 def touch_map(touch: Touch) -> Array:
-    """Give the map from a change at the touch's undisturbed time to that at its own, (14, 14)."""
+    """Return the map from a change at the touch's undisturbed time to that at its own, (14, 14)."""
     return np.eye(STATE_SIZE + 1) + np.outer(np.append(touch.rate, 1), delay_of(touch))
 
 
 def impact_map(touch: Touch) -> Array:
-    """Give the map of the impact, (14, 14)."""
+    """Return the map of the impact, (14, 14)."""
     return _with_time(touch.after)
 
 
 def event_tangent(body: Body, rules: Rules, toss: EventLog, number: int) -> Array:
-    """Give the tangent map from just after the impact before to just after impact `number`, (14, 14).
+    """Return the tangent map from just after the impact before to just after impact `number`, (14, 14).
 
     Args:
         body: the coin.

@@ -6,13 +6,12 @@ import numpy as np
 
 from cointoss.analytic.events import hit, restitution_at
 from cointoss.analytic.flight.equations_of_motion import derivative
-from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, normalise
-from cointoss.models.attitude import rotation_matrix
+from cointoss.analytic.flight.state_vector import STATE_SIZE, normalise, spin_of, state_of, velocity_of
 from cointoss.models.body import Body, Rules
 from cointoss.models.geometry import FLAT_SINE, gap
 from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import norm
+from cointoss.models.kernel.vectors import Vector, norm
 from cointoss.models.laws import ContactLaw
 from cointoss.models.records import IMPACT_ROW, Array
 
@@ -60,7 +59,7 @@ def touch_derivatives(body: Body, rules: Rules, y: Array) -> Touch:
     chi = restitution_at(body, rules, y)
     derivative(body, y, rate)
     touch_values(body, rules, chi, y, values)
-    v_A = values[_VELOCITY:_IMPULSE]
+    v_A = values[_VELOCITY], values[_VELOCITY + 1], values[_VELOCITY + 2]
     slopes = touch_differences(body, rules, chi, y, step_size(body, rules, y, v_A))
     return Touch(
         v_A[2],
@@ -74,7 +73,7 @@ def touch_derivatives(body: Body, rules: Rules, y: Array) -> Touch:
 
 
 @compiled
-def touch_values(body, rules, chi, y, values):
+def touch_values(body: Body, rules: Rules, chi: float, y: Array, values: Array) -> None:
     """Write gap, upward unit vector, velocity of A, impulse and the state after into `values`.
 
     Args:
@@ -84,7 +83,7 @@ def touch_values(body, rules, chi, y, values):
         y: state at the touch, (13,).
         values: where they go, (23,).
     """
-    up, rows = rotation_matrix(attitude_of(y))[2], np.zeros(1, IMPACT_ROW)
+    up, rows = state_of(y).R[2], np.zeros(1, IMPACT_ROW)
     values[0] = gap(body, y[2], up)
     copy_into(values[_AFTER:], y)
     hit(body, rules, chi, values[_AFTER:], rows[0])
@@ -95,7 +94,7 @@ def touch_values(body, rules, chi, y, values):
 
 
 @compiled
-def step_size(body, rules, y, v_A):
+def step_size(body: Body, rules: Rules, y: Array, v_A: Vector) -> float:
     """Return the change of the state with which differences are taken, relative to the coin's scales.
 
     The lowest point jumps where a face or the edge is level; with friction the impulse has a kink where the
@@ -107,7 +106,7 @@ def step_size(body, rules, y, v_A):
         y: state at the touch, (13,).
         v_A: velocity of the contact point, (3,) [m/s].
     """
-    up, speed = rotation_matrix(attitude_of(y))[2], speed_scale(body, y)
+    up, speed = state_of(y).R[2], speed_scale(body, y)
     tilt_sine, slip = (up[0] ** 2 + up[1] ** 2) ** 0.5, (v_A[0] ** 2 + v_A[1] ** 2) ** 0.5
     distance = abs(up[2])
     if tilt_sine > FLAT_SINE:
@@ -120,14 +119,14 @@ def step_size(body, rules, y, v_A):
 
 
 @compiled
-def speed_scale(body, y):
+def speed_scale(body: Body, y: Array) -> float:
     """Return √(g r) + |v| + r |ω| of the state y, (13,) [m/s]."""
-    spin = norm((y[10], y[11], y[12]))
-    return (body.gravity * body.radius) ** 0.5 + norm((y[3], y[4], y[5])) + body.radius * spin
+    spin = norm(spin_of(y))
+    return (body.gravity * body.radius) ** 0.5 + norm(velocity_of(y)) + body.radius * spin
 
 
 @compiled
-def touch_differences(body, rules, chi, y, part):
+def touch_differences(body: Body, rules: Rules, chi: float, y: Array, part: float) -> Array:
     """Return central differences of `touch_values`, over changes of the state's components, (23, 13).
 
     Args:

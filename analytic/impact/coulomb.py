@@ -1,20 +1,21 @@
 """Coulomb friction integrated through the impact (Routh 1860; Keller 1986), the contact law `coulomb`.
 
 The impact takes no time but has an order: the normal impulse p = S_z grows from 0, and with it the velocity
-of the contact point A, dv_A/dp = K (-μ s, 1), s the direction of the slip and K the Delassus matrix. The slip
-may turn, slow down, stop, stick, or start anew. E. J. Routh, Dynamics of a System of Rigid Bodies, 1860;
+of the contact point A, dv_A/dp = K (-μ s, 1), s the direction of the slip and K the Delassus matrix. The
+slip may turn, slow down, stop, stick, or start anew. E. J. Routh, Dynamics of a System of Rigid Bodies, 1860;
 J. B. Keller, J. Appl. Mech. 53 (1986) 1; W. J. Stronge, Impact Mechanics.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from cointoss.analytic.impact.slip_stop import expand_stop, impulse_until, room_for_stop
+from cointoss.analytic.impact.slip_stop import SlipStop, expand_stop, impulse_until, room_for_stop
 from cointoss.analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
-from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.kernel.arrays import Array, copy_into
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import apply, norm
+from cointoss.models.kernel.vectors import Matrix, Vector, apply, norm
 from cointoss.models.laws import RestitutionKind
 
 # The state of an impact: v_A, S and the work of the normal impulse, ∫ v_Az dp.
@@ -42,8 +43,29 @@ SETTLED = 40.0
 TURNED = 40.0
 
 
+class RoughPoint(NamedTuple):
+    """The contact point A in an impact with friction."""
+
+    delassus: Matrix
+    """K, space frame [1/kg]."""
+    friction: float
+    """Coefficient of friction μ."""
+    no_slip: float
+    """Slip that counts as none [m/s]."""
+    with_work: bool
+    """Whether the work is wanted; else that of slip is left out."""
+
+
+class Goal(NamedTuple):
+    """What ends an impact, or its compression: a component of its state that rises to a target."""
+
+    component: int
+    """`V_Z` or `WORK`."""
+    target: float
+
+
 @compiled
-def coulomb(K, v_A, chi, mu, kind):
+def coulomb(K: Matrix, v_A: Vector, chi: float, mu: float, kind: RestitutionKind) -> Vector:
     """Return the impulse of Coulomb friction integrated through the impact.
 
     Kinematic restitution ends it when v_Az' = -χ v_Az. Energetic restitution (Stronge) ends it when the
@@ -63,44 +85,41 @@ def coulomb(K, v_A, chi, mu, kind):
     y[0], y[1], y[V_Z] = v_A
     no_slip = NO_SLIP * norm(v_A)
     if kind == RestitutionKind.KINEMATIC:
-        grow_impulse(K, y, mu, no_slip, False, V_Z, -chi * v_A[2])
+        grow_impulse(RoughPoint(K, mu, no_slip, False), y, Goal(V_Z, -chi * v_A[2]))
     else:
-        grow_impulse(K, y, mu, no_slip, True, V_Z, 0.0)
-        grow_impulse(K, y, mu, no_slip, True, WORK, (1 - chi * chi) * y[WORK])
+        A = RoughPoint(K, mu, no_slip, True)
+        grow_impulse(A, y, Goal(V_Z, 0.0))
+        grow_impulse(A, y, Goal(WORK, (1 - chi * chi) * y[WORK]))
     return y[3], y[4], y[5]
 
 
 @compiled
-def grow_impulse(K, y, mu, no_slip, with_work, component, target):
+def grow_impulse(A: RoughPoint, y: Array, goal: Goal) -> None:
     """Let the normal impulse grow until a component of the state has risen to its target.
 
     Args:
-        K: Delassus matrix of A [1/kg].
+        A: that may slip.
         y: state of the impact, (7,); advanced.
-        mu: coefficient of friction μ.
-        no_slip: slip that counts as none [m/s].
-        with_work: whether the work is wanted; else that of slip is left out.
-        component: `V_Z` or `WORK`.
-        target: its value at the end.
+        goal: what it grows to.
     """
-    if slide(K, y, mu, no_slip, with_work, component, target):
+    if slide(A, y, goal):
         return
-    f = friction_without_slip(K, mu)
-    gained = apply(K, (f[0], f[1], 1.0))
-    go_straight(y, f, gained, impulse_to(y, gained[2], component, target))
+    f = friction_without_slip(A.delassus, A.friction)
+    gained = apply(A.delassus, (f[0], f[1], 1.0))
+    go_straight(y, f, gained, impulse_to(y, gained[2], goal))
 
 
 @compiled
-def impulse_to(y, rise, component, target):
-    """Return the normal impulse in which a component reaches its target, dv_z/dp = `rise` being constant."""
-    missing = target - y[component]
-    if component == V_Z:
+def impulse_to(y: Array, rise: float, goal: Goal) -> float:
+    """Return the normal impulse that reaches the goal, dv_z/dp = `rise` being constant."""
+    missing = goal.target - y[goal.component]
+    if goal.component == V_Z:
         return missing / rise
     return ((y[2] ** 2 + 2 * rise * missing) ** 0.5 - y[2]) / rise
 
 
 @compiled
-def go_straight(y, f, gained, p):
+def go_straight(y: Array, f: tuple[float, float], gained: Vector, p: float) -> None:
     """Advance the state by the normal impulse p under the friction f per normal impulse: v_A is linear in p.
 
     Args:
@@ -118,18 +137,18 @@ def go_straight(y, f, gained, p):
 
 
 @compiled
-def end_straight(y, f, gained, p, stops, component, target):
+def end_straight(y: Array, f: tuple[float, float], gained: Vector, p: float, stops: bool, goal: Goal) -> None:
     """Advance the state by the p of `straight_slip`, and take the rounding out of its end."""
     go_straight(y, f, gained, p)
     if stops:
         y[0], y[1] = 0.0, 0.0
     else:
-        y[component] = target
+        y[goal.component] = goal.target
 
 
 @compiled
-def slide(K, y, mu, no_slip, with_work, component, target):
-    """Follow the slip until it stops or a component has risen to its target; return whether it has risen.
+def slide(A: RoughPoint, y: Array, goal: Goal) -> bool:
+    """Follow the slip until it stops or reaches the goal; return whether it has reached it.
 
     With dp = |v_t| dτ the equations are regular where the slip stops: dS/dτ = (-μ v_t, |v_t|) and
     dv_A/dτ = K dS/dτ.
@@ -138,31 +157,31 @@ def slide(K, y, mu, no_slip, with_work, component, target):
     """
     series, y_new, speed = np.empty((ORDER + 1, COLUMNS)), np.empty(COLUMNS), norm((y[0], y[1], y[2]))
     to_stop = room_for_stop()
-    while y[component] < target:
-        if math.hypot(y[0], y[1]) <= no_slip:
+    while y[goal.component] < goal.target:
+        if math.hypot(y[0], y[1]) <= A.no_slip:
             return False
-        f, gained, p, stops = straight_slip(K, y, mu, no_slip, component, target)
+        f, gained, p, stops = straight_slip(A, y, goal)
         if p > 0:
-            end_straight(y, f, gained, p, stops, component, target)
+            end_straight(y, f, gained, p, stops, goal)
             return not stops
-        if die_away(K, y, mu, with_work, component, target, to_stop, y_new):
+        if die_away(A, y, goal, to_stop, y_new):
             copy_into(y, y_new[:SIZE])
             continue
-        length, size = expand_slip(K, y, mu, speed, with_work, series)
+        length, size = expand_slip(A, y, speed, series)
         while True:
             slipped(series, length, y_new)
             if abs(y_new[SLIP] - math.hypot(y_new[0], y_new[1])) <= AGREES * size:
                 break
             length /= 2
-        if y_new[component] >= target:
-            slipped(series, time_to(series, length, y_new, component, target), y_new)
-            y_new[component] = target
+        if y_new[goal.component] >= goal.target:
+            slipped(series, time_to(series, length, y_new, goal), y_new)
+            y_new[goal.component] = goal.target
         copy_into(y, y_new)
     return True
 
 
 @compiled
-def straight_slip(K, y, mu, no_slip, component, target):
+def straight_slip(A: RoughPoint, y: Array, goal: Goal) -> tuple[tuple[float, float], Vector, float, bool]:
     """Return whether slip keeps its direction long enough for all others to turn into it, and where it leads.
 
     Friction turns slip towards the direction s in which it accelerates, s × dv_A/dp = 0, at the rate
@@ -172,20 +191,18 @@ def straight_slip(K, y, mu, no_slip, component, target):
     it keeps, by Newton's method, where what it has across that counts as none.
 
     Args:
-        K: Delassus matrix of A [1/kg].
+        A: that slips.
         y: state of the impact, (7,).
-        mu: coefficient of friction μ.
-        no_slip: slip that counts as none [m/s].
-        component: `V_Z` or `WORK`.
-        target: its value at the end.
+        goal: of the impact.
 
     Returns:
         f: friction per normal impulse, (2,).
         gained: dv_A/dp, (3,) [1/kg].
         p: the normal impulse of the straight slip, 0 where slip may turn [N s].
-        stops: whether slip stops before the component reaches its target.
+        stops: whether slip stops before the goal is reached.
     """
-    slip, most = math.hypot(y[0], y[1]), no_slip
+    K, mu = A.delassus, A.friction
+    slip, most = math.hypot(y[0], y[1]), A.no_slip
     s = (y[0] / slip, y[1] / slip)
     while True:
         f = (-mu * s[0], -mu * s[1])
@@ -202,7 +219,7 @@ def straight_slip(K, y, mu, no_slip, component, target):
         length = math.hypot(1.0, angle)
         s = ((s[0] - angle * s[1]) / length, (s[1] + angle * s[0]) / length)
     to_stop = slip / -growth if growth < 0 else np.inf
-    to_target = impulse_to(y, gained[2], component, target) if gained[2] > 0 else np.inf
+    to_target = impulse_to(y, gained[2], goal) if gained[2] > 0 else np.inf
     p = min(to_stop, to_target)
     if not SETTLED * slip < (kappa + growth) * p < np.inf:
         return f, gained, 0.0, False
@@ -210,51 +227,50 @@ def straight_slip(K, y, mu, no_slip, component, target):
 
 
 @compiled
-def die_away(K, y, mu, with_work, component, target, series, y_new):
-    """Follow slip that dies away to its stop, or until a component of the state rises to its target.
+def die_away(A: RoughPoint, y: Array, goal: Goal, series: Array, y_new: Array) -> bool:
+    """Follow slip that dies away to its stop, or to the goal.
 
     Args:
-        K: Delassus matrix of A [1/kg].
+        A: that slips.
         y: state of the impact, (7,), which slips.
-        mu: coefficient of friction μ.
-        with_work: see `grow_impulse`.
-        component: `V_Z` or `WORK`.
-        target: its value at the end.
+        goal: of the impact.
         series: see `room_for_stop`; work space.
         y_new: where the state goes, (8,).
 
     Returns:
         Whether slip dies away so, and v_Az rises whatever its direction.
     """
+    K, mu = A.delassus, A.friction
+    component, target = goal
     if not K[2][2] > mu * math.hypot(K[2][0], K[2][1]):
         return False
-    stop = expand_stop(K, mu, (y[0], y[1]), with_work, series)
+    stop = expand_stop(K, mu, (y[0], y[1]), A.with_work, series)
     if stop.end == 0:
         return False
-    state_at(K, y, mu, stop, series, 0.0, y_new)
+    state_at(A, y, stop, series, 0.0, y_new)
     if y_new[component] < target:
         y_new[0], y_new[1] = 0.0, 0.0
         return True
-    state_at(K, y, mu, stop, series, math.exp(-TURNED), y_new)
+    state_at(A, y, stop, series, math.exp(-TURNED), y_new)
     if y_new[component] < target:
         return True
     tolerance = TARGET * TURNED
     bracket = bracket_between(0.0, target - y[component], TURNED, target - y_new[component])
     while not is_narrow(bracket, tolerance):
         tried = next_try(bracket)
-        state_at(K, y, mu, stop, series, math.exp(-tried), y_new)
+        state_at(A, y, stop, series, math.exp(-tried), y_new)
         bracket = narrowed(bracket, tried, target - y_new[component], tolerance)
-    state_at(K, y, mu, stop, series, math.exp(-bracket.high), y_new)
+    state_at(A, y, stop, series, math.exp(-bracket.high), y_new)
     y_new[component] = target
     return True
 
 
 @compiled
-def state_at(K, y, mu, stop, series, x, y_new):
+def state_at(A: RoughPoint, y: Array, stop: SlipStop, series: Array, x: float, y_new: Array) -> None:
     """Write the state at the place x of slip that dies away into y_new; see `impulse_until`."""
     S, path = impulse_until(stop, series, x)
-    gained = apply(K, S)
-    y_new[WORK] = y[WORK] + mu * path
+    gained = apply(A.delassus, S)
+    y_new[WORK] = y[WORK] + A.friction * path
     for i in range(3):
         y_new[i], y_new[3 + i] = y[i] + gained[i], y[3 + i] + S[i]
         # The work of S, of which friction's is -μ X.
@@ -262,23 +278,22 @@ def state_at(K, y, mu, stop, series, x, y_new):
 
 
 @compiled
-def expand_slip(K, y, mu, speed, with_work, series):
+def expand_slip(A: RoughPoint, y: Array, speed: float, series: Array) -> tuple[float, float]:
     """Expand the motion of the slipping point as a power series of τ.
 
     dS/dτ = (-μ v_t, q) with q = |v_t|, so the next coefficients of S, and of v_A by K, follow from those of
     v_t and q, and the next one of q from q² = v_t².
 
     Args:
-        K: Delassus matrix of A [1/kg].
+        A: that slips.
         y: state at the start, (7,), which slips.
-        mu: coefficient of friction μ.
         speed: of A before the impact [m/s].
-        with_work: see `grow_impulse`.
         series: where the coefficients go, (ORDER + 1, COLUMNS).
 
     Returns:
         The τ up to which the series holds, and the scale of the slip [m/s].
     """
+    K, mu = A.delassus, A.friction
     slip = math.hypot(y[0], y[1])
     copy_into(series[0, :SIZE], y)
     series[0, SLIP] = slip
@@ -290,7 +305,7 @@ def expand_slip(K, y, mu, speed, with_work, series):
         v = apply(K, S)
         for i in range(3):
             series[k + 1, i], series[k + 1, 3 + i] = v[i], S[i]
-        series[k + 1, WORK] = part * _work_term(series, k) if with_work else 0.0
+        series[k + 1, WORK] = part * _work_term(series, k) if A.with_work else 0.0
         products = _products(series, k)
         series[k + 1, SLIP] = (series[0, 0] * v[0] + series[0, 1] * v[1] - products) / slip
         if k >= ORDER - 2:
@@ -302,7 +317,7 @@ def expand_slip(K, y, mu, speed, with_work, series):
 
 
 @compiled
-def _work_term(series, k):
+def _work_term(series: Array, k: int) -> float:
     """Return the coefficient k of v_Az |v_t|."""
     total = 0.0
     for j in range(k + 1):
@@ -311,7 +326,7 @@ def _work_term(series, k):
 
 
 @compiled
-def _products(series, k):
+def _products(series: Array, k: int) -> float:
     """Return half of what the coefficients from 1 up to k give to the next one of q² - v_t²."""
     q, x, y = 0.0, 0.0, 0.0
     for j in range(1, (k + 2) // 2):
@@ -328,7 +343,7 @@ def _products(series, k):
 
 
 @compiled
-def slipped(series, t, y_new):
+def slipped(series: Array, t: float, y_new: Array) -> None:
     """Write the state of the impact at τ = t of a series, and |v_t|, into y_new, (8,)."""
     for i in range(COLUMNS):
         y_new[i] = 0.0
@@ -338,16 +353,16 @@ def slipped(series, t, y_new):
 
 
 @compiled
-def time_to(series, length, y_new, component, target):
-    """Return the τ at which a component of the state rises to its target.
+def time_to(series: Array, length: float, y_new: Array, goal: Goal) -> float:
+    """Return the τ at which the goal is reached.
 
     Args:
         series: see `expand_slip`.
-        length: τ at which the component is beyond the target.
+        length: τ at which it is passed.
         y_new: state there, (8,); work space.
-        component: `V_Z` or `WORK`.
-        target: its value at the end.
+        goal: of the impact.
     """
+    component, target = goal
     tolerance = TARGET * length
     bracket = bracket_between(0.0, target - series[0, component], length, target - y_new[component])
     while not is_narrow(bracket, tolerance):
@@ -358,7 +373,7 @@ def time_to(series, length, y_new, component, target):
 
 
 @compiled
-def friction_without_slip(K, mu):
+def friction_without_slip(K: Matrix, mu: float) -> tuple[float, float]:
     """Return the tangential impulse per normal impulse at a contact point that does not slip, (2,).
 
     It sticks, K_tt f + K_tz = 0, where that lies within the cone. Elsewhere slip starts in the direction s
@@ -369,28 +384,29 @@ def friction_without_slip(K, mu):
         K: Delassus matrix of A [1/kg].
         mu: coefficient of friction μ.
     """
-    push = (K[0][2], K[1][2])
-    stick = resisted(K, 1.0, 0.0, push)
+    coupling = (K[0][2], K[1][2])
+    stick = resisted(K, 1.0, 0.0, coupling)
     if math.hypot(stick[0], stick[1]) <= mu:
         return -stick[0], -stick[1]
     low, high = 0.0, math.hypot(K[0][2], K[1][2])
     for _ in range(100):
         middle = (low + high) / 2
-        s = resisted(K, mu, middle, push)
+        s = resisted(K, mu, middle, coupling)
         if not low < middle < high:
             break
         if math.hypot(s[0], s[1]) > 1:
             low = middle
         else:
             high = middle
-    s = resisted(K, mu, high, push)
+    s = resisted(K, mu, high, coupling)
     length = math.hypot(s[0], s[1])
     return -mu * s[0] / length, -mu * s[1] / length
 
 
 @compiled
-def resisted(K, mu, growth, push):
-    """Return (mu K_tt + growth)⁻¹ push, (2,)."""
+def resisted(K: Matrix, mu: float, growth: float, coupling: tuple[float, float]) -> tuple[float, float]:
+    """Return (mu K_tt + growth)⁻¹ coupling, (2,)."""
     xx, yy, xy = mu * K[0][0] + growth, mu * K[1][1] + growth, mu * K[0][1]
     determinant = xx * yy - xy * xy
-    return (yy * push[0] - xy * push[1]) / determinant, (xx * push[1] - xy * push[0]) / determinant
+    x, y = coupling
+    return (yy * x - xy * y) / determinant, (xx * y - xy * x) / determinant

@@ -16,7 +16,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Matrix, Vector
 
 # Columns of the series: q; S along s*, across it, and S_z; q² and X.
 Q, ALONG, ACROSS, NORMAL, SQUARE, PATH, COLUMNS = range(7)
@@ -41,8 +43,21 @@ class SlipStop(NamedTuple):
     """Of the rows of the series; 0 where slip does not die away, or it converges too slowly."""
 
 
+class StopEquations(NamedTuple):
+    """The polynomials of slip that dies away, in powers of x."""
+
+    H: tuple[float, float, float, float]
+    """Coefficients of H/m."""
+    G: tuple[float, float, float, float, float, float]
+    """Those of G, the last 0."""
+    mu: float
+    """Coefficient of friction μ."""
+    m: float
+    """Slope now."""
+
+
 @compiled
-def room_for_stop():
+def room_for_stop() -> Array:
     """Return room for the series of `expand_stop`, (BEFORE + MOST_TERMS, COLUMNS)."""
     series = np.empty((BEFORE + MOST_TERMS, COLUMNS))
     series[:BEFORE] = 0.0
@@ -50,7 +65,7 @@ def room_for_stop():
 
 
 @compiled
-def expand_stop(K, mu, slip, with_path, series):
+def expand_stop(K: Matrix, mu: float, slip: tuple[float, float], with_path: bool, series: Array) -> SlipStop:
     """Expand what is left of a slip that dies away.
 
     Args:
@@ -84,13 +99,13 @@ def expand_stop(K, mu, slip, with_path, series):
     while not _converges(series, end):
         if end == len(series):
             return SlipStop(s, 0.0, 0)
-        _next_term(H, G, mu, m, with_path, series, end)
+        _next_term(StopEquations(H, G, mu, m), with_path, series, end)
         end += 1
     return SlipStop(s, 2 * G[0] / H[0], end if _scaled(series, end, speed) else 0)
 
 
 @compiled
-def kept_direction(K, mu, s):
+def kept_direction(K: Matrix, mu: float, s: tuple[float, float]) -> tuple[tuple[float, float], bool]:
     """Return the direction near s that slip keeps once it has it, h = 0, and whether one was found.
 
     Args:
@@ -117,7 +132,7 @@ def kept_direction(K, mu, s):
 
 
 @compiled
-def _first_terms(g, mu, series):
+def _first_terms(g: float, mu: float, series: Array) -> None:
     """Write the terms of x⁰, of which that of q is 1, g being dq/dp at the stop."""
     for column in range(COLUMNS):
         series[BEFORE, column] = 0.0
@@ -128,18 +143,16 @@ def _first_terms(g, mu, series):
 
 
 @compiled
-def _next_term(H, G, mu, m, with_path, series, row):
+def _next_term(equations: StopEquations, with_path: bool, series: Array, row: int) -> None:
     """Write the next term of the series.
 
     Args:
-        H: coefficients of H/m in powers of x, (4,).
-        G: those of G, (6,), the last 0.
-        mu: coefficient of friction μ.
-        m: slope now.
+        equations: of the slip.
         with_path: whether X is wanted.
         series: see `expand_stop`.
         row: of the term.
     """
+    H, G, mu, m = equations
     # Of (1 + m²) H/m.
     B = (H[0], H[1], H[2] + m**2 * H[0], H[3] + m**2 * H[1], m**2 * H[2], m**2 * H[3])
     gamma, k = 2 * G[0] / H[0], row - BEFORE
@@ -167,7 +180,7 @@ def _next_term(H, G, mu, m, with_path, series, row):
 
 
 @compiled
-def _converges(series, end):
+def _converges(series: Array, end: int) -> bool:
     """Return whether the last two terms are small against the first."""
     for column in (Q, NORMAL):
         most = _CONVERGED * abs(series[BEFORE, column])
@@ -177,7 +190,7 @@ def _converges(series, end):
 
 
 @compiled
-def _scaled(series, end, speed):
+def _scaled(series: Array, end: int, speed: float) -> bool:
     """Scale the series such that q is the speed of slip now; return whether its sum is exact to rounding."""
     total, largest = 0.0, 0.0
     for row in range(BEFORE, end):
@@ -191,7 +204,7 @@ def _scaled(series, end, speed):
 
 
 @compiled
-def impulse_until(stop, series, x):
+def impulse_until(stop: SlipStop, series: Array, x: float) -> tuple[Vector, float]:
     """Return the impulse from now until x.
 
     Args:
@@ -216,7 +229,7 @@ def impulse_until(stop, series, x):
 
 
 @compiled
-def _sums(series, end, x):
+def _sums(series: Array, end: int, x: float) -> tuple[float, float, float, float]:
     """Return the sums from x on, without x⁰, of S along s*, across it and vertical, and of X."""
     along, across, normal, path = 0.0, 0.0, 0.0, 0.0
     for row in range(end - 1, BEFORE, -1):

@@ -27,25 +27,25 @@ class Bracket(NamedTuple):
 
 
 @compiled
-def bracket_between(low, low_value, high, high_value):
+def bracket_between(low: float, low_value: float, high: float, high_value: float) -> Bracket:
     """Return the `Bracket` of a function that is positive at `low` and not at `high`."""
     return Bracket(low, high, high, high_value, low, low_value, 0.5)
 
 
 @compiled
-def next_try(bracket):
+def next_try(bracket: Bracket) -> float:
     """Return the place to try next."""
     return bracket.new + bracket.share * (bracket.old - bracket.new)
 
 
 @compiled
-def is_narrow(bracket, tolerance):
+def is_narrow(bracket: Bracket, tolerance: float) -> bool:
     """Return whether the bracket is at most twice as wide as the tolerance."""
     return tolerance > 0.5 * (bracket.high - bracket.low)
 
 
 @compiled
-def narrowed(bracket, tried, value, tolerance):
+def narrowed(bracket: Bracket, tried: float, value: float, tolerance: float) -> Bracket:
     """Return the bracket narrowed by the value at the place tried; the next is inside by the tolerance."""
     low, high = (tried, bracket.high) if value > 0 else (bracket.low, tried)
     # Of the three last places `tried` and `old` bracket the root.
@@ -59,7 +59,7 @@ def narrowed(bracket, tried, value, tolerance):
 
 
 @compiled
-def _zero_between(x_1, f_1, x_2, f_2, x_3, f_3):
+def _zero_between(x_1: float, f_1: float, x_2: float, f_2: float, x_3: float, f_3: float) -> float:
     """Return the part of the way from x_1 to x_2 where the inverse parabola through all three passes zero.
 
     A half where that parabola would not be one-valued between them.

@@ -6,6 +6,8 @@ from cointoss.models.attitude import Quaternion
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector
 
+Four = tuple[float, float, float, float]
+
 
 def quaternion_from_axis(axis: Vector, angle: float) -> Quaternion:
     """Return the Euler parameters of a turn about an axis; Strzalko et al. 2008, eqs (11)-(12).
@@ -50,7 +52,7 @@ def axis_and_angle(e: Quaternion) -> tuple[Vector, float]:
 
 
 @compiled
-def attitude_products(R):
+def attitude_products(R: Matrix) -> tuple[Four, tuple[Four, Four, Four, Four]]:
     """Return 4 e_i² and all 4 e_i e_j of a rotation matrix, the inverse of eq. (15)."""
     trace = R[0][0] + R[1][1] + R[2][2]
     squares = (1 + trace, 1 + 2 * R[0][0] - trace, 1 + 2 * R[1][1] - trace, 1 + 2 * R[2][2] - trace)
@@ -65,7 +67,7 @@ def attitude_products(R):
 
 
 @compiled
-def attitude_near(R, e):
+def attitude_near(R: Matrix, e: Quaternion) -> Quaternion:
     """Return the Euler parameters of a rotation matrix that continue others, (4,), of norm 1.
 
     Of e' e'ᵀ, which R determines, e picks e' (e' · e): the turn between them must be less than half a turn.
@@ -82,7 +84,7 @@ def attitude_near(R, e):
 
 
 @compiled
-def _dot_4(a, b):
+def _dot_4(a: Four, b: Four) -> float:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
 
 
@@ -105,7 +107,7 @@ def quaternion_from_matrix(R: Matrix) -> Quaternion:
 
 
 @compiled
-def quaternion_rate(e, w):
+def quaternion_rate(e: Quaternion, w: Vector) -> Quaternion:
     """Return ė = ½ e ∘ ω, the inverse of eq. (17) of Strzalko et al. 2008 on the unit sphere.
 
     Args:
@@ -121,7 +123,7 @@ def quaternion_rate(e, w):
 
 
 @compiled
-def body_spin(e, e_rate):
+def body_spin(e: Quaternion, e_rate: Quaternion) -> Vector:
     """Return the angular velocity in the body frame, eq. (17): the vector part of 2 ē ∘ ė [rad/s].
 
     Args:
@@ -136,7 +138,7 @@ def body_spin(e, e_rate):
 
 
 @compiled
-def space_spin(e, e_rate):
+def space_spin(e: Quaternion, e_rate: Quaternion) -> Vector:
     """Return the angular velocity in the space frame, eq. (19): the vector part of 2 ė ∘ ē [rad/s].
 
     Args:
@@ -151,7 +153,7 @@ def space_spin(e, e_rate):
 
 
 @compiled
-def body_spin_rate(e, e_acceleration):
+def body_spin_rate(e: Quaternion, e_acceleration: Quaternion) -> Vector:
     """Return the angular acceleration ω̇ in the body frame, eq. (18): the vector part of 2 ē ∘ ë [rad/s²].
 
     It is the derivative of eq. (17), in which the products ė ė cancel.
@@ -164,7 +166,7 @@ def body_spin_rate(e, e_acceleration):
 
 
 @compiled
-def rotation_change(e, de):
+def rotation_change(e: Quaternion, de: Quaternion) -> Matrix:
     """Return the change of the rotation matrix R(e), as `cointoss.models.attitude` writes it, with e.
 
     Args:

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector
 
@@ -44,16 +45,33 @@ class ScaledMotion(NamedTuple):
     """Body frame."""
 
 
+class PowerLaw(NamedTuple):
+    """The air's resistance for 0 < b <= 1: the force on dA is -λ |v|^b v."""
+
+    normal: float
+    """λ_n [kg m^(-2-b) s^(b-1)]."""
+    tangential: float
+    """λ_τ [kg m^(-2-b) s^(b-1)]."""
+    exponent: float
+    """b."""
+
+
+class LineVelocity(NamedTuple):
+    """The velocity along a line of the wall: T = C + D z around, and B along ζ."""
+
+    B: float
+    C: float
+    D: float
+
+
 @compiled
-def air_force(radius, thickness, normal, tangential, exponent, v, w):
+def air_force(radius: float, thickness: float, air: PowerLaw, v: Vector, w: Vector) -> tuple[Vector, Vector]:
     """Return the air's force on a coin and its moment about B. Strzalko et al. 2008, eqs (49)-(74).
 
     Args:
         radius: r [m].
         thickness: h, 0 for the thin coin [m].
-        normal: λ_n [kg m^(-2-b) s^(b-1)].
-        tangential: λ_τ [kg m^(-2-b) s^(b-1)].
-        exponent: b, 0 < b <= 1.
+        air: its law.
         v: velocity of B, body frame, (3,) [m/s].
         w: angular velocity, body frame, (3,) [rad/s].
 
@@ -68,23 +86,23 @@ def air_force(radius, thickness, normal, tangential, exponent, v, w):
         return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     k = 1 / speed
     motion = ScaledMotion(
-        exponent,
+        air.exponent,
         thickness / (2 * r),
         (k * v[0], k * v[1], k * v[2]),
         (k * r * w[0], k * r * w[1], k * r * w[2]),
     )
     total = _NOTHING
-    if normal > 0:
-        total = _plus(total, -normal, _pressure(motion))
-    if tangential > 0:
-        total = _plus(total, -tangential, _friction(motion))
-    size = r * r * speed ** (1 + exponent)
+    if air.normal > 0:
+        total = _plus(total, -air.normal, _pressure(motion))
+    if air.tangential > 0:
+        total = _plus(total, -air.tangential, _friction(motion))
+    size = r * r * speed ** (1 + air.exponent)
     f_0, f_1, f_2, m_0, m_1, m_2 = total
     return (size * f_0, size * f_1, size * f_2), (size * r * m_0, size * r * m_1, size * r * m_2)
 
 
 @compiled
-def _pressure(motion):
+def _pressure(motion: ScaledMotion) -> Sums:
     """Integrate over both faces, and over the wall, from where the normal velocity vanishes or is least."""
     v, w, half = motion.v, motion.w, motion.half
     W = math.hypot(w[0], w[1])
@@ -103,7 +121,7 @@ def _pressure(motion):
 
 
 @compiled
-def _friction(motion):
+def _friction(motion: ScaledMotion) -> Sums:
     """Integrate over both faces, from the slowest point of the rim, and over the wall."""
     v, w, half = motion.v, motion.w, motion.half
     total = _NOTHING
@@ -115,7 +133,7 @@ def _friction(motion):
 
 
 @compiled
-def _friction_on_wall(motion):
+def _friction_on_wall(motion: ScaledMotion) -> Sums:
     """Integrate from the angles where a velocity of the wall vanishes, or is least, half way to the next one.
 
     Along ζ it is B = v_ζ + ω_ξ sin θ - ω_η cos θ, around it is C = ω_ζ - v_ξ sin θ + v_η cos θ at z = 0.
@@ -140,10 +158,10 @@ def _friction_on_wall(motion):
 
 
 @compiled
-def _velocities_of_wall(motion, sine, cosine):
-    """Return B, along ζ, C, around at z = 0, and D, by which that grows with z, at an angle."""
+def _velocities_of_wall(motion: ScaledMotion, sine: float, cosine: float) -> LineVelocity:
+    """Return the `LineVelocity` at an angle."""
     v, w = motion.v, motion.w
-    return (
+    return LineVelocity(
         v[2] + w[0] * sine - w[1] * cosine,
         w[2] - v[0] * sine + v[1] * cosine,
         -w[1] * sine - w[0] * cosine,
@@ -151,7 +169,7 @@ def _velocities_of_wall(motion, sine, cosine):
 
 
 @compiled
-def _plus(total, k, part):
+def _plus(total: Sums, k: float, part: Sums) -> Sums:
     return (
         total[0] + k * part[0],
         total[1] + k * part[1],
@@ -163,7 +181,7 @@ def _plus(total, k, part):
 
 
 @compiled
-def _integral(part, motion, start, end, layer):
+def _integral(part: int, motion: ScaledMotion, start: float, end: float, layer: float) -> Sums:
     """Integrate one part of the surface between start and end in pieces on which two rules of Gauss agree.
 
     The first piece is as wide as the layer at the start in which the integrand bends, where there is one:
@@ -186,7 +204,7 @@ def _integral(part, motion, start, end, layer):
 
 
 @compiled
-def _apart(a, b):
+def _apart(a: Sums, b: Sums) -> float:
     difference = _plus(a, -1.0, b)
     largest = 0.0
     for i in range(6):
@@ -195,7 +213,7 @@ def _apart(a, b):
 
 
 @compiled
-def _by_rule(part, motion, start, width, x, weights):
+def _by_rule(part: int, motion: ScaledMotion, start: float, width: float, x: Array, weights: Array) -> Sums:
     total = _NOTHING
     for i in range(len(x)):
         at = start + width * (1 + x[i]) / 2
@@ -204,7 +222,7 @@ def _by_rule(part, motion, start, width, x, weights):
 
 
 @compiled
-def _integrand(part, motion, at):
+def _integrand(part: int, motion: ScaledMotion, at: float) -> Sums:
     """Return what a part of the surface adds to force and moment, without -λ."""
     if part == PRESSURE_ON_FACES:
         return _pressure_on_chord(motion, at)
@@ -218,13 +236,13 @@ def _integrand(part, motion, at):
 
 
 @compiled
-def _power(square, b):
+def _power(square: float, b: float) -> float:
     """Return |s|^b from s²."""
     return square**0.5 if b == 1 else square ** (b / 2)
 
 
 @compiled
-def _pressure_on_chord(motion, phi):
+def _pressure_on_chord(motion: ScaledMotion, phi: float) -> Sums:
     """On the chord at -cos φ along the direction in which the normal velocity grows."""
     w = motion.w
     W = math.hypot(w[0], w[1])
@@ -236,7 +254,7 @@ def _pressure_on_chord(motion, phi):
 
 
 @compiled
-def _friction_at_rim(motion, z, tau):
+def _friction_at_rim(motion: ScaledMotion, z: float, tau: float) -> Sums:
     """On the face at height z; both halves of its rim at once."""
     b, v, w = motion.exponent, motion.v, motion.w
     U_0, U_1 = v[0] + z * w[1], v[1] - z * w[0]
@@ -253,7 +271,7 @@ def _friction_at_rim(motion, z, tau):
 
 
 @compiled
-def _pressure_on_circle(motion, z):
+def _pressure_on_circle(motion: ScaledMotion, z: float) -> Sums:
     """On the circle of the wall at height z: |A|^b A with the velocity A of its centre, times ∫ cos^(b+2)."""
     b, v, w = motion.exponent, motion.v, motion.w
     A_0, A_1 = v[0] + w[1] * z, v[1] - w[0] * z
@@ -263,11 +281,11 @@ def _pressure_on_circle(motion, z):
 
 
 @compiled
-def _friction_along_wall(motion, theta):
+def _friction_along_wall(motion: ScaledMotion, theta: float) -> Sums:
     """On the line of the wall at θ, where the velocity is T = C + D z around and B along ζ."""
     sine, cosine = math.sin(theta), math.cos(theta)
-    B, C, D = _velocities_of_wall(motion, sine, cosine)
-    along, around, around_z = _along_line(motion.exponent, motion.half, B, C, D)
+    line = _velocities_of_wall(motion, sine, cosine)
+    along, around, around_z = _along_line(motion.exponent, motion.half, line)
     return (
         -sine * around,
         cosine * around,
@@ -279,19 +297,20 @@ def _friction_along_wall(motion, theta):
 
 
 @compiled
-def _along_line(b, half, B, C, D):
+def _along_line(b: float, half: float, line: LineVelocity) -> tuple[float, float, float]:
     """Return ∫ |V|^b B dz, ∫ |V|^b T dz and ∫ |V|^b T z dz over |z| <= half, T = C + D z, |V|² = B² + T².
 
     |V| vanishes at z_0 ± i δ alone, z_0 = -C/D and δ = |B/D|. Where that is far off, one of Gauss's rules
     serves; else with z = z_0 + δ sinh x, in which |V| = |B| cosh x, in pieces.
     """
+    B, C, D = line
     far = (B * B + C * C) / (half * half)
     if far > 9 * D * D:
         if far > 2500 * D * D:
-            return _along_piece(b, B, C, D, 0.0, half, _FOUR_X, _FOUR_W)
+            return _by_gauss(b, half, line, _FOUR_X, _FOUR_W)
         if far > 121 * D * D:
-            return _along_piece(b, B, C, D, 0.0, half, _SIX_X, _SIX_W)
-        return _along_piece(b, B, C, D, 0.0, half, _COARSE_X, _COARSE_W)
+            return _by_gauss(b, half, line, _SIX_X, _SIX_W)
+        return _by_gauss(b, half, line, _COARSE_X, _COARSE_W)
     middle, wide = -C / D, max(abs(B / D), 1e-20 * half)
     low, high = math.asinh((-half - middle) / wide), math.asinh((half - middle) / wide)
     pieces = math.ceil((high - low) / 2)
@@ -307,10 +326,13 @@ def _along_line(b, half, B, C, D):
 
 
 @compiled
-def _along_piece(b, B, C, D, middle, half, x, weights):
+def _by_gauss(
+    b: float, half: float, line: LineVelocity, x: Array, weights: Array
+) -> tuple[float, float, float]:
+    B, C, D = line
     along, around, around_z = 0.0, 0.0, 0.0
     for i in range(len(x)):
-        z = middle + half * x[i]
+        z = half * x[i]
         T = C + D * z
         strip = weights[i] * half * _power(B * B + T * T, b)
         along, around, around_z = along + strip * B, around + strip * T, around_z + strip * T * z

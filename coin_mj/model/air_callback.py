@@ -15,7 +15,7 @@ import numba
 import numpy as np
 from numba import types
 
-from cointoss.coin_mj.model.air import air_force
+from cointoss.coin_mj.model.air import PowerLaw, air_force
 from cointoss.coin_mj.model.library import pointer_to
 from cointoss.coin_mj.model.memory import offset_of
 from cointoss.models.attitude import rotation_matrix
@@ -96,7 +96,8 @@ def _callback() -> Any:
         passive = numba.carray(pointer_to(data[passive_at], np.float64), 6)
         R = rotation_matrix((qpos[3], qpos[4], qpos[5], qpos[6]))
         v, w = apply_transposed(R, (qvel[0], qvel[1], qvel[2])), (qvel[3], qvel[4], qvel[5])
-        f, m = air_force(numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], v, w)
+        law = PowerLaw(numbers[2], numbers[3], numbers[4])
+        f, m = air_force(numbers[0], numbers[1], law, v, w)
         f = apply(R, f)
         for i in range(3):
             passive[i] += f[i]

@@ -14,6 +14,7 @@ from mujoco.introspect.structs import STRUCTS
 from numba.np.numpy_support import carray
 
 from cointoss.coin_mj.model.library import pointer_to
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import UnusableEngineError
 
@@ -141,18 +142,18 @@ def _joint_kind(arrays: tuple[tuple[str, int, int], ...]) -> np.dtype[Any]:
 
 
 @compiled
-def numbers_at(address, shape):
+def numbers_at(address: int, shape: tuple[int, int] | tuple[int]) -> Array:
     """Return the numbers of MuJoCo at an address as an array of this shape, of float64."""
     return carray(pointer_to(address, np.float64), shape)
 
 
 @compiled
-def address_at(address):
+def address_at(address: int) -> int:
     """Return the address that a field of MuJoCo's at an address holds."""
     return carray(pointer_to(address, np.int64), (1,))[0]
 
 
 @compiled
-def integer_at(address):
+def integer_at(address: int) -> int:
     """Return the integer of MuJoCo at an address."""
     return carray(pointer_to(address, np.int32), (1,))[0]

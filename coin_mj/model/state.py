@@ -6,16 +6,22 @@ Both have velocities in space, the angular velocity in the body, and Euler param
 import numpy as np
 
 from cointoss.coin_mj.model.library import mj_reset
-from cointoss.models.attitude import rotation_matrix
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.models.attitude import Quaternion, rotation_matrix
+from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import add, apply, cross, scale, subtract
+from cointoss.models.kernel.vectors import Vector, add, apply, cross, scale, subtract
 from cointoss.models.parts import Release
 from cointoss.models.records import Array
+from cointoss.models.state import State
+
+Motion = tuple[float, float, float, float, float, float, float, float, float, float, float, float, float]
+"""qpos and qvel of the free joint."""
 
 
 @compiled
-def to_mass_center(body, qpos, qvel):
-    """Return position and velocity of C (space), Euler parameters and angular velocity (body).
+def to_mass_center(body: Body, qpos: Array, qvel: Array) -> State:
+    """Return the `State` of a free joint.
 
     Args:
         body: the coin.
@@ -27,11 +33,11 @@ def to_mass_center(body, qpos, qvel):
     R = rotation_matrix(e)
     x = add((qpos[0], qpos[1], qpos[2]), apply(R, body.center))
     v = add((qvel[0], qvel[1], qvel[2]), apply(R, cross(w, body.center)))
-    return x, v, e, w
+    return State(x, v, e, w, R)
 
 
 @compiled
-def of_mass_center(body, x, v, e, w):
+def of_mass_center(body: Body, x: Vector, v: Vector, e: Quaternion, w: Vector) -> tuple[Vector, Vector]:
     """Return position and velocity of B, space frame, of a state in which C is at x with the velocity v.
 
     Args:
@@ -45,7 +51,7 @@ def of_mass_center(body, x, v, e, w):
     return subtract(x, apply(R, body.center)), subtract(v, apply(R, cross(w, body.center)))
 
 
-def of_release(body, release: Release) -> tuple[Array, Array]:
+def of_release(body: Body, release: Release) -> tuple[Array, Array]:
     """Return qpos, (7,), and qvel, (6,), of a release.
 
     Args:
@@ -58,7 +64,7 @@ def of_release(body, release: Release) -> tuple[Array, Array]:
 
 
 @compiled
-def put_at(coin, y):
+def put_at(coin: MujocoCoin, y: Array) -> None:
     """Put MuJoCo's coin into a state, as new: nothing is left of what MuJoCo kept of an earlier toss.
 
     Args:
@@ -73,7 +79,7 @@ def put_at(coin, y):
 
 
 @compiled
-def set_motion(coin, motion):
+def set_motion(coin: MujocoCoin, motion: Array | Motion) -> None:
     """Put MuJoCo's coin into a state: qpos and qvel, (13,)."""
     for i in range(7):
         coin.joint.qpos[i] = motion[i]
@@ -82,19 +88,19 @@ def set_motion(coin, motion):
 
 
 @compiled
-def motion_of(coin):
+def motion_of(coin: MujocoCoin) -> Motion:
     """Return qpos and qvel, a tuple of 13."""
     q, v = coin.joint.qpos, coin.joint.qvel
     return q[0], q[1], q[2], q[3], q[4], q[5], q[6], v[0], v[1], v[2], v[3], v[4], v[5]
 
 
 @compiled
-def state_of(coin):
-    """Return position and velocity of C (space), Euler parameters and angular velocity (body)."""
+def state_of(coin: MujocoCoin) -> State:
+    """Return the present `State`."""
     return to_mass_center(coin.body, coin.joint.qpos, coin.joint.qvel)
 
 
 @compiled
-def momentum_of(coin):
+def momentum_of(coin: MujocoCoin) -> Vector:
     """Return the momentum, space frame, (3,) [N s]."""
-    return scale(coin.body.mass, state_of(coin)[1])
+    return scale(coin.body.mass, state_of(coin).velocity)

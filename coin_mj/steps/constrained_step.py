@@ -20,14 +20,16 @@ from cointoss.coin_mj.model.library import (
     mj_reference_constraint,
 )
 from cointoss.coin_mj.model.memory import address_at, integer_at, numbers_at
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.model.state import motion_of, set_motion
 from cointoss.coin_mj.steps.free_step import place_body, place_body_again
 from cointoss.coin_mj.steps.mujoco_step import euler_step
 from cointoss.coin_mj.steps.runge_kutta import CLASSICAL, TSITOURAS, end_motion, stage_motion, write_rate
 from cointoss.coin_mj.steps.smooth_forces import write_smooth_forces
 from cointoss.models.attitude import rotation_matrix
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import cross
+from cointoss.models.kernel.vectors import Matrix, cross
 
 # MuJoCo caps its impedance at 0.9999; with R smaller and D larger by this, it is 1 - 1e-8.
 _HARDER = 1e4
@@ -53,7 +55,7 @@ IMPACT = Constraint(0.0, 0.0)
 
 
 @compiled
-def constrained_forward(coin, constraint):
+def constrained_forward(coin: MujocoCoin, constraint: Constraint) -> float:
     """Return the floor's force along z [N], with all accelerations of the constrained state computed.
 
     Args:
@@ -65,7 +67,7 @@ def constrained_forward(coin, constraint):
 
 
 @compiled
-def _constrained_force(coin, constraint):
+def _constrained_force(coin: MujocoCoin, constraint: Constraint) -> float:
     mj_collision(coin.address.model, coin.address.data)
     mj_make_constraint(coin.address.model, coin.address.data)
     mj_project_constraint(coin.address.model, coin.address.data)
@@ -79,13 +81,13 @@ def _constrained_force(coin, constraint):
 
 
 @compiled
-def forward(coin):
+def forward(coin: MujocoCoin) -> float:
     """Return the floor's force along z in an impact [N], with all accelerations of the state computed."""
     return constrained_forward(coin, IMPACT)
 
 
 @compiled
-def contact_step(coin, constraint, dt):
+def contact_step(coin: MujocoCoin, constraint: Constraint, dt: float) -> None:
     """Advance by dt [s], after `constrained_forward`: a one-step impact by Euler's method."""
     if coin.has_one_step and constraint.frequency == 0:
         euler_step(coin, dt)
@@ -94,7 +96,7 @@ def contact_step(coin, constraint, dt):
 
 
 @compiled
-def constrained_step(coin, constraint, dt):
+def constrained_step(coin: MujocoCoin, constraint: Constraint, dt: float) -> None:
     """Advance by dt [s], after `constrained_forward`; see there for the arguments."""
     # A spring is resolved in time by few steps; what limits those of a sustained contact is the constraint.
     weights = CLASSICAL if constraint.frequency > 0 else TSITOURAS
@@ -111,7 +113,7 @@ def constrained_step(coin, constraint, dt):
 
 
 @compiled
-def _set_rows(coin, constraint):
+def _set_rows(coin: MujocoCoin, constraint: Constraint) -> None:
     """Let MuJoCo's rows of normal forces hold the lowest points, and all below the floor, and no others."""
     n, frequency = integer_at(coin.address.nefc), constraint.frequency
     if n == 0:
@@ -137,7 +139,7 @@ def _set_rows(coin, constraint):
 
 
 @compiled
-def _row_arrays(coin, n):
+def _row_arrays(coin: MujocoCoin, n: int) -> tuple[Array, Array, Array, Array, Array]:
     """Return J, (n, 6), position, D, R and reference acceleration of MuJoCo's rows, (n,)."""
     at = coin.address
     return (
@@ -150,7 +152,7 @@ def _row_arrays(coin, n):
 
 
 @compiled
-def _rising(coin, R, J):
+def _rising(coin: MujocoCoin, R: Matrix, J: Array) -> float:
     """Return J̇ q̇ of a row of the rim's lowest point, its rise but for q̈ [m/s²]; 0 of any other row.
 
     The lowest point of the rim at ζ = ±h/2 is z_B ± (h/2) u_ζ - r |u⊥| high, u the upward unit vector in the

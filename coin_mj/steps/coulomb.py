@@ -2,6 +2,7 @@
 
 import math
 
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 
 PARTS = 512
@@ -15,7 +16,9 @@ SAME = 1e-13
 
 
 @compiled
-def coulomb_force(K, mu, normal, slip, slip_free, dt):
+def coulomb_force(
+    K: Array, mu: float, normal: float, slip: tuple[float, float], slip_free: tuple[float, float], dt: float
+) -> tuple[float, float]:
     """Return the mean friction of a step that Coulomb's law asks for.
 
     MuJoCo prescribes the vertical acceleration of the contact, whatever else acts on it: a friction f lowers
@@ -23,7 +26,7 @@ def coulomb_force(K, mu, normal, slip, slip_free, dt):
     slip may turn much in the step it is followed in `PARTS` of it.
 
     Args:
-        K: mobility of the contact point, space frame, (3, 3) [1/kg].
+        K: Delassus matrix of the contact point, space frame, (3, 3) [1/kg].
         mu: coefficient of friction μ.
         normal: mean normal force of the step without friction [N].
         slip: velocity of the contact point in the floor at the start of the step, (2,) [m/s].
@@ -50,7 +53,14 @@ def coulomb_force(K, mu, normal, slip, slip_free, dt):
 
 
 @compiled
-def force_in_cone(g, resistance, mu, normal, slip, slip_free):
+def force_in_cone(
+    g: tuple[float, float],
+    resistance: tuple[float, float, float],
+    mu: float,
+    normal: float,
+    slip: tuple[float, float],
+    slip_free: tuple[float, float],
+) -> tuple[float, float]:
     """Return the friction that stops the slip, where that lies within the cone; else that of sliding.
 
     It is -μ N s, s the direction of the mean slip, N the normal force as the friction has left it. Where no

@@ -4,14 +4,21 @@ from enum import IntEnum
 
 import numpy as np
 
-from cointoss.coin_mj.model.state import motion_of, state_of
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.coin_mj.model.state import Motion, motion_of, state_of
 from cointoss.coin_mj.steps.free_step import free_rate, free_rate_again, free_step_from, nudge, rates_of_step
-from cointoss.coin_mj.steps.gap_evaluation import clear_flight, evaluate_gap, longest_step, turning_rate
-from cointoss.coin_mj.steps.knots import Step, add_knot
+from cointoss.coin_mj.steps.gap_evaluation import (
+    clear_flight,
+    evaluate_gap,
+    longest_step,
+    state_above_floor,
+    turning_rate,
+)
+from cointoss.coin_mj.steps.knots import Knot, Step, add_knot
 from cointoss.coin_mj.steps.touch_search import arc_of, first_touch
-from cointoss.models.body import is_to_be_caught
+from cointoss.models.body import Rules, is_to_be_caught
 from cointoss.models.catch import approach_hand
-from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.kernel.arrays import Array, copy_into
 from cointoss.models.kernel.compiled import compiled
 
 
@@ -34,7 +41,9 @@ NUDGE = 1e-6
 
 
 @compiled
-def fly(coin, rules, time, steps_left, knots):
+def fly(
+    coin: MujocoCoin, rules: Rules, time: float, steps_left: int, knots: list[Knot]
+) -> tuple[float, FlightExit, int]:
     """Fly until the coin touches the floor or is caught.
 
     Args:
@@ -52,15 +61,14 @@ def fly(coin, rules, time, steps_left, knots):
     shortest = TOUCH_STEP * coin.rebound.step
     rates, end_rate = rates_of_step(), np.empty(13)
     free_rate(coin, rates[0])
-    is_above = state_of(coin)[0][2] - coin.floor_height > rules.caught
+    is_above = state_above_floor(coin).position[2] > rules.caught
     while time < rules.max_time and steps_left > 0:
         steps_left -= 1
         start, dt = motion_of(coin), min(longest_step(coin), rules.max_time - time)
         if is_to_be_caught(rules):
-            x, v, _, w = state_of(coin)
-            height = x[2] - coin.floor_height
-            caught, is_above, dt = approach_hand(coin.body, rules.caught, is_above, height, v, w, dt)
-            if caught:
+            approach = approach_hand(coin.body, rules.caught, is_above, state_above_floor(coin), dt)
+            is_above, dt = approach.is_above, approach.step
+            if approach.is_caught:
                 return time, FlightExit.CAUGHT, steps_left
         clear = clear_flight(coin, dt) >= dt
         add_knot(coin, time, Step.FLIGHT, knots)
@@ -79,7 +87,9 @@ def fly(coin, rules, time, steps_left, knots):
 
 
 @compiled
-def _land(coin, start, rates, touch, longest, shortest):
+def _land(
+    coin: MujocoCoin, start: Motion, rates: Array, touch: float, longest: float, shortest: float
+) -> tuple[float, bool]:
     """Step from a state to where the coin has just touched, or until it is clear that it does not.
 
     Args:
@@ -95,7 +105,7 @@ def _land(coin, start, rates, touch, longest, shortest):
     """
     dt, made, late = touch, np.inf, np.inf
     for _ in range(ROUNDS):
-        if abs(dt - made) * turning_rate(coin.body, state_of(coin)[3]) < NUDGE:
+        if abs(dt - made) * turning_rate(coin.body, state_of(coin).spin) < NUDGE:
             nudge(coin, dt - made)
         else:
             free_step_from(coin, start, rates, dt)

@@ -9,7 +9,8 @@ from cointoss.coin_mj.model.library import (
     mj_kinematics,
     mj_make_mass,
 )
-from cointoss.coin_mj.model.state import motion_of, set_motion
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.coin_mj.model.state import Motion, motion_of, set_motion
 from cointoss.coin_mj.steps.runge_kutta import (
     TSITOURAS,
     TSITOURAS_NODES,
@@ -19,11 +20,12 @@ from cointoss.coin_mj.steps.runge_kutta import (
 )
 from cointoss.coin_mj.steps.smooth_forces import write_smooth_forces
 from cointoss.coin_mj.steps.turning_frame import frame_of, to_motion, turn_after, write_slow_rate
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 
 
 @compiled
-def free_step(coin, dt):
+def free_step(coin: MujocoCoin, dt: float) -> None:
     """Advance by dt [s] of free flight.
 
     A stage leaves out those parts of `mj_forward` that concern contacts and joints: it takes half the time.
@@ -34,13 +36,13 @@ def free_step(coin, dt):
 
 
 @compiled
-def rates_of_step():
+def rates_of_step() -> Array:
     """Return room for the rate at the start of a step, and those of its stages, (7, 13)."""
     return np.empty((len(TSITOURAS), 13))
 
 
 @compiled
-def free_step_from(coin, start, rates, dt):
+def free_step_from(coin: MujocoCoin, start: Motion, rates: Array, dt: float) -> None:
     """Put the coin dt [s] after a state, in free flight; the stages are those of its `TurningFrame`.
 
     Args:
@@ -65,7 +67,7 @@ def free_step_from(coin, start, rates, dt):
 
 
 @compiled
-def free_rate(coin, rate):
+def free_rate(coin: MujocoCoin, rate: Array) -> None:
     """Write the rate of change of the present state without the floor, (13,)."""
     place_body(coin)
     _find_acceleration(coin)
@@ -73,7 +75,7 @@ def free_rate(coin, rate):
 
 
 @compiled
-def free_rate_again(coin, rate):
+def free_rate_again(coin: MujocoCoin, rate: Array) -> None:
     """Write the same once more after a motion; see `place_body_again`."""
     place_body_again(coin)
     _find_acceleration(coin)
@@ -81,7 +83,7 @@ def free_rate_again(coin, rate):
 
 
 @compiled
-def nudge(coin, dt):
+def nudge(coin: MujocoCoin, dt: float) -> None:
     """Advance by a time dt in which the coin hardly turns [s], of either sign, at a constant rate."""
     rate, motion = np.empty(13), np.array(motion_of(coin))
     free_rate_again(coin, rate)
@@ -89,13 +91,13 @@ def nudge(coin, dt):
 
 
 @compiled
-def _find_acceleration(coin):
+def _find_acceleration(coin: MujocoCoin) -> None:
     write_smooth_forces(coin)
     mj_acceleration(coin.address.model, coin.address.data)
 
 
 @compiled
-def place_body(coin):
+def place_body(coin: MujocoCoin) -> None:
     """Compute what of MuJoCo's data depends on qpos alone, but for contacts."""
     mj_kinematics(coin.address.model, coin.address.data)
     mj_center(coin.address.model, coin.address.data)
@@ -104,7 +106,7 @@ def place_body(coin):
 
 
 @compiled
-def place_body_again(coin):
+def place_body_again(coin: MujocoCoin) -> None:
     """Compute the same once more after a motion; the mass matrix of a balanced coin is what it was."""
     if not coin.is_balanced:
         place_body(coin)

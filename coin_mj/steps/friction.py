@@ -6,18 +6,20 @@ Both follow from the normal force that MuJoCo measures.
 import numpy as np
 
 from cointoss.coin_mj.model.library import mj_solve_mass
-from cointoss.coin_mj.model.state import momentum_of, motion_of, set_motion
-from cointoss.coin_mj.steps.constrained_step import constrained_forward, contact_step
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.coin_mj.model.state import Motion, momentum_of, motion_of, set_motion
+from cointoss.coin_mj.steps.constrained_step import Constraint, constrained_forward, contact_step
 from cointoss.coin_mj.steps.coulomb import coulomb_force
 from cointoss.coin_mj.steps.mujoco_step import other_force
 from cointoss.coin_mj.steps.resistance import resisted_force
 from cointoss.models.attitude import rotation_matrix
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import add, apply, apply_transposed, cross
+from cointoss.models.kernel.vectors import Matrix, Vector, add, apply, apply_transposed, cross
 
 
 @compiled
-def friction_step(coin, constraint, dt):
+def friction_step(coin: MujocoCoin, constraint: Constraint, dt: float) -> None:
     """Advance by dt [s] with the forces of `apply_friction` in a frictionless contact."""
     apply_friction(coin, constraint, dt)
     contact_step(coin, constraint, dt)
@@ -25,7 +27,7 @@ def friction_step(coin, constraint, dt):
 
 
 @compiled
-def apply_friction(coin, constraint, dt):
+def apply_friction(coin: MujocoCoin, constraint: Constraint, dt: float) -> None:
     """Apply Coulomb's force to a coin in a frictionless contact, for a step of dt [s].
 
     In a sustained contact the moments of the floor's resistance to rolling and pivoting come with it. The
@@ -40,7 +42,7 @@ def apply_friction(coin, constraint, dt):
     start, momentum, other = motion_of(coin), momentum_of(coin)[2], other_force(coin)[2]
     R, point = rotation_matrix(start[3:7]), contact_point(coin)
     resists = coin.resists and constraint.frequency > 0
-    K = mobility(coin, R, point, 6 if resists else 3)
+    K = delassus(coin, R, point, 6 if resists else 3)
     contact_step(coin, constraint, dt)
     normal = max((momentum_of(coin)[2] - momentum) / dt - other, 0.0)
     end = motion_of(coin)
@@ -67,7 +69,7 @@ def apply_friction(coin, constraint, dt):
 
 
 @compiled
-def contact_point(coin):
+def contact_point(coin: MujocoCoin) -> Vector:
     """Return the centre of the floor's pressure from B, space frame, (3,) [m].
 
     It follows from the moment of the normal forces about B, after `constrained_forward`.
@@ -78,13 +80,13 @@ def contact_point(coin):
 
 
 @compiled
-def _velocity(motion, R, point):
+def _velocity(motion: Motion, R: Matrix, point: Vector) -> Vector:
     """Return the velocity of the coin's point that is at `point` from B, space frame, (3,) [m/s]."""
     return add(motion[7:10], cross(apply(R, motion[10:13]), point))
 
 
 @compiled
-def mobility(coin, R, point, n):
+def delassus(coin: MujocoCoin, R: Matrix, point: Vector, n: int) -> Array:
     """Return K, the change of the velocity of the coin's point at `point` from B by an impulse there.
 
     Args:

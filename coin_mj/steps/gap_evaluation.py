@@ -1,56 +1,50 @@
 """The gap below MuJoCo's coin, how fast it closes, and how long the next step of flight may be."""
 
-from typing import NamedTuple
-
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.model.state import state_of
-from cointoss.models.attitude import rotation_matrix
+from cointoss.models import geometry
 from cointoss.models.body import Body
 from cointoss.models.clearance import clear_time, damping_rate
-from cointoss.models.geometry import contact_velocity, gap, lowest_point
+from cointoss.models.geometry import GapEvaluation
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import norm
+from cointoss.models.kernel.vectors import Vector, norm
+from cointoss.models.state import State
 
 DAMPED = 0.5
 """A step of flight is at most this part of the time in which drag may change velocities."""
 
 
-class GapEvaluation(NamedTuple):
-    """The gap between coin and floor in one state."""
-
-    gap: float
-    """Of the coin's shape, negative in contact [m]."""
-    speed: float
-    """Vertical velocity of the lowest point [m/s]."""
+@compiled
+def evaluate_gap(coin: MujocoCoin) -> GapEvaluation:
+    """Return the `GapEvaluation` of the coin's shape in the present state."""
+    return geometry.evaluate_gap(shape_of(coin), state_above_floor(coin))
 
 
 @compiled
-def evaluate_gap(coin):
-    """Return the `GapEvaluation` of the present state."""
-    shape, (x, v, e, w) = shape_of(coin), state_of(coin)
-    R = rotation_matrix(e)
-    point, flat = lowest_point(shape, R[2], w)
-    speed = v[2] if flat else contact_velocity(shape, R, v, w, point)[2]
-    return GapEvaluation(gap(shape, x[2] - coin.floor_height, R[2]), speed)
+def state_above_floor(coin: MujocoCoin) -> State:
+    """Return the present `State`, its height above MuJoCo's floor."""
+    x, v, e, w, R = state_of(coin)
+    return State((x[0], x[1], x[2] - coin.floor_height), v, e, w, R)
 
 
 @compiled
-def longest_step(coin):
+def longest_step(coin: MujocoCoin) -> float:
     """Return the length of a step of free flight in which the coin turns by at most the angle set [s]."""
-    _, v, _, w = state_of(coin)
+    state = state_of(coin)
+    v, w = state.velocity, state.spin
     longest = coin.flight_angle / turning_rate(coin.body, w)
     return min(longest, DAMPED / damping_rate(coin.body, v, w, longest))
 
 
 @compiled
-def clear_flight(coin, window):
+def clear_flight(coin: MujocoCoin, window: float) -> float:
     """Return a time in which the coin surely does not touch, at most `window` [s]."""
-    x, v, e, w = state_of(coin)
-    z, up = x[2] - coin.floor_height, rotation_matrix(e)[2]
-    return clear_time(shape_of(coin), z, v, up, w, window)
+    x, v, _, w, R = state_above_floor(coin)
+    return clear_time(shape_of(coin), x[2], v, R[2], w, window)
 
 
 @compiled
-def shape_of(coin):
+def shape_of(coin: MujocoCoin) -> Body:
     """Return the body with the thickness of its shape."""
     body = coin.body
     return Body(
@@ -70,6 +64,6 @@ def shape_of(coin):
 
 
 @compiled
-def turning_rate(body, w):
+def turning_rate(body: Body, w: Vector) -> float:
     """Return the rate at which the coin turns, or would soon turn in contact [rad/s]."""
     return max(norm(w), (body.gravity / body.radius) ** 0.5)

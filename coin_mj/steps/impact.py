@@ -3,16 +3,17 @@
 import math
 from enum import IntEnum
 
-from cointoss.coin_mj.model.state import momentum_of, motion_of, set_motion
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.coin_mj.model.state import Motion, momentum_of, motion_of, set_motion
 from cointoss.coin_mj.steps.constrained_step import IMPACT, contact_step, forward
 from cointoss.coin_mj.steps.flight import TOUCH_STEP
 from cointoss.coin_mj.steps.friction import friction_step
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
-from cointoss.coin_mj.steps.knots import Step, add_knot
+from cointoss.coin_mj.steps.knots import Knot, Step, add_knot
 from cointoss.coin_mj.steps.mujoco_step import other_force, set_margin, set_spring
-from cointoss.models.attitude import quaternion_product, rotation_matrix
+from cointoss.models.attitude import Quaternion, quaternion_product, rotation_matrix
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import add, apply, apply_transposed, cross, scale, subtract
+from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, cross, scale, subtract
 
 PAST = 1.0005
 """Factor on a step that should end with the contact: past the release there is no force."""
@@ -37,7 +38,7 @@ class TouchResult(IntEnum):
 
 
 @compiled
-def resolve_impact(coin, time, knots):
+def resolve_impact(coin: MujocoCoin, time: float, knots: list[Knot]) -> tuple[TouchResult, float, Vector]:
     """Follow a contact from the touch to the release of all rim points.
 
     On a coin that lands flat there is no Coulomb force: its impulse goes through C, as in the paper's
@@ -71,7 +72,7 @@ def resolve_impact(coin, time, knots):
 
 
 @compiled
-def _leans(coin, up):
+def _leans(coin: MujocoCoin, up: Vector) -> bool:
     """Let a flat coin that turns lean as it does, on the floor; return whether it turns.
 
     Args:
@@ -92,7 +93,7 @@ def _leans(coin, up):
 
 
 @compiled
-def _turn_level(coin, n_z):
+def _turn_level(coin: MujocoCoin, n_z: float) -> tuple[Quaternion, float]:
     """Turn a coin that is flat about the vertical until its axes are MuJoCo's, and stop its spin.
 
     Returns:
@@ -114,7 +115,7 @@ def _turn_level(coin, n_z):
 
 
 @compiled
-def _turned_back(turn, spin, elapsed, motion):
+def _turned_back(turn: Quaternion, spin: float, elapsed: float, motion: Motion) -> Motion:
     """Return a state turned back, with its spin and the angle that it would have spun, (13,)."""
     angle = spin * elapsed / 2
     spun = (math.cos(angle), 0.0, 0.0, math.sin(angle))
@@ -124,7 +125,9 @@ def _turned_back(turn, spin, elapsed, motion):
 
 
 @compiled
-def _resolve(coin, has_friction, time, knots):
+def _resolve(
+    coin: MujocoCoin, has_friction: bool, time: float, knots: list[Knot]
+) -> tuple[TouchResult, float, Vector]:
     start, momentum, other = time, momentum_of(coin), (0.0, 0.0, 0.0)
     acted, result = False, TouchResult.SUSTAINED
     while time - start <= SUSTAINED * coin.rebound.duration:
@@ -154,7 +157,7 @@ def _resolve(coin, has_friction, time, knots):
 
 
 @compiled
-def _step_length(coin):
+def _step_length(coin: MujocoCoin) -> float:
     """Return the length of the next step of an impact [s]; the last ends as the lowest point is released."""
     rebound = coin.rebound
     if coin.has_one_step:
@@ -168,7 +171,7 @@ def _step_length(coin):
 
 
 @compiled
-def time_to_release(stiffness, damping, x, speed):
+def time_to_release(stiffness: float, damping: float, x: float, speed: float) -> float:
     """Return the time until a damped spring lets go [s]: 0 where it would pull, infinite where it never does.
 
     The force per mass f = -k x - d x' obeys the equation of the spring, f" = -k f - d f'.

@@ -3,8 +3,14 @@
 from enum import IntEnum
 
 from cointoss.coin_mj.model.memory import numbers_at
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.model.state import motion_of
 from cointoss.models.kernel.compiled import compiled
+
+Knot = tuple[
+    float, float, float, float, float, float, float, float, float, float, float, float, float, float, float
+]
+"""Time, `Step`, qpos and qvel."""
 
 
 class Step(IntEnum):
@@ -17,7 +23,7 @@ class Step(IntEnum):
 
 
 @compiled
-def add_knot(coin, time, step, knots):
+def add_knot(coin: MujocoCoin, time: float, step: Step, knots: list[Knot]) -> None:
     """Add the present state to the path, and set MuJoCo's time.
 
     Args:
@@ -32,7 +38,7 @@ def add_knot(coin, time, step, knots):
 
 
 @compiled
-def knot_of(coin, time, step):
+def knot_of(coin: MujocoCoin, time: float, step: Step) -> Knot:
     """Return the present state as a knot, (15,); see `add_knot`."""
     when = (time, float(step.value))
     return when + motion_of(coin)

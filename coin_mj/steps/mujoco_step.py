@@ -2,32 +2,34 @@
 
 from cointoss.coin_mj.model.library import mj_euler
 from cointoss.coin_mj.model.memory import numbers_at
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.model.scene import NO_DAMPING
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Vector
 
 
 @compiled
-def other_force(coin):
+def other_force(coin: MujocoCoin) -> Vector:
     """Return weight and drag, space frame, (3,) [N], after `forward`."""
     f, g = coin.joint.qfrc_actuator, coin.joint.qfrc_passive
     return f[0] + g[0], f[1] + g[1], f[2] + g[2] - coin.body.mass * coin.body.gravity
 
 
 @compiled
-def euler_step(coin, dt):
+def euler_step(coin: MujocoCoin, dt: float) -> None:
     """Advance by dt [s] with MuJoCo's semi-implicit Euler, by the accelerations that `forward` found."""
     numbers_at(coin.address.timestep, (1,))[0] = dt
     mj_euler(coin.address.model, coin.address.data)
 
 
 @compiled
-def set_margin(coin, margin):
+def set_margin(coin: MujocoCoin, margin: float) -> None:
     """Let a contact be one up to a height [m]."""
     numbers_at(coin.address.margin, (1,))[0] = margin
 
 
 @compiled
-def set_spring(coin, stiffness, damping, slip_damping):
+def set_spring(coin: MujocoCoin, stiffness: float, damping: float, slip_damping: float) -> None:
     """Set the contact's stiffness [1/s²] and damping [1/s], and the damping of MuJoCo's friction [1/s]."""
     solref = numbers_at(coin.address.solref, (2,))
     solref[0], solref[1] = -stiffness, -damping

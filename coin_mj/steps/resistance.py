@@ -7,14 +7,19 @@ solved together.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.steps.coulomb import STEADY, force_in_cone
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import norm
+from cointoss.models.kernel.vectors import Vector, norm
 from cointoss.models.rest import slow_spin
 
+PointMotion = tuple[float, float, float, float, float, float]
+"""Velocity of the contact point, and ω."""
 PARTS = 64
 """Of a step in which slip, roll or pivoting starts, stops or turns far."""
 TURN = 0.25
@@ -27,8 +32,26 @@ _LAWS = ((0, 1), (3, 4), (5, 2))
 """Where the components of slip, roll and pivoting are; the vertical one of the second is not used."""
 
 
+class Laws(NamedTuple):
+    """How friction and the moments of resistance change the motion, and how large they may be."""
+
+    g: Array
+    """Part of each that the normal force gives way to, (6,)."""
+    G: Array
+    """From each to the change of the motion in a time, (6, 6)."""
+    coefficients: tuple[float, float, float]
+    """μ, δ [m] and p [m]."""
+
+
 @compiled
-def resisted_force(K, coefficients, normal, motion, motion_free, dt):
+def resisted_force(
+    K: Array,
+    coefficients: tuple[float, float, float],
+    normal: float,
+    motion: PointMotion,
+    motion_free: PointMotion,
+    dt: float,
+) -> tuple[Vector, Vector]:
     """Return the mean force of a step, without what holds the coin up, and the mean moment of resistance.
 
     MuJoCo prescribes the vertical acceleration of the contact, whatever else acts on it; see `coulomb_force`.
@@ -53,13 +76,14 @@ def resisted_force(K, coefficients, normal, motion, motion_free, dt):
             G[i, j] = K[i, j] - g[i] * K[j, 2] if i != 2 and j != 2 else 0.0
     start, free, f = np.array(motion), np.array(motion_free), np.zeros(6)
     start[2], free[2] = 0.0, 0.0
-    _solve(g, G * dt, coefficients, normal, start, free, f)
-    if not _is_smooth(g, G * dt, coefficients, normal, start, free, f):
-        driven, part, total = (free - start) / PARTS, G * (dt / PARTS), np.zeros(6)
+    whole = Laws(g, G * dt, coefficients)
+    _solve(whole, normal, start, free, f)
+    if not _is_smooth(whole, normal, start, free, f):
+        driven, part, total = (free - start) / PARTS, Laws(g, G * (dt / PARTS), coefficients), np.zeros(6)
         for _ in range(PARTS):
             free = start + driven
-            _solve(g, part, coefficients, normal, start, free, f)
-            start = free + part @ f
+            _solve(part, normal, start, free, f)
+            start = free + part.G @ f
             total += f
         f = total / PARTS
     given_way = 0.0
@@ -69,18 +93,17 @@ def resisted_force(K, coefficients, normal, motion, motion_free, dt):
 
 
 @compiled
-def _solve(g, G, coefficients, normal, start, free, f):
+def _solve(laws: Laws, normal: float, start: Array, free: Array, f: Array) -> None:
     """Find the friction and the moments of a part of a step, law by law until none changes.
 
     Args:
-        g: part of each that the normal force gives way to, (6,).
-        G: from each to the change of the motion in the part, (6, 6).
-        coefficients: μ, δ and p.
+        laws: in the part.
         normal: normal force without them [N].
         start: motion at the start of the part, (6,).
         free: motion at its end without them, (6,).
         f: friction and moments, a guess; written to, (6,).
     """
+    g, G, coefficients = laws
     for _ in range(SWEEPS):
         change = 0.0
         for law in range(3):
@@ -106,8 +129,9 @@ def _solve(g, G, coefficients, normal, start, free, f):
 
 
 @compiled
-def _is_smooth(g, G, coefficients, normal, start, free, f):
+def _is_smooth(laws: Laws, normal: float, start: Array, free: Array, f: Array) -> bool:
     """Return whether each motion of a step stays at rest, or keeps its direction; see `_solve`."""
+    g, G, coefficients = laws
     end, left = free + G @ f, normal
     for k in range(6):
         left -= g[k] * f[k]
@@ -127,7 +151,7 @@ def _is_smooth(g, G, coefficients, normal, start, free, f):
 
 
 @compiled
-def shortest_stop(coin, w):
+def shortest_stop(coin: MujocoCoin, w: Vector) -> float:
     """Return a time in which resistance cannot stop the coin's turning, unless that is slow [s].
 
     Args:

@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 
+from cointoss.coin_mj.model.state import Motion
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 
 # Row s has the weights of the rates before for the state of stage s; the last row those for the step's end.
@@ -42,7 +44,7 @@ TSITOURAS_NODES = TSITOURAS.sum(axis=1)
 
 
 @compiled
-def write_rate(motion, acceleration, rate):
+def write_rate(motion: Motion, acceleration: Array, rate: Array) -> None:
     """Write the rate of change of a state.
 
     Args:
@@ -63,7 +65,7 @@ def write_rate(motion, acceleration, rate):
 
 
 @compiled
-def stage_motion(start, rates, weights, stage, dt, motion):
+def stage_motion(start: Motion, rates: Array, weights: Array, stage: int, dt: float, motion: Array) -> None:
     """Write the state at which the rate of a stage but the first is wanted.
 
     Its Euler parameters have not quite the norm 1: their own rate is linear in them, and MuJoCo's
@@ -85,7 +87,7 @@ def stage_motion(start, rates, weights, stage, dt, motion):
 
 
 @compiled
-def end_motion(start, rates, weights, dt, motion):
+def end_motion(start: Motion, rates: Array, weights: Array, dt: float, motion: Array) -> Array:
     """Write the state at the end of the step, its Euler parameters of norm 1, and give it; see above."""
     stage_motion(start, rates, weights, len(weights) - 1, dt, motion)
     size = math.sqrt(motion[3] ** 2 + motion[4] ** 2 + motion[5] ** 2 + motion[6] ** 2)

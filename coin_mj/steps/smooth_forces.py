@@ -2,13 +2,14 @@
 
 from cointoss.coin_mj.model.library import mj_bias, mj_center_velocity, mj_passive
 from cointoss.coin_mj.model.memory import numbers_at
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.models.body import is_linear
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import dot
 
 
 @compiled
-def write_smooth_forces(coin):
+def write_smooth_forces(coin: MujocoCoin) -> None:
     """Write qfrc_bias, qfrc_passive and qfrc_actuator of a placed coin, as `mj_forward` does.
 
     Of linear air MuJoCo's own stages take the most time of a step: they look for springs, tendons, fluids and
@@ -23,7 +24,7 @@ def write_smooth_forces(coin):
 
 
 @compiled
-def _write_linear_drag(coin):
+def _write_linear_drag(coin: MujocoCoin) -> None:
     """Write the forces of the free joint's damping and of the actuator along the coin's normal."""
     drag, v, joint = coin.body.drag, coin.joint.qvel, coin.joint
     R = numbers_at(coin.address.xmat, (3, 3))

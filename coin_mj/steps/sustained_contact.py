@@ -3,23 +3,24 @@
 import math
 from enum import IntEnum
 
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.model.state import state_of
 from cointoss.coin_mj.steps.constrained_step import Constraint, constrained_forward, contact_step
 from cointoss.coin_mj.steps.free_step import free_step
 from cointoss.coin_mj.steps.friction import apply_friction, friction_step
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap, turning_rate
-from cointoss.coin_mj.steps.knots import Step, add_knot
+from cointoss.coin_mj.steps.knots import Knot, Step, add_knot
 from cointoss.coin_mj.steps.mujoco_step import set_margin, set_spring
 from cointoss.coin_mj.steps.resistance import shortest_stop
-from cointoss.models.attitude import rotation_matrix
+from cointoss.models.body import Rules
 from cointoss.models.ending import classify_ending
 from cointoss.models.geometry import lowest_point
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import apply, cross, subtract
-from cointoss.models.perpetual import FIRST_CHECK
+from cointoss.models.kernel.vectors import Matrix, Vector, apply, cross, subtract
+from cointoss.models.perpetual import FIRST_CHECK, EnergyHistory
 from cointoss.models.records import Ending, Outcome
-from cointoss.models.rest import is_held, is_slowing, lever_of
-from cointoss.models.state import state
+from cointoss.models.rest import is_held, is_slowing
+from cointoss.models.state import State
 
 HEAVY = 10
 """A touch is no impact when gravity alone gives its speed in HEAVY times the duration of a contact."""
@@ -54,7 +55,7 @@ class ContactExit(IntEnum):
 
 
 @compiled
-def slow_speed(coin, chi, w):
+def slow_speed(coin: MujocoCoin, chi: float, w: Vector) -> float:
     """Return the speed of a touch below which the coin stays in contact [m/s].
 
     All its bounces to come would fall within one step of that contact, or weight would drive its impact.
@@ -70,7 +71,9 @@ def slow_speed(coin, chi, w):
 
 
 @compiled
-def follow_contact(coin, rules, time, steps_left, history, knots):
+def follow_contact(
+    coin: MujocoCoin, rules: Rules, time: float, steps_left: int, history: EnergyHistory, knots: list[Knot]
+) -> tuple[ContactExit, float, int, Outcome, Ending]:
     """Follow a sustained contact until the coin lifts off, another rim point lands, or the toss is decided.
 
     Args:
@@ -88,18 +91,17 @@ def follow_contact(coin, rules, time, steps_left, history, knots):
     rate = (body.gravity / body.radius) ** 0.5
     unloaded, upright = 0.0, 0.0
     while time < rules.max_time:
-        x, v, e, w = state_of(coin)
-        R = rotation_matrix(e)
+        x, v, e, w, R = state_of(coin)
         up = R[2]
         up_rate = cross(up, w)
         # Where the coin would be if it did not sink: the energy tests are finer than that.
         sunk = -min(evaluate_gap(coin).gap, 0.0)
         z = x[2] + sunk
-        now = state((x[0], x[1], z), v, e, w)
+        now = State((x[0], x[1], z), v, e, w, R)
         outcome, ending = classify_ending(body, rules, now, time, history)
         if ending == Ending.NONE and upright * rate > FIRST_CHECK and not slows(coin, R, w):
             outcome, ending = Outcome.EDGE, Ending.STANDING
-        if ending == Ending.NONE and rests(coin, R, v, w, upright > 0):
+        if ending == Ending.NONE and rests(coin, now, upright > 0):
             outcome, ending = Outcome.EDGE, Ending.AT_REST
         if ending == Ending.NONE and steps_left <= 0:
             outcome, ending = out_of_budget(coin, upright > 0, Ending.CONTACT_STEPS)
@@ -125,7 +127,7 @@ def follow_contact(coin, rules, time, steps_left, history, knots):
 
 
 @compiled
-def sustained_step(coin, chi, w, dt):
+def sustained_step(coin: MujocoCoin, chi: float, w: Vector, dt: float) -> float:
     """Advance a coin in sustained contact by dt [s]; see `constrain` for the arguments.
 
     Returns:
@@ -141,38 +143,35 @@ def sustained_step(coin, chi, w, dt):
 
 
 @compiled
-def frequency_of(dt):
+def frequency_of(dt: float) -> float:
     """Return √k of the spring in a step of dt [s] [1/s]."""
     return SOFTNESS / dt
 
 
 @compiled
-def slows(coin, R, w):
+def slows(coin: MujocoCoin, R: Matrix, w: Vector) -> bool:
     """Return whether the floor's resistance slows a coin that stands; see `is_slowing`."""
     return is_slowing(coin.body, coin.rolling_friction, coin.pivoting_friction, apply(R, w))
 
 
 @compiled
-def rests(coin, R, v, w, upright):
+def rests(coin: MujocoCoin, state: State, upright: bool) -> bool:
     """Return whether resistance to rolling holds the coin where it is; see `cointoss.models.rest.is_held`.
 
     Args:
         coin: MuJoCo's.
-        R: rotation matrix, body to space.
-        v: velocity of C, space frame, (3,) [m/s].
-        w: angular velocity, body frame, (3,) [rad/s].
+        state: its own.
         upright: whether it is on both rims.
     """
     if not coin.rolling_friction > 0:
         return False
-    point, _ = lowest_point(coin.body, R[2], w)
-    arm = apply(R, subtract(point, coin.body.center))
-    lever = lever_of(R, arm, upright)
-    return is_held(coin.body, coin.rolling_friction, coin.friction, v, w, arm, lever)
+    point, _ = lowest_point(coin.body, state.R[2], state.spin)
+    arm = apply(state.R, subtract(point, coin.body.center))
+    return is_held(coin.body, coin.rolling_friction, coin.friction, state, arm, upright)
 
 
 @compiled
-def out_of_budget(coin, upright, ending):
+def out_of_budget(coin: MujocoCoin, upright: bool, ending: Ending) -> tuple[Outcome, Ending]:
     """Return the outcome and ending of a toss that ends in contact as a budget is spent.
 
     Args:
@@ -186,7 +185,7 @@ def out_of_budget(coin, upright, ending):
 
 
 @compiled
-def constrain(coin, chi, w, dt):
+def constrain(coin: MujocoCoin, chi: float, w: Vector, dt: float) -> Constraint:
     """Return the `Constraint` of a step, with MuJoCo's contact set for it.
 
     Args:
@@ -202,7 +201,7 @@ def constrain(coin, chi, w, dt):
 
 
 @compiled
-def floor_force(coin, chi, dt):
+def floor_force(coin: MujocoCoin, chi: float, dt: float) -> Vector:
     """Return the floor's force at the start of a step of a sustained contact, space frame, (3,) [N].
 
     It is MuJoCo's own constraint force, and what `apply_friction` gives.
@@ -212,7 +211,7 @@ def floor_force(coin, chi, dt):
         chi: restitution χ.
         dt: length of the step [s].
     """
-    constraint = constrain(coin, chi, state_of(coin)[3], dt)
+    constraint = constrain(coin, chi, state_of(coin).spin, dt)
     if constrained_forward(coin, constraint) > 0 and (coin.has_explicit_friction or coin.resists):
         apply_friction(coin, constraint, dt)
     f, g = coin.joint.qfrc_constraint, coin.joint.qfrc_applied
@@ -222,7 +221,9 @@ def floor_force(coin, chi, dt):
 
 
 @compiled
-def next_step(coin, chi, up, up_rate, w, sunk):
+def next_step(
+    coin: MujocoCoin, chi: float, up: Vector, up_rate: Vector, w: Vector, sunk: float
+) -> tuple[float, bool]:
     """Return the length of the next step of a sustained contact.
 
     In it the coin, and the lowest point on its way round the rim, turn by less than `ANGLE`. It ends
@@ -244,7 +245,7 @@ def next_step(coin, chi, up, up_rate, w, sunk):
     rate = turning_rate(body, w)
     if sine > FACE:
         # A face that sank as a whole rises by the spring, not by a turn of the coin: shorter steps, which
-        # have stiffer springs, would push it the faster.
+        # have stiffer springs, would lift it the faster.
         lies = sunk > body.radius * sine
         around = abs(up[0] * up_rate[1] - up[1] * up_rate[0]) / (sine * sine)
         rate = max(rate, around if lies else math.hypot(up_rate[0], up_rate[1]) / sine)
@@ -258,7 +259,7 @@ def next_step(coin, chi, up, up_rate, w, sunk):
 
 
 @compiled
-def _pass_over(coin, dt):
+def _pass_over(coin: MujocoCoin, dt: float) -> None:
     """Let the coin pass over its edge, or face, in a time dt [s], and put it on the rim point that lands."""
     free_step(coin, dt / APPROACH * (2 - APPROACH))
     coin.joint.qpos[2] -= evaluate_gap(coin).gap

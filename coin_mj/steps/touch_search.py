@@ -5,6 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.coin_mj.model.state import Motion
 from cointoss.coin_mj.steps.gap_evaluation import shape_of
 from cointoss.coin_mj.steps.turning_frame import (
     TurningFrame,
@@ -47,7 +49,7 @@ class Arc(NamedTuple):
 
 
 @compiled
-def arc_of(start, start_rate, end, end_rate, duration):
+def arc_of(start: Motion, start_rate: Array, end: Motion, end_rate: Array, duration: float) -> Arc:
     """Return the `Arc` of a step.
 
     Args:
@@ -78,7 +80,9 @@ def arc_of(start, start_rate, end, end_rate, duration):
 
 
 @compiled
-def _write_end(frame, time, motion, rate, duration, end):
+def _write_end(
+    frame: TurningFrame, time: float, motion: Motion, rate: Array, duration: float, end: Array
+) -> None:
     """Write values, rates and accelerations at an end, in units of the step, (3, 7).
 
     Args:
@@ -110,7 +114,7 @@ def _write_end(frame, time, motion, rate, duration, end):
 
 
 @compiled
-def first_touch(coin, arc, shortest):
+def first_touch(coin: MujocoCoin, arc: Arc, shortest: float) -> float:
     """Return the time from the start of a step to the first touch in it [s]; infinite where there is none.
 
     Steps of `clear_time` on the polynomials lead there from before.
@@ -142,12 +146,12 @@ def first_touch(coin, arc, shortest):
 
 
 @compiled
-def _value(row, part):
+def _value(row: Array, part: float) -> float:
     """Return a polynomial's value."""
     return row[0] + part * (row[1] + part * (row[2] + part * (row[3] + part * (row[4] + part * row[5]))))
 
 
 @compiled
-def _slope(row, part):
+def _slope(row: Array, part: float) -> float:
     """Return a polynomial's derivative."""
     return row[1] + part * (2 * row[2] + part * (3 * row[3] + part * (4 * row[4] + part * 5 * row[5])))

@@ -9,7 +9,9 @@ normal at a constant rate s: e(t) = g exp(W t/2) exp(s ζ t/2), g constant. So t
 import math
 from typing import NamedTuple
 
+from cointoss.coin_mj.model.state import Motion
 from cointoss.models.attitude import Quaternion, quaternion_product
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, add, cross, norm, scale
 
@@ -33,7 +35,7 @@ class Turn(NamedTuple):
 
 
 @compiled
-def frame_of(motion, rate):
+def frame_of(motion: Motion, rate: Array) -> TurningFrame:
     """Return the `TurningFrame` in which the coin is at rest at first, and ω nearly constant.
 
     Args:
@@ -51,7 +53,7 @@ def frame_of(motion, rate):
 
 
 @compiled
-def turn_after(frame, time):
+def turn_after(frame: TurningFrame, time: float) -> Turn:
     """Return the `Turn` after a time [s]."""
     size = norm(frame.rate)
     axis = scale(math.sin(size * time / 2) / size if size > 0 else 0.0, frame.rate)
@@ -62,7 +64,7 @@ def turn_after(frame, time):
 
 
 @compiled
-def to_motion(turn, slow, motion):
+def to_motion(turn: Turn, slow: Array, motion: Array) -> None:
     """Write qpos and qvel, (13,), of a state in the turning frame.
 
     Args:
@@ -80,7 +82,9 @@ def to_motion(turn, slow, motion):
 
 
 @compiled
-def write_slow_rate(frame, turn, slow, acceleration, rate):
+def write_slow_rate(
+    frame: TurningFrame, turn: Turn, slow: Motion | Array, acceleration: Array, rate: Array
+) -> None:
     """Write the rate of change of a state in the turning frame.
 
     Args:
@@ -102,53 +106,53 @@ def write_slow_rate(frame, turn, slow, acceleration, rate):
 
 
 @compiled
-def left_over(frame, w):
+def left_over(frame: TurningFrame, w: Vector) -> Vector:
     """Return ω_F - s ζ - W, with which g turns, (3,) [rad/s]."""
     return w[0] - frame.rate[0], w[1] - frame.rate[1], w[2] - frame.spin - frame.rate[2]
 
 
 @compiled
-def spin_rate(frame, turn, w, acceleration):
+def spin_rate(frame: TurningFrame, turn: Turn, w: Vector, acceleration: Vector) -> Vector:
     """Return the rate of change of ω_F, R_ζ(s t) ω̇ + s ζ × ω_F, (3,) [rad/s²]."""
     turned = about_normal(turn, acceleration)
     return turned[0] - frame.spin * w[1], turned[1] + frame.spin * w[0], turned[2]
 
 
 @compiled
-def about_normal(turn, a):
+def about_normal(turn: Turn, a: Vector) -> Vector:
     """Return R_ζ(s t) a of a vector, (3,)."""
     c, s = _cosine_and_sine(turn)
     return c * a[0] - s * a[1], s * a[0] + c * a[1], a[2]
 
 
 @compiled
-def about_normal_back(turn, a):
+def about_normal_back(turn: Turn, a: Vector) -> Vector:
     """Return R_ζ(-s t) a of a vector, (3,)."""
     c, s = _cosine_and_sine(turn)
     return c * a[0] + s * a[1], c * a[1] - s * a[0], a[2]
 
 
 @compiled
-def about_axis(turn, a):
+def about_axis(turn: Turn, a: Vector) -> Vector:
     """Return R(exp(W t/2)) a of a vector, (3,)."""
     return _turned(turn.about_axis, a)
 
 
 @compiled
-def about_axis_back(turn, a):
+def about_axis_back(turn: Turn, a: Vector) -> Vector:
     """Return R(exp(W t/2))ᵀ a of a vector, (3,)."""
     p = turn.about_axis
     return _turned((p[0], -p[1], -p[2], -p[3]), a)
 
 
 @compiled
-def _cosine_and_sine(turn):
+def _cosine_and_sine(turn: Turn) -> tuple[float, float]:
     c, s = turn.about_normal[0], turn.about_normal[3]
     return c * c - s * s, 2 * c * s
 
 
 @compiled
-def _turned(p, a):
+def _turned(p: Quaternion, a: Vector) -> Vector:
     """Return a vector turned by Euler parameters p of norm 1, (3,)."""
     axis = (p[1], p[2], p[3])
     twice = scale(2.0, cross(axis, a))

@@ -13,8 +13,8 @@ import numpy as np
 from cointoss.analytic.events import hit
 from cointoss.analytic.flight.equations_of_motion import derivative
 from cointoss.analytic.flight.state_vector import STATE_SIZE, state_of
-from cointoss.analytic.flight.touch_search import closing_speed
 from cointoss.models.ending import final_face
+from cointoss.models.geometry import evaluate_gap
 from cointoss.models.records import IMPACT_ROW, Array, Ending
 from cointoss.models.scenario import Scenario
 
@@ -48,20 +48,20 @@ def mechanics(scenario: Scenario) -> OneCoin:
 
     @compiled
     def gap(_, y):
-        return closing_speed(body, y)[0]
+        return evaluate_gap(body, state_of(y)).gap
 
     @compiled
     def gaps(states):
         heights = np.empty(len(states))
         for i in range(len(states)):
-            heights[i] = closing_speed(body, states[i])[0]
+            heights[i] = evaluate_gap(body, state_of(states[i])).gap
         return heights
 
     @compiled
     def strike(y):
         row = np.zeros(1, dtype=IMPACT_ROW)
         ending = hit(body, rules, rules.restitution, y, row[0])
-        y[2] += max(LIFT - closing_speed(body, y)[0], 0.0)
+        y[2] += max(LIFT - evaluate_gap(body, state_of(y)).gap, 0.0)
         if ending == Ending.NONE:
             _, ending = final_face(body, rules, state_of(y))
         return row[0].face, ending != Ending.NONE

@@ -8,15 +8,16 @@ from cointoss.models.attitude import rotation_matrix
 from cointoss.models.geometry import contact_velocity, lowest_point
 from cointoss.models.records import IMPACT_ROW
 from tests.helpers.draws import draw_coin, draw_quaternion, scenario
+from tests.helpers.tuples import quaternion, vector
 
 
 def draw_contact(rng):
     """The Delassus matrix of a coin's lowest point, and a velocity of it that closes."""
     body = scenario(coin=draw_coin(rng)).body
-    R = rotation_matrix(tuple(draw_quaternion(rng)))
+    R = rotation_matrix(quaternion(draw_quaternion(rng)))
     point, _ = lowest_point(body, R[2], (1.0, 2.0, 3.0))
     arm = np.array(R) @ (np.array(point) - body.center)
-    return delassus(body, R, tuple(arm)), (*rng.uniform(-2, 2, 2), -rng.uniform(0.2, 3))
+    return delassus(body, R, vector(arm)), (*rng.uniform(-2, 2, 2), -rng.uniform(0.2, 3))
 
 
 def draw_impact(rng, law, restitution=None):
@@ -32,7 +33,7 @@ def draw_impact(rng, law, restitution=None):
     body = case.body
     while True:
         e = draw_quaternion(rng)
-        R = rotation_matrix(tuple(e))
+        R = rotation_matrix(quaternion(e))
         v, w = rng.uniform(-1, 1, 3) - [0, 0, 2], rng.uniform(-100, 100, 3)
         point, _ = lowest_point(body, R[2], tuple(w))
         if contact_velocity(body, R, tuple(v), tuple(w), point)[2] < -0.1:

@@ -12,6 +12,7 @@ from cointoss.models.geometry import gap
 from cointoss.models.records import Ending, Face, Outcome
 from cointoss.models.state import state
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_quaternion, scenario
+from tests.helpers.tuples import quaternion
 
 IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 
@@ -112,7 +113,7 @@ def test_energy_without_the_idle_part_never_grows_in_linear_air(thickness, offse
     rng, a = np.random.default_rng(8), body.sliding_share
     largest = -np.inf
     for _ in range(3000):
-        R = np.array(rotation_matrix(tuple(draw_quaternion(rng))))
+        R = np.array(rotation_matrix(quaternion(draw_quaternion(rng))))
         w, v = rng.normal(size=3) * 10 ** rng.uniform(-1, 3), rng.normal(size=3)
         f, m_C = force_and_moment(body, tuple(R.T @ v), tuple(w))
         f_space = R @ np.array(f)

@@ -12,6 +12,7 @@ from cointoss.models.ending import idle_energy
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
 from tests.helpers.states import gaps
+from tests.helpers.tuples import matrix, quaternion, vector
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
@@ -28,7 +29,7 @@ def rim(body):
 @pytest.mark.parametrize("seed", range(20))
 def test_gap_and_lowest_point_are_those_of_the_whole_rim(seed):
     rng = np.random.default_rng(seed)
-    R = np.array(rotation_matrix(tuple(draw_quaternion(rng))))
+    R = np.array(rotation_matrix(quaternion(draw_quaternion(rng))))
     z = 0.1
     heights = z + (rim(IMPERFECT) - IMPERFECT.center) @ R[2]
     point, flat = lowest_point(IMPERFECT, tuple(R[2]), (1.0, 2.0, 3.0))
@@ -54,7 +55,7 @@ def test_a_flat_coin_that_turns_touches_with_the_point_that_moves_down_fastest(u
     assert not flat
     R = np.diag([1.0, up, up])
     fall = np.array([(R @ np.cross(w, edge))[2] for edge in rim(IMPERFECT) if edge[2] == -up * 1e-3])
-    ours = contact_velocity(IMPERFECT, tuple(map(tuple, R)), (0.0, 0.0, 0.0), w, point)[2]
+    ours = contact_velocity(IMPERFECT, matrix(R), (0.0, 0.0, 0.0), w, point)[2]
     center = (R @ np.cross(w, -np.array(IMPERFECT.center)))[2]
     assert ours - center == pytest.approx(fall.min(), rel=1e-7)
     assert fall.min() == pytest.approx(-5 * IMPERFECT.radius, rel=1e-7)
@@ -174,8 +175,8 @@ def test_a_grazing_coin_hardly_sinks_in_its_grazing_time(tilt, seed):
     psi = rng.uniform(0, 2 * np.pi)
     case = scenario(release={"angles": [psi, tilt, rng.uniform(0, 6)]})
     R = np.array(rotation_matrix(case.release.attitude))
-    point, _ = lowest_point(body, tuple(R[2]), tuple(w))
-    speed = -contact_velocity(body, tuple(map(tuple, R)), (0.0, 0.0, 0.0), tuple(w), point)[2]
+    point, _ = lowest_point(body, vector(R[2]), vector(w))
+    speed = -contact_velocity(body, matrix(R), (0.0, 0.0, 0.0), vector(w), point)[2]
     time, _ = grazing_time(body, (0.0, 0.0, speed), tuple(R[2]), tuple(w), sink)
     assert time > 0
     start = -gap(body, 0.0, tuple(R[2]))

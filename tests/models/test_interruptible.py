@@ -48,10 +48,10 @@ def test_every_tile_is_made_once_and_each_thread_has_some(n, size, monkeypatch):
     monkeypatch.setattr("cointoss.models.tiles.config.NUMBA_NUM_THREADS", 2)
     told = []
 
-    def number(states, outcomes, *others):
-        outcomes[:] = 3
-        for column in others:
-            column[:] = len(states)
+    def number(tile):
+        tile.outcome[:] = 3
+        for column in tile[2:]:
+            column[:] = len(tile.states)
 
     made = toss_in_tiles(releases_of(n), 5, number, lambda *so_far: told.append(so_far))
     assert made.outcome.tolist() == [3] * n
@@ -63,8 +63,8 @@ def test_every_tile_is_made_once_and_each_thread_has_some(n, size, monkeypatch):
 def test_a_tile_that_fails_keeps_those_not_begun_from_being_made():
     made = []
 
-    def failing(states, *_):
-        made.append(len(states))
+    def failing(tile):
+        made.append(len(tile.states))
         raise LookupError("a tile")
 
     with pytest.raises(LookupError, match="a tile"):

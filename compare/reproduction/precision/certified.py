@@ -117,9 +117,9 @@ def certified_toss(
             release = _in_own_units(
                 units, PlanarRelease(Fraction(height), Fraction(spin), Fraction(tilt)), bits
             )
-            found = _toss(coin, release, bits)
-        if found.outcome != Outcome.UNDECIDED or 2 * bits > most_bits:
-            return found
+            toss = _toss(coin, release, bits)
+        if toss.outcome != Outcome.UNDECIDED or 2 * bits > most_bits:
+            return toss
         bits *= 2
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.reproduction.precision.planar_coin import PlanarCoin
-from cointoss.compare.reproduction.precision.planar_flight import ORDER
+from cointoss.compare.reproduction.precision.planar_flight import room_for_series
 from cointoss.compare.reproduction.precision.planar_state import SIZE, copy_state
 from cointoss.compare.reproduction.precision.planar_toss import MOST_IMPACTS, toss
 from cointoss.models.kernel.compiled import compiled
@@ -39,26 +39,26 @@ def toss_lines(coin: PlanarCoin, starts: Array, points: int) -> TossedLines:
         points: of each line.
     """
     lines = len(starts) // points
-    found = TossedLines(
+    tossed = TossedLines(
         outcome=np.empty((lines, points), dtype=np.int8),
         itinerary=np.empty((lines, points), dtype=np.int64),
         energy=np.empty((lines, points - 1)),
     )
-    _toss_lines(coin, np.ascontiguousarray(starts), *found)
-    return found
+    _toss_lines(coin, np.ascontiguousarray(starts), tossed)
+    return tossed
 
 
 @compiled
-def _toss_lines(coin, starts, outcome, itinerary, energies):
-    heights, drifts = np.empty((ORDER + 2, 2)), np.empty((ORDER + 2, 2))
-    state, touches = np.empty((SIZE, 2)), np.empty((2, COMPARED, 5))
+def _toss_lines(coin: PlanarCoin, starts: Array, tossed: TossedLines) -> None:
+    outcome, itinerary, energies = tossed
+    series, state, touches = room_for_series(), np.empty((SIZE, 2)), np.empty((2, COMPARED, 5))
     lines, points = outcome.shape
     for i in range(lines):
         before = 0
         for j in range(points):
             copy_state(state, starts[i * points + j])
             outcome[i, j], impacts, itinerary[i, j], _, _, _ = toss(
-                coin, state, MOST_IMPACTS, False, heights, drifts, touches[j % 2]
+                coin, state, MOST_IMPACTS, False, series, touches[j % 2]
             )
             if j > 0:
                 energies[i, j - 1] = _energy_left(touches, min(before, impacts, COMPARED))
@@ -66,7 +66,7 @@ def _toss_lines(coin, starts, outcome, itinerary, energies):
 
 
 @compiled
-def _energy_left(touches, compared):
+def _energy_left(touches: Array, compared: int) -> float:
     for n in range(compared):
         a, b = touches[0, n], touches[1, n]
         apart = abs(a[0] - b[0]) + abs(a[1] - b[1]) + abs(a[2] - b[2]) > APART

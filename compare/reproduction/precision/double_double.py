@@ -35,20 +35,20 @@ _INVERSE_FACTORIALS = np.array([pair_of(Fraction(1, math.factorial(n))) for n in
 
 
 @compiled
-def _two_sum(a, b):
+def _two_sum(a: float, b: float) -> Pair:
     s = a + b
     t = s - a
     return s, (a - (s - t)) + (b - t)
 
 
 @compiled
-def _quick_two_sum(a, b):
+def _quick_two_sum(a: float, b: float) -> Pair:
     s = a + b
     return s, b - (s - a)
 
 
 @compiled
-def _two_product(a, b):
+def _two_product(a: float, b: float) -> Pair:
     p = a * b
     t = _SPLITTER * a
     a_high = t - (t - a)
@@ -60,7 +60,7 @@ def _two_product(a, b):
 
 
 @compiled
-def add(a, b):
+def add(a: Pair, b: Pair) -> Pair:
     """Return a + b."""
     s, e = _two_sum(a[0], b[0])
     t, f = _two_sum(a[1], b[1])
@@ -69,33 +69,33 @@ def add(a, b):
 
 
 @compiled
-def subtract(a, b):
+def subtract(a: Pair, b: Pair) -> Pair:
     """Return a - b."""
     return add(a, (-b[0], -b[1]))
 
 
 @compiled
-def multiply(a, b):
+def multiply(a: Pair, b: Pair) -> Pair:
     """Return a b."""
     p, e = _two_product(a[0], b[0])
     return _quick_two_sum(p, e + (a[0] * b[1] + a[1] * b[0]))
 
 
 @compiled
-def scale(a, x):
+def scale(a: Pair, x: float) -> Pair:
     """Return a x, x a double."""
     p, e = _two_product(a[0], x)
     return _quick_two_sum(p, e + a[1] * x)
 
 
 @compiled
-def negative(a):
+def negative(a: Pair) -> Pair:
     """Return -a."""
     return -a[0], -a[1]
 
 
 @compiled
-def divide(a, b):
+def divide(a: Pair, b: Pair) -> Pair:
     """Return a/b."""
     q = a[0] / b[0]
     rest = subtract(a, scale(b, q))
@@ -106,7 +106,7 @@ def divide(a, b):
 
 
 @compiled
-def square_root(a):
+def square_root(a: Pair) -> Pair:
     """Return the square root of a, a >= 0."""
     if a[0] <= 0:
         return 0.0, 0.0
@@ -118,7 +118,7 @@ def square_root(a):
 
 
 @compiled
-def sine_cosine(a):
+def sine_cosine(a: Pair) -> tuple[Pair, Pair]:
     """Return sine and cosine of an angle of moderate size, both within a few parts in 2**104 of 1."""
     quarter = np.round(a[0] / _HALF_PI[0])
     x = subtract(a, _two_product(quarter, _HALF_PI[0]))
@@ -143,7 +143,7 @@ def sine_cosine(a):
 
 
 @compiled
-def _summed(x):
+def _summed(x: Pair) -> tuple[Pair, Pair]:
     """Return sin x and 1 - cos x of a small angle by their series."""
     square = multiply(x, x)
     n = _TERMS
@@ -161,7 +161,7 @@ def _summed(x):
 
 
 @compiled
-def sine_minus_angle(x, sine):
+def sine_minus_angle(x: Pair, sine: Pair) -> Pair:
     """Return sin x - x without cancellation; `sine` is sin x."""
     if abs(x[0]) > 0.5:
         return subtract(sine, x)
@@ -176,7 +176,7 @@ def sine_minus_angle(x, sine):
 
 
 @compiled
-def cosine_minus_parabola(x, less):
+def cosine_minus_parabola(x: Pair, less: Pair) -> Pair:
     """Return cos x - 1 + x²/2 without cancellation; `less` is 1 - cos x."""
     square = multiply(x, x)
     if abs(x[0]) > 0.5:

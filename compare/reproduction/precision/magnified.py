@@ -29,8 +29,8 @@ class Magnified:
     @property
     def isolated_from(self) -> int | None:
         """The first window from which on the boundary is alone in it; None where in the last it is not."""
-        crowded = np.flatnonzero(self.counts > 1)
-        first = int(crowded[-1]) + 1 if len(crowded) else 0
+        several = np.flatnonzero(self.counts > 1)
+        first = int(several[-1]) + 1 if len(several) else 0
         return first if first < len(self.counts) else None
 
 
@@ -51,14 +51,14 @@ def magnify(
     for _ in range(windows):
         step = length / (points - 1)
         states = spread(start[None], row, pair_of(step), points)
-        found = toss_many(coin, states)
-        changes = np.flatnonzero(found.outcome[1:] != found.outcome[:-1])
+        outcomes = toss_many(coin, states)
+        changes = np.flatnonzero(outcomes.outcome[1:] != outcomes.outcome[:-1])
         if len(changes) == 0:
             raise ValueError("no boundary: accepted: a window whose tosses differ")
         counts.append(len(changes))
         at = changes[len(changes) // 2]
         nearest.append(toss_many(coin, states[at : at + 2], to_contact=True).from_upright)
-        impacts.append(found.impacts[at : at + 2])
+        impacts.append(outcomes.impacts[at : at + 2])
         length /= MAGNIFICATION
         start = states[at].copy()
         start[row] = pair_of(exact(tuple(start[row])) + step / 2 - length / 2)

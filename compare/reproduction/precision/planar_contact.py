@@ -4,6 +4,7 @@ import math
 
 from cointoss.compare.reproduction.precision.double_double import (
     ONE,
+    Pair,
     add,
     divide,
     multiply,
@@ -13,6 +14,7 @@ from cointoss.compare.reproduction.precision.double_double import (
     square_root,
     subtract,
 )
+from cointoss.compare.reproduction.precision.planar_coin import PlanarCoin
 from cointoss.compare.reproduction.precision.planar_state import (
     DRIFT,
     FALL,
@@ -26,6 +28,7 @@ from cointoss.compare.reproduction.precision.planar_state import (
     put,
     rim_velocity,
 )
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 
 SLAPS = 1000
@@ -35,7 +38,7 @@ LIES, LIFTS = 0, 1
 
 
 @compiled
-def hit(coin, state, corner, restitution):
+def hit(coin: PlanarCoin, state: Array, corner: float, restitution: Pair) -> None:
     """Change the state by the impact of a rim point, 1 or -1, that comes down; else do nothing.
 
     Newton's law along the vertical; on a rough floor the point stops aside.
@@ -46,14 +49,14 @@ def hit(coin, state, corner, restitution):
 
 
 @compiled
-def stop(coin, state, corner):
+def stop(coin: PlanarCoin, state: Array, corner: float) -> None:
     """Change the state by the impulse that leaves a rim point at rest along the vertical, of any sign."""
     _, v = rim_velocity(state, corner)
     _push(coin, state, corner, negative(v))
 
 
 @compiled
-def _push(coin, state, corner, wanted):
+def _push(coin: PlanarCoin, state: Array, corner: float, wanted: Pair) -> None:
     """Change a rim point's vertical velocity by what is wanted; a rough floor stops it aside, too."""
     sine, cosine = sine_cosine(part(state, TILT))
     # The point lies at (y, z) from C; K is what an impulse there does to its velocity.
@@ -77,7 +80,7 @@ def _push(coin, state, corner, wanted):
 
 
 @compiled
-def keep_contact(coin, state, corner):
+def keep_contact(coin: PlanarCoin, state: Array, corner: float) -> tuple[int, bool, float, float]:
     """Follow a coin whose rim point rests on the floor, in vacuum, until the contact ends.
 
     The motion has one degree of freedom and keeps its energy, so its course is algebraic in s = sin of the
@@ -115,7 +118,7 @@ def keep_contact(coin, state, corner):
 
 
 @compiled
-def nearest_upright(coin, before, after, ends, passes):
+def nearest_upright(coin: PlanarCoin, before: Array, after: Array, ends: int, passes: bool) -> float:
     """Return how near a coin comes to standing in a contact in vacuum; see `planar_state.from_upright`.
 
     On a rough floor the energy of rolling counts as motion.
@@ -139,21 +142,21 @@ def nearest_upright(coin, before, after, ends, passes):
 
 
 @compiled
-def lift_off(state):
+def lift_off(state: Array) -> float:
     """Return the clock up to which a rim point does not touch that is at rest on the floor and drawn up."""
     w = abs(state[SPIN, 0])
     return 1.5 * drawn_up(state) / w**3
 
 
 @compiled
-def drawn_up(state):
+def drawn_up(state: Array) -> float:
     """Return the acceleration of a rim point on the floor in free flight, upward."""
     w = part(state, SPIN)
     return subtract(multiply(part(state, HEIGHT), multiply(w, w)), ONE)[0]
 
 
 @compiled
-def _roll(coin, state, corner, e):
+def _roll(coin: PlanarCoin, state: Array, corner: float, e: Pair) -> tuple[bool, bool]:
     """Roll about the rim point until the coin lies flat or the floor would have to pull.
 
     Returns:
@@ -192,7 +195,7 @@ def _roll(coin, state, corner, e):
 
 
 @compiled
-def _raise_to(state, corner, s):
+def _raise_to(state: Array, corner: float, s: Pair) -> None:
     """Set height and tilt so that a rim point on the floor has C at the height s."""
     put(state, HEIGHT, s)
     wanted = scale(s, -corner)
@@ -204,7 +207,7 @@ def _raise_to(state, corner, s):
 
 
 @compiled
-def _pivot(state, corner, w, direction):
+def _pivot(state: Array, corner: float, w: Pair, direction: float) -> None:
     """Set the rates of a coin that turns about a rim point on the floor, w >= 0, up or down."""
     _, cosine = sine_cosine(part(state, TILT))
     put(state, SPIN, scale(w, -corner * direction))
@@ -212,7 +215,7 @@ def _pivot(state, corner, w, direction):
 
 
 @compiled
-def slap(coin, state):
+def slap(coin: PlanarCoin, state: Array) -> bool:
     """Let a flat coin's two rim points hit the floor in turn.
 
     Returns:

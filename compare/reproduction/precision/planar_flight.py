@@ -8,11 +8,13 @@ for its second derivative has a bound: in doubles, and near a zero in 106 bits.
 
 import math
 from fractions import Fraction
+from typing import NamedTuple
 
 import numpy as np
 
 from cointoss.compare.reproduction.precision.double_double import (
     ONE,
+    Pair,
     add,
     cosine_minus_parabola,
     multiply,
@@ -23,7 +25,9 @@ from cointoss.compare.reproduction.precision.double_double import (
     sine_minus_angle,
     subtract,
 )
+from cointoss.compare.reproduction.precision.planar_coin import PlanarCoin
 from cointoss.compare.reproduction.precision.planar_state import DRIFT, FALL, HEIGHT, SPIN, TILT, part, put
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 
 ORDER = 60
@@ -45,8 +49,39 @@ CAREFUL = 1 - 1e-14
 """A step computed in doubles, times it, is no longer than an exact one."""
 
 
+class Series(NamedTuple):
+    """Room for the series of a flight, (ORDER + 2, 2) each."""
+
+    heights: Array
+    """Of C."""
+    drifts: Array
+    """Of its velocity aside."""
+
+
+class RimGap(NamedTuple):
+    """The gap of one rim point in a flight, pairs."""
+
+    heights: Array
+    """The series of the height of C."""
+    order: int
+    """Of the series."""
+    w: Pair
+    """Spin at the start."""
+    sine: Pair
+    """Of the point's angle at the start."""
+    cosine: Pair
+    first: tuple[Pair, Pair, Pair]
+    """Coefficients of 1, s and s²/2 in the gap."""
+
+
 @compiled
-def fly(coin, state, corner, start, heights, drifts):
+def room_for_series() -> Series:
+    """Return the `Series` of a flight, yet to be written."""
+    return Series(np.empty((ORDER + 2, 2)), np.empty((ORDER + 2, 2)))
+
+
+@compiled
+def fly(coin: PlanarCoin, state: Array, corner: int, start: float, series: Series) -> int:
     """Fly to the first touch; the state becomes that at the touch, its tilt not reduced.
 
     Args:
@@ -54,33 +89,31 @@ def fly(coin, state, corner, start, heights, drifts):
         state: (5, 2).
         corner: rim point that leaves the floor now, 1 or -1; 0 for none, 2 for both.
         start: before this clock nothing touches.
-        heights: room for a series, (ORDER + 2, 2).
-        drifts: room for a series, (ORDER + 2, 2).
+        series: work space.
 
     Returns:
         Rim point that touches, 1 or -1; 0 if none does.
     """
     for _ in range(100_000):
-        length, order = expand(coin, state, heights, drifts)
+        length, order = expand(coin, state, series)
         w = part(state, SPIN)
         sine, cosine = sine_cosine(part(state, TILT))
-        bounds = _derivative_bounds(heights, order, w[0], length)
-        found, best, who = False, (length, 0.0), 0
+        bounds = _derivative_bounds(series.heights, order, w[0], length)
+        touched, best, who = False, (length, 0.0), 0
         for side in (-1, 1):
             sn, cs = scale(sine, float(side)), scale(cosine, float(side))
             on_floor = corner in (side, 2)
             f0 = (0.0, 0.0) if on_floor else add(part(state, HEIGHT), sn)
-            f1 = add((heights[1, 0], heights[1, 1]), multiply(cs, w))
-            f2 = subtract(scale((heights[2, 0], heights[2, 1]), 2.0), multiply(sn, multiply(w, w)))
+            f1 = add(part(series.heights, 1), multiply(cs, w))
+            f2 = subtract(scale(part(series.heights, 2), 2.0), multiply(sn, multiply(w, w)))
             if on_floor and start > 0:
                 f1 = (0.0, 0.0)
-            touches, s = _first_zero(
-                heights, order, w, sn, cs, (f0, f1, f2), bounds, start if on_floor else 0.0, best
-            )
+            gap = RimGap(series.heights, order, w, sn, cs, (f0, f1, f2))
+            touches, s = _first_zero(gap, bounds, start if on_floor else 0.0, best)
             if touches:
-                found, best, who = True, s, side
-        _move(coin, state, heights, drifts, order, best)
-        if found:
+                touched, best, who = True, s, side
+        _move(coin, state, series, order, best)
+        if touched:
             return who
         corner, start = 0, 0.0
         if not coin.in_air or state[HEIGHT, 0] < BELOW:
@@ -89,12 +122,13 @@ def fly(coin, state, corner, start, heights, drifts):
 
 
 @compiled
-def expand(coin, state, heights, drifts):
+def expand(coin: PlanarCoin, state: Array, series: Series) -> tuple[float, int]:
     """Write the series of height and of velocity aside.
 
     Returns:
         The clock up to which they are good, and the order of the height's.
     """
+    heights, drifts = series
     heights[0], heights[1] = state[HEIGHT], state[FALL]
     drifts[0] = state[DRIFT]
     w = part(state, SPIN)
@@ -145,7 +179,7 @@ def expand(coin, state, heights, drifts):
 
 
 @compiled
-def _derivative_bounds(heights, order, w, length):
+def _derivative_bounds(heights: Array, order: int, w: float, length: float) -> tuple[float, float]:
     """Bound how fast a gap's rate, and its second derivative, can fall."""
     second, third, power = -2 * heights[2, 0], 0.0, 1.0
     for n in range(3, order + 1):
@@ -156,39 +190,39 @@ def _derivative_bounds(heights, order, w, length):
 
 
 @compiled
-def _first_zero(heights, order, w, sn, cs, f, bounds, start, limit):
-    """Return whether the gap f0 + f1 s + f2 s²/2 + ... has a zero up to the limit, and the first, pairs."""
+def _first_zero(gap: RimGap, bounds: tuple[float, float], start: float, limit: Pair) -> tuple[bool, Pair]:
+    """Return whether the gap has a zero up to the limit, and the first."""
     # Both rim points of a coin that lands flat touch within less than a double tells apart: up to there the
     # search goes in doubles, and on in full.
     s, in_full, edge = start, 0, limit[0] * CAREFUL
     for _ in range(MOST_STEPS):
-        gap, rate, second, terms = _gap(heights, order, w[0], sn[0], cs[0], (f[0][0], f[1][0], f[2][0]), s)
-        if s > 0 and gap <= NEAR * terms:
+        height, rate, second, terms = _gap(gap, s)
+        if s > 0 and height <= NEAR * terms:
             exact = (s, 0.0)
             while True:
                 in_full += 1
                 if in_full > MOST_IN_FULL or subtract(exact, limit)[0] >= 0:
                     return False, limit
-                gap, rate, second, terms = _gap_in_full(heights, order, w, sn, cs, f, exact)
-                if gap < -ZERO * terms and rate < 0:
+                height, rate, second, terms = _gap_in_full(gap, exact)
+                if height < -ZERO * terms and rate < 0:
                     # Doubles went beyond the zero by their rounding.
-                    exact = add(exact, (-gap / rate, 0.0))
+                    exact = add(exact, (-height / rate, 0.0))
                     continue
-                if gap <= ZERO * terms:
+                if height <= ZERO * terms:
                     return True, exact
-                if gap > 10 * NEAR * terms and rate > 0:
+                if height > 10 * NEAR * terms and rate > 0:
                     break
-                exact = add(exact, (safe_step(gap, rate, second, bounds) * CAREFUL, 0.0))
+                exact = add(exact, (safe_step(height, rate, second, bounds) * CAREFUL, 0.0))
             s = exact[0]
         elif s >= edge:
             break
         else:
-            s = min(s + safe_step(gap, rate, second, bounds) * CAREFUL, edge)
+            s = min(s + safe_step(height, rate, second, bounds) * CAREFUL, edge)
     return False, limit
 
 
 @compiled
-def safe_step(gap, rate, second, bounds):
+def safe_step(gap: float, rate: float, second: float, bounds: tuple[float, float]) -> float:
     """Return a step within which a gap >= 0 cannot fall below 0.
 
     Over a step h its second derivative is above -bounds[0], and above second - bounds[1] h.
@@ -205,7 +239,7 @@ def safe_step(gap, rate, second, bounds):
 
 
 @compiled
-def _parabola_step(gap, rate, falls):
+def _parabola_step(gap: float, rate: float, falls: float) -> float:
     """Return the zero of gap + rate h - falls h²/2, infinite where it has none."""
     root = math.sqrt(rate * rate + 2 * falls * gap)
     if rate < 0:
@@ -214,13 +248,12 @@ def _parabola_step(gap, rate, falls):
 
 
 @compiled
-def _gap(heights, order, w, sn, cs, f, s):
-    """Return a rim point's gap, its first two derivatives, and the size of its terms.
-
-    Relatively exact for small s too: f are the first three coefficients, of 1, s and s²/2.
-    """
+def _gap(gap: RimGap, s: float) -> tuple[float, float, float, float]:
+    """Return the gap, its first two derivatives, and the size of its terms; good for small s, too."""
+    heights, w, sn, cs = gap.heights, gap.w[0], gap.sine[0], gap.cosine[0]
+    f = (gap.first[0][0], gap.first[1][0], gap.first[2][0])
     p, dp, ddp = 0.0, 0.0, 0.0
-    for n in range(order, 2, -1):
+    for n in range(gap.order, 2, -1):
         ddp = ddp * s + n * (n - 1) * heights[n, 0]
         dp = dp * s + n * heights[n, 0]
         p = p * s + heights[n, 0]
@@ -237,7 +270,7 @@ def _gap(heights, order, w, sn, cs, f, s):
 
 
 @compiled
-def _sine_minus(angle, sine):
+def _sine_minus(angle: float, sine: float) -> float:
     """Return sin x - x."""
     if abs(angle) > 0.5:
         return sine - angle
@@ -248,7 +281,7 @@ def _sine_minus(angle, sine):
 
 
 @compiled
-def _cosine_minus(angle, less):
+def _cosine_minus(angle: float, less: float) -> float:
     """Return cos x - 1 + x²/2; `less` is 1 - cos x."""
     square = angle * angle
     if abs(angle) > 0.5:
@@ -260,13 +293,14 @@ def _cosine_minus(angle, less):
 
 
 @compiled
-def _gap_in_full(heights, order, w, sn, cs, f, s):
+def _gap_in_full(gap: RimGap, s: Pair) -> tuple[float, float, float, float]:
     """Return the same in 106 bits, rounded at the end."""
+    heights, order, w, sn, cs, f = gap
     p, dp, ddp = (0.0, 0.0), 0.0, 0.0
     for n in range(order, 2, -1):
         ddp = ddp * s[0] + n * (n - 1) * heights[n, 0]
         dp = dp * s[0] + n * heights[n, 0]
-        p = add(multiply(p, s), (heights[n, 0], heights[n, 1]))
+        p = add(multiply(p, s), part(heights, n))
     p, dp, ddp = multiply(multiply(multiply(p, s), s), s), dp * s[0] ** 2, ddp * s[0]
     angle = multiply(w, s)
     half_sine, half_cosine = sine_cosine(scale(angle, 0.5))
@@ -275,23 +309,23 @@ def _gap_in_full(heights, order, w, sn, cs, f, s):
     turned = sine_minus_angle(angle, sine)
     q, r = multiply(cs, turned), multiply(sn, cosine_minus_parabola(angle, less))
     linear, square = multiply(f[1], s), scale(multiply(f[2], multiply(s, s)), 0.5)
-    gap = add(add(f[0], linear), add(square, add(p, add(q, r))))
+    height = add(add(f[0], linear), add(square, add(p, add(q, r))))
     rate = f[1][0] + f[2][0] * s[0] + dp - w[0] * (sn[0] * turned[0] + cs[0] * less[0])
     second = f[2][0] + ddp + w[0] * w[0] * (sn[0] * less[0] - cs[0] * sine[0])
     terms = abs(f[0][0]) + abs(linear[0]) + abs(square[0]) + abs(p[0]) + abs(q[0]) + abs(r[0])
-    return gap[0], rate, second, terms
+    return height[0], rate, second, terms
 
 
 @compiled
-def _move(coin, state, heights, drifts, order, s):
+def _move(coin: PlanarCoin, state: Array, series: Series, order: int, s: Pair) -> None:
     """Change the state to that at the clock s of its series."""
     z, y, x = (0.0, 0.0), (0.0, 0.0), (0.0, 0.0)
     for n in range(order, -1, -1):
         if n > 0:
-            y = add(multiply(y, s), scale((heights[n, 0], heights[n, 1]), float(n)))
-        z = add(multiply(z, s), (heights[n, 0], heights[n, 1]))
+            y = add(multiply(y, s), scale(part(series.heights, n), float(n)))
+        z = add(multiply(z, s), part(series.heights, n))
     for n in range(order - 1, -1, -1):
-        x = add(multiply(x, s), (drifts[n, 0], drifts[n, 1]))
+        x = add(multiply(x, s), part(series.drifts, n))
     left = subtract(ONE, multiply(coin.slowing, s))
     w = part(state, SPIN)
     put(state, HEIGHT, z)

@@ -12,6 +12,7 @@ import numpy as np
 from cointoss.analytic.numerics.tableau import STAGES, A, B
 from cointoss.compare.reproduction.precision.double_double import (
     ONE,
+    Pair,
     add,
     divide,
     multiply,
@@ -20,6 +21,7 @@ from cointoss.compare.reproduction.precision.double_double import (
     sine_cosine,
     subtract,
 )
+from cointoss.compare.reproduction.precision.planar_coin import PlanarCoin
 from cointoss.compare.reproduction.precision.planar_state import (
     DRIFT,
     FALL,
@@ -33,6 +35,7 @@ from cointoss.compare.reproduction.precision.planar_state import (
     put,
     turned_within,
 )
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 
 STEP = 0.05
@@ -43,7 +46,7 @@ _PART = (TILT, SPIN, DRIFT)
 
 
 @compiled
-def slide(coin, state, corner):
+def slide(coin: PlanarCoin, state: Array, corner: float) -> tuple[bool, bool, float, bool, float]:
     """Follow a coin whose rim point slides on a smooth floor in air until it lies flat or lifts off.
 
     Returns:
@@ -71,12 +74,12 @@ def slide(coin, state, corner):
 
 
 @compiled
-def _end(coin, state, corner, lifts, slopes):
+def _end(coin: PlanarCoin, state: Array, corner: float, lifts: bool, slopes: Array) -> None:
     """Change the state to that where the floor's force, or the height, first is zero, by the secant rule."""
-    low, high = (0.0, 0.0), (STEP, 0.0)
+    low, high, which = (0.0, 0.0), (STEP, 0.0), 0 if lifts else 1
     trial = state.copy()
-    f_low = _value(coin, trial, state, corner, lifts, low, slopes)
-    f_high = _value(coin, trial, state, corner, lifts, high, slopes)
+    f_low = _force_and_height(coin, trial, state, corner, low, slopes)[which]
+    f_high = _force_and_height(coin, trial, state, corner, high, slopes)[which]
     for _ in range(_SECANTS):
         difference = subtract(f_high, f_low)
         if difference[0] == 0:
@@ -84,22 +87,24 @@ def _end(coin, state, corner, lifts, slopes):
         change = divide(multiply(f_high, subtract(high, low)), difference)
         low, f_low = high, f_high
         high = subtract(high, change)
-        f_high = _value(coin, trial, state, corner, lifts, high, slopes)
+        f_high = _force_and_height(coin, trial, state, corner, high, slopes)[which]
         if abs(change[0]) < 1e-31:
             break
     copy_state(state, trial)
 
 
 @compiled
-def _value(coin, trial, state, corner, lifts, duration, slopes):
-    """Write the state after a step into `trial`; return the floor's force, or the height, there."""
+def _force_and_height(
+    coin: PlanarCoin, trial: Array, state: Array, corner: float, duration: Pair, slopes: Array
+) -> tuple[Pair, Pair]:
+    """Write the state after a step into `trial`; return the floor's force and the height there."""
     copy_state(trial, state)
     force = _step(coin, trial, corner, duration, slopes)
-    return force if lifts else part(trial, HEIGHT)
+    return force, part(trial, HEIGHT)
 
 
 @compiled
-def _step(coin, state, corner, duration, slopes):
+def _step(coin: PlanarCoin, state: Array, corner: float, duration: Pair, slopes: Array) -> Pair:
     """Change the state by one step; return the floor's force at its end."""
     start = state.copy()
     for stage in range(STAGES + 1):
@@ -118,7 +123,7 @@ def _step(coin, state, corner, duration, slopes):
 
 
 @compiled
-def _rates(coin, state, corner, rates):
+def _rates(coin: PlanarCoin, state: Array, corner: float, rates: Array) -> Pair:
     """Write the rates of tilt, spin and drift; set height and fall as contact has them.
 
     Returns:

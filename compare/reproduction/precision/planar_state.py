@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from cointoss.compare.reproduction.precision.double_double import (
     ONE,
+    Pair,
     add,
     multiply,
     negative,
@@ -15,7 +16,8 @@ from cointoss.compare.reproduction.precision.double_double import (
     sine_cosine,
     subtract,
 )
-from cointoss.compare.reproduction.precision.planar_coin import Units, square_root
+from cointoss.compare.reproduction.precision.planar_coin import PlanarCoin, Units, square_root
+from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 
 HEIGHT, FALL, TILT, SPIN, DRIFT, SIZE = 0, 1, 2, 3, 4, 5
@@ -46,26 +48,26 @@ def release(
 
 
 @compiled
-def part(state, row):
+def part(state: Array, row: int) -> Pair:
     """Return one number of a state, a pair."""
     return state[row, 0], state[row, 1]
 
 
 @compiled
-def put(state, row, pair):
+def put(state: Array, row: int, pair: Pair) -> None:
     """Set one number of a state."""
     state[row, 0], state[row, 1] = pair[0], pair[1]
 
 
 @compiled
-def copy_state(state, source):
+def copy_state(state: Array, source: Array) -> None:
     """Make a state that of another, both (5, 2)."""
     for i in range(SIZE):
         put(state, i, part(source, i))
 
 
 @compiled
-def energy(coin, state):
+def energy(coin: PlanarCoin, state: Array) -> Pair:
     """Return the energy that counts against the barrier 1, in m g r.
 
     On a smooth floor that of drift cannot lift the coin; in air no more than a share of it can.
@@ -78,7 +80,7 @@ def energy(coin, state):
 
 
 @compiled
-def from_upright(coin, state):
+def from_upright(coin: PlanarCoin, state: Array) -> float:
     """Return how far a coin in contact is from standing upright at rest, but for its drift, in m g r.
 
     The energy of its motion and that which its height lacks: by so much its energy differs from that of the
@@ -90,13 +92,13 @@ def from_upright(coin, state):
 
 
 @compiled
-def is_settled(coin, state):
+def is_settled(coin: PlanarCoin, state: Array) -> bool:
     """Return whether the coin has too little energy to go over its rim."""
     return subtract(energy(coin, state), ONE)[0] < 0
 
 
 @compiled
-def turned_within(state):
+def turned_within(state: Array) -> bool:
     """Reduce the tilt to ±π/2.
 
     Returns:
@@ -111,7 +113,7 @@ def turned_within(state):
 
 
 @compiled
-def rim_velocity(state, corner):
+def rim_velocity(state: Array, corner: float) -> tuple[Pair, Pair]:
     """Return the velocity of a rim point across and along the vertical, pairs.
 
     Args:
@@ -125,13 +127,13 @@ def rim_velocity(state, corner):
 
 
 @compiled
-def lowest(state):
+def lowest(state: Array) -> float:
     """Return the rim point that is lower, 1 or -1."""
     return -1.0 if state[TILT, 0] > 0 else 1.0
 
 
 @compiled
-def flat(state, fall, corner):
+def flat(state: Array, fall: Pair, corner: float) -> None:
     """Lay the coin down on the floor, one rim point at rest there; (5, 2), changed."""
     state[HEIGHT], state[TILT] = 0.0, 0.0
     put(state, FALL, fall)

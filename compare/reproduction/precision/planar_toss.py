@@ -17,7 +17,7 @@ from cointoss.compare.reproduction.precision.planar_contact import (
     slap,
     stop,
 )
-from cointoss.compare.reproduction.precision.planar_flight import ORDER, fly
+from cointoss.compare.reproduction.precision.planar_flight import Series, fly, room_for_series
 from cointoss.compare.reproduction.precision.planar_slide import slide
 from cointoss.compare.reproduction.precision.planar_state import (
     FALL,
@@ -73,7 +73,7 @@ def toss_many(
         to_contact: whether a settled coin is followed until it lies.
     """
     n = len(starts)
-    found = PlanarOutcomes(
+    outcomes = PlanarOutcomes(
         outcome=np.empty(n, dtype=np.int8),
         impacts=np.empty(n, dtype=np.int64),
         itinerary=np.empty(n, dtype=np.int64),
@@ -81,25 +81,27 @@ def toss_many(
         energy=np.empty(n),
         from_upright=np.empty(n),
     )
-    _toss_all(coin, np.ascontiguousarray(starts), most_impacts, to_contact, *found)
-    return found
+    _toss_all(coin, np.ascontiguousarray(starts), most_impacts, to_contact, outcomes)
+    return outcomes
 
 
 @compiled
 def _toss_all(
-    coin, starts, most_impacts, to_contact, outcome, impacts, itinerary, contacts, last_energy, nearest
-):
-    heights, drifts = np.empty((ORDER + 2, 2)), np.empty((ORDER + 2, 2))
-    state, touches = np.empty((SIZE, 2)), np.empty((0, 5))
+    coin: PlanarCoin, starts: Array, most_impacts: int, to_contact: bool, outcomes: PlanarOutcomes
+) -> None:
+    outcome, impacts, itinerary, contacts, last_energy, nearest = outcomes
+    series, state, touches = room_for_series(), np.empty((SIZE, 2)), np.empty((0, 5))
     for i in range(len(starts)):
         copy_state(state, starts[i])
         outcome[i], impacts[i], itinerary[i], contacts[i], last_energy[i], nearest[i] = toss(
-            coin, state, most_impacts, to_contact, heights, drifts, touches
+            coin, state, most_impacts, to_contact, series, touches
         )
 
 
 @compiled
-def toss(coin, state, most_impacts, to_contact, heights, drifts, touches):
+def toss(
+    coin: PlanarCoin, state: Array, most_impacts: int, to_contact: bool, series: Series, touches: Array
+) -> tuple[int, int, int, int, float, float]:
     """Toss a coin; the state becomes the last.
 
     Args:
@@ -107,8 +109,7 @@ def toss(coin, state, most_impacts, to_contact, heights, drifts, touches):
         state: at the release, heads up, (5, 2).
         most_impacts: when to stop.
         to_contact: whether a settled coin is followed until it lies.
-        heights: room for `fly`.
-        drifts: room for `fly`.
+        series: work space.
         touches: room for states after the first impacts, (n, 5): height, fall, spin, face, energy.
 
     Returns:
@@ -117,7 +118,7 @@ def toss(coin, state, most_impacts, to_contact, heights, drifts, touches):
     heads, corner, start, before = True, 0, 0.0, state.copy()
     itinerary, contacts, last, nearest = 0, 0, np.nan, np.nan
     for n in range(most_impacts):
-        corner = fly(coin, state, corner, start, heights, drifts)
+        corner = fly(coin, state, corner, start, series)
         start = 0.0
         if corner == 0:
             return _UNDECIDED, n, itinerary, contacts, last, nearest
@@ -157,7 +158,7 @@ def toss(coin, state, most_impacts, to_contact, heights, drifts, touches):
 
 
 @compiled
-def _bounces(coin, state, corner):
+def _bounces(coin: PlanarCoin, state: Array, corner: int) -> int:
     """Return whether a rim point that was just hit flies, lifts off without speed, or ends its bounces."""
     w = abs(state[SPIN, 0])
     _, v = rim_velocity(state, float(corner))

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.compare.reproduction.precision.divergence import toss_lines
-from cointoss.compare.reproduction.precision.double_double import add, pair_of, scale
+from cointoss.compare.reproduction.precision.double_double import Pair, add, pair_of, scale
 from cointoss.compare.reproduction.precision.planar_coin import PlanarCoin
 from cointoss.compare.reproduction.precision.planar_state import part, put
 from cointoss.models.kernel.compiled import compiled
@@ -119,6 +119,6 @@ def spread(starts: Array, row: int, step: tuple[float, float], points: int) -> N
 
 
 @compiled
-def _spread(states, row, step, points):
+def _spread(states: Array, row: int, step: Pair, points: int) -> None:
     for i in range(len(states)):
         put(states[i], row, add(part(states[i], row), scale(step, float(i % points))))

@@ -67,7 +67,7 @@ def _restitution_of_a_coin(case: Scenario, settings: Settings, dt: float, phase:
     touched = False
     for _ in range(LONGEST):
         mujoco.mj_step(model, data)
-        x, v, e, w = to_mass_center(body, data.qpos, data.qvel)
+        x, v, e, w, _ = to_mass_center(body, data.qpos, data.qvel)
         R = rotation_matrix(e)
         touched = touched or gap(body, x[2], R[2]) < 0
         rise = contact_velocity(body, R, v, w, point)[2]

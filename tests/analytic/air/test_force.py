@@ -10,11 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cointoss.analytic.air.force import change_about_B, force_and_moment, force_and_moment_change
+from cointoss.analytic.air.law import AirMotion
 from cointoss.analytic.air.quadrature import CHANGE_NODES, FORCE_NODES, nodes_of
 from cointoss.analytic.flight.flying import fly
 from cointoss.models.kernel.fork.callee_code import Callee
 from tests.helpers.draws import AIR, ZLOTY, scenario
 from tests.helpers.referee import air_by_cubature
+from tests.helpers.tuples import vector
 
 R, H = ZLOTY["radius"], ZLOTY["thickness"]
 LN, LT = AIR["normal"], AIR["tangential"]
@@ -26,10 +28,6 @@ def coin(b, h=H, ln=LN, lt=LT, c=(0.0, 0.0, 0.0)):
         coin={"thickness": h, "center_of_mass": list(c)},
         air={"normal": ln, "tangential": lt, "exponent": b},
     ).body
-
-
-def vector(row):
-    return tuple(float(x) for x in row)
 
 
 def pull(body, v, w):
@@ -114,7 +112,7 @@ def test_quadrature_has_converged_for_every_motion(b, h):
         size = force_scale(b, v, w) * (1 + h / R)
 
         def about_B(dv, dw, nodes, v=v, w=w):
-            f, m = change_about_B(body, vector(v), vector(w), vector(dv), vector(dw), nodes)
+            f, m = change_about_B(body, AirMotion(b, vector(v), vector(w), vector(dv), vector(dw)), nodes)
             return np.array([*f, *(x / R / (1 + h / R) for x in m)])
 
         exact = about_B(v, w, FINER)
@@ -135,7 +133,7 @@ def test_more_nodes_mean_a_smaller_error_until_rounding(b):
     body = coin(b)
 
     def about_B(n):
-        f, m = change_about_B(body, v, w, v, w, nodes_of(n, n, 2.0 * n))
+        f, m = change_about_B(body, AirMotion(b, v, w, v, w), nodes_of(n, n, 2.0 * n))
         return np.array([*f, *(x / R for x in m)])
 
     errors = [np.abs(about_B(n) - about_B(96)).max() / force_scale(b, v, w) for n in (8, 12, 16, 24, 32)]

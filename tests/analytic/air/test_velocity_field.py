@@ -6,6 +6,7 @@ import pytest
 from cointoss.analytic.air.velocity_field import velocity_fields
 from cointoss.models.attitude import rotation_matrix
 from tests.helpers.draws import PAPER_OFFSET, draw_quaternion, scenario
+from tests.helpers.tuples import quaternion
 
 V, W = (0.3, -0.2, 0.2), (20.0, -30.0, 10.0)
 THICK = scenario(coin={"center_of_mass": PAPER_OFFSET}).body
@@ -30,7 +31,7 @@ def test_points_lie_on_their_surfaces_with_outward_normals():
 
 def test_velocities_are_the_papers():
     """Eqs (59)-(65), with R, Omega and the projections H_1, H_3, R_theta of the paper."""
-    R = np.array(rotation_matrix(tuple(draw_quaternion(np.random.default_rng(1)))))
+    R = np.array(rotation_matrix(quaternion(draw_quaternion(np.random.default_rng(1)))))
     omega = R @ skew(W) @ R.T
     v_B = R @ np.array(V) - omega @ R @ np.array(THICK.center)
     for number, field in enumerate(velocity_fields(THICK, V, W)):

@@ -7,10 +7,13 @@ from cointoss.analytic.automaton import Mode
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.sampling import sample_contact
 from cointoss.analytic.events import hit
+from cointoss.analytic.flight.equations_of_motion import flight_of
 from cointoss.analytic.flight.flying import fly
-from cointoss.analytic.flight.touch_search import closing_speed, gap_acceleration
+from cointoss.analytic.flight.state_vector import state_of
+from cointoss.analytic.flight.touch_search import gap_acceleration
 from cointoss.analytic.numerics.tolerances import CHATTERING, CONTACT_STEP_ERROR
 from cointoss.models.attitude import quaternion_from_angles
+from cointoss.models.geometry import evaluate_gap
 from cointoss.models.records import IMPACT_ROW
 from tests.helpers.contacts import end_mode, held
 from tests.helpers.draws import PAPER_OFFSET, ZLOTY, scenario
@@ -21,7 +24,7 @@ THIN, UNBALANCED = {**ZLOTY, "thickness": 0.0}, {**ZLOTY, "center_of_mass": PAPE
 def touching(body, speed):
     """Give a tilted coin whose lowest point touches the floor at this speed."""
     y = np.array([0, 0, 0, 0.2, 0.1, 0, *quaternion_from_angles((0.0, 0.6, 0.0)), 1.0, 0.5, 0.3])
-    height, falling = closing_speed(body, y)
+    height, falling = evaluate_gap(body, state_of(y))
     y[2] -= height
     y[5] -= falling + speed
     return y
@@ -31,7 +34,7 @@ def at_the_end(case, speed, duration, *, bouncing):
     """Give the state at `duration` after a touch at `speed`: bounced into contact, or put there at once."""
     body, rules, rows, elapsed = case.body, case.rules, np.zeros(1, IMPACT_ROW), 0.0
     y = touching(body, speed)
-    while bouncing and -closing_speed(body, y)[1] > 1e-3 * speed:
+    while bouncing and -evaluate_gap(body, state_of(y)).speed > 1e-3 * speed:
         hit(body, rules, rules.restitution, y, rows[0])
         elapsed += fly(body, y, 1.0)[0]
     hit(body, rules, 0.0, y, rows[0])
@@ -57,7 +60,7 @@ def test_contact_takes_the_place_of_chattering_to_the_third_power_of_the_angle(c
     def error(angle):
         y = touching(body, 0.0)
         still_to_come = angle * np.sin(0.6) / (rate + np.linalg.norm(y[10:]))
-        speed = -gap_acceleration(body, y) * (1 - 0.6) * still_to_come / 2
+        speed = -gap_acceleration(body, flight_of(body, y)) * (1 - 0.6) * still_to_come / 2
         bounced, held = (
             at_the_end(case, speed, 3 * still_to_come, bouncing=bouncing) for bouncing in (True, False)
         )

@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 
 from cointoss.analytic.events import run
+from cointoss.analytic.flight import state_vector
 from cointoss.analytic.flight.closed_flight import fly_closed, sample_closed
 from cointoss.analytic.flight.flying import fly_with_graze, sample
 from cointoss.analytic.flight.integrated_flight import sample_flight
-from cointoss.analytic.flight.touch_search import closing_speed, fly_by_steps
+from cointoss.analytic.flight.touch_search import fly_by_steps
 from cointoss.analytic.flight.turning import turns_in_closed_form
 from cointoss.analytic.toss import state_of
+from cointoss.models.geometry import evaluate_gap
 from cointoss.models.records import Ending
 from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
@@ -27,8 +29,8 @@ def draw_flight(
     case = scenario(coin={**ZLOTY, "thickness": thickness}, air=air, release=release)
     y = state_of(case.release)
     if rng.integers(2):
-        y[2] -= closing_speed(case.body, y)[0]
-        y[5] += rng.uniform(0.01, 1.0) - closing_speed(case.body, y)[1]
+        y[2] -= evaluate_gap(case.body, state_vector.state_of(y)).gap
+        y[5] += rng.uniform(0.01, 1.0) - evaluate_gap(case.body, state_vector.state_of(y)).speed
     return case, y
 
 
@@ -40,7 +42,7 @@ def test_a_flight_in_closed_form_is_the_integrated_one(thickness, air):
     for _ in range(100):
         case, start = draw_flight(rng, thickness, air)
         body, closed, integrated = case.body, start.copy(), start.copy()
-        assert turns_in_closed_form(body, start[10:13])
+        assert turns_in_closed_form(body, state_vector.spin_of(start))
         flown, touches, evaluated = fly_closed(body, closed, 10.0)
         other, also_touches, *_ = fly_by_steps(body, integrated, 10.0, True)
         assert touches
@@ -50,7 +52,7 @@ def test_a_flight_in_closed_form_is_the_integrated_one(thickness, air):
         assert closed[:10] == pytest.approx(integrated[:10], abs=1e-11)
         assert closed[10:] == pytest.approx(integrated[10:], abs=1e-10)
         # Late in a long flight one step of floating-point time lowers the coin by 1e-14 of its radius.
-        assert abs(closing_speed(body, closed)[0]) < 1e-13 * body.radius
+        assert abs(evaluate_gap(body, state_vector.state_of(closed)).gap) < 1e-13 * body.radius
         turned += float(np.linalg.norm(start[10:13])) * flown
         evaluations += evaluated
     assert turned > 300, "the coins should turn"
@@ -103,7 +105,7 @@ def test_thin_air_is_nearly_none():
 
 
 def gaps_of(body, states):
-    """Return the gap in each state, (n, 13): that of `closing_speed`, of all of them at once."""
+    """Return the gap in each state, (n, 13): that of `evaluate_gap`, of all of them at once."""
     e0, e1, e2, e3 = states[:, 6:10].T
     n = np.array([2 * (e1 * e3 - e0 * e2), 2 * (e2 * e3 + e0 * e1), e0**2 - e1**2 - e2**2 + e3**2])
     n /= np.sum(states[:, 6:10] ** 2, axis=1)
@@ -123,7 +125,9 @@ def test_no_touch_is_passed_and_no_minimum_is_below_half_of_the_graze(thickness,
         states = np.empty((1500, 13))
         sample(body, start, 0.0, flown * np.linspace(1e-6, 1 - 1e-6, len(states)), states)
         gaps = gaps_of(body, states)
-        assert gaps[700] == pytest.approx(closing_speed(body, states[700])[0], abs=1e-15)
+        assert gaps[700] == pytest.approx(
+            evaluate_gap(body, state_vector.state_of(states[700])).gap, abs=1e-15
+        )
         assert gaps.min() > 0
         inner = gaps[1:-1][(gaps[1:-1] < gaps[:-2]) & (gaps[1:-1] <= gaps[2:])]
         minima += len(inner)
@@ -178,7 +182,7 @@ def test_a_coin_released_upright_on_the_floor_touches_it_at_once():
     y = state_of(case.release)
     flown, touches, _ = fly_closed(case.body, y, 1.0)
     assert (flown, touches) == (0.0, True)
-    assert abs(closing_speed(case.body, y)[0]) < 1e-13 * case.body.radius
+    assert abs(evaluate_gap(case.body, state_vector.state_of(y)).gap) < 1e-13 * case.body.radius
 
 
 def test_a_flight_that_is_cut_short_keeps_its_velocity():

@@ -14,6 +14,7 @@ from cointoss.analytic.numerics.rotation import quaternion_rate
 from cointoss.models.attitude import rotation_matrix
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_quaternion, scenario
 from tests.helpers.printed_equations import EQUATIONS as PRINTED
+from tests.helpers.tuples import quaternion, vector
 
 SEEDS = pytest.mark.parametrize("seed", range(10))
 EXACT = 1e-10
@@ -68,7 +69,10 @@ class Motion:
         derivative(case.body, np.array([0, 0, 1, *self.v, *self.e, *self.w]), rates)
         self.a, self.d, self.dw = rates[3:6], rates[6:10], rates[10:13]
         # ė = ½ e ∘ ω, differentiated.
-        self.dd = np.add(quaternion_rate(self.d, self.w), quaternion_rate(self.e, self.dw))
+        self.dd = np.add(
+            quaternion_rate(quaternion(self.d), vector(self.w)),
+            quaternion_rate(quaternion(self.e), vector(self.dw)),
+        )
         self.R = np.array(rotation_matrix(tuple(self.e)))
         air, moment = force_and_moment(case.body, tuple(self.R.T @ self.v), tuple(self.w))
         self.f = self.R @ air - [0, 0, self.m * self.g]

@@ -1,18 +1,18 @@
 """Flights by power series: against an independent integration; and the proof that they are clear."""
 
-from functools import partial
-
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from cointoss.analytic.flight import state_vector
 from cointoss.analytic.flight.equations_of_motion import derivative
-from cointoss.analytic.flight.gap_polynomials import DEGREE, gap_polynomials, time_surely_clear
+from cointoss.analytic.flight.gap_polynomials import DEGREE, Window, gap_polynomials, time_surely_clear
 from cointoss.analytic.flight.integrated_flight import first_step, flight_step, flight_work, within_step
 from cointoss.analytic.flight.power_series import COLUMNS, ORDER, expand_flight
-from cointoss.analytic.flight.touch_search import closing_speed, fly_by_steps
+from cointoss.analytic.flight.touch_search import fly_by_steps
 from cointoss.analytic.toss import state_of
 from cointoss.models.body import Body
+from cointoss.models.geometry import evaluate_gap
 from cointoss.models.records import Array
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
@@ -84,13 +84,15 @@ def test_what_is_surely_clear_is_clear_and_a_touch_is_not(thickness):
         assert touches
         # The last step before the touch, from a time at which it is still to come.
         y = flown(body, start, touch - 5e-3)
-        series, polynomials = np.empty((ORDER + 1, COLUMNS)), np.empty((2, DEGREE + 1))
+        series, coefficients = np.empty((ORDER + 1, COLUMNS)), np.empty((2, DEGREE + 1))
         length, order = expand_flight(body, y, 8e-3, series)
-        degree, rounding = gap_polynomials(body, series, order, length, polynomials)
-        assert degree <= 2 * order
-        assert 0 < rounding < 1e-12 * closing_speed(body, y)[0]
+        polynomials = gap_polynomials(body, series, order, length, coefficients)
+        assert polynomials.degree <= 2 * order
+        assert 0 < polynomials.rounding < 1e-12 * evaluate_gap(body, state_vector.state_of(y)).gap
 
-        clear = partial(time_surely_clear, body, polynomials, degree, rounding, 0.0, least=0.0)
+        def clear(inside: float, window: float, body=body, polynomials=polynomials) -> float:
+            return time_surely_clear(body, polynomials, 0.0, Window(inside, window, 0.0))
+
         assert clear(0.0, length) <= 5e-3 * (1 + 1e-11)
         proved += clear(0.0, length) > 5e-3 * (1 - 1e-9)
         assert clear(1e-3, 3e-3) == 3e-3
@@ -102,8 +104,8 @@ def test_what_is_surely_clear_is_clear_and_a_touch_is_not(thickness):
 def test_a_coin_that_hardly_leaves_the_floor_is_searched_in_a_few_steps():
     """Its gap grows with the cube of time, and bounds on accelerations alone would need hundreds."""
     body, y = coin_and_start(np.random.default_rng(10), air={}, offset=(-1e-3, 0.0, 0.0))
-    y[2] -= closing_speed(body, y)[0]
-    lift = closing_speed(body, y)[1]
+    y[2] -= evaluate_gap(body, state_vector.state_of(y)).gap
+    lift = evaluate_gap(body, state_vector.state_of(y)).speed
     # Let the lowest point rest, and the coin's weight hardly act: the turning lifts it.
     y[5] -= lift
     body = body._replace(gravity=1e-3)

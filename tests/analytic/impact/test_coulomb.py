@@ -8,6 +8,7 @@ from cointoss.analytic.impact.coulomb import coulomb, friction_without_slip
 from cointoss.analytic.impact.laws import perfectly_rough, sliding_friction, smooth
 from cointoss.models.laws import RestitutionKind
 from tests.helpers.impacts import draw_contact
+from tests.helpers.tuples import matrix, vector
 
 KINEMATIC, ENERGETIC = RestitutionKind
 COUNT = 200
@@ -200,10 +201,10 @@ def test_a_turn_about_the_vertical_turns_the_impulse():
     K, v = draw_contact(rng)
     c, s = np.cos(0.7), np.sin(0.7)
     Q = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
-    turned_K = tuple(tuple(row) for row in Q @ np.array(K) @ Q.T)
+    turned_K = matrix(Q @ np.array(K) @ Q.T)
     S = coulomb(K, v, 0.6, 0.3, KINEMATIC)
     assert Q @ S == pytest.approx(
-        coulomb(turned_K, tuple(Q @ v), 0.6, 0.3, KINEMATIC), abs=1e-12 * np.abs(S).max()
+        coulomb(turned_K, vector(Q @ v), 0.6, 0.3, KINEMATIC), abs=1e-12 * np.abs(S).max()
     )
 
 

@@ -17,6 +17,7 @@ from cointoss.analytic.numerics.rotation import (
 )
 from cointoss.models.attitude import rotation_matrix
 from tests.helpers.draws import draw_quaternion
+from tests.helpers.tuples import quaternion, vector
 
 part = st.floats(-1, 1)
 axes = st.tuples(part, part, part).filter(lambda v: np.linalg.norm(v) > 0.1)
@@ -70,9 +71,9 @@ def test_matrix_and_scipy_agree_on_random_attitudes():
 
 def turning(rng):
     """Give an attitude, its rate, its acceleration, and the angular velocity and acceleration in the body."""
-    e, w, w_rate = tuple(draw_quaternion(rng)), tuple(rng.normal(size=3)), tuple(rng.normal(size=3))
+    e, w, w_rate = quaternion(draw_quaternion(rng)), vector(rng.normal(size=3)), vector(rng.normal(size=3))
     e_rate = quaternion_rate(e, w)
-    e_acceleration = tuple(np.add(quaternion_rate(e_rate, w), quaternion_rate(e, w_rate)))
+    e_acceleration = quaternion(np.add(quaternion_rate(e_rate, w), quaternion_rate(e, w_rate)))
     return e, e_rate, e_acceleration, np.array(w), np.array(w_rate)
 
 

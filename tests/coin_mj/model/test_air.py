@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import cointoss.analytic.air.force
-from cointoss.coin_mj.model.air import air_force
+from cointoss.coin_mj.model.air import PowerLaw, air_force
 from cointoss.coin_mj.model.air_callback import air_of
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
@@ -19,20 +19,17 @@ from cointoss.coin_mj.model.settings import Settings
 from cointoss.coin_mj.steps.constrained_step import forward
 from cointoss.coin_mj.steps.free_step import free_step
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.tuples import vector
 
 R, H = ZLOTY["radius"], ZLOTY["thickness"]
 LN, LT = AIR["normal"], AIR["tangential"]
-
-
-def vector(row):
-    return tuple(float(x) for x in row)
 
 
 def by_both(b, h, v, w):
     """Force and moment about B over r by both engines, (6,) each, in units of λ (|v| + r |ω|)^(1+b) π r²."""
     body = scenario(coin={"thickness": h}, air={**AIR, "exponent": b}).body
     pairs = (
-        air_force(R, h, LN, LT, b, vector(v), vector(w)),
+        air_force(R, h, PowerLaw(LN, LT, b), vector(v), vector(w)),
         cointoss.analytic.air.force.force_and_moment(body, vector(v), vector(w)),
     )
     speed = np.linalg.norm(v) + R * np.linalg.norm(w)
@@ -84,16 +81,16 @@ def test_a_spin_whose_square_underflows_is_none():
 @pytest.mark.parametrize("b", [0.2, 0.5, 1.0])
 def test_motions_in_one_direction_have_closed_forms(b):
     v, W, wall = 0.7, 30.0, 2 * np.pi * R * H
-    f, m = air_force(R, H, LN, LT, b, (0.0, 0.0, v), (0.0, 0.0, 0.0))
+    f, m = air_force(R, H, PowerLaw(LN, LT, b), (0.0, 0.0, v), (0.0, 0.0, 0.0))
     assert f == pytest.approx((0, 0, -(v ** (1 + b)) * (LN * np.pi * R**2 + LT * wall)), rel=1e-13, abs=1e-18)
-    f, m = air_force(R, H, LN, LT, b, (0.0, 0.0, 0.0), (0.0, 0.0, W))
+    f, m = air_force(R, H, PowerLaw(LN, LT, b), (0.0, 0.0, 0.0), (0.0, 0.0, W))
     spin = -LT * (W * R) ** (1 + b) * R * (2 * 2 * np.pi * R**2 / (b + 4) + wall)
     assert m == pytest.approx((0, 0, spin), rel=1e-13, abs=1e-20)
     assert f == pytest.approx((0, 0, 0), abs=1e-18)
 
 
 def test_a_coin_at_rest_feels_no_air():
-    assert air_force(R, H, LN, LT, 0.5, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)) == ((0, 0, 0), (0, 0, 0))
+    assert air_force(R, H, PowerLaw(LN, LT, 0.5), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)) == ((0, 0, 0), (0, 0, 0))
 
 
 def coin_in_air(b, normal=LN, tangential=LT):
@@ -112,7 +109,7 @@ def test_the_callback_gives_the_force_at_B_in_mujocos_frames(b):
         forward(machine.coin)
     data = machine.data
     rotation = data.body("coin").xmat.reshape(3, 3)
-    f, m = air_force(R, H, LN, LT, b, vector(rotation.T @ data.qvel[:3]), vector(data.qvel[3:]))
+    f, m = air_force(R, H, PowerLaw(LN, LT, b), vector(rotation.T @ data.qvel[:3]), vector(data.qvel[3:]))
     assert np.linalg.norm(f) > 1e-6, "there should be drag"
     assert data.qfrc_passive == pytest.approx([*(rotation @ f), *m], rel=1e-12, abs=1e-20)
     assert np.all(data.qfrc_actuator == 0)

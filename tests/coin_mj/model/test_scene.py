@@ -65,7 +65,7 @@ def test_a_release_converts_to_mujocos_state_and_back():
     rng = np.random.default_rng(2)
     case = scenario(coin=IMPERFECT, release=draw_release(rng))
     body, release = case.body, case.release
-    x, v, e, w = to_mass_center(body, *of_release(body, release))
+    x, v, e, w, _ = to_mass_center(body, *of_release(body, release))
     assert x == pytest.approx(release.position, abs=1e-17)
     assert v == pytest.approx(release.velocity, abs=1e-16)
     assert (e, w) == (release.attitude, release.angular_velocity)

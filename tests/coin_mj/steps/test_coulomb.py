@@ -15,25 +15,25 @@ pytestmark = pytest.mark.usefixtures("without_horizon")
 DOUBLE = 1e-4
 """Where a second rim point lands so soon after the first [s], both are pressed at once."""
 BALL = np.diag([3.5, 3.5, 1.0])
-"""Mobility of a solid ball of 1 kg at its lowest point."""
+"""Delassus matrix of a solid ball of 1 kg at its lowest point."""
 
 
 def test_a_sliding_ball_is_braked_by_mu_times_its_weight():
-    f = coulomb_force(BALL, 0.2, 10.0, np.array([3.0, -4.0]), np.array([3.0, -4.0]), 1e-3)
+    f = coulomb_force(BALL, 0.2, 10.0, (3.0, -4.0), (3.0, -4.0), 1e-3)
     assert f == pytest.approx((-0.2 * 10 * 0.6, 0.2 * 10 * 0.8), rel=1e-12)
 
 
 def test_a_sticking_ball_is_held_by_what_pulls_it():
     """At rest, and pulled by 1 N: 2/7 of a pull at the centre; here the pull is at the contact itself."""
-    pulled = np.array([3.5e-3, 0.0])
-    f = coulomb_force(BALL, 0.2, 10.0, np.zeros(2), pulled, 1e-3)
+    pulled = (3.5e-3, 0.0)
+    f = coulomb_force(BALL, 0.2, 10.0, (0.0, 0.0), pulled, 1e-3)
     assert f == pytest.approx((-1.0, 0.0), rel=1e-12)
-    f = coulomb_force(BALL, 0.05, 10.0, np.zeros(2), pulled, 1e-3)
+    f = coulomb_force(BALL, 0.05, 10.0, (0.0, 0.0), pulled, 1e-3)
     assert f == pytest.approx((-0.5, 0.0), rel=1e-9)
 
 
 def test_slip_that_stops_within_a_step_ends_at_nothing():
-    slip = np.array([1e-3, 0.0])
+    slip = (1e-3, 0.0)
     f = coulomb_force(BALL, 0.5, 10.0, slip, slip, 1e-3)
     assert slip[0] + 3.5 * f[0] * 1e-3 == pytest.approx(0, abs=1e-15)
 
@@ -41,13 +41,13 @@ def test_slip_that_stops_within_a_step_ends_at_nothing():
 def test_the_normal_force_gives_way_to_friction():
     """With N = N_0 - g f and f = -mu N s: f = -mu N_0/(1 - mu g) for s = 1."""
     K = np.array([[2.0, 0, 0.6], [0, 2.0, 0], [0.6, 0, 1.2]])
-    f = coulomb_force(K, 0.4, 10.0, np.array([5.0, 0]), np.array([5.0, 0]), 1e-3)
+    f = coulomb_force(K, 0.4, 10.0, (5.0, 0.0), (5.0, 0.0), 1e-3)
     assert f == pytest.approx((-4 / (1 - 0.4 * 0.5), 0), rel=1e-12)
 
 
 def test_where_sliding_has_no_solution_the_slip_stops_at_once():
     K = np.array([[2.0, 0, 1.2], [0, 2.0, 0], [1.2, 0, 1.0]])
-    slip = np.array([1.0, 0])
+    slip = (1.0, 0.0)
     f = coulomb_force(K, 1.0, 10.0, slip, slip, 1e-3)
     assert 1 + (2 - 1.44) * f[0] * 1e-3 == pytest.approx(0, abs=1e-12)
 

@@ -1,5 +1,6 @@
 """MuJoCo's coin on a floor that resists rolling and pivoting: closed forms, rest, energy, Euler's disk."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -10,13 +11,14 @@ from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import Friction, Settings
 from cointoss.coin_mj.model.state import state_of
-from cointoss.coin_mj.steps.resistance import resisted_force, shortest_stop
+from cointoss.coin_mj.steps.resistance import PointMotion, resisted_force, shortest_stop
 from cointoss.coin_mj.steps.sustained_contact import next_step, sustained_step
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.kernel.vectors import cross
 from cointoss.models.records import ApproximationWarning, Ending, Outcome, UnsupportedError
 from tests.helpers.draws import AIR, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
 from tests.helpers.states import energies
+from tests.helpers.tuples import quaternion, vector
 
 pytestmark = [
     pytest.mark.filterwarnings(f"ignore::{ApproximationWarning.__module__}.ApproximationWarning"),
@@ -80,9 +82,14 @@ def test_on_a_smooth_floor_a_coin_pivots_to_rest_and_slides_on():
     assert tossed.sample(tossed.end_time).velocity[0, :2] == pytest.approx([0.2, 0], abs=1e-12)
 
 
+def point_motion(numbers: Iterable[float]) -> PointMotion:
+    x, y, z, a, b, c = map(float, numbers)
+    return x, y, z, a, b, c
+
+
 def draw_contact(rng):
-    """Draw the mobility of a disc of mass 1 and radius 1 at its rim, and the motion there."""
-    turn, angle = np.array(rotation_matrix(tuple(draw_quaternion(rng)))), rng.uniform(0, 2 * np.pi)
+    """Draw the Delassus matrix of a disc of mass 1 and radius 1 at its rim, and the motion there."""
+    turn, angle = np.array(rotation_matrix(quaternion(draw_quaternion(rng)))), rng.uniform(0, 2 * np.pi)
     arm = turn @ [np.cos(angle), np.sin(angle), 0.0]
     J_inverse = turn @ np.diag([4.0, 4.0, 2.0]) @ turn.T
     # v_A = v + ω × a, and the moment of an impulse there about C is a × S.
@@ -90,7 +97,7 @@ def draw_contact(rng):
     K = np.block(
         [[np.eye(3) - across @ J_inverse @ across, -across @ J_inverse], [J_inverse @ across, J_inverse]]
     )
-    return K, tuple(rng.uniform(0.02, 0.3, 3)), tuple(rng.normal(size=6))
+    return K, vector(rng.uniform(0.02, 0.3, 3)), point_motion(rng.normal(size=6))
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -100,7 +107,7 @@ def test_no_moment_is_larger_than_the_floor_has_and_each_takes_energy(seed):
     K, coefficients, motion = draw_contact(rng)
     dt, normal = 1e-3, 3.0
     free = np.array(motion) + dt * rng.normal(size=6)
-    F, moment = resisted_force(K, coefficients, normal, motion, tuple(free), dt)
+    F, moment = resisted_force(K, coefficients, normal, motion, point_motion(free), dt)
     mu, delta, p = coefficients
     N = normal + F[2]
     middle = free + dt * (K @ np.array([*F, *moment])) / 2
@@ -118,8 +125,8 @@ def test_no_moment_is_larger_than_the_floor_has_and_each_takes_energy(seed):
 def test_a_coin_at_rest_is_held_by_what_pulls_it_and_no_more(seed):
     rng = np.random.default_rng([3, seed])
     K, _, _ = draw_contact(rng)
-    dt, still, normal = 1e-3, (0.0,) * 6, 10.0
-    free = tuple(dt * K @ (rng.uniform(-1, 1, 6) * [1, 1, 0, 1, 1, 1]))
+    dt, still, normal = 1e-3, point_motion(np.zeros(6)), 10.0
+    free = point_motion(dt * K @ (rng.uniform(-1, 1, 6) * [1, 1, 0, 1, 1, 1]))
     F, moment = resisted_force(K, (1.0, 0.5, 0.5), normal, still, free, dt)
     after = np.array(free) + dt * K @ np.array([*F, *moment])
     assert np.delete(after, 2) == pytest.approx(0, abs=1e-11)
@@ -178,7 +185,7 @@ def eulers_disk(**floor):
     machine = machine_of(case, Settings(), shape_thickness(case))
     coin, J, time, rows = machine.coin, np.array(case.body.inertia), 0.0, []
     while time < 1.6:
-        x, v, e, w = state_of(coin)
+        x, v, e, w, _ = state_of(coin)
         turn = np.array(rotation_matrix(e))
         kinetic = (np.dot(v, v) * M + np.array(w) @ J @ np.array(w)) / 2
         rows.append(

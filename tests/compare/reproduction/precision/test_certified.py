@@ -21,7 +21,7 @@ from cointoss.compare.reproduction.precision.double_double import add, pair_of, 
 from cointoss.compare.reproduction.precision.magnified import magnify
 from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
 from cointoss.compare.reproduction.precision.planar_contact import keep_contact, nearest_upright
-from cointoss.compare.reproduction.precision.planar_flight import ORDER, fly
+from cointoss.compare.reproduction.precision.planar_flight import fly, room_for_series
 from cointoss.compare.reproduction.precision.planar_slide import slide
 from cointoss.compare.reproduction.precision.planar_state import (
     DRIFT,
@@ -282,8 +282,8 @@ def test_a_flight_in_air_follows_its_equations():
     alike = coin._replace(drag_difference=(0.0, 0.0))
     state = release(own, height=0.4, spin=40.0)
     height, spin = state[HEIGHT, 0], state[SPIN, 0]
-    room = np.empty((ORDER + 2, 2)), np.empty((ORDER + 2, 2))
-    assert fly(alike, state, 0, 0.0, *room) in (-1, 1)
+    series = room_for_series()
+    assert fly(alike, state, 0, 0.0, series) in (-1, 1)
     k, a = alike.slowing[0], alike.drag_mean[0]
     t = -np.log(state[SPIN, 0] / spin) / k
     fallen = (t - (1 - np.exp(-a * t)) / a) / a
@@ -295,12 +295,12 @@ def test_a_flight_in_air_follows_its_equations():
 def test_a_coin_that_lands_flat_touches_first_with_the_rim_point_that_is_lower():
     """The other one follows sooner than doubles of the time tell apart."""
     coin, own = coin_of(0.3, air=True)
-    room = np.empty((ORDER + 2, 2)), np.empty((ORDER + 2, 2))
+    series = room_for_series()
 
     def touch(height):
         state = release(own, height=0.4, spin=40.0)
         state[HEIGHT] = height
-        side = fly(coin, state, 0, 0.0, *room)
+        side = fly(coin, state, 0, 0.0, series)
         turned_within(state)
         return side, state
 
@@ -465,8 +465,8 @@ def test_a_coin_that_lifts_off_almost_upright_touches_again_soon(excess):
     lifts, _, corner, start = keep_contact(coin, state, 1.0)
     assert lifts
     lifted = state.copy()
-    room = np.empty((ORDER + 2, 2)), np.empty((ORDER + 2, 2))
-    assert fly(coin, state, int(corner), start, *room) == corner
+    series = room_for_series()
+    assert fly(coin, state, int(corner), start, series) == corner
     turned = state[TILT, 0] - lifted[TILT, 0]
     # The gap is about v w² t³/6 - w⁴ t⁴/24, upright.
     assert abs(turned) == pytest.approx(4 * lifted[FALL, 0] / abs(lifted[SPIN, 0]), rel=0.05)
