@@ -24,76 +24,6 @@ TUMBLING = {
     "angular_velocity": [20.0, 35.0, -10.0],
 }
 FEW = {"max_impacts": 2}
-# Rounding moves MuJoCo's first step in a contact by up to 1e-3 of a contact step.
-EXACT = {Engine.ANALYTIC: 1e-8, Engine.MUJOCO: 1e-6}
-
-
-def around_z(angle, vector):
-    c, s = np.cos(angle), np.sin(angle)
-    return [c * vector[0] - s * vector[1], s * vector[0] + c * vector[1], vector[2]]
-
-
-def same_impacts(a, b, tolerance):
-    assert len(a.impacts) == len(b.impacts) == 2
-    assert a.sequence == b.sequence
-    assert a.impacts.time == pytest.approx(b.impacts.time, abs=tolerance)
-    assert a.impacts.impulse[:, 2] == pytest.approx(b.impacts.impulse[:, 2], rel=tolerance)
-
-
-def test_a_shift_along_the_floor_shifts_the_toss(engine):
-    here = toss(engine, scenario(coin=IMPERFECT, air=AIR, release=TUMBLING, ending=FEW))
-    moved = {**TUMBLING, "position": [1.0, -2.0, 0.3]}
-    there = toss(engine, scenario(coin=IMPERFECT, air=AIR, release=moved, ending=FEW))
-    same_impacts(here, there, EXACT[engine])
-    assert there.impacts.position - here.impacts.position == pytest.approx(
-        np.array([[1, -2, 0], [1, -2, 0]]), abs=1e-8
-    )
-
-
-def test_a_turn_about_the_vertical_turns_the_toss(engine):
-    angle = 0.7
-    here = toss(engine, scenario(coin=IMPERFECT, air=AIR, release=TUMBLING, ending=FEW))
-    turned = {
-        **TUMBLING,
-        "velocity": around_z(angle, TUMBLING["velocity"]),
-        "angles": [0.4 + angle, 0.6, 0.1],
-    }
-    there = toss(engine, scenario(coin=IMPERFECT, air=AIR, release=turned, ending=FEW))
-    same_impacts(here, there, EXACT[engine])
-    for before, after in zip(here.impacts.velocity_after, there.impacts.velocity_after, strict=True):
-        assert after == pytest.approx(around_z(angle, before), abs=10 * EXACT[engine])
-    assert here.impacts.point == pytest.approx(there.impacts.point, abs=1e-9)
-
-
-def test_a_mirror_mirrors_the_toss(engine):
-    """The plane y = 0, for a coin that has it too: x, z and the turn about y stay, the others flip."""
-    here = toss(engine, scenario(air=AIR, release=TUMBLING, ending=FEW))
-    mirrored = {
-        "position": TUMBLING["position"],
-        "velocity": [0.1, 0.2, 0.3],
-        "angles": [-0.4, -0.6, -0.1],
-        "angular_velocity": [-20.0, 35.0, 10.0],
-    }
-    there = toss(engine, scenario(air=AIR, release=mirrored, ending=FEW))
-    same_impacts(here, there, EXACT[engine])
-    assert there.impacts.velocity_after == pytest.approx(
-        here.impacts.velocity_after * np.array([1, -1, 1]), abs=10 * EXACT[engine]
-    )
-
-
-def test_half_a_turn_of_the_coin_swaps_heads_and_tails(engine):
-    """The same motion of an ideal coin whose body axes are turned half about ξ: η and ζ change their sign."""
-    here = toss(engine, scenario(air=AIR, release=TUMBLING, ending=FEW))
-    e0, e1, e2, e3 = scenario(release=TUMBLING).release.attitude
-    swapped = {
-        "position": TUMBLING["position"],
-        "velocity": TUMBLING["velocity"],
-        "quaternion": [-e1, e0, e3, -e2],
-        "angular_velocity": [20.0, -35.0, 10.0],
-    }
-    there = toss(engine, scenario(air=AIR, release=swapped, ending=FEW))
-    assert there.sequence == here.sequence.translate(str.maketrans("HT", "TH"))
-    assert there.impacts.impulse[:, 2] == pytest.approx(here.impacts.impulse[:, 2], rel=EXACT[engine])
 
 
 def test_momentum_and_restitution_hold_at_every_impact(engine):
@@ -105,13 +35,6 @@ def test_momentum_and_restitution_hold_at_every_impact(engine):
     assert gained == pytest.approx(impacts.impulse, abs=3e-8)
     ratio = -impacts.contact_velocity_after[:, 2] / impacts.contact_velocity_before[:, 2]
     assert ratio == pytest.approx(np.full(len(impacts), 0.8), abs=2e-3)
-
-
-def test_energy_falls_at_every_impact_of_a_smooth_floor(engine):
-    tossed = toss(engine, scenario(coin=IMPERFECT, air=AIR, release=TUMBLING, ending={"max_impacts": 6}))
-    assert len(tossed.impacts) == 6
-    assert np.all(tossed.impacts.energy_change < 0)
-    assert np.all(np.diff(tossed.impacts.energy) < 0)
 
 
 def test_restitution_one_loses_no_energy(engine):
@@ -146,7 +69,7 @@ def test_the_drops_of_fig_3_keep_attitude_until_they_land(engine, tilt):
 
 
 @pytest.mark.parametrize("coin", [ZLOTY, {**ZLOTY, "thickness": 0.0}])
-@pytest.mark.parametrize("spin", [1.0, 20.0, 50.0])
+@pytest.mark.parametrize("spin", [0.0, 1.0, 20.0, 50.0])
 @pytest.mark.parametrize("angles", [[0.3, 0, 0], [0.3, np.pi, 0]])
 def test_a_flat_coin_that_spins_bounces_flat(engine, coin, spin, angles):
     """Flat within rounding, at every angle about ζ: where a search for the lowest rim point meets nothing."""
@@ -158,7 +81,9 @@ def test_a_flat_coin_that_spins_bounces_flat(engine, coin, spin, angles):
         [-0.5, -0.5], abs=1e-4
     )
     assert impacts.velocity_after[:, :2] == pytest.approx(np.array([[0.2, 0.1]] * 2), abs=1e-9)
-    assert impacts.angular_velocity_after == pytest.approx(np.array([[0, 0, spin]] * 2), abs=1e-6 * spin)
+    assert impacts.angular_velocity_after == pytest.approx(
+        np.array([[0, 0, spin]] * 2), abs=1e-6 * max(spin, 1)
+    )
     turned = tossed.sample([tossed.end_time]).quaternion[0]
     psi = 0.3 + spin * tossed.end_time * (1 if angles[1] == 0 else -1)
     expected = scenario(release={"angles": [psi, angles[1], 0]}).release.attitude

@@ -189,6 +189,10 @@ def test_a_symmetry_of_the_release_is_one_of_the_whole_toss(engine, name, symmet
     assert there.impacts.time[:n] == pytest.approx(here.impacts.time[:n], abs=late)
     expected = change.vector(here.impacts.impulse[:n])
     assert np.abs(there.impacts.impulse[:n] - expected).max() < part * np.abs(expected).max()
+    assert there.impacts.position[:n] == pytest.approx(
+        change.vector(here.impacts.position[:n]) + change.shift, abs=2 * late
+    )
+    assert there.impacts.point[:n] == pytest.approx(here.impacts.point[:n] @ change.body.T, abs=part * R)
     swap = str.maketrans("HT", "TH") if change.swaps_faces else {}
     assert there.sequence[:n] == here.sequence[:n].translate(swap)
     assert there.contacts[0, 0] == pytest.approx(here.contacts[0, 0], abs=late)

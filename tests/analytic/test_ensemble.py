@@ -113,12 +113,6 @@ def test_no_releases_give_no_outcomes():
     assert outcomes.after(0).shape == (0,)
 
 
-def test_a_flat_drop_shows_its_face():
-    outcomes = analytic.toss_many(scenario(), releases_of(2, quaternion=[[1, 0, 0, 0], [0, 1, 0, 0]]))
-    assert outcomes.outcome.tolist() == [Outcome.HEADS, Outcome.TAILS]
-    assert outcomes.last_face.tolist() == [Face.HEADS, Face.TAILS]
-
-
 @pytest.mark.parametrize("chi", [0.0, 0.6])
 def test_a_square_section_that_turns_in_its_plane_ends_on_its_edge_as_often_as_on_a_face(chi):
     """Half a toss each: its four sides are alike, and no roll brings it out of the plane."""

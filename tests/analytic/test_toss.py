@@ -1,4 +1,4 @@
-"""Whole tosses: against an independent integration, at the limits, and how they end."""
+"""Whole tosses: in air against an independent integration, at the limits, and how they end."""
 
 import numpy as np
 import pytest
@@ -9,32 +9,6 @@ from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import AIR, PAPER_LAWS, ZLOTY, draw_coin, draw_release, scenario
 from tests.helpers.referee import Referee
 from tests.helpers.states import gaps
-
-
-@pytest.mark.parametrize("law", PAPER_LAWS)
-@pytest.mark.parametrize("seed", range(2))
-def test_impacts_are_those_of_an_independent_integration(law, seed):
-    rng = np.random.default_rng([int(law), seed])
-    case = scenario(
-        coin=draw_coin(rng),
-        air=AIR if seed else {},
-        floor={"restitution": 0.6, "contact": str(law), "friction": 0.2},
-        release=draw_release(rng),
-        ending={"max_impacts": 4, "test": "paper"},
-    )
-    tossed = analytic.toss(case)
-    assert tossed.trusted_impacts >= 2
-    referee = Referee(case)
-    y, time = referee.start(), 0.0
-    for i in range(tossed.trusted_impacts):
-        flown, y = referee.fly(y, 2.0, until_touch=True)
-        time += flown
-        y, S = referee.hit(y)
-        impacts = tossed.impacts
-        assert impacts.time[i] == pytest.approx(time, abs=1e-7)
-        assert impacts.impulse[i] == pytest.approx(S, abs=1e-5 * float(np.linalg.norm(S)))
-        assert impacts.face[i] == (1 if referee.rotation(y)[2, 2] > 0 else 2)
-        assert impacts.velocity_after[i] == pytest.approx(y[3:6], abs=1e-5)
 
 
 @pytest.mark.parametrize("b", [0.5, 1.0])
@@ -175,24 +149,13 @@ def test_the_imperfect_coin_turns_over_in_the_drop_of_fig_3():
     assert tossed.sequence[0] == "T"
 
 
-@pytest.mark.parametrize(
-    ("ending", "expected"),
-    [
-        ({"max_impacts": 2}, Ending.MAX_IMPACTS),
-        ({"max_time": 0.1}, Ending.MAX_TIME),
-        ({"test": "paper"}, Ending.PAPER),
-        ({"test": "paper_smooth"}, Ending.PAPER_SMOOTH),
-        ({}, Ending.SETTLED),
-    ],
-)
-def test_endings_have_their_names(ending, expected):
-    tossed = analytic.toss(
-        scenario(release={"angles": [0, 0.1, 0], "angular_velocity": [0, 40.15, 0]}, ending=ending)
-    )
-    assert tossed.ending == expected
-    decided = expected in (Ending.PAPER, Ending.PAPER_SMOOTH, Ending.SETTLED)
-    assert (tossed.outcome in (Outcome.HEADS, Outcome.TAILS)) is decided
-    assert tossed.ending.sentence
+@pytest.mark.parametrize("test", ["paper", "paper_smooth"])
+def test_the_papers_endings_have_their_names(test):
+    release = {"angles": [0, 0.1, 0], "angular_velocity": [0, 40.15, 0]}
+    tossed = analytic.toss(scenario(release=release, ending={"test": test}))
+    assert tossed.ending == Ending(test)
+    assert tossed.outcome in (Outcome.HEADS, Outcome.TAILS)
+    assert all(ending.sentence for ending in Ending if ending != Ending.NONE)
 
 
 def test_without_rebound_a_coin_is_decided_soon():

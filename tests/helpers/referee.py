@@ -198,45 +198,20 @@ class Referee:
         return flight.t[-1], flight.y[:, -1]
 
     def hit(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Solve eqs (86)-(92) as one linear system for velocities and impulse; give both."""
-        floor, R = self.scenario.floor, self.rotation(y)
-        v, w = y[3:6], y[10:13]
+        """Solve eqs (86)-(90) on a smooth floor as one linear system; give velocities and impulse."""
+        R, v, w = self.rotation(y), y[3:6], y[10:13]
         down = -R[2, :2] / np.linalg.norm(R[2, :2])
         A = np.array([*(self.r * down), -np.sign(R[2, 2]) * self.h / 2]) - self.c
-        tau = R @ np.array([-down[1], down[0], 0])
-        nu = np.cross([0, 0, 1], tau)
         # Unknowns: v' (3), w' (3), S (3).
-        v_A = v + R @ np.cross(w, A)
-        v_A_rows = np.hstack([np.eye(3), -R @ _skew(A), np.zeros((3, 3))])
+        v_Az = R[2:] @ np.hstack([R.T, -_skew(A), np.zeros((3, 3))])
         rows = [
             np.hstack([self.m * np.eye(3), np.zeros((3, 3)), -np.eye(3)]),
             np.hstack([np.zeros((3, 3)), self.J, -_skew(A) @ R.T]),
-            v_A_rows[2:3],
+            v_Az,
+            np.eye(9)[6:8],
         ]
-        right = [self.m * v, self.J @ w, [-floor.restitution * v_A[2]]]
-        S_x, S_y, S_z = np.eye(9)[6:9]
-        slip = np.array([v_A[0], v_A[1], 0]) / np.hypot(v_A[0], v_A[1])
-        match str(floor.contact):
-            case "sharp_edge":
-                rows += [[nu @ v_A_rows], [tau @ v_A_rows]]
-                right += [[0], [tau @ v_A]]
-            case "knurled":
-                rows += [[nu @ v_A_rows], [tau @ v_A_rows]]
-                right += [[nu @ v_A], [0]]
-            case "perfectly_rough":
-                rows += [v_A_rows[:2]]
-                right += [[0, 0]]
-            case "slip_preserving":
-                rows += [v_A_rows[:2]]
-                right += [v_A[:2]]
-            case "smooth":
-                rows += [[S_x], [S_y]]
-                right += [[0, 0]]
-            case "sliding_friction":
-                mu = floor.friction
-                rows += [[S_x + mu * slip[0] * S_z], [S_y + mu * slip[1] * S_z]]
-                right += [[0, 0]]
-        solved = np.linalg.solve(np.vstack(rows), np.concatenate(right))
+        rebound = -self.scenario.floor.restitution * (v_Az @ [*v, *w, 0, 0, 0])
+        solved = np.linalg.solve(np.vstack(rows), np.concatenate([self.m * v, self.J @ w, rebound, [0, 0]]))
         after = y.copy()
         after[3:6], after[10:13] = solved[:3], solved[3:6]
         return after, solved[6:9]

@@ -126,15 +126,6 @@ def test_the_impulse_is_the_integral_of_the_contact_force():
     assert np.abs(impulse[:2]).max() < 1e-12 * impulse[2]
 
 
-def test_a_flat_landing_keeps_restitution():
-    tossed = toss(
-        scenario(floor={"restitution": 0.5}, release={"position": [0, 0, 0.3]}, ending={"max_impacts": 1})
-    )
-    impacts = tossed.impacts
-    assert impacts.velocity_after[0, 2] / impacts.velocity_before[0, 2] == pytest.approx(-0.5, abs=1e-4)
-    assert np.abs(impacts.angular_velocity_after[0]).max() < 1e-6
-
-
 @pytest.mark.parametrize(
     ("parts", "words"),
     [

@@ -59,10 +59,15 @@ class ParsedPage(HTMLParser):
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
+def found():
+    return compared(parse(SHORT, "short"), SHORT, "short")
+
+
+@pytest.fixture(scope="module")
+def folder(found, tmp_path_factory):
     target = tmp_path_factory.mktemp("report")
     assert drawing_problem() is None, ADVICE
-    write_report(compared(parse(SHORT, "short"), SHORT, "short"), target, None)
+    write_report(found, target, None)
     return target
 
 
@@ -101,17 +106,15 @@ def test_the_page_stands_alone_and_has_its_parts(folder):
         assert version in text
 
 
-def test_the_numbers_are_those_of_the_tosses(folder):
+def test_the_numbers_are_those_of_the_tosses(found, folder):
     numbers = json.loads((folder / "numbers.json").read_text(encoding="utf-8"))
-    found = compare(parse(SHORT, "short"))
     assert [toss["engine"] for toss in numbers["tosses"]] == ["analytic", "mujoco"]
     assert numbers["tosses"][0]["impacts"][1]["time"] == found.analytic.impacts.time[1]
     assert numbers["comparison"]["impulse_difference"] == found.differences.impulse.tolist()
     assert numbers["comparison"]["horizon"] == found.horizon
 
 
-def test_the_film_has_its_frames(folder):
-    found = compare(parse(SHORT, "short"))
+def test_the_film_has_its_frames(found, folder):
     written = film_written(folder / "toss.mp4")
     assert written.frames == frame_count(found.filmed(), SMALL)
     assert written.rate == SMALL.frames_per_second

@@ -92,26 +92,6 @@ def test_a_part_of_a_map_is_that_part_of_the_whole():
     assert np.array_equal(part.impacts, whole.impacts[1:3, 2:4])
 
 
-def test_both_engines_agree_at_the_first_touch():
-    case = scenario(coin={"thickness": 0.0})
-    maps = [
-        toss_pixels(
-            sweep_of(
-                "release.angular_velocity.eta=20:60:4",
-                "release.position.z=0.2:0.6:3",
-                case,
-                engine=engine,
-                after=0,
-            ),
-            WHOLE,
-        )
-        for engine in Engine
-    ]
-    assert np.array_equal(maps[0].outcome, maps[1].outcome)
-    assert len(np.unique(maps[0].outcome)) == 2
-    assert np.all(maps[1].impacts == 1)
-
-
 @pytest.mark.parametrize(
     ("x", "y", "said"),
     [
