@@ -29,6 +29,10 @@ BEGINNING = "H∘HHH∘"
 """Of all six."""
 CLUSTER = 0.03
 """Impacts that follow each other within so much time are not told apart in the scale of Fig. 24 [s]."""
+NEARBY = (0.39, 0.41)
+"""Random heights of the first of six tosses, which share what chance shares [m]."""
+APART = 1e-5 * np.arange(6)
+"""Heights of the six tosses above the first [m]."""
 IMPACTS = 18
 """Of the longest printed sequence."""
 _OFFSET = (-1e-3, -1e-3, -2e-4)
