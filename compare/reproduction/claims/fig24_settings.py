@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from numpy.random import Generator
 
 from cointoss.compare.output.progress import Progress
-from cointoss.compare.output.style import INK, PALE, SKY, VERMILION
+from cointoss.compare.output.style import INK, PALE
 from cointoss.compare.output.tables import table
 from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import share
@@ -20,10 +20,11 @@ from cointoss.compare.reproduction.setups.fig24_readings import (
     printed_heights,
     sequences,
     shared_with_marks,
+    toss_of,
 )
+from cointoss.compare.reproduction.setups.fig24_scores import draw_scores
 from cointoss.compare.reproduction.threads import all_cores
 from cointoss.models.laws import ContactLaw
-from cointoss.models.reading import load
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 
@@ -36,7 +37,6 @@ PRINTED_FACES = sum(len(text.replace(MARK, "")) for text in PRINTED.values())
 RESTITUTIONS, FRICTIONS, TILTS = (0.6, 0.9), (0.02, 0.6), (-10.0, 10.0)
 """Ranges of χ, of μ where the law has it, and of θ about the printed 7 or -7 [deg]."""
 THICKNESSES, GRAVITIES = (0.0, 1e-3, 2e-3), (9.8, 9.80665, 9.81, 10.0)
-_OFFSET = np.array([-1e-3, -1e-3, -2e-4])
 _WITH_FRICTION = (ContactLaw.SLIDING_FRICTION, ContactLaw.COULOMB)
 SHOWN = 5
 """Of the best settings."""
@@ -74,23 +74,10 @@ class Settings:
     @property
     def scenario(self) -> Scenario:
         """The toss of Fig. 24(a)."""
-        x, y, z = self.offset * _OFFSET
-        return load("fig24a").replace(
-            "gravity",
-            self.gravity,
-            "coin.thickness",
-            self.thickness,
-            "coin.center_of_mass",
-            (x, y, z if self.thickness else 0.0),
-            "floor.contact",
-            self.law,
-            "floor.friction",
-            self.friction,
-            "floor.restitution",
-            self.restitution,
-            "release.angles",
-            (0.0, np.radians(self.tilt), 0.0),
-        )
+        tilt = (0.0, np.radians(self.tilt), 0.0)
+        toss = toss_of(self.thickness, self.offset, self.law, self.friction)
+        floor = ("floor.restitution", self.restitution)
+        return toss.replace("gravity", self.gravity, *floor, "release.angles", tilt)
 
 
 def drawn(rng: Generator) -> Settings:
@@ -164,19 +151,11 @@ def best_by_chance(scores: Array, rng: Generator) -> Array:
 def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(8, 3.6))
     axes = picture.subplots()
-    scores, begins, chance = data["scores"], data["begins as printed"] == 1, data["by chance"]
     bins = (np.arange(0, PRINTED_FACES + 2, 2) - 0.5).tolist()
-    axes.hist(
-        [scores[begins], scores[~begins]],
-        bins,
-        stacked=True,
-        color=[VERMILION, SKY],
-        label=["all six begin H∘HHH∘", "other settings"],
-    )
-    weights = np.full(chance.size, len(scores) / chance.size)
-    axes.hist(chance.ravel(), bins, weights=weights, histtype="step", color=INK, label="at random heights")
-    low, high = np.quantile(data["best by chance"], (0.05, 0.95))
-    axes.axvspan(low, high, color=PALE, alpha=0.4, linewidth=0, label="best by chance, 90 %")
+    begins, names = data["begins as printed"] == 1, ("all six begin H∘HHH∘", "other settings")
+    draw_scores(axes, data["scores"], begins, names, data["by chance"], bins)
+    best = np.quantile(data["best by chance"], (0.05, 0.95))
+    axes.axvspan(*best, color=PALE, alpha=0.4, linewidth=0, label="best by chance, 90 %")
     axes.axvline(PRINTED_FACES, color=INK, linestyle=":")
     axes.annotate("all printed ", (PRINTED_FACES, 1.5), ha="right", fontsize=9)
     axes.set_yscale("log")

@@ -11,6 +11,7 @@ from cointoss.compare.output.style import BLUE, GREY, VERMILION
 from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import jackknife, mean_share, share
+from cointoss.compare.reproduction.setups.halving import halved
 from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
 from cointoss.models.records import Array, Outcome
 from cointoss.models.releases import Releases
@@ -86,10 +87,7 @@ def boundary_above(scenario: Scenario, height: float, spin: float) -> float:
     line = np.linspace(height, height + REACH, SAMPLES)
     faces = analytic.toss_many(scenario, releases(line, np.full_like(line, spin))).outcome
     change = int(np.flatnonzero(faces[1:] != faces[:-1])[0])
-    low, high = line[change], line[change + 1]
-    while low < (middle := (low + high) / 2) < high:
-        low, high = (middle, high) if outcome(middle) == faces[change] else (low, middle)
-    return float(low)
+    return halved(float(line[change]), float(line[change + 1]), outcome)[0]
 
 
 def ball_about(

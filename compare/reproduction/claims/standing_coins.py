@@ -1,6 +1,5 @@
 """Section 5.2: whether general coins on the boundary between heads and tails come to stand on their edge."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -23,6 +22,7 @@ from cointoss.compare.precision.splitting import spread
 from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import mean, share
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
+from cointoss.compare.reproduction.setups.halving import halved
 from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case
 from cointoss.compare.reproduction.setups.standing import Standing, standing
 from cointoss.compare.reproduction.threads import all_cores
@@ -93,6 +93,7 @@ def make(progress: Progress, lines: int = 120, flat: int = 2000) -> Findings:
         data=data,
         coins={name: _stands(data[name]) for name in IN_AIR},
         lines=len(meets),
+        beside=float(BESIDE),
         meeting=np.sum(meets),
         meets=share(meets, "boundaries"),
         landings=len(landings),
@@ -156,14 +157,6 @@ def boundary_on(scenario: Scenario, start: Array, quantity: str) -> Boundary | N
         places=(low, high),
         outcomes=(outcome(low), outcome(high)),
     )
-
-
-def halved(low: float, high: float, label: Callable[[float], int]) -> tuple[float, float]:
-    """Return neighbouring doubles between two places where a label first differs from that of the lower."""
-    lower = label(low)
-    while low < (middle := (low + high) / 2) < high:
-        low, high = (middle, high) if label(middle) == lower else (low, middle)
-    return low, high
 
 
 def _sides(scenario: Scenario, start: Array, quantity: str) -> Array | None:

@@ -48,6 +48,7 @@ def make(progress: Progress) -> Findings:
     found.tilt, found.parted = _product_of_inertia()
     progress(3, 3)
     found.out_of_plane = out_of_plane
+    found.through = IMPACTS - 1
     found.distances = [_distances(from_eq_48[:, engine]) for engine in (0, 1)]
     found.meters, found.radians = from_eq_48[..., 0], from_eq_48[..., 1]
     return found

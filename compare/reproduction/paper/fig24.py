@@ -12,7 +12,6 @@ from cointoss.compare.output.style import (
     BLUE,
     GREEN,
     HEADS,
-    INK,
     ORANGE,
     PALE,
     PURPLE,
@@ -35,6 +34,7 @@ from cointoss.compare.reproduction.setups.fig24_readings import (
     sequences,
     shared,
 )
+from cointoss.compare.reproduction.setups.fig24_scores import draw_scores
 from cointoss.models.reading import load
 from cointoss.models.records import Array, Face, Toss
 
@@ -164,17 +164,9 @@ def _draw(data: Data) -> Figure:
         plan.plot(1e3 * x, 100 * z, color=color, linewidth=1, label=f"({letter})")
     plan.set(title="Fig. 26", xlabel="x [mm]", ylabel="z [cm]")
     plan.legend()
-    scores, clusters, chance = data["scores"], data["clustering"], data["by chance"]
+    chance, names = data["by chance"], ("begins as printed", "other")
     bins = (np.arange(0, 64, 4) - 0.5).tolist()
-    score.hist(
-        [scores[clusters], scores[~clusters]],
-        bins,
-        stacked=True,
-        color=[VERMILION, SKY],
-        label=["begins as printed", "other"],
-    )
-    weights = np.full(chance.size, len(scores) / chance.size)
-    score.hist(chance.ravel(), bins, weights=weights, histtype="step", color=INK, label="at random heights")
+    draw_scores(score, data["scores"], data["clustering"], names, chance, bins)
     best = np.quantile(chance.max(axis=0), (0.05, 0.95))
     score.axvspan(*best, color=PALE, alpha=0.4, linewidth=0)
     score.annotate(

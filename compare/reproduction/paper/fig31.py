@@ -44,8 +44,8 @@ FEWEST = 150
 CONVERGED = 0.5
 """Part by which ten times finer twins may count more boundaries where all of them are counted."""
 FEW_TWINS = "too few twins differ to count boundaries at two resolutions"
-ELASTIC_TOUCHES = 31
-"""Faces are compared so often where no impact loses energy."""
+ELASTIC = 30
+"""Impacts through which faces are compared where none loses energy."""
 ELASTIC_STEPS = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)
 """Distances of twins there [m]."""
 MOST = 100
@@ -199,10 +199,10 @@ def _over(first: Estimate, second: Estimate) -> Estimate:
 def _elastic_shares(heights: Array, spins: Array) -> Array:
     """Return the shares of twins with different faces where impacts lose nothing, in vacuum, (ε, touches)."""
     scenario = case(air=False, restitution=1.0)
-    faces = touched_faces(scenario, heights, spins, ELASTIC_TOUCHES)
+    faces = touched_faces(scenario, heights, spins, ELASTIC + 1)
     return np.array(
         [
-            np.mean(touched_faces(scenario, heights + step, spins, ELASTIC_TOUCHES) != faces, axis=0)
+            np.mean(touched_faces(scenario, heights + step, spins, ELASTIC + 1) != faces, axis=0)
             for step in ELASTIC_STEPS
         ]
     )

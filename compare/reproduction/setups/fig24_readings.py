@@ -48,6 +48,20 @@ COINS = {
 FRICTIONS = (0.05, 0.1, 0.2, 0.3, 0.5)
 
 
+def toss_of(thickness: float, part: float, law: ContactLaw, friction: float) -> Scenario:
+    """Return the toss of Fig. 24(a) of another coin on another floor.
+
+    Args:
+        thickness: of the coin [m].
+        part: of the printed offset of its mass centre, which a thin coin has in its plane.
+        law: of the floor.
+        friction: of the floor.
+    """
+    x, y, z = (part * c for c in _OFFSET)
+    coin = ("coin.thickness", thickness, "coin.center_of_mass", (x, y, z if thickness else 0.0))
+    return load("fig24a").replace(*coin, "floor.contact", law, "floor.friction", friction)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Reading:
     """A coin and a floor that Fig. 24 may mean."""
@@ -66,18 +80,7 @@ class Reading:
     @property
     def scenario(self) -> Scenario:
         """The toss of Fig. 24(a)."""
-        thickness, part = COINS[self.coin]
-        x, y, z = (part * c for c in _OFFSET)
-        return load("fig24a").replace(
-            "coin.thickness",
-            thickness,
-            "coin.center_of_mass",
-            (x, y, z if thickness else 0.0),
-            "floor.contact",
-            self.law,
-            "floor.friction",
-            self.friction,
-        )
+        return toss_of(*COINS[self.coin], self.law, self.friction)
 
 
 READINGS = tuple(
