@@ -4,7 +4,7 @@ import json
 import math
 import operator
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from numbers import Integral
 from pathlib import Path
 from typing import Literal
@@ -35,6 +35,23 @@ class Estimate:
     """Size of the sample."""
     counted: str = "tosses"
     """What the sample is of, in the plural."""
+
+    @property
+    def ends(self) -> tuple[float, float, float]:
+        """The value and the ends of its interval."""
+        return self.value, self.low, self.high
+
+    def __sub__(self, number: float) -> "Estimate":
+        """Return the estimate of the quantity less a number."""
+        return replace(self, value=self.value - number, low=self.low - number, high=self.high - number)
+
+    def __mul__(self, factor: float) -> "Estimate":
+        """Return the estimate of the quantity times a positive factor."""
+        return replace(self, value=self.value * factor, low=self.low * factor, high=self.high * factor)
+
+    def __truediv__(self, divisor: float) -> "Estimate":
+        """Return the estimate of the quantity over a positive number."""
+        return replace(self, value=self.value / divisor, low=self.low / divisor, high=self.high / divisor)
 
     def needed(self, threshold: float) -> int | None:
         """Return the size of sample whose interval would leave out a threshold; None where none would.
@@ -86,7 +103,7 @@ class Criterion:
         """The measured value in words, with its interval."""
         if not isinstance(self.measured, Estimate):
             return _number(self.measured)
-        value, low, high = _alike(self.measured.value, self.measured.low, self.measured.high)
+        value, low, high = _alike(*self.measured.ends)
         return f"{value} [{low}, {high}]"
 
     @property
@@ -103,7 +120,7 @@ class Criterion:
     def row(self) -> tuple[str, ...]:
         """The quantity, its value and interval, the relation, the threshold and its reason."""
         it = self.measured
-        values = (it.value, it.low, it.high) if isinstance(it, Estimate) else (it, "", "")
+        values = it.ends if isinstance(it, Estimate) else (it, "", "")
         return (self.quantity, *map(str, values), self.relation, str(self.threshold), self.reason)
 
     @property

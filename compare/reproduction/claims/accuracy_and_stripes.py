@@ -1,8 +1,6 @@
 """Section 5.3: the accuracy ε of a release against the width W of the stripes of the basins."""
 
 from collections.abc import Callable
-from dataclasses import replace
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,9 +11,9 @@ from numpy.typing import NDArray
 from cointoss import analytic
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY
-from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.claim import Estimate
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import mean_share, ratio_of_medians
-from cointoss.compare.reproduction.result import Reproduction, Result
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHTS,
     LANDINGS,
@@ -31,28 +29,27 @@ LADDER = np.geomspace(1e-10, 0.1, 91)
 """Steps of the height by which a boundary is sought, 10 in a decade [m]."""
 RATIOS = 10.0 ** np.arange(-2, 5)
 """ε over W."""
+W_100, TEN = RATIOS[0], RATIOS[3]
 WIDEST = 0.1
 """Largest ε [m]: the release must stay above the floor."""
 HAND = 1e-3
 """An accuracy that a hand may reach [m]."""
-BY_CHANCE = 0.75
-"""A share that ends as meant below this is nearer to chance."""
 FEWEST = 5
 """Tosses from which a ratio is given."""
 NONE = Estimate(np.nan, np.nan, np.nan, 0)
 """Of fewer."""
 
 
-def make(progress: Progress, centers: int = 200, count: int = 60) -> Result:
+def make(progress: Progress, centers: int = 200, count: int = 60) -> Findings:
     """Measure the stripe of each random release, and toss within ε of it."""
     rng = np.random.default_rng(SEED)
     heights, spins = rng.uniform(*HEIGHTS, centers), rng.uniform(*SPINS, centers)
-    data: dict[str, NDArray[Any]] = {"ratio": RATIOS}
-    at_hand: dict[str, Estimate] = {}
+    data: Data = {"ratio": RATIOS}
+    found = Findings(data=data, at_hand={})
     alike: dict[str, list[Estimate]] = {}
     for landing in LANDINGS:
         width = np.array([stripe_width(landing, z, w) for z, w in zip(heights, spins, strict=True)])
-        progress(2 * len(at_hand) + 1, 2 * len(LANDINGS))
+        progress(2 * len(found.at_hand) + 1, 2 * len(LANDINGS))
         rows = []
         for ratio in RATIOS:
             within = width * ratio <= WIDEST
@@ -60,79 +57,18 @@ def make(progress: Progress, centers: int = 200, count: int = 60) -> Result:
             rows.append(mean_share(shares[within], "releases") if within.sum() >= FEWEST else NONE)
         alike[landing] = rows
         data |= {f"{landing}, width": width, f"{landing}, alike": np.array([one.value for one in rows])}
-        at_hand[landing] = mean_share(
+        found.at_hand[landing] = mean_share(
             _alike(landing, heights, spins, np.full(centers, HAND), count, rng), "releases"
         )
-        progress(2 * len(at_hand), 2 * len(LANDINGS))
+        progress(2 * len(found.at_hand), 2 * len(LANDINGS))
     soft, bouncing = (data[f"{landing}, width"] for landing in LANDINGS)
-    bounced = alike["bouncing"]
-    ten = int(np.flatnonzero(RATIOS == 10)[0])
-    claims = (
-        Claim(
-            claim="if ε ≪ W the outcome is predictable",
-            headline=(
-                f"So it is. Released within W/100 of the aim, {bounced[0].value:.1%} of the bouncing tosses "
-                f"end as meant. But half of the releases lie in stripes below "
-                f"{1e3 * np.median(bouncing):.1g} mm, and a tenth in stripes below "
-                f"{1e6 * np.quantile(bouncing, 0.1):.1g} µm."
-            ),
-            analytic=f"with ε = W/100 {bounced[0].value:.1%} of the bouncing tosses end as the one aimed at",
-            criteria=[
-                Criterion(
-                    "share with ε = W/100", bounced[0], ">", 0.97, "a few lie at the edge of their stripe"
-                )
-            ],
-        ),
-        Claim(
-            claim="if ε ≫ W heads and tails are as likely",
-            headline=(
-                f"So it is for a coin that bounces. Released within 10 W, {bounced[ten].value:.0%} end as "
-                f"meant; with a hand's {1e3 * HAND:g} mm, {at_hand['bouncing'].value:.0%}. On a soft floor "
-                f"{at_hand['soft floor'].value:.0%} do: there a toss is no chance."
-            ),
-            analytic=f"with ε = {_listed(data['bouncing, alike'])} end as the one aimed at",
-            criteria=[
-                Criterion(
-                    f"share with ε = {ratio:,.0f} W, less 1/2",
-                    replace(one, value=one.value - 1 / 2, low=one.low - 1 / 2, high=one.high - 1 / 2),
-                    "within ±",
-                    0.1,
-                    "nearer to chance than a hand's habit",
-                )
-                for ratio, one in zip(RATIOS, bounced, strict=True)
-                if ratio >= 10 and one.count
-            ],
-        ),
-        Claim(
-            claim="W depends on the coin and its landing: bouncing makes stripes narrow",
-            analytic=(
-                f"in the median a release lies in a stripe {1e3 * np.median(bouncing):.2g} mm wide, on a "
-                f"soft floor {1e3 * np.median(soft):.0f} mm; a tenth of them in stripes below "
-                f"{1e6 * np.quantile(bouncing, 0.1):.2g} µm"
-            ),
-            criteria=[
-                Criterion(
-                    "median width, bouncing over soft floor",
-                    ratio_of_medians(bouncing, soft, rng, "releases"),
-                    "<",
-                    0.01,
-                    "another size",
-                )
-            ],
-        ),
-        Claim(
-            claim="so a hand leaves a bouncing coin to chance",
-            analytic=(
-                f"aimed within 1 mm {at_hand['bouncing'].value:.0%} end as meant, on a soft floor "
-                f"{at_hand['soft floor'].value:.0%}"
-            ),
-            criteria=[
-                Criterion("share, bouncing", at_hand["bouncing"], "<", BY_CHANCE, "nearer to 1/2 than to 1"),
-                Criterion("on a soft floor", at_hand["soft floor"], ">", BY_CHANCE, "nearer to 1"),
-            ],
-        ),
-    )
-    return Result(claims=claims, data=data)
+    found.bounced = dict(zip(RATIOS.tolist(), alike["bouncing"], strict=True))
+    found.off_half = {r: one - 1 / 2 for r, one in found.bounced.items() if r >= 10 and one.count}
+    found.median, found.tenth = np.median(bouncing), np.quantile(bouncing, 0.1)
+    found.soft = np.median(soft)
+    found.ends = _listed(data["bouncing, alike"])
+    found.ratio = ratio_of_medians(bouncing, soft, rng, "releases")
+    return found
 
 
 def _listed(alike: Array) -> str:
@@ -172,7 +108,7 @@ def _alike(
     return np.mean(faces == aimed[:, None], axis=1)
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(9, 3.4))
     alike, widths = picture.subplots(1, 2)
     _draw_alike(alike, data)
@@ -180,10 +116,10 @@ def _draw(data: dict[str, NDArray[Any]]) -> Figure:
     return picture
 
 
-def _draw_opening(draw: Callable[[Axes, dict[str, NDArray[Any]]], None]) -> Callable[[Any], Figure]:
+def _draw_opening(draw: Callable[[Axes, Data], None]) -> Callable[[Any], Figure]:
     """Return what draws one half of the picture for the opening of the page."""
 
-    def opening(data: dict[str, NDArray[Any]]) -> Figure:
+    def opening(data: Data) -> Figure:
         picture = Figure(figsize=(4.4, 3.2))
         draw(picture.subplots(), data)
         return picture
@@ -191,7 +127,7 @@ def _draw_opening(draw: Callable[[Axes, dict[str, NDArray[Any]]], None]) -> Call
     return opening
 
 
-def _draw_alike(axes: Axes, data: dict[str, NDArray[Any]]) -> None:
+def _draw_alike(axes: Axes, data: Data) -> None:
     for landing, color in LANDINGS.items():
         axes.semilogx(data["ratio"], data[f"{landing}, alike"], "o-", color=color, label=landing)
     axes.axhline(0.5, color=GREY, linewidth=0.8)
@@ -199,7 +135,7 @@ def _draw_alike(axes: Axes, data: dict[str, NDArray[Any]]) -> None:
     axes.legend(loc="lower left")
 
 
-def _draw_widths(axes: Axes, data: dict[str, NDArray[Any]]) -> None:
+def _draw_widths(axes: Axes, data: Data) -> None:
     for landing, color in LANDINGS.items():
         width = np.sort(data[f"{landing}, width"])
         axes.semilogx(width, np.arange(1, len(width) + 1) / len(width), color=color, label=landing)
@@ -209,22 +145,12 @@ def _draw_widths(axes: Axes, data: dict[str, NDArray[Any]]) -> None:
     axes.legend(loc="upper left")
 
 
-REPRODUCTION = Reproduction(
-    paper="Section 5.3",
-    title="the accuracy of a release against the width of the stripes",
-    assumed=(
-        "Accuracy and width are those of the height, at random releases in the map of Fig. 29 in air, "
-        "χ = 0.6; soft floor: the face at the first touch. W reaches from the next boundary below to the "
-        "next above, sought up to 0.1 m off in steps of a quarter; stripes narrower than a step can be "
-        "passed over. The line on the right is 1 mm."
-    ),
-    seconds=15,
-    make=make,
+REPRODUCTION = declared(
+    __name__,
+    make,
     draw={
         "figure": _draw,
         "below-the-width": _draw_opening(_draw_widths),
         "above-the-width": _draw_opening(_draw_alike),
     },
-    quick_seconds=8,
-    quick=partial(make, centers=15, count=20),
 )

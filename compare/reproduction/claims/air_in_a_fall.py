@@ -1,12 +1,9 @@
 """Claims of sections 4.2 and 5.1: what the air does to a falling coin, over 20 cm and over 50 m."""
 
-from functools import partial
 from types import ModuleType
-from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from cointoss import analytic, coin_mj
 from cointoss.analytic.events import run
@@ -14,9 +11,9 @@ from cointoss.analytic.toss import state_of
 from cointoss.coin_mj.toss import impacts_of
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, VERMILION
-from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.claim import Estimate
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import share
-from cointoss.compare.reproduction.result import Reproduction, Result
 from cointoss.compare.reproduction.setups.planar_maps import SPINS, case, releases
 from cointoss.models.parts import EndingCriteria, Release
 from cointoss.models.reading import load
@@ -35,8 +32,6 @@ TILT = np.pi / 4
 """Of the coin dropped without spin, as in Fig. 3(d)-(f)."""
 SAMPLES = 4000
 """Of a fall."""
-NEGLIGIBLE = 0.01
-"""A share of the tosses that can be neglected."""
 AIR_DENSITY, AIR_VISCOSITY = 1.204, 1.516e-5
 """Of the air at 20 °C: ρ [kg/m³] and the kinematic ν [m²/s]."""
 DISC_DRAG = 1.17
@@ -45,7 +40,7 @@ TERMINAL_TIMES = {0.0: 40.0, 1.0: 8.0}
 """In which the coin comes within a part in 10³ of its terminal speed, by the exponent b [s]."""
 
 
-def make(progress: Progress, count: int = 4000) -> Result:
+def make(progress: Progress, count: int = 4000) -> Findings:
     """Let `count` spinning coins fall from each height in air and in vacuum, and single ones without spin."""
     spins = np.random.default_rng(SEED).uniform(*SPINS, count)
     rows = []
@@ -53,116 +48,37 @@ def make(progress: Progress, count: int = 4000) -> Result:
         rows.append(landing_shifts(height, spins))
         progress(done, len(FALLS) + 1)
     later, turned, aside = np.array([row[:3] for row in rows]).T
-    changed = [row[3] for row in rows]
-    bounced = _bounced(spins)
+    found = Findings(later=later, turned=np.degrees(turned), aside=aside, changed=[row[3] for row in rows])
+    found.bounced = _bounced(spins)
     drops = {name: _tilts(analytic, name, FALLS) for name in DROPPED}
     by_mujoco = {name: _tilts(coin_mj, name, FALLS[LONG:]) for name in DROPPED}
-    reversals = {name: [turning_points(tilt) for tilt in tilts] for name, (_, tilts, _) in drops.items()}
-    reversals_mujoco = {name: turning_points(tilts[0]) for name, (_, tilts, _) in by_mujoco.items()}
-    glided = drops[IDEAL][2][LONG]
-    terminal = [_terminal(engine, b) for engine in (analytic, coin_mj) for b in TERMINAL_TIMES]
+    found.reversals = {
+        name: [turning_points(tilt) for tilt in tilts] for name, (_, tilts, _) in drops.items()
+    }
+    found.reversals_mujoco = {name: turning_points(tilts[0]) for name, (_, tilts, _) in by_mujoco.items()}
+    found.glided = drops[IDEAL][2][LONG]
+    found.terminal = [_terminal(engine, b) for engine in (analytic, coin_mj) for b in TERMINAL_TIMES]
     progress(len(FALLS) + 1, len(FALLS) + 1)
     coin = load("fig3_flat").coin
     area = np.pi * coin.radius**2
-    real = np.sqrt(2 * coin.mass * 9.81 / (AIR_DENSITY * DISC_DRAG * area))
+    found.real = np.sqrt(2 * coin.mass * 9.81 / (AIR_DENSITY * DISC_DRAG * area))
     landing = np.sqrt(2 * 9.81 * 1.86)
-    reynolds = [2 * r * v / AIR_VISCOSITY for r, v in ((0.01, 10.0), (coin.radius, landing))]
-    stokes = AIR_VISCOSITY / (2 * coin.radius) / 9.81
-    claims = (
-        Claim(
-            claim="over a small fall the air can be neglected (the landing)",
-            analytic=(
-                f"from {FALLS[HAND]:g} m the coin lands {1e3 * later[HAND]:.1f} ms later, "
-                f"{np.degrees(turned[HAND]):.1f}° short of its turns and {1e3 * aside[HAND]:.2f} mm aside; "
-                f"{changed[HAND].value:.1%} of the tosses land on another face"
-            ),
-            mujoco=f"lands within {_mujoco_apart(spins):.0e} s and m of the analytic engine",
-            criteria=[Criterion("share on another face", changed[HAND], "<", NEGLIGIBLE, "one toss in 100")],
-            expected=False,
-        ),
-        Claim(
-            claim="over a small fall the air can be neglected (the final face, after bouncing with χ = 0.6)",
-            analytic=f"from {FALLS[HAND]:g} m it changes {bounced.value:.1%} of the outcomes",
-            criteria=[Criterion("share of other outcomes", bounced, "<", NEGLIGIBLE, "one toss in 100")],
-            expected=False,
-        ),
-        Claim(
-            claim="the path leaves the vertical only a little",
-            analytic=(
-                f"a spinning coin lands {100 * aside[HAND]:.2g} cm aside from {FALLS[HAND]:g} m, "
-                f"{100 * aside[LONG]:.2g} cm from {FALLS[LONG]:g} m; one that keeps 45° glides "
-                f"{glided:.1f} m"
-            ),
-            mujoco=f"glides {by_mujoco[IDEAL][2][0]:.1f} m",
-            criteria=[
-                Criterion(
-                    f"aside of a spinning coin from {FALLS[LONG]:g} m [m]",
-                    aside[LONG],
-                    "<",
-                    0.02 * FALLS[LONG],
-                    "2 % of the fall",
-                )
-            ],
-        ),
-        Claim(
-            claim="from tens of metres the coin flutters like a leaf (the ideal coin)",
-            analytic=(
-                f"dropped at 45° it keeps its tilt: it turns back {reversals[IDEAL][LONG]} times in "
-                f"{FALLS[LONG]:g} m, for the air gives an ideal coin no moment but against its spin"
-            ),
-            mujoco=f"{reversals_mujoco[IDEAL]} times",
-            criteria=[Criterion("turns back", reversals[IDEAL][LONG], ">", 0, "a flutter is some")],
-            expected=False,
-        ),
-        Claim(
-            claim="from tens of metres the coin flutters like a leaf (the imperfect coin)",
-            analytic=(
-                "dropped at 45° it swings its heavy side down and turns back "
-                + ", ".join(f"{reversals[IMPERFECT][i]} times in {FALLS[i]:g} m" for i in (3, 5, 6, 7))
-            ),
-            mujoco=f"{reversals_mujoco[IMPERFECT]} times in {FALLS[LONG]:g} m",
-            criteria=[Criterion("turns back", reversals[IMPERFECT][LONG], ">", 5, "a flutter goes on")],
-        ),
-        Claim(
-            claim="linear air with λ_n = 0.8 is a real coin's (section 2): broadside it sinks as fast",
-            analytic=(
-                f"its terminal speed is {terminal[0]:.1f} m/s; a real disc's with C_D = {DISC_DRAG:g} is "
-                f"{real:.1f} m/s; read as quadratic (b = 1) λ_n = 0.8 gives {terminal[1]:.1f} m/s"
-            ),
-            mujoco=f"{terminal[2]:.1f} and {terminal[3]:.1f} m/s",
-            criteria=[
-                Criterion(
-                    "terminal speed over the real one, less 1",
-                    abs(terminal[0] / real - 1),
-                    "<",
-                    0.2,
-                    "C_D is known to about a tenth",
-                )
-            ],
-            expected=False,
-        ),
-        Claim(
-            claim="Re reaches 10⁴, at 10 m/s with r = 1 cm",
-            analytic=(
-                f"{reynolds[0]:.2g}; {reynolds[1]:.2g} at the end of the drops from 1.86 m, and above 1 from "
-                f"{1e6 * stokes:.0f} µs on, where resistance grows faster than v"
-            ),
-            criteria=[
-                Criterion("Re", reynolds[0], ">", 1e4 / 2, "half of it"),
-                Criterion("Re", reynolds[0], "<", 1e4 * 2, "twice it: an order of magnitude"),
-            ],
-        ),
-    )
-    data: dict[str, NDArray[Any]] = {
+    found.reynolds = [2 * r * v / AIR_VISCOSITY for r, v in ((0.01, 10.0), (coin.radius, landing))]
+    found.stokes = AIR_VISCOSITY / (2 * coin.radius) / 9.81
+    found.mujoco_apart, found.glided_mujoco = _mujoco_apart(spins), by_mujoco[IDEAL][2][0]
+    found.limit, found.terminal_off = 0.02 * FALLS[LONG], abs(found.terminal[0] / found.real - 1)
+    of_imperfect = found.reversals[IMPERFECT]
+    found.turns_back = ", ".join(f"{of_imperfect[i]} times in {FALLS[i]:g} m" for i in (3, 5, 6, 7))
+    found.data = {
         "height": FALLS,
         "later": later,
         "turned": turned,
         "aside": aside,
-        "changed": np.array([one.value for one in changed]),
+        "changed": np.array([one.value for one in found.changed]),
     }
     for name, (times, tilts, _) in drops.items():
-        data |= {f"{name}, time": times[-1], f"{name}, tilt": tilts[-1]}
-    return Result(claims=claims, data=data)
+        found.data |= {f"{name}, time": times[-1], f"{name}, tilt": tilts[-1]}
+    return found
 
 
 def landing_shifts(height: float, spins: Array) -> tuple[float, float, float, Estimate]:
@@ -252,7 +168,7 @@ def _terminal(engine: ModuleType, exponent: float) -> float:
     return float(-engine.toss(falling).sample(TERMINAL_TIMES[exponent]).velocity[0, 2])
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(10, 3.4))
     shifts, faces, flutter = picture.subplots(1, 3)
     height = data["height"]
@@ -279,17 +195,4 @@ def _draw(data: dict[str, NDArray[Any]]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Claims of sections 4.2 and 5.1",
-    title="the air over a small fall and a long one: landing, drift, flutter, terminal speed",
-    assumed=(
-        "A small fall is that of Fig. 24, 0.4 m; the spinning coins are the thin ones of Fig. 29 with 20 to "
-        "60 rad/s, dropped flat; those without spin are the thick ones of Fig. 3, dropped at 45°. A coin "
-        "flutters when its tilt turns back. The real disc's drag is ρ C_D A v²/2 in air of 20 °C."
-    ),
-    seconds=20,
-    make=make,
-    draw={"figure": _draw},
-    quick_seconds=8,
-    quick=partial(make, count=200),
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

@@ -1,20 +1,15 @@
 """Section 1, after Zeng-Yuan and Bin: a coin that bounces in air in a plane, and what spin in space adds."""
 
-from functools import partial
-from typing import Any
-
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from cointoss import analytic, coin_mj
 from cointoss.analytic.events import run
 from cointoss.coin_mj.toss import impacts_of
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, VERMILION
-from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import share
-from cointoss.compare.reproduction.result import Reproduction, Result
 from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, faces_after, releases
 from cointoss.compare.reproduction.setups.release_arrays import chosen, moved, states_of
 from cointoss.models.parts import Release
@@ -36,96 +31,47 @@ ACCURACY = 1e-6
 """By which the height of nearby tosses differs [m]."""
 
 
-def make(progress: Progress, count: int = 2000, tosses_mujoco: int = 200) -> Result:
+def make(progress: Progress, count: int = 2000, tosses_mujoco: int = 200) -> Findings:
     """Toss in a plane; add spin about the normal; drop from ever greater heights."""
+    found = Findings()
     scenario = case(air=True)
     rng = np.random.default_rng(SEED)
     flat = releases(rng.uniform(*HEIGHTS, count), rng.uniform(*SPINS, count))
     outcome = analytic.toss_many(scenario, flat).outcome
     first = faces_after(scenario, flat, 0)
-    apart, mujoco = _in_plane(flat)
+    found.apart, found.mujoco = _in_plane(flat)
     turned = moved(chosen(flat, slice(tosses_mujoco)), angular_velocity=np.array([0, 0, ASIDE[SHOWN]]))
-    heads_mujoco = np.mean(
+    found.heads_mujoco = np.mean(
         coin_mj.toss_many(scenario, turned, settings=coin_mj.FINE).outcome == Outcome.HEADS
     )
     whole = 1 + len(ASIDE) + len(HEIGHTS_OF_DROP)
     progress(1, whole)
-    changed, changed_first, heads = [], [], []
+    found.changed, found.changed_first, found.heads = [], [], []
     for done, spin in enumerate(ASIDE, start=2):
         turned = moved(flat, angular_velocity=np.array([0, 0, spin]))
         ended = analytic.toss_many(scenario, turned).outcome
-        changed.append(share(ended != outcome))
-        changed_first.append(np.mean(faces_after(scenario, turned, 0) != first))
-        heads.append(np.mean(ended == Outcome.HEADS))
+        found.changed.append(share(ended != outcome))
+        found.changed_first.append(np.mean(faces_after(scenario, turned, 0) != first))
+        found.heads.append(np.mean(ended == Outcome.HEADS))
         progress(done, whole)
-    uncertain = []
+    found.uncertain = []
     spins = rng.uniform(*DROP_SPINS, count)
     for done, height in enumerate(HEIGHTS_OF_DROP, start=2 + len(ASIDE)):
         one, other = (
             analytic.toss_many(scenario, releases(np.full(count, height + step), spins)).outcome
             for step in (0.0, ACCURACY)
         )
-        uncertain.append(share(one != other))
+        found.uncertain.append(share(one != other))
         progress(done, whole)
-    claims = (
-        Claim(
-            claim="two degrees of freedom, height and tilt, are enough for a coin that turns about ξ",
-            analytic=(
-                f"it never leaves its plane ({apart[0]:.0e} m); in it the air pushes it aside by up to "
-                f"{1e6 * apart[1]:.0f} µm"
-            ),
-            mujoco=mujoco,
-            criteria=[
-                Criterion("off the plane [m]", apart[0], "<", 1e-12, "rounding"),
-                Criterion("aside in it [m]", apart[1], "<", 1e-3, "less than a tenth of r"),
-            ],
-        ),
-        Claim(
-            claim="the results hold for two degrees of freedom only",
-            analytic=(
-                f"{ASIDE[SHOWN]:g} rad/s about the normal change {changed_first[SHOWN]:.0%} of the first "
-                f"touches and {changed[SHOWN].value:.0%} of the outcomes, heads from {heads[0]:.0%} to "
-                f"{heads[SHOWN]:.0%}; {ASIDE[1]:g} rad/s change {changed[1].value:.0%}"
-            ),
-            mujoco=f"heads {heads_mujoco:.0%} of {tosses_mujoco} tosses with {ASIDE[SHOWN]:g} rad/s",
-            criteria=[
-                Criterion(
-                    f"share of other outcomes with {ASIDE[SHOWN]:g} rad/s",
-                    changed[SHOWN],
-                    ">",
-                    0.2,
-                    "two fifths of what chance would give",
-                )
-            ],
-        ),
-        Claim(
-            claim="from apparently deterministic the toss becomes random (the title of that study)",
-            analytic=(
-                f"1 µm of height changes {uncertain[0].value:.1%} of the outcomes from "
-                f"{HEIGHTS_OF_DROP[0]:g} m, {uncertain[3].value:.1%} from {HEIGHTS_OF_DROP[3]:g} m, "
-                f"{uncertain[-1].value:.0%} from {HEIGHTS_OF_DROP[-1]:g} m"
-            ),
-            criteria=[
-                Criterion(
-                    f"share of uncertain outcomes from {HEIGHTS_OF_DROP[0]:g} m",
-                    uncertain[0],
-                    "<",
-                    0.01,
-                    "nearly none",
-                ),
-                Criterion(f"from {HEIGHTS_OF_DROP[-1]:g} m", uncertain[-1], ">", 0.05, "five times as many"),
-            ],
-        ),
-    )
-    data: dict[str, NDArray[Any]] = {
+    found.data = {
         "aside": ASIDE,
-        "changed": np.array([one.value for one in changed]),
-        "changed first": np.array(changed_first),
-        "heads": np.array(heads),
+        "changed": np.array([one.value for one in found.changed]),
+        "changed first": np.array(found.changed_first),
+        "heads": np.array(found.heads),
         "height": HEIGHTS_OF_DROP,
-        "uncertain": np.array([one.value for one in uncertain]),
+        "uncertain": np.array([one.value for one in found.uncertain]),
     }
-    return Result(claims=claims, data=data)
+    return found
 
 
 def _in_plane(flat: Releases) -> tuple[tuple[float, float], str]:
@@ -148,7 +94,7 @@ def _in_plane(flat: Releases) -> tuple[tuple[float, float], str]:
     return (float(max(off)), float(max(aside))), by_mujoco
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(9, 3.3))
     spin, drop = picture.subplots(1, 2)
     spin.plot(data["aside"], data["changed"], "o-", color=VERMILION, label="outcomes changed")
@@ -163,16 +109,4 @@ def _draw(data: dict[str, NDArray[Any]]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Section 1, Zeng-Yuan and Bin",
-    title="bounces in air with two degrees of freedom, and with spin about the normal",
-    assumed=(
-        "The paper gives no numbers of that study. The coin is the thin ideal one of Fig. 29 in air, "
-        "χ = 0.6, released flat with 20 to 60 rad/s about ξ; in the last row with 2 to 20 rad/s."
-    ),
-    seconds=25,
-    make=make,
-    draw={"figure": _draw},
-    quick_seconds=6,
-    quick=partial(make, count=200, tosses_mujoco=20),
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

@@ -1,8 +1,6 @@
 """A claim of section 2: a coin that bounces is less fair than one that lands softly or is caught."""
 
-from collections.abc import Callable, Sequence
-from functools import partial
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -12,9 +10,9 @@ from cointoss import analytic, coin_mj
 from cointoss.analytic.flight.integrated_flight import sample_flight
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, INK, VERMILION
-from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.claim import Estimate
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import jackknife, mean
-from cointoss.compare.reproduction.result import Reproduction, Result
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
 from cointoss.compare.reproduction.setups.release_arrays import chosen, states_of
 from cointoss.models.laws import ContactLaw
@@ -27,17 +25,21 @@ from cointoss.models.scenario import Scenario
 SEED = 2
 SPREAD = 0.05
 """Of the tosses of one hand, relative."""
-ASIDE = {"about one axis": 0.0, "about all axes": 10.0}
+ONE_AXIS, ALL_AXES = "about one axis", "about all axes"
+ASIDE = {ONE_AXIS: 0.0, ALL_AXES: 10.0}
 """Spins about ξ and ζ of the two kinds of tosses, at most [rad/s]."""
+SMOOTH, ROUGH = "bounced, smooth floor", "bounced, rough floor"
 FLOORS = {
-    "bounced, smooth floor": Floor(restitution=0.6, contact=ContactLaw.SMOOTH),
-    "bounced, rough floor": Floor(restitution=0.6, contact=ContactLaw.COULOMB, friction=0.2),
+    SMOOTH: Floor(restitution=0.6, contact=ContactLaw.SMOOTH),
+    ROUGH: Floor(restitution=0.6, contact=ContactLaw.COULOMB, friction=0.2),
 }
-LANDINGS = ("caught", "soft floor", *FLOORS)
+CAUGHT, SOFT = "caught", "soft floor"
+LANDINGS = (CAUGHT, SOFT, *FLOORS)
 
 
-def make(progress: Progress, hands: int = 1000, each: int = 20, tosses_mujoco: int = 300) -> Result:
+def make(progress: Progress, hands: int = 1000, each: int = 20, tosses_mujoco: int = 300) -> Findings:
     """Let hands toss a thin ideal coin with two kinds of spin, and end each toss in four ways."""
+    found = Findings()
     scenario = load("fig29")
     rng = np.random.default_rng(SEED)
     heads: dict[tuple[str, str], Array] = {}
@@ -54,72 +56,30 @@ def make(progress: Progress, hands: int = 1000, each: int = 20, tosses_mujoco: i
     assert tossed is not None
     every = slice(None, None, len(tossed) // tosses_mujoco)
     few = chosen(tossed, every)
-    same = int(
+    found.same = int(
         np.sum(coin_mj.toss_many(_once(scenario), few, settings=coin_mj.FINE).last_face == first_faces[every])
     )
     ended = coin_mj.toss_many(_on(scenario, next(iter(FLOORS.values()))), few, settings=coin_mj.FINE).outcome
     by_analytic = analytic.toss_many(_on(scenario, next(iter(FLOORS.values()))), few).outcome
-    heads_few = [float(np.mean(outcomes == Face.HEADS)) for outcomes in (ended, by_analytic)]
+    found.heads_few = [float(np.mean(outcomes == Face.HEADS)) for outcomes in (ended, by_analytic)]
     progress(whole, whole)
     bias = {key: bias_of_hands(shares, each) for key, shares in heads.items()}
-    together = {key: mean(shares, "hands") for key, shares in heads.items()}
-    plain, all_axes = ASIDE
-    smooth, rough = FLOORS
-    claims = (
-        Claim(
-            claim="bouncing is less fair than a soft landing or a catch (a hand's bias)",
-            analytic=(
-                "heads is off 1/2 by, in the root of the mean square over the hands: "
-                + "; ".join(
-                    f"spin {kind} "
-                    + ", ".join(f"{bias[kind, landing]:.2f} {landing}" for landing in LANDINGS)
-                    for kind in ASIDE
-                )
-            ),
-            mujoco=f"{same} of {len(few)} first touches as the analytic engine",
-            criteria=[
-                Criterion(
-                    f"bias {bounced} less that otherwise (spin {kind})",
-                    _less_fair(
-                        [heads[kind, landing] for landing in LANDINGS[:2]],
-                        heads[kind, bounced],
-                        lambda shares: bias_of_hands(shares, each),
-                    ),
-                    ">",
-                    0,
-                    "the larger of a catch's and a soft landing's",
-                )
-                for kind in ASIDE
-                for bounced in FLOORS
-            ],
-            expected=False,
-        ),
-        Claim(
-            claim="bouncing is less fair than a soft landing or a catch (all hands together)",
-            analytic=(
-                "a coin that spins about all axes, on a smooth floor, shows the side first up in "
-                f"{together[all_axes, smooth].value:.1%} of the tosses, on a soft floor "
-                f"{together[all_axes, LANDINGS[1]].value:.1%}, caught "
-                f"{together[all_axes, LANDINGS[0]].value:.1%}: smooth impacts keep the angular momenta about "
-                "the normal and the vertical"
-            ),
-            mujoco=f"{heads_few[0]:.1%} of {len(few)} tosses on a smooth floor, {heads_few[1]:.1%} analytic",
-            criteria=[_off_half_more(heads, all_axes, smooth)],
-        ),
-        Claim(
-            claim="bouncing is less fair than a soft landing or a catch (all hands together, rough floor)",
-            analytic=(
-                f"with friction μ = 0.2 it shows it in {together[all_axes, rough].value:.1%}; a coin that "
-                f"spins about one axis in {together[plain, smooth].value:.1%} on a smooth floor"
-            ),
-            criteria=[_off_half_more(heads, all_axes, rough)],
-            expected=False,
-        ),
+    found.together = {key: mean(shares, "hands") for key, shares in heads.items()}
+    found.biases = "; ".join(
+        f"spin {kind} " + ", ".join(f"{bias[kind, landing]:.2f} {landing}" for landing in LANDINGS)
+        for kind in ASIDE
     )
-    data: dict[str, NDArray[Any]] = {
-        f"{kind}, {landing}": shares for (kind, landing), shares in heads.items()
+    found.few = len(few)
+    found.bias = {
+        f"bias {bounced} less that otherwise (spin {kind})": _less_fair(
+            heads, kind, bounced, lambda shares: bias_of_hands(shares, each)
+        )
+        for kind in ASIDE
+        for bounced in FLOORS
     }
-    return Result(claims=claims, data=data)
+    found.off = {bounced: _less_fair(heads, ALL_AXES, bounced, _off_half) for bounced in FLOORS}
+    found.data = {f"{kind}, {landing}": shares for (kind, landing), shares in heads.items()}
+    return found
 
 
 def _on(scenario: Scenario, floor: Floor) -> Scenario:
@@ -156,31 +116,24 @@ def bias_of_hands(shares: Array, each: int) -> float:
     return float(np.sqrt(max(np.mean((shares - 1 / 2) ** 2 - by_chance), 0)))
 
 
-def _less_fair(others: Sequence[Array], bounced: Array, measure: Callable[[Array], float]) -> Estimate:
+def _less_fair(
+    heads: dict[tuple[str, str], Array], kind: str, bounced: str, measure: Callable[[Array], float]
+) -> Estimate:
     """Return a measure of unfairness after bouncing less its largest without, with a jackknife over hands."""
+    after, others = heads[kind, bounced], [heads[kind, landing] for landing in LANDINGS[:2]]
 
     def excess(kept: NDArray[np.bool_]) -> float:
-        return measure(bounced[kept]) - max(measure(shares[kept]) for shares in others)
+        return measure(after[kept]) - max(measure(shares[kept]) for shares in others)
 
-    return jackknife(excess, len(bounced), "hands")
-
-
-def _off_half_more(heads: dict[tuple[str, str], Array], kind: str, bounced: str) -> Criterion:
-    """Return how much farther all hands together are off 1/2 after bouncing, as a criterion."""
-    return Criterion(
-        f"off 1/2 {bounced}, less that otherwise",
-        _less_fair(
-            [heads[kind, landing] for landing in LANDINGS[:2]],
-            heads[kind, bounced],
-            lambda shares: abs(float(shares.mean()) - 1 / 2),
-        ),
-        ">",
-        0,
-        "the larger of a catch's and a soft landing's",
-    )
+    return jackknife(excess, len(after), "hands")
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+def _off_half(shares: Array) -> float:
+    """Return how far all hands together are off 1/2."""
+    return abs(float(shares.mean()) - 1 / 2)
+
+
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(9, 4.2))
     bins = np.linspace(0, 1, 22)
     grid = picture.subplots(len(ASIDE), len(LANDINGS), sharex=True, sharey=True)
@@ -198,19 +151,4 @@ def _draw(data: dict[str, NDArray[Any]]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Claims of section 2",
-    title="how fair hands are when the coin is caught, lands softly, or bounces",
-    assumed=(
-        "The paper gives no measure of fairness. Here hands toss from 0.8 to 1.2 m, upwards at 1 to 3 m/s, "
-        "with 20 to 60 rad/s, each with its own habit, from which its tosses differ by 5 %; the coin is the "
-        "thin ideal one of Fig. 29, heads up, 7° from flat, and in the second case turns at up to 10 rad/s "
-        "about its other axes too. Soft: the face up at the first touch. Caught: that at the height of "
-        "release. Dashed: the mean over the hands."
-    ),
-    seconds=120,
-    make=make,
-    draw={"figure": _draw},
-    quick_seconds=10,
-    quick=partial(make, hands=100, each=10, tosses_mujoco=20),
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

@@ -1,34 +1,30 @@
 """Fig. 24: a search for the coin, floor, restitution, g and tilt that give the printed sequences."""
 
-from collections.abc import Mapping
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import partial
-from os import cpu_count
-from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.random import Generator
-from numpy.typing import NDArray
 
 from cointoss.compare.output.progress import Progress
-from cointoss.compare.output.style import INK, PALE, SKY, VERMILION
+from cointoss.compare.output.style import INK, PALE
 from cointoss.compare.output.tables import table
-from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import share
-from cointoss.compare.reproduction.paper.fig24 import APART, NEARBY
-from cointoss.compare.reproduction.result import Reproduction, Result
 from cointoss.compare.reproduction.setups.fig24_readings import (
+    APART,
     MARK,
+    NEARBY,
     PRINTED,
     clusters_as_printed,
     printed_heights,
     sequences,
     shared_with_marks,
+    toss_of,
 )
+from cointoss.compare.reproduction.setups.fig24_scores import draw_scores
+from cointoss.compare.reproduction.threads import all_cores
 from cointoss.models.laws import ContactLaw
-from cointoss.models.reading import load
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 
@@ -37,13 +33,10 @@ COUNT, HEIGHTS = 4000, 5
 """Settings that are drawn, and random heights at which each is tossed for what chance gives."""
 SEARCHES = 4000
 """Searches by chance."""
-BEYOND_CHANCE = 0.01
-"""A match that fewer searches by chance attain is one."""
 PRINTED_FACES = sum(len(text.replace(MARK, "")) for text in PRINTED.values())
 RESTITUTIONS, FRICTIONS, TILTS = (0.6, 0.9), (0.02, 0.6), (-10.0, 10.0)
 """Ranges of χ, of μ where the law has it, and of θ about the printed 7 or -7 [deg]."""
 THICKNESSES, GRAVITIES = (0.0, 1e-3, 2e-3), (9.8, 9.80665, 9.81, 10.0)
-_OFFSET = np.array([-1e-3, -1e-3, -2e-4])
 _WITH_FRICTION = (ContactLaw.SLIDING_FRICTION, ContactLaw.COULOMB)
 SHOWN = 5
 """Of the best settings."""
@@ -81,23 +74,10 @@ class Settings:
     @property
     def scenario(self) -> Scenario:
         """The toss of Fig. 24(a)."""
-        x, y, z = self.offset * _OFFSET
-        return load("fig24a").replace(
-            "gravity",
-            self.gravity,
-            "coin.thickness",
-            self.thickness,
-            "coin.center_of_mass",
-            (x, y, z if self.thickness else 0.0),
-            "floor.contact",
-            self.law,
-            "floor.friction",
-            self.friction,
-            "floor.restitution",
-            self.restitution,
-            "release.angles",
-            (0.0, np.radians(self.tilt), 0.0),
-        )
+        tilt = (0.0, np.radians(self.tilt), 0.0)
+        toss = toss_of(self.thickness, self.offset, self.law, self.friction)
+        floor = ("floor.restitution", self.restitution)
+        return toss.replace("gravity", self.gravity, *floor, "release.angles", tilt)
 
 
 def drawn(rng: Generator) -> Settings:
@@ -115,29 +95,34 @@ def drawn(rng: Generator) -> Settings:
     )
 
 
-def make(progress: Progress, count: int = COUNT, heights: int = HEIGHTS) -> Result:
+def make(progress: Progress, count: int = COUNT, heights: int = HEIGHTS) -> Findings:
     """Toss coins of random settings from the printed heights, and from random ones near them."""
     rng = np.random.default_rng(SEED)
     settings = [drawn(rng) for _ in range(count)]
     lows = rng.uniform(*NEARBY, (count, heights))
-    pool = ThreadPoolExecutor(cpu_count())
     rows = []
-    try:
-        for done, row in enumerate(pool.map(_scores, settings, lows)):
+    with all_cores() as pool:
+        for row in pool.map(_scores, settings, lows):
             rows.append(row)
-            progress(done + 1, count)
-    finally:
-        # An interruption does not wait for the settings not yet begun.
-        pool.shutdown(cancel_futures=True)
-    found = np.array(rows)
-    data = {"scores": found[:, 0], "begins as printed": found[:, 1], "by chance": found[:, 2:]}
-    chance = best_by_chance(data["by chance"], rng)
-    order = np.argsort(-data["scores"], kind="stable")[:SHOWN]
+            progress(len(rows), count)
+    shared = np.array(rows)
+    scores, begins, by_chance = shared[:, 0], shared[:, 1], shared[:, 2:]
+    chance = best_by_chance(by_chance, rng)
+    order = np.argsort(-scores, kind="stable")[:SHOWN]
     head = ["thickness [mm]", "part of the offset", "law, μ", "χ", "g [m/s²]", "θ [deg]", "faces shared"]
-    best = table(head, [[*settings[i].words, f"{data['scores'][i]:.0f}"] for i in order])
-    return Result(
-        claims=_claims(data, chance),
-        data=data | {"best by chance": chance},
+    best = table(head, [[*settings[i].words, f"{scores[i]:.0f}"] for i in order])
+    return Findings(
+        settings=count,
+        best=scores.max(),
+        median=np.median(chance),
+        beginning=begins.sum(),
+        as_good=share(chance >= scores.max(), "searches"),
+        data={
+            "scores": scores,
+            "begins as printed": begins,
+            "by chance": by_chance,
+            "best by chance": chance,
+        },
         tables=f"The best of {count:,d} settings, of {PRINTED_FACES} printed faces:\n\n{best}",
     )
 
@@ -163,47 +148,14 @@ def best_by_chance(scores: Array, rng: Generator) -> Array:
     )
 
 
-def _claims(data: Mapping[str, NDArray[Any]], chance: Array) -> tuple[Claim, ...]:
-    scores, begins = data["scores"], data["begins as printed"]
-    return (
-        Claim(
-            claim="a search over coin, floor, χ, μ, g and θ finds what Fig. 24 was computed with",
-            analytic=(
-                f"of {len(scores):,d} random settings the best shares {scores.max():.0f} of {PRINTED_FACES} "
-                f"leading faces, marks included; the best of as many at random heights near 0.4 m shares "
-                f"{np.median(chance):.0f} in the median; {np.sum(begins):.0f} settings begin all six as "
-                "printed, H∘HHH∘"
-            ),
-            criteria=[
-                Criterion(
-                    "share of searches by chance with so good a best",
-                    share(chance >= scores.max(), "searches"),
-                    "<",
-                    BEYOND_CHANCE,
-                    "beyond chance",
-                ),
-            ],
-            expected=False,
-        ),
-    )
-
-
-def _draw(data: Mapping[str, NDArray[Any]]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(8, 3.6))
     axes = picture.subplots()
-    scores, begins, chance = data["scores"], data["begins as printed"] == 1, data["by chance"]
     bins = (np.arange(0, PRINTED_FACES + 2, 2) - 0.5).tolist()
-    axes.hist(
-        [scores[begins], scores[~begins]],
-        bins,
-        stacked=True,
-        color=[VERMILION, SKY],
-        label=["all six begin H∘HHH∘", "other settings"],
-    )
-    weights = np.full(chance.size, len(scores) / chance.size)
-    axes.hist(chance.ravel(), bins, weights=weights, histtype="step", color=INK, label="at random heights")
-    low, high = np.quantile(data["best by chance"], (0.05, 0.95))
-    axes.axvspan(low, high, color=PALE, alpha=0.4, linewidth=0, label="best by chance, 90 %")
+    begins, names = data["begins as printed"] == 1, ("all six begin H∘HHH∘", "other settings")
+    draw_scores(axes, data["scores"], begins, names, data["by chance"], bins)
+    best = np.quantile(data["best by chance"], (0.05, 0.95))
+    axes.axvspan(*best, color=PALE, alpha=0.4, linewidth=0, label="best by chance, 90 %")
     axes.axvline(PRINTED_FACES, color=INK, linestyle=":")
     axes.annotate("all printed ", (PRINTED_FACES, 1.5), ha="right", fontsize=9)
     axes.set_yscale("log")
@@ -214,19 +166,4 @@ def _draw(data: Mapping[str, NDArray[Any]]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Section 5.1, the settings of Fig. 24",
-    title="a search for the coin, floor, χ, μ, g and θ of the printed sequences",
-    assumed=(
-        "Thickness 0, 1 or 2 mm; none, all or a random part of the printed offset of the mass centre; one of "
-        "seven laws with μ from 0.02 to 0.6; χ = 0.8 as printed or from 0.6 to 0.9; g = 9.8, 9.80665, 9.81 "
-        "or 10 m/s²; θ = ±7° or within ±10°. A score counts the leading faces that six tosses share with "
-        "the printed ones while the marks of clusters agree too. A search by chance tosses the same settings "
-        "from other heights near 0.4 m."
-    ),
-    seconds=300,
-    make=make,
-    draw={"figure": _draw},
-    quick_seconds=15,
-    quick=partial(make, count=60, heights=2),
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

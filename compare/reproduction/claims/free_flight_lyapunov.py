@@ -9,9 +9,8 @@ from cointoss import analytic, coin_mj
 from cointoss.analytic.horizon.flight_tangent import flight_tangent
 from cointoss.analytic.toss import state_of
 from cointoss.compare.output.progress import Progress
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.paper.fig18 import MEDIA, MODELS
-from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.declared import Data, Findings, declared
+from cointoss.compare.reproduction.setups.free_fall import MEDIA, MODELS
 from cointoss.models.body import Body
 from cointoss.models.reading import load
 from cointoss.models.records import Array, Toss
@@ -20,18 +19,15 @@ from cointoss.models.scenario import Scenario
 LONGEST = {"vacuum": 100.0, "air": 2000.0}
 """How long the coins fall [s]; in air the last turning is slow to end."""
 SAMPLES = 40
-POLYNOMIAL = 1.2
-"""A growth by a power of time below this is no exponential: its exponent tends to zero."""
-SMALL = 0.1
-"""An exponent that counts as near zero at the end [1/s]."""
 SHORT, CHANGE = 0.6, 1e-6
 """Time of two nearby tosses by both engines [s], and how far apart they start, relative to the spin."""
 SPIN = 40.0
 """About the middle axis [rad/s]."""
 
 
-def make(progress: Progress) -> Result:
+def make(progress: Progress) -> Findings:
     """Follow all small changes of the four coins' flights, without and with air."""
+    found = Findings()
     spectra: dict[str, Array] = {}
     for medium, air in MEDIA.items():
         times = np.geomspace(0.1, LONGEST[medium], SAMPLES)
@@ -40,79 +36,37 @@ def make(progress: Progress) -> Result:
             spectra[f"{medium}, {name}"] = _exponents(case, times)
             progress(len(spectra), len(MEDIA) * len(MODELS) + 1)
     last = {medium: np.array([spectra[f"{medium}, {name}"][-1] for name in MODELS]) for medium in MEDIA}
-    powers = {
-        medium: [_power(spectra[f"{medium}, {name}"].max(axis=1), LONGEST[medium]) for name in MODELS]
-        for medium in MEDIA
-    }
+    found.last, found.power = (
+        last,
+        {
+            medium: np.array([_power(spectra[f"{medium}, {name}"], LONGEST[medium]) for name in MODELS])
+            for medium in MEDIA
+        },
+    )
     case = load(MODELS["3D imperfect"][0]).replace("air", MEDIA["air"])
-    nearby = [_growth_of_difference(engine, case, np.ones(3)) for engine in (analytic.toss, coin_mj.toss)]
-    middle, direction, rate = _about_the_middle_axis()
-    nearby_middle = [
+    found.nearby = [
+        _growth_of_difference(engine, case, np.ones(3)) for engine in (analytic.toss, coin_mj.toss)
+    ]
+    middle, direction, found.rate = _about_the_middle_axis()
+    found.nearby_middle = [
         _growth_of_difference(engine, middle, direction) for engine in (analytic.toss, coin_mj.toss)
     ]
-    tangent = _growth_of_tangent(middle, direction)
+    found.tangent = _growth_of_tangent(middle, direction)
     progress(len(MEDIA) * len(MODELS) + 1, len(MEDIA) * len(MODELS) + 1)
-    claims = (
-        Claim(
-            claim="without air all transient Lyapunov exponents tend to zero",
-            analytic=(
-                f"the largest is {_span(last['vacuum'].max(axis=1))} 1/s after {LONGEST['vacuum']:g} s, the "
-                f"smallest {_span(last['vacuum'].min(axis=1))}; changes grow like t^p, p = "
-                f"{min(powers['vacuum']):.2f} to {max(powers['vacuum']):.2f}, so λ falls like (ln t)/t"
-            ),
-            criteria=[
-                Criterion(
-                    "largest size at the end [1/s]", np.abs(last["vacuum"]).max(), "<", SMALL, "near zero"
-                ),
-                Criterion("largest p", max(powers["vacuum"]), "<", POLYNOMIAL, "no exponential"),
-            ],
-        ),
-        Claim(
-            claim="with air the largest does",
-            analytic=(
-                f"{_span(last['air'].max(axis=1))} 1/s after {LONGEST['air']:g} s; p = "
-                f"{min(powers['air']):.1f} to {max(powers['air']):.1f}; a change of spin grows with λ = "
-                f"{nearby[0]:.3f} 1/s in {SHORT:g} s"
-            ),
-            mujoco=f"{nearby[1]:.3f} 1/s",
-            criteria=[
-                Criterion("largest at the end [1/s]", last["air"].max(), "<", SMALL, "near zero"),
-                Criterion("largest p", max(powers["air"]), "<", POLYNOMIAL, "no exponential"),
-                Criterion(
-                    "MuJoCo off the analytic engine [1/s]",
-                    abs(nearby[1] - nearby[0]),
-                    "<",
-                    1e-3,
-                    "MuJoCo's path errs by 1e-9, the change is 1e-6 of the spin",
-                ),
-            ],
-        ),
-        Claim(
-            claim="with air all do (as printed)",
-            analytic=(
-                f"the smallest stay below zero, {_span(last['air'].min(axis=1))} 1/s: the air wears off "
-                "changes of speed and spin"
-            ),
-            criteria=[Criterion("smallest at the end [1/s]", last["air"].min(), ">", -SMALL, "near zero")],
-            expected=False,
-        ),
-        Claim(
-            claim="so nothing in free fall depends sensitively on its start",
-            analytic=(
-                f"an imperfect coin that turns about its middle axis at {SPIN:g} rad/s without air has λ = "
-                f"{tangent:.2f} 1/s as long as it does, {rate:.2f} in closed form; nearby tosses part in "
-                f"{SHORT:g} s with {nearby_middle[0]:.2f}, {np.exp(nearby_middle[0] * SHORT):.0f} times over"
-            ),
-            mujoco=f"nearby tosses part with {nearby_middle[1]:.2f} 1/s",
-            criteria=[Criterion("largest λ [1/s]", max(tangent, *nearby_middle), "<", SMALL, "near zero")],
-            expected=False,
-        ),
+    found.largest, found.smallest = (
+        {medium: _span(end(exponents, axis=1)) for medium, exponents in last.items()}
+        for end in (np.max, np.min)
     )
-    data = {f"{medium}, time": np.geomspace(0.1, LONGEST[medium], SAMPLES) for medium in MEDIA} | spectra
-    return Result(claims=claims, data=data)
+    found.size, found.mujoco_off = np.abs(last["vacuum"]).max(), abs(found.nearby[1] - found.nearby[0])
+    found.fold = np.exp(found.nearby_middle[0] * SHORT)
+    found.middle = max(found.tangent, *found.nearby_middle)
+    found.data = {
+        f"{medium}, time": np.geomspace(0.1, LONGEST[medium], SAMPLES) for medium in MEDIA
+    } | spectra
+    return found
 
 
-def _span(numbers: Array | list[float]) -> str:
+def _span(numbers: Array) -> str:
     return f"{np.min(numbers):.2g} to {np.max(numbers):.2g}"
 
 
@@ -145,11 +99,11 @@ def _exponents(case: Scenario, times: Array) -> Array:
     return np.array(rows)
 
 
-def _power(largest: Array, longest: float) -> float:
+def _power(exponents: Array, longest: float) -> float:
     """Return p of a growth like t^p over the last nine tenths of the time: the slope of λ t over ln t."""
     t = np.geomspace(0.1, longest, SAMPLES)
     late = t > longest / 10
-    return float(np.polyfit(np.log(t[late]), (largest * t)[late], 1)[0])
+    return float(np.polyfit(np.log(t[late]), (exponents.max(axis=1) * t)[late], 1)[0])
 
 
 def _growth_of_difference(engine: Callable[[Scenario], Toss], case: Scenario, direction: Array) -> float:
@@ -187,7 +141,7 @@ def _about_the_middle_axis() -> tuple[Scenario, Array, float]:
     return case.replace("release.angular_velocity", SPIN * axes[:, 1]), direction, float(rate)
 
 
-def _draw(data: dict[str, Array]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(9, 3.6))
     for axes, medium in zip(picture.subplots(1, 2, sharey=True), MEDIA, strict=True):
         t = data[f"{medium}, time"]
@@ -201,14 +155,4 @@ def _draw(data: dict[str, Array]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Section 5.1",
-    title="transient Lyapunov exponents of free fall tend to zero, slowly",
-    assumed=(
-        "The paper gives no numbers; here the release of Figs 18-20, a fall without floor of as many seconds "
-        "as it takes, and changes measured on the scales r, √(g r), 1 and √(g/r)."
-    ),
-    seconds=10,
-    make=make,
-    draw={"figure": _draw},
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

@@ -1,8 +1,5 @@
 """Section 5.2: the probability of heads in a ball about a release, as the ball shrinks."""
 
-from functools import partial
-from typing import Any
-
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -11,9 +8,10 @@ from scipy.spatial.transform import Rotation
 from cointoss import analytic, coin_mj
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, VERMILION
-from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.claim import Estimate
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import jackknife, mean_share, share
-from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.setups.halving import halved
 from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
 from cointoss.models.records import Array, Outcome
 from cointoss.models.releases import Releases
@@ -32,8 +30,9 @@ KINDS = {"inside a basin": BLUE, "on a boundary": VERMILION}
 
 def make(
     progress: Progress, centers: int = 10, count: int = 150, many: int = 300, tosses_mujoco: int = 100
-) -> Result:
+) -> Findings:
     """Toss from balls about random releases, and about releases on boundaries."""
+    found = Findings()
     scenario = case(air=True)
     rng = np.random.default_rng(SEED)
     inside = np.column_stack([rng.uniform(*HEIGHTS, centers), rng.uniform(*SPINS, centers)])
@@ -48,71 +47,26 @@ def make(
         heads[kind] = np.array(rows)
     z, w = inside[0]
     ball = ball_about(scenario, z, w, MUJOCO_RADIUS, tosses_mujoco, rng)
-    mujoco = _heads(coin_mj.toss_many(scenario, ball, settings=coin_mj.FINE).outcome)
+    found.mujoco = _heads(coin_mj.toss_many(scenario, ball, settings=coin_mj.FINE).outcome)
     progress(2 * centers + 1, 2 * centers + 2)
     others = np.column_stack([rng.uniform(*HEIGHTS, many), rng.uniform(*SPINS, many)])
     alike = {
         radius: np.array([_heads_about(scenario, z, w, radius, rng) for z, w in others])
         for radius in (RADII[-1], RADII[0])
     }
-    pure_ball = share((alike[RADII[-1]] == 0) | (alike[RADII[-1]] == 1), "releases")
-    by_hand = mean_share(alike[RADII[0]], "releases")
+    found.pure_ball = share((alike[RADII[-1]] == 0) | (alike[RADII[-1]] == 1), "releases")
+    found.by_hand = mean_share(alike[RADII[0]], "releases")
     progress(2 * centers + 2, 2 * centers + 2)
     sure, even = heads.values()
     pure = (sure == 0) | (sure == 1)
     # The largest radius up to which only one side comes up.
-    first = RADII[[len(RADII) - int(np.argmin([*row[::-1], False])) for row in pure]]
-    at_border = mean_share(even[:, -1], "boundaries")
-    claims = (
-        Claim(
-            claim="for any release a ball exists in which only one side comes up",
-            analytic=(
-                f"so in all balls of {RADII[-1]:.0e} about {centers} random releases, from "
-                f"{first.min():.0e} to {first.max():.0e} on"
-            ),
-            mujoco=f"prob(heads) {mujoco:.2f} in one of them, {sure[0, -1]:.2f} analytic",
-            criteria=[
-                Criterion(
-                    f"share of balls of {RADII[-1]:.0e} with only one side",
-                    pure_ball,
-                    ">",
-                    0.95,
-                    f"nearly all; each ball is tossed from {FEW} times",
-                )
-            ],
-        ),
-        Claim(
-            claim="on a boundary no ball is small enough",
-            analytic=(
-                f"prob(heads) in those of {RADII[-1]:.0e} is {even[:, -1].min():.2f} to "
-                f"{even[:, -1].max():.2f}: 1/2, as on a smooth boundary"
-            ),
-            criteria=[
-                Criterion("mean prob(heads)", at_border, ">", 0.4, "about 1/2"),
-                Criterion("mean prob(heads)", at_border, "<", 0.6, "about 1/2"),
-            ],
-        ),
-        Claim(
-            claim="with the accuracy of a hand the outcome is left to chance",
-            analytic=(
-                f"prob(heads) in balls of {RADII[0]:g}, {1e3 * RADII[0] * scenario.coin.radius:.1f} mm of "
-                f"height, is {sure[:, 0].min():.2f} to {sure[:, 0].max():.2f} about {centers} releases"
-            ),
-            criteria=[
-                Criterion("mean prob(heads)", by_hand, ">", 0.4, "about 1/2"),
-                Criterion("mean prob(heads)", by_hand, "<", 0.6, "about 1/2"),
-                Criterion(
-                    "scatter of prob(heads) between releases, chance aside",
-                    _scatter(alike[RADII[0]]),
-                    "<",
-                    0.2,
-                    "the largest is 1/2",
-                ),
-            ],
-        ),
-    )
-    data: dict[str, NDArray[Any]] = {"radius": RADII, "release": inside, "boundary": border, **heads}
-    return Result(claims=claims, data=data)
+    found.first = RADII[[len(RADII) - int(np.argmin([*row[::-1], False])) for row in pure]]
+    found.at_border = mean_share(even[:, -1], "boundaries")
+    found.sure, found.even = sure, even.T
+    found.height_mm, found.by_hand_range = 1e3 * RADII[0] * scenario.coin.radius, sure[:, 0]
+    found.scatter = _scatter(alike[RADII[0]])
+    found.data = {"radius": RADII, "release": inside, "boundary": border, **heads}
+    return found
 
 
 def boundary_above(scenario: Scenario, height: float, spin: float) -> float:
@@ -133,10 +87,7 @@ def boundary_above(scenario: Scenario, height: float, spin: float) -> float:
     line = np.linspace(height, height + REACH, SAMPLES)
     faces = analytic.toss_many(scenario, releases(line, np.full_like(line, spin))).outcome
     change = int(np.flatnonzero(faces[1:] != faces[:-1])[0])
-    low, high = line[change], line[change + 1]
-    while low < (middle := (low + high) / 2) < high:
-        low, high = (middle, high) if outcome(middle) == faces[change] else (low, middle)
-    return float(low)
+    return halved(float(line[change]), float(line[change + 1]), outcome)[0]
 
 
 def ball_about(
@@ -183,7 +134,7 @@ def _heads(outcomes: NDArray[np.int8]) -> float:
     return float(np.mean(outcomes == Outcome.HEADS))
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(9, 3.4))
     for axes, (kind, color) in zip(picture.subplots(1, 2, sharey=True), KINDS.items(), strict=True):
         axes.semilogx(data["radius"], data[kind].T, ".-", color=color, linewidth=0.7)
@@ -194,18 +145,4 @@ def _draw(data: dict[str, NDArray[Any]]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Section 5.2",
-    title="the probability of heads in a ball about a release, as the ball shrinks",
-    assumed=(
-        "The paper leaves open how lengths, angles and their rates are weighed in the ball; here by r, 1, "
-        "√(g r) and √(g/r). The coin is that of Fig. 29(c), χ = 0.6 with air, the centres lie at random in "
-        "its map, and all twelve numbers of the release vary. Boundaries are found by halving, to the last "
-        "digit."
-    ),
-    seconds=60,
-    make=make,
-    draw={"figure": _draw},
-    quick_seconds=10,
-    quick=partial(make, centers=3, count=60, many=20, tosses_mujoco=10),
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

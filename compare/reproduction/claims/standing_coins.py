@@ -1,16 +1,11 @@
 """Section 5.2: whether general coins on the boundary between heads and tails come to stand on their edge."""
 
-from collections.abc import Callable, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
-from os import cpu_count
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from cointoss.analytic.contact.resistance import FloorFriction
@@ -19,17 +14,18 @@ from cointoss.analytic.settings import Settings
 from cointoss.analytic.toss import Pieces
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, VERMILION
-from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import mean, share
 from cointoss.compare.reproduction.precision.double_double import pair_of
 from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
 from cointoss.compare.reproduction.precision.planar_state import HEIGHT, release
 from cointoss.compare.reproduction.precision.planar_toss import toss_many
 from cointoss.compare.reproduction.precision.splitting import spread
-from cointoss.compare.reproduction.result import Reproduction, Result
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
+from cointoss.compare.reproduction.setups.halving import halved
 from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case
 from cointoss.compare.reproduction.setups.standing import Standing, standing
+from cointoss.compare.reproduction.threads import all_cores
 from cointoss.models.records import Array, Outcome
 from cointoss.models.scenario import Scenario
 
@@ -73,12 +69,11 @@ class Boundary:
     outcomes: tuple[int, int]
 
 
-def make(progress: Progress, lines: int = 120, flat: int = 2000) -> Result:
+def make(progress: Progress, lines: int = 120, flat: int = 2000) -> Findings:
     """Find boundaries on random lines of releases, and follow the coins at their sides."""
-    data: dict[str, NDArray[Any]] = {}
+    data: Data = {}
     whole, done = (len(IN_AIR) + 1) * lines + 1, 0
-    pool = ThreadPoolExecutor(cpu_count())
-    try:
+    with all_cores() as pool:
         for name, thick in IN_AIR.items():
             rows = []
             for row in pool.map(_sides, *_lines(CoinClass(thick=thick, **_OTHERS, air=True), lines)):
@@ -87,16 +82,25 @@ def make(progress: Progress, lines: int = 120, flat: int = 2000) -> Result:
             data[name] = np.array(rows)
         in_vacuum = CoinClass(thick=False, **_OTHERS, air=False)
         meets = []
-        for found in pool.map(boundary_on, *_lines(in_vacuum, lines)):
-            meets += [set(found.outcomes) == _HEADS_AND_TAILS] if found is not None else []
+        for boundary in pool.map(boundary_on, *_lines(in_vacuum, lines)):
+            meets += [set(boundary.outcomes) == _HEADS_AND_TAILS] if boundary is not None else []
             progress(done := done + 1, whole)
         data["in vacuum heads meet tails"] = np.array(meets)
-    finally:
-        # An interruption does not wait for the lines not yet begun.
-        pool.shutdown(cancel_futures=True)
-    data["flat landings"] = flat_landings(flat)
+    data["flat landings"] = landings = flat_landings(flat)
     progress(done + 1, whole)
-    return Result(claims=_claims(data), data=data)
+    differ, near = landings[:, 0] == 1, landings[:, 1]
+    return Findings(
+        data=data,
+        coins={name: _stands(data[name]) for name in IN_AIR},
+        lines=len(meets),
+        beside=float(BESIDE),
+        meeting=np.sum(meets),
+        meets=share(meets, "boundaries"),
+        landings=len(landings),
+        differing=np.sum(differ),
+        off=np.median(near[differ]) if differ.any() else np.nan,
+        differ=share(differ, "releases"),
+    )
 
 
 _OTHERS: dict[str, bool] = {"imperfect": False, "coulomb": False}
@@ -153,14 +157,6 @@ def boundary_on(scenario: Scenario, start: Array, quantity: str) -> Boundary | N
         places=(low, high),
         outcomes=(outcome(low), outcome(high)),
     )
-
-
-def halved(low: float, high: float, label: Callable[[float], int]) -> tuple[float, float]:
-    """Return neighbouring doubles between two places where a label first differs from that of the lower."""
-    lower = label(low)
-    while low < (middle := (low + high) / 2) < high:
-        low, high = (middle, high) if label(middle) == lower else (low, middle)
-    return low, high
 
 
 def _sides(scenario: Scenario, start: Array, quantity: str) -> Array | None:
@@ -264,99 +260,23 @@ def flat_landings(count: int) -> Array:
 _PI = Fraction("3.14159265358979323846264338327950288419716939937510582097494")
 
 
-def _claims(data: Mapping[str, NDArray[Any]]) -> list[Claim]:
-    made = [claim for name in IN_AIR for claim in _standing_claims(name, data[name])]
-    meets, flat = data["in vacuum heads meet tails"], data["flat landings"]
-    differ = flat[:, 0] == 1
-    return [
-        *made,
-        Claim(
-            claim="heads and tails have a common boundary (a general thin coin, in vacuum)",
-            analytic=(
-                f"on {len(meets)} lines of releases with heads beside tails {np.sum(meets)} boundaries have "
-                "both; the others have on one side a coin that turns over for ever, for on a smooth floor "
-                "nothing takes its energy"
-            ),
-            criteria=[
-                Criterion("share of them that have both", share(meets, "boundaries"), ">", 0.5, "most")
-            ],
-            expected=False,
-        ),
-        Claim(
-            claim="every boundary is a coin that comes to stand (planar coin, in vacuum)",
-            analytic=(
-                "about a release whose first touch is exactly flat one rim point hits the floor first or "
-                f"the other: {float(BESIDE):.0e} m above and below {len(flat)} such releases the outcomes "
-                f"differ at {np.sum(differ)}, and the nearer coin stays "
-                f"{np.median(flat[differ, 1]) if differ.any() else np.nan:.2f} m g r from standing, in the "
-                "median; a map has few such lines"
-            ),
-            criteria=[
-                Criterion(
-                    "share of releases that land flat and part heads from tails",
-                    share(differ, "releases"),
-                    "<",
-                    0.01,
-                    "none",
-                )
-            ],
-            expected=False,
-        ),
-    ]
-
-
-def _standing_claims(name: str, rows: Array) -> list[Claim]:
-    """Return the claims of a coin in air, of which `rows` has what `_sides` gives, (n, 4)."""
+def _stands(rows: Array) -> dict[str, Any]:
+    """Return how coins in air stand, of which `rows` has what `_sides` gives, (n, 4)."""
     lack, lean, E, slopes = rows.T
     stands = lack < STANDS
-    timed = slopes[stands & np.isfinite(slopes)]
-    return [
-        Claim(
-            claim=f"the boundary is the coin that comes to stand on its edge ({name})",
-            analytic=(
-                f"on {len(rows)} random lines of height, spin or tilt; at both sides of the last double the "
-                f"coin lacks {np.median(lack):.0e} m g r to stand, in the median, {lack.max():.0e} at most"
-            ),
-            criteria=[
-                Criterion(
-                    f"share of boundaries with less than {STANDS:g} m g r",
-                    share(stands, "boundaries"),
-                    ">",
-                    0.9,
-                    "nearly all",
-                )
-            ],
-        ),
-        Claim(
-            claim=f"it stands there at rest, upright ({name})",
-            analytic=(
-                "it turns about the vertical, rolls and leans, as its angular momenta want: by up to "
-                f"{np.degrees(np.abs(lean[stands]).max()):.0f}°, with {E[stands].min():.3f} to "
-                f"{E[stands].max():.3f} m g r, {np.median(E[stands]):.3f} in the median, sliding aside"
-            ),
-            criteria=[
-                Criterion(
-                    f"share of those that stand whose energy is m g r to {AT_REST:.0%}",
-                    share(np.abs(E[stands] - 1) < AT_REST, "boundaries"),
-                    ">",
-                    0.5,
-                    "most",
-                )
-            ],
-            expected=False,
-        ),
-        Claim(
-            claim=f"at a distance δ it stands as long as ln(1/δ) over the rate at which it falls ({name})",
-            analytic=f"δ is {NEAR:g} or {FAR:g} last digits of the release",
-            criteria=[
-                Criterion("mean ratio to that", mean(timed, "boundaries"), ">", 0.95, "1, less 5 %"),
-                Criterion("mean ratio to that", mean(timed, "boundaries"), "<", 1.05, "1 and 5 %"),
-            ],
-        ),
-    ]
+    return {
+        "boundaries": len(rows),
+        "lack": (np.median(lack), lack.max()),
+        "stands": share(stands, "boundaries"),
+        "lean": np.degrees(np.abs(lean[stands]).max()),
+        "energy": E[stands],
+        "median": np.median(E[stands]),
+        "at_rest": share(np.abs(E[stands] - 1) < AT_REST, "boundaries"),
+        "ratio": mean(slopes[stands & np.isfinite(slopes)], "boundaries"),
+    }
 
 
-def _draw(data: Mapping[str, NDArray[Any]]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(9, 3.6))
     lacks, energies = picture.subplots(1, 2)
     for name, color in COLORS.items():
@@ -374,18 +294,4 @@ def _draw(data: Mapping[str, NDArray[Any]]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Section 5.2, the boundary",
-    title="whether coins on the boundary between heads and tails come to stand on their edge",
-    assumed=(
-        "Ideal coins, thin and of 2 mm, on a smooth floor with χ = 0.3, in the paper's air, released in any "
-        "attitude with 20 to 60 rad/s about one diameter and about 10 rad/s about the other axes; height, "
-        "spin or tilt varies. Boundaries are found by halving, to the last digit of a double. A coin "
-        "stands at the top of the potential that its angular momenta leave to tilting, m g r when both are 0."
-    ),
-    seconds=300,
-    make=make,
-    draw={"figure": _draw},
-    quick_seconds=15,
-    quick=partial(make, lines=6, flat=100),
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

@@ -1,8 +1,5 @@
 """Section 5.1, after Kechen: whether the initial states that lead to heads are spread uniformly."""
 
-from functools import partial
-from typing import Any
-
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
@@ -12,9 +9,9 @@ from numpy.typing import NDArray
 from cointoss import analytic
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY, SHARE_OF_HEADS
-from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.claim import Estimate
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import jackknife
-from cointoss.compare.reproduction.result import Reproduction, Result
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHTS,
     LANDINGS,
@@ -36,7 +33,7 @@ HABITS = ("low", "fast", "at the corner", "about the middle", "about a quarter")
 """Densities of a hand's releases over the map."""
 
 
-def make(progress: Progress, tosses: int = 200_000) -> Result:
+def make(progress: Progress, tosses: int = 200_000) -> Findings:
     """Toss from everywhere in the map, and count heads cell by cell and for each habit of a hand."""
     rng = np.random.default_rng(SEED)
     z, w = rng.uniform(size=(2, tosses))
@@ -70,60 +67,24 @@ def make(progress: Progress, tosses: int = 200_000) -> Result:
             tosses,
         )
 
-    at = int(np.flatnonzero(CELLS == SHOWN)[0])
-    claims = (
-        Claim(
-            claim="initial states leading to heads are spread uniformly, for a coin that bounces",
-            analytic=(
-                f"in {SHOWN} × {SHOWN} cells of the map the share of heads differs, chance aside, by "
-                f"{spread['bouncing'][at]:.3f}; at the first touch by {spread['soft floor'][at]:.2f}"
-            ),
-            criteria=[
-                Criterion("spread, bouncing", spread_at("bouncing"), "<", UNIFORM, "the largest is 1/2"),
-                Criterion("at the first touch", spread_at("soft floor"), ">", UNIFORM, "the largest is 1/2"),
-            ],
-        ),
-        Claim(
-            claim="then the frequency does not depend on how the experiment is prepared",
-            analytic=(
-                f"with five densities of the release heads come up in {_listed(shares['bouncing'])} "
-                f"(± {errors.max():.1%}); at the first touch in {_listed(shares['soft floor'])}"
-            ),
-            criteria=[
-                Criterion(
-                    "largest difference from 1/2, bouncing", off_half("bouncing"), "<", LEAN, "a few percent"
-                ),
-                Criterion("at the first touch", off_half("soft floor"), ">", LEAN, "more than a few percent"),
-            ],
-        ),
-        Claim(
-            claim="they are spread uniformly however small the cell",
-            analytic=(
-                "the finer the cells, the more they differ: "
-                + ", ".join(
-                    f"{value:.2f} ({n}²)" for n, value in zip(CELLS[1:], spread["bouncing"][1:], strict=True)
-                )
-            ),
-            criteria=[
-                Criterion(
-                    f"spread over {CELLS[-1]}² cells",
-                    spread_at("bouncing", int(CELLS[-1])),
-                    "<",
-                    0.05,
-                    "that over a few cells",
-                )
-            ],
-            expected=False,
-        ),
-    )
-    data: dict[str, NDArray[Any]] = {"height": z, "spin": w, "cells": CELLS, "error": errors}
+    finer = zip(CELLS[1:], spread["bouncing"][1:], strict=True)
+    data: Data = {"height": z, "spin": w, "cells": CELLS, "error": errors}
     for landing, up in heads.items():
         data |= {
             f"{landing}, heads": up,
             f"{landing}, spread": spread[landing],
             f"{landing}, shares": shares[landing],
         }
-    return Result(claims=claims, data=data)
+    return Findings(
+        data=data,
+        spread={landing: spread[landing][CELLS == SHOWN][0] for landing in LANDINGS},
+        spread_at={landing: spread_at(landing) for landing in LANDINGS},
+        spread_finest=spread_at("bouncing", int(CELLS[-1])),
+        shares={landing: _listed(shares[landing]) for landing in LANDINGS},
+        error=errors.max(),
+        off_half={landing: off_half(landing) for landing in LANDINGS},
+        finer=", ".join(f"{value:.2f} ({n}²)" for n, value in finer),
+    )
 
 
 def _densities(z: Array, w: Array) -> list[Array]:
@@ -169,7 +130,7 @@ def _listed(shares: Array) -> str:
     return ", ".join(f"{share:.1%}" for share in shares)
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(11, 3.3))
     *maps, spread, habits = picture.subplots(1, 4)
     for axes, landing in zip(maps, LANDINGS, strict=True):
@@ -199,18 +160,4 @@ def _draw(data: dict[str, NDArray[Any]]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Section 5.1, Kechen",
-    title="how uniformly the initial states that lead to heads are spread",
-    assumed=(
-        "The paper compares without numbers. The map is that of Fig. 29 in air: 0.2 to 0.6 m, 20 to 60 "
-        "rad/s, χ = 0.6; soft floor: the face at the first touch. Spread is the root of the mean "
-        "square by which a cell's share of heads is off 1/2, less what counting adds. The hands' habits are "
-        "densities over the map."
-    ),
-    seconds=20,
-    make=make,
-    draw={"figure": _draw},
-    quick_seconds=6,
-    quick=partial(make, tosses=8000),
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

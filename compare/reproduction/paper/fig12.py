@@ -8,8 +8,7 @@ from cointoss import analytic, coin_mj
 from cointoss.compare.metrics.trajectories import parting_time
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import ANALYTIC, MUJOCO, PALE
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.parts import Air
 from cointoss.models.reading import load
@@ -20,17 +19,16 @@ ENGINES = {"analytic": (ANALYTIC, "-", 1), "MuJoCo": (MUJOCO, ".", 10)}
 COINS = {"imperfect": "fig12_imperfect", "ideal": "fig12_ideal"}
 IMPACTS = 4
 """The motion is followed until this one."""
-IN_PLANE = 1e-9
-"""A path nearer to its plane keeps to it: in radii, and in radians."""
 OFF_THE_AXIS = (-1e-3, -1e-3, 0.0)
 """A mass centre that makes J_ξη ≠ 0 [m]."""
 DRAWN = 40
 """How often the coin is drawn."""
 
 
-def make(progress: Progress) -> Result:
+def make(progress: Progress) -> Findings:
     """Let both 1D coins fall and bounce by both engines, and by eq. (48) until they land."""
-    data: dict[str, Array] = {}
+    data: Data = {}
+    found = Findings(data=data)
     out_of_plane, from_eq_48 = np.zeros((2, 2)), np.zeros((2, 2, 2))
     for row, (name, file) in enumerate(COINS.items()):
         scenario = load(file)
@@ -41,53 +39,19 @@ def make(progress: Progress) -> Result:
         exact = _plane_motion(case, falling)
         for column, toss in enumerate(tosses):
             states = toss.sample(t)
-            out_of_plane[row, column] = _out_of_plane(case, states)
+            out_of_plane[column, row] = _out_of_plane(case, states)
             from_eq_48[row, column] = _apart(toss.sample(falling), exact)
             engine = list(ENGINES)[column]
             data |= {f"{name}, {engine}, position": states.position, f"{name}, time": t}
         data |= _edges(name, case, tosses[0], t[-1])
         progress(row + 1, 3)
-    tilt, parted = _product_of_inertia()
+    found.tilt, found.parted = _product_of_inertia()
     progress(3, 3)
-    claims = (
-        Claim(
-            claim="if J_ξη = 0 a coin that turns about its level axis ξ keeps to one plane, eq. (48)",
-            analytic=f"within {out_of_plane[:, 0].max():.1g} r and rad, through {IMPACTS - 1} impacts",
-            mujoco=f"{out_of_plane[:, 1].max():.1g}",
-            criteria=[
-                Criterion(
-                    "farthest off the plane [r, rad]",
-                    out_of_plane.max(),
-                    "<",
-                    IN_PLANE,
-                    "rounding and MuJoCo's steps",
-                )
-            ],
-        ),
-        Claim(
-            claim="there m ÿ = f_y, m z̈ = f_z, J_ξ ϑ̈ = M_ξ, eqs (40), (47), (48)",
-            analytic=_distances(from_eq_48[:, 0]),
-            mujoco=_distances(from_eq_48[:, 1]),
-            criteria=[
-                Criterion(
-                    "analytic engine off eq. (48) [m, rad]",
-                    from_eq_48[..., 0].max(),
-                    "<",
-                    1e-10,
-                    "two integrations to 1e-13",
-                ),
-                Criterion("MuJoCo off eq. (48) [m, rad]", from_eq_48[..., 1].max(), "<", 1e-8, "its steps"),
-            ],
-        ),
-        Claim(
-            claim="eqs (41)-(43) with J_ξη ≠ 0 are a coin's plane motion too",
-            analytic=f"ξ tilts by up to {tilt[0]:.1f}°, past 1° after {1e3 * (parted or np.nan):.0f} ms",
-            mujoco=f"{tilt[1]:.1f}°",
-            criteria=[Criterion("largest tilt of ξ [°]", max(tilt), "<", 1e-6, "rounding")],
-            expected=False,
-        ),
-    )
-    return Result(claims=claims, data=data)
+    found.out_of_plane = out_of_plane
+    found.through = IMPACTS - 1
+    found.distances = [_distances(from_eq_48[:, engine]) for engine in (0, 1)]
+    found.meters, found.radians = from_eq_48[..., 0], from_eq_48[..., 1]
+    return found
 
 
 def _distances(found: Array) -> str:
@@ -132,7 +96,7 @@ def _apart(states: States, exact: Array) -> tuple[float, float]:
     return float(np.abs(states.position[:, 1:] - exact[:, :2]).max()), float(np.abs(turned).max())
 
 
-def _product_of_inertia() -> tuple[list[float], float | None]:
+def _product_of_inertia() -> tuple[Array, float]:
     """Let a coin with J_ξη ≠ 0 fall without air; return how far ξ tilts by both engines [degrees], and
     when it passes 1° by the analytic one [s]."""
     scenario = load(COINS["imperfect"])
@@ -140,7 +104,7 @@ def _product_of_inertia() -> tuple[list[float], float | None]:
     tosses = analytic.toss(case), coin_mj.toss(case)
     t = np.linspace(0, min(toss.impacts.time[0] for toss in tosses), 400)[:-1]
     tilts = [np.degrees(np.abs(_height_of_xi(toss.sample(t)))) for toss in tosses]
-    return [float(tilt.max()) for tilt in tilts], parting_time(t, tilts[0], 1.0)
+    return np.max(tilts, axis=1), parting_time(t, tilts[0], 1.0) or np.nan
 
 
 def _height_of_xi(states: States) -> Array:
@@ -157,7 +121,7 @@ def _edges(name: str, case: Scenario, toss: Toss, until: float) -> dict[str, Arr
     return {f"{name}, edge": ends}
 
 
-def _draw(data: dict[str, Array]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(9, 3.8))
     for axes, name in zip(picture.subplots(1, 2, sharey=True), COINS, strict=True):
         for ends in data[f"{name}, edge"]:
@@ -171,14 +135,4 @@ def _draw(data: dict[str, Array]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Fig. 12",
-    title="the 1D coin: plane motion by eqs (40)-(48)",
-    assumed=(
-        "The paper gives no release and no offset; here a slow toss, and C on the η axis 1 mm from B, which "
-        "makes J_ξη = 0."
-    ),
-    seconds=10,
-    make=make,
-    draw={"figure": _draw},
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

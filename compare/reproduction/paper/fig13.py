@@ -1,6 +1,7 @@
 """Figs 13-15: the velocities of a coin's surface, and the parts of it where the air presses."""
 
 import math
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -14,8 +15,7 @@ from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.steps.constrained_step import forward
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, ORANGE, PALE
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.models.reading import load
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
@@ -24,8 +24,6 @@ FINE = {"rings": 100, "spokes": 240, "levels": 41}
 """Points of the sums."""
 COARSE = {"rings": 3, "spokes": 12, "levels": 3}
 """Points of the picture."""
-ENOUGH = 1e-3
-"""A sum over that many points is as near to the integral, relative."""
 ARROW = 0.014
 """Length of an arrow of 1 m/s in the picture [m]."""
 PANELS = (
@@ -48,80 +46,24 @@ class Wrench(NamedTuple):
     moment: Array
 
 
-def make(progress: Progress) -> Result:
+def make(progress: Progress) -> Findings:
     """Sum the air over the fields of a thick coin, and compare with the integrals of both engines."""
+    found = Findings()
     thick = load("fig13")
     thin = thick.replace("coin.thickness", 0.0, "coin.center_of_mass", (-1e-3, -1e-3, 0.0))
     fields, of_thin = _fields(thick, FINE), _fields(thin, FINE)
     progress(1, 2)
-    upper, lower, wall = fields
-    sums = {b: _sum(thick, fields, b) for b in (0.0, 1.0)}
-    integrals = {b: _integral(thick, b) for b in (0.0, 1.0)}
-    progress(2, 2)
-    claims = (
-        Claim(
-            claim="the air presses where the surface moves outwards, eqs (55), (58)",
-            analytic=(
-                f"on {upper.moves_outwards.mean():.0%} and {lower.moves_outwards.mean():.0%} of the faces, "
-                f"{wall.moves_outwards.mean():.0%} of the wall; the sum over its points is within "
-                f"{_apart(sums[0.0], integrals[0.0]):.0e} of force and moment"
-            ),
-            mujoco=f"{_apart(sums[0.0], _by_mujoco(thick)):.0e}",
-            criteria=[
-                Criterion(
-                    "largest relative difference of sum and integrals",
-                    max(_apart(sums[0.0], other) for other in (integrals[0.0], _by_mujoco(thick))),
-                    "<",
-                    ENOUGH,
-                    "what a sum over so many points leaves",
-                )
-            ],
-        ),
-        Claim(
-            claim="of the faces of a thin coin exactly one moves outwards: s_1 + s_2 = 1, eqs (75)-(79)",
-            analytic=(
-                f"at {_one_moves_outwards(of_thin):.0%} of its points, and at "
-                f"{_one_moves_outwards(fields):.0%} of a thick coin's; both faces of a thin one move alike "
-                f"to {np.abs(of_thin.upper.velocity - of_thin.lower.velocity).max():.1g} m/s"
-            ),
-            criteria=[
-                Criterion(
-                    "part of the points of a thin coin",
-                    _one_moves_outwards(of_thin),
-                    "=",
-                    1,
-                    "the two normals are opposite",
-                ),
-                Criterion(
-                    "difference of both faces' velocities [m/s]",
-                    np.abs(of_thin.upper.velocity - of_thin.lower.velocity).max(),
-                    "=",
-                    0,
-                    "they are one face",
-                ),
-            ],
-        ),
-        Claim(
-            claim="for b = 1 the forces are proportional to the velocities of Fig. 14 (section 4.2, ii)",
-            analytic=(
-                "summed, they give force and moment at b = 0; at b = 1 they are off by "
-                f"{_apart(sums[0.0], integrals[1.0]):.0%}, and those with the square of the speed by "
-                f"{_apart(sums[1.0], integrals[1.0]):.0e}"
-            ),
-            criteria=[
-                Criterion(
-                    "relative difference at b = 1",
-                    _apart(sums[0.0], integrals[1.0]),
-                    "<",
-                    ENOUGH,
-                    "what a sum over so many points leaves",
-                )
-            ],
-            expected=False,
-        ),
+    sums, integrals = (
+        [f(b) for b in (0.0, 1.0)] for f in (partial(_sum, thick, fields), partial(_integral, thick))
     )
+    progress(2, 2)
+    found.outwards = [field.moves_outwards for field in fields]
+    found.off = np.array([_apart(sums[0], other) for other in (integrals[0], _by_mujoco(thick))])
+    found.one_outwards = [_one_moves_outwards(of) for of in (of_thin, fields)]
+    found.faces_apart = np.abs(of_thin.upper.velocity - of_thin.lower.velocity).max()
+    found.off_at_1 = [_apart(one, integrals[1]) for one in sums]
     drawn = {"thick": _fields(thick, COARSE), "thin": _fields(thin, COARSE)}
-    data: dict[str, Array] = {}
+    found.data = {}
     for coin, surfaces in drawn.items():
         for surface, field in zip(SurfaceFields._fields, surfaces, strict=True):
             parts = {
@@ -131,8 +73,8 @@ def make(progress: Progress) -> Result:
                 "outward": field.outward,
                 "tangential": field.tangential,
             }
-            data |= {f"{coin}, {surface}, {part}": array for part, array in parts.items()}
-    return Result(claims=claims, data=data)
+            found.data |= {f"{coin}, {surface}, {part}": array for part, array in parts.items()}
+    return found
 
 
 def _fields(case: Scenario, points: dict[str, int]) -> SurfaceFields:
@@ -193,7 +135,7 @@ def _apart(a: Wrench, b: Wrench) -> float:
     return float(max(np.linalg.norm(x - y) / np.linalg.norm(y) for x, y in zip(a, b, strict=True)))
 
 
-def _draw(data: dict[str, Array]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(7.4, 4.4))
     circle = np.linspace(0, 2 * math.pi, 61)
     for number, (coin, part, title) in enumerate(PANELS, start=1):
@@ -221,14 +163,4 @@ def _draw(data: dict[str, Array]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Figs 13-15",
-    title="velocities of a coin's surface, and where the air presses on it",
-    assumed=(
-        "Coin and motion are unsaid; here the imperfect coin of section 5.1, four times as thick so that its "
-        "wall is seen."
-    ),
-    seconds=5,
-    make=make,
-    draw={"figure": _draw},
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

@@ -12,8 +12,7 @@ from cointoss.coin_mj import Friction, Settings
 from cointoss.coin_mj.model.settings import ROUGH
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, PALE, VERMILION
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.setups.mujoco_impacts import on_floor
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.laws import ContactLaw
@@ -22,10 +21,6 @@ from cointoss.models.records import Array, Impacts
 from cointoss.models.scenario import Scenario
 
 MU = load("contact_sliding_friction").floor.friction
-SAME = 1e-12
-"""Speeds nearer to each other than this are the same, but for rounding [m/s]."""
-NEAR = 1e-3
-"""MuJoCo realises a law where its impulse is within this part of the law's; (f) it has as Coulomb's."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,11 +79,10 @@ LAWS = {
 }
 
 
-def make(progress: Progress) -> Result:
+def make(progress: Progress) -> Findings:
     """Let each law act on the first touch of the scenarios `contact_` and compare MuJoCo's contacts."""
-    data: dict[str, Array] = {}
-    claims: list[Claim] = []
-    gained = {}
+    data: Data = {}
+    found = Findings(data=data, laws={})
     for done, (name, law) in enumerate(LAWS.items(), start=1):
         case = _one_impact(load(f"contact_{name}"))
         by_law = analytic.toss(case).impacts
@@ -98,11 +92,9 @@ def make(progress: Progress) -> Result:
             abs(after[2] + case.floor.restitution * before[2]),
             np.abs(by_law.velocity_after - by_law.velocity_before - by_law.impulse / case.coin.mass).max(),
         )
-        gained[law.letter] = _gained(by_law)
         data |= {f"({law.letter}) before": before, f"({law.letter}) after": after}
         data |= {f"({law.letter}) impulse": S}
-        shown = "not realisable"
-        criteria = [Criterion("left of its conditions [m/s]", misfit, "<", SAME, "rounding")]
+        shown, errors = "not realisable", {}
         if law.contact is not None:
             mu, settings = law.contact
             by_mujoco = coin_mj.impacts_of(on_floor(case, ContactLaw.COULOMB, mu), settings=settings)
@@ -114,39 +106,16 @@ def make(progress: Progress) -> Result:
             if name == ContactLaw.SLIDING_FRICTION:
                 shown = f"Coulomb's friction: {shown}"
             else:
-                criteria.append(Criterion("MuJoCo's error", apart, "<", NEAR, "MuJoCo realises the law"))
-        claims.append(
-            Claim(
-                claim=f"({law.letter}) {law.claim}",
-                analytic=f"{_row(after, S)}; fulfilled within {misfit:.0e} m/s",
-                mujoco=shown,
-                criteria=criteria,
-            )
-        )
+                errors = {"MuJoCo's error": apart}
+        told = {"conditions": law.claim, "row": _row(after, S), "shown": shown}
+        found.laws[law.letter] = told | {"misfit": misfit, "errors": errors, "lost": -_gained(by_law)}
         progress(done, len(LAWS))
-    S, before, after = (data[f"({part}"] for part in ("d) impulse", "f) before", "f) after"))
-    claims += [
-        Claim(
-            claim="(d) is frictionless",
-            analytic=f"to keep all slip takes a horizontal impulse of {np.hypot(S[0], S[1]) / S[2]:.2f} S_z",
-            criteria=[Criterion("horizontal impulse [N s]", np.hypot(S[0], S[1]), "<", SAME, "rounding")],
-            expected=False,
-        ),
-        Claim(
-            claim="(f) brakes the slip",
-            analytic=(
-                f"drives it on past its stop, from {np.hypot(*before[:2]):.2f} m/s to "
-                f"{np.hypot(*after[:2]):.2f} m/s the other way; takes {-gained['f']:.0%} of the energy, "
-                f"Coulomb's friction {-_gained_by_coulomb():.0%}"
-            ),
-            mujoco=f"Coulomb's friction stops it: {np.hypot(*data['(f) after, MuJoCo'][:2]):.0e} m/s",
-            criteria=[
-                Criterion("slip after [m/s]", np.hypot(*after[:2]), "<", np.hypot(*before[:2]), "that before")
-            ],
-            expected=False,
-        ),
-    ]
-    return Result(claims=claims, data=data)
+    S = data["(d) impulse"]
+    found.horizontal = np.hypot(S[0], S[1])
+    found.over_S_z = found.horizontal / S[2]
+    found.slips = [np.hypot(*data[f"(f) {part}"][:2]) for part in ("before", "after", "after, MuJoCo")]
+    found.lost_by_coulomb = -_gained_by_coulomb()
+    return found
 
 
 def _gained(impacts: Impacts) -> float:
@@ -186,7 +155,7 @@ def _triple(x: Array) -> str:
     return "(" + ", ".join(f"{number + 0:.3f}" for number in np.round(x, 3)) + ")"
 
 
-def _draw(data: dict[str, Array]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(9, 5.6))
     panels = picture.subplots(2, 3, sharex=True, sharey=True).flat
     for axes, (name, law) in zip(panels, LAWS.items(), strict=True):
@@ -213,14 +182,4 @@ def _arrow(axes: Axes, tip: Array, color: str, width: float, label: str) -> None
     axes.plot(tip[0], tip[1], "o", color=color, markersize=4)
 
 
-REPRODUCTION = Reproduction(
-    paper="Fig. 17",
-    title="the six laws of contact, by the impacts that they make of one touch",
-    assumed=(
-        "The paper draws no numbers; here the first touch of the scenarios contact_*: the ideal coin in air, "
-        f"restitution 0.6, friction {MU:g}. Vectors are (τ, ν, z)."
-    ),
-    seconds=5,
-    make=make,
-    draw={"figure": _draw},
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

@@ -6,26 +6,12 @@ from matplotlib.figure import Figure
 from cointoss import analytic, coin_mj
 from cointoss.compare.metrics.trajectories import attitude_angle, distance
 from cointoss.compare.output.progress import Progress
-from cointoss.compare.output.style import BLUE, GREEN, SKY, VERMILION
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
-from cointoss.models.parts import Air
+from cointoss.compare.reproduction.declared import Data, Findings, declared
+from cointoss.compare.reproduction.setups.free_fall import MEDIA, MODELS
 from cointoss.models.reading import load
-from cointoss.models.records import Array
 
-MODELS = {
-    "3D imperfect": ("fig18_3d_imperfect", GREEN),
-    "3D ideal": ("fig18_3d_ideal", BLUE),
-    "2D imperfect": ("fig18_2d_imperfect", SKY),
-    "2D ideal": ("fig18_2d_ideal", VERMILION),
-}
-MEDIA = {"vacuum": Air(), "air": Air(normal=0.8, tangential=0.2)}
-NEGLIGIBLE = 0.02
-"""A part of the way that can be neglected."""
-SAME = 1e-9
-"""Paths nearer to each other than this part of r are the same, but for rounding."""
-
-
+SAME = 1e-9 * 0.0125
+"""Paths nearer to each other are the same, but for rounding [m]."""
 REFERENCE = "3D ideal"
 """The coin that the others are compared with in the picture."""
 STYLES = {"vacuum": ":", "air": "-"}
@@ -33,10 +19,10 @@ ROUNDING = 1e-13
 """The least distance that is drawn [mm]."""
 
 
-def make(progress: Progress) -> Result:
+def make(progress: Progress) -> Findings:
     """Toss the four coins in vacuum and in air, by both engines, until the first of them lands."""
-    data: dict[str, Array] = {}
-    between, by_mujoco = {}, {}
+    data: Data = {}
+    found = Findings(data=data, apart={}, by_mujoco={})
     for medium, air in MEDIA.items():
         cases = {name: load(file).replace("air", air) for name, (file, _) in MODELS.items()}
         pairs = {name: (analytic.toss(case), coin_mj.toss(case)) for name, case in cases.items()}
@@ -45,54 +31,22 @@ def make(progress: Progress) -> Result:
         data[f"{medium}, time"] = t
         for name, path in paths.items():
             data |= {f"{medium}, {name}, position": path.position, f"{medium}, {name}, normal": path.normal}
-        between[medium] = max(distance(paths["3D ideal"], path).max() for path in paths.values())
-        by_mujoco[medium] = (
+        found.apart[medium] = max(distance(paths["3D ideal"], path).max() for path in paths.values())
+        found.by_mujoco[medium] = (
             f"within {max(distance(paths[name], pairs[name][1].sample(t)).max() for name in MODELS):.1g} m "
             f"and {max(attitude_angle(paths[name], pairs[name][1].sample(t)).max() for name in MODELS):.1g} "
             "rad of the analytic engine"
         )
         progress(1 + list(MEDIA).index(medium), len(MEDIA))
-    t = data["air, time"]
+    found.time = t = data["air, time"]
     v = np.array(load("fig18_3d_ideal").release.velocity)
     ballistic = np.outer(t, v) - np.outer(t**2, [0, 0, 9.81 / 2]) + [0, 0, 1]
-    held_back = np.linalg.norm(data["air, 3D ideal, position"] - ballistic, axis=1).max()
-    way = np.linalg.norm(np.diff(ballistic, axis=0), axis=1).sum()
-    claims = (
-        Claim(
-            claim="without air the mass centres of the four coins move on one parabola (Figs 18, 19)",
-            analytic=f"at most {between['vacuum']:.1g} m apart",
-            mujoco=by_mujoco["vacuum"],
-            criteria=[
-                Criterion("largest distance [m]", between["vacuum"], "<", SAME * 0.0125, "1e-9 r: rounding")
-            ],
-        ),
-        Claim(
-            claim="in air the four mass centres take paths of their own (Fig. 20)",
-            analytic=f"up to {1e3 * between['air']:.1f} mm apart in {t[-1]:.2f} s",
-            mujoco=by_mujoco["air"],
-            criteria=[Criterion("largest distance [m]", between["air"], ">", 1e-3, "a millimetre is seen")],
-        ),
-        Claim(
-            claim="over a small fall the air can be neglected",
-            analytic=(
-                f"the ideal coin ends {1e3 * held_back:.1f} mm from the parabola, {held_back / way:.1%} of "
-                "its way"
-            ),
-            criteria=[
-                Criterion(
-                    "part of the way that the air holds back",
-                    held_back / way,
-                    "<",
-                    NEGLIGIBLE,
-                    "2 % of a way can be neglected",
-                )
-            ],
-        ),
-    )
-    return Result(claims=claims, data=data)
+    found.held_back = np.linalg.norm(data["air, 3D ideal, position"] - ballistic, axis=1).max()
+    found.part = found.held_back / np.linalg.norm(np.diff(ballistic, axis=0), axis=1).sum()
+    return found
 
 
-def _draw(data: dict[str, Array]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(10, 3.8))
     paths, apart, tilts = picture.subplots(1, 3)
     for medium, style in STYLES.items():
@@ -120,14 +74,4 @@ def _draw(data: dict[str, Array]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Figs 18-20",
-    title="free fall of four models of the coin, without and with air",
-    assumed=(
-        "The paper gives no release; here a hand's toss with all three spins. That the parabola is one in "
-        "vacuum and the paths part in air does not hang on it; how far they part does."
-    ),
-    seconds=10,
-    make=make,
-    draw={"figure": _draw},
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

@@ -8,8 +8,7 @@ from cointoss.analytic.air.force import force_and_moment
 from cointoss.compare.metrics.trajectories import distance
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.parts import Air
 from cointoss.models.reading import load
@@ -22,62 +21,29 @@ FIGURES = ("21(a)", "21(b)", "22(a)", "22(b)")
 COLUMNS = ("speed [m/s]", "acceleration [m/s²]", "cos θ", "f_rz [N]")
 
 
-def make(progress: Progress) -> Result:
+def make(progress: Progress) -> Findings:
     """Let the coin fall without and with air; MuJoCo follows it with air."""
+    found = Findings()
     with_air = load("fig21")
     without = with_air.replace("air", Air())
     fallen, still, mujoco = analytic.toss(with_air), analytic.toss(without), coin_mj.toss(with_air)
-    t_end = min(float(toss.impacts.time[0]) for toss in (fallen, mujoco))
+    found.t_end = min(float(toss.impacts.time[0]) for toss in (fallen, mujoco))
     # At the touch itself the state is that after the impact.
-    t = np.linspace(0, t_end, 2001)[:-1]
+    t = np.linspace(0, found.t_end, 2001)[:-1]
     t_0 = np.linspace(0, float(still.impacts.time[0]), 1001)[:-1]
     path = fallen.sample(t)
     shown, shown_0 = _columns(with_air, path), _columns(without, still.sample(t_0))
     progress(1, 1)
     cosine = shown[:, 2]
-    turns = t[1:-1][np.diff(np.sign(np.diff(cosine))) != 0]
-    swings = np.diff(turns)
-    last = path.angular_velocity[-1, 0]
-    apart = float(distance(path, mujoco.sample(t)).max())
-    claims = (
-        Claim(
-            claim="in air speed and acceleration oscillate, without it they are straight lines (Fig. 21)",
-            analytic=(
-                f"acceleration swings between {shown[:, 1].min():.2f} and {shown[:, 1].max():.2f} m/s²; "
-                f"without air within {np.ptp(shown_0[:, 1]):.1g} of g"
-            ),
-            mujoco=f"within {apart:.1g} m of the analytic engine in {t_end:.1f} s",
-            criteria=[
-                Criterion(
-                    "swing of the acceleration in air [m/s²]",
-                    np.ptp(shown[:, 1]),
-                    ">",
-                    0.1,
-                    "1 % of g is seen",
-                ),
-                Criterion("without air [m/s²]", np.ptp(shown_0[:, 1]), "<", 1e-9, "rounding"),
-            ],
-        ),
-        Claim(
-            claim="the tilt changes slower and slower, and becomes constant (Fig. 22)",
-            analytic=(
-                f"{len(turns)} turning points of cos θ, {swings[0]:.2f} s apart at first and "
-                f"{swings[-1]:.2f} s at last; θ̇ falls from 20 to {abs(last):.1g} rad/s"
-            ),
-            criteria=[
-                Criterion(
-                    "least growth from one swing of cos θ to the next [s]",
-                    np.diff(swings).min(),
-                    ">",
-                    0,
-                    "slower and slower",
-                ),
-                Criterion("last θ̇ [rad/s]", abs(last), "<", 1e-3, "5e-5 of the first"),
-            ],
-        ),
-    )
-    data = {"time": t, "columns": shown, "time without air": t_0, "columns without air": shown_0}
-    return Result(claims=claims, data=data)
+    found.turns = turns = t[1:-1][np.diff(np.sign(np.diff(cosine))) != 0]
+    found.swings = np.diff(turns)
+    found.growth = np.diff(found.swings)
+    found.last = abs(path.angular_velocity[-1, 0])
+    found.apart = float(distance(path, mujoco.sample(t)).max())
+    found.acceleration = shown[:, 1]
+    found.swing, found.swing_without = np.ptp(shown[:, 1]), np.ptp(shown_0[:, 1])
+    found.data = {"time": t, "columns": shown, "time without air": t_0, "columns without air": shown_0}
+    return found
 
 
 def _columns(scenario: Scenario, path: States) -> Array:
@@ -92,7 +58,7 @@ def _columns(scenario: Scenario, path: States) -> Array:
     return np.array(rows)
 
 
-def _draw(data: dict[str, Array]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(8, 4.6))
     for number, (axes, name) in enumerate(zip(picture.subplots(2, 2).flat, COLUMNS, strict=True)):
         for media, style, color, label in (
@@ -108,14 +74,4 @@ def _draw(data: dict[str, Array]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Figs 21-22",
-    title="the scaled coin in air: its speed oscillates, its tilt becomes constant",
-    assumed=(
-        "Height and spin are unsaid; here 200 m and 20 rad/s, enough for a few turns. The paper's caption "
-        "swaps solid and dotted lines."
-    ),
-    seconds=10,
-    make=make,
-    draw={"figure": _draw},
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

@@ -1,12 +1,9 @@
 """Figs 27 and 32: the rim points that a lossless coin touches with, and the exponents of their series."""
 
 import itertools
-from functools import partial
-from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from cointoss.analytic.events import run
 from cointoss.analytic.toss import state_of
@@ -14,17 +11,18 @@ from cointoss.coin_mj.toss import impacts_of
 from cointoss.compare.metrics.lyapunov import divergence, growth_by_tangent
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY, VERMILION
-from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import mean, share
-from cointoss.compare.reproduction.result import Reproduction, Result
 from cointoss.compare.reproduction.setups.planar_maps import MEDIA
 from cointoss.models.parts import Air
 from cointoss.models.reading import load
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 
-PRINTED = {"air": (0.024, 316), "vacuum": (0.08, 700)}
-"""The paper's exponents and numbers of collisions."""
+PRINTED = {"air": 0.024, "vacuum": 0.08}
+"""The paper's exponents."""
+IMPACTS = 316
+"""The paper's number of collisions in air."""
 FIRST = 100
 """Impacts of the first part of the transient."""
 OTHERS, SEED = 200, 27
@@ -44,16 +42,17 @@ APART = 10.0 ** np.arange(-7, 1)
 """Bounds of the distances of neighbours [rad]."""
 FUNCTION = 0.1
 """Where φ(n + 1) is a function of φ(n), points that are so near have images nearer than this [rad]."""
+CLOSE = FUNCTION / 100
 
 
 def make(
     progress: Progress, others: int = OTHERS, followed: int = FOLLOWED, impacts_mujoco: int = 350
-) -> Result:
+) -> Findings:
     """Follow the coin in air and in vacuum, with other spins too, and MuJoCo's coin."""
     with_air = load("fig27")
     cases = {"air": with_air, "vacuum": with_air.replace("air", Air())}
     spins = np.random.default_rng(SEED).uniform(-40, 40, (others, 3))
-    data: dict[str, NDArray[Any]] = {}
+    data: Data = {}
     mujoco = {}
     whole, done = len(cases) * (1 + followed) + 2, 0
     for medium, scenario in cases.items():
@@ -79,102 +78,31 @@ def make(
     near, images = _neighbours(_angles(_points(cases["vacuum"].replace("ending.max_impacts", LONG))))
     data |= {"neighbours": near, "images": images}
     progress(done + 1, whole)
-    return Result(claims=_claims(data, mujoco), data=data)
+    return _findings(data, mujoco)
 
 
-def _claims(data: dict[str, NDArray[Any]], mujoco: dict[str, str]) -> tuple[Claim, ...]:
+def _findings(data: Data, mujoco: dict[str, str]) -> Findings:
     tosses = "tosses of other spins"
-    exponent = {medium: mean(data[f"{medium}, growth"][:, 0], tosses) for medium in PRINTED}
+    exponent = {medium: mean(data[f"{medium}, growth"][:, 0], tosses) for medium in MEDIA}
     of_first = data["air, growth"][:, 1] - data["air, growth"][:, 0]
-    counts, images, near = data["impacts with other spins"], data["images"], data["neighbours"]
-    closest = images[near < FUNCTION / 100]
-    rare = np.abs(counts - counts.mean()) >= abs(PRINTED["air"][1] - counts.mean())
-    steps = {medium: _steps_of(data[f"{medium}, slopes"], PRINTED[medium][0]) for medium in PRINTED}
-    return (
-        Claim(
-            claim="without air, with χ = 1, neighbouring tosses part exponentially (Fig. 32)",
-            analytic="by the tangent map, over the tosses of other spins",
-            mujoco=mujoco["vacuum"],
-            criteria=[Criterion("largest exponent per impact", exponent["vacuum"], ">", 0, "chaos")],
-        ),
-        Claim(
-            claim="with air the chaos is transient (Fig. 27)",
-            analytic=f"{exponent['air'].value:.2f} per impact until the coin rests",
-            mujoco=mujoco["air"],
-            criteria=[
-                Criterion(
-                    f"exponent over the first {FIRST} impacts, less that over all",
-                    mean(of_first, tosses),
-                    ">",
-                    0,
-                    "it fades",
-                )
-            ],
-        ),
-        Claim(
-            claim="U maps the point that hits the floor to the next one: φ(n + 1) is a function of φ(n)",
-            analytic=(
-                f"of {LONG:,d} impacts {len(closest):,d} have φ(n) within {FUNCTION / 100:g} rad of a "
-                f"neighbour's, and half of these φ(n + 1) more than {np.median(closest):.1f} rad from its: "
-                "the next point depends on all speeds and spins too"
-            ),
-            criteria=[
-                Criterion(
-                    f"share of their φ(n + 1) within {FUNCTION:g} rad",
-                    share(closest < FUNCTION, "pairs of neighbours"),
-                    ">",
-                    0.9,
-                    "all, but at jumps of the function",
-                )
-            ],
-            expected=False,
-        ),
-        Claim(
-            claim="the largest exponents are 0.024 with air and 0.08 without (per impact)",
-            analytic=" and ".join(
-                f"{exponent[medium].value / printed:.0f} times the printed one in {medium}"
-                for medium, (printed, _) in PRINTED.items()
-            ),
-            criteria=[
-                Criterion(
-                    f"exponent per impact in {medium}", exponent[medium], "=", printed, "the printed one"
-                )
-                for medium, (printed, _) in PRINTED.items()
-            ],
-            expected=False,
-        ),
-        Claim(
-            claim="the printed exponents are slopes of the mean distance of neighbours in the series",
-            analytic=(
-                "neighbours are as far apart as any two points after one or two impacts, so a line through K "
-                "steps rises by about 6/K² of that; "
-                + ", ".join(
-                    f"{printed} in {medium} is the slope over K = {steps[medium][0]:.0f} "
-                    f"({steps[medium][1]:.0f} to {steps[medium][2]:.0f})"
-                    for medium, (printed, _) in PRINTED.items()
-                )
-            ),
-            missing="the paper does not say how it found the exponents, nor over how many steps",
-            expected=None,
-        ),
-        Claim(
-            claim="with air the coin comes to rest after 316 collisions",
-            analytic=(
-                f"{len(data['air, angle'])} impacts, with other spins {counts.min()} to {counts.max()}: "
-                "where the air has taken all energy that could turn the coin over"
-            ),
-            mujoco=mujoco["air"].split(";")[0],
-            criteria=[
-                # One count is chaotic: another rounding gives another one.
-                Criterion(
-                    "share of the spins whose number is as far from their mean",
-                    share(rare, tosses),
-                    ">",
-                    0.05,
-                    "one in 20 is",
-                )
-            ],
-        ),
+    counts, near = data["impacts with other spins"], data["neighbours"]
+    closest = data["images"][near < CLOSE]
+    rare = np.abs(counts - counts.mean()) >= abs(IMPACTS - counts.mean())
+    steps = {medium: _steps_of(data[f"{medium}, slopes"], PRINTED[medium]) for medium in MEDIA}
+    return Findings(
+        data=data,
+        mujoco=mujoco,
+        exponent=exponent,
+        fading=mean(of_first, tosses),
+        closest=closest,
+        median_image=np.median(closest),
+        near_images=share(closest < FUNCTION, "pairs of neighbours"),
+        times_printed={medium: exponent[medium].value / PRINTED[medium] for medium in MEDIA},
+        steps=steps,
+        impacts=len(data["air, angle"]),
+        counts=counts,
+        impacts_mujoco=mujoco["air"].split(";")[0],
+        as_far=share(rare, tosses),
     )
 
 
@@ -207,7 +135,7 @@ def _angles(points: Array) -> Array:
     return np.arctan2(points[:, 1], points[:, 0])
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(10, 6))
     grid = picture.add_gridspec(2, 3)
     for row, (medium, color) in enumerate(MEDIA.items()):
@@ -228,8 +156,8 @@ def _draw(data: dict[str, NDArray[Any]]) -> Figure:
         slopes = data[f"{medium}, slopes"]
         slope.fill_between(steps, slopes.min(axis=0), slopes.max(axis=0), color=color, alpha=0.2, linewidth=0)
         slope.loglog(steps, np.median(slopes, axis=0), color=color, label=f"in {medium}")
-        slope.axhline(PRINTED[medium][0], color=color, linestyle=":")
-        slope.annotate(f"printed: {PRINTED[medium][0]}", (1.1, 1.1 * PRINTED[medium][0]), color=color)
+        slope.axhline(PRINTED[medium], color=color, linestyle=":")
+        slope.annotate(f"printed: {PRINTED[medium]}", (1.1, 1.1 * PRINTED[medium]), color=color)
     slope.set(title="slope of the series", xlabel="steps fitted, K", ylabel="slope per impact")
     slope.legend()
     map_of_circle = picture.add_subplot(grid[1, 2])
@@ -251,18 +179,4 @@ def _draw(data: dict[str, NDArray[Any]]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Figs 27, 32",
-    title="the points of the rim that hit the floor: no map of the circle, and exponents of their series",
-    assumed=(
-        "Coin, height and spins are unsaid, as is how the exponents were found; here the thin coin of Fig. "
-        "24 from 0.4 m with 10, 40.15 and 5 rad/s, and others with up to 40 rad/s about each axis. Intervals "
-        "are over those spins. The number of impacts in air hardly depends on the spins, so 316 does not "
-        "show which they were."
-    ),
-    seconds=150,
-    make=make,
-    draw={"figure": _draw},
-    quick_seconds=12,
-    quick=partial(make, others=20, followed=2, impacts_mujoco=60),
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

@@ -2,8 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,9 +15,10 @@ from cointoss.analytic.toss import state_of
 from cointoss.coin_mj.toss import impacts_of
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, HEADS, INK, TAILS, VERMILION
-from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
-from cointoss.compare.reproduction.estimates import jackknife, ratio_of_medians
-from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.claim import Estimate
+from cointoss.compare.reproduction.declared import Data, Findings, declared
+from cointoss.compare.reproduction.estimates import ratio_of_medians
+from cointoss.compare.reproduction.setups.face_changes import changes, share_after_row
 from cointoss.compare.reproduction.setups.fig24_readings import (
     READINGS,
     Reading,
@@ -52,7 +52,7 @@ STROBES = 28
 """Positions drawn of a path."""
 
 
-def make(progress: Progress, count: int = 1000, count_mujoco: int = 60) -> Result:
+def make(progress: Progress, count: int = 1000, count_mujoco: int = 60) -> Findings:
     """Toss coins like that of Fig. 24(a) by both engines, and sort their changes of face.
 
     The analytic engine makes `count` tosses of each reading of Fig. 24 whose impacts cluster as printed.
@@ -74,9 +74,8 @@ def make(progress: Progress, count: int = 1000, count_mujoco: int = 60) -> Resul
         kinds = changes(impacts_of(_scenario(scenario, rng)).face)
         by_mujoco = [n + len(kind) for n, kind in zip(by_mujoco, kinds, strict=True)]
         progress(whole - count_mujoco + done, whole)
-    share_of = {name: _share_after_row(one.counts) for name, one in found.items()}
     mujoco = f"{by_mujoco[0]} of {sum(by_mujoco)} in {count_mujoco} tosses ({scenario.name})"
-    return Result(claims=_claims(found, share_of, mujoco), data=_data(found, share_of))
+    return _findings(found, mujoco)
 
 
 @dataclass(frozen=True)
@@ -110,61 +109,29 @@ def _changes(scenario: Scenario) -> tuple[Array, Array]:
     return given[row], given[one]
 
 
-def _share_after_row(counts: NDArray[np.int64]) -> Estimate:
-    def share_of(kept: NDArray[np.bool_]) -> float:
-        row, one = counts[kept].sum(axis=0)
-        return float(row / (row + one))
-
-    return jackknife(share_of, len(counts))
-
-
-def _claims(found: dict[str, Changes], share_of: dict[str, Estimate], mujoco: str) -> tuple[Claim, ...]:
+def _findings(found: dict[str, Changes], mujoco: str) -> Findings:
     rng = np.random.default_rng(SEED)
-
-    def ratios(column: int) -> dict[str, Estimate]:
-        return {
-            name: ratio_of_medians(one.row[:, column], one.one[:, column], rng, "changes")
-            for name, one in found.items()
-        }
-
-    impulse, momentum = ratios(0), ratios(1)
-    return (
-        Claim(
-            claim="the face changes more often after a row of impacts on one face than after a single one",
-            analytic=f"in the {len(found)} readings of Fig. 24 that cluster as printed",
-            mujoco=mujoco,
-            criteria=[
-                Criterion(f"share after a row ({name})", one, ">", 0.5, "more often than not")
-                for name, one in share_of.items()
-            ],
-        ),
-        Claim(
-            claim="the first kind comes from soft impacts, the second from strong ones",
-            criteria=[
-                Criterion(f"median impulse, soft over strong ({name})", one, "<", 1, "softer")
-                for name, one in impulse.items()
-            ],
-        ),
-        Claim(
-            claim="the first kind transfers little angular momentum, the second much",
-            criteria=[
-                Criterion(f"median angular momentum, little over much ({name})", one, "<", 1, "less")
-                for name, one in momentum.items()
-            ],
-            missing=(
-                f"it holds in {sum(one.high < 1 for one in momentum.values())} of {len(momentum)} readings, "
-                f"and does not in {sum(one.low > 1 for one in momentum.values())}; the paper does not say "
-                "which coin and floor it means"
-            ),
-            expected=None,
-        ),
+    impulse, momentum = (
+        {name: ratio_of_medians(one.row[:, i], one.one[:, i], rng, "changes") for name, one in found.items()}
+        for i in (0, 1)
+    )
+    shares = {name: share_after_row(one.counts) for name, one in found.items()}
+    return Findings(
+        data=_data(found, shares),
+        mujoco=mujoco,
+        shares=shares,
+        impulse=impulse,
+        momentum=momentum,
+        readings=len(found),
+        holding=sum(one.high < 1 for one in momentum.values()),
+        failing=sum(one.low > 1 for one in momentum.values()),
     )
 
 
-def _data(found: dict[str, Changes], share_of: dict[str, Estimate]) -> dict[str, NDArray[Any]]:
-    data: dict[str, NDArray[Any]] = {
+def _data(found: dict[str, Changes], share_of: dict[str, Estimate]) -> Data:
+    data: Data = {
         "names": np.array(list(found)),
-        "shares": np.array([(each.value, each.low, each.high) for each in share_of.values()]),
+        "shares": np.array([each.ends for each in share_of.values()]),
         "after a row": np.concatenate([each.row for each in found.values()]),
         "after one": np.concatenate([each.one for each in found.values()]),
     }
@@ -173,9 +140,9 @@ def _data(found: dict[str, Changes], share_of: dict[str, Estimate]) -> dict[str,
     return data | _paths(shown)
 
 
-def _paths(reading: Reading) -> dict[str, NDArray[Any]]:
+def _paths(reading: Reading) -> Data:
     """Return the shortest paths to a change of each kind that can be seen, of tosses near Fig. 24's."""
-    data: dict[str, NDArray[Any]] = {}
+    data: Data = {}
     shortest = dict.fromkeys(KINDS, np.inf)
     for height in np.linspace(0.39, 0.41, 21):
         toss = analytic.toss(reading.scenario.replace("release.position.z", float(height)))
@@ -206,21 +173,7 @@ def _scenario(reading: Reading, rng: np.random.Generator) -> Scenario:
     )
 
 
-def changes(faces: NDArray[np.int8]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the last impacts before the face changes, by the kind of change.
-
-    Args:
-        faces: up at the touches, (n,).
-
-    Returns:
-        Numbers of the impacts from 0: those that end a row on one face, and single ones.
-    """
-    last = np.flatnonzero(np.diff(faces))
-    lengths = np.diff(np.concatenate([[-1], last]))
-    return last[lengths > 1], last[lengths == 1]
-
-
-def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(10, 7))
     grid = picture.add_gridspec(2, 6, height_ratios=(1, 1.1))
     for column, (kind, title) in enumerate(KINDS.items()):
@@ -268,19 +221,4 @@ def _draw_path(axes: Axes, path: dict[str, Array]) -> None:
     axes.plot(1e3 * (path["impacts"] - path["time"][0]), 0 * path["impacts"], "^", color=INK, markersize=5)
 
 
-REPRODUCTION = Reproduction(
-    paper="Fig. 28",
-    title="two kinds of impacts that change the face, counted",
-    assumed=(
-        "The paper gives no tosses; here those of Fig. 24(a) with height and spins up to 2 % off, in each "
-        "reading of its coin and floor in which all six tosses begin with one impact and a cluster of three, "
-        "H∘HHH∘, as printed. Its rule is taken at its word: a face that was up at two or more impacts in a "
-        "row changes by the first kind, one that was up at a single impact by the second. (a) and (b) show a "
-        "coin edge on, its faces gold and blue, at equal times."
-    ),
-    seconds=150,
-    make=make,
-    draw={"figure": _draw},
-    quick_seconds=15,
-    quick=partial(make, count=40, count_mujoco=4),
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

@@ -1,7 +1,5 @@
 """Fig. 29: basins of heads and tails over height and spin, without and with bouncing, in air and not."""
 
-from functools import partial
-
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -12,9 +10,8 @@ from cointoss.compare.basins.maps import OutcomeCodes
 from cointoss.compare.basins.picture import draw_panel
 from cointoss.compare.basins.stripes import crossings
 from cointoss.compare.output.progress import Progress
-from cointoss.compare.reproduction.claim import Claim, Criterion
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import share
-from cointoss.compare.reproduction.result import Reproduction, Result
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHT,
     HEIGHTS,
@@ -31,14 +28,11 @@ from cointoss.models.records import Face, Outcome
 from cointoss.models.scenario import Scenario
 
 SEED = 29
-SAME_STRIPES = 0.05
-"""Part by which numbers of stripes may differ and a picture look the same."""
-NEGLIGIBLE = 0.01
-"""A share of the tosses that can be neglected."""
 
 
-def make(progress: Progress, points: int = 400, points_mujoco: int = 16, tosses: int = 100_000) -> Result:
+def make(progress: Progress, points: int = 400, points_mujoco: int = 16, tosses: int = 100_000) -> Findings:
     """Make the four maps, and toss at random in them; MuJoCo tosses a coarser grid to its first touch."""
+    found = Findings()
     grid = whole_grid(points)
     landed, settled = {}, {}
     for done, medium in enumerate(("air", "vacuum")):
@@ -48,82 +42,29 @@ def make(progress: Progress, points: int = 400, points_mujoco: int = 16, tosses:
         settled[medium] = final_faces(scenario, grid)
         progress(2 * done + 2, 5)
     away = distance_to_doubt(landed["vacuum"]) > 1
-    wrong = int(np.sum((landed["vacuum"] != _closed_form(grid)) & away))
+    found.wrong = int(np.sum((landed["vacuum"] != _closed_form(grid)) & away))
     coarse = whole_grid(points_mujoco)
     faces = faces_after(case(air=True), coarse.releases, 0).reshape(coarse.shape)
-    same = int(np.sum(_first_touches(case(air=True), coarse) == faces))
+    found.same = int(np.sum(_first_touches(case(air=True), coarse) == faces))
     progress(5, 5)
-    lines = {name: crossings(maps[::20]).mean() for name, maps in settled.items()}
-    lines_landed = {name: crossings(maps[::20]).mean() for name, maps in landed.items()}
-    stripes = {name: crossings(maps).mean() for name, maps in landed.items()}
+    found.lines = {name: crossings(maps[::20]).mean() for name, maps in settled.items()}
+    found.lines_landed = {name: crossings(maps[::20]).mean() for name, maps in landed.items()}
+    found.stripes = {name: crossings(maps).mean() for name, maps in landed.items()}
     rng = np.random.default_rng(SEED)
     random = releases(rng.uniform(*HEIGHTS, tosses), rng.uniform(*SPINS, tosses))
-    changed = share(
+    found.changed = share(
         faces_after(case(air=True), random, 0) != faces_after(case(air=False), random, 0), "tosses"
     )
-    undecided = sum(fractions(maps)[Outcome.UNDECIDED] for maps in settled.values())
-    claims = (
-        Claim(
-            claim="without bouncing the basins are stripes as in Keller's model",
-            analytic=f"off the boundaries {wrong} of {away.sum()} pixels differ from the planar closed form",
-            mujoco=f"{same} of {faces.size} pixels of a coarser map as the analytic engine",
-            criteria=[
-                Criterion(
-                    "pixels off the closed form", wrong, "=", 0, "rounding moves no more than the boundaries"
-                )
-            ],
-        ),
-        Claim(
-            claim="without bouncing the air can be neglected (the structure of the basins)",
-            analytic=(
-                f"a line through the map crosses {stripes['air']:.2f} boundaries with air, "
-                f"{stripes['vacuum']:.2f} without"
-            ),
-            criteria=[
-                Criterion(
-                    "boundaries on a line in air over those in vacuum, less 1",
-                    stripes["air"] / stripes["vacuum"] - 1,
-                    "within ±",
-                    SAME_STRIPES,
-                    "a picture shows no fewer stripes",
-                )
-            ],
-        ),
-        Claim(
-            claim="without bouncing the air can be neglected (the face of a toss)",
-            analytic=f"the air moves the stripes, and changes the face in {changed.value:.1%} of the tosses",
-            criteria=[
-                Criterion(
-                    "share of the tosses whose face the air changes",
-                    changed,
-                    "<",
-                    NEGLIGIBLE,
-                    "one toss in 100",
-                )
-            ],
-            expected=False,
-        ),
-        Claim(
-            claim="bouncing makes the basins more complicated",
-            analytic=(
-                f"a line through the map crosses {lines['air']:.0f} boundaries with air and "
-                f"{lines['vacuum']:.0f} without; without bouncing {lines_landed['air']:.1f} and "
-                f"{lines_landed['vacuum']:.1f}; {undecided:.1%} of the tosses undecided"
-            ),
-            criteria=[
-                Criterion(
-                    "boundaries on a line, the fewest with bouncing",
-                    min(lines.values()),
-                    ">",
-                    10 * max(lines_landed.values()),
-                    "ten times the most without",
-                )
-            ],
-        ),
-    )
+    found.undecided = sum(fractions(maps)[Outcome.UNDECIDED] for maps in settled.values())
+    found.pixels = away.sum()
+    found.coarse_pixels = faces.size
+    found.more_stripes = found.stripes["air"] / found.stripes["vacuum"] - 1
+    found.fewest = min(found.lines.values())
+    found.ten_times_landed = 10 * max(found.lines_landed.values())
     data = {f"first touch, {name}": maps for name, maps in landed.items()}
     data |= {f"final, {name}": maps for name, maps in settled.items()}
-    return Result(claims=claims, data=data)
+    found.data = data
+    return found
 
 
 def _first_touches(scenario: Scenario, grid: Grid) -> OutcomeCodes:
@@ -155,7 +96,7 @@ def _closed_form(grid: Grid) -> OutcomeCodes:
     return np.where(np.cos(w * t) > 0, Face.HEADS, Face.TAILS).astype(np.int8)
 
 
-def _draw(data: dict[str, OutcomeCodes]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(6.4, 5.6))
     order = ("first touch, air", "first touch, vacuum", "final, air", "final, vacuum")
     for axes, letter, name in zip(picture.subplots(2, 2).flat, "abcd", order, strict=True):
@@ -165,17 +106,4 @@ def _draw(data: dict[str, OutcomeCodes]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Fig. 29",
-    title="basins of heads (gold) and tails (blue): without and with bouncing, with air and without",
-    assumed=(
-        "The ranges of the axes are unsaid; here heights from 0.2 to 0.6 m and spins from 20 to 60 rad/s, "
-        "the coin released flat, heads up. The impactless maps (χ = 0) show the face up at the first touch. "
-        "The paper's text and caption swap air and vacuum; here (a) and (c) are with air."
-    ),
-    seconds=60,
-    make=make,
-    draw={"figure": _draw},
-    quick_seconds=15,
-    quick=partial(make, points=150, points_mujoco=6, tosses=20_000),
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

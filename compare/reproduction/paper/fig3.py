@@ -7,10 +7,8 @@ from cointoss import analytic, coin_mj
 from cointoss.compare.metrics.trajectories import attitude_angle
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, ORANGE, SKY, VERMILION
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.models.reading import load
-from cointoss.models.records import Array
 
 DROPS = {
     "ideal, flat": "fig3_flat",
@@ -18,43 +16,24 @@ DROPS = {
     "imperfect, flat": "fig3_flat_imperfect",
     "imperfect, at 45°": "fig3_tilted_imperfect",
 }
-KEPT = 0.1
-"""A coin that turns less keeps its attitude [degrees]."""
 
 
-def make(progress: Progress) -> Result:
+def make(progress: Progress) -> Findings:
     """Drop the ideal and the imperfect coin by both engines until they touch the floor."""
-    data: dict[str, Array] = {}
-    claims: list[Claim] = []
+    data: Data = {}
+    found = Findings(data=data, drops={})
     for done, (name, scenario) in enumerate(DROPS.items(), start=1):
         tosses = [engine(load(scenario)) for engine in (analytic.toss, coin_mj.toss)]
         t = np.linspace(0, min(toss.impacts.time[0] for toss in tosses), 200)
-        by_analytic, mujoco = (
-            np.degrees(attitude_angle(toss.sample(t), toss.sample(0 * t))) for toss in tosses
-        )
-        data |= {f"{name}, time": t, f"{name}, analytic": by_analytic, f"{name}, MuJoCo": mujoco}
-        claims.append(
-            Claim(
-                claim=f"the coin keeps its attitude until it lands ({name})",
-                analytic=f"turns by {by_analytic.max():.3g}° in {t[-1]:.3f} s",
-                mujoco=f"{mujoco.max():.3g}°",
-                criteria=[
-                    Criterion(
-                        "largest turn [°]",
-                        max(by_analytic.max(), mujoco.max()),
-                        "<",
-                        KEPT,
-                        "less is not seen",
-                    )
-                ],
-                expected=name.startswith("ideal"),
-            )
-        )
+        turned = [np.degrees(attitude_angle(toss.sample(t), toss.sample(0 * t))) for toss in tosses]
+        data |= {f"{name}, time": t, f"{name}, analytic": turned[0], f"{name}, MuJoCo": turned[1]}
+        ideal, most = name.startswith("ideal"), np.max(turned)
+        found.drops[name] = {"turned": turned, "most": most, "time": t, "ideal": ideal}
         progress(done, len(DROPS))
-    return Result(claims=claims, data=data)
+    return found
 
 
-def _draw(data: dict[str, Array]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(7, 3.4))
     axes = picture.subplots()
     for name, color in zip(DROPS, (BLUE, SKY, VERMILION, ORANGE), strict=True):
@@ -66,14 +45,4 @@ def _draw(data: dict[str, Array]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Fig. 3",
-    title="two drops from 186 cm: the attitude is kept, by an ideal coin",
-    assumed=(
-        "The photographs name no offset of the mass centre; the imperfect coin is that of section 5.1. It "
-        "turns over, so the coins photographed were nearer to ideal."
-    ),
-    seconds=10,
-    make=make,
-    draw={"figure": _draw},
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

@@ -1,10 +1,7 @@
 """Fig. 30, section 5.2: boundaries magnified to 1e-25 m, and how the share of uncertain tosses falls."""
 
-from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
-from functools import partial
 from itertools import product
-from os import cpu_count
 from pathlib import Path
 from typing import Any
 
@@ -16,13 +13,13 @@ from cointoss import analytic, coin_mj
 from cointoss.compare.basins.picture import MapAxis, draw_panel
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY
-from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.claim import Estimate
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import jackknife, share
 from cointoss.compare.reproduction.parts import Part, kept
 from cointoss.compare.reproduction.precision.magnified import MAGNIFICATION, Magnified, magnify
 from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
 from cointoss.compare.reproduction.precision.planar_state import HEIGHT, release
-from cointoss.compare.reproduction.result import Reproduction, Result
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHTS,
     MEDIA,
@@ -33,6 +30,7 @@ from cointoss.compare.reproduction.setups.planar_maps import (
     releases,
 )
 from cointoss.compare.reproduction.setups.uncertain_shares import uncertain_shares
+from cointoss.compare.reproduction.threads import all_cores
 from cointoss.models.kernel.sources import source_hash
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
@@ -47,8 +45,6 @@ DECADES = 3
 """α is the slope over so many of them."""
 DOUBLES = (3, 4)
 """Index of the first and number of those for which doubles would do: 1e-6 m to 1e-10 m."""
-SMOOTH, FRACTAL = 0.9, 0.8
-"""An exponent α above the one is all but a smooth boundary's, below the other a fractal's."""
 UPRIGHT = 1e-6
 """A coin stands when it comes so near to the upright coin at rest [m g r]."""
 TENFOLDS = 3
@@ -72,28 +68,23 @@ def make(
     runs: int = 24,
     population: int = 60,
     tosses_mujoco: int = 200,
-) -> Result:
+) -> Findings:
     """Enlarge the maps of Fig. 29(c, d) and lines through them, and find the share of uncertain tosses."""
     whole = len(MEDIA) * (len(WINDOWS) + lines + runs) + 1
     done = 0
     rng = np.random.default_rng(SEED)
-    data: dict[str, NDArray[Any]] = {}
-    claims: list[Claim] = []
+    data: Data = {}
+    media: dict[str, dict[str, Any]] = {}
     heights, spins = rng.uniform(*HEIGHTS, tosses_mujoco), rng.uniform(*SPINS, tosses_mujoco)
     mujoco = _by_mujoco(case(air=True), heights, spins)
     progress(done := done + 1, whole)
     jobs = list(product(MEDIA, range(runs)))
     made: dict[str, list[Array]] = {medium: [] for medium in MEDIA}
-    pool = ThreadPoolExecutor(cpu_count())
-    try:
-        for (medium, _), found in zip(
-            jobs, pool.map(lambda job: _shares(parts, job[0], job[1], population), jobs), strict=True
-        ):
-            made[medium].append(found)
+    with all_cores() as pool:
+        found = pool.map(lambda job: _shares(parts, job[0], job[1], population), jobs)
+        for (medium, _), shares in zip(jobs, found, strict=True):
+            made[medium].append(shares)
             progress(done := done + 1, whole)
-    finally:
-        # An interruption does not wait for the runs not yet begun.
-        pool.shutdown(cancel_futures=True)
     for medium in MEDIA:
         scenario = case(air=medium == "air")
         z, w = _boundary_near(scenario), NEAR[1]
@@ -112,8 +103,9 @@ def make(
         data[f"{medium}, crossings"] = np.array([line.counts for line in followed])
         data[f"{medium}, off"] = off = np.array([line.from_upright.max(axis=1) for line in followed])
         data[f"{medium}, shares"] = shares = np.array(made[medium])
-        claims += _claims(medium, followed, off, shares, mujoco if medium == "air" else "-")
-    return Result(claims=claims, data=data)
+        media[medium] = _lines(followed) | _standing(off) | _slopes(shares)
+        media[medium]["mujoco"] = mujoco if medium == "air" else "-"
+    return Findings(data=data, media=media)
 
 
 def _shares(parts: Path, medium: str, number: int, population: int) -> Array:
@@ -129,87 +121,52 @@ def _shares(parts: Path, medium: str, number: int, population: int) -> Array:
     return kept(parts, f"{made_by}, {medium}, {number}, {population}", compute)["shares"]
 
 
-def _claims(medium: str, followed: list[Magnified], off: Array, shares: Array, mujoco: str) -> list[Claim]:
-    lines = len(followed)
+def _lines(followed: list[Magnified]) -> dict[str, Any]:
+    """Return from where on boundaries are isolated, by the names of the claims."""
     isolated = np.array([line.isolated_from for line in followed if line.isolated_from is not None])
     left = [int(line.counts[-1]) for line in followed if line.isolated_from is None]
     widest = _window(isolated)
-    last, coarse = slope(shares, len(ACCURACIES) - 1 - DECADES, DECADES), slope(shares, 0, 1)
-    doubles, f = slope(shares, *DOUBLES), shares.mean(axis=0)
-    impacts = [line.impacts[-1].max() for line in followed]
-    return [
-        Claim(
-            claim=f"under further magnification boundaries are smooth, no new structure (in {medium})",
-            analytic=(
-                f"{len(isolated)} of {lines} boundaries are isolated in the end, from windows of "
-                f"{widest.min():.0e} to {widest.max():.0e} m on, half of them from {np.median(widest):.0e} m"
-                + (f"; about the others are up to {max(left)} in a window of 4e-25 m" if left else "")
-                + f"; their tosses make {min(impacts)} to {max(impacts)} impacts"
-            ),
-            criteria=[Criterion("isolated boundaries", len(isolated), "=", lines, "all that were magnified")],
-        ),
-        standing(medium, off),
-        Claim(
-            claim=f"by 1e-24 m the share of uncertain tosses falls as ε¹, a smooth boundary (in {medium})",
-            analytic=(
-                "α over three decades from "
-                + ", ".join(
-                    f"{ACCURACIES[i]:.0e} m: {slope(shares, i, DECADES).value:.2f}"
-                    for i in range(0, len(ACCURACIES) - DECADES, DECADES)
-                )
-                + "; the share itself "
-                + ", ".join(f"{f[i]:.1e}" for i in range(0, len(ACCURACIES), DECADES))
-            ),
-            mujoco=mujoco,
-            expected=False,
-            criteria=[Criterion("α from 1e-21 to 1e-24 m", last, ">", SMOOTH, "a smooth boundary has 1")],
-        ),
-        Claim(
-            claim=f"for any release an accuracy exists that makes it predictable (in {medium})",
-            criteria=[
-                Criterion("share uncertain within 1e-24 m", f[-1], "<", 1e-6, "one toss in a million"),
-            ],
-        ),
-        Claim(
-            claim=(
-                "(against the paper, Yue 2014, 2016) the outcome is as sensitive as of a fractal "
-                f"(in {medium})"
-            ),
-            analytic=(
-                f"at every accuracy that can be met: from 1e-6 to 1e-10 m α = {doubles.value:.2f}, so that "
-                f"to halve the share takes a {2 ** (1 / doubles.value):.0f} times finer one, on a smooth "
-                f"boundary twice; from 1 to 0.1 mm α = {coarse.value:.2f}"
-            ),
-            criteria=[
-                Criterion("α from 1e-6 to 1e-10 m", doubles, "<", FRACTAL, "a smooth boundary has 1"),
-            ],
-        ),
-    ]
+    return {
+        "lines": len(followed),
+        "isolated": len(isolated),
+        "widest": widest,
+        "half": np.median(widest),
+        "others": f"; about the others are up to {max(left)} in a window of 4e-25 m" if left else "",
+        "impacts": np.array([line.impacts[-1].max() for line in followed]),
+    }
 
 
-def standing(medium: str, off: Array) -> Claim:
-    """Return the claim that a boundary is the coin that comes to stand upright.
+def _standing(off: Array) -> dict[str, Any]:
+    """Return how near coins at a boundary come to standing upright, by the names of the claims.
 
     Args:
-        medium: air or vacuum.
         off: energy that the coin lacks, or has too much, to stand, by boundary and window, (n, m) [m g r].
     """
     stands = off[:, -1] < UPRIGHT
     last, before = (np.median(off[:, -1 - tenfolds]) for tenfolds in (0, TENFOLDS))
-    return Claim(
-        claim=f"most boundaries are the coin that comes to stand upright (in {medium})",
-        analytic=(
-            f"{stands.sum()} of {len(off)} are: the energy that the coin lacks, or has too much, to stand "
-            f"upright at rest falls as the window's length; in the last, "
-            f"{_window(np.array(WINDOWS_BELOW - 1)):.0e} m, it is {last:.0e} m g r in the median, in one "
-            f"{10**TENFOLDS} times as long {before:.0e} m g r"
-        ),
-        criteria=[
-            Criterion(
-                f"share of those with less than {UPRIGHT:.0e} m g r", share(stands, "lines"), ">", 0.5, "most"
-            )
-        ],
-    )
+    window = _window(np.array(WINDOWS_BELOW - 1))
+    return {"standing": stands, "upright": share(stands, "lines")} | {
+        "window": window,
+        "last": last,
+        "tenfolds": 10**TENFOLDS,
+        "before": before,
+    }
+
+
+def _slopes(shares: Array) -> dict[str, Any]:
+    """Return how the share of uncertain tosses falls, by the names of the claims."""
+    tenths, f = range(0, len(ACCURACIES), DECADES), shares.mean(axis=0)
+    slopes = {ACCURACIES[i]: slope(shares, i, DECADES).value for i in tenths[:-1]}
+    doubles = slope(shares, *DOUBLES)
+    return {
+        "slopes": ", ".join(f"{accuracy:.0e} m: {alpha:.2f}" for accuracy, alpha in slopes.items()),
+        "shares": ", ".join(f"{f[i]:.1e}" for i in tenths),
+        "finest": slope(shares, len(ACCURACIES) - 1 - DECADES, DECADES),
+        "uncertain": f[-1],
+        "doubles": doubles,
+        "finer": 2 ** (1 / doubles.value),
+        "coarse": slope(shares, 0, 1),
+    }
 
 
 def slope(shares: Array, first: int, decades: int) -> Estimate:
@@ -273,7 +230,7 @@ def _by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
     )
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(10, 6))
     grid = picture.subplots(2, 3)
     for row, medium in enumerate(MEDIA):
@@ -312,21 +269,4 @@ def _draw(data: dict[str, NDArray[Any]]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Fig. 30, section 5.2",
-    title="boundaries under magnification, and the share of uncertain tosses",
-    assumed=(
-        "Where the paper enlarges is unsaid; here about 0.26 m and 39 rad/s, and lines through the whole "
-        "map, each magnified 10²⁴ times about one of its boundaries, in arithmetic of 106 bits. How near a "
-        "coin comes to standing is the least sum, over its last contact, of the energy of its motion, "
-        "sliding aside, and that which its height lacks. A boundary that is followed is isolated in the end, "
-        "but most are not by 1e-24 m, as the share shows: see PREDICTABILITY.md. An interrupted run goes on "
-        "where it was."
-    ),
-    seconds=400,
-    make=make,
-    resumes=True,
-    draw={"figure": _draw},
-    quick_seconds=30,
-    quick=partial(make, points=25, lines=4, runs=4, population=20, tosses_mujoco=10),
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

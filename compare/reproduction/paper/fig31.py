@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -14,9 +13,9 @@ from cointoss import analytic, coin_mj
 from cointoss.compare.basins.picture import draw_panel
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY, INK, PALE, VERMILION
-from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.claim import Estimate
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import ratio_of_shares, share
-from cointoss.compare.reproduction.result import Reproduction, Result
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHT,
     HEIGHTS,
@@ -45,14 +44,18 @@ FEWEST = 150
 CONVERGED = 0.5
 """Part by which ten times finer twins may count more boundaries where all of them are counted."""
 FEW_TWINS = "too few twins differ to count boundaries at two resolutions"
-ELASTIC_TOUCHES = 31
-"""Faces are compared so often where no impact loses energy."""
+ELASTIC = 30
+"""Impacts through which faces are compared where none loses energy."""
 ELASTIC_STEPS = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)
 """Distances of twins there [m]."""
 MOST = 100
 """Impacts within which a toss that loses energy ends."""
 LENGTH = HEIGHTS[1] - HEIGHTS[0]
 SEED = 31
+NARROW = 1e-9
+"""At which stripes are looked for that are narrower than a hand is accurate [m]."""
+HALF = 0.4
+"""A share of twins that differ: nearly chance."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,13 +77,13 @@ class Boundaries:
 
 def make(
     progress: Progress, points: int = 64, tosses: int = 240_000, elastic: int = 1000, tosses_mujoco: int = 100
-) -> Result:
+) -> Findings:
     """Map the face after each number of impacts, and count twins, tosses ε apart, that differ."""
     grid = whole_grid(points)
     rng = np.random.default_rng(SEED)
     heights, spins = rng.uniform(*HEIGHTS, tosses), rng.uniform(*SPINS, tosses)
-    data: dict[str, NDArray[Any]] = {"resolution": RESOLUTIONS}
-    found: dict[str, list[Boundaries]] = {}
+    data: Data = {"resolution": RESOLUTIONS}
+    media: dict[str, dict[str, Any]] = {}
     done, whole = 0, len(MEDIA) * (TOUCHES + 1) + 2
     same = _same_by_mujoco(case(air=True), heights[:tosses_mujoco], spins[:tosses_mujoco])
     progress(done := done + 1, whole)
@@ -94,14 +97,13 @@ def make(
             few = slice(round(PARTS.get(n, PARTS_BEYOND) * tosses))
             differ.append(_differing(scenario, heights[few], spins[few], n))
             progress(done := done + 1, whole)
-        found[medium] = [_boundaries(one) for one in differ]
+        counted = [_boundaries(one) for one in differ]
+        media[medium] = _growth(counted) | {"mujoco": same if medium == "air" else "-"}
         data |= {
             f"{medium}, boundaries": (LENGTH / RESOLUTIONS)[:, None]
             * np.array([one.mean(axis=1) for one in differ]).T,
-            f"{medium}, counted": np.array(
-                [(one.count.value, one.count.low, one.count.high) for one in found[medium]]
-            ),
-            f"{medium}, converged": np.array([one.is_converged for one in found[medium]]),
+            f"{medium}, counted": np.array([one.count.ends for one in counted]),
+            f"{medium}, converged": np.array([one.is_converged for one in counted]),
         }
     few = slice(round(PARTS_BEYOND * tosses))
     last, narrow = (
@@ -111,55 +113,26 @@ def make(
     lasting = analytic.toss_many(case(air=True), releases(heights, spins)).impacts
     data["elastic"] = shares = _elastic_shares(heights[:elastic], spins[:elastic])
     progress(whole, whole)
-    claims = [claim for medium, one in found.items() for claim in _claims(medium, one, same)]
-    claims += [
-        Claim(
-            claim="the end of the toss stops the multiplication",
-            analytic=(
-                f"half of the tosses make {np.median(lasting):.0f} impacts or fewer, "
-                f"{np.mean(lasting > 9):.0%} more than the 9 of the last map; N at a fixed ε stops growing "
-                "long before, where twins differ as often as any two tosses"
-            ),
-            criteria=[
-                Criterion(
-                    f"share with more than {MOST} impacts",
-                    share(lasting > MOST),
-                    "<",
-                    1e-3,
-                    "after that nothing changes",
-                )
-            ],
-        ),
-        Claim(
-            claim="stripes become narrower than any hand is accurate (section 5.3)",
-            analytic=f"{TOUCHES - 1} impacts; twins {NARROW:.0e} m apart",
-            criteria=[
-                Criterion(
-                    "mean width at most [m]",
-                    _inverse(share(narrow != last), NARROW),
-                    "<",
-                    1e-6,
-                    "a hand errs by more than 1 µm",
-                )
-            ],
-        ),
-        *_elastic_claims(shares, elastic, heights, spins),
-    ]
-    return Result(claims=claims, data=data)
-
-
-NARROW = 1e-9
-"""At which stripes are looked for that are narrower than a hand is accurate [m]."""
+    return Findings(
+        data=data,
+        media=media,
+        median=np.median(lasting),
+        more=np.mean(lasting > SHOWN[-1]),
+        beyond=share(lasting > MOST),
+        width=_inverse(share(narrow != last), NARROW),
+        ended=_ended(heights[:elastic], spins[:elastic]),
+        mixed=_mixed(shares),
+        elastic_share={
+            f"{step:.0e}": share(np.arange(elastic) < round(row[-1] * elastic), "twins") - 1 / 2
+            for step, row in zip(ELASTIC_STEPS, shares, strict=True)
+        },
+    )
 
 
 def _inverse(estimate: Estimate, factor: float) -> Estimate:
     """Return the estimate of a factor over what was estimated."""
-    return replace(
-        estimate,
-        value=factor / max(estimate.value, np.finfo(float).tiny),
-        low=factor / estimate.high,
-        high=factor / max(estimate.low, np.finfo(float).tiny),
-    )
+    value, low, high = factor / np.maximum(estimate.ends, np.finfo(float).tiny)
+    return replace(estimate, value=float(value), low=float(high), high=float(low))
 
 
 def _differing(scenario: Scenario, heights: Array, spins: Array, n: int) -> NDArray[np.bool_]:
@@ -185,55 +158,33 @@ def _boundaries(differ: NDArray[np.bool_]) -> Boundaries:
     finest = int(enough.max(initial=1))
     part, scale = share(differ[finest], "twins"), LENGTH / RESOLUTIONS[finest]
     return Boundaries(
-        count=replace(part, value=scale * part.value, low=scale * part.low, high=scale * part.high),
+        count=part * scale,
         resolution=float(RESOLUTIONS[finest]),
         growth=ratio_of_shares(differ[finest], differ[finest - 1], 10.0, "twins"),
     )
 
 
-def _claims(medium: str, found: Sequence[Boundaries], same: str) -> list[Claim]:
-    """Return the claims on how the number of boundaries grows, as far as it is counted."""
+def _growth(found: Sequence[Boundaries]) -> dict[str, Any]:
+    """Return how the number of boundaries grows, as far as it is counted, by the names of the claims."""
     known = next((n for n, one in enumerate(found) if not one.is_converged), len(found))
     steps = [_over(found[n + 1].count, found[n].count) for n in range(known - 1)]
     numbers = ", ".join(f"{float(f'{one.count.value:.2g}'):,.0f}" for one in found[:known])
     beyond = f"; after {known} at least {found[known].count.low:.1g}" if known < len(found) else ""
-    return [
-        Claim(
-            claim=f"the more impacts, the more boundaries (in {medium})",
-            analytic=(
-                f"a line through the map crosses {numbers} after 0 to {known - 1} impacts, where twins at "
-                f"two resolutions count alike{beyond}"
-                if steps
-                else "-"
-            ),
-            mujoco=same if medium == "air" else "-",
-            criteria=[
-                Criterion(f"N({n + 1}) over N({n})", step, ">", 1, "more") for n, step in enumerate(steps)
-            ],
-            missing="" if steps else FEW_TWINS,
-        ),
-        Claim(
-            claim=f"their number grows faster than exponentially (in {medium})",
-            analytic=(
-                f"seen as far as N({known - 1}); an exponential has the same growth at each impact, and "
-                "what is faster a larger one"
-                if steps
-                else "-"
-            ),
-            criteria=[
-                Criterion(
-                    f"growth at impact {n + 2} over that at impact {n + 1}",
-                    _over(later, earlier),
-                    ">",
-                    1,
-                    "faster than before",
-                )
-                for n, (earlier, later) in enumerate(pairwise(steps))
-            ],
-            missing="" if len(steps) > 1 else FEW_TWINS,
-            expected=False,
-        ),
-    ]
+    told = (
+        f"a line through the map crosses {numbers} after 0 to {known - 1} impacts, where twins at two "
+        f"resolutions count alike{beyond}",
+        f"seen as far as N({known - 1}); an exponential has the same growth at each impact, and what is "
+        "faster a larger one",
+    )
+    return {
+        "told": told if steps else ("-", "-"),
+        "steps": {f"N({n}) over N({n - 1})": step for n, step in enumerate(steps, start=1)},
+        "faster": {
+            f"growth at impact {n + 1} over that at impact {n}": _over(later, earlier)
+            for n, (earlier, later) in enumerate(pairwise(steps), start=1)
+        },
+        "missing": ["" if len(steps) > least else FEW_TWINS for least in (0, 1)],
+    }
 
 
 def _over(first: Estimate, second: Estimate) -> Estimate:
@@ -248,54 +199,27 @@ def _over(first: Estimate, second: Estimate) -> Estimate:
 def _elastic_shares(heights: Array, spins: Array) -> Array:
     """Return the shares of twins with different faces where impacts lose nothing, in vacuum, (ε, touches)."""
     scenario = case(air=False, restitution=1.0)
-    faces = touched_faces(scenario, heights, spins, ELASTIC_TOUCHES)
+    faces = touched_faces(scenario, heights, spins, ELASTIC + 1)
     return np.array(
         [
-            np.mean(touched_faces(scenario, heights + step, spins, ELASTIC_TOUCHES) != faces, axis=0)
+            np.mean(touched_faces(scenario, heights + step, spins, ELASTIC + 1) != faces, axis=0)
             for step in ELASTIC_STEPS
         ]
     )
 
 
-def _elastic_claims(shares: Array, count: int, heights: Array, spins: Array) -> tuple[Claim, Claim]:
-    """Return what becomes of "intermingled" where no impact loses energy."""
+def _ended(heights: Array, spins: Array) -> int:
+    """Return how many tosses end within `MOST` impacts where these lose nothing, in vacuum."""
     scenario = case(air=False, restitution=1.0, max_impacts=MOST)
-    outcome = analytic.toss_many(scenario, releases(heights[:count], spins[:count])).outcome
-    ended = int(np.sum((outcome == Outcome.HEADS) | (outcome == Outcome.TAILS)))
+    outcome = analytic.toss_many(scenario, releases(heights, spins)).outcome
+    return int(np.sum((outcome == Outcome.HEADS) | (outcome == Outcome.TAILS)))
+
+
+def _mixed(shares: Array) -> str:
+    """Return after how many impacts `HALF` of the twins differ, in words."""
     halves = [int(np.argmax(row > HALF)) if np.any(row > HALF) else -1 for row in shares]
-    mixed = ", ".join(
-        f"{step:.0e} m after {n}" for step, n in zip(ELASTIC_STEPS, halves, strict=True) if n >= 0
-    )
-    return (
-        Claim(
-            claim="with χ = 1 and no air the basins of heads and tails are intermingled",
-            analytic=f"{ended} of {count} tosses end within {MOST} impacts",
-            missing="no toss ends, so there are no basins; after n impacts each face has stripes",
-            expected=None,
-        ),
-        Claim(
-            claim="(instead) after enough impacts the faces of twins are independent, however near they are",
-            analytic=f"{HALF:.0%} of the twins differ from impacts on that grow with ln(1/ε): {mixed}",
-            criteria=[
-                Criterion(
-                    f"share that differs after {ELASTIC_TOUCHES - 1} impacts, ε = {step:.0e} m, less 1/2",
-                    _less_half(share(np.arange(count) < round(row[-1] * count), "twins")),
-                    "within ±",
-                    0.1,
-                    "1/2 is chance",
-                )
-                for step, row in zip(ELASTIC_STEPS, shares, strict=True)
-            ],
-        ),
-    )
-
-
-HALF = 0.4
-"""A share of twins that differ: nearly chance."""
-
-
-def _less_half(one: Estimate) -> Estimate:
-    return replace(one, value=one.value - 1 / 2, low=one.low - 1 / 2, high=one.high - 1 / 2)
+    mixed = [f"{step:.0e} m after {n}" for step, n in zip(ELASTIC_STEPS, halves, strict=True) if n >= 0]
+    return ", ".join(mixed)
 
 
 def _same_by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
@@ -311,7 +235,7 @@ def _same_by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
     return f"{', '.join(map(str, same))} of {len(heights)} faces alike after {impacts} impacts"
 
 
-def _draw(data: dict[str, NDArray[Any]]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(11, 7.5))
     halves = picture.add_gridspec(2, 1, height_ratios=(1.9, 1.1))
     maps, numbers = (picture.add_subfigure(half) for half in halves)
@@ -360,19 +284,4 @@ def _draw(data: dict[str, NDArray[Any]]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Fig. 31, section 5.3",
-    title="the face after 0, 2, 5 and 9 impacts; boundaries against the number of impacts",
-    assumed=(
-        "Axes and the line are unsaid; here the ranges of Fig. 29, and all lines of constant spin through "
-        "them. After two impacts no grid is fine enough to count on. So random tosses have twins ε higher: "
-        "of N boundaries on a line of length L a part N ε/L lies between the two, while ε is below the width "
-        "of the stripes. Twins at ε can show L/2ε boundaries and no more; N(n) is taken as counted where ten "
-        "times finer twins count no more, and else as a lower bound."
-    ),
-    seconds=120,
-    make=make,
-    draw={"figure": _draw},
-    quick_seconds=5,
-    quick=partial(make, points=24, tosses=10_000, elastic=100, tosses_mujoco=10),
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

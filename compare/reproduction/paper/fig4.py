@@ -1,7 +1,5 @@
 """Fig. 4 and section 2: the angle between angular momentum and normal, and the faces that it keeps."""
 
-from functools import partial
-
 import numpy as np
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
@@ -10,8 +8,7 @@ from cointoss import analytic, coin_mj
 from cointoss.analytic.flight.integrated_flight import sample_flight
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, ORANGE, PALE, SKY, VERMILION
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.models.parts import Air, EndingCriteria, Release
 from cointoss.models.reading import load
 from cointoss.models.records import Array, States
@@ -23,10 +20,6 @@ CASES = {
     "ideal, air": ("fig4_ideal", AIR, SKY),
     "imperfect, vacuum": ("fig4_imperfect", Air(), VERMILION),
 }
-KEPT = 1e-8
-"""An angle that changes less stays [degrees]."""
-CHANGED = 0.1
-"""One that changes more does not [degrees]."""
 DURATION, SAMPLES = 0.5, 400
 """Of a random toss [s], and how often its face is sampled."""
 MUJOCO_TOSSES = 10
@@ -36,88 +29,43 @@ DIACONIS = np.radians(79.95), 0.51
 """The angle ψ and the probability of the first side there, by Diaconis, Holmes and Montgomery 2007."""
 
 
-def make(progress: Progress, count: int = 1000) -> Result:
+def make(progress: Progress, count: int = 1000) -> Findings:
     """Follow γ in three flights; toss `count` coins from flat, and as many from any attitude, at random."""
+    found = Findings()
     followed = {name: _follow(load(file), air) for name, (file, air, _) in CASES.items()}
     progress(1, 4)
     rng = np.random.default_rng(4)
     flat, leaning = (_random_tosses(rng, count, anyhow) for anyhow in (False, True))
     progress(2, 4)
-    psi, counted, by_mujoco = _first_side()
+    psi, counted, found.by_mujoco = _first_side()
     progress(3, 4)
-    swing = {name: [float(np.ptp(gamma)) for gamma in gammas] for name, (_, *gammas) in followed.items()}
-    below, below_leaning = (tosses["gamma"] < np.pi / 4 for tosses in (flat, leaning))
-    changed, changed_leaning = (
-        int(np.sum((tosses["lowest"] < 0) & chosen))
-        for tosses, chosen in ((flat, below), (leaning, below_leaning))
-    )
+    found.swing = np.array([[np.ptp(gamma) for gamma in gammas] for _, *gammas in followed.values()])
+    below = [tosses["gamma"] < np.pi / 4 for tosses in (flat, leaning)]
+    changed = [tosses["lowest"] < 0 for tosses in (flat, leaning)]
+    found.below = [int(chosen.sum()) for chosen in below]
+    found.changed = [int(np.sum(both & chosen)) for both, chosen in zip(changed, below, strict=True)]
     foretold = np.abs(leaning["L"][:, 2]) > np.sin(leaning["gamma"])
-    apart = max(tosses["apart"].max() for tosses in (flat, leaning))
-    claims = (
-        _about_gamma("without air the ideal coin keeps γ", swing["ideal, vacuum"], constant=True),
-        _about_gamma("with air it does not", swing["ideal, air"], constant=False),
-        _about_gamma("γ of the imperfect coin changes", swing["imperfect, vacuum"], constant=False),
-        Claim(
-            claim="the ideal coin with γ < π/4 never changes its face (if released flat)",
-            analytic=(
-                f"{changed} of {below.sum()} random tosses change it; n_z within {apart:.0e} of the closed "
-                "form"
-            ),
-            mujoco=f"n_z within {_mujoco_apart(flat):.0e} of the closed form in {MUJOCO_TOSSES} tosses",
-            criteria=[
-                Criterion("tosses that change it", changed, "=", 0, "never"),
-                Criterion("tosses with γ < π/4", below.sum(), ">", count / 4, "about half of them are"),
-                Criterion("n_z off the closed form", apart, "<", 1e-9, "rounding"),
-            ],
-        ),
-        Claim(
-            claim="the ideal coin with γ < π/4 never changes its face (as printed, however released)",
-            analytic=(
-                f"{changed_leaning} of {below_leaning.sum()} random tosses from any attitude change it; the "
-                "angular momentum must lie within π/2 - γ of the vertical, which is right for "
-                f"{np.mean(foretold == (leaning['lowest'] > 0)):.1%} of all {count}"
-            ),
-            criteria=[Criterion("tosses that change it", changed_leaning, "=", 0, "never")],
-            expected=False,
-        ),
-        Claim(
-            claim=f"the first side has p = {DIACONIS[1]} at ψ = {np.degrees(DIACONIS[0]):.2f}° (section 1)",
-            analytic=(
-                f"{counted[-1]:.4f} of a turn; p(ψ) in closed form {first_side(DIACONIS[0]):.4f}, at other "
-                f"angles within {np.abs(counted - first_side(psi)).max():.0e}"
-            ),
-            mujoco=f"{by_mujoco:.4f}",
-            criteria=[
-                Criterion(
-                    "counted off the closed form",
-                    np.abs(counted - first_side(psi)).max(),
-                    "<",
-                    2 / TURNS,
-                    "one sample at each change of face",
-                ),
-                Criterion(
-                    "MuJoCo off the analytic engine", abs(by_mujoco - counted[-1]), "<", 2 / TURNS, "as above"
-                ),
-                Criterion(
-                    "closed form off the printed p",
-                    float(abs(first_side(DIACONIS[0]) - DIACONIS[1])),
-                    "<",
-                    5e-5,
-                    "p = 0.5100 to four places",
-                ),
-            ],
-        ),
-    )
-    data = {
+    found.apart = max(tosses["apart"].max() for tosses in (flat, leaning))
+    found.mujoco_apart, found.quarter = _mujoco_apart(flat), count / 4
+    found.foretold = np.mean(foretold == (leaning["lowest"] > 0))
+    angle, p = DIACONIS
+    found.psi, found.p = np.degrees(angle), p
+    found.counted = counted[-1]
+    found.closed_form = first_side(angle)
+    found.off = np.abs(counted - first_side(psi)).max()
+    found.two_samples = 2 / TURNS
+    found.mujoco_off = abs(found.by_mujoco - counted[-1])
+    found.printed_off = float(abs(found.closed_form - p))
+    found.data = {
         f"{name}, {part}": row
         for name, rows in followed.items()
         for part, row in zip(("time", "analytic", "MuJoCo"), rows, strict=True)
     }
     for name, tosses in (("flat", flat), ("leaning", leaning)):
-        data |= {f"{name}, {part}": tosses[part] for part in ("gamma", "lowest")}
-    data |= {"psi": psi, "counted": counted}
+        found.data |= {f"{name}, {part}": tosses[part] for part in ("gamma", "lowest")}
+    found.data |= {"psi": psi, "counted": counted}
     progress(4, 4)
-    return Result(claims=claims, data=data)
+    return found
 
 
 def first_side(psi: Array | float) -> Array:
@@ -131,22 +79,6 @@ def first_side(psi: Array | float) -> Array:
     """
     cotangent = np.minimum(1 / np.tan(psi), 1)
     return 1 / 2 + np.arcsin(cotangent**2) / np.pi
-
-
-def _about_gamma(claim: str, swing: list[float], *, constant: bool) -> Claim:
-    by_analytic, mujoco = swing
-    return Claim(
-        claim=claim,
-        analytic=f"γ changes by {by_analytic:.2g}°",
-        mujoco=f"by {mujoco:.2g}°",
-        criteria=[
-            Criterion(
-                "largest change [°]", max(by_analytic, mujoco), "<", KEPT, "rounding and MuJoCo's steps"
-            )
-            if constant
-            else Criterion("least change [°]", min(by_analytic, mujoco), ">", CHANGED, "what a picture shows")
-        ],
-    )
 
 
 def _follow(scenario: Scenario, air: Air) -> tuple[Array, Array, Array]:
@@ -243,7 +175,7 @@ def _first_side() -> tuple[Array, Array, float]:
     return psi, np.array(counted), float(np.mean(mujoco.sample(times).normal[:, 2] > 0))
 
 
-def _draw(data: dict[str, Array]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(10, 3.5))
     angle, heights, sides = picture.subplots(1, 3)
     for name, (_, _, color) in CASES.items():
@@ -270,16 +202,4 @@ def _draw(data: dict[str, Array]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Fig. 4",
-    title="the angle between angular momentum and normal, and the faces that it keeps",
-    assumed=(
-        "The paper gives no release; here flat, (0, 40, 30) rad/s. It says of γ < π/4 no more than that, and "
-        "means a coin released flat, as Diaconis, Holmes and Montgomery do."
-    ),
-    seconds=15,
-    make=make,
-    draw={"figure": _draw},
-    quick_seconds=10,
-    quick=partial(make, count=300),
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

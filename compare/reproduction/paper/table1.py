@@ -14,8 +14,7 @@ from cointoss.analytic.numerics.euler_angles import Sequence, rate_matrix, rotat
 from cointoss.analytic.toss import state_of
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, VERMILION
-from cointoss.compare.reproduction.claim import Claim, Criterion
-from cointoss.compare.reproduction.result import Reproduction, Result
+from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.models.attitude import quaternion_from_angles
 from cointoss.models.parts import EndingCriteria, Release
 from cointoss.models.reading import load
@@ -49,83 +48,22 @@ STEPS = 1000
 """In the turn of the solver that does not."""
 
 
-def make(progress: Progress) -> Result:
+def make(progress: Progress) -> Findings:
     """Check the table; fly past θ = 0 in Euler angles, in Euler parameters, and by both engines."""
-    right = sum(
-        (found.function, found.sign, found.angle) == PRINTED[sequence.value]
-        for sequence in Sequence
-        for found in [singularity(sequence)]
-    )
+    vanish = {sequence.value: singularity(sequence) for sequence in Sequence}
+    found = Findings(rows=len(PRINTED))
+    found.right = sum((at.function, at.sign, at.angle) == PRINTED[name] for name, at in vanish.items())
     rows = []
     for done, least in enumerate(LEAST, start=1):
         rows.append(_fly(least))
         progress(done, len(LEAST))
     angles, parameters, fixed_angles, fixed_parameters, engine, mujoco = np.array(rows).transpose(1, 0, 2)
-    claims = (
-        Claim(
-            claim="the twelve sequences are singular where Table 1 says",
-            analytic=f"{right} of {len(PRINTED)} rows follow from det B",
-            criteria=[Criterion("rows that follow", right, "=", len(PRINTED), "all of the table")],
-        ),
-        Claim(
-            claim="near a singularity Euler angles bring difficulties",
-            analytic=(
-                f"{STEPS} fixed steps in a turn err by {fixed_angles[0, 0]:.0e} rad at a least θ of "
-                f"{LEAST[0]:g}, by up to {fixed_angles[:, 0].max():.0e} at smaller ones; steps chosen to "
-                f"{TOLERANCE:g} keep the error below {angles[:, 0].max():.0e} rad, but are "
-                f"{angles[0, 1]:.0f} and {angles[:, 1].max():.0f}"
-            ),
-            criteria=[
-                Criterion(
-                    "largest error of fixed steps [rad]",
-                    fixed_angles[:, 0].max(),
-                    ">",
-                    1e3 * fixed_angles[0, 0],
-                    "a thousand times that far from the singularity",
-                ),
-                Criterion(
-                    "most chosen steps",
-                    angles[:, 1].max(),
-                    ">",
-                    3 * angles[0, 1],
-                    "three times those far from it",
-                ),
-            ],
-        ),
-        Claim(
-            claim="Euler parameters have no singularity",
-            analytic=(
-                f"at every θ: {STEPS} fixed steps err by {fixed_parameters[:, 0].max():.0e} rad, "
-                f"{parameters[:, 1].max():.0f} chosen steps by {parameters[:, 0].max():.0e}, the engine by "
-                f"{engine[:, 0].max():.0e}"
-            ),
-            mujoco=f"{mujoco[:, 0].max():.0e} rad",
-            criteria=[
-                Criterion(
-                    "spread of the chosen steps",
-                    np.ptp(parameters[:, 1]),
-                    "≤",
-                    1,
-                    "the end may fall into one",
-                ),
-                Criterion(
-                    "largest error of fixed steps [rad]",
-                    fixed_parameters[:, 0].max(),
-                    "<",
-                    2 * fixed_parameters[:, 0].min(),
-                    "twice the smallest",
-                ),
-                Criterion(
-                    "largest error of both engines [rad]",
-                    max(engine[:, 0].max(), mujoco[:, 0].max()),
-                    "<",
-                    1e-9,
-                    "rounding and MuJoCo's steps",
-                ),
-            ],
-        ),
-    )
-    data = {
+    found.errors = np.array([angles[:, 0], parameters[:, 0], fixed_angles[:, 0], fixed_parameters[:, 0]])
+    found.steps = np.array([angles[:, 1], parameters[:, 1]])
+    found.engines = np.array([engine[:, 0].max(), mujoco[:, 0].max()])
+    found.spread, found.three_times = np.ptp(parameters[:, 1]), 3 * angles[0, 1]
+    found.thousand_times, found.twice = 1e3 * fixed_angles[0, 0], 2 * fixed_parameters[:, 0].min()
+    found.data = {
         "least angle": LEAST,
         "angles, fixed steps": fixed_angles[:, 0],
         "parameters, fixed steps": fixed_parameters[:, 0],
@@ -134,7 +72,7 @@ def make(progress: Progress) -> Result:
         "engine": engine[:, 0],
         "MuJoCo": mujoco[:, 0],
     }
-    return Result(claims=claims, data=data)
+    return found
 
 
 def _fly(least: float) -> list[tuple[float, float]]:
@@ -221,7 +159,7 @@ def _runge_kutta(rate: Callable[[Array], Array], y: Array, duration: float) -> A
     return y
 
 
-def _draw(data: dict[str, Array]) -> Figure:
+def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(8.4, 3.4))
     errors, steps = picture.subplots(1, 2)
     theta = data["least angle"]
@@ -239,14 +177,4 @@ def _draw(data: dict[str, Array]) -> Figure:
     return picture
 
 
-REPRODUCTION = Reproduction(
-    paper="Table 1",
-    title="twelve Euler sequences, their singular angles, and a flight past θ = 0",
-    assumed=(
-        "The paper shows no run near a singularity; here the ideal coin of section 5.1, without air, turns "
-        "once about its angular momentum, and its normal passes the vertical."
-    ),
-    seconds=10,
-    make=make,
-    draw={"figure": _draw},
-)
+REPRODUCTION = declared(__name__, make, draw={"figure": _draw})

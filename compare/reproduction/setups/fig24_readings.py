@@ -29,6 +29,10 @@ BEGINNING = "H∘HHH∘"
 """Of all six."""
 CLUSTER = 0.03
 """Impacts that follow each other within so much time are not told apart in the scale of Fig. 24 [s]."""
+NEARBY = (0.39, 0.41)
+"""Random heights of the first of six tosses, which share what chance shares [m]."""
+APART = 1e-5 * np.arange(6)
+"""Heights of the six tosses above the first [m]."""
 IMPACTS = 18
 """Of the longest printed sequence."""
 _OFFSET = (-1e-3, -1e-3, -2e-4)
@@ -42,6 +46,20 @@ COINS = {
 }
 """Thickness [m] and part of the printed offset of the mass centre."""
 FRICTIONS = (0.05, 0.1, 0.2, 0.3, 0.5)
+
+
+def toss_of(thickness: float, part: float, law: ContactLaw, friction: float) -> Scenario:
+    """Return the toss of Fig. 24(a) of another coin on another floor.
+
+    Args:
+        thickness: of the coin [m].
+        part: of the printed offset of its mass centre, which a thin coin has in its plane.
+        law: of the floor.
+        friction: of the floor.
+    """
+    x, y, z = (part * c for c in _OFFSET)
+    coin = ("coin.thickness", thickness, "coin.center_of_mass", (x, y, z if thickness else 0.0))
+    return load("fig24a").replace(*coin, "floor.contact", law, "floor.friction", friction)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,18 +80,7 @@ class Reading:
     @property
     def scenario(self) -> Scenario:
         """The toss of Fig. 24(a)."""
-        thickness, part = COINS[self.coin]
-        x, y, z = (part * c for c in _OFFSET)
-        return load("fig24a").replace(
-            "coin.thickness",
-            thickness,
-            "coin.center_of_mass",
-            (x, y, z if thickness else 0.0),
-            "floor.contact",
-            self.law,
-            "floor.friction",
-            self.friction,
-        )
+        return toss_of(*COINS[self.coin], self.law, self.friction)
 
 
 READINGS = tuple(

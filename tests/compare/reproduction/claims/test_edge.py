@@ -8,7 +8,8 @@ import pytest
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.reproduction.claim import unexpected
-from cointoss.compare.reproduction.claims.edge import claims
+from cointoss.compare.reproduction.claims import edge
+from cointoss.compare.reproduction.declared import result
 from cointoss.compare.reproduction.saving import read_numbers
 from cointoss.compare.reproduction.setups import edge_classes
 from cointoss.compare.reproduction.setups.edge_classes import (
@@ -39,6 +40,10 @@ from tests.helpers.pages import pictures, saved
 
 SAVED = read_numbers(saved("edge"), EdgeRecord)
 LAWS = {DIAMETRAL: edge_by_angle, ANYHOW: edge_by_solid_angle}
+
+
+def claims(record):
+    return result(edge.__name__, edge.findings(record)).claims
 
 
 def kind_of(aspect: float = NICKEL, **floor: float) -> EdgeClass:

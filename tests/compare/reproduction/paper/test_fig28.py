@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cointoss.compare.reproduction.paper.fig28 import changes
+from cointoss.compare.reproduction.setups.face_changes import changes
 
 
 @pytest.mark.parametrize(
