@@ -86,8 +86,8 @@ _TABLE = {
     Event.NO_SOLUTION: (Mode.ENDED, _CONTACT),
     Event.ENDS: (Mode.ENDED, (Mode.FLIGHT, *_CONTACT)),
 }
-_AFTER = np.array([_TABLE[event][0].value for event in _TABLE])
-_IS_LEGAL = np.array([[mode in ended for _, ended in _TABLE.values()] for mode in Mode])
+_AFTER = np.array([_TABLE[event][0].value for event in sorted(_TABLE)])
+_IS_LEGAL = np.array([[mode in _TABLE[event][1] for event in sorted(_TABLE)] for mode in sorted(Mode)])
 
 
 @compiled
