@@ -1,0 +1,32 @@
+"""Work on all cores that is interrupted gives up what is not begun."""
+
+from threading import Event, Timer
+
+import pytest
+
+from cointoss.compare.reproduction.threads import all_cores
+
+
+def test_what_is_not_begun_is_given_up():
+    begun, go = [], Event()
+
+    def work(number):
+        begun.append(number)
+        go.wait(10)
+        return number
+
+    def interrupted():
+        with all_cores() as pool:
+            pool.map(work, range(1000))
+            # What has begun goes on only when the rest is given up.
+            Timer(2.0, go.set).start()
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
+    assert 0 < len(begun) < 1000
+
+
+def test_results_come_in_order():
+    with all_cores() as pool:
+        assert list(pool.map(lambda number: number**2, range(100))) == [number**2 for number in range(100)]
