@@ -12,12 +12,16 @@ from string import Formatter
 from types import MappingProxyType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
+from numpy.typing import NDArray
+
 from cointoss.compare.reproduction.claim import Claim, Criterion
 from cointoss.compare.reproduction.result import Reproduction, Result
 
 if TYPE_CHECKING:  # names are listed without it
     from matplotlib.figure import Figure
 
+Data = dict[str, NDArray[Any]]
+"""Arrays by name."""
 OPEN = "open"
 """The verdict that a declaration expects of a claim which cannot be tested."""
 UNITS = {"cm": 1e2, "mm": 1e3, "µm": 1e6, "ms": 1e3, "µs": 1e6}
