@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,9 +86,7 @@ along a quantity, both in SI units; 0 where none is proved."""
 
 def _moved(field: str, axis: int) -> Callable[[Releases, Array], Releases]:
     def change(start: Releases, by: Array) -> Releases:
-        arrays = {name: getattr(start, name) for name in Releases.__dataclass_fields__}
-        arrays[field] = arrays[field] + by[:, None] * np.eye(3)[axis]
-        return Releases(**arrays)
+        return replace(start, **{field: getattr(start, field) + by[:, None] * np.eye(3)[axis]})
 
     return change
 
@@ -100,12 +98,7 @@ def _turned(axis: int) -> Callable[[Releases, Array], Releases]:
         u = np.eye(3)[axis]
         turned = cosine[:, None] * e + sine[:, None] * (e0[:, None] * u + np.cross(e, u))
         first = cosine * e0 - sine * (e @ u)
-        return Releases(
-            position=start.position,
-            velocity=start.velocity,
-            quaternion=np.column_stack([first, turned]),
-            angular_velocity=start.angular_velocity,
-        )
+        return replace(start, quaternion=np.column_stack([first, turned]))
 
     return change
 

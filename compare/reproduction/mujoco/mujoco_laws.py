@@ -51,8 +51,6 @@ CONTACTS: dict[str, tuple[float, Settings]] = {
 NAMES = {law: f"({letter}) {law}" for letter, law in zip("abcdef", ContactLaw, strict=False)} | {
     ContactLaw.COULOMB: "coulomb"
 }
-
-
 MADE = (ContactLaw.SMOOTH, ContactLaw.PERFECTLY_ROUGH, ContactLaw.SLIP_PRESERVING, ContactLaw.COULOMB)
 """The laws that MuJoCo realises."""
 

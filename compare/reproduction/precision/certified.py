@@ -51,15 +51,10 @@ class PlanarRelease(NamedTuple):
 class Enclosed:
     """An impact as it is known."""
 
-    corner: int
     heads: bool
-    height: Any
-    fall: Any
-    spin: Any
-    """After it; enclosures in units of radius and sqrt(r/g)."""
+    """Whether heads is up."""
     impulse: Any
-    """Upward [m sqrt(g r)]."""
-    energy: Any
+    """Upward, an enclosure [m sqrt(g r)]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -223,16 +218,8 @@ class _Toss:
 
     def __init__(self, coin: PlanarCoin, bits: int) -> None:
         self.coin, self.bits = coin, bits
-        self.J, self.chi, self.k, self.a, self.b = (
-            _ball(exact(pair))
-            for pair in (
-                coin.inertia,
-                coin.restitution,
-                coin.slowing,
-                coin.drag_mean,
-                coin.drag_difference,
-            )
-        )
+        pairs = coin.inertia, coin.restitution, coin.slowing, coin.drag_mean, coin.drag_difference
+        self.J, self.chi, self.k, self.a, self.b = (_ball(exact(pair)) for pair in pairs)
         self.share = arb(1.0 if coin.rough else (coin.sliding_share if coin.in_air else 0.0))
         self.last_energy: Any = None
 
@@ -245,17 +232,7 @@ class _Toss:
             start = None
             corner = corner * self.turn_within(state)
             impulse = self.hit(state, corner)
-            impacts.append(
-                Enclosed(
-                    corner=corner,
-                    heads=state.heads,
-                    height=state.z,
-                    fall=state.v,
-                    spin=state.w,
-                    impulse=impulse,
-                    energy=self.energy(state),
-                )
-            )
+            impacts.append(Enclosed(heads=state.heads, impulse=impulse))
             corners = (corner,)
             if self.is_settled(state):
                 self.last_energy = self.energy(state)

@@ -143,21 +143,21 @@ def sine_cosine(a: Pair) -> tuple[Pair, Pair]:
 
 
 @compiled
+def _series(square: Pair, first: int, last: int) -> Pair:
+    """Return the sum of 1/first! - x²/(first + 2)! + x⁴/(first + 4)! - ... up to that of 1/last!."""
+    total = _INVERSE_FACTORIALS[last, 0], _INVERSE_FACTORIALS[last, 1]
+    for n in range(last - 2, first - 1, -2):
+        term = _INVERSE_FACTORIALS[n, 0], _INVERSE_FACTORIALS[n, 1]
+        total = subtract(term, multiply(square, total))
+    return total
+
+
+@compiled
 def _summed(x: Pair) -> tuple[Pair, Pair]:
     """Return sin x and 1 - cos x of a small angle by their series."""
     square = multiply(x, x)
-    n = _TERMS
-    sine = (_INVERSE_FACTORIALS[2 * n + 1, 0], _INVERSE_FACTORIALS[2 * n + 1, 1])
-    less = (_INVERSE_FACTORIALS[2 * n, 0], _INVERSE_FACTORIALS[2 * n, 1])
-    for i in range(n - 1, 0, -1):
-        sine = subtract(
-            (_INVERSE_FACTORIALS[2 * i + 1, 0], _INVERSE_FACTORIALS[2 * i + 1, 1]), multiply(square, sine)
-        )
-        less = subtract(
-            (_INVERSE_FACTORIALS[2 * i, 0], _INVERSE_FACTORIALS[2 * i, 1]), multiply(square, less)
-        )
-    sine = subtract(x, multiply(multiply(x, square), sine))
-    return sine, multiply(square, less)
+    sine = subtract(x, multiply(multiply(x, square), _series(square, 3, 2 * _TERMS + 1)))
+    return sine, multiply(square, _series(square, 2, 2 * _TERMS))
 
 
 @compiled
@@ -166,13 +166,7 @@ def sine_minus_angle(x: Pair, sine: Pair) -> Pair:
     if abs(x[0]) > 0.5:
         return subtract(sine, x)
     square = multiply(x, x)
-    n = _TERMS
-    total = (_INVERSE_FACTORIALS[2 * n + 1, 0], _INVERSE_FACTORIALS[2 * n + 1, 1])
-    for i in range(n - 1, 0, -1):
-        total = subtract(
-            (_INVERSE_FACTORIALS[2 * i + 1, 0], _INVERSE_FACTORIALS[2 * i + 1, 1]), multiply(square, total)
-        )
-    return negative(multiply(multiply(x, square), total))
+    return negative(multiply(multiply(x, square), _series(square, 3, 2 * _TERMS + 1)))
 
 
 @compiled
@@ -181,10 +175,4 @@ def cosine_minus_parabola(x: Pair, less: Pair) -> Pair:
     square = multiply(x, x)
     if abs(x[0]) > 0.5:
         return subtract(scale(square, 0.5), less)
-    n = _TERMS
-    total = (_INVERSE_FACTORIALS[2 * n, 0], _INVERSE_FACTORIALS[2 * n, 1])
-    for i in range(n - 1, 1, -1):
-        total = subtract(
-            (_INVERSE_FACTORIALS[2 * i, 0], _INVERSE_FACTORIALS[2 * i, 1]), multiply(square, total)
-        )
-    return multiply(multiply(square, square), total)
+    return multiply(multiply(square, square), _series(square, 4, 2 * _TERMS))

@@ -1,1 +1,1 @@
-"""What several figures share: their coins, grids of releases and random impacts."""
+"""What figures, claims and studies share: coins, releases, impacts, counts, and the form of a study."""

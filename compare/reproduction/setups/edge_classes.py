@@ -2,7 +2,7 @@
 
 import zlib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -91,9 +91,8 @@ def on_either_side(drawn: Releases, rng: np.random.Generator) -> Releases:
     """Turn half of the coins by a half turn about ξ; their angular velocity in space stays."""
     turned = rng.random(len(drawn)) < 1 / 2
     other = np.array([quaternion_product(tuple(e), _HALF_TURN) for e in drawn.quaternion])
-    return Releases(
-        position=drawn.position,
-        velocity=drawn.velocity,
+    return replace(
+        drawn,
         quaternion=np.where(turned[:, None], other, drawn.quaternion),
         angular_velocity=np.where(turned[:, None], [1, -1, -1], 1) * drawn.angular_velocity,
     )

@@ -1,5 +1,7 @@
 """Coins at their first touch, let go at rest, and on their edge: what the edge's share follows from."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from cointoss import analytic
@@ -33,12 +35,7 @@ def tossed(kind: EdgeClass, turned: str, rng: np.random.Generator, count: int) -
     drawn = kind.releases(0, count)
     if turned == DIAMETRAL:
         return drawn
-    return Releases(
-        position=drawn.position,
-        velocity=drawn.velocity,
-        quaternion=attitudes(turned, rng, count),
-        angular_velocity=drawn.angular_velocity,
-    )
+    return replace(drawn, quaternion=attitudes(turned, rng, count))
 
 
 def first_touches(kind: EdgeClass, start: Releases) -> Part:

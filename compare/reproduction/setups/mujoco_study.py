@@ -107,28 +107,27 @@ def over_stiffness(cases: Sequence[Scenario], stiffnesses: Sequence[float]) -> S
     """Compute the errors of impacts over the stiffness."""
     law = by_law(cases)
     S = first(law, "impulse")
-    columns: dict[str, list[float]] = {
-        name: [] for name in ("impulse", "velocity", "spin", "guess", "limit", "fine_limit")
-    }
-    for k in stiffnesses:
-        hard = by_mujoco(cases, Settings(stiffness=k))
-        guess = [_with_guessed_mass(case, Settings(stiffness=k)) for case in cases]
-        columns["impulse"].append(_median(relative_errors(S, first(hard, "impulse"))))
-        columns["velocity"].append(_median(_change_error(law, hard, "velocity")))
-        columns["spin"].append(_median(_change_error(law, hard, "angular_velocity")))
-        columns["guess"].append(_median(relative_errors(S, first(guess, "impulse"))))
-        for name, steps in (("limit", Settings().steps), ("fine_limit", FINE)):
-            columns[name].append(_median(relative_errors(S, _limit(cases, k, steps))))
+
+    def median_error(found: list[Impacts]) -> float:
+        return _median(relative_errors(S, first(found, "impulse")))
+
+    settings = [Settings(stiffness=k) for k in stiffnesses]
+    hard = [by_mujoco(cases, one) for one in settings]
+    impulse = [median_error(found) for found in hard]
     fitted = [i for i, k in enumerate(stiffnesses) if 0.9e8 < k < 1.1e14]
+    limit, fine_limit = (
+        [_median(relative_errors(S, _limit(cases, k, steps))) for k in stiffnesses]
+        for steps in (Settings().steps, FINE)
+    )
     return StiffnessErrors(
         stiffness=list(stiffnesses),
-        impulse=columns["impulse"],
-        velocity=columns["velocity"],
-        spin=columns["spin"],
-        guessed_mass=columns["guess"],
-        limit=columns["limit"],
-        fine_limit=columns["fine_limit"],
-        order=order([stiffnesses[i] for i in fitted], [columns["impulse"][i] for i in fitted]),
+        impulse=impulse,
+        velocity=[_median(_change_error(law, found, "velocity")) for found in hard],
+        spin=[_median(_change_error(law, found, "angular_velocity")) for found in hard],
+        guessed_mass=[median_error([_with_guessed_mass(case, one) for case in cases]) for one in settings],
+        limit=limit,
+        fine_limit=fine_limit,
+        order=order([stiffnesses[i] for i in fitted], [impulse[i] for i in fitted]),
     )
 
 
@@ -216,43 +215,26 @@ def over_restitution(
 def over_friction(count: int, frictions: Sequence[float], rng: np.random.Generator) -> dict[float, Spread]:
     """Return the errors of impulses of the default spring for each μ."""
     touches = draw_touches(rng, count, RESTITUTIONS)
-    return {
-        mu: default_errors([on_floor(case, ContactLaw.COULOMB, mu) for case in touches]) for mu in frictions
-    }
+    return {mu: default_errors(touches, mu) for mu in frictions}
 
 
 def over_spin(count: int, spins: Sequence[float], rng: np.random.Generator) -> dict[float, Spread]:
     """Return the errors of impulses of the default spring for coins that spin up to each speed [rad/s]."""
-    return {
-        spin: default_errors(
-            [
-                on_floor(case, ContactLaw.COULOMB, RUBBED)
-                for case in draw_touches(rng, count, RESTITUTIONS, spin)
-            ]
-        )
-        for spin in spins
-    }
+    return {spin: default_errors(draw_touches(rng, count, RESTITUTIONS, spin)) for spin in spins}
 
 
 def over_tilt(count: int, tilts: Sequence[float], rng: np.random.Generator) -> dict[float, Spread]:
     """Return the errors of impulses of the default spring for coins at each tilt [deg]."""
-    return {
-        tilt: default_errors(
-            [
-                on_floor(
-                    tilted_touch(tilt, rng.uniform(-1, 1, 2), float(rng.uniform(*RESTITUTIONS))),
-                    ContactLaw.COULOMB,
-                    RUBBED,
-                )
-                for _ in range(count)
-            ]
-        )
-        for tilt in tilts
-    }
+
+    def drawn(tilt: float) -> Scenario:
+        return tilted_touch(tilt, rng.uniform(-1, 1, 2), float(rng.uniform(*RESTITUTIONS)))
+
+    return {tilt: default_errors([drawn(tilt) for _ in range(count)]) for tilt in tilts}
 
 
-def default_errors(cases: Sequence[Scenario]) -> Spread:
-    """Return the errors of impulses by the default contact."""
+def default_errors(touches: Sequence[Scenario], friction: float = RUBBED) -> Spread:
+    """Return the errors of impulses by the default contact, of touches of a floor with Coulomb's friction."""
+    cases = [on_floor(case, ContactLaw.COULOMB, friction) for case in touches]
     S, found = first(by_law(cases), "impulse"), first(by_mujoco(cases, Settings()), "impulse")
     return spread(relative_errors(S, found))
 

@@ -1,6 +1,6 @@
 """Many releases picked, changed, and as states of the engine."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,12 +24,8 @@ def moved(
         position: added to the positions of C, space frame [m].
         angular_velocity: added to ω, body frame [rad/s].
     """
-    return Releases(
-        position=releases.position + position,
-        velocity=releases.velocity,
-        quaternion=releases.quaternion,
-        angular_velocity=releases.angular_velocity + angular_velocity,
-    )
+    spins = releases.angular_velocity + angular_velocity
+    return replace(releases, position=releases.position + position, angular_velocity=spins)
 
 
 def states_of(releases: Releases) -> Array:

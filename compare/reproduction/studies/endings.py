@@ -1,7 +1,7 @@
 """How thousands of random tosses end, by coin, floor and air, and how far both engines agree in it."""
 
 import os
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -71,20 +71,19 @@ def compute(
     """Toss `count` coins of each of `COINS` by the analytic engine, and `count_mujoco` by MuJoCo."""
     jobs = [(seed, coin, number) for coin in range(len(COINS)) for number in range(count)]
     jobs_mujoco = [(seed + 1, coin, number) for coin in range(len(COINS)) for number in range(count_mujoco)]
-    outcomes: dict[str, Counter[str]] = {}
-    mujoco: dict[str, Counter[str]] = {}
+    outcomes: dict[str, Counter[str]] = defaultdict(Counter)
+    mujoco: dict[str, Counter[str]] = defaultdict(Counter)
     most, longest = 0, 0.0
     whole = len(jobs) + len(jobs_mujoco)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        ended = pool.map(_toss, jobs)
-        for done, (kind, outcome, ending, impacts, time) in enumerate(ended, start=1):
-            outcomes.setdefault(_name(kind), Counter())[f"{outcome}, {ending}"] += 1
+        for done, (kind, outcome, ending, impacts, time) in enumerate(pool.map(_toss, jobs), start=1):
+            outcomes[_name(kind)][f"{outcome}, {ending}"] += 1
             if outcome not in ("undecided", "perpetual"):
                 most, longest = max(most, impacts), max(longest, time)
             progress(done, whole)
         ended = pool.map(toss_by_mujoco, jobs_mujoco)
         for done, (kind, outcome, ending) in enumerate(ended, start=len(jobs) + 1):
-            mujoco.setdefault(_name(kind), Counter())[f"{outcome}, {ending}"] += 1
+            mujoco[_name(kind)][f"{outcome}, {ending}"] += 1
             progress(done, whole)
     return EndingCounts(_ordered(outcomes), _ordered(mujoco), most, longest)
 

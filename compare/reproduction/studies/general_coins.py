@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from time import process_time
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,8 +85,7 @@ class GeneralCosts:
     """By the name of the class."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class FlightsAndContacts:
+class FlightsAndContacts(NamedTuple):
     """Flights and contacts of tosses, (n,) each: where they start and when they end."""
 
     start_times: Array
@@ -97,12 +96,7 @@ class FlightsAndContacts:
 
     def of(self, chosen: NDArray[np.bool_]) -> "FlightsAndContacts":
         """Return the pieces that are chosen, (n,), as copies."""
-        return FlightsAndContacts(
-            start_times=self.start_times[chosen],
-            modes=self.modes[chosen],
-            states=self.states[chosen],
-            end_times=self.end_times[chosen],
-        )
+        return FlightsAndContacts._make(part[chosen] for part in self)
 
 
 def compute(progress: Progress, count: int = COUNT) -> GeneralCosts:
@@ -183,12 +177,7 @@ def pieces_of(scenario: Scenario, start: Array) -> FlightsAndContacts:
 
 def joined(kept: Sequence[FlightsAndContacts]) -> FlightsAndContacts:
     """Return the pieces of several tosses as one record."""
-    return FlightsAndContacts(
-        start_times=np.concatenate([one.start_times for one in kept]),
-        modes=np.concatenate([one.modes for one in kept]),
-        states=np.concatenate([one.states for one in kept]),
-        end_times=np.concatenate([one.end_times for one in kept]),
-    )
+    return FlightsAndContacts._make(map(np.concatenate, zip(*kept, strict=True)))
 
 
 def replay(scenario: Scenario, pieces: FlightsAndContacts) -> Array:
@@ -201,15 +190,7 @@ def replay(scenario: Scenario, pieces: FlightsAndContacts) -> Array:
     marks.append(process_time())
     replay_impacts(body, rules, flights.states, touches)
     marks.append(process_time())
-    replay_contacts(
-        body,
-        rules,
-        MANY.contact_tolerance,
-        contacts.start_times,
-        contacts.modes,
-        contacts.states,
-        contacts.end_times,
-    )
+    replay_contacts(body, rules, MANY.contact_tolerance, *contacts)
     marks.append(process_time())
     return np.diff(marks)
 

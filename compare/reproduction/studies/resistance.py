@@ -20,7 +20,7 @@ from cointoss.compare.reproduction.setups.hands import releases_of_hands
 from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.attitude import quaternion_from_angles
 from cointoss.models.certificate import energies, turned
-from cointoss.models.records import Ending, Outcome, States
+from cointoss.models.records import Array, Ending, Outcome, States
 from cointoss.models.scenario import Scenario
 
 COUNT, SEED = 1000, 1993
@@ -93,37 +93,27 @@ def rolling_stop(share_of_inertia: float) -> Stop:
     """
     m, r = _DISC["mass"], _DISC["radius"]
     inertia = np.diag([share_of_inertia / 2, share_of_inertia / 2, share_of_inertia]) * m * r * r
-    case = on_floor(
-        {**_DISC, "inertia": inertia.tolist()},
-        {
-            "position": [0, 0, r],
-            "velocity": [SPEED, 0, 0],
-            "angles": _UPRIGHT,
-            "angular_velocity": [0, 0, -SPEED / r],
-        },
-        {"rolling_friction": ROLLING, "pivoting_friction": ROLLING},
-    )
-    tossed = analytic.toss(case)
-    if tossed.ending != Ending.AT_REST:
-        raise RuntimeError(f"a coin that rolls upright ended {tossed.ending}; expected: at_rest")
+    motion = {"velocity": [SPEED, 0, 0], "angular_velocity": [0, 0, -SPEED / r]}
+    case, end_time, end = _stopped({**_DISC, "inertia": inertia.tolist()}, motion, ROLLING)
     slowing = ROLLING * case.gravity / (r * (1 + share_of_inertia))
-    end = tossed.path.sample(np.array([tossed.end_time])).position[0]
-    return Stop(tossed.end_time, SPEED / slowing, float(end[0]), SPEED**2 / (2 * slowing))
+    return Stop(end_time, SPEED / slowing, float(end[0]), SPEED**2 / (2 * slowing))
 
 
 def pivoting_stop() -> Stop:
     """Return how a disc that pivots upright stops."""
-    m, r = _DISC["mass"], _DISC["radius"]
-    case = on_floor(
-        _DISC,
-        {"position": [0, 0, r], "angles": _UPRIGHT, "angular_velocity": [0, SPIN, 0]},
-        {"rolling_friction": PIVOTING, "pivoting_friction": PIVOTING},
-    )
+    case, end_time, _ = _stopped(_DISC, {"angular_velocity": [0, SPIN, 0]}, PIVOTING)
+    slowing = PIVOTING * case.body.mass * case.gravity / case.body.inertia[1][1]
+    return Stop(end_time, SPIN / slowing, 0.0, 0.0)
+
+
+def _stopped(coin: dict, motion: dict, size: float) -> tuple[Scenario, float, Array]:
+    """Return the toss of an upright coin that stops, when it does [s], and where its C is then."""
+    release = {"position": [0, 0, _DISC["radius"]], "angles": _UPRIGHT, **motion}
+    case = on_floor(coin, release, {"rolling_friction": size, "pivoting_friction": size})
     tossed = analytic.toss(case)
     if tossed.ending != Ending.AT_REST:
-        raise RuntimeError(f"a coin that pivots upright ended {tossed.ending}; expected: at_rest")
-    slowing = PIVOTING * m * case.gravity / case.body.inertia[1][1]
-    return Stop(tossed.end_time, SPIN / slowing, 0.0, 0.0)
+        raise RuntimeError(f"a coin that is upright ended {tossed.ending}; expected: at_rest")
+    return case, tossed.end_time, tossed.path.sample(np.array([tossed.end_time])).position[0]
 
 
 def eulers_disk(resistance: str) -> EulersDisk:

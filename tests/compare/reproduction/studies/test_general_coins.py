@@ -93,7 +93,7 @@ def test_a_replay_is_the_motion_of_the_toss(kind):
         replay_impacts(body, rules, flown.states, touches)
         assert (flown.states[:, 3:] == ends[bounced, 3:]).all()
         assert (np.abs(flown.states[:, :3] - ends[bounced, :3]) < 1e-12).all()
-        replay_contacts(body, rules, MANY.contact_tolerance, *vars(followed).values())
+        replay_contacts(body, rules, MANY.contact_tolerance, *followed)
         # Where slip stops, the velocity and the spin change at once.
         assert (np.abs(followed.states[:, 6:10] - ends[held, 6:10]) < 1e-12).all()
         bounces, contacts = bounces + len(flown.modes), contacts + len(followed.modes)
