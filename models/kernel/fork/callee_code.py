@@ -10,6 +10,7 @@ What Python calls is linked with the code of all it calls, optimised as one, and
 # pyright: reportIncompatibleMethodOverride=false
 
 import hashlib
+from functools import cache
 from typing import Any, NamedTuple
 
 from llvmlite import binding
@@ -202,14 +203,10 @@ class CalleeCodegen(Codegen):
         """Whether values of a type hold arrays."""
 
 
-_made: list[CalleeCodegen] = []
-
-
+@cache
 def callee_codegen() -> CalleeCodegen:
     """Return the one there is; made at the first use, for it starts LLVM."""
-    if not _made:
-        _made.append(CalleeCodegen())
-    return _made[0]
+    return CalleeCodegen()
 
 
 class _Typing:
