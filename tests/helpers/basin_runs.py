@@ -2,6 +2,7 @@
 
 import subprocess
 import time
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -10,6 +11,7 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.axes import parse_axis
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.models.reading import parse
+from cointoss.models.scenario import Scenario
 from tests.helpers.command_line import cointoss
 from tests.helpers.processes import started
 
@@ -29,10 +31,12 @@ SMALL, TILES = 64, 30
 """Tosses in a tile of these tests, and tiles in a map."""
 
 
-def sweep_of(x, y, case=SCENARIO, engine=Engine.ANALYTIC, **extra):
+def sweep_of(
+    x: str, y: str, case: Scenario | str = SCENARIO, engine: Engine = Engine.ANALYTIC, **extra: Any
+) -> Sweep:
     """Return the sweep of two axes over a scenario or its text, with the engine's settings for many."""
     case = parse(case, "coin") if isinstance(case, str) else case
-    given = {"scenario": case, "engine": engine, "settings": engine.package.MANY, **extra}
+    given: dict[str, Any] = {"scenario": case, "engine": engine, "settings": engine.package.MANY, **extra}
     return Sweep(x=parse_axis(x, case), y=parse_axis(y, case), **given)
 
 

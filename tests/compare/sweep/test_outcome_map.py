@@ -185,7 +185,6 @@ x None -> x: None, accepted: FIELD=START:STOP:N, such as
 y (1, 2) -> y: (1, 2), accepted: FIELD=START:STOP:N, such as
 x 'release.position.z=1' -> accepted: FIELD=START:STOP:N
 x 'release.position.z=0.1:1:9' -> release.position.z: on both axes; accepted: two fields
-y 'gravity=1:9:1000000' -> 7 by 1000000 pixels, accepted: at most
 y 'release.position.z=-1:1:3' -> release.position.z
 margin 3 -> margin: 3, accepted: text
 margin 'luck' -> margin luck: accepted: height
@@ -200,9 +199,11 @@ def test_what_makes_no_map_is_refused(case):
         cointoss.basin("fig24a", **{"x": X, "y": Y, name: ast.literal_eval(value)})
 
 
-def test_margins_are_of_the_analytic_engine_alone():
+def test_two_arguments_may_make_no_map_together():
     with pytest.raises(ValueError, match="margin: 'height' by mujoco, accepted: only by"):
         cointoss.basin("fig24a", x=X, y=Y, margin="height", engine="mujoco")
+    with pytest.raises(ValueError, match="100000 by 100000 pixels, accepted: at most 1e"):
+        cointoss.basin("fig24a", x="release.position.z=0.1:1:100000", y="gravity=1:9:100000")
 
 
 @pytest.mark.parametrize("wrong", [None, {}, np.zeros(3)], ids=lambda wrong: type(wrong).__name__)
