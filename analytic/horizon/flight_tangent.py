@@ -25,7 +25,7 @@ STEP_ERROR_OF_GROWTH = 1e-7
 
 
 @compiled
-def derivative_change(body: Body, y: Array, force: Array, jacobian: Array, dy: Array, rate: Array) -> None:
+def derivative_change(body: Body, y: Array, force: Vector, jacobian: Array, dy: Array, rate: Array) -> None:
     """Write the change of `flight.derivative` with the state into `rate`.
 
     Args:
@@ -61,9 +61,9 @@ def _part(jacobian: Array, first: int, dv: Vector, dw: Vector) -> Vector:
 
 
 @compiled
-def _row(jacobian: Array, row: int, column: int) -> Vector:
+def _row(table: Array, row: int, column: int) -> Vector:
     """Return three numbers of a row, from a column on."""
-    return jacobian[row, column], jacobian[row, column + 1], jacobian[row, column + 2]
+    return table[row, column], table[row, column + 1], table[row, column + 2]
 
 
 @compiled
@@ -97,7 +97,8 @@ def step_change(body: Body, y: Array, dt: float, stages: Array, changes: Array) 
     for change in changes:
         for stage in range(STAGES):
             stage_point(change, dt, slopes, stage, inside)
-            derivative_change(body, points[stage], forces[stage], jacobians[stage], inside, slopes[stage])
+            force = _row(forces, stage, 0)
+            derivative_change(body, points[stage], force, jacobians[stage], inside, slopes[stage])
         end_point(change, dt, slopes, inside)
         copy_into(change, inside)
         # The quaternion is brought back to norm 1.
