@@ -84,7 +84,7 @@ def _force_and_moment_change(
     if exponent is None:
         return force_and_moment(body, dv, dw)
     v_B, dv_B = subtract(v, cross(w, body.center)), subtract(dv, cross(dw, body.center))
-    df, dm_B = change_about_B(body, AirMotion(body.air.exponent, v_B, w, dv_B, dw), CHANGE_NODES)
+    df, dm_B = change_about_B(body, AirMotion(exponent, v_B, w, dv_B, dw), CHANGE_NODES)
     return df, subtract(dm_B, cross(body.center, df))
 
 

@@ -12,7 +12,7 @@ from cointoss.coin_mj.model.settings import Settings
 from cointoss.coin_mj.model.state import to_mass_center
 from cointoss.coin_mj.path import MOTION, STEP, TIME
 from cointoss.coin_mj.toss import run
-from cointoss.compare.reproduction.studies.endings import probability
+from cointoss.compare.reproduction.estimates import chance_alike
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import energy
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
@@ -207,4 +207,4 @@ def test_outcomes_are_as_frequent_as_those_of_the_other_engine(law):
             for outcome in (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE)
         ]
     assert all(sum(row) == 600 for row in counts.values())
-    assert probability(counts) > 1e-3
+    assert chance_alike(list(counts.values())) > 1e-3
