@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.analytic.automaton import Event, Mode, contact_at, margin_event, mode_after
+from cointoss.analytic.contact.automaton import Event, Mode, contact_at, margin_event, mode_after
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.edge.guards import comes_upright, stands_for_good
 from cointoss.analytic.contact.floor_laws import friction_in_contact, supports_contact

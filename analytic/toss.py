@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.analytic.air.force import force_and_moment
-from cointoss.analytic.automaton import Mode, contact_at
+from cointoss.analytic.contact.automaton import Mode, contact_at
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.resistance import FloorFriction

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.toss import Pieces
 from cointoss.compare.engines import Engine
 from cointoss.models.attitude import rotation_matrix

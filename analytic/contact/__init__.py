@@ -1,1 +1,1 @@
-"""Sustained contact: its modes and the floor's force; imports impact, flight and below."""
+"""A toss as a hybrid automaton: its modes of contact, guards and resets; imports impact, flight and below."""

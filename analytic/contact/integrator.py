@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cointoss.analytic.automaton import Event, flow, project
+from cointoss.analytic.contact.automaton import Event, flow, project
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.landing import landing, time_to_landing
 from cointoss.analytic.flight.integrated_flight import first_step

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from cointoss.analytic.automaton import Event
+from cointoss.analytic.contact.automaton import Event
 from cointoss.analytic.contact.contact import BOTH_RIMS, Contact
 from cointoss.analytic.flight.state_vector import attitude_of, spin_of
 from cointoss.models.attitude import rotation_matrix

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.resistance import has_resistance
 from cointoss.analytic.flight.state_vector import attitude_of, spin_of

@@ -2,8 +2,8 @@
 
 import math
 
-from cointoss.analytic.automaton import Mode, project
 from cointoss.analytic.contact import upright
+from cointoss.analytic.contact.automaton import Mode, project
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.one_rim import contact_in_flight
 from cointoss.analytic.contact.periodic import tilt_rate

@@ -1,6 +1,6 @@
 """A coin whose roll the floor's resistance stops: whether it rests on its edge, or rolls on there."""
 
-from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.contact import Contact, lower_rim_of
 from cointoss.analytic.contact.edge.standing import on_edge, stands
 from cointoss.analytic.contact.resistance import has_resistance

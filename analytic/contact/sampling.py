@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from cointoss.analytic.automaton import flow
+from cointoss.analytic.contact.automaton import flow
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.integrator import accepted_step, contact_work, step_of_length
 from cointoss.analytic.flight.equations_of_motion import derivative

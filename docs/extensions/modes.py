@@ -2,7 +2,7 @@
 
 from collections import defaultdict
 
-from cointoss.analytic.automaton import Event, Mode, mode_after
+from cointoss.analytic.contact.automaton import Event, Mode, mode_after
 
 GROUP = "contact at one rim"
 ROOMS = {

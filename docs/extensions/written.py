@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import house
+import modes
 import nbformat
 from myst_nb.core.read import read_myst_markdown_notebook
 
@@ -46,3 +47,4 @@ if __name__ == "__main__":
     write_results(DOCS)
     write_notebooks(DOCS / "examples")
     (DOCS / "house.svg").write_text(house.house(DOCS.parent), encoding="utf-8")
+    (DOCS / "automaton.svg").write_text(modes.automaton(), encoding="utf-8")

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from cointoss.analytic.automaton import Event, Mode, contact_at, margin_event, mode_after, project
+from cointoss.analytic.contact.automaton import Event, Mode, contact_at, margin_event, mode_after, project
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.integrator import Step, contact_work, step_contact
 from cointoss.analytic.contact.resets import stop_slip
@@ -17,12 +17,12 @@ SMOOTH = FloorFriction(0.0)
 
 
 def held(body: Body, friction: FloorFriction, mode: int, y: Array) -> Contact:
-    """Return the contact of a coin in the state y; see `cointoss.analytic.automaton.contact_at`."""
+    """Return the contact of a coin in the state y; see `cointoss.analytic.contact.automaton.contact_at`."""
     return contact_at(body, friction, int(mode), y)
 
 
 def put_on_floor(body: Body, friction: FloorFriction, mode: int, y: Array) -> None:
-    """Project y onto the floor, as its mode allows; see `cointoss.analytic.automaton.project`."""
+    """Project y onto the floor, as its mode allows; see `cointoss.analytic.contact.automaton.project`."""
     project(held(body, friction, mode, y), y)
 
 

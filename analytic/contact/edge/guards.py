@@ -1,7 +1,7 @@
 """The guards of a coin near its edge: whether it comes upright, or stands for good."""
 
-from cointoss.analytic.automaton import Mode
 from cointoss.analytic.contact import upright
+from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.edge.restoring import held_on_edge
 from cointoss.analytic.contact.edge.rocking import rocks_on_edge

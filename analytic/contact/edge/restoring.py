@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from cointoss.analytic.automaton import contact_at, flow
 from cointoss.analytic.contact import upright
+from cointoss.analytic.contact.automaton import contact_at, flow
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, spin_of
 from cointoss.models.attitude import rotation_matrix

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.edge.restoring import TRIAL, lean_and_rate, restoring_acceleration
 from cointoss.analytic.contact.edge.rolling import PHASES, roll_by, set_roll_rate, to_lowest

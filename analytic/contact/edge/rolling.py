@@ -2,7 +2,7 @@
 
 import math
 
-from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.flight.state_vector import attitude_of, set_attitude, set_height, set_spin, state_of
 from cointoss.models.attitude import quaternion_product, rotation_matrix

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from cointoss.analytic.automaton import Mode, contact_at
+from cointoss.analytic.contact.automaton import Mode, contact_at
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.edge.restoring import held_on_edge, lean_and_rate
 from cointoss.analytic.contact.edge.rolling import PHASES, roll_by, set_roll_rate

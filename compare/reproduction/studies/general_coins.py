@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.analytic.automaton import Mode, contact_at
+from cointoss.analytic.contact.automaton import Mode, contact_at
 from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.integrator import contact_work, step_contact
 from cointoss.analytic.events import hit, run, toss_coin

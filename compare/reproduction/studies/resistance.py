@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from cointoss import analytic
-from cointoss.analytic.automaton import Mode, contact_at
+from cointoss.analytic.contact.automaton import Mode, contact_at
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.sampling import sample_contact
 from cointoss.compare.output.progress import Progress

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.sampling import sample_contact
 from cointoss.analytic.events import hit

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from cointoss.analytic.automaton import Event, Mode, flow, margin_event
 from cointoss.analytic.contact import sliding, smooth
+from cointoss.analytic.contact.automaton import Event, Mode, flow, margin_event
 from cointoss.analytic.contact.edge.restoring import held_on_edge
 from cointoss.analytic.contact.edge.standing import stands
 from cointoss.analytic.contact.floor_force import friction_holds, holding_force, slip_direction, starting_slip

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.periodic import record_tilt, repeats, start_tilt_history, tilt_rate
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix

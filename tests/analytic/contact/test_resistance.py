@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.analytic.automaton import Mode, flow
 from cointoss.analytic.contact import upright
+from cointoss.analytic.contact.automaton import Mode, flow
 from cointoss.analytic.contact.contact import lower_rim_of
 from cointoss.analytic.contact.integrator import contact_work, step_contact
 from cointoss.analytic.contact.resistance import FloorFriction, moment_per_force

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic.automaton import Mode
 from cointoss.analytic.contact import upright
+from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.contact import lower_rim_of
 from cointoss.analytic.contact.edge.restoring import lean_and_rate, restoring_acceleration
 from cointoss.analytic.contact.edge.rocking import rocks_on_edge, steady_lean

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic.automaton import Event, Mode
 from cointoss.analytic.contact import upright
+from cointoss.analytic.contact.automaton import Event, Mode
 from cointoss.analytic.contact.edge.restoring import held_on_edge
 from cointoss.analytic.contact.edge.standing import on_edge, rolls, stands
 from cointoss.analytic.contact.resistance import FloorFriction

@@ -7,7 +7,7 @@ import pytest
 from flint import arb, ctx
 
 from cointoss import analytic
-from cointoss.analytic.automaton import Event, Mode
+from cointoss.analytic.contact.automaton import Event, Mode
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.compare.reproduction.precision import double_double, planar_state, planar_toss
 from cointoss.compare.reproduction.precision.certified import (

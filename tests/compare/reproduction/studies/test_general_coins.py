@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.analytic.automaton import Mode
+from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.events import run
 from cointoss.analytic.settings import MANY
 from cointoss.compare.reproduction.saving import read_numbers

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cointoss import analytic
-from cointoss.analytic.automaton import Event, Mode, margin_event, mode_after
+from cointoss.analytic.contact.automaton import Event, Mode, margin_event, mode_after
 from cointoss.analytic.contact.edge.guards import comes_upright, stands_for_good
 from cointoss.analytic.contact.edge.rocking import rocks_on_edge
 from cointoss.analytic.contact.edge.standing import stands
