@@ -84,7 +84,7 @@ class Pieces:
         return contact_at(self.body, self.friction, int(self.modes[number]), y)
 
 
-def state_of(release: Release) -> Array:
+def state_at_release(release: Release) -> Array:
     """Return the state at release, (13,)."""
     return np.array([*release.position, *release.velocity, *release.attitude, *release.angular_velocity])
 
@@ -118,7 +118,7 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
 
 
 def _toss(scenario: Scenario, settings: Settings) -> Toss:
-    body, rules, start = scenario.body, scenario.rules, state_of(scenario.release)
+    body, rules, start = scenario.body, scenario.rules, state_at_release(scenario.release)
     answer = run(body, rules, start, settings)
     impacts, end = Impacts.from_rows(answer.rows), answer.start_states[-1]
     path = Pieces(

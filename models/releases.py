@@ -166,6 +166,11 @@ def _along_spin(release: Release, values: Array) -> dict[str, Array]:
     return {f"{SPIN}.{name}": w / size * values for name, w in axis}
 
 
+def states_of(releases: Releases) -> Array:
+    """Return position, velocity, Euler parameters and angular velocity of each release, (n, 13)."""
+    return np.hstack([releases.position, releases.velocity, releases.quaternion, releases.angular_velocity])
+
+
 def check_releases(scenario: Scenario, releases: Releases) -> None:
     """Refuse releases that a `Scenario` with this coin, air and gravity would refuse.
 

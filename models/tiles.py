@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from cointoss.models.interruptible import begun
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.outcomes import Outcomes
-from cointoss.models.releases import Releases
+from cointoss.models.releases import Releases, states_of
 
 PARTS = 4
 """Tiles that each thread has at least, where there are tosses enough: all end at about the same time."""
@@ -46,10 +46,9 @@ def toss_in_tiles(
         How each toss ended, in the order of `releases`.
     """
     n = len(releases)
-    states = np.hstack([releases.position, releases.velocity, releases.quaternion, releases.angular_velocity])
     outcome, ending, face = (np.empty(n, dtype=np.int8) for _ in range(3))
     impacts, end_time = np.empty(n, dtype=np.int32), np.empty(n)
-    columns = Tile(states, outcome, ending, face, impacts, end_time)
+    columns = Tile(states_of(releases), outcome, ending, face, impacts, end_time)
 
     cores = config.__dict__["NUMBA_NUM_THREADS"]
     tile = min(most, max(1, n // (PARTS * cores)))

@@ -6,7 +6,7 @@ from scipy.spatial import KDTree
 
 from cointoss.analytic.events import run
 from cointoss.analytic.horizon.sensitivity import event_tangent
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 
@@ -22,7 +22,7 @@ def growth_by_tangent(scenario: Scenario) -> Array:
         scenario: of the toss; the coin's radius and √(g r), √(g/r) are its scales.
     """
     body, rules = scenario.body, scenario.rules
-    toss = run(body, rules, state_of(scenario.release))
+    toss = run(body, rules, state_at_release(scenario.release))
     r, rate = body.radius, (body.gravity / body.radius) ** 0.5
     scales = np.array([*[r] * 3, *[rate * r] * 3, *[1.0] * 4, *[rate] * 3, 1 / rate])
     change, growth = np.ones(14) / 14**0.5, []

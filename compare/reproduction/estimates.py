@@ -1,7 +1,6 @@
 """Estimates from random samples, with their confidence intervals."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -153,12 +152,6 @@ def ratio_of_shares(
     return Estimate(
         float(value), float(value * np.exp(-half)), float(value * np.exp(half)), len(first), counted
     )
-
-
-def less(found: Estimate, number: float) -> Estimate:
-    """Return an estimate less a number."""
-    value, low, high = (x - number for x in (found.value, found.low, found.high))
-    return replace(found, value=value, low=low, high=high)
 
 
 def chance_alike(counts: ArrayLike) -> float:

@@ -7,7 +7,7 @@ import pytest
 
 from cointoss import analytic
 from cointoss.analytic.events import run
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.models.hand import Hand
 from cointoss.models.laws import ContactLaw
 from cointoss.models.outcomes import Outcomes
@@ -25,7 +25,9 @@ IDEAL, OFF_CENTER = [0.0, 0.0, 0.0], np.array(PAPER_OFFSET)
 def assert_each_is_a_toss(case: Scenario, drawn: list[dict[str, Any]], outcomes: Outcomes) -> None:
     for i, release in enumerate(drawn):
         # What `toss` makes its record of; it also follows the errors, which takes ten times as long.
-        assert_same_toss(outcomes, i, run(case.body, case.rules, state_of(Release.model_validate(release))))
+        assert_same_toss(
+            outcomes, i, run(case.body, case.rules, state_at_release(Release.model_validate(release)))
+        )
 
 
 @pytest.mark.parametrize("law", list(ContactLaw))

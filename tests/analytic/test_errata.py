@@ -7,7 +7,7 @@ from cointoss import analytic
 from cointoss.analytic.flight.equations_of_motion import derivative
 from cointoss.analytic.horizon.flight_tangent import flight_tangent
 from cointoss.analytic.numerics.euler_angles import axis_rotation
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.models.barriers import barrier
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
 
@@ -134,7 +134,7 @@ def test_forces_that_depend_on_the_attitude_alone_couple_eqs_21_and_22():
 
 def growth_of_spin(case, change, duration):
     """Give by how much a small change of the angular velocity has grown after a flight."""
-    y, changes = state_of(case.release), np.zeros((1, 13))
+    y, changes = state_at_release(case.release), np.zeros((1, 13))
     changes[0, 10:] = change
     flight_tangent(case.body, y, duration, changes, np.zeros(13, dtype=np.bool_))
     return np.linalg.norm(changes[0, 10:]) / np.linalg.norm(change)

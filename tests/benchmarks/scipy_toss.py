@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.models.scenario import Scenario
 from tests.benchmarks.one_coin import OneCoin
 
@@ -20,7 +20,7 @@ def toss(scenario: Scenario, coin: OneCoin) -> tuple[list[float], list[int]]:
     Raises:
         RuntimeError: if the coin sinks into the floor between two steps, where no event can see it.
     """
-    time, y = 0.0, state_of(scenario.release)
+    time, y = 0.0, state_at_release(scenario.release)
     times, faces, ended = [], [], False
     while not ended:
         time, y = _first_touch(coin, time, y, scenario.ending.max_time)

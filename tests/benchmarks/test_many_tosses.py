@@ -15,7 +15,7 @@ from numba import config
 from cointoss import analytic
 from cointoss.analytic.events import run
 from cointoss.analytic.flight.flying import fly
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 from tests.benchmarks import scipy_toss
@@ -45,7 +45,7 @@ def family(n: int, air: dict[str, float]) -> list[Scenario]:
 
 
 def releases_of(cases: list[Scenario]) -> Releases:
-    states = np.array([state_of(case.release) for case in cases])
+    states = np.array([state_at_release(case.release) for case in cases])
     parts = (slice(0, 3), slice(3, 6), slice(6, 10), slice(10, 13))
     names = ("position", "velocity", "quaternion", "angular_velocity")
     return Releases(**{name: states[:, part].copy() for name, part in zip(names, parts, strict=True)})
@@ -81,7 +81,7 @@ def by_scipy() -> list[tuple[list[float], list[int]]]:
 @pytest.mark.parametrize("toss", [by_heyoka, by_scipy])
 def test_other_integrators_make_the_same_tosses(benchmark, capsys, toss: Callable[[], list[Any]]):
     for (times, faces), case in zip(toss(), IN_AIR, strict=True):
-        rows = run(case.body, case.rules, state_of(case.release)).rows[:3]
+        rows = run(case.body, case.rules, state_at_release(case.release)).rows[:3]
         # Three impacts multiply what tolerances differ by by less than 1e4.
         assert times[:3] == pytest.approx(rows["time"], abs=1e-7)
         assert faces[:3] == rows["face"].tolist()
@@ -97,7 +97,7 @@ def test_many_tosses(benchmark, capsys, monkeypatch, air, cores):
     releases = releases_of(cases)
     outcomes = analytic.toss_many(cases[0], releases)
     for i in range(FEW):
-        tossed = run(cases[i].body, cases[i].rules, state_of(cases[i].release))
+        tossed = run(cases[i].body, cases[i].rules, state_at_release(cases[i].release))
         assert outcomes.end_time[i] == tossed.end_time
     if cores == "one":
         monkeypatch.setitem(config.__dict__, "NUMBA_NUM_THREADS", 1)
@@ -114,7 +114,7 @@ def test_many_tosses(benchmark, capsys, monkeypatch, air, cores):
 def test_few_gap_evaluations_find_a_touch(capsys, air, most):
     evaluations, flights = 0, 0
     for case in family(40, air):
-        for start in run(case.body, case.rules, state_of(case.release)).start_states[:-1]:
+        for start in run(case.body, case.rules, state_at_release(case.release)).start_states[:-1]:
             evaluations += fly(case.body, start.copy(), 10.0)[2]
             flights += 1
     assert evaluations < most * flights

@@ -13,7 +13,7 @@ import pytest
 
 from cointoss import analytic
 from cointoss.analytic.events import run
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.models.reading import load
 from tests.benchmarks import scipy_toss
 from tests.benchmarks.one_coin import mechanics
@@ -32,7 +32,7 @@ def by_the_engine() -> Answer:
 
 
 def by_its_event_loop() -> Answer:
-    rows = run(FIG24A.body, FIG24A.rules, state_of(FIG24A.release)).rows
+    rows = run(FIG24A.body, FIG24A.rules, state_at_release(FIG24A.release)).rows
     return rows["time"].tolist(), rows["face"].tolist()
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from cointoss import analytic
 from cointoss.analytic.events import run
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.clearance import acceleration_bounds, clear_time, damping_rate, drag_bound, grazing_time
 from cointoss.models.ending import idle_energy
@@ -91,7 +91,7 @@ def test_no_coin_touches_within_its_clear_time(exponent):
         body = case.body
         clear = clear_time(body, z, case.release.velocity, R[2], case.release.angular_velocity, 0.02)
         assert clear > 0
-        toss = run(body, case.rules, state_of(case.release))
+        toss = run(body, case.rules, state_at_release(case.release))
         touches, end = toss.rows["time"], toss.start_states[-1]
         # 1e-9 for the rounding of the touch's own time.
         assert (touches >= clear * (1 - 1e-9)).all()

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from cointoss import analytic, coin_mj
 from cointoss.analytic.events import run
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.coin_mj.toss import impacts_of
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, VERMILION
@@ -128,7 +128,7 @@ def _mujoco_apart(spins: Array) -> float:
     for w in spins[:MUJOCO_TOSSES].tolist():
         release = Release(position=(0.0, 0.0, float(FALLS[HAND])), angular_velocity=(w, 0.0, 0.0))
         scenario = _one_touch(case(air=True)).replace("release", release)
-        landed = run(scenario.body, scenario.rules, state_of(release)).rows[0]
+        landed = run(scenario.body, scenario.rules, state_at_release(release)).rows[0]
         found = impacts_of(scenario)
         apart += [abs(found.time[0] - landed["time"]), np.abs(found.position[0] - landed["position"]).max()]
     return float(max(apart))

@@ -11,10 +11,10 @@ from cointoss.compare.output.style import BLUE, GREY, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import share
 from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, faces_after, releases
-from cointoss.compare.reproduction.setups.release_arrays import chosen, moved, states_of
+from cointoss.compare.reproduction.setups.release_arrays import chosen, moved
 from cointoss.models.parts import Release
 from cointoss.models.records import Outcome
-from cointoss.models.releases import Releases
+from cointoss.models.releases import Releases, states_of
 
 SEED = 71
 ASIDE = np.array([0.0, 0.01, 0.1, 1.0, 3.0, 10.0, 20.0])

@@ -14,12 +14,12 @@ from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import jackknife, mean
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
-from cointoss.compare.reproduction.setups.release_arrays import chosen, states_of
+from cointoss.compare.reproduction.setups.release_arrays import chosen
 from cointoss.models.laws import ContactLaw
 from cointoss.models.parts import EndingCriteria, Floor
 from cointoss.models.reading import load
 from cointoss.models.records import Array, Face
-from cointoss.models.releases import Releases
+from cointoss.models.releases import Releases, states_of
 from cointoss.models.scenario import Scenario
 
 SEED = 2

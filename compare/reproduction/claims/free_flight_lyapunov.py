@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from cointoss import analytic, coin_mj
 from cointoss.analytic.horizon.flight_tangent import flight_tangent
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.setups.free_fall import MEDIA, MODELS
@@ -82,7 +82,7 @@ def _exponents(case: Scenario, times: Array) -> Array:
     Changes of the state, on the coin's scales, are carried by the tangent map and made orthogonal again at
     each of `times` (Benettin and others). They keep the quaternion's norm.
     """
-    body, y = case.body, state_of(case.release)
+    body, y = case.body, state_at_release(case.release)
     e0, e1, e2, e3 = y[6:10]
     basis = np.delete(np.eye(13), 9, axis=0)
     basis[6:9, 6:10] = [[-e1, e0, e3, -e2], [-e2, -e3, e0, e1], [-e3, e2, -e1, e0]]
@@ -121,7 +121,7 @@ def _growth_of_tangent(case: Scenario, direction: Array) -> float:
     """Return the same by the tangent map."""
     changes = np.zeros((1, 13))
     changes[0, 10:] = direction
-    y = state_of(case.release)
+    y = state_at_release(case.release)
     flight_tangent(case.body, y, SHORT, changes, np.zeros(13, dtype=np.bool_))
     return float(np.log(np.linalg.norm(changes[0, 10:]) / np.linalg.norm(direction)) / SHORT)
 

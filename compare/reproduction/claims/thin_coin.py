@@ -16,12 +16,12 @@ from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import difference, jackknife, share
 from cointoss.compare.reproduction.setups.face_changes import changes, share_after_row
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
-from cointoss.compare.reproduction.setups.release_arrays import chosen, moved, states_of
+from cointoss.compare.reproduction.setups.release_arrays import chosen, moved
 from cointoss.models.laws import ContactLaw
 from cointoss.models.parts import Coin, EndingCriteria, Floor
 from cointoss.models.reading import load
 from cointoss.models.records import Outcome
-from cointoss.models.releases import Releases
+from cointoss.models.releases import Releases, states_of
 from cointoss.models.scenario import Scenario
 
 SEED = 6

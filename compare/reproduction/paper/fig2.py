@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from cointoss import coin_mj
 from cointoss.analytic.flight.integrated_flight import sample_flight
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import HEADS, INK, TAILS
 from cointoss.compare.reproduction.declared import Data, Findings, declared
@@ -63,7 +63,7 @@ def _toss(scenario: Scenario, spin: float, speed: float) -> Scenario:
 def _caught(case: Scenario) -> float:
     """Return n_z when the coin is back at the height of its release, by the analytic engine."""
     times, states = np.array([2 * case.release.velocity[2] / case.gravity]), np.empty((1, 13))
-    sample_flight(case.body, state_of(case.release), 0.0, times, states)
+    sample_flight(case.body, state_at_release(case.release), 0.0, times, states)
     e = states[0, 6:10]
     return 1 - 2 * (e[1] ** 2 + e[2] ** 2)
 

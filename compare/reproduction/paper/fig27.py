@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from cointoss.analytic.events import run
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.coin_mj.toss import impacts_of
 from cointoss.compare.metrics.lyapunov import divergence, growth_by_tangent
 from cointoss.compare.output.progress import Progress
@@ -108,7 +108,7 @@ def _findings(data: Data, mujoco: dict[str, str]) -> Findings:
 
 def _points(scenario: Scenario) -> Array:
     """Return the rim points that touch, (n, 3) [m]."""
-    return run(scenario.body, scenario.rules, state_of(scenario.release)).rows["point"]
+    return run(scenario.body, scenario.rules, state_at_release(scenario.release)).rows["point"]
 
 
 def _slopes(curve: Array) -> Array:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from cointoss import analytic
 from cointoss.analytic.events import run
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.coin_mj.toss import impacts_of
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, HEADS, INK, TAILS, VERMILION
@@ -100,7 +100,7 @@ class Changes:
 
 def _changes(scenario: Scenario) -> tuple[Array, Array]:
     """Return the last impacts before the changes of one toss as `Changes` has them, by kind."""
-    rows = run(scenario.body, scenario.rules, state_of(scenario.release)).rows
+    rows = run(scenario.body, scenario.rules, state_at_release(scenario.release)).rows
     turned = (rows["angular_velocity_after"] - rows["angular_velocity_before"]) @ np.array(
         scenario.body.inertia
     )

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from cointoss import analytic, coin_mj
 from cointoss.analytic.flight.equations_of_motion import derivative
 from cointoss.analytic.numerics.euler_angles import Sequence, rate_matrix, rotation_of, singularity
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
@@ -94,7 +94,7 @@ def _fly(least: float) -> list[tuple[float, float]]:
 
     by_angles = partial(_rate_in_angles, case)
     by_parameters = partial(_rate_in_parameters, case)
-    of_parameters = state_of(release)
+    of_parameters = state_at_release(release)
     of_angles = np.array([*of_parameters[:6], *(release.angles or ()), *of_parameters[10:]])
     answers = []
     ways = ((by_angles, of_angles, error_of_angles), (by_parameters, of_parameters, error_of_parameters))

@@ -127,12 +127,6 @@ def rim_velocity(state: Array, corner: float) -> tuple[Pair, Pair]:
 
 
 @compiled
-def lowest(state: Array) -> float:
-    """Return the rim point that is lower, 1 or -1."""
-    return -1.0 if state[TILT, 0] > 0 else 1.0
-
-
-@compiled
 def flat(state: Array, fall: Pair, corner: float) -> None:
     """Lay the coin down on the floor, one rim point at rest there; (5, 2), changed."""
     state[HEIGHT], state[TILT] = 0.0, 0.0

@@ -8,12 +8,11 @@ from cointoss import analytic
 from cointoss.analytic.events import run
 from cointoss.compare.reproduction.parts import Part
 from cointoss.compare.reproduction.setups.edge_classes import DIAMETRAL, EdgeClass, corner
-from cointoss.compare.reproduction.setups.release_arrays import states_of
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import highest_on_floor
 from cointoss.models.geometry import gap
 from cointoss.models.records import Array, Outcome
-from cointoss.models.releases import Releases
+from cointoss.models.releases import Releases, states_of
 
 DROP = 1e-4
 """Height of the lowest point of a coin that is let go at rest [m]."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.analytic.events import run
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.compare.metrics.sequences import common_prefix
 from cointoss.models.laws import ContactLaw
 from cointoss.models.reading import load
@@ -101,7 +101,7 @@ def marked(times: Array, faces: NDArray[np.int8]) -> str:
 def sequences(scenario: Scenario, heights: Iterable[float]) -> list[str]:
     """Return the marked sequences of a toss from other heights [m]."""
     scenario = scenario.replace("ending.max_impacts", IMPACTS)
-    body, rules, start, found = scenario.body, scenario.rules, state_of(scenario.release), []
+    body, rules, start, found = scenario.body, scenario.rules, state_at_release(scenario.release), []
     for height in heights:
         start[2] = height
         rows = run(body, rules, start).rows

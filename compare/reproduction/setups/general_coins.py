@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 
 from cointoss.models.records import Array
-from cointoss.models.releases import Releases
+from cointoss.models.releases import Releases, states_of
 from cointoss.models.scenario import Scenario
 
 SEED = 15
@@ -76,8 +76,7 @@ class CoinClass:
 
     def starts(self, count: int) -> Array:
         """Return the states of those releases, (count, 13)."""
-        drawn = self.releases(count)
-        return np.hstack([drawn.position, drawn.velocity, drawn.quaternion, drawn.angular_velocity])
+        return states_of(self.releases(count))
 
 
 CLASSES = tuple(

@@ -15,8 +15,8 @@ from cointoss.models.records import Array
 SIZE = 0.1
 """Of the bodies [m]."""
 _OFFSET = '<inertial pos="{x} {y} {z}" mass="{mass}" diaginertia="{moment} {moment} {moment}"/>'
-PLANE, BODY = 0, 1
-"""Numbers of the geoms; of the bodies the world's is the first."""
+BODY = 1
+"""Number of the body and of its geom; the world and its plane come first."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Many releases picked, changed, and as states of the engine."""
+"""Many releases picked and changed."""
 
 from dataclasses import fields, replace
 
@@ -26,8 +26,3 @@ def moved(
     """
     spins = releases.angular_velocity + angular_velocity
     return replace(releases, position=releases.position + position, angular_velocity=spins)
-
-
-def states_of(releases: Releases) -> Array:
-    """Return the states of releases as the engine's flight takes them, (n, 13)."""
-    return np.hstack([releases.position, releases.velocity, releases.quaternion, releases.angular_velocity])

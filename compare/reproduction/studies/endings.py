@@ -1,9 +1,7 @@
 """How thousands of random tosses end, by coin, floor and air, and how far both engines agree in it."""
 
-import os
 from collections import Counter, defaultdict
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import product
 from typing import Any, NamedTuple
@@ -18,6 +16,7 @@ from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.estimates import chance_alike
 from cointoss.compare.reproduction.setups.ends import Ends, ended_as, tosses
 from cointoss.compare.reproduction.setups.study import study
+from cointoss.compare.reproduction.threads import all_cores
 from cointoss.models.parts import Release
 from cointoss.models.records import Ending, Outcome
 from cointoss.models.releases import Releases
@@ -75,7 +74,7 @@ def compute(
     mujoco: dict[str, Counter[str]] = defaultdict(Counter)
     most, longest = 0, 0.0
     whole = len(jobs) + len(jobs_mujoco)
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
+    with all_cores() as pool:
         for done, (kind, outcome, ending, impacts, time) in enumerate(pool.map(_toss, jobs), start=1):
             outcomes[_name(kind)][f"{outcome}, {ending}"] += 1
             if outcome not in ("undecided", "perpetual"):

@@ -1,10 +1,8 @@
 """Is coin tossing predictable? The share of tosses left uncertain, by accuracy and restitution."""
 
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from math import log10, sqrt
-from os import cpu_count
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +21,7 @@ from cointoss.compare.reproduction.precision.planar_state import HEIGHT, SPIN, T
 from cointoss.compare.reproduction.setups.planar_maps import case
 from cointoss.compare.reproduction.setups.study import study
 from cointoss.compare.reproduction.setups.uncertain_shares import uncertain_shares
+from cointoss.compare.reproduction.threads import all_cores
 from cointoss.models.kernel.sources import source_hash
 from cointoss.models.records import Array
 
@@ -124,7 +123,7 @@ def compute(
     asked += [(SMOOTH, CHI, quantity) for quantity in OTHERS]
     jobs = [(one, number) for number in range(max(runs.values())) for one in asked if number < runs[one[0]]]
     found: dict[tuple[str, float, str], list[Run]] = {one: [] for one in asked}
-    with ThreadPoolExecutor(cpu_count()) as pool:
+    with all_cores() as pool:
         running = [pool.submit(_kept_run, parts, *one, number, population, levels) for one, number in jobs]
         for done, ((one, _), made) in enumerate(zip(jobs, running, strict=True), start=1):
             found[one].append(made.result())

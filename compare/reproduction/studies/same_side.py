@@ -15,7 +15,7 @@ from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
 from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.claim import Estimate
-from cointoss.compare.reproduction.estimates import in_words, jackknife, less, share, share_of
+from cointoss.compare.reproduction.estimates import in_words, jackknife, share, share_of
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
 from cointoss.compare.reproduction.setups.same_side_fit import (
     NODES,
@@ -172,7 +172,7 @@ def measures(found: SameSide) -> dict[str, Any]:
     by_mujoco = of(found, Engine.MUJOCO, MUCH, ROUGH)
     return {
         "same": found.same,
-        "off_51": less(found.same, 0.51),
+        "off_51": found.same - 0.51,
         "rms": in_words(found.rms_angle, ".1f").replace(" ", "° ", 1),
         "by_wobble": found.spread_by_wobble,
         "spread": in_words(found.spread, ".4f"),
@@ -183,7 +183,7 @@ def measures(found: SameSide) -> dict[str, Any]:
         "smooth_mujoco": "; ".join(_percent(one.end) for one in of(found, Engine.MUJOCO, MUCH, SMOOTH)),
         "people_first": _percent(people.touches[0]),
         "people_end": people.end,
-        "bouncy": {one.name: less(one.end, 0.5) for one in bouncy},
+        "bouncy": {one.name: one.end - 0.5 for one in bouncy},
         "bouncy_words": _at_rest(bouncy),
         "dull": {one.name: one.end for one in dull},
         "dull_words": _at_rest(dull),

@@ -15,10 +15,10 @@ from cointoss.analytic.contact.landing import landing, time_to_landing
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.rest import rests, rolls_upright
 from cointoss.analytic.events import NO_LOSS, Setup, Spent, Verdict, hold_to_event, run
-from cointoss.analytic.flight import state_vector
+from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.flight.touch_search import is_chattering
 from cointoss.analytic.settings import Settings, contact_limits
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.models.perpetual import energy_history
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.contacts import held, put_on_floor, upright_coin
@@ -78,7 +78,7 @@ def contacts_with_states():
     for mode in sorted(CONTACT | {Mode.TOUCHING}):
         y = upright_coin(body, 0.4, 3.0, 20.0)
         if mode != Mode.UPRIGHT:
-            y[6:10] = state_of(scenario(release={"angles": [0.2, 1.2, 0.4]}).release)[6:10]
+            y[6:10] = state_at_release(scenario(release={"angles": [0.2, 1.2, 0.4]}).release)[6:10]
             put_on_floor(body, friction, mode, y)
         yield held(body, friction, mode, y), y
 
@@ -107,10 +107,10 @@ def test_a_guard_of_a_contact_never_writes_to_the_state(guard):
 
 def test_the_guard_of_a_touch_never_writes_to_the_state():
     body = scenario().body
-    y = np.array([0, 0, 0.01, 0.1, 0, -1e-3, *state_of(scenario().release)[6:10], 3.0, 1.0, 2.0])
+    y = np.array([0, 0, 0.01, 0.1, 0, -1e-3, *state_at_release(scenario().release)[6:10], 3.0, 1.0, 2.0])
     for chi in (0.0, 0.5, 1.0):
         as_given = y.copy()
-        is_chattering(body, chi, state_vector.state_of(y))
+        is_chattering(body, chi, state_of(y))
         assert np.array_equal(y, as_given)
 
 
@@ -123,7 +123,7 @@ def test_a_toss_passes_through_its_modes_in_time_and_ends_once(changed):
             floor={"contact": "coulomb", "restitution": 0.5, "friction": 0.3},
             release={"position": [0, 0, 0.1], "angles": [0, 1.0, 0], "angular_velocity": [3.0, spin, 5.0]},
         )
-        log = run(case.body, case.rules, state_of(case.release))
+        log = run(case.body, case.rules, state_at_release(case.release))
         assert log.modes[-1] == Mode.ENDED
         assert Mode.ENDED not in log.modes[:-1]
         assert log.modes[0] == Mode.FLIGHT
@@ -164,7 +164,7 @@ def test_a_spent_budget_ends_a_toss_by_its_name(case, settings, limits, ending):
 
 def test_a_contact_that_no_step_is_short_enough_to_follow_has_no_solution():
     case = scenario(floor={"contact": "coulomb", "friction": 0.3})
-    y = state_of(case.release)
+    y = state_at_release(case.release)
     y[6:10], y[12] = (0.8, 0.6, 0.0, 0.0), np.inf
     friction, limits = friction_in_contact(case.rules), contact_limits(Settings())
     toss = Setup(case.body, case.rules, friction, limits, energy_history(NO_LOSS))

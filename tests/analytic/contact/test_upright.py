@@ -12,7 +12,7 @@ from cointoss.analytic.contact.rim_contact import both_rims
 from cointoss.analytic.contact.upright import rim_forces, start_slow_slip
 from cointoss.analytic.events import run
 from cointoss.analytic.numerics.tolerances import SLOW
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.compare.reproduction.studies.endings import draw_toss
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.barriers import energy
@@ -175,7 +175,7 @@ def test_a_toss_that_comes_upright_is_followed_until_it_stands():
             "angular_velocity": [-2.0, 2.0, -50.0],
         },
     )
-    tossed = run(case.body, case.rules, state_of(case.release))
+    tossed = run(case.body, case.rules, state_at_release(case.release))
     assert (tossed.outcome, tossed.ending) == (Outcome.EDGE, Ending.STANDING)
     assert Mode.UPRIGHT in tossed.modes
 
@@ -247,7 +247,7 @@ def test_a_rolling_coin_stands_unless_it_skids_or_its_roll_tips_it(roll_rate, mu
 def test_a_toss_that_comes_upright_on_a_rough_floor_is_followed_to_its_end(number):
     """Tosses of the study of endings in which the coin skids or rolls on both rims for a while."""
     _, case = draw_toss(np.random.default_rng((2008, 1, number)), "imperfect")
-    tossed = run(case.body, case.rules._replace(test=EndingTest.LYING), state_of(case.release))
+    tossed = run(case.body, case.rules._replace(test=EndingTest.LYING), state_at_release(case.release))
     assert Mode.UPRIGHT in tossed.modes
     assert tossed.outcome != Outcome.UNDECIDED
 
@@ -324,7 +324,7 @@ def test_a_rim_that_friction_cannot_hold_takes_no_slip():
 def test_a_coin_that_pivots_on_one_rim_while_the_other_skids_goes_on():
     """A toss of the study of endings: without its slow slip the rim that stuck would have no friction."""
     _, case = draw_toss(np.random.default_rng((2008, 1, 9428)), "imperfect")
-    tossed = run(case.body, case.rules._replace(max_time=2.9), state_of(case.release))
+    tossed = run(case.body, case.rules._replace(max_time=2.9), state_at_release(case.release))
     assert tossed.ending == Ending.MAX_TIME
     lasting = np.diff(tossed.start_times)[tossed.modes[:-1] == Mode.UPRIGHT]
     assert lasting.max() > 1e-3

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from cointoss.analytic.events import run
-from cointoss.analytic.flight import state_vector
 from cointoss.analytic.flight.closed_flight import fly_closed, sample_closed
 from cointoss.analytic.flight.flying import fly_with_graze, sample
 from cointoss.analytic.flight.integrated_flight import sample_flight
+from cointoss.analytic.flight.state_vector import spin_of, state_of
 from cointoss.analytic.flight.touch_search import fly_by_steps
 from cointoss.analytic.flight.turning import turns_in_closed_form
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.models.geometry import evaluate_gap
 from cointoss.models.records import Ending
 from cointoss.models.scenario import Scenario
@@ -27,10 +27,10 @@ def draw_flight(
     if air:
         release["angular_velocity"][2] = 0.0
     case = scenario(coin={**ZLOTY, "thickness": thickness}, air=air, release=release)
-    y = state_of(case.release)
+    y = state_at_release(case.release)
     if rng.integers(2):
-        y[2] -= evaluate_gap(case.body, state_vector.state_of(y)).gap
-        y[5] += rng.uniform(0.01, 1.0) - evaluate_gap(case.body, state_vector.state_of(y)).speed
+        y[2] -= evaluate_gap(case.body, state_of(y)).gap
+        y[5] += rng.uniform(0.01, 1.0) - evaluate_gap(case.body, state_of(y)).speed
     return case, y
 
 
@@ -42,7 +42,7 @@ def test_a_flight_in_closed_form_is_the_integrated_one(thickness, air):
     for _ in range(100):
         case, start = draw_flight(rng, thickness, air)
         body, closed, integrated = case.body, start.copy(), start.copy()
-        assert turns_in_closed_form(body, state_vector.spin_of(start))
+        assert turns_in_closed_form(body, spin_of(start))
         flown, touches, evaluated = fly_closed(body, closed, 10.0)
         other, also_touches, *_ = fly_by_steps(body, integrated, 10.0, True)
         assert touches
@@ -52,7 +52,7 @@ def test_a_flight_in_closed_form_is_the_integrated_one(thickness, air):
         assert closed[:10] == pytest.approx(integrated[:10], abs=1e-11)
         assert closed[10:] == pytest.approx(integrated[10:], abs=1e-10)
         # Late in a long flight one step of floating-point time lowers the coin by 1e-14 of its radius.
-        assert abs(evaluate_gap(body, state_vector.state_of(closed)).gap) < 1e-13 * body.radius
+        assert abs(evaluate_gap(body, state_of(closed)).gap) < 1e-13 * body.radius
         turned += float(np.linalg.norm(start[10:13])) * flown
         evaluations += evaluated
     assert turned > 300, "the coins should turn"
@@ -81,7 +81,7 @@ def test_a_coin_at_rest_sinks_through_air_as_its_drag_says():
         case = scenario(air=STRONG_AIR, release={"position": [0, 0, 5.0], "angles": [0.4, angle, 0.0]})
         body, times, states = case.body, np.linspace(0, 0.5, 20), np.empty((20, 13))
         rate = (body.drag.force_normal if across else body.drag.force_tangential) / body.mass
-        sample(body, state_of(case.release), 0.0, times, states)
+        sample(body, state_at_release(case.release), 0.0, times, states)
         speed = body.gravity / rate * -np.expm1(-rate * times)
         assert rate * 0.5 > 1, "the air should matter"
         assert states[:, 5] == pytest.approx(-speed, abs=1e-13)
@@ -98,7 +98,7 @@ def test_thin_air_is_nearly_none():
     for share in (0.0, 1e-8, 2e-8):
         case = scenario(air={"normal": 0.8 * share, "tangential": 0.2 * share}, release=release)
         states = np.empty((1, 13))
-        sample(case.body, state_of(case.release), 0.0, np.array([0.3]), states)
+        sample(case.body, state_at_release(case.release), 0.0, np.array([0.3]), states)
         ends.append(states[0])
     assert np.abs(ends[1] - ends[0]).max() > 1e-10
     assert ends[2] - ends[0] == pytest.approx(2 * (ends[1] - ends[0]), abs=1e-13)
@@ -125,9 +125,7 @@ def test_no_touch_is_passed_and_no_minimum_is_below_half_of_the_graze(thickness,
         states = np.empty((1500, 13))
         sample(body, start, 0.0, flown * np.linspace(1e-6, 1 - 1e-6, len(states)), states)
         gaps = gaps_of(body, states)
-        assert gaps[700] == pytest.approx(
-            evaluate_gap(body, state_vector.state_of(states[700])).gap, abs=1e-15
-        )
+        assert gaps[700] == pytest.approx(evaluate_gap(body, state_of(states[700])).gap, abs=1e-15)
         assert gaps.min() > 0
         inner = gaps[1:-1][(gaps[1:-1] < gaps[:-2]) & (gaps[1:-1] <= gaps[2:])]
         minima += len(inner)
@@ -159,7 +157,7 @@ def test_a_coin_that_comes_to_lie_out_of_a_contact_goes_on():
         release={"position": [0, 0, z], "angular_velocity": [0, w, 0]},
         ending={"max_impacts": 1000},
     )
-    tossed = run(case.body, case.rules, state_of(case.release))
+    tossed = run(case.body, case.rules, state_at_release(case.release))
     assert len(tossed.contacts) > 0
     assert tossed.ending == Ending.SETTLED
 
@@ -169,7 +167,7 @@ def test_a_spin_that_dies_away_to_nothing_leaves_the_fall_right(spin):
     """In a long fall it passes all sizes down to none, also those whose squares have no digits."""
     air, release = {"normal": 50.0, "tangential": 12.5}, {"position": [0, 0, 60.0], "angles": [0.3, 1.0, 0.2]}
     case = scenario(air=air, release={**release, "angular_velocity": [spin, spin / 2, 0.0]})
-    closed, integrated = state_of(case.release), state_of(case.release)
+    closed, integrated = state_at_release(case.release), state_at_release(case.release)
     flown, *_ = fly_closed(case.body, closed, 500.0)
     other, *_ = fly_by_steps(case.body, integrated, 500.0, False)
     assert flown == pytest.approx(other, rel=1e-12)
@@ -179,10 +177,10 @@ def test_a_spin_that_dies_away_to_nothing_leaves_the_fall_right(spin):
 def test_a_coin_released_upright_on_the_floor_touches_it_at_once():
     release = {"position": [0, 0, ZLOTY["radius"]], "angles": [0.3, np.pi / 2, 0.2]}
     case = scenario(release={**release, "angular_velocity": [20.0, 10.0, 5.0]})
-    y = state_of(case.release)
+    y = state_at_release(case.release)
     flown, touches, _ = fly_closed(case.body, y, 1.0)
     assert (flown, touches) == (0.0, True)
-    assert abs(evaluate_gap(case.body, state_vector.state_of(y)).gap) < 1e-13 * case.body.radius
+    assert abs(evaluate_gap(case.body, state_of(y)).gap) < 1e-13 * case.body.radius
 
 
 def test_a_flight_that_is_cut_short_keeps_its_velocity():

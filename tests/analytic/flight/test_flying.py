@@ -10,7 +10,7 @@ from cointoss.analytic.flight.runge_kutta import combined_error
 from cointoss.analytic.flight.state_vector import STATE_SIZE
 from cointoss.analytic.flight.touch_search import gap_acceleration
 from cointoss.analytic.numerics.tableau import STAGES
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.compare.metrics.trajectories import attitude_angle
 from cointoss.models.attitude import rotation_matrix
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
@@ -109,7 +109,7 @@ def test_one_step_is_of_order_eight():
         air=AIR,
         release={"position": [0, 0, 5.0], "angular_velocity": [20.0, 30.0, -10.0]},
     )
-    body, y0 = case.body, state_of(case.release)
+    body, y0 = case.body, state_at_release(case.release)
 
     def after(steps):
         y, y_new, stages = y0.copy(), np.empty(STATE_SIZE), np.empty((STAGES, STATE_SIZE))

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from cointoss.analytic.flight import state_vector
 from cointoss.analytic.flight.equations_of_motion import derivative
 from cointoss.analytic.flight.gap_polynomials import DEGREE, Window, gap_polynomials, time_surely_clear
 from cointoss.analytic.flight.integrated_flight import first_step, flight_step, flight_work, within_step
 from cointoss.analytic.flight.power_series import COLUMNS, ORDER, expand_flight
+from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.flight.touch_search import fly_by_steps
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.models.body import Body
 from cointoss.models.geometry import evaluate_gap
 from cointoss.models.records import Array
@@ -25,7 +25,7 @@ def coin_and_start(rng, *, thickness=2e-3, offset=PAPER_OFFSET, air=AIR, spin=40
         air=air,
         release=draw_release(rng, spin=spin),
     )
-    return case.body, state_of(case.release)
+    return case.body, state_at_release(case.release)
 
 
 def flown(body: Body, start: Array, duration: float) -> Array:
@@ -88,7 +88,7 @@ def test_what_is_surely_clear_is_clear_and_a_touch_is_not(thickness):
         length, order = expand_flight(body, y, 8e-3, series)
         polynomials = gap_polynomials(body, series, order, length, coefficients)
         assert polynomials.degree <= 2 * order
-        assert 0 < polynomials.rounding < 1e-12 * evaluate_gap(body, state_vector.state_of(y)).gap
+        assert 0 < polynomials.rounding < 1e-12 * evaluate_gap(body, state_of(y)).gap
 
         def clear(inside: float, window: float, body=body, polynomials=polynomials) -> float:
             return time_surely_clear(body, polynomials, 0.0, Window(inside, window, 0.0))
@@ -104,8 +104,8 @@ def test_what_is_surely_clear_is_clear_and_a_touch_is_not(thickness):
 def test_a_coin_that_hardly_leaves_the_floor_is_searched_in_a_few_steps():
     """Its gap grows with the cube of time, and bounds on accelerations alone would need hundreds."""
     body, y = coin_and_start(np.random.default_rng(10), air={}, offset=(-1e-3, 0.0, 0.0))
-    y[2] -= evaluate_gap(body, state_vector.state_of(y)).gap
-    lift = evaluate_gap(body, state_vector.state_of(y)).speed
+    y[2] -= evaluate_gap(body, state_of(y)).gap
+    lift = evaluate_gap(body, state_of(y)).speed
     # Let the lowest point rest, and the coin's weight hardly act: the turning lifts it.
     y[5] -= lift
     body = body._replace(gravity=1e-3)

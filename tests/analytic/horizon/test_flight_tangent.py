@@ -9,7 +9,7 @@ from cointoss.analytic.horizon.flight_tangent import flight_tangent
 from cointoss.analytic.horizon.sensitivity import event_tangent
 from cointoss.analytic.numerics.tableau import STAGES
 from cointoss.analytic.numerics.tolerances import STEP_ERROR
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.models.laws import ContactLaw
 from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
@@ -57,7 +57,7 @@ def test_a_flight_s_tangent_map_is_its_derivative(thickness, offset, air):
     rng = np.random.default_rng(41)
     coin = {**ZLOTY, "thickness": thickness, "center_of_mass": offset}
     case = scenario(coin=coin, air=air, release=draw_release(rng))
-    start, duration, small = state_of(case.release), 0.2, 1e-5
+    start, duration, small = state_at_release(case.release), 0.2, 1e-5
     end, tangent = flown(case, start, duration)
     states = np.empty((1, 13))
     sample_flight(case.body, start, 0.0, np.array([duration]), states)
@@ -75,7 +75,7 @@ def test_where_air_takes_quadratures_the_growth_is_known_to_a_thousandth(exponen
     coin = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
     air = {"normal": 2.0, "tangential": 0.5, "exponent": exponent}
     case = scenario(coin=coin, air=air, release=draw_release(np.random.default_rng(41)))
-    start, duration, small = state_of(case.release), 0.4, 1e-5
+    start, duration, small = state_at_release(case.release), 0.4, 1e-5
     _, tangent = flown(case, start, duration)
     for change in directions(start)[3::4]:
         ends = [by_steps(case, start + sign * small * change, duration) for sign in (1, -1)]
@@ -88,7 +88,7 @@ def test_where_air_takes_quadratures_the_growth_is_known_to_a_thousandth(exponen
 def test_the_tangent_map_of_a_coin_that_does_not_turn_is_a_fall():
     """A change of velocity grows with time, one of the place stays, one of the spin turns the coin."""
     case = scenario(release={"angles": [0.3, 0.7, 0.2], "velocity": [0.1, 0.2, 0.3]})
-    start, duration = state_of(case.release), 0.25
+    start, duration = state_at_release(case.release), 0.25
     _, tangent = flown(case, start, duration)
     expected = np.eye(6)
     expected[:3, 3:] = duration * np.eye(3)
@@ -105,7 +105,7 @@ def test_a_flight_shrinks_volumes_as_the_air_s_drag_says(air):
     """Liouville: without air volumes of states are kept; with b = 0 they shrink by the drag's trace."""
     rng = np.random.default_rng(42)
     case = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}, air={**air}, release=draw_release(rng))
-    body, start, duration = case.body, state_of(case.release), 0.2
+    body, start, duration = case.body, state_at_release(case.release), 0.2
     end, tangent = flown(case, start, duration)
     before, after = directions(start), directions(end)
     # On the sphere of quaternions both ends have an orthonormal base of three.
@@ -130,7 +130,7 @@ def test_without_losses_the_tangent_map_keeps_every_change_of_energy(thickness, 
         ending={"max_impacts": 5},
     )
     body, rules = case.body, case.rules
-    toss = run(body, rules, state_of(case.release))
+    toss = run(body, rules, state_at_release(case.release))
 
     def energy_change(y: np.ndarray) -> np.ndarray:
         J = np.array(body.inertia)
@@ -162,7 +162,7 @@ def test_the_tangent_map_of_impacts_is_their_derivative(law, number):
         release=draw_release(rng),
         ending={"max_impacts": 3, "test": "paper"},
     )
-    body, rules, start = case.body, case.rules, state_of(case.release)
+    body, rules, start = case.body, case.rules, state_at_release(case.release)
     toss = run(body, rules, start)
     assert len(toss.rows) == 3
     tangent = np.eye(14)

@@ -9,7 +9,7 @@ from cointoss import analytic
 from cointoss.analytic.events import EventLog, run
 from cointoss.analytic.horizon import horizon
 from cointoss.analytic.horizon.horizon import IMPULSE_ERROR, TIME_ERROR, trusted_impacts
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.models.records import Impacts
 from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, PAPER_LAWS, draw_coin, draw_release, scenario
@@ -76,7 +76,7 @@ def test_neither_of_two_neighbouring_tosses_trusts_the_impact_at_which_they_part
     jumps, trusted_up_to_it = 0, 0
     for number in range(24):
         case = draw_toss(rng, number)
-        body, rules, release = case.body, case.rules._replace(max_impacts=8), state_of(case.release)
+        body, rules, release = case.body, case.rules._replace(max_impacts=8), state_at_release(case.release)
 
         def tossed(spin: float, case: tuple[Any, ...] = (body, rules, release)) -> EventLog:
             start = case[2].copy()
@@ -104,7 +104,7 @@ def test_neither_of_two_neighbouring_tosses_trusts_the_impact_at_which_they_part
 
 def test_larger_errors_shorten_the_horizon(monkeypatch):
     case = draw_toss(np.random.default_rng(53), 4)
-    toss = run(case.body, case.rules, state_of(case.release))
+    toss = run(case.body, case.rules, state_at_release(case.release))
     trusted: list[int] = []
     for factor in (1, 1e2, 1e4, 1e8):
         monkeypatch.setattr(horizon, "STEP_ERROR", 1e-15 * factor)
@@ -128,7 +128,7 @@ def test_a_coin_kept_flat_by_symmetry_is_trusted_to_its_end():
 
 def test_errors_are_carried_through_so_much_turning_and_no_impact_after_it_is_trusted(monkeypatch):
     case = scenario(release={"angular_velocity": [0, 0, 5.0]}, ending={"max_impacts": 8})
-    log = run(case.body, case.rules, state_of(case.release))
+    log = run(case.body, case.rules, state_at_release(case.release))
     assert trusted_impacts(case.body, case.rules, log) == 8
     monkeypatch.setattr(horizon, "MOST_CARRIED", 4.5 * horizon.TOUCH_COST + 33 * log.rows["time"][3])
     assert trusted_impacts(case.body, case.rules, log) == 4

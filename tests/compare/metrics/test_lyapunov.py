@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cointoss.analytic.events import run
-from cointoss.analytic.toss import state_of
+from cointoss.analytic.toss import state_at_release
 from cointoss.compare.metrics.lyapunov import divergence, growth_by_tangent
 from tests.helpers.draws import scenario
 
@@ -37,7 +37,7 @@ def test_the_growth_of_a_change_is_that_of_two_tosses():
             ending={"max_impacts": 6},
         )
 
-    tosses = [run(c.body, c.rules, state_of(c.release)) for c in (case(0.4), case(0.4 + 1e-9))]
+    tosses = [run(c.body, c.rules, state_at_release(c.release)) for c in (case(0.4), case(0.4 + 1e-9))]
     apart = [
         np.linalg.norm(a["angular_velocity_after"] - b["angular_velocity_after"])
         for a, b in zip(tosses[0].rows, tosses[1].rows, strict=True)

@@ -1,6 +1,4 @@
-"""Compiled functions are called by Python, by each other and by numba's; pyright knows their arguments."""
-
-# pyright: reportUnnecessaryTypeIgnoreComment=true
+"""Compiled functions are called by Python, by each other and by numba's."""
 
 import importlib
 import pickle
@@ -196,8 +194,7 @@ def test_arrays_within_tuples_are_freed():
     assert after.mi_alloc - before.mi_alloc == after.mi_free - before.mi_free > 0
 
 
-def test_a_swapped_argument_is_an_error_to_pyright_and_to_numba():
-    """`make lint` fails where pyright finds nothing to ignore here."""
+def test_a_swapped_argument_is_an_error_to_numba():
     v, M = (1.0, 2.0, 3.0), ((1.0, 0.0, 0.0), (0.0, 2.0, 0.0), (0.0, 0.0, 3.0))
     assert apply(M, v) == (1.0, 4.0, 9.0)
     with pytest.raises(numba.TypingError):
