@@ -1,4 +1,4 @@
-"""The analytic engine: quaternion equations of motion, air drag, impact laws; imports models alone."""
+"""The analytic engine: equations of motion, air drag, impact laws; imports models alone."""
 
 from cointoss.analytic.ensemble import toss_many
 from cointoss.analytic.settings import FINE, MANY, Settings

@@ -228,6 +228,20 @@ def test_every_public_name_is_described_in_the_pages_of_the_api():
     assert public - described == {"cointoss.analytic", "cointoss.coin_mj", "cointoss.__version__"}
 
 
+def test_what_a_page_names_of_the_code_is_there():
+    """Paths of files, and a function that a table says to lie in one."""
+    files = r"`((?:analytic|coin_mj|compare|cointoss|models|tests|docs)/[\w./-]*\w\.\w+)`"
+    named = {(page, path) for page in PAGES for path in re.findall(files, page.read_text(encoding="utf-8"))}
+    assert len(named) > 50
+    assert [(page.name, path) for page, path in named if not (TOP / path).exists()] == []
+    lies_in = re.findall(r"`(\w+)` in " + files, (DOCS / "DESIGN.md").read_text(encoding="utf-8"))
+    assert len(lies_in) > 15
+    for function, path in lies_in:
+        assert re.search(
+            rf"^(def|class) {function}\b", (TOP / path).read_text(encoding="utf-8"), re.MULTILINE
+        )
+
+
 def test_there_is_code_to_run():
     code = {page.name: written(page) for page in PAGES}
     assert sum(block.language == "python" for block in code["README.md"]) >= 2

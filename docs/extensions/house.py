@@ -8,7 +8,7 @@ import grimp
 
 FOLDERS = ("compare", "analytic", "coin_mj", "models")
 WIDTH, MARGIN, GAP = 940, 16, 8
-BOX, LETTER, TOP = 28, 8.2, 46
+BOX, LETTER, TOP = 28, 9.2, 46
 """Height of a box, width of a letter in it, and room for the title of a folder [px]."""
 ROOF = {"compare": "#fbf3dd", "analytic": "#dcecf6", "coin_mj": "#f9e3d6", "models": "#e9e9e9"}
 STYLE = "text{font:13px sans-serif;fill:#222}.t{font-weight:bold}.s{font-size:12px;fill:#555}"
