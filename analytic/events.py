@@ -11,34 +11,30 @@ from cointoss.analytic.contact.edge.guards import comes_upright, stands_for_good
 from cointoss.analytic.contact.floor_laws import friction_in_contact, supports_contact
 from cointoss.analytic.contact.integrator import Step, contact_work, step_contact
 from cointoss.analytic.contact.periodic import record_tilt, repeats, start_tilt_history
-from cointoss.analytic.contact.resets import lay_flat, stand_up, stop_slip, tilt_onto_rim
+from cointoss.analytic.contact.resets import (
+    begin_contact,
+    bounce,
+    lay_flat,
+    restitution_at,
+    stand_up,
+    stop_slip,
+    tip_over,
+)
 from cointoss.analytic.contact.resistance import FloorFriction, has_resistance
 from cointoss.analytic.contact.rest import rests, rolls_upright
-from cointoss.analytic.contact.upright import tip_over
 from cointoss.analytic.flight.catch import fly_to_hand
 from cointoss.analytic.flight.flying import fly
-from cointoss.analytic.flight.state_vector import (
-    STATE_SIZE,
-    position_of,
-    set_height,
-    set_spin,
-    set_velocity,
-    state_of,
-)
+from cointoss.analytic.flight.state_vector import STATE_SIZE, state_of
 from cointoss.analytic.flight.touch_search import is_chattering
-from cointoss.analytic.impact.laws import ImpactPoint, impulse, spin_gained
 from cointoss.analytic.settings import FINE, ContactLimits, Settings, contact_limits
 from cointoss.models.body import Body, Rules, is_to_be_caught
 from cointoss.models.ending import classify_ending, endless, face_outcome, unless_caught
-from cointoss.models.geometry import contact_velocity, evaluate_gap, lowest_point
-from cointoss.models.impact_row import FIRST_ROOM, with_room, write_impact
+from cointoss.models.impact_row import FIRST_ROOM, with_room
 from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import add, apply, scale, subtract
 from cointoss.models.laws import EndingTest
 from cointoss.models.perpetual import EnergyHistory, energy_history, start_history
 from cointoss.models.records import IMPACT_ROW, Array, Ending, Outcome
-from cointoss.models.state import State
 
 # A step that takes less than this part of √(r/g) counts as so many, or changes without time could go on.
 _NO_TIME, _STALLED = 1e-12, 1000
@@ -130,46 +126,6 @@ def contacts_of(start_times: Array, started: NDArray[np.int8]) -> Array:
     lasting = (started != Mode.FLIGHT) & (started != Mode.ENDED)
     changes = np.diff(lasting.astype(np.int8), prepend=0)
     return np.stack([start_times[changes == 1], start_times[changes == -1]], axis=1)
-
-
-@compiled
-def hit(body: Body, rules: Rules, chi: float, y: Array, row: Any) -> Ending:
-    """Let the floor act on the coin in state y, which touches it, and record the impact: Newton's law.
-
-    The reset of an impact.
-
-    Args:
-        body: the coin.
-        rules: floor and ending.
-        chi: restitution of this impact.
-        y: state at the touch, (13,); becomes the state after the impact.
-        row: where the impact is recorded, one `IMPACT_ROW`.
-
-    Returns:
-        `Ending.NO_SOLUTION` where the contact law has none, else `Ending.NONE`.
-    """
-    before = state_of(y)
-    x, v, e, w, R = before
-    point, flat = lowest_point(body, R[2], w)
-    arm = apply(R, subtract(point, body.center))
-    out = (point[0] ** 2 + point[1] ** 2) ** 0.5
-    tau = apply(R, (-point[1] / out, point[0] / out, 0.0)) if out > 0 else (1.0, 0.0, 0.0)
-    v_A = contact_velocity(body, R, v, w, point)
-    S, ending = impulse(body, rules, chi, ImpactPoint(R, arm, tau, v_A, flat))
-    v_after = add(v, scale(1 / body.mass, S))
-    w_after = w if flat else add(w, spin_gained(body, R, arm, S))
-    write_impact(body, S, point, before, State(x, v_after, e, w_after, R), row)
-    set_velocity(y, v_after)
-    set_spin(y, w_after)
-    return ending
-
-
-@compiled
-def restitution_at(body: Body, rules: Rules, y: Array) -> float:
-    """Return χ of the touch in the state y, (13,): 0 up to the floor's threshold of the speed of approach."""
-    threshold = rules.restitution_threshold
-    is_plastic = threshold > 0 and -evaluate_gap(body, state_of(y)).speed <= threshold
-    return 0.0 if is_plastic else rules.restitution
 
 
 @compiled
@@ -266,11 +222,13 @@ def reset(setup: Setup, mode: int, passage: Passage, y: Array, row: Any) -> Endi
     Returns:
         `Ending.NO_SOLUTION` where the contact law has none, else `Ending.NONE`.
     """
-    event, body = passage.event, setup.body
+    event, body, time = passage.event, setup.body, passage.spent.time
     if event == Event.IMPACT:
-        return bounce(setup, y, passage.spent.time, row)
+        row.time = time
+        return bounce(body, setup.rules, y, row)
     if event == Event.CHATTERS:
-        return begin_contact(setup, y, passage.spent.time, row)
+        start_history(body, setup.history, time)
+        return begin_contact(body, setup.rules, y, row)
     if event == Event.FALLS_FLAT:
         lay_flat(body, y)
     elif event == Event.SLIP_STARTS or event == Event.SLIP_STOPS:
@@ -280,27 +238,6 @@ def reset(setup: Setup, mode: int, passage: Passage, y: Array, row: Any) -> Endi
     elif event == Event.TIPS_OVER:
         tip_over(body, setup.friction, y)
     return Ending.NONE
-
-
-@compiled
-def bounce(setup: Setup, y: Array, time: float, row: Any) -> Ending:
-    """Let the coin in state y, (13,), bounce off the floor; a reset, see `reset`."""
-    ending = hit(setup.body, setup.rules, restitution_at(setup.body, setup.rules, y), y, row)
-    if ending == Ending.NONE:
-        row.time = time
-        # A step forced at a grazing point may have left the coin a little below the floor.
-        set_height(y, position_of(y)[2] - min(evaluate_gap(setup.body, state_of(y)).gap, 0.0))
-    return ending
-
-
-@compiled
-def begin_contact(setup: Setup, y: Array, time: float, row: Any) -> Ending:
-    """Let the floor stop the approach of a coin whose impacts chatter, y: (13,); a reset, see `reset`."""
-    ending = hit(setup.body, setup.rules, 0.0, y, row)
-    if ending == Ending.NONE:
-        start_history(setup.body, setup.history, time)
-        tilt_onto_rim(setup.body, y)
-    return ending
 
 
 @compiled

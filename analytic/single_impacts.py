@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cointoss.analytic.events import hit
+from cointoss.analytic.contact.resets import hit
 from cointoss.models.body import Body, Rules
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import IMPACT_ROW, Array, Ending, Impacts

@@ -1,23 +1,111 @@
-"""The resets of a coin in contact: each maps the state at an event to that in which the next mode starts."""
+"""The resets of a toss: each maps the state at an event to that in which the next mode starts."""
 
 import math
+from typing import Any
 
 from cointoss.analytic.contact import upright
 from cointoss.analytic.contact.automaton import Mode, project
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.one_rim import contact_in_flight
 from cointoss.analytic.contact.periodic import tilt_rate
-from cointoss.analytic.contact.rim_contact import accelerate
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.contact.rim_contact import accelerate, rim_contact
 from cointoss.analytic.contact.sliding import jams, slips
-from cointoss.analytic.flight.state_vector import attitude_of, normalise, set_attitude, set_height
+from cointoss.analytic.flight.state_vector import (
+    attitude_of,
+    normalise,
+    position_of,
+    set_attitude,
+    set_height,
+    set_spin,
+    set_velocity,
+    state_of,
+)
 from cointoss.analytic.impact.coulomb import coulomb
+from cointoss.analytic.impact.laws import ImpactPoint, impulse, spin_gained
 from cointoss.analytic.numerics.tolerances import SLOW
 from cointoss.models.attitude import rotation_matrix
-from cointoss.models.body import Body
-from cointoss.models.geometry import FLAT_SINE
+from cointoss.models.body import Body, Rules
+from cointoss.models.geometry import FLAT_SINE, contact_velocity, evaluate_gap, lowest_point
+from cointoss.models.impact_row import write_impact
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import add, apply, scale, subtract
 from cointoss.models.laws import RestitutionKind
-from cointoss.models.records import Array
+from cointoss.models.records import Array, Ending
+from cointoss.models.state import State
+
+_TIP = 1e-12
+"""The angle by which a coin is tipped off the rim that lifts [rad]."""
+
+
+@compiled
+def hit(body: Body, rules: Rules, chi: float, y: Array, row: Any) -> Ending:
+    """Let the floor act on the coin in state y, which touches it, and record the impact: Newton's law.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        chi: restitution of this impact.
+        y: state at the touch, (13,); becomes the state after the impact.
+        row: where the impact is recorded, one `IMPACT_ROW`.
+
+    Returns:
+        `Ending.NO_SOLUTION` where the contact law has none, else `Ending.NONE`.
+    """
+    before = state_of(y)
+    x, v, e, w, R = before
+    point, flat = lowest_point(body, R[2], w)
+    arm = apply(R, subtract(point, body.center))
+    out = (point[0] ** 2 + point[1] ** 2) ** 0.5
+    tau = apply(R, (-point[1] / out, point[0] / out, 0.0)) if out > 0 else (1.0, 0.0, 0.0)
+    v_A = contact_velocity(body, R, v, w, point)
+    S, ending = impulse(body, rules, chi, ImpactPoint(R, arm, tau, v_A, flat))
+    v_after = add(v, scale(1 / body.mass, S))
+    w_after = w if flat else add(w, spin_gained(body, R, arm, S))
+    write_impact(body, S, point, before, State(x, v_after, e, w_after, R), row)
+    set_velocity(y, v_after)
+    set_spin(y, w_after)
+    return ending
+
+
+@compiled
+def restitution_at(body: Body, rules: Rules, y: Array) -> float:
+    """Return χ of the touch in the state y, (13,): 0 up to the floor's threshold of the speed of approach."""
+    threshold = rules.restitution_threshold
+    is_plastic = threshold > 0 and -evaluate_gap(body, state_of(y)).speed <= threshold
+    return 0.0 if is_plastic else rules.restitution
+
+
+@compiled
+def bounce(body: Body, rules: Rules, y: Array, row: Any) -> Ending:
+    """Let the coin in state y, (13,), bounce off the floor; see `hit`."""
+    ending = hit(body, rules, restitution_at(body, rules, y), y, row)
+    if ending == Ending.NONE:
+        # A step forced at a grazing point may have left the coin a little below the floor.
+        set_height(y, position_of(y)[2] - min(evaluate_gap(body, state_of(y)).gap, 0.0))
+    return ending
+
+
+@compiled
+def begin_contact(body: Body, rules: Rules, y: Array, row: Any) -> Ending:
+    """Let the floor stop the approach of a coin in state y, (13,), whose impacts chatter; see `hit`."""
+    ending = hit(body, rules, 0.0, y, row)
+    if ending == Ending.NONE:
+        tilt_onto_rim(body, y)
+    return ending
+
+
+@compiled
+def tilt_onto_rim(body: Body, y: Array) -> None:
+    """Tilt a coin that is just passing its edge as it turns: onto the rim that landed.
+
+    Args:
+        body: the coin.
+        y: state, (13,).
+    """
+    up, rate = rotation_matrix(attitude_of(y))[2], tilt_rate(y)
+    if body.thickness > 0 and abs(up[2]) < FLAT_SINE and rate != 0:
+        upright.tilt(y, up[2] - math.copysign(FLAT_SINE / 8, rate))
 
 
 @compiled
@@ -53,16 +141,19 @@ def stand_up(contact: Contact, y: Array) -> None:
 
 
 @compiled
-def tilt_onto_rim(body: Body, y: Array) -> None:
-    """Tilt a coin that is just passing its edge as it turns: onto the rim that landed.
+def tip_over(body: Body, friction: FloorFriction, y: Array) -> None:
+    """Tip an upright coin a little onto the rim that is pressed harder, which stays on the floor.
 
     Args:
         body: the coin.
+        friction: `FloorFriction`.
         y: state, (13,).
     """
-    up, rate = rotation_matrix(attitude_of(y))[2], tilt_rate(y)
-    if body.thickness > 0 and abs(up[2]) < FLAT_SINE and rate != 0:
-        upright.tilt(y, up[2] - math.copysign(FLAT_SINE / 8, rate))
+    on_tails, on_heads = upright.rim_forces(body, friction, y)
+    # Tails' rim is the lower one of a coin with heads up.
+    rim = -1.0 if on_tails > on_heads else 1.0
+    upright.tilt(y, rim * _TIP)
+    set_height(y, -rim_contact(body, y, rim).arm[2])
 
 
 @compiled

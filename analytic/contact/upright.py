@@ -15,7 +15,6 @@ from cointoss.analytic.contact.rim_contact import (
     accelerate,
     add_quotient,
     both_rims,
-    rim_contact,
     rim_contact_in_flight,
 )
 from cointoss.analytic.flight.equations_of_motion import flight_of, write_rate
@@ -37,9 +36,6 @@ from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled, inlined
 from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, cross, dot, scale, subtract
 from cointoss.models.records import Array
-
-# The angle by which a coin is tipped off the rim that lifts.
-_TIP = 1e-12
 
 
 class RimForces(NamedTuple):
@@ -104,22 +100,6 @@ def rim_forces(body: Body, friction: FloorFriction, y: Array) -> tuple[float, fl
 def margin(body: Body, friction: FloorFriction, y: Array) -> float:
     """Return the margin of an upright contact, > 0 in it; at its end the floor would have to pull."""
     return min(rim_forces(body, friction, y)) / (body.mass * body.gravity)
-
-
-@compiled
-def tip_over(body: Body, friction: FloorFriction, y: Array) -> None:
-    """Tip an upright coin a little onto the rim that is pressed harder, which stays on the floor.
-
-    Args:
-        body: the coin.
-        friction: `FloorFriction`.
-        y: state, (13,).
-    """
-    on_tails, on_heads = rim_forces(body, friction, y)
-    # Tails' rim is the lower one of a coin with heads up.
-    rim = -1.0 if on_tails > on_heads else 1.0
-    tilt(y, rim * _TIP)
-    set_height(y, -rim_contact(body, y, rim).arm[2])
 
 
 @compiled

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cointoss.analytic.events import hit, restitution_at
+from cointoss.analytic.contact.resets import hit, restitution_at
 from cointoss.analytic.flight.equations_of_motion import derivative
 from cointoss.analytic.flight.state_vector import STATE_SIZE, normalise, spin_of, state_of, velocity_of
 from cointoss.models.body import Body, Rules

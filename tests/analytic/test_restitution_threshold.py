@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.analytic.events import restitution_at
+from cointoss.analytic.contact.resets import restitution_at
 from cointoss.analytic.horizon.touch_derivatives import touch_derivatives
 from cointoss.models.certificate import law_residuals
 from cointoss.models.reading import load

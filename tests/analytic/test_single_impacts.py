@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic.events import hit
+from cointoss.analytic.contact.resets import hit
 from cointoss.analytic.single_impacts import strike
 from cointoss.models.laws import ContactLaw
 from cointoss.models.records import IMPACT_ROW

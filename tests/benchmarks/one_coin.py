@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numba
 import numpy as np
 
-from cointoss.analytic.events import hit
+from cointoss.analytic.contact.resets import hit
 from cointoss.analytic.flight.equations_of_motion import derivative
 from cointoss.analytic.flight.state_vector import STATE_SIZE, state_of
 from cointoss.models.ending import final_face

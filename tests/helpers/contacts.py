@@ -5,9 +5,8 @@ import numpy as np
 from cointoss.analytic.contact.automaton import Event, Mode, contact_at, margin_event, mode_after, project
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.integrator import Step, contact_work, step_contact
-from cointoss.analytic.contact.resets import stop_slip
+from cointoss.analytic.contact.resets import stop_slip, tip_over
 from cointoss.analytic.contact.resistance import FloorFriction
-from cointoss.analytic.contact.upright import tip_over
 from cointoss.analytic.numerics.tolerances import STEP_ERROR
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.body import Body

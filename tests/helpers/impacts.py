@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from cointoss.analytic.events import hit
+from cointoss.analytic.contact.resets import hit
 from cointoss.analytic.impact.laws import delassus
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.geometry import contact_velocity, lowest_point

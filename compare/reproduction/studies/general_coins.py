@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from cointoss.analytic.contact.automaton import Mode, contact_at
 from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.integrator import contact_work, step_contact
-from cointoss.analytic.events import hit, run, toss_coin
+from cointoss.analytic.contact.resets import hit
+from cointoss.analytic.events import run, toss_coin
 from cointoss.analytic.flight.flying import fly
 from cointoss.analytic.settings import MANY, contact_limits
 from cointoss.compare.output.progress import Progress

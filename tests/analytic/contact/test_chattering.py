@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from cointoss.analytic.contact.automaton import Mode
+from cointoss.analytic.contact.resets import hit
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.sampling import sample_contact
-from cointoss.analytic.events import hit
 from cointoss.analytic.flight.equations_of_motion import flight_of
 from cointoss.analytic.flight.flying import fly
 from cointoss.analytic.flight.state_vector import state_of

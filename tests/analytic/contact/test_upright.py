@@ -7,6 +7,7 @@ from cointoss.analytic.contact import upright
 from cointoss.analytic.contact.automaton import Event, Mode
 from cointoss.analytic.contact.edge.restoring import held_on_edge
 from cointoss.analytic.contact.edge.standing import on_edge, rolls, stands
+from cointoss.analytic.contact.resets import tip_over
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.rim_contact import both_rims
 from cointoss.analytic.contact.upright import rim_forces, start_slow_slip
@@ -107,7 +108,7 @@ def test_a_coin_that_tips_over_keeps_the_pressed_rim_on_the_floor():
     body = scenario(coin=UNBALANCED).body
     for phase in np.linspace(0.1, 6.0, 12):
         y = upright_coin(body, phase, 5.0, 20.0)
-        upright.tip_over(body, SMOOTH, y)
+        tip_over(body, SMOOTH, y)
         up = rotation_matrix(tuple(y[6:10]))[2]
         assert 0 < abs(up[2]) < 2e-12
         assert abs(gap(body, y[2], up)) < 1e-17
