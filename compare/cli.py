@@ -40,6 +40,10 @@ class _Commands(click.Group):
             refuse(f"{error.format_message().rstrip('.')} (see {command} --help)")
         except click.Abort:  # KeyboardInterrupt
             refuse("interrupted", status=130)
+        except ImportError as error:
+            if error.name is not None:  # of a module that is missing or broken
+                raise
+            refuse(str(error))
         except OSError as error:
             if error.errno is None:  # not of a file, as where a connection is lost
                 refuse(str(error) or type(error).__name__, status=1)

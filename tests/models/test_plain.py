@@ -46,6 +46,26 @@ def test_plain_mode_gives_the_same_bits_and_says_once_that_it_takes_longer(tmp_p
     assert (again.stdout, again.stderr) == (done.stdout, ""), "read from disk"
 
 
+@pytest.mark.parametrize(
+    ("words", "status", "begins"),
+    [
+        (("-m", "cointoss", "toss", "fig24a"), 2, "cointoss: "),
+        (("-c", "import cointoss; cointoss.Scenario"), 1, "ImportError: "),
+    ],
+)
+def test_another_compiler_is_refused_in_one_line(words, status, begins):
+    done = subprocess.run(
+        [sys.executable, *words],
+        env={**HERE, "COINTOSS_COMPILER": "nonsense"},
+        capture_output=True,
+        text=True,
+    )
+    *above, line = done.stderr.splitlines()
+    assert (done.returncode, done.stdout) == (status, "")
+    assert line == f"{begins}COINTOSS_COMPILER = 'nonsense': accepted: plain, or unset"
+    assert not (above and status == 2)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("engine", ["analytic", "mujoco"])
 def test_a_toss_in_plain_mode_is_the_same_to_the_bit(tmp_path, engine):
