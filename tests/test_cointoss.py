@@ -1,6 +1,8 @@
 """`import cointoss` and `python -m cointoss`: the public names, brought when first used, and the command."""
 
 import ast
+import inspect
+import pydoc
 import re
 import shutil
 import subprocess
@@ -13,6 +15,7 @@ from pathlib import Path
 import pytest
 
 import cointoss
+from cointoss.compare.report.comparison import compare
 from cointoss.models.distribution import DISTRIBUTION
 from tests.helpers.command_line import HERE
 
@@ -117,6 +120,16 @@ def test_settings_of_another_type_are_refused(engine, wrong):
             toss("fig24a", settings=wrong)
     with pytest.raises(TypeError, match=r"^releases: of type list, accepted: Releases, as of Releases.of"):
         package.toss_many("fig24a", [0, 0, 1])
+
+
+def test_the_package_compare_is_described_as_the_function_once_it_is_asked():
+    assert inspect.signature(cointoss.compare) == inspect.signature(compare)
+    described = pydoc.plain(pydoc.render_doc(cointoss.compare))
+    assert "Both engines asked the same question" in described
+    assert f"compare{inspect.signature(compare)}\n" in described
+    assert "mujoco: MuJoCo's settings" in described
+    script = "import sys, cointoss.compare; assert 'numpy' not in sys.modules"
+    subprocess.run([sys.executable, "-c", script], check=True, env=HERE)
 
 
 def test_import_cointoss_imports_next_to_nothing():
