@@ -20,7 +20,7 @@ from cointoss.models.distribution import DISTRIBUTION
 from tests.helpers.command_line import HERE
 
 TOP = Path(__file__).parents[1]
-PACKAGES = ("analytic", "coin_mj", "compare")
+PACKAGES = ("models", "analytic", "coin_mj", "compare")
 
 
 def described():
@@ -47,6 +47,14 @@ def test_each_name_is_that_of_its_home_and_a_type_checker_knows_it():
     assert cointoss.__version__ == version(DISTRIBUTION)
 
 
+def test_a_star_brings_the_public_names():
+    script = (
+        "from cointoss import *\nimport cointoss\nprint(*(n for n in dir(cointoss) if n not in globals()))"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env=HERE)
+    assert (done.stdout, done.stderr) == ("__version__\n", "")
+
+
 def test_a_bare_name_in_a_checkout_gives_the_same_objects():
     script = (
         "import sys, analytic, models.records, cointoss\n"
@@ -67,7 +75,7 @@ def test_a_bare_name_in_a_checkout_gives_the_same_objects():
 def test_without_links_the_folders_are_found_beside_or_one_line_says_what_to_do(tmp_path, beside):
     """As where an archive was unpacked, or git makes a file of a link."""
     shutil.copytree(TOP / "cointoss", tmp_path / "cointoss", symlinks=True)
-    for name in ("models", *PACKAGES):
+    for name in PACKAGES:
         (tmp_path / "cointoss" / name).unlink()
         (tmp_path / "cointoss" / name).write_text(f"../{name}")
         if beside:
@@ -165,7 +173,7 @@ def test_a_public_name_brings_what_shows_progress(name):
 
 
 def test_beside_foreign_packages_of_such_names_it_works(tmp_path):
-    for name in ("models", *PACKAGES):
+    for name in PACKAGES:
         (tmp_path / f"{name}.py").write_text("raise RuntimeError('foreign')\n")
     done = run(tmp_path, "--version")
     assert (done.returncode, done.stderr) == (0, "")
