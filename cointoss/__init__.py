@@ -102,9 +102,7 @@ def __getattr__(name: str) -> Any:
     if name == "__version__":
         return import_module("cointoss.models.distribution").versions_of(["cointoss"])["cointoss"]
     if name not in (*_PACKAGES, *_HOMES):
-        near = import_module("difflib").get_close_matches(name, __dir__(), n=1)
-        hint = f" (did you mean {near[0]}?)" if near else ""
-        raise AttributeError(f"cointoss has no {name}; accepted: {', '.join(__dir__())}{hint}")
+        raise AttributeError(f"cointoss has no {name}; accepted: {', '.join(__dir__())}")
     import_module("cointoss.compare.output.progress")  # What takes long says so in a terminal or a notebook.
     return (
         import_module(f"cointoss.{name}") if name in _PACKAGES else getattr(import_module(_HOMES[name]), name)
