@@ -87,3 +87,7 @@ def _missing(error: click.MissingParameter) -> str:
 def _lose_stdout() -> None:
     """Discard what standard output could not take, or Python would report it again at its end."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+
+
+if __name__ == "__main__":
+    main()

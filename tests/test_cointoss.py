@@ -152,14 +152,15 @@ def test_import_cointoss_imports_next_to_nothing():
     assert "importlib.metadata" not in imported
 
 
-def run(folder, *words):
-    command = [sys.executable, "-m", "cointoss", *words]
+def run(folder, *words, module="cointoss"):
+    command = [sys.executable, "-m", module, *words]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, env=HERE)
 
 
 def test_the_package_runs_the_command(tmp_path):
-    done = run(tmp_path, "--version")
-    assert (done.returncode, done.stdout) == (0, f"cointoss, version {version(DISTRIBUTION)}\n")
+    for module in ("cointoss", "cointoss.compare.cli"):
+        done = run(tmp_path, "--version", module=module)
+        assert (done.returncode, done.stdout) == (0, f"cointoss, version {version(DISTRIBUTION)}\n")
     done = run(tmp_path, "toss", "no_such_scenario")
     assert (done.returncode, len(done.stderr.splitlines())) == (2, 1)
     assert done.stderr.startswith("cointoss: no_such_scenario: no such file")
