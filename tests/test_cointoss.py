@@ -71,6 +71,21 @@ def test_a_bare_name_in_a_checkout_gives_the_same_objects():
     assert (done.returncode, done.stderr) == (0, "")
 
 
+@pytest.mark.parametrize(
+    ("name", "line"),
+    [
+        ("analytic", "'analytic' is a package and cannot be directly executed"),
+        ("analytic.tosses", "No module named analytic.tosses"),
+        ("compare.cli", "compare.cli: accepted: python -m cointoss.compare.cli"),
+    ],
+)
+def test_a_bare_name_that_is_run_is_answered_in_one_line(name, line):
+    done = subprocess.run([sys.executable, "-m", name], capture_output=True, text=True, cwd=TOP)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.count("\n") == 1
+    assert done.stderr.endswith(f"{line}\n")
+
+
 @pytest.mark.parametrize("beside", [True, False])
 def test_without_links_the_folders_are_found_beside_or_one_line_says_what_to_do(tmp_path, beside):
     """As where an archive was unpacked, or git makes a file of a link."""
