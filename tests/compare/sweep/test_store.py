@@ -291,8 +291,8 @@ def test_a_map_of_something_else_is_not_gone_on_with(tmp_path, change, named):
     with pytest.raises(UnwritableError, match=f"is a map with another {named}"):
         opened(out, map_sweep(**change), change.get("case", SCENARIO), overwrite=False).__enter__()
     same = SCENARIO + "# another word for the same coin\n"
-    with opened(out, map_sweep(case=same), same, overwrite=False) as map_:
-        assert map_.group.attrs["scenario"] == SCENARIO
+    with opened(out, map_sweep(case=same, name="another file"), same, overwrite=False) as map_:
+        assert (map_.group.attrs["scenario"], map_.group.attrs["name"]) == (SCENARIO, "")
 
 
 @pytest.mark.parametrize(
