@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from cointoss import analytic as analytic
     from cointoss import coin_mj as coin_mj
+    from cointoss import models as models
     from cointoss.coin_mj.bounce import solref as solref
     from cointoss.compare.engines import Engine as Engine
     from cointoss.compare.engines import toss as toss
@@ -49,8 +50,7 @@ if TYPE_CHECKING:
 
     __version__: str
 
-_FOLDERS = ("models", "analytic", "coin_mj", "compare")
-_PACKAGES = ("analytic", "coin_mj", "compare")
+_PACKAGES = ("models", "analytic", "coin_mj", "compare")
 _NAMES = {
     "cointoss.coin_mj.bounce": ("solref",),
     "cointoss.compare.engines": ("Engine", "toss"),
@@ -91,18 +91,18 @@ if not (Path(__file__).parent / "models").is_dir():
     __path__.append(str(Path(__file__).parents[1]))
     if not (Path(__path__[-1]) / "models").is_dir():
         raise ImportError(
-            f"{Path(__file__).parent}: without its folders {', '.join(_FOLDERS)}; "
+            f"{Path(__file__).parent}: without its folders {', '.join(_PACKAGES)}; "
             "accepted: these in it, or beside it (get the project again, or install it by pip)"
         )
 
 
 def __getattr__(name: str) -> Any:
+    if name == "__all__":  # as `from cointoss import *` asks; type checkers take the names above
+        return [*_PACKAGES, *_HOMES]
     if name == "__version__":
         return import_module("cointoss.models.distribution").versions_of(["cointoss"])["cointoss"]
     if name not in (*_PACKAGES, *_HOMES):
-        near = import_module("difflib").get_close_matches(name, __dir__(), n=1)
-        hint = f" (did you mean {near[0]}?)" if near else ""
-        raise AttributeError(f"cointoss has no {name}; accepted: {', '.join(__dir__())}{hint}")
+        raise AttributeError(f"cointoss has no {name}; accepted: {', '.join(__dir__())}")
     import_module("cointoss.compare.output.progress")  # What takes long says so in a terminal or a notebook.
     return (
         import_module(f"cointoss.{name}") if name in _PACKAGES else getattr(import_module(_HOMES[name]), name)

@@ -2,10 +2,11 @@
 
 import sys
 from collections.abc import Sequence
-from importlib import import_module
+from importlib import import_module, util
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from types import ModuleType
+from typing import NoReturn
 
 
 class _SameModule(MetaPathFinder, Loader):
@@ -18,7 +19,9 @@ class _SameModule(MetaPathFinder, Loader):
     def find_spec(
         self, fullname: str, _path: Sequence[str] | None, _target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        return ModuleSpec(fullname, self) if fullname.partition(".")[0] in self.names else None
+        if fullname.partition(".")[0] not in self.names or util.find_spec(f"cointoss.{fullname}") is None:
+            return None
+        return ModuleSpec(fullname, self)
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
         module = import_module(f"cointoss.{spec.name}")
@@ -30,6 +33,10 @@ class _SameModule(MetaPathFinder, Loader):
         bare = module.__spec__
         assert bare is not None
         module.__spec__ = self._own.pop(bare.name)
+
+    def get_code(self, fullname: str) -> NoReturn:
+        """Refuse `python -m NAME.part`."""
+        raise ImportError(f"{fullname}: accepted: python -m cointoss.{fullname}")
 
 
 _finder = _SameModule()

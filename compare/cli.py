@@ -40,6 +40,10 @@ class _Commands(click.Group):
             refuse(f"{error.format_message().rstrip('.')} (see {command} --help)")
         except click.Abort:  # KeyboardInterrupt
             refuse("interrupted", status=130)
+        except ImportError as error:
+            if error.name is not None:  # of a module that is missing or broken
+                raise
+            refuse(str(error))
         except OSError as error:
             if error.errno is None:  # not of a file, as where a connection is lost
                 refuse(str(error) or type(error).__name__, status=1)
@@ -83,3 +87,7 @@ def _missing(error: click.MissingParameter) -> str:
 def _lose_stdout() -> None:
     """Discard what standard output could not take, or Python would report it again at its end."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+
+
+if __name__ == "__main__":
+    main()

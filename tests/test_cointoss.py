@@ -1,6 +1,8 @@
 """`import cointoss` and `python -m cointoss`: the public names, brought when first used, and the command."""
 
 import ast
+import inspect
+import pydoc
 import re
 import shutil
 import subprocess
@@ -13,11 +15,12 @@ from pathlib import Path
 import pytest
 
 import cointoss
+from cointoss.compare.report.comparison import compare
 from cointoss.models.distribution import DISTRIBUTION
 from tests.helpers.command_line import HERE
 
 TOP = Path(__file__).parents[1]
-PACKAGES = ("analytic", "coin_mj", "compare")
+PACKAGES = ("models", "analytic", "coin_mj", "compare")
 
 
 def described():
@@ -44,6 +47,14 @@ def test_each_name_is_that_of_its_home_and_a_type_checker_knows_it():
     assert cointoss.__version__ == version(DISTRIBUTION)
 
 
+def test_a_star_brings_the_public_names():
+    script = (
+        "from cointoss import *\nimport cointoss\nprint(*(n for n in dir(cointoss) if n not in globals()))"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env=HERE)
+    assert (done.stdout, done.stderr) == ("__version__\n", "")
+
+
 def test_a_bare_name_in_a_checkout_gives_the_same_objects():
     script = (
         "import sys, analytic, models.records, cointoss\n"
@@ -60,11 +71,26 @@ def test_a_bare_name_in_a_checkout_gives_the_same_objects():
     assert (done.returncode, done.stderr) == (0, "")
 
 
+@pytest.mark.parametrize(
+    ("name", "line"),
+    [
+        ("analytic", "'analytic' is a package and cannot be directly executed"),
+        ("analytic.tosses", "No module named analytic.tosses"),
+        ("compare.cli", "compare.cli: accepted: python -m cointoss.compare.cli"),
+    ],
+)
+def test_a_bare_name_that_is_run_is_answered_in_one_line(name, line):
+    done = subprocess.run([sys.executable, "-m", name], capture_output=True, text=True, cwd=TOP)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.count("\n") == 1
+    assert done.stderr.endswith(f"{line}\n")
+
+
 @pytest.mark.parametrize("beside", [True, False])
 def test_without_links_the_folders_are_found_beside_or_one_line_says_what_to_do(tmp_path, beside):
     """As where an archive was unpacked, or git makes a file of a link."""
     shutil.copytree(TOP / "cointoss", tmp_path / "cointoss", symlinks=True)
-    for name in ("models", *PACKAGES):
+    for name in PACKAGES:
         (tmp_path / "cointoss" / name).unlink()
         (tmp_path / "cointoss" / name).write_text(f"../{name}")
         if beside:
@@ -95,8 +121,10 @@ def test_each_public_name_says_what_it_is():
 
 
 def test_an_unknown_name_is_answered_with_the_names_there_are():
-    with pytest.raises(AttributeError, match=r"no Coins; accepted: Air, .* Coin, .*, load,.*mean Coin\?\)"):
-        _ = cointoss.Coins
+    script = "import cointoss; cointoss.Coins"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env=HERE)
+    said = r"AttributeError: cointoss has no Coins; accepted: Air, .* Coin, .*, toss\. Did you mean: 'Coin'\?"
+    assert re.fullmatch(said, done.stderr.splitlines()[-1])
 
 
 def test_either_engine_tosses_by_its_name():
@@ -119,6 +147,16 @@ def test_settings_of_another_type_are_refused(engine, wrong):
         package.toss_many("fig24a", [0, 0, 1])
 
 
+def test_the_package_compare_is_described_as_the_function_once_it_is_asked():
+    assert inspect.signature(cointoss.compare) == inspect.signature(compare)
+    described = pydoc.plain(pydoc.render_doc(cointoss.compare))
+    assert "Both engines asked the same question" in described
+    assert f"compare{inspect.signature(compare)}\n" in described
+    assert "mujoco: MuJoCo's settings" in described
+    script = "import sys, cointoss.compare; assert 'numpy' not in sys.modules"
+    subprocess.run([sys.executable, "-c", script], check=True, env=HERE)
+
+
 def test_import_cointoss_imports_next_to_nothing():
     script = "import sys; before = set(sys.modules); import cointoss; print(*set(sys.modules) - before)"
     done = subprocess.run(
@@ -129,14 +167,15 @@ def test_import_cointoss_imports_next_to_nothing():
     assert "importlib.metadata" not in imported
 
 
-def run(folder, *words):
-    command = [sys.executable, "-m", "cointoss", *words]
+def run(folder, *words, module="cointoss"):
+    command = [sys.executable, "-m", module, *words]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, env=HERE)
 
 
 def test_the_package_runs_the_command(tmp_path):
-    done = run(tmp_path, "--version")
-    assert (done.returncode, done.stdout) == (0, f"cointoss, version {version(DISTRIBUTION)}\n")
+    for module in ("cointoss", "cointoss.compare.cli"):
+        done = run(tmp_path, "--version", module=module)
+        assert (done.returncode, done.stdout) == (0, f"cointoss, version {version(DISTRIBUTION)}\n")
     done = run(tmp_path, "toss", "no_such_scenario")
     assert (done.returncode, len(done.stderr.splitlines())) == (2, 1)
     assert done.stderr.startswith("cointoss: no_such_scenario: no such file")
@@ -152,7 +191,7 @@ def test_a_public_name_brings_what_shows_progress(name):
 
 
 def test_beside_foreign_packages_of_such_names_it_works(tmp_path):
-    for name in ("models", *PACKAGES):
+    for name in PACKAGES:
         (tmp_path / f"{name}.py").write_text("raise RuntimeError('foreign')\n")
     done = run(tmp_path, "--version")
     assert (done.returncode, done.stderr) == (0, "")

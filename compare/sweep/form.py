@@ -85,7 +85,7 @@ def read_form(folder: Path) -> Form:
 
 
 def require_chunk(folder: Path, name: Path, size: int) -> None:
-    """Refuse a chunk, if there is one, that does not decode to a number of bytes.
+    """Refuse a chunk that does not decode to a number of bytes, and one of an axis that is lost.
 
     Args:
         folder: of the map.
@@ -99,7 +99,9 @@ def require_chunk(folder: Path, name: Path, size: int) -> None:
         with (folder / name).open("rb") as file:
             stored, head = os.fstat(file.fileno()).st_size, file.read(18)
     except FileNotFoundError:
-        return
+        if name.parts[0] in _LAYERS:  # not tossed yet
+            return
+        raise FormError(f"{name}: lost") from None
     # What can't be compressed becomes longer, by less than this.
     if stored > 2 * size + 1024 or _decoded_size(head) != size:
         raise FormError(f"{name}: does not decode to {size} bytes")

@@ -18,6 +18,10 @@ from cointoss.models.kernel.fork import TESTED
 P = ParamSpec("P")
 R = TypeVar("R")
 
+_asked = os.environ.get("COINTOSS_COMPILER", "")
+if _asked not in ("", "plain"):
+    raise ImportError(f"COINTOSS_COMPILER = {_asked!r}: accepted: plain, or unset")
+
 
 def compiled(function: Callable[P, R]) -> Callable[P, R]:
     """Compile `function` when it is first called, without the GIL, and keep the code on disk.
@@ -41,7 +45,7 @@ def _compiled(function: Callable[..., Any], *, inlined: bool) -> Any:
         return function
     compiling.declared[function.__module__] += 1
     is_tested = numba.__version__.rpartition(".")[0] in TESTED
-    if is_tested and os.environ.get("COINTOSS_COMPILER") != "plain":
+    if is_tested and not _asked:
         from cointoss.models.kernel.fork.functions import CompiledFunction
 
         return CompiledFunction(function, inlined=inlined)

@@ -3,6 +3,7 @@
 # numba describes few types.
 # pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
 
+import os
 import sys
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -23,11 +24,11 @@ _LOCATOR = f"{Locator.__module__}.{Locator.__name__}"
 @cache
 def _say_once() -> None:
     """Say why it takes so long."""
-    print(
-        f"cointoss: compiling in plain mode, with numba {numba.__version__}; it takes longer than with "
-        f"numba {' or '.join(TESTED)}",
-        file=sys.stderr,
-    )
+    if os.environ.get("COINTOSS_COMPILER"):
+        why = "as COINTOSS_COMPILER=plain asks; it takes longer"
+    else:
+        why = f"with numba {numba.__version__}; it takes longer than with numba {' or '.join(TESTED)}"
+    print(f"cointoss: compiling in plain mode, {why}", file=sys.stderr)
 
 
 class _OneAtATime(event.Listener):

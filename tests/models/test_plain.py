@@ -6,6 +6,7 @@ import sys
 
 import pytest
 
+from cointoss.models.kernel.fork import TESTED
 from cointoss.models.kernel.vectors import solve
 from tests.helpers.command_line import HERE
 
@@ -32,18 +33,43 @@ def run(cache, *words, **environment):
 
 
 @pytest.mark.parametrize(
-    ("first", "asked", "version"),
-    [("", "plain", ""), ("import numba; numba.__version__ = '0.99.1'", "", "0.99.1")],
+    ("first", "asked", "why"),
+    [
+        ("", "plain", "as COINTOSS_COMPILER=plain asks; it takes longer"),
+        (
+            "import numba; numba.__version__ = '0.99.1'",
+            "",
+            f"with numba 0.99.1; it takes longer than with numba {' or '.join(TESTED)}",
+        ),
+    ],
 )
-def test_plain_mode_gives_the_same_bits_and_says_once_that_it_takes_longer(tmp_path, first, asked, version):
+def test_plain_mode_gives_the_same_bits_and_says_once_why(tmp_path, first, asked, why):
     script = SOLVED.format(first=first, matrix=MATRIX, vector=VECTOR)
     done = run(tmp_path, "-c", script, COINTOSS_COMPILER=asked)
     assert done.stdout.split() == [x.hex() for x in solve(MATRIX, VECTOR)]
-    (line,) = done.stderr.splitlines()
-    assert "compiling in plain mode" in line
-    assert version in line
+    assert done.stderr == f"cointoss: compiling in plain mode, {why}\n"
     again = run(tmp_path, "-c", script, COINTOSS_COMPILER=asked)
     assert (again.stdout, again.stderr) == (done.stdout, ""), "read from disk"
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "begins"),
+    [
+        (("-m", "cointoss", "toss", "fig24a"), 2, "cointoss: "),
+        (("-c", "import cointoss; cointoss.Scenario"), 1, "ImportError: "),
+    ],
+)
+def test_another_compiler_is_refused_in_one_line(words, status, begins):
+    done = subprocess.run(
+        [sys.executable, *words],
+        env={**HERE, "COINTOSS_COMPILER": "nonsense"},
+        capture_output=True,
+        text=True,
+    )
+    *above, line = done.stderr.splitlines()
+    assert (done.returncode, done.stdout) == (status, "")
+    assert line == f"{begins}COINTOSS_COMPILER = 'nonsense': accepted: plain, or unset"
+    assert not (above and status == 2)
 
 
 @pytest.mark.slow

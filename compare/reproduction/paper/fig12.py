@@ -40,7 +40,7 @@ def make(progress: Progress) -> Findings:
         for column, toss in enumerate(tosses):
             states = toss.sample(t)
             out_of_plane[column, row] = _out_of_plane(case, states)
-            from_eq_48[row, column] = _apart(toss.sample(falling), exact)
+            from_eq_48[column, row] = _apart(toss.sample(falling), exact)
             engine = list(ENGINES)[column]
             data |= {f"{name}, {engine}, position": states.position, f"{name}, time": t}
         data |= _edges(name, case, tosses[0], t[-1])
@@ -49,8 +49,7 @@ def make(progress: Progress) -> Findings:
     progress(3, 3)
     found.out_of_plane = out_of_plane
     found.through = IMPACTS - 1
-    found.distances = [_distances(from_eq_48[:, engine]) for engine in (0, 1)]
-    found.meters, found.radians = from_eq_48[..., 0], from_eq_48[..., 1]
+    found.from_eq_48, found.distances = from_eq_48, [_distances(each) for each in from_eq_48]
     return found
 
 

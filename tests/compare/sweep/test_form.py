@@ -384,6 +384,16 @@ def test_a_chunk_that_decodes_to_another_size_is_not_decoded(path, decoded, kind
     assert not decoded
 
 
+@pytest.mark.parametrize("name", CHUNKS)
+def test_values_that_are_lost_are_no_zeros(path, name):
+    """Zarr reads what is lost as its fill value; of a tile, that is one not tossed yet."""
+    (path / name / CHUNKS[name]).unlink()
+    if name in (X, Y):
+        is_refused(path, f"({name}/c/0: lost)")
+    else:
+        assert cointoss.read_map(path).shares == {"not tossed": 1.0}
+
+
 @pytest.mark.parametrize("kind", bombs(100))
 @pytest.mark.parametrize("name", ["outcome", "impacts", "margin"])
 def test_a_tile_that_decodes_to_another_size_is_not_tossed_yet(path, decoded, name, kind):
