@@ -10,7 +10,6 @@ from cointoss.compare.basins.picture import MapAxis, draw_comparison
 from cointoss.compare.basins.picture_style import Palette
 from cointoss.compare.sweep import describe
 from tests.helpers.basin_runs import SCENARIO, basin
-from tests.helpers.command_line import refused
 from tests.helpers.made_maps import halves
 
 AXES = ("--x", "release.angular_velocity.eta=20:60:6", "--y", "release.position.z=0.2:0.6:5", "--after", 0)
@@ -53,13 +52,6 @@ def test_what_mujoco_comes_near_to_is_told_once(coin, tmp_path):
     assert answered.exit_code == 0
     assert len(answered.stderr.splitlines()) == 1
     assert 'floor.contact = "perfectly_rough": MuJoCo tosses on a floor of' in answered.stderr
-
-
-def test_what_mujoco_cannot_do_is_refused_before_any_map(coin, tmp_path):
-    coin.write_text(SCENARIO.replace('"smooth"', '"knurled"'))
-    said = refused("basin", coin, *AXES, "--compare", "--out", tmp_path / "map.zarr")
-    assert 'floor.contact = "knurled"' in said
-    assert [path.name for path in tmp_path.iterdir()] == ["coin.toml"]
 
 
 def test_a_map_is_drawn_in_the_size_and_colours_asked(coin, tmp_path):

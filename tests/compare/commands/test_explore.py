@@ -10,7 +10,6 @@ import webbrowser
 
 import numpy as np
 import pytest
-import zarr
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.explorer.page_map import page_map
@@ -28,21 +27,6 @@ from tests.helpers.processes import started
 def copy(map_path, tmp_path):
     """A copy of the map to be damaged."""
     return shutil.copytree(map_path, tmp_path / "map.zarr")
-
-
-def test_a_map_that_is_gone_or_foreign_is_refused(tmp_path):
-    (tmp_path / "file.zarr").write_text("a file")
-    (tmp_path / "empty.zarr").mkdir()
-    zarr.create_group(tmp_path / "foreign.zarr", attributes={"title": "rain"})
-    for name, reason in (
-        ("gone.zarr", "no such folder"),
-        ("file.zarr", "is no folder"),
-        ("empty.zarr", "is no map of cointoss (empty.zarr: no zarr.json)"),
-        ("foreign.zarr", "is no map of cointoss (attribute cointoss_map is not 1)"),
-    ):
-        said = refused("explore", tmp_path / name)
-        assert said.startswith(f"cointoss: {tmp_path / name}: {reason}")
-        assert "accepted: a map that cointoss basin made" in said
 
 
 def changed(path, **attributes):
@@ -104,19 +88,6 @@ def test_an_unfinished_map_is_shown_as_far_as_it_is(copy, monkeypatch):
     assert 0 < (outcome == -1).mean() < 0.8
     assert np.array_equal(outcome[outcome != -1], before[outcome != -1])
     assert page_map(found)["tossed"] == pytest.approx(np.mean(outcome != -1))
-
-
-def test_margins_are_read(map_path, tmp_path):
-    (tmp_path / "coin.toml").write_text(SCENARIO)
-    axes = ("--x", "release.angular_velocity.eta=20:60:3", "--y", "release.position.z=0.2:0.6:2")
-    made = cointoss(
-        "basin", tmp_path / "coin.toml", *axes, "--margin", "height", "--out", tmp_path / "m.zarr"
-    )
-    assert made.exit_code == 0, made.stderr
-    told = page_map(read_map(tmp_path / "m.zarr"))
-    assert told["margin"] == {"along": "height", "unit": "mm"}
-    assert len(told["arrays"]["margin"]) == 4 * (3 * 2 * 4) // 3
-    assert page_map(read_map(map_path))["margin"] is None
 
 
 def test_a_port_in_use_is_refused(map_path):

@@ -94,9 +94,6 @@ def test_the_command_prints_margins():
     assert told["velocity x"]["change"] is None
     assert told["height"]["unit"] == "mm"
     assert np.isfinite(told["height"]["change"])
-    refused = cointoss("toss", "fig29", "--margin", "--engine", "mujoco")
-    assert refused.exit_code == 2
-    assert "--margin" in refused.stderr
 
 
 PLANAR = """
@@ -178,31 +175,6 @@ def test_margins_of_a_map_after_impacts_are_of_the_face_there(tmp_path):
     assert 0.5 < np.median(np.abs(margin[np.isfinite(margin)])) <= 1
     assert np.isinf(margin).any()
     assert set(np.unique(face)) == {1, 2}
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (["--margin", "weight"], "--margin weight: accepted: height, velocity x,"),
-        (["--margin", "height", "--engine", "mujoco"], "--margin height --engine mujoco: accepted: only by"),
-        (["--margin", "height", "--compare"], "--margin height --compare: accepted: only by"),
-    ],
-)
-def test_a_margin_that_cannot_be_mapped_is_refused(tmp_path, arguments, said):
-    answered = cointoss("basin", "fig29", *SIDES, *arguments, "--out", tmp_path / "map.zarr")
-    assert answered.exit_code == 2
-    assert len(answered.stderr.splitlines()) == 1
-    assert said in answered.stderr
-    assert not list(tmp_path.iterdir())
-
-
-def test_a_map_of_other_margins_is_not_gone_on_with(tmp_path):
-    out = tmp_path / "map.zarr"
-    command = ("basin", "fig29", *SIDES, "--after", "0", "--out", out)
-    assert cointoss(*command).exit_code == 0
-    refused = cointoss(*command, "--margin", "height", "--resume")
-    assert refused.exit_code == 2
-    assert "is a map with another quantity of its margins (--margin)" in refused.stderr
 
 
 def test_margins_are_drawn_in_colours_of_their_size(tmp_path):
