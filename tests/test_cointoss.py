@@ -137,9 +137,6 @@ def run(folder, *words):
 def test_the_package_runs_the_command(tmp_path):
     done = run(tmp_path, "--version")
     assert (done.returncode, done.stdout) == (0, f"cointoss, version {version(DISTRIBUTION)}\n")
-    done = run(tmp_path, "toss", "no_such_scenario")
-    assert (done.returncode, len(done.stderr.splitlines())) == (2, 1)
-    assert done.stderr.startswith("cointoss: no_such_scenario: no such file")
 
 
 @pytest.mark.parametrize("name", ["analytic", "Scenario"])
@@ -156,10 +153,6 @@ def test_beside_foreign_packages_of_such_names_it_works(tmp_path):
         (tmp_path / f"{name}.py").write_text("raise RuntimeError('foreign')\n")
     done = run(tmp_path, "--version")
     assert (done.returncode, done.stderr) == (0, "")
-
-
-def test_the_packages_are_typed():
-    assert (TOP / "cointoss" / "py.typed").is_file()
 
 
 def test_the_version_is_that_of_pyproject_wherever_it_is_written():

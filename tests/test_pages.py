@@ -251,39 +251,6 @@ def test_there_is_code_to_run():
     assert len(NOTEBOOKS) == 3
 
 
-PAGE = """
-Text `cointoss toss` in a line.
-
-    cointoss toss fig24a --max-impacts 2
-    sequence  HH
-
-    cointoss basin fig24a --x a=1:2:400 \\
-        --y b=1:2:300 --out map.zarr   # makes a map
-
-```python
-x = 1
-```
-
-    cointoss toss SCENARIO [--json]
-"""
-
-
-def test_blocks_and_commands_are_found_as_they_are_written():
-    found = blocks(PAGE)
-    assert [block.language for block in found] == ["", "python", ""]
-    assert found[1].text == "x = 1"
-    first, second = commands(found[0].text)
-    assert second == "cointoss basin fig24a --x a=1:2:400 --y b=1:2:300 --out map.zarr"
-    assert runs_here(shlex.split(second)[1:])
-    assert not runs_here(shlex.split(second.replace("400", "4000"))[1:])
-    assert not is_synopsis(first)
-    assert not is_synopsis(second)
-    assert " ".join(map(coarse, shlex.split(second))) == (
-        "cointoss basin fig24a --x a=1:2:20 --y b=1:2:20 --out map.zarr"
-    )
-    assert is_synopsis(commands(found[2].text)[0])
-
-
 def test_an_answer_that_is_not_the_one_shown_is_seen():
     block = "cointoss toss fig24a --max-impacts 2\n\n{}\n"
     answered = cointoss("toss", "fig24a", "--max-impacts", 2)

@@ -183,9 +183,7 @@ after True -> after: True, accepted: a whole number
 after 1.5 -> after: 1.5, accepted: a whole number
 x None -> x: None, accepted: FIELD=START:STOP:N, such as
 y (1, 2) -> y: (1, 2), accepted: FIELD=START:STOP:N, such as
-x 'release.position.z=1' -> accepted: FIELD=START:STOP:N
 x 'release.position.z=0.1:1:9' -> release.position.z: on both axes; accepted: two fields
-y 'release.position.z=-1:1:3' -> release.position.z
 margin 3 -> margin: 3, accepted: text
 margin 'luck' -> margin luck: accepted: height
 """
