@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 from cointoss.compare.engines import Engine
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.command_line import cointoss
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.draws import AIR, IMPERFECT, scenario
 from tests.helpers.engines import toss
 from tests.helpers.many import releases_of
 
@@ -49,7 +49,7 @@ def test_released_above_the_hand_a_coin_is_caught_on_its_first_way_down(engine):
 @engines
 @pytest.mark.parametrize("exponent", [0.0, 0.5])
 def test_in_air_an_unbalanced_coin_is_caught_where_its_path_without_a_hand_comes_down(engine, exponent):
-    coin = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
+    coin = IMPERFECT
     thick_air = {name: 5 * value for name, value in AIR.items()}
     held = thrown(coin=coin, air={**thick_air, "exponent": exponent})
     caught = toss(engine, held)
@@ -116,23 +116,7 @@ def test_the_engines_catch_the_same_face_at_the_same_time():
 
 def test_the_command_line_names_the_catch(tmp_path):
     path = tmp_path / "hand.toml"
-    path.write_text(
-        """
-[coin]
-mass = "2 g"
-radius = "1.25 cm"
-thickness = "2 mm"
-[floor]
-restitution = 0.8
-contact = "smooth"
-[release]
-position = [0, 0, 1]
-velocity = [0, 0, 3]
-angular_velocity = [38, 0, 0]
-[ending]
-caught = "1.2 m"
-"""
-    )
+    path.write_text(thrown().to_toml())
     told = json.loads(cointoss("toss", str(path), "--json").stdout)
     assert (told["ending"], told["sequence"], told["impacts"]) == ("caught", "", [])
     assert "caught: A hand caught the coin" in cointoss("toss", str(path)).stdout
