@@ -22,7 +22,7 @@ from cointoss.analytic.toss import state_at_release
 from cointoss.models.perpetual import energy_history
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.contacts import held, put_on_floor, upright_coin
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.draws import AIR, IMPERFECT, PAPER_OFFSET, THIN, ZLOTY, scenario
 
 ONE_RIM = {Mode.SLIDING, Mode.INCIPIENT_SLIP, Mode.STICKING}
 CONTACT = ONE_RIM | {Mode.UPRIGHT}
@@ -74,7 +74,7 @@ def can_end(mode, event):
 
 def contacts_with_states():
     """Give a contact in every mode, and its state."""
-    body, friction = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}).body, FloorFriction(0.3)
+    body, friction = scenario(coin=IMPERFECT).body, FloorFriction(0.3)
     for mode in sorted(CONTACT | {Mode.TOUCHING}):
         y = upright_coin(body, 0.4, 3.0, 20.0)
         if mode != Mode.UPRIGHT:
@@ -133,7 +133,7 @@ def test_a_toss_passes_through_its_modes_in_time_and_ends_once(changed):
 
 
 ON_EDGE = {
-    "coin": {**ZLOTY, "center_of_mass": PAPER_OFFSET},
+    "coin": IMPERFECT,
     "air": AIR,
     "floor": {"contact": "smooth", "restitution": 0.3},
     "release": {
@@ -177,7 +177,7 @@ def test_a_contact_that_no_step_is_short_enough_to_follow_has_no_solution():
 def test_a_coin_whose_axis_all_but_passes_the_vertical_slaps_down_on_the_other_side():
     """In contact its lowest point would run around the rim at 3e10 rad/s, in ever shorter steps."""
     case = scenario(
-        coin={**ZLOTY, "thickness": 0.0},
+        coin=THIN,
         air=AIR,
         floor={"restitution": 0.6},
         release={
