@@ -90,7 +90,11 @@ def test_a_quaternion_is_brought_to_norm_one():
     assert np.linalg.norm(read.release.attitude) == pytest.approx(1, abs=2e-16)
 
 
-def test_the_named_scenarios_are_there():
+def test_the_named_scenarios_are_there_and_fig_24_is_the_papers():
+    """Which coin, floor and g it does not say: the ideal coin, 2 mm thick, on a smooth floor."""
+    case = load("fig24a")
+    assert (case.coin.center_of_mass, case.coin.thickness) == ((0, 0, 0), 2e-3)
+    assert (case.floor.contact, case.gravity) == (ContactLaw.SMOOTH, 9.81)
     assert {f"contact_{law}" for law in ContactLaw} < set(named_scenarios())
     heights = [load(f"fig24{letter}").release.position[2] for letter in "abcdef"]
     assert heights == pytest.approx([0.40001, 0.40002, 0.40003, 0.40004, 0.40005, 0.40006], rel=1e-15)

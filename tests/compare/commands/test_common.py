@@ -51,6 +51,7 @@ ANSWERS = {
     "hands fig24a --scatter 40%": "--scatter 40%: accepted: a part from 0 to 30 %",
     "hands fig24a --height '-3 cm'": "--height -3 cm: accepted: a length above 0, such as 1 m",
     "hands fig24a --speed -1": "--speed -1: accepted: a speed of 0 or more, such as 2 m/s",
+    "hands fig24a --spin nan": "--spin nan: accepted: ",
     "hands fig24a --spin 1e7": "fig24a: Releases.angular_velocity: row ",
     "hands fig24a --caught '1 mm'": "--caught 1 mm: accepted: more than 0.0125399 m, so that the coin is ",
     "hands fig24a --caught '1 s'": "'--caught': 1 s; accepted: a number in m, or ",

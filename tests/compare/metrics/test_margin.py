@@ -96,23 +96,10 @@ def test_the_command_prints_margins():
     assert np.isfinite(told["height"]["change"])
 
 
-PLANAR = """
-[coin]
-mass = "2 g"
-radius = "1.25 cm"
-thickness = 0
-[floor]
-restitution = 0.3
-contact = "smooth"
-[release]
-position = [0, 0, 0.4]
-angular_velocity = [40, 0, 0]
-"""
-
-
 @pytest.mark.parametrize("is_planar", [False, True])
 def test_long_arithmetic_is_imported_only_where_a_margin_is_proved(tmp_path, is_planar):
-    (tmp_path / "planar.toml").write_text(PLANAR)
+    planar = load("fig29").replace("air", {}, "floor.restitution", 0.3)
+    (tmp_path / "planar.toml").write_text(planar.to_toml())
     scenario = str(tmp_path / "planar.toml") if is_planar else "fig24a"
     code = (
         "import atexit, sys; from cointoss.compare.cli import main; atexit.register(lambda: "
