@@ -83,11 +83,6 @@ def test_without_links_the_folders_are_found_beside_or_one_line_says_what_to_do(
         )
 
 
-def test_the_name_that_pip_installs_is_that_of_the_project():
-    project = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    assert project["name"] == DISTRIBUTION
-
-
 def test_each_public_name_says_what_it_is():
     public = [getattr(cointoss, name) for name in dir(cointoss) if name != "__version__"]
     assert len(public) > 25

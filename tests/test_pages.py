@@ -189,21 +189,6 @@ def begins_with_digit(cell: str) -> bool:
     return re.match(r"\s*-?\d", cell) is not None
 
 
-def test_no_two_pages_have_one_heading():
-    pages = [page for page in DOCS.rglob("*.md") if page.name not in ("index.md", "OVERVIEW.md")]
-    headings = [re.findall(r"^# (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE)[0] for page in pages]
-    assert sorted(headings) == sorted(set(headings))
-
-
-def test_no_line_of_a_page_is_a_comment_or_a_break_to_the_site():
-    """MyST drops a line that begins with a per cent sign, which GitHub shows."""
-    pages = [*PAGES, *NOTEBOOKS, *DOCS.glob("reproduction/*/*.md")]
-    dropped = re.compile(r"^ {0,3}(?:%|\+\+\+).*", re.MULTILINE)
-    assert [(page.name, dropped.findall(page.read_text(encoding="utf-8"))) for page in pages] == [
-        (page.name, []) for page in pages
-    ]
-
-
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda page: page.stem)
 def test_a_notebook_has_code_that_parses_and_ends_with_exercises_and_solutions(notebook):
     """`make docs` runs them; a cell may begin with options between two lines of dashes."""
