@@ -129,22 +129,22 @@ def test_plain_mode_compiles_anew_what_an_edit_can_change(folder, run):
     assert run(folder, script) == [31, 0, 0]
 
 
-def test_code_of_a_source_edited_since_it_was_imported_is_not_kept(folder, run):
+CHANGES = {
+    "edited": f"open('cointoss/analytic/callee.py', 'w').write({CALLEE.format('3.00')!r})",
+    "replaced by an older one": (
+        "import os; os.replace('cointoss/analytic/older.py', 'cointoss/analytic/callee.py')"
+    ),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_code_of_a_source_changed_since_it_was_imported_is_not_kept(folder, run, change):
     """Its folder is named by the source as it is when the function is compiled."""
-    calling = "from cointoss.analytic.caller import whole, part\n{}\nprint(whole(10.0), part(10.0))"
-    editing = f"open('cointoss/analytic/callee.py', 'w').write({CALLEE.format('3.00')!r})"
-    assert run(folder, calling.format(editing)) == [21, 20]
-    assert run(folder, calling.format("")) == [31, 30]
-
-
-def test_code_of_a_source_replaced_by_an_older_one_is_not_kept(folder, run):
     write(folder, "cointoss.analytic.older", CALLEE.format(3.0))
     os.utime(folder / "cointoss" / "analytic" / "older.py", (1e9, 1e9))
-    calling = "import os\nfrom cointoss.analytic.caller import whole\n{}\nprint(whole(10.0))"
-    assert run(
-        folder, calling.format("os.replace('cointoss/analytic/older.py', 'cointoss/analytic/callee.py')")
-    ) == [21]
-    assert run(folder, calling.format("")) == [31]
+    calling = "from cointoss.analytic.caller import whole, part\n{}\nprint(whole(10.0), part(10.0))"
+    assert run(folder, calling.format(CHANGES[change])) == [21, 20]
+    assert run(folder, calling.format("")) == [31, 30]
 
 
 def test_damaged_files_of_code_are_made_anew(folder, run_caller):
