@@ -12,7 +12,7 @@ from cointoss.analytic.numerics.tolerances import STEP_ERROR
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.laws import ContactLaw
 from cointoss.models.scenario import Scenario
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, IMPERFECT, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 SIZES = np.array([1e-2, 1e-2, 1e-2, *[1.0] * 7, *[50.0] * 3])
 """Of the components of a state: length, speed, attitude, spin."""
@@ -72,7 +72,7 @@ def test_a_flight_s_tangent_map_is_its_derivative(thickness, offset, air):
 @pytest.mark.parametrize("exponent", [0.5, 1.0])
 def test_where_air_takes_quadratures_the_growth_is_known_to_a_thousandth(exponent):
     """Its steps are coarse; the flights that are compared take those of the engine."""
-    coin = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
+    coin = IMPERFECT
     air = {"normal": 2.0, "tangential": 0.5, "exponent": exponent}
     case = scenario(coin=coin, air=air, release=draw_release(np.random.default_rng(41)))
     start, duration, small = state_at_release(case.release), 0.4, 1e-5
@@ -104,7 +104,7 @@ def test_the_tangent_map_of_a_coin_that_does_not_turn_is_a_fall():
 def test_a_flight_shrinks_volumes_as_the_air_s_drag_says(air):
     """Liouville: without air volumes of states are kept; with b = 0 they shrink by the drag's trace."""
     rng = np.random.default_rng(42)
-    case = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}, air={**air}, release=draw_release(rng))
+    case = scenario(coin=IMPERFECT, air={**air}, release=draw_release(rng))
     body, start, duration = case.body, state_at_release(case.release), 0.2
     end, tangent = flown(case, start, duration)
     before, after = directions(start), directions(end)
