@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from cointoss.compare.basins.picture_style import PictureStyle
 from cointoss.compare.engines import Engine
 from cointoss.compare.film.back_end import drawing_problem, require_mujoco
-from cointoss.compare.output.files import UnwritableError, require_file
+from cointoss.compare.output.files import UnwritableError, require_file, written_whole
 from cointoss.compare.report.contents import NOT_ASKED, require_folder
 from cointoss.compare.sweep import describe, run, store
 from cointoss.compare.sweep.axes import Axis, parse_axis
@@ -159,7 +159,9 @@ def make(job: Job, watch: Watch, say: Say) -> Iterator[str]:
         yield describe.describe_agreement(describe.measure(*maps))
     if job.png is not None:
         with stage("drawing the picture"):
-            show.write(job.png, maps, first, job.style, margins=margins)
+            drawn_map = show.png_of(maps, first, job.style, margins=margins)
+            with written_whole(job.png) as aside:
+                aside.write_bytes(drawn_map)
         yield f"picture    {job.png}"
     if job.report is not None:
         from cointoss.compare.report.comparison import compared

@@ -4,7 +4,6 @@ from base64 import b64encode
 from dataclasses import dataclass, fields
 from functools import cached_property
 from html import escape
-from io import BytesIO
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -110,13 +109,11 @@ class OutcomeMap:
     def _picture(self) -> str:
         if NOT_TOSSED in self.outcome:
             return notebook.shares_picture(self.shares)
-        from cointoss.compare.sweep.show import figure_of
+        from cointoss.compare.sweep.show import png_of
 
-        drawn = BytesIO()
-        figure = figure_of([self.outcome], self.sweep, PictureStyle(), self.margin)
-        figure.savefig(drawn, format="png", dpi=_HTML_DPI)
+        drawn = png_of([self.outcome], self.sweep, PictureStyle(dpi=_HTML_DPI), margins=self.margin)
         about = escape(f"map of the outcome: {self._size}")
-        return f'<img alt="{about}" src="data:image/png;base64,{b64encode(drawn.getvalue()).decode()}">'
+        return f'<img alt="{about}" src="data:image/png;base64,{b64encode(drawn).decode()}">'
 
     def to_xarray(self) -> "xr.Dataset":
         """Return the map as a dataset of xarray, as it is on disk: coordinates are named by their fields."""
