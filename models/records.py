@@ -350,7 +350,8 @@ class Toss:
         return notebook.block(
             f"{self.outcome}, by the engine {self.engine}",
             notebook.path_picture(
-                zip(times.tolist(), heights.tolist(), strict=True),
+                times.tolist(),
+                heights.tolist(),
                 touches,
                 float(impacts.time[trusted]) if trusted < len(impacts) else None,
             ),
