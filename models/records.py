@@ -1,7 +1,7 @@
 """What a toss gives: its impacts, how it ended, and its path; the same record from both engines."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -12,7 +12,7 @@ from cointoss.models import notebook
 from cointoss.models.drawing import plots
 from cointoss.models.interruptible import interruptible
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.labelled import AXES, Column, dataset, meanings_of, table
+from cointoss.models.labelled import column, dataset, freeze, table
 from cointoss.models.scenario import Scenario
 from cointoss.models.words import Word
 
@@ -97,67 +97,42 @@ _SENTENCES = {
 }
 
 
-def _column(axes: str = "", unit: str = "", kind: type = np.float64) -> Any:
-    shape = (len(AXES[axes][1]),) if axes else ()
-    return field(metadata={"shape": shape, "kind": kind, "axes": axes, "unit": unit})
-
-
-def _freeze(record: "Impacts | States") -> None:
-    """Check the shape of every column and make it read-only."""
-    n, name = len(record.time), type(record).__name__
-    for item in fields(record):
-        array = getattr(record, item.name)
-        expected = (n, *item.metadata["shape"])
-        if array.shape != expected:
-            raise ValueError(f"{name}.{item.name}: shape {array.shape}, expected {expected}")
-        array.setflags(write=False)
-
-
-def _columns(record: "Impacts | States") -> dict[str, Column]:
-    """Return the columns of a record with what they are."""
-    columns = {}
-    for item in fields(record):
-        about = {"long_name": item.name.replace("_", " "), "units": item.metadata["unit"]}
-        columns[item.name] = Column(getattr(record, item.name), about, item.metadata["axes"])
-    return columns
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Impacts:
     """The impacts of a toss, one row each, in order of time; arrays are read-only."""
 
-    time: Array = _column(unit="s")
+    time: Array = column(unit="s")
     """Of first touch, (n,) [s]."""
-    face: NDArray[np.int8] = _column(kind=np.int8)
+    face: NDArray[np.int8] = column(kind=np.int8, long_name="face up", labels=Face.by_value())
     """The `Face` up at the touch, (n,)."""
-    impulse: Array = _column("space", "N s")
+    impulse: Array = column("space", "N s")
     """S, of the floor on the coin, space frame, (n, 3) [N s]."""
-    point: Array = _column("body", "m")
+    point: Array = column("body", "m")
     """A from B, body frame, (n, 3) [m]."""
-    position: Array = _column("space", "m")
+    position: Array = column("space", "m")
     """Of C at the touch, space frame, (n, 3) [m]."""
-    quaternion: Array = _column("attitude")
+    quaternion: Array = column("attitude", "")
     """Euler parameters at the touch, body to space, (n, 4)."""
-    velocity_before: Array = _column("space", "m/s")
+    velocity_before: Array = column("space", "m/s")
     """Of C, space frame, (n, 3) [m/s]."""
-    velocity_after: Array = _column("space", "m/s")
+    velocity_after: Array = column("space", "m/s")
     """Of C, space frame, (n, 3) [m/s]."""
-    angular_velocity_before: Array = _column("body", "rad/s")
+    angular_velocity_before: Array = column("body", "rad/s")
     """ω, body frame, (n, 3) [rad/s]."""
-    angular_velocity_after: Array = _column("body", "rad/s")
+    angular_velocity_after: Array = column("body", "rad/s")
     """ω, body frame, (n, 3) [rad/s]."""
-    contact_velocity_before: Array = _column("space", "m/s")
+    contact_velocity_before: Array = column("space", "m/s")
     """v_A, space frame, (n, 3) [m/s]."""
-    contact_velocity_after: Array = _column("space", "m/s")
+    contact_velocity_after: Array = column("space", "m/s")
     """v_A, space frame, (n, 3) [m/s]."""
-    energy: Array = _column(unit="J")
+    energy: Array = column(unit="J")
     """After the impact: kinetic and m g z_C, (n,) [J]."""
-    energy_change: Array = _column(unit="J")
+    energy_change: Array = column(unit="J")
     """Of the impact, (n,) [J]; positive where the law feeds the coin."""
 
     def __post_init__(self) -> None:
         """Check every array's shape and make it read-only."""
-        _freeze(self)
+        freeze(self)
         if np.any(np.diff(self.time) < 0):
             raise ValueError("Impacts.time: must not decrease")
 
@@ -181,20 +156,11 @@ class Impacts:
 
     def to_xarray(self) -> "xr.Dataset":
         """Return the impacts as a dataset of xarray over `impact`, which counts from 1."""
-        return dataset("impact", self._columns(), {})
+        return dataset(self, "impact", first=1)
 
     def to_dataframe(self) -> "pd.DataFrame":
         """Return the impacts as a table of pandas, a row each."""
-        return table("impact", self._columns())
-
-    def _columns(self) -> dict[str, Column]:
-        faces = meanings_of({face.value: str(face) for face in Face})
-        number = Column(np.arange(1, len(self) + 1), {"long_name": "impact"})
-        return {
-            "impact": number,
-            **_columns(self),
-            "face": Column(self.face, {"long_name": "face up", **faces}),
-        }
+        return table(self, "impact", first=1)
 
 
 _ROW = [(item.name, item.metadata["kind"], item.metadata["shape"]) for item in fields(Impacts)]
@@ -206,20 +172,20 @@ IMPACT_ROW = np.dtype((np.record, np.dtype(_ROW, align=True)))
 class States:
     """States of the coin at several times; arrays are read-only."""
 
-    time: Array = _column(unit="s")
+    time: Array = column(unit="s")
     """(n,) [s]."""
-    position: Array = _column("space", "m")
+    position: Array = column("space", "m")
     """Of C, space frame, (n, 3) [m]."""
-    velocity: Array = _column("space", "m/s")
+    velocity: Array = column("space", "m/s")
     """Of C, space frame, (n, 3) [m/s]."""
-    quaternion: Array = _column("attitude")
+    quaternion: Array = column("attitude", "")
     """Euler parameters, body to space, (n, 4)."""
-    angular_velocity: Array = _column("body", "rad/s")
+    angular_velocity: Array = column("body", "rad/s")
     """ω, body frame, (n, 3) [rad/s]."""
 
     def __post_init__(self) -> None:
         """Check every array's shape and make it read-only."""
-        _freeze(self)
+        freeze(self)
 
     def __repr__(self) -> str:
         """Return how many there are, and from when to when."""
@@ -228,11 +194,11 @@ class States:
 
     def to_xarray(self) -> "xr.Dataset":
         """Return the states as a dataset of xarray over `time`."""
-        return dataset("time", _columns(self), {})
+        return dataset(self, "time")
 
     def to_dataframe(self) -> "pd.DataFrame":
         """Return the states as a table of pandas, a row for each time."""
-        return table("time", _columns(self))
+        return table(self, "time")
 
     @property
     def normal(self) -> Array:

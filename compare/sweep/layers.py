@@ -25,7 +25,7 @@ class Layer(NamedTuple):
 
 def layers_of(sweep: Sweep) -> dict[str, Layer]:
     """Return the arrays of a sweep's map, by name."""
-    meanings = meanings_of({NOT_TOSSED: "not_tossed", **{int(item): str(item) for item in Outcome}})
+    meanings = meanings_of({NOT_TOSSED: "not_tossed", **Outcome.by_value()})
     layers = {
         "outcome": Layer(np.int8, NOT_TOSSED, {"long_name": "outcome", **meanings}),
         "impacts": Layer(np.int32, NOT_TOSSED, {"long_name": "number of impacts"}),

@@ -83,7 +83,7 @@ class OutcomeMap:
     def shares(self) -> dict[str, float]:
         """The share of the pixels that each outcome has, and those not tossed yet, of what there is."""
         codes, counts = np.unique(self.outcome, return_counts=True)
-        labels = {NOT_TOSSED: "not tossed", **{int(item): str(item) for item in Outcome}}
+        labels = {NOT_TOSSED: "not tossed", **Outcome.by_value()}
         return {
             labels[code]: count / self.outcome.size
             for code, count in zip(codes.tolist(), counts.tolist(), strict=True)
@@ -135,7 +135,7 @@ class OutcomeMap:
 
     def to_dataframe(self) -> "pd.DataFrame":
         """Return the map as a table of pandas, a row a pixel, in words, with units in `attrs["units"]`."""
-        labels = {NOT_TOSSED: "not_tossed", **{int(item): str(item) for item in Outcome}}
+        labels = {NOT_TOSSED: "not_tossed", **Outcome.by_value()}
         arrays = self.to_xarray()
         words = [labels[code] for code in self.outcome.ravel().tolist()]
         columns = [self.sweep.y.field, self.sweep.x.field, *self.layers]
