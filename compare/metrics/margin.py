@@ -115,21 +115,16 @@ QUANTITIES = (
 """Horizontal position is left out: it changes nothing."""
 
 
-def names() -> tuple[str, ...]:
-    """Return the names of `QUANTITIES` in Latin letters."""
-    return tuple(_latin(quantity.name) for quantity in QUANTITIES)
-
-
 def quantity_of(name: str) -> Quantity:
     """Return the quantity of a name, its axis in Greek or Latin letters.
 
     Raises:
         ValueError: naming what is accepted.
     """
-    for quantity in QUANTITIES:
-        if _latin(name) == _latin(quantity.name):
-            return quantity
-    raise ValueError(f"{name}: accepted: {', '.join(names())}")
+    known = {_latin(quantity.name): quantity for quantity in QUANTITIES}
+    if _latin(name) not in known:
+        raise ValueError(f"{name}: accepted: {', '.join(known)}")
+    return known[_latin(name)]
 
 
 def _latin(name: str) -> str:

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from cointoss.compare.basins.picture_style import PictureStyle
 from cointoss.compare.engines import Engine
@@ -15,15 +14,11 @@ from cointoss.compare.output.files import UnwritableError, require_file, written
 from cointoss.compare.report.contents import NOT_ASKED, require_folder
 from cointoss.compare.sweep import describe, run, store
 from cointoss.compare.sweep.axes import Axis, parse_axis
-from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.pixels import check
 from cointoss.models.reading import parse
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import stage
-
-if TYPE_CHECKING:
-    from cointoss.compare.metrics.margin import Quantity
 
 Watch = Callable[[str, int, int], AbstractContextManager[run.Tossed]]
 """Called with a map's name, the pixels that it has, and how many it will have; gives what to tell of more."""
@@ -73,7 +68,7 @@ def sweeps_of(job: Job, scenario: Scenario, x: Axis, y: Axis) -> dict[Path, Swee
     """Return the sweep of each map that is asked for; its engine is imported.
 
     Raises:
-        SweepError: for axes that exclude each other.
+        SweepError: for axes that exclude each other, and for a margin that there is none of.
     """
     chosen = {Engine.MUJOCO: {"contact": job.contact}}
     return {
@@ -84,20 +79,11 @@ def sweeps_of(job: Job, scenario: Scenario, x: Axis, y: Axis) -> dict[Path, Swee
             y=y,
             settings=replace(engine.package.MANY, **chosen.get(engine, {})),
             after=job.after,
-            margin=job.margin and _margin(job.margin).name,
+            margin=job.margin,
             name=Path(job.source).stem,
         )
         for path, engine in _engines_of(job).items()
     }
-
-
-def _margin(name: str) -> "Quantity":
-    from cointoss.compare.metrics.margin import quantity_of
-
-    try:
-        return quantity_of(name)
-    except ValueError as error:
-        raise SweepError(f"--margin {error}") from None
 
 
 def _engines_of(job: Job) -> dict[Path, Engine]:
@@ -117,7 +103,6 @@ def make(job: Job, watch: Watch, say: Say) -> Iterator[str]:
     """
     scenario, engines = parse(job.text, job.source), _engines_of(job)
     x, y = parse_axis(job.x, scenario), parse_axis(job.y, scenario)
-    margin = None if job.margin is None else _margin(job.margin)
     for path in engines:
         store.require_place(path, resume=job.resume, overwrite=job.overwrite)
     if job.png is not None:
@@ -144,9 +129,8 @@ def make(job: Job, watch: Watch, say: Say) -> Iterator[str]:
                 with watch(path.name, whole - run.size(left), whole) as tossed:
                     run.fill(map_, sweep, left, tosser, tossed)
                 yield describe.describe_map(path, sweep, run.fractions_of(map_))
-                if margin is not None:
-                    sizes = run.margins_of(map_)
-                    yield describe.describe_margins(margin.name, margin.unit, margin.factor, sizes)
+                if sweep.margin is not None:
+                    yield describe.describe_margins(sweep.quantity, run.margins_of(map_))
                     margins = map_.whole("margin") if drawn else None
                 if drawn:
                     maps.append(map_.whole("outcome"))

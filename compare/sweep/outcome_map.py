@@ -207,5 +207,5 @@ class OutcomeMap:
         with store.opened(folder, self.sweep, self.sweep.scenario.to_toml(), overwrite=overwrite) as map_:
             for tile in map_.tiles:
                 parts = {name: array[tile.rows, tile.columns] for name, array in self.layers.items()}
-                map_.write(tile, Pixels(**{"margin": None, **parts}))
+                map_.write(tile, Pixels(**parts))
         return folder

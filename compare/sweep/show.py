@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from cointoss.compare.basins import picture
 from cointoss.compare.basins.fractions import fractions
 from cointoss.compare.basins.picture_style import PictureStyle
-from cointoss.compare.metrics.margin import quantity_of
 from cointoss.compare.report.map_section import MapSection
 from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.describe import AWAY, measure, percent
@@ -111,5 +110,4 @@ def _drawn(axis: Axis) -> picture.MapAxis:
 
 
 def _margins(changes: Array, sweep: Sweep) -> picture.Margins:
-    quantity = quantity_of(sweep.margin or "")
-    return picture.Margins(changes, quantity.name, quantity.unit, most=quantity.factor)
+    return picture.Margins(changes, sweep.quantity.name, sweep.quantity.unit, most=sweep.quantity.factor)

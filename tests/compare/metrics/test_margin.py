@@ -183,7 +183,7 @@ def test_margins_of_a_map_after_impacts_are_of_the_face_there(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["--margin", "weight"], "--margin weight: accepted: height, velocity x,"),
+        (["--margin", "weight"], "fig29: margin weight: accepted: height, velocity x,"),
         (["--margin", "height", "--engine", "mujoco"], "--margin height --engine mujoco: accepted: only by"),
         (["--margin", "height", "--compare"], "--margin height --compare: accepted: only by"),
     ],
