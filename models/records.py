@@ -50,51 +50,33 @@ class Outcome(Word):
 class Ending(Word):
     """Why a toss stopped."""
 
-    NONE = 0
-    SETTLED = 1
-    PAPER = 2
-    PAPER_SMOOTH = 3
-    MAX_IMPACTS = 4
-    MAX_TIME = 5
-    CHATTER = 6
-    NO_SOLUTION = 7
-    LYING = 8
-    STANDING = 9
-    PERPETUAL = 10
-    CONTACT_STEPS = 11
-    FLIGHT_STEPS = 12
-    AT_REST = 13
-    ROLLING = 14
-    CAUGHT = 15
-    NOT_CAUGHT = 16
-    PERIODIC = 17
+    sentence: str
+    """What the ending means."""
 
-    @property
-    def sentence(self) -> str:
-        """What the ending means."""
-        return _SENTENCES[self]
+    def __new__(cls, value: int, sentence: str) -> "Ending":
+        """Make a member of its integer and its sentence."""
+        member = int.__new__(cls, value)
+        member._value_, member.sentence = value, sentence
+        return member
 
-
-_SENTENCES = {
-    Ending.NONE: "The toss goes on.",
-    Ending.SETTLED: "The coin can no longer turn over, and this floor gives it no energy.",
-    Ending.PAPER: "The coin can no longer turn over, unless a later impact gives it energy.",
-    Ending.PAPER_SMOOTH: "The energy that can turn the coin over is below m g r: the paper's eq. (20).",
-    Ending.MAX_IMPACTS: "The toss stopped at [ending] max_impacts; raise it to go on.",
-    Ending.MAX_TIME: "The toss stopped at [ending] max_time; raise it to go on.",
-    Ending.CHATTER: "Ever faster impacts bring the coin into contact, where this law is not followed.",
-    Ending.NO_SOLUTION: "The contact law has no solution at this impact.",
-    Ending.LYING: "The coin lies on a face. It may still slide or spin, but that can't tip it.",
-    Ending.STANDING: "The coin stands on its edge: the floor turns it back from either rim.",
-    Ending.PERPETUAL: "Its recent losses, extrapolated, leave the coin enough energy to turn over for ever.",
-    Ending.PERIODIC: "The coin's contact has gone through a whole period, and repeats it for ever.",
-    Ending.CONTACT_STEPS: "The toss stopped at contact_steps; raise it to go on: --contact-steps N.",
-    Ending.FLIGHT_STEPS: "The toss stopped at flight_steps; raise it to go on: --flight-steps N.",
-    Ending.AT_REST: "The coin rests on its edge, held by the floor's resistance to rolling.",
-    Ending.CAUGHT: "A hand caught the coin at the height [ending] caught; the face up there counts.",
-    Ending.NOT_CAUGHT: "The coin never came down to the hand at the height [ending] caught.",
-    Ending.ROLLING: "The coin still rolls on its edge; to go on raise max_time or contact_steps.",
-}
+    NONE = 0, "The toss goes on."
+    SETTLED = 1, "The coin can no longer turn over, and this floor gives it no energy."
+    PAPER = 2, "The coin can no longer turn over, unless a later impact gives it energy."
+    PAPER_SMOOTH = 3, "The energy that can turn the coin over is below m g r: the paper's eq. (20)."
+    MAX_IMPACTS = 4, "The toss stopped at [ending] max_impacts; raise it to go on."
+    MAX_TIME = 5, "The toss stopped at [ending] max_time; raise it to go on."
+    CHATTER = 6, "Ever faster impacts bring the coin into contact, where this law is not followed."
+    NO_SOLUTION = 7, "The contact law has no solution at this impact."
+    LYING = 8, "The coin lies on a face. It may still slide or spin, but that can't tip it."
+    STANDING = 9, "The coin stands on its edge: the floor turns it back from either rim."
+    PERPETUAL = 10, "Its recent losses, extrapolated, leave the coin enough energy to turn over for ever."
+    CONTACT_STEPS = 11, "The toss stopped at contact_steps; raise it to go on: --contact-steps N."
+    FLIGHT_STEPS = 12, "The toss stopped at flight_steps; raise it to go on: --flight-steps N."
+    AT_REST = 13, "The coin rests on its edge, held by the floor's resistance to rolling."
+    ROLLING = 14, "The coin still rolls on its edge; to go on raise max_time or contact_steps."
+    CAUGHT = 15, "A hand caught the coin at the height [ending] caught; the face up there counts."
+    NOT_CAUGHT = 16, "The coin never came down to the hand at the height [ending] caught."
+    PERIODIC = 17, "The coin's contact has gone through a whole period, and repeats it for ever."
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
