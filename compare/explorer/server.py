@@ -19,7 +19,6 @@ from cointoss.compare.explorer.page_map import MOST_SHOWN, page_map
 from cointoss.compare.explorer.tosses import require_inside, toss_pixel
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.outcome_map import OutcomeMap
 from cointoss.compare.sweep.reading import read_map
 from cointoss.models.errors import ScenarioError
 from cointoss.models.records import UnsupportedError
@@ -85,10 +84,6 @@ class Explorer(ThreadingTCPServer):
         if not isinstance(sys.exception(), OSError):
             super().handle_error(request, client_address)
 
-    def map_now(self) -> OutcomeMap:
-        """Return the map as far as it is tossed now."""
-        return read_map(self.path, most=MOST_SHOWN)
-
 
 class Request(BaseHTTPRequestHandler):
     """One request."""
@@ -139,7 +134,7 @@ class Request(BaseHTTPRequestHandler):
 
     def _map(self, query: Query) -> Any:
         _require_names(query)
-        return page_map(self.server.map_now())
+        return page_map(read_map(self.server.path, most=MOST_SHOWN))
 
     def _toss(self, query: Query) -> Any:
         _require_names(query, "x", "y", also="engine")
