@@ -5,7 +5,7 @@ import json
 import re
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from http.server import BaseHTTPRequestHandler
 from pathlib import Path
 from socketserver import ThreadingTCPServer
@@ -138,7 +138,7 @@ class Request(BaseHTTPRequestHandler):
 
     def _toss(self, query: Query) -> Any:
         _require_names(query, "x", "y", also="engine")
-        x, y = (_number(name, query[name]) for name in ("x", "y"))
+        x, y = map(float, _read(query, ("x", "y"), _NUMBER, "a number"))
         require_inside(self.server.sweep, x, y)
         chosen = query.get("engine")
         if chosen is not None and chosen not in list(Engine):
@@ -149,7 +149,7 @@ class Request(BaseHTTPRequestHandler):
     def _tile(self, query: Query) -> bytes:
         names = ("level", "column", "row")
         _require_names(query, *names)
-        level, column, row = (_count(name, query[name]) for name in names)
+        level, column, row = map(int, _read(query, names, _COUNT, "a whole number"))
         return toss_tile(self.server.sweep, level, column, row).tobytes()
 
     def _refuse(self, status: int, message: str) -> None:
@@ -190,13 +190,8 @@ def _require_names(query: Query, *names: str, also: str = "") -> None:
         raise SweepError(f"accepted: {', '.join(names) or 'no query'}")
 
 
-def _number(name: str, text: str) -> float:
-    if not _NUMBER.fullmatch(text):
-        raise SweepError(f"{name}: accepted: a number")
-    return float(text)
-
-
-def _count(name: str, text: str) -> int:
-    if not _COUNT.fullmatch(text):
-        raise SweepError(f"{name}: accepted: a whole number")
-    return int(text)
+def _read(query: Query, names: Sequence[str], form: re.Pattern[str], accepted: str) -> list[str]:
+    for name in names:
+        if not form.fullmatch(query[name]):
+            raise SweepError(f"{name}: accepted: {accepted}")
+    return [query[name] for name in names]

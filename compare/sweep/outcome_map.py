@@ -1,7 +1,7 @@
 """The outcomes of tosses over two fields of a scenario, as one record."""
 
 from base64 import b64encode
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from html import escape
 from os import PathLike
@@ -66,8 +66,7 @@ class OutcomeMap:
     @property
     def layers(self) -> dict[str, NDArray[Any]]:
         """The arrays there are, by name."""
-        arrays = {item.name: getattr(self, item.name) for item in fields(self)}
-        return {name: arrays[name] for name in layers_of(self.sweep)}
+        return {name: getattr(self, name) for name in layers_of(self.sweep)}
 
     @property
     def x(self) -> Array:
