@@ -20,8 +20,6 @@ from cointoss.models.reading import parse
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import stage
 
-Watch = Callable[[str, int, int], AbstractContextManager[run.Tossed]]
-"""Called with a map's name, the pixels that it has, and how many it will have; gives what to tell of more."""
 Say = Callable[[str], None]
 """Called with what is waited for."""
 
@@ -91,7 +89,7 @@ def _engines_of(job: Job) -> dict[Path, Engine]:
     return {job.out: job.engine or Engine.ANALYTIC} | ({} if job.engine else {second: Engine.MUJOCO})
 
 
-def make(job: Job, watch: Watch, say: Say) -> Iterator[str]:
+def make(job: Job, say: Say) -> Iterator[str]:
     """Make what is asked for, and give the results as text, each as soon as it is there.
 
     Nothing is begun before all is checked that can be.
@@ -125,9 +123,7 @@ def make(job: Job, watch: Watch, say: Say) -> Iterator[str]:
     with _tosser(job.scheduler, say) as tosser:
         for path, sweep in sweeps.items():
             with store.opened(path, sweep, job.text, overwrite=job.overwrite) as map_:
-                left, whole = run.missing(map_), run.size(map_.tiles)
-                with watch(path.name, whole - run.size(left), whole) as tossed:
-                    run.fill(map_, sweep, left, tosser, tossed)
+                run.fill(map_, sweep, tosser)
                 yield describe.describe_map(path, sweep, run.fractions_of(map_))
                 if sweep.margin is not None:
                     yield describe.describe_margins(sweep.quantity, run.margins_of(map_))
