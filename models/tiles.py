@@ -5,7 +5,7 @@ from collections import deque
 from collections.abc import Callable
 from concurrent.futures import wait
 from dataclasses import fields
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import config
@@ -47,7 +47,9 @@ def toss_in_tiles(
         How each toss ended, in the order of `releases`.
     """
     n = len(releases)
-    found = {item.name: np.empty(n, item.metadata["kind"]) for item in fields(Outcomes)}
+    found: dict[str, NDArray[Any]] = {
+        item.name: np.empty(n, item.metadata["kind"]) for item in fields(Outcomes)
+    }
     columns = Tile(states_of(releases), **found)
 
     cores = config.__dict__["NUMBA_NUM_THREADS"]

@@ -11,7 +11,11 @@ from cointoss.models.records import Outcome
 
 NOT_TOSSED = -1
 """What `outcome` and `impacts` hold where no toss was made yet."""
-LAYERS = {"outcome": (np.int8, NOT_TOSSED), "impacts": (np.int32, NOT_TOSSED), "margin": (np.float64, np.nan)}
+LAYERS: dict[str, tuple[type[np.number], float]] = {
+    "outcome": (np.int8, NOT_TOSSED),
+    "impacts": (np.int32, NOT_TOSSED),
+    "margin": (np.float64, np.nan),
+}
 """Types of the arrays over both axes, and what they hold where no toss was made."""
 
 

@@ -3,6 +3,7 @@
 import io
 from collections.abc import Sequence
 from dataclasses import asdict
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -109,5 +110,5 @@ def _drawn(axis: Axis) -> picture.MapAxis:
     return picture.MapAxis(name=axis.word, unit=axis.printed_unit, start=axis.start, stop=axis.stop)
 
 
-def _margins(changes: Array, sweep: Sweep) -> picture.Margins:
+def _margins(changes: NDArray[Any], sweep: Sweep) -> picture.Margins:
     return picture.Margins(changes, sweep.quantity.name, sweep.quantity.unit, most=sweep.quantity.factor)
