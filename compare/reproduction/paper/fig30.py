@@ -13,10 +13,8 @@ from cointoss import analytic, coin_mj
 from cointoss.compare.basins.picture import MapAxis, draw_panel
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY
-from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import jackknife, share
-from cointoss.compare.reproduction.parts import Part, kept
+from cointoss.compare.reproduction.estimates import share
 from cointoss.compare.reproduction.precision.magnified import MAGNIFICATION, Magnified, magnify
 from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
 from cointoss.compare.reproduction.precision.planar_state import HEIGHT, release
@@ -29,9 +27,8 @@ from cointoss.compare.reproduction.setups.planar_maps import (
     final_faces,
     releases,
 )
-from cointoss.compare.reproduction.setups.uncertain_shares import uncertain_shares
+from cointoss.compare.reproduction.setups.uncertain_shares import ACCURACIES, kept_run, slope
 from cointoss.compare.reproduction.threads import all_cores
-from cointoss.models.kernel.sources import source_hash
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 
@@ -39,8 +36,6 @@ WINDOWS_BELOW = 25
 """A line through the map is magnified so many times, 1 included; the last is 4e-25 m long."""
 POINTS = 50
 """On a line."""
-ACCURACIES = 10.0 ** -np.arange(3, 25)
-"""ε, the accuracy of the height at release [m]."""
 DECADES = 3
 """α is the slope over so many of them."""
 DOUBLES = (3, 4)
@@ -80,9 +75,14 @@ def make(
     progress(done := done + 1, whole)
     jobs = list(product(MEDIA, range(runs)))
     made: dict[str, list[Array]] = {medium: [] for medium in MEDIA}
+
+    def run(job: tuple[str, int]) -> Array:
+        medium, number = job
+        scenario = case(air=medium == "air")
+        return kept_run(parts, medium, scenario, (SEED, number), population=population).shares
+
     with all_cores() as pool:
-        found = pool.map(lambda job: _shares(parts, job[0], job[1], population), jobs)
-        for (medium, _), shares in zip(jobs, found, strict=True):
+        for (medium, _), shares in zip(jobs, pool.map(run, jobs), strict=True):
             made[medium].append(shares)
             progress(done := done + 1, whole)
     for medium in MEDIA:
@@ -106,19 +106,6 @@ def make(
         media[medium] = _lines(followed) | _standing(off) | _slopes(shares)
         media[medium]["mujoco"] = mujoco if medium == "air" else "-"
     return Findings(data=data, media=media)
-
-
-def _shares(parts: Path, medium: str, number: int, population: int) -> Array:
-    """Return f at each of `ACCURACIES` as a run of the splitting finds it; kept, so that it is made once."""
-
-    def compute() -> Part:
-        rng = np.random.default_rng([SEED, number])
-        scenario = case(air=medium == "air")
-        run = uncertain_shares(scenario, rng, levels=len(ACCURACIES), population=population)
-        return {"shares": run.shares}
-
-    made_by = source_hash("cointoss.compare.reproduction.setups.uncertain_shares")
-    return kept(parts, f"{made_by}, {medium}, {number}, {population}", compute)["shares"]
 
 
 def _lines(followed: list[Magnified]) -> dict[str, Any]:
@@ -167,24 +154,6 @@ def _slopes(shares: Array) -> dict[str, Any]:
         "finer": 2 ** (1 / doubles.value),
         "coarse": slope(shares, 0, 1),
     }
-
-
-def slope(shares: Array, first: int, decades: int) -> Estimate:
-    """Return α over some decades of `ACCURACIES`, with a jackknife's interval over the runs.
-
-    Args:
-        shares: f, by run and accuracy, (n, m).
-        first: where it starts.
-        decades: how many.
-    """
-    return jackknife(
-        lambda kept: float(
-            np.log10(shares[kept, first].mean() / shares[kept, first + decades].mean()) / decades
-        ),
-        len(shares),
-        "runs",
-        parts=len(shares),
-    )
 
 
 def _window(stage: NDArray[np.intp]) -> Array:

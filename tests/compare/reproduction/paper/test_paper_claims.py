@@ -18,12 +18,12 @@ from cointoss.compare.reproduction.claims import (
     uniform_starts,
 )
 from cointoss.compare.reproduction.paper import fig27, fig31
-from cointoss.compare.reproduction.paper.fig30 import ACCURACIES, slope
 from cointoss.compare.reproduction.setups import fig24_readings
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
 from cointoss.compare.reproduction.setups.hands import HEIGHTS, SPINS, releases_of_hands
 from cointoss.compare.reproduction.setups.planar_maps import case, faces_after, releases, touched_faces
 from cointoss.compare.reproduction.setups.standing import standing
+from cointoss.compare.reproduction.setups.uncertain_shares import ACCURACIES, slope
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.laws import ContactLaw
 from cointoss.models.parts import Release
