@@ -15,7 +15,7 @@ from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY, INK, PALE, VERMILION
 from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import ratio_of_shares, share
+from cointoss.compare.reproduction.estimates import ratio_of_shares, share, share_of
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHT,
     HEIGHTS,
@@ -123,7 +123,7 @@ def make(
         ended=_ended(heights[:elastic], spins[:elastic]),
         mixed=_mixed(shares),
         elastic_share={
-            f"{step:.0e}": share(np.arange(elastic) < round(row[-1] * elastic), "twins") - 1 / 2
+            f"{step:.0e}": share_of(round(row[-1] * elastic), elastic, "twins") - 1 / 2
             for step, row in zip(ELASTIC_STEPS, shares, strict=True)
         },
     )

@@ -14,11 +14,11 @@ from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY, OUTCOMES
 from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.estimates import chance_alike
-from cointoss.compare.reproduction.setups.ends import Ends, ended_as, tosses
+from cointoss.compare.reproduction.setups.ends import Ends, counted, ended_as, together, tosses
 from cointoss.compare.reproduction.setups.study import study
 from cointoss.compare.reproduction.threads import all_cores
-from cointoss.models.parts import Release
-from cointoss.models.records import Ending, Outcome
+from cointoss.models.outcomes import Outcomes
+from cointoss.models.records import Outcome
 from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 
@@ -75,14 +75,13 @@ def compute(
     most, longest = 0, 0.0
     whole = len(jobs) + len(jobs_mujoco)
     with all_cores() as pool:
-        for done, (kind, outcome, ending, impacts, time) in enumerate(pool.map(_toss, jobs), start=1):
-            outcomes[_name(kind)][f"{outcome}, {ending}"] += 1
-            if outcome not in ("undecided", "perpetual"):
-                most, longest = max(most, impacts), max(longest, time)
+        for done, (kind, ended) in enumerate(pool.map(_toss, jobs), start=1):
+            outcomes[_name(kind)].update(counted(ended))
+            if ended.outcome[0] not in (Outcome.UNDECIDED, Outcome.PERPETUAL):
+                most, longest = max(most, int(ended.impacts[0])), max(longest, float(ended.end_time[0]))
             progress(done, whole)
-        ended = pool.map(toss_by_mujoco, jobs_mujoco)
-        for done, (kind, outcome, ending) in enumerate(ended, start=len(jobs) + 1):
-            mujoco[_name(kind)][f"{outcome}, {ending}"] += 1
+        for done, (kind, ended) in enumerate(pool.map(toss_by_mujoco, jobs_mujoco), start=len(jobs) + 1):
+            mujoco[_name(kind)].update(counted(ended))
             progress(done, whole)
     return EndingCounts(_ordered(outcomes), _ordered(mujoco), most, longest)
 
@@ -127,30 +126,18 @@ def _release(rng: np.random.Generator) -> dict[str, Any]:
     }
 
 
-def _toss(job: tuple[int, int, int]) -> tuple[Kind, str, str, int, float]:
+def _toss(job: tuple[int, int, int]) -> tuple[Kind, Outcomes]:
     kind, scenario = draw_toss(np.random.default_rng(job), COINS[job[1]])
-    ended = analytic.toss_many(scenario, _only(scenario.release))
-    outcome, ending = Outcome(ended.outcome[0]), Ending(ended.ending[0])
-    return kind, str(outcome), str(ending), int(ended.impacts[0]), float(ended.end_time[0])
+    return kind, analytic.toss_many(scenario, Releases.of(scenario, 1))
 
 
-def toss_by_mujoco(job: tuple[int, int, int]) -> tuple[Kind, str, str]:
-    """Return kind, outcome and ending of a toss by MuJoCo on one of the floors `BY_BOTH`."""
+def toss_by_mujoco(job: tuple[int, int, int]) -> tuple[Kind, Outcomes]:
+    """Make a toss by MuJoCo on one of the floors `BY_BOTH`."""
     rng = np.random.default_rng(job)
     kind, scenario = draw_toss(rng, COINS[job[1]])
     while kind.floor not in BY_BOTH:
         kind, scenario = draw_toss(rng, COINS[job[1]])
-    ended = coin_mj.toss_many(scenario, _only(scenario.release))
-    return kind, str(Outcome(ended.outcome[0])), str(Ending(ended.ending[0]))
-
-
-def _only(release: Release) -> Releases:
-    return Releases(
-        position=np.array([release.position]),
-        velocity=np.array([release.velocity]),
-        quaternion=np.array([release.attitude]),
-        angular_velocity=np.array([release.angular_velocity]),
-    )
+    return kind, coin_mj.toss_many(scenario, Releases.of(scenario, 1))
 
 
 def _name(kind: Kind) -> str:
@@ -161,8 +148,9 @@ def _name(kind: Kind) -> str:
 
 def within(outcomes: Counts, *words: str) -> Ends:
     """Return the ends of all kinds of tosses whose names have all of the words."""
-    named = [ends for name, ends in outcomes.items() if all(f", {word}, " in f", {name}, " for word in words)]
-    return dict(sum(map(Counter, named), Counter[str]()))
+    return together(
+        ends for name, ends in outcomes.items() if all(f", {word}, " in f", {name}, " for word in words)
+    )
 
 
 def by_both(counts: EndingCounts, *words: str) -> list[list[int]]:
