@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cointoss import analytic, coin_mj
+from cointoss import analytic
 from cointoss.compare.basins.picture import MapAxis, draw_panel
 from cointoss.compare.basins.stripes import crossings
 from cointoss.compare.output.progress import Progress
@@ -12,7 +12,7 @@ from cointoss.compare.output.style import BLUE, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared, listed
 from cointoss.compare.reproduction.estimates import share
 from cointoss.compare.reproduction.setups.kellers_map import FASTEST, HIGHEST, middles
-from cointoss.compare.reproduction.setups.planar_maps import case
+from cointoss.compare.reproduction.setups.planar_maps import case, toss_many_by_mujoco
 from cointoss.models.records import Array, Face
 from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
@@ -44,9 +44,7 @@ def make(progress: Progress, points: int = 90, line: int = 2500, tosses_mujoco: 
         progress(2 * len(widths), 2 * len(BODIES) + 1)
     few = np.random.default_rng(SEED).choice(len(over), tosses_mujoco, replace=False)
     mujoco = {
-        body: coin_mj.toss_many(
-            _scenario(body), _releases(_scenario(body), over[few], up[few]), settings=coin_mj.FINE
-        )
+        body: toss_many_by_mujoco(_scenario(body), _releases(_scenario(body), over[few], up[few]))
         for body in BODIES
     }
     same = [int(np.sum(mujoco[body].outcome == data[body].ravel()[few])) for body in BODIES]

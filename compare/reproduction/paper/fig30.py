@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cointoss import analytic, coin_mj
+from cointoss import analytic
 from cointoss.compare.basins.picture import MapAxis, draw_panel
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY
@@ -26,6 +26,7 @@ from cointoss.compare.reproduction.setups.planar_maps import (
     case,
     final_faces,
     releases,
+    toss_many_by_mujoco,
 )
 from cointoss.compare.reproduction.setups.uncertain_shares import ACCURACIES, kept_run, slope
 from cointoss.compare.reproduction.threads import all_cores
@@ -188,7 +189,7 @@ def _by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
     start = releases(heights, spins)
     by_analytic = analytic.toss_many(scenario, start).outcome
     by_mujoco, nearby = (
-        coin_mj.toss_many(scenario, releases(heights + step, spins), settings=coin_mj.FINE).outcome
+        toss_many_by_mujoco(scenario, releases(heights + step, spins)).outcome
         for step in (0.0, ACCURACY_MUJOCO)
     )
     nearby_analytic = analytic.toss_many(scenario, releases(heights + ACCURACY_MUJOCO, spins)).outcome

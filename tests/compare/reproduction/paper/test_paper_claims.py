@@ -10,13 +10,13 @@ from cointoss.analytic.toss import toss
 from cointoss.compare.reproduction.claims import (
     accuracy_and_stripes,
     air_in_a_fall,
-    fair_landing,
     fig24_settings,
     heads_in_a_ball,
     standing_coins,
     stop_test,
     uniform_starts,
 )
+from cointoss.compare.reproduction.estimates import scatter_of_shares
 from cointoss.compare.reproduction.paper import fig27, fig31
 from cointoss.compare.reproduction.setups import fig24_readings
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
@@ -51,7 +51,7 @@ def test_a_coin_without_spin_is_not_turned_by_air_and_a_spinning_one_is():
 def test_the_bias_of_hands_is_freed_of_chance(p, bias):
     each = 10
     shares = np.random.default_rng(0).binomial(each, p, 20_000) / each
-    assert fair_landing.bias_of_hands(shares, each) == pytest.approx(bias, abs=0.02)
+    assert scatter_of_shares(shares, each) == pytest.approx(bias, abs=0.02)
     # Chance alone would look like a bias of 0.16.
     assert np.sqrt(np.mean((shares - p) ** 2)) > 0.09
 
