@@ -7,20 +7,19 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss import analytic
-from cointoss.analytic.flight.integrated_flight import sample_flight
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, INK, VERMILION
 from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import jackknife, mean, scatter_of_shares
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.compare.reproduction.setups.kellers_map import caught
 from cointoss.compare.reproduction.setups.planar_maps import faces_after, toss_many_by_mujoco
 from cointoss.compare.reproduction.setups.release_arrays import chosen
 from cointoss.models.laws import ContactLaw
 from cointoss.models.parts import Floor
 from cointoss.models.reading import load
 from cointoss.models.records import Array, Face
-from cointoss.models.releases import Releases, states_of
 from cointoss.models.scenario import Scenario
 
 SEED = 2
@@ -49,7 +48,8 @@ def make(progress: Progress, hands: int = 1000, each: int = 20, tosses_mujoco: i
     for kind, aside in ASIDE.items():
         tossed = releases_of_hands(rng, hands, each, spread=SPREAD, aside=aside)
         first_faces = faces_after(scenario, tossed, 0)
-        faces = [_caught(scenario, tossed), first_faces]
+        back = np.where(caught(scenario, tossed) > 0, Face.HEADS, Face.TAILS)
+        faces = [back, first_faces]
         faces += [analytic.toss_many(_on(scenario, floor), tossed).outcome for floor in FLOORS.values()]
         for landing, face in zip(LANDINGS, faces, strict=True):
             heads[kind, landing] = np.mean((face == Face.HEADS).reshape(hands, each), axis=1)
@@ -85,16 +85,6 @@ def make(progress: Progress, hands: int = 1000, each: int = 20, tosses_mujoco: i
 
 def _on(scenario: Scenario, floor: Floor) -> Scenario:
     return scenario.replace("floor", floor)
-
-
-def _caught(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
-    """Return the face up when a coin in vacuum would be back at the height of its release, (n,)."""
-    faces, state = [], np.empty((1, 13))
-    for start in states_of(tossed):
-        sample_flight(scenario.body, start, 0.0, np.array([2 * start[5] / scenario.gravity]), state)
-        e = state[0, 6:10]
-        faces.append(Face.HEADS if e[1] ** 2 + e[2] ** 2 < 1 / 2 else Face.TAILS)
-    return np.array(faces, dtype=np.int8)
 
 
 def _less_fair(

@@ -15,6 +15,7 @@ from cointoss.compare.output.style import GREY, OUTCOMES
 from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.estimates import chance_alike
 from cointoss.compare.reproduction.setups.ends import Ends, counted, ended_as, together, tosses
+from cointoss.compare.reproduction.setups.general_coins import AIR, paper_coin
 from cointoss.compare.reproduction.setups.study import study
 from cointoss.compare.reproduction.threads import all_cores
 from cointoss.models.outcomes import Outcomes
@@ -26,12 +27,9 @@ COUNT, COUNT_MUJOCO, SEED = 10_000, 5_000, 2008
 """Tosses of each coin by the analytic engine, and by MuJoCo; and the seed."""
 LEAST_PROBABLE = 1e-3
 """By chance one of ten tests falls below it once in a hundred runs."""
-PAPER_OFFSET = (-1e-3, -1e-3, -2e-4)
-THICKNESS = 2e-3
 COINS = ("ideal", "imperfect")
 FLOORS = ("smooth", "coulomb, kinematic", "coulomb, energetic")
 RESTITUTION = {"smooth": (0.1, 0.95), "coulomb, kinematic": (0.1, 0.7), "coulomb, energetic": (0.1, 0.95)}
-AIR = {"normal": 0.8, "tangential": 0.2}
 BY_BOTH, MEDIA = FLOORS[:2], ("air", "vacuum")
 """Floors that MuJoCo realises, and what is between them and the hand."""
 _SHOWN = (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.PERPETUAL, Outcome.UNDECIDED)
@@ -93,17 +91,9 @@ def _ordered(counts: dict[str, Counter[str]]) -> Counts:
 def draw_toss(rng: np.random.Generator, coin: str) -> tuple[Kind, Scenario]:
     """Draw a toss from a hand's height: thick or thin coin, floor, air, restitution, friction and release."""
     kind = Kind(coin, bool(rng.integers(2)), FLOORS[rng.integers(3)], bool(rng.integers(2)))
-    offset = np.array(PAPER_OFFSET) if coin == "imperfect" else np.zeros(3)
-    if not kind.thick:
-        offset[2] = 0.0
     law, _, restitution_kind = kind.floor.partition(", ")
     described: dict[str, Any] = {
-        "coin": {
-            "mass": 2e-3,
-            "radius": 1.25e-2,
-            "thickness": THICKNESS if kind.thick else 0.0,
-            "center_of_mass": offset.tolist(),
-        },
+        "coin": paper_coin(thick=kind.thick, imperfect=coin == "imperfect"),
         "air": AIR if kind.air else {},
         "floor": {
             "contact": law,
