@@ -81,9 +81,8 @@ def replica(
             break
         points = spread(parents, row, pair_of(largest / PARTS**level), PARTS + 1)
         ends = toss_many(coin, points)
-        outcome, itinerary, left = (
-            ends_of_line.reshape(-1, PARTS + 1) for ends_of_line in (ends.outcome, ends.itinerary, ends.left)
-        )
+        outcome, itinerary = (codes.reshape(-1, PARTS + 1) for codes in (ends.outcome, ends.itinerary))
+        left = ends.left.reshape(-1, PARTS + 1)[:, 1:]
         tosses, undecided = tosses + outcome.size, undecided + int(np.sum(outcome == 0))
         differs = outcome[:, 1:] != outcome[:, :-1]
         uncertain = (differs[:, 1:] | differs[:, :-1]).mean(axis=1)
@@ -92,7 +91,7 @@ def replica(
         wanders = itinerary[:, 1:] != itinerary[:, :-1]
         kind = np.where(differs, DIFFERENT, np.where(wanders, WANDERING, ALIKE)).ravel()
         weights = np.repeat(weights / PARTS, PARTS)
-        chance = chances(_scores(weights, kind, left[:, 1:].ravel()), population)
+        chance = chances(_scores(weights, kind, left.ravel()), population)
         goes_on = rng.random(len(chance)) < chance
         parents = points.reshape(-1, PARTS + 1, *points.shape[1:])[:, :-1].reshape(-1, *points.shape[1:])
         parents, weights = parents[goes_on], weights[goes_on] / chance[goes_on]

@@ -87,7 +87,13 @@ def kept_run(
 
     made_by = source_hash("cointoss.compare.reproduction.setups.uncertain_shares")
     label = f"{made_by}, {name}, {'-'.join(map(str, seed))}, {population} x {levels}"
-    return Replica(**{field: np.array(value)[()] for field, value in kept(parts, label, compute).items()})
+    run = kept(parts, label, compute)
+    return Replica(
+        shares=run["shares"],
+        hidden=run["hidden"],
+        tosses=int(run["tosses"]),
+        undecided=int(run["undecided"]),
+    )
 
 
 def of_runs(shares: Array, statistic: Callable[[Array], float]) -> Estimate:

@@ -113,9 +113,7 @@ def compute(
     jobs = [(one, number) for number in range(max(runs.values())) for one in asked if number < runs[one[0]]]
     found: dict[tuple[str, float, str], list[Replica]] = {one: [] for one in asked}
     with all_cores() as pool:
-        made = pool.map(
-            lambda job: run_once(parts, *job[0], job[1], population=population, levels=levels), jobs
-        )
+        made = pool.map(lambda job: run_once(parts, *job, population=population, levels=levels), jobs)
         for done, ((one, _), run) in enumerate(zip(jobs, made, strict=True), start=1):
             found[one].append(run)
             progress(done, len(jobs))
@@ -134,15 +132,16 @@ def _case(floor: str, chi: float, quantity: str, runs: list[Replica]) -> Case:
         quantity,
         shares=[run.shares.tolist() for run in runs],
         hidden=max(run.largest_hidden for run in runs),
-        tosses=sum(int(run.tosses) for run in runs),
-        undecided=sum(int(run.undecided) for run in runs),
+        tosses=sum(run.tosses for run in runs),
+        undecided=sum(run.undecided for run in runs),
     )
 
 
 def run_once(
-    parts: Path, floor: str, chi: float, quantity: str, number: int, *, population: int, levels: int
+    parts: Path, asked: tuple[str, float, str], number: int, *, population: int, levels: int
 ) -> Replica:
     """Run the splitting once for one case: releases uniform in height and spin, flat, at rest but for it."""
+    floor, chi, quantity = asked
     scenario = case(air=floor == AIR, restitution=chi)
     if floor == ROUGH:
         scenario = scenario.replace("floor.contact", "perfectly_rough")
