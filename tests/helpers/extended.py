@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 import heyoka as hy
 import numpy as np
 
-from cointoss.models.body import Body
 from cointoss.models.scenario import Scenario
 
 Q = hy.real128
@@ -27,8 +26,6 @@ class ExtendedTouch(NamedTuple):
     """Whether n_z > 0."""
     impulse: np.ndarray
     """(3,) [N s]."""
-    rise: float
-    """Velocity of C after it, upward [m/s]."""
 
 
 def _dot(a: Any, b: Any) -> Any:
@@ -163,13 +160,6 @@ class Extended:
             ]
         )
 
-    def round(self, body: Body) -> None:
-        """Take the moments of inertia and the drag as doubles have them."""
-        self.J = _numbers(body.inertia)
-        self.J_inverse = _solve(self.J, _numbers(np.eye(3)))
-        self.parameters[_J:_DRAG] = [*self.J.ravel(), *self.J_inverse.ravel()]
-        self.parameters[_DRAG:] = _numbers(body.drag)
-
     def toss(self) -> Iterator[ExtendedTouch]:
         """Give one impact after the other.
 
@@ -189,7 +179,7 @@ class Extended:
             S, n_z, lift = self._hit(coin.state)
             if not S[2] > 0 and str(self.floor.contact) == "sliding_friction":
                 return
-            yield ExtendedTouch(float(coin.time), bool(n_z > 0), S.astype(float), float(coin.state[3]))
+            yield ExtendedTouch(float(coin.time), bool(n_z > 0), S.astype(float))
             if not lift > 0:
                 return
             # At the zero that the lift-off itself is, the isolation of roots may fail: first clear it.

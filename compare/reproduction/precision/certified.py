@@ -1,4 +1,4 @@
-"""A planar toss in vacuum in interval arithmetic of any length: its face is proved, or the toss is undecided.
+"""A planar toss in interval arithmetic of any length: its face is proved, or the toss is undecided.
 
 python-flint's `arb` encloses every number. The first touch of a flight is proved to be the first: a bound on
 the gap's second derivative keeps the gap positive from each point to the next. A toss is undecided where
@@ -13,9 +13,9 @@ from fractions import Fraction
 from functools import partial
 from typing import Any, NamedTuple
 
-from flint import arb, ctx, fmpq
+from flint import acb, arb, ctx, fmpq
 
-from cointoss.compare.reproduction.precision.certified_gap import Gap
+from cointoss.compare.reproduction.precision.certified_gap import Gap, polynomial
 from cointoss.compare.reproduction.precision.double_double import exact
 from cointoss.compare.reproduction.precision.planar_coin import PlanarCoin, Units, square_root
 from cointoss.compare.reproduction.precision.taylor_models import (
@@ -30,6 +30,8 @@ from cointoss.compare.reproduction.precision.taylor_models import (
 from cointoss.models.records import Outcome
 
 MOST_IMPACTS = 5000
+TURN = 2.0
+"""At most this angle is flown on one series in air [rad]."""
 LEAST = Fraction(1, 2**40)
 """Part of a change that is still tried."""
 
@@ -97,16 +99,13 @@ def certified_toss(
     """Toss a planar coin with more and more bits until its face is proved.
 
     Args:
-        coin: in vacuum.
+        coin: the coin.
         units: of it.
         height: of C at the release [m].
         spin: there [rad/s].
         tilt: there, within ±π/2 [rad].
         bits: to begin with; doubled while the toss is undecided.
         most_bits: where that ends.
-
-    Raises:
-        ValueError: of a coin in air.
     """
     while True:
         with _precision(bits):
@@ -137,6 +136,7 @@ def outcome_within(
     Raises:
         ValueError: of a coin in air.
     """
+    _require_vacuum(coin)
     with _precision(bits):
         middles, changes = (_in_own_units(units, numbers, bits) for numbers in (release, change))
         return _toss(coin, [*map(varying, middles, changes)], bits).outcome
@@ -157,6 +157,7 @@ def proved_part(coin: PlanarCoin, units: Units, *, release: PlanarRelease, chang
     Raises:
         ValueError: of a coin in air.
     """
+    _require_vacuum(coin)
     toss = certified_toss(coin, units, height=release.height, spin=release.spin, tilt=release.tilt)
     part = Fraction(1)
     while toss.outcome != Outcome.UNDECIDED and part >= LEAST:
@@ -165,6 +166,11 @@ def proved_part(coin: PlanarCoin, units: Units, *, release: PlanarRelease, chang
             return part
         part /= 2
     return Fraction(0)
+
+
+def _require_vacuum(coin: PlanarCoin) -> None:
+    if coin.in_air:
+        raise ValueError("air: releases about another one are enclosed in vacuum only")
 
 
 @contextmanager
@@ -211,10 +217,10 @@ class _Toss:
     """The coin's numbers as enclosures, and its motion."""
 
     def __init__(self, coin: PlanarCoin, bits: int) -> None:
-        if coin.in_air:
-            raise ValueError("air: tosses are enclosed in vacuum only")
         self.coin, self.bits = coin, bits
-        self.J, self.chi = (_ball(exact(pair)) for pair in (coin.inertia, coin.restitution))
+        pairs = coin.inertia, coin.restitution, coin.slowing, coin.drag_mean, coin.drag_difference
+        self.J, self.chi, self.k, self.a, self.b = (_ball(exact(pair)) for pair in pairs)
+        self.share = arb(1.0 if coin.rough else (coin.sliding_share if coin.in_air else 0.0))
         self.last_energy: Any = None
 
     def run(self, state: _State, impacts: list[Enclosed]) -> Outcome:
@@ -232,7 +238,7 @@ class _Toss:
                 self.last_energy = self.energy(state)
                 return Outcome.HEADS if state.heads else Outcome.TAILS
             loss = self.chatter(state, corner)
-            if loss is None and self.coin.restitution[0] == 0:
+            if loss is None and self.coin.restitution[0] == 0 and not self.coin.in_air:
                 start = self.lift_off(state)
             elif loss is not None:
                 corners, start = self.contact(state, corner, loss)
@@ -242,8 +248,7 @@ class _Toss:
 
     def energy(self, state: _State) -> Any:
         """Return the energy that counts against the barrier 1."""
-        of_drift = state.u**2 if self.coin.rough else 0
-        return state.z + (state.v**2 + self.J * state.w**2 + of_drift) / 2
+        return state.z + (state.v**2 + self.J * state.w**2 + self.share * state.u**2) / 2
 
     def is_settled(self, state: _State) -> bool:
         return self.energy(state) < 1
@@ -287,28 +292,65 @@ class _Toss:
         state.tighten()
         return S_z
 
+    def series(self, state: _State, length: float) -> tuple[list[Any], list[Any], Any]:
+        """Return coefficients of height and drift in the clock s, and a bound on what they leave out."""
+        if not self.coin.in_air:
+            return [state.z, state.v, arb(-0.5)], [state.u], arb(0)
+        k, a, b, w = self.k, self.a, self.b, state.w
+        u = acb(state.u, state.v)
+        E = (acb(0, 2) * state.tilt).exp()
+        p, before = E * acb(state.u, -state.v), acb(0)
+        z, turn = state.z, acb(0, 2) * w
+        heights, drifts, rho = [z], [state.u], 1 / (2 * arb(length))
+        size = arb(1)
+        n = 0
+        while True:
+            z, u, p, before, E = (
+                (k * n * z + u.imag) / (n + 1),
+                ((k * n - a) * u - b * p - (acb(0, 1) if n == 0 else 0)) / (n + 1),
+                ((k * n - a) * p + turn * (p - k * before) - b * u + acb(0, 1) * E) / (n + 1),
+                p,
+                E * turn / (n + 1),
+            )
+            n += 1
+            heights.append(z)
+            drifts.append(u.real)
+            # From here on every coefficient is at most C rho^n: the recursion grows by less than rho.
+            grows = k + (a + abs(b) + abs(turn) * (1 + k / rho) + 1) / (n + 1)
+            size_before, size = size, arb.max(abs(z), arb.max(abs(u), arb.max(abs(p), abs(E))))
+            tail = 2 * arb.max(size * rho ** (-n), size_before * rho ** (1 - n)) * arb(2) ** (-n)
+            if grows < rho and tail < arb(2) ** (-self.bits - 20):
+                return heights, drifts, tail.upper() * arb(0, 1)
+            if n > 4 * self.bits:
+                raise UndecidedError
+
     def fly(self, state: _State, corners: tuple[int, ...], start: Any) -> int:
         """Fly to the first touch; return the rim point that touches."""
-        v, z = (float(x.mid()) for x in (state.v, state.z))
-        length = v + math.sqrt(v * v + 2 * max(z, 0.0)) + 1e-3
-        best, who = None, 0
-        gap_of = partial(Gap, state.z, state.v, state.tilt, state.w, corners, start)
-        for side in (-1, 1):
-            root = gap_of(side, whole).first_zero(
-                length if best is None else float(best.upper()) * (1 + 1e-15)
-            )
-            if root is not None:
-                if best is not None and not (root < best or root > best):
-                    raise UndecidedError
-                if best is None or root < best:
-                    best, who = root, side
-        if best is None:
-            raise UndecidedError
-        s = self.touch(partial(gap_of, who), best)
-        state.z, state.v = state.z + (state.v - s / 2) * s, state.v - s
-        state.tilt = state.tilt + state.w * s
-        state.tighten()
-        return who
+        while True:
+            v, z, w = (float(x.mid()) for x in (state.v, state.z, state.w))
+            length = v + math.sqrt(v * v + 2 * max(z, 0.0)) + 1e-3
+            if self.coin.in_air:
+                length = min(1.1 * length, TURN / abs(w) if w else 10.0, 10.0)
+            heights, drifts, tail = self.series(state, length)
+            best, who = None, 0
+            limit = arb(length)
+            gap_of = partial(Gap, heights, tail, state.tilt, state.w, corners, start)
+            for side in (-1, 1):
+                root = gap_of(side, whole).first_zero(
+                    float(length) if best is None else float(best.upper()) * (1 + 1e-15)
+                )
+                if root is not None:
+                    if best is not None and not (root < best or root > best):
+                        raise UndecidedError
+                    if best is None or root < best:
+                        best, who = root, side
+            at = limit if best is None else self.touch(partial(gap_of, who), best)
+            self.move(state, heights, drifts, tail, at)
+            if best is not None:
+                return who
+            if not self.coin.in_air:
+                raise UndecidedError
+            corners, start = (), None
 
     def touch(self, gap_of: Callable[[Callable[[Any], Any]], Gap], root: Any) -> Any:
         """Return the clock of a touch that is enclosed for all releases; where they vary, as they do."""
@@ -320,6 +362,14 @@ class _Toss:
             raise UndecidedError
         return zero(gap.at, of_middle, root)
 
+    def move(self, state: _State, heights: list[Any], drifts: list[Any], tail: Any, s: Any) -> None:
+        left = 1 - self.k * s
+        state.z = polynomial(heights, s) + tail
+        state.v = left * (polynomial([n * c for n, c in enumerate(heights)][1:], s) + tail * len(heights) * 4)
+        state.u = polynomial(drifts, s) + tail
+        state.tilt, state.w = state.tilt + state.w * s, left * state.w
+        state.tighten()
+
     def chatter(self, state: _State, corner: int) -> Any:
         """Bound the energy that the bounces still to come lose from above, once they are proved to end.
 
@@ -329,7 +379,7 @@ class _Toss:
         Returns:
             None where that is not proved.
         """
-        if self.coin.rough:
+        if self.coin.in_air or self.coin.rough:
             v = self.rim_velocity(state, corner)
             if v < 2.0**-60 and not state.z * state.w**2 > 1:
                 raise UndecidedError

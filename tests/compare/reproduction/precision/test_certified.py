@@ -1,7 +1,6 @@
 """Planar tosses in 106 bits and in intervals: against exact arithmetic, the engine, heyoka, each other."""
 
 from fractions import Fraction
-from itertools import islice
 
 import numpy as np
 import pytest
@@ -118,17 +117,17 @@ def test_outcomes_are_the_engines(chi, air, law):
     assert found.contacts.sum() > 0
 
 
-@pytest.mark.parametrize(("chi", "law"), [(chi, law) for chi, air, law in COINS if not air])
-def test_faces_are_proved_and_the_same(chi, law):
-    coin, own = coin_of(chi, law=law)
-    z, w, starts = drawn(own, 25, seed=2)
+@pytest.mark.parametrize(("chi", "air", "law"), COINS)
+def test_faces_are_proved_and_the_same(chi, air, law):
+    coin, own = coin_of(chi, air, law)
+    z, w, starts = drawn(own, 8 if air else 25, seed=2)
     found = toss_many(coin, starts).outcome
     proved = [
         certified_toss(coin, own, height=a, spin=b, most_bits=200).outcome for a, b in zip(z, w, strict=True)
     ]
     decided = [outcome != Outcome.UNDECIDED for outcome in proved]
-    # Contact that lasts is proved to end for a smooth floor only.
-    assert sum(decided) >= (len(z) if law == "smooth" else len(z) // 4)
+    # Contact that lasts is proved to end for a smooth floor in vacuum only.
+    assert sum(decided) >= (len(z) if law == "smooth" and not air else len(z) // 4)
     assert all(a == b for a, b, is_so in zip(proved, found, decided, strict=True) if is_so)
 
 
@@ -139,25 +138,14 @@ def test_impacts_are_heyokas_to_the_last_digit_of_a_double(air):
 
     scenario = scenario_of(0.6, air).replace("release.position.z", 0.43, "release.angular_velocity.xi", 37.0)
     coin, own = coin_of(0.6, air)
-    speed = np.sqrt(scenario.gravity * scenario.coin.radius)
-    touches = np.empty((30, 5))
-    _, impacts, *_ = planar_toss.toss(
-        coin, release(own, height=0.43, spin=37.0), 30, False, room_for_series(), touches
-    )
-    extended = Extended(scenario)
-    extended.round(scenario.body)
-    theirs = list(islice(extended.toss(), impacts))
-    assert len(theirs) >= 6
-    assert touches[: len(theirs), 3].tolist() == [touch.heads for touch in theirs]
-    assert touches[: len(theirs), 1] * speed == pytest.approx(
-        [touch.rise for touch in theirs], rel=1e-13, abs=1e-15
-    )
-    if not air:
-        known = certified_toss(coin, own, height=0.43, spin=37.0).impacts
-        assert [mine.heads for mine in known] == [touch.heads for touch in theirs]
-        assert [float(mine.impulse) * scenario.coin.mass * speed for mine in known] == pytest.approx(
-            [touch.impulse[2] for touch in theirs], rel=1e-13
-        )
+    known = certified_toss(coin, own, height=0.43, spin=37.0).impacts
+    unit = scenario.coin.mass * np.sqrt(scenario.gravity * scenario.coin.radius)
+    compared = 0
+    for mine, theirs in zip(known, Extended(scenario).toss(), strict=False):
+        assert mine.heads == theirs.heads
+        assert float(mine.impulse) * unit == pytest.approx(theirs.impulse[2], rel=1e-13)
+        compared += 1
+    assert compared >= 6
 
 
 def boundary(coin, own, digits):
@@ -222,7 +210,7 @@ def test_no_outcome_is_proved_across_a_boundary():
     assert found == certified_toss(coin, own, height=beside.height, spin=41.0).outcome != Outcome.UNDECIDED
 
 
-def test_tosses_are_not_enclosed_in_air():
+def test_releases_about_another_one_are_not_enclosed_in_air():
     coin, own = coin_of(0.6, air=True)
     with pytest.raises(ValueError, match="in vacuum only"):
         proved_part(coin, own, release=PlanarRelease(Fraction(1)), change=PlanarRelease(Fraction(1, 100)))
