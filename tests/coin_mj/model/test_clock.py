@@ -41,7 +41,7 @@ def test_a_toss_sets_the_time_of_mujoco_and_says_it_to_those_who_wait(monkeypatc
 
     def told_after(*arguments):
         result = toss_coin(*arguments)
-        told.append(stages.open[-1].detail)
+        told.append(stages.open[-1].detail())
         return result
 
     monkeypatch.setattr(sys.modules["cointoss.coin_mj.toss"], "toss_coin", told_after)
