@@ -202,11 +202,11 @@ def test_code_that_another_user_could_have_written_is_not_run(tmp_path, monkeypa
 def test_code_is_kept_in_a_folder_of_the_user_alone(tmp_path, monkeypatch):
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "chosen"))
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "caches"))
-    assert code_cache._base.__wrapped__() == tmp_path / "chosen"
+    assert code_cache.base_folder.__wrapped__() == tmp_path / "chosen"
     assert (tmp_path / "chosen").stat().st_mode & 0o777 == 0o700
     owner = tmp_path.stat().st_uid
     monkeypatch.setattr(os, "geteuid", lambda: owner + 1)
-    elsewhere = code_cache._base.__wrapped__()
+    elsewhere = code_cache.base_folder.__wrapped__()
     assert elsewhere.name.startswith("cointoss-")
     assert not elsewhere.is_relative_to(tmp_path)
     elsewhere.rmdir()
@@ -309,7 +309,7 @@ def test_a_named_tuple_that_has_gone_since_is_no_error(folder, module, run):
 
 
 def test_folders_long_unused_are_removed_when_one_is_made(tmp_path, monkeypatch):
-    monkeypatch.setattr(code_cache, "_base", lambda: tmp_path)
+    monkeypatch.setattr(code_cache, "base_folder", lambda: tmp_path)
     names = ("cointoss.a.b-0123456789abcdef", "cointoss.a.b-fedcba9876543210", "cointoss.maps")
     used, unused, foreign = (tmp_path / name for name in names)
     long_ago = time.time() - UNUSED - 60
