@@ -7,7 +7,6 @@ from concurrent.futures import wait
 from typing import NamedTuple
 
 import numpy as np
-from numba import config
 from numpy.typing import NDArray
 
 from cointoss.models.interruptible import begun
@@ -49,6 +48,8 @@ def toss_in_tiles(
     outcome, ending, face = (np.empty(n, dtype=np.int8) for _ in range(3))
     impacts, end_time = np.empty(n, dtype=np.int32), np.empty(n)
     columns = Tile(states_of(releases), outcome, ending, face, impacts, end_time)
+
+    from numba import config  # its import takes longer than one toss
 
     cores = config.__dict__["NUMBA_NUM_THREADS"]
     tile = min(most, max(1, n // (PARTS * cores)))

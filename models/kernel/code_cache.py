@@ -12,10 +12,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import numba
-
 from cointoss.models.kernel.base_folder import base_folder
 from cointoss.models.kernel.compiling import compiling
+from cointoss.models.kernel.fork import numba_version
 from cointoss.models.kernel.sources import is_as_imported, part_of, source_hash
 
 UNUSED = 3 * 24 * 3600.0
@@ -141,4 +140,4 @@ class Locator:
 
     def get_disambiguator(self) -> str:
         """Return numba's version, for the names of the files: one version would make the other's anew."""
-        return numba.__version__
+        return numba_version()

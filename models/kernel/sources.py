@@ -73,14 +73,14 @@ class _Imports:
 
     def of(self, source: bytes, digest: str, package: str) -> list[str]:
         """Return what may be modules of the project among the names that a source in a package imports."""
-        if self._known is None:
-            self._known = json.loads(read_kept(_kept_imports(), _ABOUT) or b"{}")
-        key = f"{package} {digest}"
-        if key not in self._known:
+        known, key = self._known, f"{package} {digest}"
+        if known is None:
+            known = self._known = json.loads(read_kept(_kept_imports(), _ABOUT) or b"{}")
+        if key not in known:
             found = {name for node in ast.walk(ast.parse(source)) for name in _imported_by(node, package)}
-            self._known[key] = sorted(filter(part_of, found))
+            known[key] = sorted(filter(part_of, found))
             self._has_new = True
-        return self._known[key]
+        return known[key]
 
     def keep(self) -> None:
         """Keep what was found for the next process, the latest of it."""

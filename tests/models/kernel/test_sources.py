@@ -10,7 +10,7 @@ import pytest
 
 import cointoss
 from cointoss.models.kernel import sources
-from cointoss.models.kernel.fork.functions import CompiledFunction
+from cointoss.models.kernel.fork.function import CompiledFunction
 from cointoss.models.kernel.sources import imported, source_hash
 from tests.helpers.modules import write
 
