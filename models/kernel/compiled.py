@@ -9,6 +9,7 @@ They keep a function's signature. docs/COMPILING.md says what happens behind the
 import os
 import sys
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
@@ -40,8 +41,7 @@ def _compiled(function: Callable[..., Any], *, inlined: bool) -> Any:
     if _compiles_nothing():
         return function
     compiling.declared[function.__module__] += 1
-    is_tested = numba_version().rpartition(".")[0] in TESTED
-    if is_tested and os.environ.get("COINTOSS_COMPILER") != "plain":
+    if _is_tested():
         from cointoss.models.kernel.fork.function import CompiledFunction
 
         return CompiledFunction(function, inlined=inlined)
@@ -50,6 +50,13 @@ def _compiled(function: Callable[..., Any], *, inlined: bool) -> Any:
     return plain_function(function, inlined=inlined)
 
 
+@cache
+def _is_tested() -> bool:
+    is_tested = numba_version().rpartition(".")[0] in TESTED
+    return is_tested and os.environ.get("COINTOSS_COMPILER") != "plain"
+
+
+@cache
 def _compiles_nothing() -> bool:
     """Return whether numba is told to compile nothing; it is asked where it may have been."""
     is_told = "NUMBA_DISABLE_JIT" in os.environ or Path(".numba_config.yaml").exists()
