@@ -52,7 +52,7 @@ class Pieces:
         order = np.argsort(times, kind="stable")
         rows = np.empty((len(times), STATE_SIZE))
         piece = np.searchsorted(self.start_times, times[order], side="right") - 1
-        for number in np.unique(piece):
+        for number in sorted(set(piece.tolist())):
             chosen = order[piece == number]
             rows[chosen] = self._piece(number, times[chosen])
         return _states(times, rows)

@@ -8,7 +8,6 @@ from dataclasses import fields
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import config
 from numpy.typing import NDArray
 
 from cointoss.models.interruptible import begun
@@ -51,6 +50,8 @@ def toss_in_tiles(
         item.name: np.empty(n, item.metadata["kind"]) for item in fields(Outcomes)
     }
     columns = Tile(states_of(releases), **found)
+
+    from numba import config  # its import takes longer than one toss
 
     cores = config.__dict__["NUMBA_NUM_THREADS"]
     tile = min(most, max(1, n // (PARTS * cores)))

@@ -5,7 +5,6 @@ import hashlib
 import os
 import re
 import shutil
-import tempfile
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -13,9 +12,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import numba
-
+from cointoss.models.kernel.base_folder import base_folder
 from cointoss.models.kernel.compiling import compiling
+from cointoss.models.kernel.fork import numba_version
 from cointoss.models.kernel.sources import is_as_imported, part_of, source_hash
 
 UNUSED = 3 * 24 * 3600.0
@@ -39,7 +38,7 @@ def cache_folder(module: str) -> Path:
     Returns:
         A folder below $NUMBA_CACHE_DIR, else below the user's cache, else below the temporary folder.
     """
-    folder = _base() / f"{module}-{source_hash(module)}"
+    folder = base_folder() / f"{module}-{source_hash(module)}"
     try:
         # What is used is kept: see `remove_unused`.
         os.utime(folder)
@@ -50,22 +49,9 @@ def cache_folder(module: str) -> Path:
 
 
 @cache
-def _base() -> Path:
-    for base in _bases():
-        try:
-            base.mkdir(mode=0o700, parents=True, exist_ok=True)
-        except OSError:
-            continue
-        # In another user's folder there may be another's code, and none of ours.
-        if os.access(base, os.W_OK) and base.stat().st_uid == os.geteuid():
-            return base
-    return Path(tempfile.mkdtemp(prefix="cointoss-"))
-
-
-@cache
 def _turns() -> int:
     """Return the file whose bytes stand for functions that are compiled; closed, it would lose all locks."""
-    return os.open(_base() / "compiling.lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+    return os.open(base_folder() / "compiling.lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
 
 
 @contextmanager
@@ -114,16 +100,6 @@ def kept_functions(prefix: str, module: str) -> int:
     return len(list(cache_folder(module).glob(f"{prefix}{stem}.*.nbi"))) if is_kept(module) else 0
 
 
-def _bases() -> Iterator[Path]:
-    """Return where code may be kept, the first choice first."""
-    if chosen := os.environ.get("NUMBA_CACHE_DIR"):
-        yield Path(chosen)
-    if caches := os.environ.get("XDG_CACHE_HOME"):
-        yield Path(caches, "cointoss")
-    with suppress(RuntimeError):  # a user without a home
-        yield Path("~/.cache/cointoss").expanduser()
-
-
 def remove_unused(base: Path) -> None:
     """Remove our folders below `base` that no process has begun to use for long.
 
@@ -164,4 +140,4 @@ class Locator:
 
     def get_disambiguator(self) -> str:
         """Return numba's version, for the names of the files: one version would make the other's anew."""
-        return numba.__version__
+        return numba_version()

@@ -7,13 +7,14 @@ They keep a function's signature. docs/COMPILING.md says what happens behind the
 # pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
 
 import os
+import sys
 from collections.abc import Callable
+from functools import cache
+from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
-import numba
-
 from cointoss.models.kernel.compiling import compiling
-from cointoss.models.kernel.fork import TESTED
+from cointoss.models.kernel.fork import TESTED, numba_version
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -41,14 +42,29 @@ def inlined(function: Callable[P, R]) -> Callable[P, R]:
 
 def _compiled(function: Callable[..., Any], *, inlined: bool) -> Any:
     """Compile by numba's private members where they are known, else by what numba makes public."""
-    if numba.config.DISABLE_JIT:
+    if _compiles_nothing():
         return function
     compiling.declared[function.__module__] += 1
-    is_tested = numba.__version__.rpartition(".")[0] in TESTED
-    if is_tested and not _asked:
-        from cointoss.models.kernel.fork.functions import CompiledFunction
+    if _is_tested():
+        from cointoss.models.kernel.fork.function import CompiledFunction
 
         return CompiledFunction(function, inlined=inlined)
     from cointoss.models.kernel.plain import plain_function
 
     return plain_function(function, inlined=inlined)
+
+
+@cache
+def _is_tested() -> bool:
+    return numba_version().rpartition(".")[0] in TESTED and not _asked
+
+
+@cache
+def _compiles_nothing() -> bool:
+    """Return whether numba is told to compile nothing; it is asked where it may have been."""
+    is_told = "NUMBA_DISABLE_JIT" in os.environ or Path(".numba_config.yaml").exists()
+    if "numba" not in sys.modules and not is_told:
+        return False
+    import numba
+
+    return bool(numba.config.DISABLE_JIT)

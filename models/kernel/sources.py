@@ -2,16 +2,23 @@
 
 import ast
 import hashlib
-import time
+import json
+import os
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import cache
 from itertools import accumulate
 from pathlib import Path
 
+from cointoss.models.kernel import BEGUN
+from cointoss.models.kernel.base_folder import base_folder
+from cointoss.models.kernel.kept_file import read_kept, write_kept
+
 PROJECT = __name__.partition(".")[0]
 """The package whose code is kept; what others compile is not."""
-_IMPORTED = time.time()
-"""When modules began to be read: `cointoss.models` imports this one first [s]."""
+MOST_KEPT = 2000
+"""Sources of which the imports are kept."""
+_ABOUT = "imports, by package and source"
 _HOME = Path(__file__).parents[2]
 
 
@@ -31,8 +38,8 @@ def source_hash(module: str, home: Path = _HOME) -> str:
     """
     digest = hashlib.sha256()
     for name in _hashed(module, home):
-        digest.update(f"{name}\n".encode())
-        digest.update(_source(name, home) or b"")
+        digest.update(f"{name} {_digest(name, home)}\n".encode())
+    _imports.keep()
     return digest.hexdigest()[:16]
 
 
@@ -52,9 +59,43 @@ def imported(module: str, home: Path = _HOME) -> frozenset[str]:
     A package is among them where a name is imported from it, not where it only holds what is imported: else
     one whose `__init__` imports all its modules would tie each of them to all others.
     """
-    tree = ast.parse(_source(module, home) or b"")
-    names = {name for node in ast.walk(tree) for name in _imported_by(node, _package(module, home))}
-    return frozenset(name for name in names if part_of(name) and _source(name, home) is not None)
+    package = _package(module, home)
+    names = _imports.of(_source(module, home) or b"", _digest(module, home), package)
+    return frozenset(name for name in names if _source(name, home) is not None)
+
+
+class _Imports:
+    """What sources import from the project: kept, for to parse all of them takes longer than a toss."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, list[str]] | None = None
+        self._has_new = False
+
+    def of(self, source: bytes, digest: str, package: str) -> list[str]:
+        """Return what may be modules of the project among the names that a source in a package imports."""
+        known, key = self._known, f"{package} {digest}"
+        if known is None:
+            known = self._known = json.loads(read_kept(_kept_imports(), _ABOUT) or b"{}")
+        if key not in known:
+            found = {name for node in ast.walk(ast.parse(source)) for name in _imported_by(node, package)}
+            known[key] = sorted(filter(part_of, found))
+            self._has_new = True
+        return known[key]
+
+    def keep(self) -> None:
+        """Keep what was found for the next process, the latest of it."""
+        if self._has_new and self._known:
+            latest = dict(list(self._known.items())[-MOST_KEPT:])
+            with suppress(OSError):
+                write_kept(_kept_imports(), _ABOUT, json.dumps(latest).encode())
+            self._has_new = False
+
+
+_imports = _Imports()
+
+
+def _kept_imports() -> Path:
+    return base_folder() / "imports"
 
 
 def _imported_by(node: ast.AST, package: str) -> Iterator[str]:
@@ -86,11 +127,17 @@ def _hashed(module: str, home: Path) -> tuple[str, ...]:
     return tuple(sorted(found))
 
 
+@cache
 def _file(module: str, home: Path) -> Path | None:
     """Return the file of a module of the project, None where there is none of this name."""
-    path = home.joinpath(*module.split(".")[1:])
-    files = (path.with_suffix(".py"), path / "__init__.py")
-    return next((file for file in files if part_of(module) and file.is_file()), None)
+    path = os.path.join(home, *module.split(".")[1:])  # noqa: PTH118  pathlib would take five times as long
+    files = (f"{path}.py", os.path.join(path, "__init__.py"))  # noqa: PTH118
+    return next((Path(file) for file in files if part_of(module) and os.path.isfile(file)), None)  # noqa: PTH113
+
+
+@cache
+def _digest(module: str, home: Path) -> str:
+    return hashlib.sha256(_source(module, home) or b"").hexdigest()
 
 
 @cache
@@ -106,4 +153,4 @@ def _is_older(module: str) -> bool:
     An older file that is put in its place keeps the time at which it was written, but not that of its change.
     """
     file = _file(module, _HOME)
-    return file is None or file.stat().st_ctime <= _IMPORTED
+    return file is None or file.stat().st_ctime <= BEGUN

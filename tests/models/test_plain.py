@@ -15,7 +15,7 @@ import sys
 {first}
 from cointoss.models.kernel.vectors import solve
 print(*(x.hex() for x in solve({matrix}, {vector})))
-assert "cointoss.models.kernel.fork.functions" not in sys.modules
+assert "cointoss.models.kernel.fork.function" not in sys.modules
 """
 MATRIX, VECTOR = ((2.0, 0.1, 1.0), (0.3, 3.0, 0.0), (0.5, 0.0, 4.0)), (1.0, 2.0, 3.0)
 

@@ -46,8 +46,8 @@ class Callee(NamedTuple):
 
     def code(self) -> "CalleeCode":
         """Return its code; compiled, or read from disk, if that was not done yet."""
-        self.function.compile(self.arguments)
-        return self.function.overloads[self.arguments].library
+        self.function.dispatcher.compile(self.arguments)
+        return self.function.dispatcher.overloads[self.arguments].library
 
 
 class CalleeCode(JITCodeLibrary):

@@ -4,8 +4,6 @@
 # pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
 # pyright: reportIncompatibleMethodOverride=false
 
-import hashlib
-import os
 import pickle
 import uuid
 from contextlib import AbstractContextManager, suppress
@@ -21,8 +19,7 @@ from numba.core.runtime import rtsys
 
 from cointoss.models.kernel.code_cache import Locator, turn
 from cointoss.models.kernel.fork.callee_code import CalleeCode
-
-_DIGEST = hashlib.sha256().digest_size
+from cointoss.models.kernel.kept_file import read_kept, write_kept
 
 
 class FunctionFiles(CompileResultCacheImpl):
@@ -138,8 +135,7 @@ class CodeFiles(IndexDataCacheFile):
     numba numbers the code's files, and two processes that compile at once may give one number to code for
     different arguments; then a third would run the one for the other.
 
-    Machine code is run as it is read. A file begins with a digest, so that one whose bits have changed is as
-    if it were missing, and so is one that another user could have written.
+    Machine code is run as it is read: see `read_kept`.
     """
 
     def load(self, key: Any) -> Any:
@@ -158,19 +154,14 @@ class CodeFiles(IndexDataCacheFile):
         type that has gone is of other sources, and pickle may raise any error.
         """
         try:
-            with Path(self._cache_path, name).open("rb") as file:
-                kept, about = file.read(), os.fstat(file.fileno())
-            if about.st_uid != os.geteuid() or about.st_mode & 0o022:
-                return None
-            digest, data = kept[:_DIGEST], kept[_DIGEST:]
-            return pickle.loads(data) if digest == self._digest(name, data) else None
+            data = read_kept(Path(self._cache_path, name), self._about(name))
+            return None if data is None else pickle.loads(data)
         except Exception:
             return None
 
-    def _digest(self, name: str, data: bytes) -> bytes:
-        """Return the digest of what a file keeps, for one name, one version of numba and one source."""
-        about = f"{name} {self._version} {self._source_stamp}\n"
-        return hashlib.sha256(about.encode() + data).digest()
+    def _about(self, name: str) -> str:
+        """Return what a file keeps: for one name, one version of numba and one source."""
+        return f"{name} {self._version} {self._source_stamp}"
 
     def save(self, key: Any, data: Any) -> None:
         """Keep code in a new file, and after that say so in the index."""
@@ -189,10 +180,7 @@ class CodeFiles(IndexDataCacheFile):
         self._write(name, data)
 
     def _write(self, name: str, data: Any) -> None:
-        kept = self._dump(data)
-        with self._open_for_write(self._data_path(name)) as file:
-            os.fchmod(file.fileno(), 0o600)
-            file.write(self._digest(name, kept) + kept)
+        write_kept(Path(self._cache_path, name), self._about(name), self._dump(data))
 
 
 class CodeCache(FunctionCache):

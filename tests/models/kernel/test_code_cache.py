@@ -79,8 +79,9 @@ def run_caller(run, folder):
     script = (
         "from cointoss.analytic.caller import whole, part\n"
         "print(whole(10.0))\n"
-        "for f in (whole.from_python, whole, part):\n"
-        "    print(sum(f.stats.cache_hits.values()))"
+        "print(whole.read)\n"
+        "for f in (whole, part):\n"
+        "    print(sum(f.dispatcher.stats.cache_hits.values()))"
     )
     return lambda: run(folder, script)
 
@@ -155,10 +156,13 @@ def test_damaged_files_of_code_are_made_anew(folder, run_caller):
 
     for ending in ("nbi", "nbc"):
         for damage in (lambda _: b"", half_flipped):
-            for file in folder.glob(f"cache/*/*.{ending}"):
+            for file in [*folder.glob(f"cache/*/*.{ending}"), *folder.glob("cache/*/*.code")]:
                 file.write_bytes(damage(file.read_bytes()))
             assert run_caller() == [21, 0, 0, 0]
             assert run_caller() == [21, 1, 0, 0]
+    (machine_code,) = folder.glob("cache/*/*.code")
+    machine_code.write_bytes(half_flipped(machine_code.read_bytes()))
+    assert run_caller() == [21, 0, 1, 1], "it is made of the code for callers"
 
 
 def test_no_bit_of_a_file_can_change_unseen(tmp_path):
@@ -198,11 +202,11 @@ def test_code_that_another_user_could_have_written_is_not_run(tmp_path, monkeypa
 def test_code_is_kept_in_a_folder_of_the_user_alone(tmp_path, monkeypatch):
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "chosen"))
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "caches"))
-    assert code_cache._base.__wrapped__() == tmp_path / "chosen"
+    assert code_cache.base_folder.__wrapped__() == tmp_path / "chosen"
     assert (tmp_path / "chosen").stat().st_mode & 0o777 == 0o700
     owner = tmp_path.stat().st_uid
     monkeypatch.setattr(os, "geteuid", lambda: owner + 1)
-    elsewhere = code_cache._base.__wrapped__()
+    elsewhere = code_cache.base_folder.__wrapped__()
     assert elsewhere.name.startswith("cointoss-")
     assert not elsewhere.is_relative_to(tmp_path)
     elsewhere.rmdir()
@@ -246,14 +250,34 @@ def test_python_calls_what_was_only_kept_for_callers(folder, run):
         "from cointoss.analytic.callee import part\n"
         "numbers, text = part(3.0, 'abcd')\n"
         "print(sum(numbers), len(text))\n"
-        "print(*(sum(f.stats.cache_misses.values()) for f in (part.from_python, part)))"
+        "of = part.dispatcher\n"
+        "print(*(sum(f.stats.cache_misses.values()) for f in (of.from_python, of)))"
     )
     assert run(folder, script) == [9, 4, 1, 0]
     assert run(folder, script) == [9, 4, 0, 0]
 
 
-def test_code_kept_for_python_is_read_without_what_numba_can_compile(folder):
+def test_code_kept_for_python_is_called_without_numba(folder):
     script = "import sys\nfrom cointoss.analytic.caller import whole\nprint(whole(1.0))\n"
+    script += "print(int('numba' in sys.modules))"
+    for imported in (1, 0):
+        done = subprocess.run(
+            [sys.executable, "-c", script],
+            cwd=folder,
+            env={"PATH": "", "NUMBA_CACHE_DIR": str(folder / "cache")},
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        assert done.stdout.split() == ["3.0", str(imported)]
+
+
+def test_text_passes_by_numba_as_kept_code(folder):
+    """To read it numba would import all that it can compile."""
+    write(
+        folder, "cointoss.analytic.callee", IMPORT + "\n\n@compiled\ndef size(text):\n    return len(text)\n"
+    )
+    script = "import sys\nfrom cointoss.analytic.callee import size\nprint(size('abc'))\n"
     imported = "print(int('numba.np.linalg' in sys.modules))"
     with forking(warm=False) as run:
         assert run(folder, script + imported) == [3, 1]
@@ -286,7 +310,7 @@ def test_a_named_tuple_that_has_gone_since_is_no_error(folder, module, run):
     script = (
         "from cointoss.analytic.user import difference\nfrom {} import {} as Two\n"
         "print(difference(Two(1.0, 3.0)))\n"
-        "print(sum(difference.from_python.stats.cache_hits.values()))"
+        "print(difference.read)"
     )
     write(folder, "cointoss.models.pair", tuples.format("Pair"))
     assert run(folder, script.format("cointoss.models.pair", "Pair")) == [-2, 0]
@@ -297,7 +321,7 @@ def test_a_named_tuple_that_has_gone_since_is_no_error(folder, module, run):
 
 
 def test_folders_long_unused_are_removed_when_one_is_made(tmp_path, monkeypatch):
-    monkeypatch.setattr(code_cache, "_base", lambda: tmp_path)
+    monkeypatch.setattr(code_cache, "base_folder", lambda: tmp_path)
     names = ("cointoss.a.b-0123456789abcdef", "cointoss.a.b-fedcba9876543210", "cointoss.maps")
     used, unused, foreign = (tmp_path / name for name in names)
     long_ago = time.time() - UNUSED - 60
@@ -333,11 +357,19 @@ def test_two_processes_that_keep_code_at_once_do_not_mix_it_up(tmp_path, monkeyp
     assert len(list(tmp_path.glob("*.nbc"))) == 2
 
 
-@pytest.mark.parametrize("written", ["Path.mkdir", "CodeFiles._save_data", "CodeFiles._save_index"])
+@pytest.mark.parametrize(
+    "written",
+    [
+        "Path.mkdir",
+        "CodeFiles._save_data = function.write_kept",
+        "CodeFiles._save_index = function.write_kept",
+    ],
+)
 def test_code_that_cannot_be_written_is_not_kept(folder, run, run_caller, written):
     (folder / "cache").mkdir()
     full_disk = (
-        "from pathlib import Path\nfrom cointoss.models.kernel.fork.code_files import CodeFiles\n"
+        "from pathlib import Path\nfrom cointoss.models.kernel.fork import function\n"
+        "from cointoss.models.kernel.fork.code_files import CodeFiles\n"
         "def full(*_, **__): raise OSError(28, 'No space left on device')\n"
         f"{written} = full\n"
     )

@@ -115,7 +115,7 @@ with turn("some function") as waited:
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    monkeypatch.setattr(code_cache, "_base", lambda: tmp_path)
+    monkeypatch.setattr(code_cache, "base_folder", lambda: tmp_path)
     code_cache._turns.cache_clear()
     yield tmp_path
     code_cache._turns.cache_clear()

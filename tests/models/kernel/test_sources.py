@@ -8,7 +8,8 @@ import pkgutil
 import pytest
 
 import cointoss
-from cointoss.models.kernel.fork.functions import CompiledFunction
+from cointoss.models.kernel import sources
+from cointoss.models.kernel.fork.function import CompiledFunction
 from cointoss.models.kernel.sources import imported, source_hash
 from tests.helpers.modules import write
 
@@ -69,3 +70,26 @@ def test_the_hash_is_of_all_that_is_imported(tmp_path, source):
         write(folder, "cointoss.models.room.far", f"a = b = {a}\n")
         hashes.append(source_hash("cointoss.models.near", folder / "cointoss"))
     assert hashes[0] != hashes[1]
+
+
+def test_what_sources_import_is_kept_and_found_anew_where_that_is_damaged(tmp_path, monkeypatch):
+    kept, found = tmp_path / "imports", ["cointoss.models", "cointoss.models.kernel"]
+    monkeypatch.setattr(sources, "base_folder", lambda: tmp_path)
+    asked = b"from cointoss.models import kernel", "its digest", "cointoss.models"
+
+    def imports_of_a_new_process():
+        imports = sources._Imports()
+        answer = imports.of(*asked)
+        imports.keep()
+        return answer
+
+    assert imports_of_a_new_process() == found
+    with monkeypatch.context() as no_parser:
+        no_parser.delattr(ast, "parse")
+        assert imports_of_a_new_process() == found, "read from disk"
+        whole = kept.read_bytes()
+        kept.write_bytes(whole.replace(b"kernel", b"heaven"))
+        with pytest.raises(AttributeError):
+            imports_of_a_new_process()
+    assert imports_of_a_new_process() == found
+    assert kept.read_bytes() == whole

@@ -1,16 +1,17 @@
-"""Functions compiled for their compiled callers, and linked with all they call where Python calls them."""
+"""Functions as numba's dispatchers: compiled for compiled callers, linked with all they call for Python."""
 
 # numba describes few types.
 # pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
 # pyright: reportIncompatibleMethodOverride=false
 
-from collections.abc import Callable
 from contextlib import nullcontext
 from copy import copy
 from functools import partial
 from inspect import signature
+from operator import attrgetter
 from typing import Any
 
+from numba import typeof
 from numba.core import types
 from numba.core.compiler import Compiler, CompileResult
 from numba.core.compiler_lock import global_compiler_lock
@@ -35,6 +36,9 @@ from cointoss.models.kernel.fork.code_files import (
     compiled_result,
     name_for_callers,
 )
+from cointoss.models.kernel.fork.entry import kept_code, returned_kind
+from cointoss.models.kernel.fork.machine_code import Kept
+from cointoss.models.kernel.fork.values import Passed
 
 _kept = partial(kept_functions, CalleeFiles.prefix)
 _OPTIONS = {"nopython": True, "nogil": True, "error_model": "numpy"}
@@ -56,8 +60,7 @@ class _Dispatcher(CPUDispatcher):
         return self.overloads[tuple(arguments)].entry_point
 
     def _add(self, sig: Any, arguments: Any, returned: Any) -> None:
-        if not isinstance(self._cache, CodeCache) and is_kept(self.__module__):
-            self._cache = CodeCache(self.py_func, self._kind)
+        self._find_cache()
         with self._compiling_counter:
             if self._is_found(sig):
                 return
@@ -70,6 +73,10 @@ class _Dispatcher(CPUDispatcher):
                 self.add_overload(result)
                 self._cache.save_overload(sig, result)
 
+    def _find_cache(self) -> None:
+        if not isinstance(self._cache, CodeCache) and is_kept(self.__module__):
+            self._cache = CodeCache(self.py_func, self._kind)
+
     def _is_found(self, sig: Any) -> bool:
         """Read what is kept for these types of arguments, if anything is."""
         result = self._cache.load_overload(sig, self.targetctx)
@@ -80,29 +87,46 @@ class _Dispatcher(CPUDispatcher):
         return result is not None
 
 
-class CompiledFunction(_Dispatcher):
-    """A function compiled for its compiled callers; called from Python, it is made into machine code.
-
-    See `cointoss.models.kernel.fork.callee_code`.
-    """
+class CallerDispatcher(_Dispatcher):
+    """A function compiled for its compiled callers."""
 
     _kind = CalleeFiles
+    lock = global_compiler_lock
+    """Held by the one thread that compiles."""
 
-    def __init__(self, function: Callable[..., Any], *, inlined: bool = False) -> None:
-        """Compile nothing yet; an `inlined` function goes into its compiled callers, without a call."""
+    def __init__(self, function: Any, *, inlined: bool = False) -> None:
+        """Compile nothing yet; `function` is the `CompiledFunction`."""
+        self.function = function
         # numba asks for it three times.
-        function.__dict__["__signature__"] = signature(function)
-        super().__init__(function, targetoptions={**_WITHOUT_WRAPPERS, "forceinline": inlined})
+        function.py_func.__dict__["__signature__"] = signature(function.py_func)
+        super().__init__(function.py_func, targetoptions={**_WITHOUT_WRAPPERS, "forceinline": inlined})
         self._compiler = _ForCallers(self)
         self._from_python: _FromPython | None = None
 
-    def __call__(self, *arguments: Any, **named: Any) -> Any:
-        """Run the machine code."""
-        return self.from_python(*arguments, **named)
+    def machine_code(self, given: Passed, arguments: tuple[Any, ...]) -> Kept | None:
+        """Return machine code that Python calls without numba, or None where numba has to call it.
+
+        Args:
+            given: the arguments as they are passed.
+            arguments: the arguments themselves.
+        """
+        kinds = tuple(map(typeof, arguments))
+        if self.from_python.is_found(kinds):
+            return None
+        with compiling.one(self.py_func.__module__, _kept):
+            self.compile(kinds)
+            callee = self.overloads[kinds]
+            kind = returned_kind(callee.signature.return_type)
+            if kind is None:
+                return None
+            # The code may all have been read from disk: see `CodeCache.load_overload`.
+            cpu_target.target_context.refresh()
+            with compiling.linking():
+                return kept_code(callee, given, kind)
 
     @property
-    def from_python(self) -> CPUDispatcher:
-        """The function as Python calls it."""
+    def from_python(self) -> "_FromPython":
+        """The function as Python calls it by numba, with arguments or an answer that only numba knows."""
         if self._from_python is None:
             with global_compiler_lock:
                 self._from_python = self._from_python or _FromPython(self)
@@ -115,14 +139,14 @@ class CompiledFunction(_Dispatcher):
         )
 
     def __reduce__(self) -> Any:
-        """Return the function by its name."""
-        return self.__qualname__
+        """Return the dispatcher of the function, which goes by its name."""
+        return attrgetter("dispatcher"), (self.function,)
 
 
 class _ForCallers(_FunctionCompiler):
     """Compiles a function to `CalleeCode`."""
 
-    def __init__(self, dispatcher: CompiledFunction) -> None:
+    def __init__(self, dispatcher: CallerDispatcher) -> None:
         super().__init__(
             dispatcher.py_func, dispatcher.targetdescr, dispatcher.targetoptions, {}, CalleeCompiler
         )
@@ -135,7 +159,7 @@ class _ForCallers(_FunctionCompiler):
     def _compile_core(self, args: Any, return_type: Any) -> CompileResult:
         with compiling.one(self.py_func.__module__, _kept):
             result = super()._compile_core(args, return_type)
-        result.library.callee = Callee(self._dispatcher, result.signature.args)
+        result.library.callee = Callee(self._dispatcher.function, result.signature.args)
         result.library.finalize()
         result = result._replace(entry_point=name_for_callers(result))
         self.targetdescr.target_context.insert_user_function(
@@ -149,17 +173,24 @@ class _FromPython(_Dispatcher):
 
     _kind = LinkedFiles
 
-    def __init__(self, compiled_function: CompiledFunction) -> None:
-        super().__init__(compiled_function.py_func, targetoptions=_OPTIONS)
-        self._compiler = _Linker(compiled_function)
+    def __init__(self, caller: CallerDispatcher) -> None:
+        super().__init__(caller.py_func, targetoptions=_OPTIONS)
+        self._compiler = _Linker(caller)
+
+    def is_found(self, kinds: tuple[Any, ...]) -> bool:
+        """Return whether machine code for these types of arguments is there, or kept."""
+        if kinds not in self.overloads:
+            self._find_cache()
+            self._is_found(kinds)
+        return kinds in self.overloads
 
 
 class _Linker(_FunctionCompiler):
     """Makes machine code of a function and all it calls."""
 
-    def __init__(self, compiled_function: CompiledFunction) -> None:
-        super().__init__(compiled_function.py_func, cpu_target, _OPTIONS, {}, Compiler)
-        self._function = compiled_function
+    def __init__(self, caller: CallerDispatcher) -> None:
+        super().__init__(caller.py_func, cpu_target, _OPTIONS, {}, Compiler)
+        self._function = caller
 
     def _compile_core(self, args: Any, *_: Any) -> CompileResult:
         with compiling.one(self.py_func.__module__, _kept):

@@ -1,0 +1,49 @@
+"""A file that is kept from one process to the next: one that is damaged, or another's, is as if missing."""
+
+import hashlib
+import os
+import uuid
+from pathlib import Path
+
+_DIGEST = hashlib.sha256().digest_size
+
+
+def read_kept(path: str | os.PathLike[str], about: str) -> bytes | None:
+    """Return what a file keeps, or None where another user could have written it, or it keeps something else.
+
+    A file begins with a digest, so that one whose bits have changed is as if it were missing.
+
+    Args:
+        path: of the file.
+        about: what is kept, as it was when it was written.
+    """
+    try:
+        with open(path, "rb") as file:  # noqa: PTH123  pathlib would take as long as the rest
+            kept, described = file.read(), os.fstat(file.fileno())
+    except OSError:
+        return None
+    if described.st_uid != os.geteuid() or described.st_mode & 0o022:
+        return None
+    digest, data = kept[:_DIGEST], kept[_DIGEST:]
+    return data if digest == _digest(about, data) else None
+
+
+def write_kept(path: Path, about: str, data: bytes) -> None:
+    """Keep data in a file, whole or not at all.
+
+    Raises:
+        OSError: where it cannot be written.
+    """
+    beside = path.with_name(f"{path.name}.{uuid.uuid4().hex}")
+    try:
+        with open(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:  # noqa: PTH123
+            os.fchmod(file.fileno(), 0o600)
+            file.write(_digest(about, data) + data)
+        beside.replace(path)
+    except BaseException:
+        beside.unlink(missing_ok=True)
+        raise
+
+
+def _digest(about: str, data: bytes) -> bytes:
+    return hashlib.sha256(f"{about}\n".encode() + data).digest()
