@@ -137,7 +137,7 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
         outcome=answer.outcome,
         ending=answer.ending,
         end_time=answer.end_time,
-        trusted_impacts=trusted_impacts(body, rules, _before_contact(answer)),
+        trusted_impacts=trusted_impacts(body, rules, answer),
         certificate=(
             Setting(name="flight", value=_flight(body)),
             Setting(name="error allowed in a step of flight, relative", value=settings.tolerance),
@@ -162,13 +162,6 @@ def _flight(body: Body) -> str:
     if in_vacuum(body):
         return "closed form of the symmetric top"
     return f"power series without spin about the normal, else {_INTEGRATED}"
-
-
-def _before_contact(answer: EventLog) -> EventLog:
-    """Return the toss up to the first sustained contact."""
-    if len(answer.contacts) == 0:
-        return answer
-    return answer._replace(rows=answer.rows[answer.rows["time"] < answer.contacts[0, 0]])
 
 
 def _contact_energies(body: Body, log: EventLog) -> Array:

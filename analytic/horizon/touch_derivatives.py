@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cointoss.analytic.contact.resets import hit, restitution_at
+from cointoss.analytic.contact.resets import impact_of, restitution_at
 from cointoss.analytic.flight.equations_of_motion import derivative
 from cointoss.analytic.flight.state_vector import STATE_SIZE, normalise, spin_of, state_of, velocity_of
 from cointoss.models.body import Body, Rules
@@ -13,10 +13,10 @@ from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, norm
 from cointoss.models.laws import ContactLaw
-from cointoss.models.records import IMPACT_ROW, Array
+from cointoss.models.records import Array
 
 STEP = 1e-5
-"""The largest change of a component, relative to the coin's scales: r of positions, 1 of Euler parameters,
+"""The largest change of a component, relative to the coin's scales: 1 of Euler parameters,
 V = √(g r) + |v| + r |ω| of velocities, V/r of angular velocities. Truncation and rounding then err by 1e-10
 of the derivative; where Coulomb friction is integrated, by 1e-8."""
 TO_KINK = 1e-2
@@ -47,6 +47,7 @@ class Touch(NamedTuple):
     """Of the state after the impact, (13, 13)."""
 
 
+@compiled
 def touch_derivatives(body: Body, rules: Rules, y: Array) -> Touch:
     """Return the derivatives of a touch and of its impact, the Euler parameters kept at norm 1.
 
@@ -83,14 +84,16 @@ def touch_values(body: Body, rules: Rules, chi: float, y: Array, values: Array) 
         y: state at the touch, (13,).
         values: where they go, (23,).
     """
-    up, rows = state_of(y).R[2], np.zeros(1, IMPACT_ROW)
+    state = state_of(y)
+    up, struck = state.R[2], impact_of(body, rules, chi, state)
     values[0] = gap(body, y[2], up)
     copy_into(values[_AFTER:], y)
-    hit(body, rules, chi, values[_AFTER:], rows[0])
     for i in range(3):
         values[_UP + i] = up[i]
-        values[_VELOCITY + i] = rows[0].contact_velocity_before[i]
-        values[_IMPULSE + i] = rows[0].impulse[i]
+        values[_VELOCITY + i] = struck.contact_velocity[i]
+        values[_IMPULSE + i] = struck.impulse[i]
+        values[_AFTER + 3 + i] = struck.after.velocity[i]
+        values[_AFTER + 10 + i] = struck.after.spin[i]
 
 
 @compiled
@@ -129,6 +132,8 @@ def speed_scale(body: Body, y: Array) -> float:
 def touch_differences(body: Body, rules: Rules, chi: float, y: Array, part: float) -> Array:
     """Return central differences of `touch_values`, over changes of the state's components, (23, 13).
 
+    Where the coin is only moves the gap, and the coin after the impact.
+
     Args:
         body: the coin.
         rules: floor and ending.
@@ -137,18 +142,13 @@ def touch_differences(body: Body, rules: Rules, chi: float, y: Array, part: floa
         part: size of the changes, relative to the coin's scales; the Euler parameters keep norm 1.
     """
     speed = speed_scale(body, y)
-    slopes = np.empty((_AFTER + STATE_SIZE, STATE_SIZE))
+    slopes = np.zeros((_AFTER + STATE_SIZE, STATE_SIZE))
     ends, moved = np.empty((2, _AFTER + STATE_SIZE)), np.empty(STATE_SIZE)
-    for column in range(STATE_SIZE):
-        size = (
-            body.radius
-            if column < 3
-            else speed
-            if column < 6
-            else 1.0
-            if column < 10
-            else speed / body.radius
-        )
+    slopes[0, 2] = 1.0
+    for i in range(3):
+        slopes[_AFTER + i, i] = 1.0
+    for column in range(3, STATE_SIZE):
+        size = speed if column < 6 else 1.0 if column < 10 else speed / body.radius
         change = part * size
         for i in range(2):
             copy_into(moved, y)
