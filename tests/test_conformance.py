@@ -8,7 +8,7 @@ from cointoss.compare.metrics.trajectories import attitude_angle, distance
 from cointoss.models.parts import Air
 from cointoss.models.reading import load
 from cointoss.models.records import Ending, Outcome
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
+from tests.helpers.draws import AIR, IMPERFECT, PAPER_OFFSET, THIN, ZLOTY, draw_coin, draw_release, scenario
 from tests.helpers.engines import toss
 
 pytestmark = [
@@ -16,7 +16,6 @@ pytestmark = [
     pytest.mark.usefixtures("without_horizon"),
 ]
 
-IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 TUMBLING = {
     "position": [0.0, 0.0, 0.3],
     "velocity": [0.1, -0.2, 0.3],
@@ -68,7 +67,7 @@ def test_the_drops_of_fig_3_keep_attitude_until_they_land(engine, tilt):
     assert tossed.sequence == "H"
 
 
-@pytest.mark.parametrize("coin", [ZLOTY, {**ZLOTY, "thickness": 0.0}])
+@pytest.mark.parametrize("coin", [ZLOTY, THIN])
 @pytest.mark.parametrize("spin", [0.0, 1.0, 20.0, 50.0])
 @pytest.mark.parametrize("angles", [[0.3, 0, 0], [0.3, np.pi, 0]])
 def test_a_flat_coin_that_spins_bounces_flat(engine, coin, spin, angles):
@@ -113,7 +112,7 @@ def test_a_thin_coin_thrown_down_from_the_floor_rebounds_as_newton_says(engine):
     tossed = toss(
         engine,
         scenario(
-            coin={**ZLOTY, "thickness": 0.0},
+            coin=THIN,
             release={
                 "position": [0, 0, r * np.sin(tilt)],
                 "angles": [0, tilt, 0],
@@ -179,9 +178,7 @@ def test_first_touches_agree_with_the_other_engine_in_air_that_is_not_linear(eng
 
 
 def test_in_vacuum_the_exponent_of_the_air_changes_nothing(engine):
-    case = scenario(
-        coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}, release=TUMBLING, ending={"max_impacts": 3}
-    )
+    case = scenario(coin=IMPERFECT, release=TUMBLING, ending={"max_impacts": 3})
     known, tossed = toss(engine, case), toss(engine, case.replace("air.exponent", 0.5))
     assert np.array_equal(tossed.impacts.time, known.impacts.time)
     assert np.array_equal(tossed.impacts.impulse, known.impacts.impulse)

@@ -9,7 +9,7 @@ from cointoss.compare.engines import Engine
 from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Ending, Outcome
 from tests.helpers import engines
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, scenario
 from tests.helpers.many import as_releases
 from tests.helpers.states import energies
 from tests.helpers.symmetries import SYMMETRIES
@@ -17,7 +17,7 @@ from tests.helpers.symmetries import SYMMETRIES
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
 R, H = ZLOTY["radius"], ZLOTY["thickness"]
-BALANCED, IMPERFECT = ZLOTY, {**ZLOTY, "center_of_mass": PAPER_OFFSET}
+BALANCED = ZLOTY
 LOW = {
     "position": [0.0, 0.0, 0.05],
     "velocity": [0.1, -0.2, 0.0],

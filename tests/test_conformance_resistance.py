@@ -1,6 +1,7 @@
 """What both engines must do alike where the floor resists rolling and pivoting."""
 
 from collections import Counter
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -9,14 +10,15 @@ import pytest
 from cointoss.compare.engines import Engine
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
 from cointoss.models.records import Ending, Outcome
-from tests.helpers.draws import AIR, ZLOTY, scenario
+from tests.helpers.draws import AIR, THIN, ZLOTY, scenario
 from tests.helpers.engines import toss, toss_many
 from tests.helpers.states import energies
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
-R = ZLOTY["radius"]
-THIN, THICK = {**ZLOTY, "thickness": 0.0}, {**ZLOTY, "thickness": 4e-3}
+G, R = 9.81, ZLOTY["radius"]
+THICK = {**ZLOTY, "thickness": 4e-3}
+HOOP = {**THIN, "inertia": (np.diag([0.5, 0.5, 1.0]) * ZLOTY["mass"] * R * R).tolist()}
 RESISTANCE = {"rolling_friction": 5e-4, "pivoting_friction": 1e-4}
 
 
@@ -81,6 +83,41 @@ def test_energy_falls(engine, name):
     # MuJoCo's steps in a contact change about 1e-3 of the energy in a second.
     assert gain < {Engine.ANALYTIC: 1e-9, Engine.MUJOCO: 2e-3}[engine]
     assert energy[-1] < 0.98 * energy[0]
+
+
+@pytest.mark.parametrize("engine", list(Engine))
+@pytest.mark.parametrize("law", ["perfectly_rough", "coulomb"])
+@pytest.mark.parametrize(("coin", "share"), [(THIN, 0.5), (HOOP, 1.0)])
+def test_a_disc_and_a_hoop_that_roll_upright_come_to_rest_where_the_closed_form_says(
+    engine, law, coin, share
+):
+    """(J_ζ + m r²) dω_ζ/dt = -δ m g: v falls by δ g/(r (1 + J_ζ/(m r²))) a second."""
+    delta, speed = 1e-3, 0.3
+    slowing = delta * G / (R * (1 + share))
+    found = toss(engine, set_down(coin, speed, contact=law, rolling_friction=delta))
+    assert (found.outcome, found.ending) == (Outcome.EDGE, Ending.AT_REST)
+    # Rest is found at 1e-3 √(g/r).
+    late = {Engine.ANALYTIC: 3e-3, Engine.MUJOCO: 2e-3}[engine]
+    assert found.end_time == pytest.approx(speed / slowing, rel=late)
+    end = found.sample(found.end_time)
+    assert end.position[0, 0] == pytest.approx(speed**2 / (2 * slowing), rel=1e-4)
+    times = np.linspace(0, 0.9 * found.end_time, 9)
+    # Within a step of MuJoCo's path states are interpolated.
+    assert found.sample(times).velocity[:, 0] == pytest.approx(speed - slowing * times, rel=2e-4)
+
+
+@pytest.mark.parametrize(("engine", "steps"), [(Engine.ANALYTIC, 3000), (Engine.MUJOCO, 200)])
+def test_a_coin_that_still_rolls_upright_when_a_budget_ends_is_named_so(engine, steps):
+    case = set_down(THICK, 0.6, rolling_friction=5e-5, pivoting_friction=1e-5)
+    by_time = toss(engine, case.replace("ending.max_time", 0.3))
+    by_steps = engine.package.toss(case, settings=replace(engine.package.FINE, contact_steps=steps))
+    # After 64 √(r/g), or 2.3 s, a coin that nothing slows would stand.
+    late = toss(engine, case.replace("ending.max_time", 4.0))
+    for found in (by_time, by_steps, late):
+        assert (found.outcome, found.ending) == (Outcome.EDGE, Ending.ROLLING)
+        assert np.hypot(*found.sample(found.end_time).velocity[0, :2]) > 0.1
+    assert by_time.end_time == pytest.approx(0.3)
+    assert toss(engine, set_down(THICK, 0.6)).ending == Ending.STANDING
 
 
 def test_nickels_tossed_by_hand_come_to_rest_alike_on_both_engines():

@@ -9,7 +9,7 @@ from cointoss.compare.engines import Engine
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.drag import linear_drag
 from cointoss.models.records import Ending
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, scenario
 from tests.helpers.engines import toss
 
 pytestmark = [
@@ -49,7 +49,7 @@ CASES = {
     "upright": (
         Mode.UPRIGHT,
         scenario(
-            coin={**ZLOTY, "center_of_mass": PAPER_OFFSET},
+            coin=IMPERFECT,
             air=AIR,
             floor={"restitution": 0.3, "contact": "smooth"},
             release=UPRIGHT,

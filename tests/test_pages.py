@@ -189,21 +189,6 @@ def begins_with_digit(cell: str) -> bool:
     return re.match(r"\s*-?\d", cell) is not None
 
 
-def test_no_two_pages_have_one_heading():
-    pages = [page for page in DOCS.rglob("*.md") if page.name not in ("index.md", "OVERVIEW.md")]
-    headings = [re.findall(r"^# (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE)[0] for page in pages]
-    assert sorted(headings) == sorted(set(headings))
-
-
-def test_no_line_of_a_page_is_a_comment_or_a_break_to_the_site():
-    """MyST drops a line that begins with a per cent sign, which GitHub shows."""
-    pages = [*PAGES, *NOTEBOOKS, *DOCS.glob("reproduction/*/*.md")]
-    dropped = re.compile(r"^ {0,3}(?:%|\+\+\+).*", re.MULTILINE)
-    assert [(page.name, dropped.findall(page.read_text(encoding="utf-8"))) for page in pages] == [
-        (page.name, []) for page in pages
-    ]
-
-
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda page: page.stem)
 def test_a_notebook_has_code_that_parses_and_ends_with_exercises_and_solutions(notebook):
     """`make docs` runs them; a cell may begin with options between two lines of dashes."""
@@ -254,39 +239,6 @@ def test_there_is_code_to_run():
     assert any(runs_here(shlex.split(command)[1:]) for command in called)
     assert sum(len(commands(block.text)) for parts in code.values() for block in parts) >= 20
     assert len(NOTEBOOKS) == 3
-
-
-PAGE = """
-Text `cointoss toss` in a line.
-
-    cointoss toss fig24a --max-impacts 2
-    sequence  HH
-
-    cointoss basin fig24a --x a=1:2:400 \\
-        --y b=1:2:300 --out map.zarr   # makes a map
-
-```python
-x = 1
-```
-
-    cointoss toss SCENARIO [--json]
-"""
-
-
-def test_blocks_and_commands_are_found_as_they_are_written():
-    found = blocks(PAGE)
-    assert [block.language for block in found] == ["", "python", ""]
-    assert found[1].text == "x = 1"
-    first, second = commands(found[0].text)
-    assert second == "cointoss basin fig24a --x a=1:2:400 --y b=1:2:300 --out map.zarr"
-    assert runs_here(shlex.split(second)[1:])
-    assert not runs_here(shlex.split(second.replace("400", "4000"))[1:])
-    assert not is_synopsis(first)
-    assert not is_synopsis(second)
-    assert " ".join(map(coarse, shlex.split(second))) == (
-        "cointoss basin fig24a --x a=1:2:20 --y b=1:2:20 --out map.zarr"
-    )
-    assert is_synopsis(commands(found[2].text)[0])
 
 
 def test_an_answer_that_is_not_the_one_shown_is_seen():

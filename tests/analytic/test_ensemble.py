@@ -19,7 +19,7 @@ from tests.helpers.many import as_releases, assert_same_toss, draw_releases, rel
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
-IDEAL, OFF_CENTER = [0.0, 0.0, 0.0], np.array(PAPER_OFFSET)
+OFF_CENTER = np.array(PAPER_OFFSET)
 
 
 def assert_each_is_a_toss(case: Scenario, drawn: list[dict[str, Any]], outcomes: Outcomes) -> None:

@@ -11,7 +11,7 @@ from cointoss.analytic.horizon.flight_tangent import FINE, flight_tangent
 from cointoss.analytic.numerics.euler_angles import axis_rotation
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.barriers import barrier
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.draws import AIR, IMPERFECT, PAPER_OFFSET, ZLOTY, scenario
 
 G = 9.81
 
@@ -145,7 +145,7 @@ def growth_of_spin(case, change, duration):
 
 @pytest.mark.parametrize("duration", [0.3, 0.6])
 def test_about_its_middle_axis_the_imperfect_coin_has_a_lyapunov_exponent_above_zero(duration):
-    coin, spin = {**ZLOTY, "center_of_mass": PAPER_OFFSET}, 40.0
+    coin, spin = IMPERFECT, 40.0
     J, axes = np.linalg.eigh(scenario(coin=coin).coin.inertia_about_C)
     w = (spin * axes[:, 1]).tolist()
     case = scenario(coin=coin, release={"position": [0, 0, 50.0], "angular_velocity": w})

@@ -6,7 +6,7 @@ import pytest
 from cointoss import analytic
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.records import Ending, Outcome
-from tests.helpers.draws import AIR, PAPER_LAWS, ZLOTY, draw_coin, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_LAWS, THIN, ZLOTY, draw_coin, draw_release, scenario
 from tests.helpers.referee import Referee
 from tests.helpers.states import gaps
 
@@ -165,7 +165,7 @@ def test_without_rebound_a_coin_is_decided_soon():
 
 
 WOBBLING = scenario(
-    coin={**ZLOTY, "thickness": 0.0},
+    coin=THIN,
     floor={"restitution": 0.26},
     release={"position": [0, 0, 0.013], "angles": [0, 1.2, 0], "angular_velocity": [0, 60, 0]},
 )
@@ -239,7 +239,7 @@ def test_in_vacuum_a_toss_that_never_meets_the_papers_test_ends_as_what_it_is(te
     named, settled_alike = set(), 0
     for spin in np.linspace(20, 60, 12):
         parts = {
-            "coin": {**ZLOTY, "thickness": 0.0},
+            "coin": THIN,
             "floor": {"restitution": 0.6},
             "release": {
                 "position": [0, 0, 0.3],

@@ -18,11 +18,11 @@ from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 from tests.benchmarks.one_coin import mechanics
 from tests.benchmarks.rates import report
+from tests.helpers.many import as_parts
 
 MANY, FEW = 64, 4
 IMPACTS = 4
 """Of a toss that heyoka makes too."""
-PARTS = ("position", "velocity", "quaternion", "angular_velocity")
 SHOWN = (
     "thin, ideal, air, smooth",
     "thin, ideal, vacuum, coulomb",
@@ -65,11 +65,6 @@ def bouncing(kind: CoinClass, number: int) -> tuple[Scenario, Array]:
     return scenario, np.array(starts[:number])
 
 
-def parts_of(starts: Array) -> dict[str, Array]:
-    """Return states, (13,) or (n, 13), as those of a release or of releases."""
-    return dict(zip(PARTS, np.split(starts, [3, 6, 10], axis=-1), strict=True))
-
-
 @pytest.mark.parametrize("batch", [False, True], ids=["one by one", "batch mode"])
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
 def test_first_impacts_by_heyoka(benchmark, capsys, kind, batch):
@@ -79,7 +74,7 @@ def test_first_impacts_by_heyoka(benchmark, capsys, kind, batch):
 
     scenario, starts = bouncing(kind, number_of_tosses(benchmark))
     coin = mechanics(scenario)
-    numbers = [Extended(scenario.replace("release", parts_of(start))) for start in starts]
+    numbers = [Extended(scenario.replace("release", as_parts(start))) for start in starts]
 
     def toss():
         if batch:
@@ -100,7 +95,7 @@ def test_first_impacts_by_heyoka(benchmark, capsys, kind, batch):
 def test_first_impacts_by_the_engine(benchmark, capsys, monkeypatch, kind):
     monkeypatch.setitem(config.__dict__, "NUMBA_NUM_THREADS", 1)
     scenario, starts = bouncing(kind, number_of_tosses(benchmark))
-    releases = Releases(**parts_of(starts))
+    releases = Releases(**as_parts(starts))
 
     def toss():
         return analytic.toss_many(scenario, releases)

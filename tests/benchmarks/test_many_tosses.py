@@ -21,7 +21,8 @@ from cointoss.models.scenario import Scenario
 from tests.benchmarks import scipy_toss
 from tests.benchmarks.one_coin import OneCoin, mechanics
 from tests.benchmarks.rates import report
-from tests.helpers.draws import AIR, ZLOTY, scenario
+from tests.helpers.draws import AIR, THIN, scenario
+from tests.helpers.many import as_parts
 
 MANY, FEW = 8192, 8
 BY_HEYOKA = "planar, by_heyoka"
@@ -32,7 +33,7 @@ def family(n: int, air: dict[str, float]) -> list[Scenario]:
     rng = np.random.default_rng(8)
     return [
         scenario(
-            coin={**ZLOTY, "thickness": 0.0},
+            coin=THIN,
             air=air,
             floor={"restitution": 0.6},
             release={
@@ -45,10 +46,7 @@ def family(n: int, air: dict[str, float]) -> list[Scenario]:
 
 
 def releases_of(cases: list[Scenario]) -> Releases:
-    states = np.array([state_at_release(case.release) for case in cases])
-    parts = (slice(0, 3), slice(3, 6), slice(6, 10), slice(10, 13))
-    names = ("position", "velocity", "quaternion", "angular_velocity")
-    return Releases(**{name: states[:, part].copy() for name, part in zip(names, parts, strict=True)})
+    return Releases(**as_parts(np.array([state_at_release(case.release) for case in cases])))
 
 
 IN_AIR = family(FEW, AIR)

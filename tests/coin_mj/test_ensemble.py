@@ -57,20 +57,6 @@ def test_each_toss_is_that_of_toss_to_the_bit(law, air, thickness, realisation, 
     assert_each_is_a_toss(case, drawn, outcomes, settings)
 
 
-def test_a_toss_is_that_of_toss_with_the_same_settings():
-    case = scenario(air=AIR, floor={"restitution": 0.5})
-    drawn, releases = draw_releases(np.random.default_rng(1), 3)
-    finer = Settings(stiffness=1e12, steps=40, flight_angle=0.05)
-    for settings in (MANY, finer):
-        outcomes = coin_mj.toss_many(case, releases, settings=settings)
-        for i, release in enumerate(drawn):
-            one = case.replace("release", release)
-            tossed = coin_mj.toss(one, settings=settings)
-            assert (outcomes.outcome[i], outcomes.ending[i]) == (tossed.outcome, tossed.ending)
-            assert outcomes.impacts[i] == len(tossed.impacts)
-            assert outcomes.end_time[i] == tossed.end_time
-
-
 @pytest.mark.parametrize(
     ("exponent", "n", "longest"),
     # Air with b > 0 costs a quadrature for each force.

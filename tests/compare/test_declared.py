@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from cointoss.compare.reproduction.claim import Criterion, Estimate
-from cointoss.compare.reproduction.declared import Findings, filled, value_of
+from cointoss.compare.reproduction.declared import filled, value_of
 
 AIR = "air"
 SHARE = Estimate(0.25, 0.2, 0.3, 400)
@@ -101,9 +101,3 @@ def test_claims_of_each_entry_follow_each_other():
 def test_a_number_that_was_not_found_is_an_error():
     with pytest.raises(KeyError, match="speed"):
         claims_of('[[claim]]\nclaim = "{speed}"\nmissing = "x"')
-
-
-def test_findings_have_names():
-    found = Findings(data={}, count=3)
-    found.more = 4
-    assert (found.count, found.more, found.tables) == (3, 4, "")

@@ -25,8 +25,3 @@ def test_what_is_not_begun_is_given_up():
     with pytest.raises(KeyboardInterrupt):
         interrupted()
     assert 0 < len(begun) < 1000
-
-
-def test_results_come_in_order():
-    with all_cores() as pool:
-        assert list(pool.map(lambda number: number**2, range(100))) == [number**2 for number in range(100)]

@@ -13,6 +13,7 @@ from cointoss.compare.sweep.grid import Sweep
 from cointoss.models.reading import parse
 from cointoss.models.scenario import Scenario
 from tests.helpers.command_line import cointoss
+from tests.helpers.draws import AIR, scenario
 from tests.helpers.processes import started
 
 SCENARIO = """
@@ -26,6 +27,14 @@ contact = "smooth"
 [release]
 position = [0, 0, 0.4]
 """
+TUMBLING = scenario(
+    coin={"center_of_mass": [1e-4, 0, 0]},
+    air=AIR,
+    floor={"restitution": 0.4},
+    release={"angles": [0.1, 0.2, 0.3], "angular_velocity": [1.0, 30.0, 2.0]},
+    ending={"max_impacts": 12},
+)
+"""A coin that tumbles through air, for twelve impacts."""
 AXES = ("--x", "release.angular_velocity.eta=20:60:48", "--y", "release.position.z=0.2:0.6:40")
 SMALL, TILES = 64, 30
 """Tosses in a tile of these tests, and tiles in a map."""

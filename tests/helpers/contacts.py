@@ -43,11 +43,13 @@ def follow_step(body: Body, friction: FloorFriction, mode: int, y: Array, dt: fl
     return step_contact(contact, y, dt, STEP_ERROR, contact_work(contact, y))
 
 
-def follow_for(body: Body, friction: FloorFriction, mode: int, y: Array, time: float) -> tuple[Array, Array]:
-    """Return the states and times after every step of a contact that goes on for `time`."""
+def follow_for(
+    body: Body, friction: FloorFriction, mode: int, y: Array, time: float, longest: float = np.inf
+) -> tuple[Array, Array]:
+    """Return the states and times after every step, at most `longest`, of a contact that goes on so long."""
     y, states, times, dt = y.copy(), [y.copy()], [0.0], np.inf
     while times[-1] < time:
-        step = follow_step(body, friction, mode, y, min(dt, time - times[-1]))
+        step = follow_step(body, friction, mode, y, min(dt, longest, time - times[-1]))
         assert not step.is_over
         dt = step.next_dt
         states.append(y.copy())

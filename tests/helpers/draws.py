@@ -8,7 +8,9 @@ from cointoss.models.laws import ContactLaw
 from cointoss.models.scenario import Scenario
 
 ZLOTY: dict[str, Any] = {"mass": 2e-3, "radius": 1.25e-2, "thickness": 2e-3}
+THIN = {**ZLOTY, "thickness": 0.0}
 PAPER_OFFSET = [-1e-3, -1e-3, -2e-4]
+IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 AIR = {"normal": 0.8, "tangential": 0.2}
 PAPER_LAWS = [law for law in ContactLaw if law != ContactLaw.COULOMB]
 

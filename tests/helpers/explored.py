@@ -23,15 +23,16 @@ position = [0, 0, 0.4]
 max_impacts = 4
 """
 FIELDS = "release.angular_velocity.eta", "release.position.z"
-AXES = ("--x", f"{FIELDS[0]}=20:60:24", "--y", f"{FIELDS[1]}=0.2:0.6:18", "--after", "1")
 
 
-def small_map(folder: Path, name: str = "map.zarr") -> Path:
-    """Make a map of 24 by 18 pixels in a folder."""
-    (folder / "coin.toml").write_text(SCENARIO)
-    made = cointoss("basin", folder / "coin.toml", *AXES, "--out", folder / name)
+def small_map(folder: Path, *more: str, size: tuple[int, int] = (24, 18), text: str = SCENARIO) -> Path:
+    """Make a map in a folder, with more options and of another scenario where they are given."""
+    (folder / "coin.toml").write_text(text)
+    axes = ("--x", f"{FIELDS[0]}=20:60:{size[0]}", "--y", f"{FIELDS[1]}=0.2:0.6:{size[1]}")
+    options = (*axes, "--after", "1", *more, "--out", folder / "map.zarr")
+    made = cointoss("basin", folder / "coin.toml", *options)
     assert made.exit_code == 0, made.stderr
-    return folder / name
+    return folder / "map.zarr"
 
 
 @contextmanager

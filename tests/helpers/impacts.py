@@ -2,12 +2,13 @@
 
 import numpy as np
 
+from cointoss import analytic
 from cointoss.analytic.contact.resets import hit
 from cointoss.analytic.impact.laws import delassus
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.geometry import contact_velocity, lowest_point
 from cointoss.models.records import IMPACT_ROW
-from tests.helpers.draws import draw_coin, draw_quaternion, scenario
+from tests.helpers.draws import draw_coin, draw_quaternion, draw_release, scenario
 from tests.helpers.tuples import quaternion, vector
 
 
@@ -38,6 +39,24 @@ def draw_impact(rng, law, restitution=None):
         point, _ = lowest_point(body, R[2], tuple(w))
         if contact_velocity(body, R, tuple(v), tuple(w), point)[2] < -0.1:
             return case, np.array([0, 0, 0.01, *v, *e, *w])
+
+
+DOUBLE = 1e-4
+"""Where a second rim point lands so soon after the first [s], both are pressed at once."""
+
+
+def draw_single_impact(rng, law="smooth", least=0.01, spin=40.0):
+    """A toss whose first impact is by one rim point, its restitution `least` or more, and its impacts."""
+    while True:
+        floor = {
+            "contact": law,
+            "restitution": float(rng.uniform(least, 1.0)),
+            "friction": 0.0 if law == "smooth" else float(rng.uniform(0, 1)),
+        }
+        parts = {"coin": draw_coin(rng), "floor": floor, "release": draw_release(rng, spin)}
+        impacts = analytic.toss(scenario(**parts, ending={"max_impacts": 2})).impacts
+        if np.all(np.diff(impacts.time) > DOUBLE):
+            return scenario(**parts, ending={"max_impacts": 1}), impacts
 
 
 def struck(case, y):

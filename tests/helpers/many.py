@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from cointoss.models.outcomes import Outcomes
+from cointoss.models.records import Array
 from cointoss.models.releases import Releases
 from tests.helpers.draws import draw_release
 
@@ -15,6 +16,11 @@ PARTS = ("position", "velocity", "quaternion", "angular_velocity")
 def as_releases(drawn: Sequence[dict[str, Any]]) -> Releases:
     """Return releases, one by one, as arrays."""
     return Releases(**{name: np.array([one[name] for one in drawn]) for name in PARTS})
+
+
+def as_parts(states: Array) -> dict[str, Array]:
+    """Return states, (13,) or (n, 13), as the parts of a release or of releases."""
+    return dict(zip(PARTS, np.split(states, [3, 6, 10], axis=-1), strict=True))
 
 
 def draw_releases(rng: np.random.Generator, n: int) -> tuple[list[dict[str, Any]], Releases]:

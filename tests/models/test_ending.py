@@ -7,14 +7,12 @@ from cointoss.analytic.air.force import force_and_moment
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import barrier, energy, spin_barrier, spin_barrier_bound
 from cointoss.models.drag import linear_drag, sliding_share
-from cointoss.models.ending import face_up, final_face
+from cointoss.models.ending import final_face
 from cointoss.models.geometry import gap
-from cointoss.models.records import Ending, Face, Outcome
+from cointoss.models.records import Ending, Outcome
 from cointoss.models.state import state
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_quaternion, scenario
+from tests.helpers.draws import AIR, IMPERFECT, PAPER_OFFSET, THIN, ZLOTY, draw_quaternion, scenario
 from tests.helpers.tuples import quaternion
-
-IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 
 
 def heights_on_the_floor(body, theta, phi):
@@ -25,9 +23,7 @@ def heights_on_the_floor(body, theta, phi):
     return lever + body.thickness / 2 * abs(up) + body.radius * across
 
 
-@pytest.mark.parametrize(
-    "coin", [ZLOTY, IMPERFECT, {**ZLOTY, "thickness": 0.0}, {**ZLOTY, "thickness": 0.02}]
-)
+@pytest.mark.parametrize("coin", [ZLOTY, IMPERFECT, THIN, {**ZLOTY, "thickness": 0.02}])
 @pytest.mark.parametrize("up", [1.0, -1.0])
 def test_the_barrier_is_the_lowest_pass(coin, up):
     """Over every direction phi of falling over, the highest point of the way; of these the lowest."""
@@ -149,12 +145,6 @@ def test_an_upright_coin_is_not_settled_on_the_face_that_rounding_gives_it():
         assert classified(scenario(), tilt, w=(0.0, 60.0, 0.0))[0] == (Outcome.UNDECIDED, Ending.NONE)
 
 
-def test_faces():
-    assert face_up(0.1) == Face.HEADS
-    assert face_up(-0.1) == Face.TAILS
-    assert [face.symbol for face in Face] == ["H", "T"]
-
-
 def test_an_imperfect_coin_is_settled_on_a_smooth_floor_only_below_every_way_over():
     """Upright it needs its height and, as L_z is conserved, the energy L_z²/(2 uᵀ J u) of turning."""
     rng = np.random.default_rng(4)
@@ -219,7 +209,7 @@ def test_an_imperfect_coin_is_caught_on_its_edge_below_both_passes():
     assert fast[0] == (Outcome.UNDECIDED, Ending.NONE)
 
 
-@pytest.mark.parametrize("coin", [ZLOTY, IMPERFECT, {**ZLOTY, "thickness": 0.0}])
+@pytest.mark.parametrize("coin", [ZLOTY, IMPERFECT, THIN])
 def test_what_the_spin_needs_is_never_above_its_bound_and_often_near(coin):
     """Else a settled coin would go unnoticed, or the bound would never save the trial of tilts."""
     rng, body = np.random.default_rng(21), scenario(coin=coin).body

@@ -58,22 +58,6 @@ def test_a_coin_in_flight_has_its_first_side_up_for_that_part_of_the_time(psi):
     assert up.mean() == pytest.approx(float(same_side_probability(psi)), abs=4e-3)
 
 
-@pytest.mark.parametrize(
-    ("field", "value"),
-    [
-        ("height", 0.0),
-        ("speed", -1.0),
-        ("spin", float("nan")),
-        ("psi", 2.0),
-        ("scatter", 0.5),
-        ("psi_scatter", -0.1),
-    ],
-)
-def test_what_no_hand_does_is_refused_by_name(field, value):
-    with pytest.raises(ValueError, match=f"{field} = {value}: accepted: "):
-        Hand(**{field: value})
-
-
 @pytest.mark.parametrize("value", ["1 m", None, True, [1.0]])
 def test_what_is_no_number_is_refused_as_such(value):
     with pytest.raises(ValueError, match=r"^height = .*: accepted: a number$"):

@@ -17,9 +17,3 @@ def test_every_field_but_the_tables_has_a_meaning(part):
     }
     assert meanings(part).keys() == part.model_fields.keys() - tables
     assert all(meanings(part).values())
-
-
-def test_a_meaning_is_the_text_below_the_field():
-    assert meanings(Coin)["radius"] == "r [m]."
-    assert "inertia_about_C" not in meanings(Coin)
-    assert meanings(Coin)["inertia"].splitlines()[1] == "cylinder's about B, moved to C."

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.models.records import IMPACT_ROW, Flag, Impacts, States
+from cointoss.models.records import IMPACT_ROW, Flag, Impacts
 from tests.helpers.draws import draw_release, scenario
 
 
@@ -29,17 +29,6 @@ def test_arrays_are_read_only():
         tossed.impacts.impulse[0] = 1
     with pytest.raises(ValueError, match="read-only"):
         tossed.sample([0.0]).position[0] = 1
-
-
-def test_states_check_their_shapes():
-    with pytest.raises(ValueError, match=r"States\.quaternion"):
-        States(
-            time=np.zeros(2),
-            position=np.zeros((2, 3)),
-            velocity=np.zeros((2, 3)),
-            quaternion=np.zeros((2, 3)),
-            angular_velocity=np.zeros((2, 3)),
-        )
 
 
 @pytest.mark.parametrize("time", [-0.1, 1e3, float("nan")])

@@ -97,11 +97,8 @@ def test_what_is_made_is_what_the_same_values_in_a_file_would_be(field, value):
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        (("floor.restitution", 1.5), "floor.restitution = 1.5: accepted: a number >= 0 and <= 1"),
         (("floor.restitutoin", 0.5), "floor.restitutoin = 0.5: unknown key; .*did you mean restitution"),
         (("flor.restitution", 0.5), "flor = .*: unknown key; .*did you mean floor"),
-        (("floor.contact", "coulmb"), 'floor.contact = "coulmb": accepted: .*"coulomb"'),
-        (("floor.restitution_kind", "energetic"), 'restitution_kind = "energetic": accepted: "kinematic"'),
         (("gravity.z", 1), "gravity = .*: accepted: a number"),
         (("release.position.w", 2), "position.w = 2: unknown component; accepted: release.position.x, "),
         (("release.position", 3, "release.position.z", 1), "release.position = 3: accepted: a list"),
@@ -110,14 +107,9 @@ def test_what_is_made_is_what_the_same_values_in_a_file_would_be(field, value):
             r"release.position = \[0, 0\]: accepted: a list of 3",
         ),
         (("release", {"velocity": [0, 0, 1]}, "release.position.z", 1), "release.position: missing"),
-        (("release.position.z", "1 kg"), r'release.position\[2\] = "1 kg": accepted: a number in m'),
-        (("release.position.z", 1e-6), "release.position.z = 1e-06: accepted: a coin above the floor"),
         (("release.quaternion.e0", 1.0), "release.quaternion = .*: accepted: either angles or quaternion"),
-        (("release.angular_velocity.xi", 1e9), "release.angular_velocity = .*: accepted: a spin of at most"),
         (("coin", Air()), "coin.exponent = 0.0: unknown key"),
         (("coin", None), "coin = None: accepted: a table"),
-        (("coin.thickness", 1e-4), "coin.center_of_mass = .*: accepted: a point inside the coin"),
-        (("ending.max_impacts", 2.0), "ending.max_impacts = 2.0: accepted: a whole number"),
     ],
 )
 def test_a_wrong_change_is_refused_by_field_value_and_what_is_accepted(change, said):

@@ -67,8 +67,3 @@ def test_both_faces_of_a_thin_coin_move_alike():
     assert np.array_equal(upper.velocity, lower.velocity)
     assert np.array_equal(upper.tangential, lower.tangential)
     assert len(wall.point) == 0
-
-
-def test_the_record_is_read_only():
-    with pytest.raises(ValueError, match="read-only"):
-        velocity_fields(THIN, V, W).upper.velocity[0] = 0

@@ -16,9 +16,7 @@ from cointoss.models.attitude import quaternion_from_angles
 from cointoss.models.geometry import evaluate_gap
 from cointoss.models.records import IMPACT_ROW
 from tests.helpers.contacts import end_mode, held
-from tests.helpers.draws import PAPER_OFFSET, ZLOTY, scenario
-
-THIN, UNBALANCED = {**ZLOTY, "thickness": 0.0}, {**ZLOTY, "center_of_mass": PAPER_OFFSET}
+from tests.helpers.draws import IMPERFECT, THIN, scenario
 
 
 def touching(body, speed):
@@ -48,7 +46,7 @@ def at_the_end(case, speed, duration, *, bouncing):
 @pytest.mark.parametrize("friction", [0.0, 0.2])
 @pytest.mark.parametrize(
     "coin",
-    [{**ZLOTY, "thickness": 0.0}, {**ZLOTY, "center_of_mass": PAPER_OFFSET}],
+    [THIN, IMPERFECT],
     ids=["thin", "unbalanced"],
 )
 def test_contact_takes_the_place_of_chattering_to_the_third_power_of_the_angle(coin, friction):

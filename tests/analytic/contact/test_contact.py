@@ -21,12 +21,10 @@ from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import energy
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
 from tests.helpers.contacts import end_mode, follow_for, follow_step, held, put_on_floor
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, scenario
+from tests.helpers.draws import AIR, IMPERFECT, THIN, ZLOTY, draw_coin, scenario
 
 SMOOTH = FloorFriction(0.0)
 G, R_COIN, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
-THIN = {**ZLOTY, "thickness": 0.0}
-UNBALANCED = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 
 
 def up_of(y):
@@ -72,7 +70,7 @@ def draw_wobble(rng, body, mode):
 def test_a_short_step_errs_by_the_third_power_of_its_length(backward):
     """The end of a contact is bracketed by such steps, 1e-4 times as long as the step that passed it."""
     rng, errors = np.random.default_rng(12), []
-    body = scenario(coin=UNBALANCED).body
+    body = scenario(coin=IMPERFECT).body
     for dt in (4e-4, 2e-4):
         error = 0.0
         for _ in range(10):
@@ -309,7 +307,7 @@ def test_a_coin_leaves_the_floor_when_it_would_have_to_be_held_back():
 
 def test_friction_does_not_press_down_a_point_that_free_flight_lifts():
     """Painlevé: on a floor rough enough incipient slip would have a second answer: to be pressed."""
-    rng, body, mu = np.random.default_rng(3), scenario(coin=UNBALANCED).body, 1e4
+    rng, body, mu = np.random.default_rng(3), scenario(coin=IMPERFECT).body, 1e4
     lifted = pressed = 0
     for _ in range(500):
         angles = rng.uniform(0, 6), rng.uniform(0.3, 1.5), rng.uniform(0, 6)
@@ -358,7 +356,7 @@ def test_a_coin_stands_on_its_edge_while_it_does_not_turn_and_roll_too_fast(spin
 
 def test_an_unbalanced_coin_that_spins_upright_is_not_said_to_stand():
     """It is held in this phase; as it rolls on, the moment of its spin about the vertical would tip it."""
-    body = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}).body
+    body = scenario(coin=IMPERFECT).body
     # C is level with B: it will swing down.
     spinning, still = (
         on_floor(body, Mode.SLIDING, (0.0, np.pi / 2, 3 * np.pi / 4), (s, -s, 0.0)) for s in (42.0, 0.0)
@@ -399,7 +397,7 @@ def test_the_direction_of_no_slip_is_none():
 
 @pytest.mark.parametrize("turning", [-0.3, 0.3])
 def test_the_landing_ahead_is_where_the_other_rim_lands(turning):
-    body, angle = scenario(coin=UNBALANCED).body, 0.01
+    body, angle = scenario(coin=IMPERFECT).body, 0.01
     y = on_floor(body, Mode.SLIDING.value, (0.0, np.pi / 2 - angle, 0.0), (turning, 0.0, 0.0))
     contact, dy, at_landing = held(body, SMOOTH, Mode.SLIDING, y), np.empty(13), np.empty((1, 13))
     flow(contact, y, dy)

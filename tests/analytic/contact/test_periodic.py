@@ -8,10 +8,9 @@ from cointoss.analytic.contact.periodic import record_tilt, repeats, start_tilt_
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from tests.helpers.contacts import follow_step, held, put_on_floor
-from tests.helpers.draws import AIR, ZLOTY, scenario
+from tests.helpers.draws import AIR, THIN, scenario
 
 SMOOTH = FloorFriction(0.0)
-THIN = {**ZLOTY, "thickness": 0.0}
 
 
 def wobbling(body, mode):

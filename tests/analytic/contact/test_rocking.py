@@ -18,11 +18,10 @@ from cointoss.models.attitude import rotation_matrix
 from cointoss.models.laws import ContactLaw, EndingTest
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.contacts import held, put_on_floor, upright_coin
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, scenario
 
 SMOOTH = FloorFriction(0.0)
 G, R_COIN = 9.81, ZLOTY["radius"]
-UNBALANCED = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 
 
 def rocking(rng, body, rules):
@@ -88,7 +87,7 @@ def test_a_coin_that_is_hardly_held_where_its_center_is_lowest_is_not_said_to_st
 
 
 def test_the_lowest_phase_is_where_the_center_is_below():
-    body = scenario(coin=UNBALANCED).body
+    body = scenario(coin=IMPERFECT).body
     for phase in (0.3, 2.0, 5.0):
         y, rolled = upright_coin(body, phase, 3.0, 20.0), np.empty(13)
         roll_by(held(body, SMOOTH, Mode.SLIDING, y), False, y, to_lowest(body, y) / 2, rolled)

@@ -20,12 +20,11 @@ from cointoss.models.barriers import energy
 from cointoss.models.geometry import gap
 from cointoss.models.laws import EndingTest
 from cointoss.models.records import Ending, Outcome
-from tests.helpers.contacts import end_mode, follow_step, held, upright_coin
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.contacts import end_mode, follow_for, follow_step, held, upright_coin
+from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, scenario
 
 SMOOTH = FloorFriction(0.0)
 G, R_COIN, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
-UNBALANCED = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 
 
 def momenta(body, y):
@@ -33,21 +32,10 @@ def momenta(body, y):
     return M * y[3:6], np.array(rotation_matrix(tuple(y[6:10]))) @ np.array(body.inertia) @ y[10:13]
 
 
-def follow(body, y, time, longest, friction=SMOOTH):
-    """Give the states and times of a coin that stays upright for `time`."""
-    y, states, times = y.copy(), [y.copy()], [0.0]
-    while times[-1] < time:
-        step = follow_step(body, friction, Mode.UPRIGHT, y, min(longest, time - times[-1]))
-        assert not step.is_over
-        states.append(y.copy())
-        times.append(times[-1] + step.elapsed)
-    return np.array(states), np.array(times)
-
-
 def test_an_upright_coin_keeps_energy_and_momentum_and_both_rims_on_the_floor():
     """With the attitude's one freedom these fix the whole motion."""
-    body = scenario(coin=UNBALANCED).body
-    states, _ = follow(body, upright_coin(body, 0.4, 1.0, 45.0), 1.0, np.inf)
+    body = scenario(coin=IMPERFECT).body
+    states, _ = follow_for(body, SMOOTH, Mode.UPRIGHT, upright_coin(body, 0.4, 1.0, 45.0), 1.0)
     energies = [energy(body, y[2], tuple(y[3:6]), tuple(y[10:13])) for y in states]
     assert energies == pytest.approx(np.full(len(states), energies[0]), rel=1e-11)
     turning = [momenta(body, y)[1][2] for y in states]
@@ -61,10 +49,10 @@ def test_an_upright_coin_keeps_energy_and_momentum_and_both_rims_on_the_floor():
 
 def test_the_rims_forces_are_what_changes_momentum_and_angular_momentum():
     """Half a step before and after, by central differences; both forces, and the tilting that they stop."""
-    body = scenario(coin=UNBALANCED).body
+    body = scenario(coin=IMPERFECT).body
     y = upright_coin(body, 0.4, 5.0, 20.0)
     dt = 1e-4
-    states, times = follow(body, y, 2 * dt, dt)
+    states, times = follow_for(body, SMOOTH, Mode.UPRIGHT, y, 2 * dt, dt)
     assert times == pytest.approx([0.0, dt, 2 * dt], rel=1e-12)
     (p_0, L_0), (p_1, L_1) = momenta(body, states[0]), momenta(body, states[2])
     N_tails, N_heads = rim_forces(body, SMOOTH, states[1])
@@ -86,7 +74,7 @@ def test_a_still_coin_presses_its_rims_as_the_lever_says():
 
 
 def test_a_coin_that_its_roll_tips_leaves_one_rim_and_falls_to_that_side():
-    body = scenario(coin=UNBALANCED).body
+    body = scenario(coin=IMPERFECT).body
     y = upright_coin(body, 3 * np.pi / 4, 59.4, 0.0)
     assert min(rim_forces(body, SMOOTH, y)) > 0
     step, time = follow_step(body, SMOOTH, Mode.UPRIGHT, y, 0.01), 0.0
@@ -105,7 +93,7 @@ def test_a_coin_that_its_roll_tips_leaves_one_rim_and_falls_to_that_side():
 
 
 def test_a_coin_that_tips_over_keeps_the_pressed_rim_on_the_floor():
-    body = scenario(coin=UNBALANCED).body
+    body = scenario(coin=IMPERFECT).body
     for phase in np.linspace(0.1, 6.0, 12):
         y = upright_coin(body, phase, 5.0, 20.0)
         tip_over(body, SMOOTH, y)
@@ -116,7 +104,7 @@ def test_a_coin_that_tips_over_keeps_the_pressed_rim_on_the_floor():
 
 def test_a_coin_is_tried_on_either_rim_however_it_leans():
     """Turning tips a rolling coin, or does not: leaning less than `ON_EDGE` must change neither."""
-    body, found = scenario(coin=UNBALANCED).body, set()
+    body, found = scenario(coin=IMPERFECT).body, set()
     for turn in np.linspace(-70.0, 70.0, 29):
         level = upright_coin(body, 0.4, turn, 20.0)
         is_held = held_on_edge(held(body, SMOOTH, Mode.SLIDING, level), level)
@@ -166,7 +154,7 @@ def test_without_loss_a_coin_stands_if_it_is_held_in_the_course_of_its_own_roll(
 def test_a_toss_that_comes_upright_is_followed_until_it_stands():
     """In air; when its impacts have died away it is held on both rims now, but not yet in every phase."""
     case = scenario(
-        coin=UNBALANCED,
+        coin=IMPERFECT,
         air=AIR,
         floor={"contact": "smooth", "restitution": 0.3},
         release={
@@ -202,7 +190,7 @@ def test_friction_at_both_rims_stops_a_coin_that_turns_upright_on_the_spot():
     time = 0.15 * turn / slowing
     start = upright_coin(body, 0.4, turn, 0.0)
     start[3:5] = 0.0
-    states, times = follow(body, start, time, np.inf, FloorFriction(mu))
+    states, times = follow_for(body, FloorFriction(mu), Mode.UPRIGHT, start, time)
     left = [rotation_matrix(tuple(y[6:10]))[2] @ y[10:13] for y in states]
     assert left == pytest.approx(turn - slowing * times, rel=1e-9)
 
@@ -215,7 +203,7 @@ def test_a_coin_that_slides_upright_ends_rolling_at_two_thirds_of_its_speed():
     along = np.cross([0, 0, 1], n)
     y[3:6] = 0.5 * along
     assert not rolls(body, FloorFriction(mu), y)
-    states, _ = follow(body, y, 2 * 0.5 / (mu * G), np.inf, FloorFriction(mu))
+    states, _ = follow_for(body, FloorFriction(mu), Mode.UPRIGHT, y, 2 * 0.5 / (mu * G))
     assert states[-1][3:6] == pytest.approx(0.5 * 2 / 3 * along, abs=1e-6)
     assert rolls(body, FloorFriction(mu), states[-1])
     assert stands(held(body, FloorFriction(mu), Mode.STICKING, states[-1]), states[-1])
@@ -223,9 +211,9 @@ def test_a_coin_that_slides_upright_ends_rolling_at_two_thirds_of_its_speed():
 
 def test_an_unbalanced_coin_that_rolls_upright_keeps_its_energy_but_for_a_creep():
     """The friction that it needs, f of μ N, makes it slip at f/(μ N) 1e-3 √(g r): so much power is lost."""
-    body, mu = scenario(coin=UNBALANCED).body, 0.5
+    body, mu = scenario(coin=IMPERFECT).body, 0.5
     start = rolling(body, 20.0)
-    states, times = follow(body, start, 1.0, np.inf, FloorFriction(mu))
+    states, times = follow_for(body, FloorFriction(mu), Mode.UPRIGHT, start, 1.0)
     energies = np.array([energy(body, y[2], tuple(y[3:6]), tuple(y[10:13])) for y in states])
     ups = np.array([rotation_matrix(tuple(y[6:10]))[2] for y in states])
     assert np.ptp(np.unwrap(np.arctan2(ups[:, 1], ups[:, 0]))) > 2 * np.pi, "it rolls round"
@@ -239,7 +227,7 @@ def test_an_unbalanced_coin_that_rolls_upright_keeps_its_energy_but_for_a_creep(
     ("roll_rate", "mu", "is_held"), [(12.0, 0.5, True), (12.0, 0.01, False), (100.0, 0.5, False)]
 )
 def test_a_rolling_coin_stands_unless_it_skids_or_its_roll_tips_it(roll_rate, mu, is_held):
-    body = scenario(coin=UNBALANCED).body
+    body = scenario(coin=IMPERFECT).body
     y = rolling(body, roll_rate)
     assert stands(held(body, FloorFriction(mu), Mode.STICKING, y), y) == is_held
 
@@ -294,7 +282,7 @@ def holding_force_of_the_rim_that_stuck(body, mu, rim, y):
 @pytest.mark.parametrize(("rim", "mu", "turn_rate"), [(-1.0, 0.3, 5.0), (1.0, 2.0, 5.0), (-1.0, 1e4, -5.0)])
 def test_a_rim_that_stuck_takes_the_slow_slip_at_which_friction_holds_it(rim, mu, turn_rate):
     """When the other, which skids round it, lands: its slip hardly changes."""
-    body, dt = scenario(coin=UNBALANCED).body, 1e-8
+    body, dt = scenario(coin=IMPERFECT).body, 1e-8
     y = pivoting(body, turn_rate, rim)
     start = y.copy()
     start_slow_slip(held(body, FloorFriction(mu), Mode.STICKING, y)._replace(rim=rim), y)
@@ -315,7 +303,7 @@ def test_a_rim_that_stuck_takes_the_slow_slip_at_which_friction_holds_it(rim, mu
 
 
 def test_a_rim_that_friction_cannot_hold_takes_no_slip():
-    body = scenario(coin=UNBALANCED).body
+    body = scenario(coin=IMPERFECT).body
     y = pivoting(body, 30.0, -1.0)
     before = y.copy()
     start_slow_slip(held(body, FloorFriction(1e-3), Mode.STICKING, y)._replace(rim=-1.0), y)

@@ -14,7 +14,7 @@ from cointoss.analytic.toss import state_at_release
 from cointoss.models.geometry import evaluate_gap
 from cointoss.models.records import Ending
 from cointoss.models.scenario import Scenario
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, IMPERFECT, THIN, ZLOTY, draw_release, scenario
 
 STRONG_AIR = {"normal": 40.0, "tangential": 10.0}
 
@@ -138,7 +138,7 @@ def test_no_touch_is_passed_and_no_minimum_is_below_half_of_the_graze(thickness,
 
 def test_other_coins_are_integrated():
     spinning, turning = (1.0, 2.0, 3.0), (1.0, 2.0, 0.0)
-    ideal, off_center = scenario().body, scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}).body
+    ideal, off_center = scenario().body, scenario(coin=IMPERFECT).body
     linear, quadratic = scenario(air=AIR).body, scenario(air={**AIR, "exponent": 1.0}).body
     assert turns_in_closed_form(ideal, spinning)
     assert turns_in_closed_form(linear, turning)
@@ -152,7 +152,7 @@ def test_a_coin_that_comes_to_lie_out_of_a_contact_goes_on():
     rng = np.random.default_rng(1)
     z, w = (rng.uniform(*limits, 4096)[3618] for limits in ((0.2, 0.6), (20, 60)))
     case = scenario(
-        coin={**ZLOTY, "thickness": 0.0},
+        coin=THIN,
         floor={"restitution": 0.6},
         release={"position": [0, 0, z], "angular_velocity": [0, w, 0]},
         ending={"max_impacts": 1000},

@@ -12,7 +12,7 @@ from cointoss.analytic.air.force import force_and_moment
 from cointoss.analytic.flight.equations_of_motion import derivative
 from cointoss.analytic.numerics.rotation import quaternion_rate
 from cointoss.models.attitude import rotation_matrix
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_quaternion, scenario
+from tests.helpers.draws import AIR, IMPERFECT, THIN, ZLOTY, draw_quaternion, scenario
 from tests.helpers.printed_equations import EQUATIONS as PRINTED
 from tests.helpers.tuples import quaternion, vector
 
@@ -36,7 +36,6 @@ CORRECTED = {
     42: PRINTED[42].corrected((FIRST[2:], SECOND[2:])),
 }
 
-IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
 THIN_IMPERFECT = {**ZLOTY, "thickness": 0.0, "center_of_mass": [-1e-3, -1e-3, 0.0]}
 PRODUCTS = ((0, 1, "J_xi_eta"), (0, 2, "J_xi_zeta"), (1, 2, "J_eta_zeta"))
 E, D, DD = ([f"{letter}{i}" for i in range(4)] for letter in ("e", "d", "dd"))
@@ -308,7 +307,7 @@ def test_in_symbols_plane_motion_needs_the_product_xi_zeta_to_vanish():
 
 @SEEDS
 def test_plane_motion_of_the_symmetric_coin_eq_48(seed):
-    motion = Motion({**ZLOTY, "thickness": 0.0}, seed, w=[37.0, 0.0, 0.0])
+    motion = Motion(THIN, seed, w=[37.0, 0.0, 0.0])
     assert motion.J[0, 0] * motion.dw[0] == pytest.approx(motion.M[0], rel=1e-12)
     assert motion.M[0] != 0
     assert np.all(motion.M[1:] == 0)

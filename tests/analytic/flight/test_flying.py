@@ -13,7 +13,7 @@ from cointoss.analytic.numerics.tableau import STAGES
 from cointoss.analytic.toss import state_at_release
 from cointoss.compare.metrics.trajectories import attitude_angle
 from cointoss.models.attitude import rotation_matrix
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_coin, draw_release, scenario
+from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, draw_coin, draw_release, scenario
 from tests.helpers.referee import Referee
 from tests.helpers.states import energies, gaps
 
@@ -105,7 +105,7 @@ def test_flight_in_air_is_that_of_the_papers_integrals(seed):
 
 def test_one_step_is_of_order_eight():
     case = scenario(
-        coin={**ZLOTY, "center_of_mass": PAPER_OFFSET},
+        coin=IMPERFECT,
         air=AIR,
         release={"position": [0, 0, 5.0], "angular_velocity": [20.0, 30.0, -10.0]},
     )
@@ -130,15 +130,7 @@ def test_one_step_is_of_order_eight():
 def test_turning_the_sign_of_the_quaternion_changes_nothing():
     rng = np.random.default_rng(6)
     case = in_flight(rng, in_air=True)
-    flipped = scenario(
-        coin=case.coin.model_dump(exclude_none=True),
-        air=AIR,
-        release={
-            **case.release.model_dump(exclude_none=True),
-            "quaternion": [-x for x in case.release.attitude],
-        },
-        ending=HIGH,
-    )
+    flipped = case.replace("release.quaternion", [-x for x in case.release.attitude])
     t = np.linspace(0, 0.5, 20)
     a, b = analytic.toss(case).sample(t), analytic.toss(flipped).sample(t)
     assert np.array_equal(a.position, b.position)

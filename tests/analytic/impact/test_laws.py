@@ -95,13 +95,8 @@ def test_the_delassus_matrix_is_symmetric_and_positive_definite():
 def test_friction_without_coefficient_is_smooth():
     rng = np.random.default_rng(15)
     case, y = draw_impact(rng, ContactLaw.SLIDING_FRICTION)
-    frictionless = scenario(
-        coin=case.coin.model_dump(exclude_none=True),
-        floor={"restitution": 0.7, "contact": "sliding_friction", "friction": 0.0},
-    )
-    smooth = scenario(
-        coin=case.coin.model_dump(exclude_none=True), floor={"restitution": 0.7, "contact": "smooth"}
-    )
+    frictionless = case.replace("floor.friction", 0.0)
+    smooth = frictionless.replace("floor.contact", "smooth")
     assert struck(frictionless, y)[0]["impulse"] == pytest.approx(struck(smooth, y)[0]["impulse"], rel=1e-15)
 
 

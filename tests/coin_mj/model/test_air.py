@@ -18,7 +18,7 @@ from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import Settings
 from cointoss.coin_mj.steps.constrained_step import forward
 from cointoss.coin_mj.steps.free_step import free_step
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, draw_release, scenario
 from tests.helpers.tuples import vector
 
 R, H = ZLOTY["radius"], ZLOTY["thickness"]
@@ -95,7 +95,7 @@ def test_a_coin_at_rest_feels_no_air():
 
 def coin_in_air(b, normal=LN, tangential=LT):
     case = scenario(
-        coin={**ZLOTY, "center_of_mass": PAPER_OFFSET},
+        coin=IMPERFECT,
         air={"normal": normal, "tangential": tangential, "exponent": b},
         release=draw_release(np.random.default_rng(1)),
     )

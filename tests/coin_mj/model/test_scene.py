@@ -10,9 +10,7 @@ import pytest
 from cointoss.coin_mj.model.scene import build, shape_thickness
 from cointoss.coin_mj.model.settings import Settings, rebound_of
 from cointoss.coin_mj.model.state import of_release, to_mass_center
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
-
-IMPERFECT = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
+from tests.helpers.draws import AIR, IMPERFECT, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 
 def built(case):

@@ -8,12 +8,11 @@ from cointoss.coin_mj import Friction, Realisation, Settings, impacts_of, toss
 from cointoss.coin_mj.steps.coulomb import coulomb_force
 from cointoss.compare.metrics.impulses import match
 from cointoss.models.records import ApproximationWarning, Ending, Flag
-from tests.helpers.draws import ZLOTY, draw_coin, draw_release, scenario
+from tests.helpers.draws import ZLOTY, draw_release, scenario
+from tests.helpers.impacts import draw_single_impact
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
-DOUBLE = 1e-4
-"""Where a second rim point lands so soon after the first [s], both are pressed at once."""
 BALL = np.diag([3.5, 3.5, 1.0])
 """Delassus matrix of a solid ball of 1 kg at its lowest point."""
 
@@ -52,25 +51,11 @@ def test_where_sliding_has_no_solution_the_slip_stops_at_once():
     assert 1 + (2 - 1.44) * f[0] * 1e-3 == pytest.approx(0, abs=1e-12)
 
 
-def draw_single_impact(rng, law="coulomb", spin=40.0):
-    """A toss whose first impact is by one rim point, and its analytic impacts."""
-    while True:
-        floor = {
-            "contact": law,
-            "restitution": float(rng.uniform(0.01, 1.0)),
-            "friction": float(rng.uniform(0, 1)),
-        }
-        parts = {"coin": draw_coin(rng), "floor": floor, "release": draw_release(rng, spin)}
-        impacts = analytic.toss(scenario(**parts, ending={"max_impacts": 2})).impacts
-        if np.all(np.diff(impacts.time) > DOUBLE):
-            return scenario(**parts, ending={"max_impacts": 1}), impacts
-
-
 def errors_and_kinds(rng, count, **settings):
     """Errors of impulses, and whether the slip stops, keeps its direction, or turns by a right angle."""
     errors, kinds = [], []
     for _ in range(count):
-        case, law = draw_single_impact(rng)
+        case, law = draw_single_impact(rng, "coulomb")
         errors.append(match(law, impacts_of(case, settings=Settings(**settings))).impulse[0])
         before, after = law.contact_velocity_before[0, :2], law.contact_velocity_after[0, :2]
         sticks = np.hypot(*after) < 1e-9 * np.hypot(*before)

@@ -21,11 +21,11 @@ from cointoss.models.kernel.compiled import compiled
 from cointoss.models.reading import load
 from cointoss.models.records import Ending, Outcome
 from cointoss.models.releases import Releases
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, draw_release, scenario
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
-BALANCED, IMPERFECT = ZLOTY, {**ZLOTY, "center_of_mass": PAPER_OFFSET}
+BALANCED = ZLOTY
 
 
 def flying(coin, seed=0, height=0.0, **settings):

@@ -15,8 +15,8 @@ from cointoss.coin_mj.steps.resistance import PointMotion, resisted_force, short
 from cointoss.coin_mj.steps.sustained_contact import next_step, sustained_step
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.kernel.vectors import cross
-from cointoss.models.records import ApproximationWarning, Ending, Outcome, UnsupportedError
-from tests.helpers.draws import AIR, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
+from cointoss.models.records import ApproximationWarning, Outcome, UnsupportedError
+from tests.helpers.draws import AIR, THIN, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
 from tests.helpers.states import energies
 from tests.helpers.tuples import quaternion, vector
 
@@ -27,8 +27,6 @@ pytestmark = [
 
 G, R, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]
 UNIT = (G / R) ** 0.5
-THIN = {**ZLOTY, "thickness": 0.0}
-HOOP = {**THIN, "inertia": (np.diag([0.5, 0.5, 1.0]) * M * R * R).tolist()}
 
 
 def set_down(speed, spin=0.0, coin=THIN, law="coulomb", **floor):
@@ -43,23 +41,6 @@ def set_down(speed, spin=0.0, coin=THIN, law="coulomb", **floor):
             "angular_velocity": [0, spin, -speed / R],
         },
     )
-
-
-@pytest.mark.parametrize("law", ["perfectly_rough", "coulomb"])
-@pytest.mark.parametrize(("coin", "share"), [(THIN, 0.5), (HOOP, 1.0)])
-def test_a_disc_and_a_hoop_that_roll_upright_come_to_rest_where_the_closed_form_says(law, coin, share):
-    """(J_ζ + m r²) dω_ζ/dt = -δ m g: v falls by δ g/(r (1 + J_ζ/(m r²))) a second."""
-    delta, speed = 1e-3, 0.3
-    slowing = delta * G / (R * (1 + share))
-    tossed = coin_mj.toss(set_down(speed, coin=coin, law=law, rolling_friction=delta))
-    assert (tossed.outcome, tossed.ending) == (Outcome.EDGE, Ending.AT_REST)
-    # Rest is found at 1e-3 √(g/r).
-    assert tossed.end_time == pytest.approx(speed / slowing, rel=2e-3)
-    end = tossed.sample(tossed.end_time)
-    assert end.position[0, 0] == pytest.approx(speed**2 / (2 * slowing), rel=1e-4)
-    times = np.linspace(0, 0.9 * tossed.end_time, 9)
-    # Within a step of the path states are interpolated.
-    assert tossed.sample(times).velocity[:, 0] == pytest.approx(speed - slowing * times, rel=2e-4)
 
 
 def test_a_disc_that_turns_upright_is_slowed_by_resistance_to_pivoting():
@@ -220,19 +201,6 @@ def test_eulers_disk_loses_its_pivoting_at_first_at_the_rate_of_the_closed_form(
     rate = -np.polyfit(times[first], energies[first], 1)[0]
     assert rate == pytest.approx(p / R * np.mean(pivots[first]), rel=5e-3)
     assert abs(pivots[-1]) < 0.05 * pivots[0]
-
-
-def test_a_coin_that_still_rolls_upright_when_a_budget_ends_is_named_so():
-    thick = {**ZLOTY, "thickness": 4e-3}
-    case = set_down(0.6, coin=thick, rolling_friction=5e-5, pivoting_friction=1e-5)
-    by_time = coin_mj.toss(case.replace("ending.max_time", 0.3))
-    by_steps = coin_mj.toss(case, settings=Settings(contact_steps=200))
-    # After 64 √(r/g), or 2.3 s, a coin that nothing slows would stand.
-    late = coin_mj.toss(case.replace("ending.max_time", 4.0))
-    for tossed in (by_time, by_steps, late):
-        assert (tossed.outcome, tossed.ending) == (Outcome.EDGE, Ending.ROLLING)
-    assert by_time.end_time == pytest.approx(0.3)
-    assert coin_mj.toss(set_down(0.6, coin=thick)).ending == Ending.STANDING
 
 
 def test_beside_native_friction_resistance_is_refused_by_name():

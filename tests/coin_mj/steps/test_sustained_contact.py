@@ -17,13 +17,12 @@ from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import energy
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
 from cointoss.models.records import Ending, Outcome
-from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, THIN, ZLOTY, scenario
 from tests.helpers.many import draw_releases
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
 M, R, G = ZLOTY["mass"], ZLOTY["radius"], 9.81
-THIN = {**ZLOTY, "thickness": 0.0}
 DECIDED = {Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.PERPETUAL}
 
 

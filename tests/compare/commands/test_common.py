@@ -18,6 +18,7 @@ ANSWERS = {
     "video fig24a": "--out: missing; accepted: --out PATH, the file to write: .mp4, .webm or .gif (see ",
     "solref --restitution 0.8": "--dt: missing; accepted: --dt DT, the model's timestep, such as 0.002 ",
     "reproduce all": "--out: missing; accepted: main reproduce all --out DIR (see ",
+    "reproduce --out out": "NAME: missing; accepted: all, or one of: accuracy-and-stripes, ",
     # names and choices
     "throw": "throw: no such command; accepted: basin, compare, ",
     "toss nofile": "nofile: no such file; accepted: a TOML file, or one of: contact_coulomb, ",
@@ -28,6 +29,9 @@ ANSWERS = {
     "video fig24a --out a.mp4 --camera below": "'--camera': 'below' is not one of 'overview', ",
     "toss fig24a --max-impact 3 --jsn": "No such option '--max-impact'",
     "reproduce nothing": "nothing: no such name; accepted: accuracy-and-stripes, ",
+    "reproduce contact-laws no-such --out out": "no-such: no such name; accepted: ",
+    "reproduce contact_laws --out out": "contact_laws: no such name; accepted: ",
+    f"{AXES} --margin weight --out a.zarr": "--margin weight: accepted: height, velocity x,",
     # numbers
     "toss fig24a --max-impacts 0": "'--max-impacts': 0; accepted: an integer >= 1 and <= 30000000",
     "toss fig24a --max-impacts 1e9": "'--max-impacts': 1e9; accepted: an integer >= 1 and ",
@@ -47,9 +51,18 @@ ANSWERS = {
     "hands fig24a --scatter 40%": "--scatter 40%: accepted: a part from 0 to 30 %",
     "hands fig24a --height '-3 cm'": "--height -3 cm: accepted: a length above 0, such as 1 m",
     "hands fig24a --speed -1": "--speed -1: accepted: a speed of 0 or more, such as 2 m/s",
+    "hands fig24a --spin nan": "--spin nan: accepted: ",
     "hands fig24a --spin 1e7": "fig24a: Releases.angular_velocity: row ",
     "hands fig24a --caught '1 mm'": "--caught 1 mm: accepted: more than 0.0125399 m, so that the coin is ",
     "hands fig24a --caught '1 s'": "'--caught': 1 s; accepted: a number in m, or ",
+    # what MuJoCo cannot do
+    "toss contact_knurled --engine mujoco": 'contact_knurled: floor.contact = "knurled": accepted by the',
+    "video contact_knurled --engine mujoco --out a.mp4": 'contact = "knurled": accepted by the MuJoCo engine',
+    "video contact_knurled --engine both --out a.mp4": 'contact = "knurled": accepted by the MuJoCo engine',
+    f"{AXES.replace('fig24a', 'contact_knurled')} --compare --out a.zarr": 'floor.contact = "knurled"',
+    "toss fig29 --margin --engine mujoco": "--margin",
+    f"{AXES} --margin height --engine mujoco --out a.zarr": "--margin height --engine mujoco: accepted: only",
+    f"{AXES} --margin height --compare --out a.zarr": "--margin height --compare: accepted: only by",
     # what excludes another
     "solref --restitution 0.5 --dt 2ms --steps 40": "--steps 40: accepted: only beside --spring",
     "basin fig24a --x ending.max_impacts=1:3:3 --y gravity=9:10:2 --after 2 --out a.zarr": (
@@ -87,9 +100,13 @@ ANSWERS = {
     "toss fig24a --trajectory no/path.csv": "no/path.csv: no folder no; accepted: a file in a folder that ",
     "compare fig24a --out file": "file: is no folder; accepted: a folder",
     "video fig24a --out a.avi": "a.avi: another kind of file; accepted: a name that ends in .mp4 or .webm",
+    "video fig24a --out film": "film: another kind of file; accepted: a name that ends in .mp4 or .webm",
+    "video fig24a --out a.mp4 --poster b.jpg": "b.jpg: another kind of file; accepted: a name that ends in",
     "video fig24a --out no/a.mp4": "no/a.mp4: no folder no; accepted: a file in a folder that exists",
     f"{AXES} --out a.map": "a.map: another kind of name; accepted: one that ends in .zarr",
     f"{AXES} --out no/a.zarr": "no/a.zarr: no folder no; accepted: a name in a folder that exists",
+    "explore gone.zarr": "gone.zarr: no such folder; accepted: a map that cointoss basin made",
+    "explore file": "file: is no folder; accepted: a map that cointoss basin made",
     f"{AXES} --out other.zarr": "other.zarr: is no map; accepted: a new name, or a map of cointoss",
 }
 

@@ -11,23 +11,15 @@ from cointoss.models.distribution import DISTRIBUTION
 from cointoss.models.reading import load, scenario_text
 from cointoss.models.scenario import Scenario
 from tests.helpers.command_line import cointoss, refused
+from tests.helpers.draws import THIN, scenario
 
 
 def test_json_has_the_agreed_form():
     answered = cointoss("toss", "fig24a", "--json", "--max-impacts", 3)
     assert answered.exit_code == 0
     toss = json.loads(answered.stdout)
-    of_toss = [
-        "engine",
-        "sequence",
-        "outcome",
-        "ending",
-        "end_time",
-        "trusted_impacts",
-        "impacts",
-        "contacts",
-    ]
-    assert list(toss) == [*of_toss, "scenario", "settings", "versions"]
+    of_toss = "engine sequence outcome ending end_time trusted_impacts impacts contacts"
+    assert list(toss) == [*of_toss.split(), "scenario", "settings", "versions"]
     limited = load("fig24a").replace("ending.max_impacts", 3)
     assert Scenario.model_validate(toss["scenario"]) == limited
     assert toss["scenario"]["floor"]["restitution_kind"] == "kinematic"
@@ -36,43 +28,22 @@ def test_json_has_the_agreed_form():
     assert toss["versions"]["cointoss"] == version(DISTRIBUTION)
     assert (toss["engine"], toss["sequence"], toss["ending"]) == ("analytic", "HHH", "max_impacts")
     assert len(toss["impacts"]) == 3
-    sizes = {name: len(value) for name, value in toss["impacts"][0].items() if isinstance(value, list)}
-    assert sizes == {
-        "impulse": 3,
-        "point": 3,
-        "position": 3,
-        "quaternion": 4,
-        "velocity_before": 3,
-        "velocity_after": 3,
-        "angular_velocity_before": 3,
-        "angular_velocity_after": 3,
-        "contact_velocity_before": 3,
-        "contact_velocity_after": 3,
-        "flags": 0,
-    }
-    assert {"time", "face", "energy"} == set(toss["impacts"][0]) - set(sizes)
-    assert toss["impacts"][0]["face"] == "H"
+    # tests/test_reference reads every other field.
+    assert (toss["impacts"][0]["face"], toss["impacts"][0]["flags"]) == ("H", [])
 
 
-@pytest.mark.parametrize("engine", ["analytic", "mujoco"])
-def test_a_number_of_contact_steps_ends_a_toss_that_rolls_on(tmp_path, engine):
-    source = tmp_path / "rolls.toml"
-    source.write_text(
-        '[coin]\nmass = "2 g"\nradius = "1.25 cm"\nthickness = 0\n'
-        '[floor]\ncontact = "coulomb"\nfriction = 0.9\nrestitution = 0.1\n'
-        "[release]\nposition = [0, 0, 0.013]\nangles = [0, 1.5, 0]\nangular_velocity = [0, 0, 60]\n"
-    )
-    answered = cointoss("toss", source, "--engine", engine, "--contact-steps", 7)
+@pytest.mark.parametrize(
+    ("engine", "budget"),
+    [("analytic", "--contact-steps"), ("mujoco", "--contact-steps"), ("mujoco", "--flight-steps")],
+)
+def test_a_budget_of_steps_ends_a_toss_and_says_so(tmp_path, engine, budget):
+    release = {"position": [0, 0, 0.013], "angles": [0, 1.5, 0], "angular_velocity": [0, 0, 60]}
+    floor = {"contact": "coulomb", "friction": 0.9, "restitution": 0.1}
+    (tmp_path / "rolls.toml").write_text(scenario(coin=THIN, floor=floor, release=release).to_toml())
+    answered = cointoss("toss", tmp_path / "rolls.toml", "--engine", engine, budget, 7)
     assert answered.exit_code == 0
     assert "outcome   undecided" in answered.stdout
-    assert "--contact-steps N" in answered.stdout
-
-
-def test_a_number_of_flight_steps_ends_a_toss_in_mujoco_that_flies_on():
-    answered = cointoss("toss", "fig24a", "--engine", "mujoco", "--flight-steps", 7)
-    assert answered.exit_code == 0
-    assert "outcome   undecided" in answered.stdout
-    assert "--flight-steps N" in answered.stdout
+    assert f"{budget} N" in answered.stdout
 
 
 def test_the_trajectory_is_written_as_csv(tmp_path):
@@ -83,23 +54,6 @@ def test_the_trajectory_is_written_as_csv(tmp_path):
     assert [float(number) for number in rows[1][:4]] == [0, 0, 0, 0.40001]
     assert float(rows[-1][0]) == pytest.approx(0.283275791, abs=1e-8)
     assert [path.name for path in tmp_path.iterdir()] == ["path.csv"]
-
-
-def test_what_an_engine_cannot_do_is_exit_status_2(tmp_path):
-    source = tmp_path / "rough.toml"
-    source.write_text(scenario_text("fig24a").replace('"smooth"', '"knurled"'))
-    said = refused("toss", source, "--engine", "mujoco")
-    assert said.startswith(f'cointoss: {source}: floor.contact = "knurled": accepted by the')
-
-
-def test_a_floor_that_mujoco_comes_near_to_is_told_in_one_line(tmp_path):
-    source = tmp_path / "rough.toml"
-    source.write_text(scenario_text("fig24a").replace('"smooth"', '"perfectly_rough"'))
-    answered = cointoss("toss", source, "--engine", "mujoco", "--max-impacts", 1)
-    assert answered.exit_code == 0
-    assert len(answered.stderr.splitlines()) == 1
-    assert answered.stderr.startswith(f'cointoss: {source}: floor.contact = "perfectly_rough": MuJoCo tosses')
-    assert cointoss("toss", source, "--max-impacts", 1).stderr == ""
 
 
 def test_a_contact_may_take_one_step(tmp_path):

@@ -14,7 +14,7 @@ from cointoss.compare.sweep.reading import read_map
 from cointoss.models.reading import parse
 from tests.helpers.coins_shown import BLUE, GOLD, UNNAMED, box, faces, picture, set_time
 from tests.helpers.command_line import cointoss
-from tests.helpers.explored import FIELDS, SCENARIO, serving
+from tests.helpers.explored import FIELDS, SCENARIO, serving, small_map
 
 TOSSED = (
     "document.querySelectorAll('#outcome p').length === 2"
@@ -167,21 +167,9 @@ def test_the_mouse_hovers_and_zooms_into_a_finer_map(page, server):
 
 
 def test_the_margin_of_a_pixel_is_told(page, tmp_path):
-    (tmp_path / "coin.toml").write_text(SCENARIO)
-    axes = (
-        "--x",
-        f"{FIELDS[0]}=20:60:3",
-        "--y",
-        f"{FIELDS[1]}=0.2:0.6:3",
-        "--after",
-        "1",
-        "--margin",
-        "height",
-    )
-    made = cointoss("basin", tmp_path / "coin.toml", *axes, "--out", tmp_path / "map.zarr")
-    assert made.exit_code == 0, made.stderr
-    found = read_map(tmp_path / "map.zarr").layers["margin"][2, 1]
-    with serving(tmp_path / "map.zarr") as explorer:
+    path = small_map(tmp_path, "--margin", "height", size=(3, 3))
+    found = read_map(path).layers["margin"][2, 1]
+    with serving(path) as explorer:
         page.open(f"{explorer.url}#x=40&y=0.6")
         shown = float(
             re.findall(r"margin along height ([+−][\d.e-]+) mm", page.text("release"))[0].replace("−", "-")
@@ -202,13 +190,6 @@ def test_each_sequence_has_its_own_horizon(page, server):
     assert "and 4 more" in page.text("sequences")
     told = page.value("document.querySelector('#sequences .row').getAttribute('aria-label')")
     assert told == "analytic: H H T T H; horizon of trust after touch 2 of 9"
-
-
-def test_an_address_names_a_pixel(page, server):
-    for x, y in ((20.0, 0.6), (33.125, 0.2875)):
-        page.open(f"{server.url}#x={x}&y={y}")
-        page.wait_for(TOSSED)
-        assert chosen(page) == pytest.approx((x, y), rel=1e-15)
 
 
 def test_a_toss_is_played_until_it_is_paused(page, server):
@@ -247,10 +228,8 @@ def test_a_server_that_has_ended_is_told(page, map_path):
 
 
 def test_a_law_that_mujoco_lacks_is_told(page, tmp_path):
-    (tmp_path / "coin.toml").write_text(SCENARIO.replace('"smooth"', '"knurled"'))
-    axes = ("--x", f"{FIELDS[0]}=20:60:3", "--y", f"{FIELDS[1]}=0.2:0.6:3")
-    assert cointoss("basin", tmp_path / "coin.toml", *axes, "--out", tmp_path / "map.zarr").exit_code == 0
-    with serving(tmp_path / "map.zarr") as explorer:
+    text = SCENARIO.replace('"smooth"', '"knurled"')
+    with serving(small_map(tmp_path, size=(3, 3), text=text)) as explorer:
         page.open(f"{explorer.url}#x=40&y=0.4")
         page.wait_for(TOSSED)
     assert 'floor.contact = "knurled": accepted by the MuJoCo engine' in page.text("outcome")

@@ -22,7 +22,6 @@ from cointoss.compare.film.drawing import (
     Drawer,
     box_of,
 )
-from cointoss.compare.film.encodings import Format
 from cointoss.compare.film.filmed import Filmed
 from cointoss.compare.film.play import SHOWN_FOR, Play, Shown, play_of
 from cointoss.models.records import Ending
@@ -42,7 +41,6 @@ from tests.helpers.films import (
     shown,
 )
 
-TINY = Format(64, 48, 4)
 R = ZLOTY["radius"]
 
 

@@ -5,9 +5,9 @@ import pytest
 
 from cointoss.compare.film.drawing import Camera
 from cointoss.compare.film.encodings import ENCODINGS, Format
-from cointoss.compare.film.video import write_video
+from cointoss.compare.film.video import frame_count, write_video
 from cointoss.compare.output import interruption
-from tests.helpers.films import MadePath, film_written, made, shown
+from tests.helpers.films import MadePath, Written, film_written, made, shown
 
 TINY = Format(64, 48, 4, longest=2.0)
 
@@ -15,12 +15,13 @@ TINY = Format(64, 48, 4, longest=2.0)
 @pytest.mark.parametrize("suffix", ENCODINGS)
 def test_a_film_is_written_in_every_format(tmp_path, suffix):
     toss = made(MadePath(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), impacts=[(0.1, 1e-3)], end=0.3)
-    path = tmp_path / f"film{suffix}"
-    poster = write_video([shown(toss)], Camera.TOP, TINY, path, lambda *_: None)
+    path, told = tmp_path / f"film{suffix}", []
+    poster = write_video([shown(toss)] * 2, Camera.TOP, TINY, path, lambda *done: told.append(done))
     assert poster.shape == (48, 64, 3)
-    written = film_written(path)
-    assert written.size == (64, 48)
-    assert written.codec == {".mp4": "h264", ".webm": "vp9", ".gif": "gif"}[suffix]
+    count = frame_count([shown(toss)], TINY)
+    assert told == [(i + 1, count) for i in range(count)]
+    codec = {".mp4": "h264", ".webm": "vp9", ".gif": "gif"}[suffix]
+    assert film_written(path) == Written(codec=codec, size=(64, 48), rate=4, frames=count)
 
 
 @pytest.fixture

@@ -6,7 +6,6 @@ import pytest
 from cointoss.compare.engines import Engine
 from cointoss.compare.film.captions import caption_of
 from cointoss.compare.film.drawing import Camera
-from cointoss.compare.film.encodings import Format
 from cointoss.compare.film.filmed import FOLLOWED_FOR, Filmed, followed
 from cointoss.compare.film.play import play_of
 from cointoss.compare.film.slow_motion import FAST, SETTLED, SLOW, SPEEDS_UP_FOR, film_times
@@ -16,8 +15,6 @@ from cointoss.models.records import Ending, Outcome
 from tests.helpers.films import FLAT, MadePath, drawn, made, shown
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
-
-TINY = Format(64, 48, 4, longest=2.0)
 
 
 @pytest.mark.parametrize("engine", list(Engine))

@@ -12,13 +12,11 @@ from cointoss.compare.film.drawing import (
 )
 from cointoss.compare.film.encodings import Format
 from cointoss.compare.film.slow_motion import film_times
-from cointoss.compare.film.video import HELD, frame_count, frames, write_video
+from cointoss.compare.film.video import HELD, frame_count, frames
 from tests.helpers.draws import ZLOTY
 from tests.helpers.films import (
     MadePath,
-    Written,
     center,
-    film_written,
     golden,
     made,
     shown,
@@ -61,16 +59,6 @@ def test_frames_are_drawn_one_at_a_time_and_the_last_one_stays():
     assert len(draws) + held == 1 + len(rest) == frame_count([shown(toss)], TINY)
     assert all(np.array_equal(frame, rest[-1]) for frame in rest[-held - 1 :])
     assert not np.array_equal(rest[-held - 2], rest[-1])
-
-
-def test_the_file_plays_at_its_size_and_rate(tmp_path):
-    toss = made(MadePath(position=(0, 0, 0.1), velocity=(0, 0, 0.2)), impacts=[(0.1, 1e-3)], end=0.2)
-    form, told = Format(64, 48, 12), []
-    path = tmp_path / "film.mp4"
-    write_video([shown(toss)] * 2, Camera.TOP, form, path, lambda done, count: told.append((done, count)))
-    count = frame_count([shown(toss)], form)
-    assert told == [(i + 1, count) for i in range(count)]
-    assert film_written(path) == Written(codec="h264", size=(64, 48), rate=12, frames=count)
 
 
 def test_the_time_is_written_into_the_frame():

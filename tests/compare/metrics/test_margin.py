@@ -94,28 +94,12 @@ def test_the_command_prints_margins():
     assert told["velocity x"]["change"] is None
     assert told["height"]["unit"] == "mm"
     assert np.isfinite(told["height"]["change"])
-    refused = cointoss("toss", "fig29", "--margin", "--engine", "mujoco")
-    assert refused.exit_code == 2
-    assert "--margin" in refused.stderr
-
-
-PLANAR = """
-[coin]
-mass = "2 g"
-radius = "1.25 cm"
-thickness = 0
-[floor]
-restitution = 0.3
-contact = "smooth"
-[release]
-position = [0, 0, 0.4]
-angular_velocity = [40, 0, 0]
-"""
 
 
 @pytest.mark.parametrize("is_planar", [False, True])
 def test_long_arithmetic_is_imported_only_where_a_margin_is_proved(tmp_path, is_planar):
-    (tmp_path / "planar.toml").write_text(PLANAR)
+    planar = load("fig29").replace("air", {}, "floor.restitution", 0.3)
+    (tmp_path / "planar.toml").write_text(planar.to_toml())
     scenario = str(tmp_path / "planar.toml") if is_planar else "fig24a"
     code = (
         "import atexit, sys; from cointoss.compare.cli import main; atexit.register(lambda: "
@@ -178,31 +162,6 @@ def test_margins_of_a_map_after_impacts_are_of_the_face_there(tmp_path):
     assert 0.5 < np.median(np.abs(margin[np.isfinite(margin)])) <= 1
     assert np.isinf(margin).any()
     assert set(np.unique(face)) == {1, 2}
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (["--margin", "weight"], "--margin weight: accepted: height, velocity x,"),
-        (["--margin", "height", "--engine", "mujoco"], "--margin height --engine mujoco: accepted: only by"),
-        (["--margin", "height", "--compare"], "--margin height --compare: accepted: only by"),
-    ],
-)
-def test_a_margin_that_cannot_be_mapped_is_refused(tmp_path, arguments, said):
-    answered = cointoss("basin", "fig29", *SIDES, *arguments, "--out", tmp_path / "map.zarr")
-    assert answered.exit_code == 2
-    assert len(answered.stderr.splitlines()) == 1
-    assert said in answered.stderr
-    assert not list(tmp_path.iterdir())
-
-
-def test_a_map_of_other_margins_is_not_gone_on_with(tmp_path):
-    out = tmp_path / "map.zarr"
-    command = ("basin", "fig29", *SIDES, "--after", "0", "--out", out)
-    assert cointoss(*command).exit_code == 0
-    refused = cointoss(*command, "--margin", "height", "--resume")
-    assert refused.exit_code == 2
-    assert "is a map with another quantity of its margins (--margin)" in refused.stderr
 
 
 def test_margins_are_drawn_in_colours_of_their_size(tmp_path):

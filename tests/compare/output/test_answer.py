@@ -11,13 +11,6 @@ from cointoss.models.reading import load
 from tests.helpers.command_line import cointoss
 
 
-def test_text_shows_sequence_outcome_and_horizon():
-    text = cointoss("toss", "fig24a").stdout
-    assert "outcome   heads" in text
-    assert "settled: The coin can no longer turn over" in text
-    assert "|" in text.split("sequence")[1].splitlines()[0]
-
-
 def test_text_shows_what_the_toss_measured_of_itself():
     shown = cointoss("toss", "contact_coulomb", "--max-impacts", 2).stdout
     number = r"-?\de[-+]\d\d"

@@ -42,9 +42,7 @@ def test_only_files_that_may_be_replaced_are_accepted(tmp_path):
         ("folder.csv", "is a folder; accepted: a new name"),
         ("kept.csv", "read-only"),
         ("pipe.csv", "a device"),
-        ("coin.toml", r"ends in \.csv"),
         (300 * "a" + ".csv", "name too long"),
-        ("nowhere/path.csv", "no folder .*nowhere; accepted: a file in a folder that exists"),
     ):
         with pytest.raises(UnwritableError, match=reason):
             require_file(tmp_path / name, ".csv", "fig24a")

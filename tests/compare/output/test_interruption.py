@@ -165,41 +165,28 @@ def test_a_main_thread_that_is_stuck_keeps_nothing(tmp_path, number):
     assert [path.name for path in tmp_path.iterdir()] == ["begun"]
 
 
-def test_what_swallows_the_interruption_or_takes_long_to_end_does_not_keep_the_process(tmp_path):
-    for command in (
-        "while True:\n        try: threading.Event().wait()\n        except BaseException: pass",
-        "try: stuck()\n    finally: threading.Event().wait()",
-        "threading.Thread(target=threading.Event().wait).start(); threading.Event().wait()",
-    ):
-        script = f"{STUCK}def command():\n    Path('begun').touch()\n    {command}\nrun_to_exit(command)"
-        assert ended(tmp_path, signal.SIGINT, script)[0] == 130
-        (tmp_path / "begun").unlink()
+ENDS = {
+    "what swallows the interruption": (
+        "while True:\n        try: threading.Event().wait()\n        except BaseException: pass"
+    ),
+    "what takes long to end": "try: stuck()\n    finally: threading.Event().wait()",
+    "another thread": "threading.Thread(target=threading.Event().wait).start(); threading.Event().wait()",
+    "another error on the way out": (
+        "try: threading.Event().wait()\n    except BaseException: raise ValueError('because of it')"
+    ),
+    # C has no place for what is raised: Python prints a traceback there, and goes on.
+    "a call from C": "import ctypes; ctypes.CFUNCTYPE(None)(threading.Event().wait)()",
+}
 
 
-def test_another_error_on_the_way_out_is_not_told(tmp_path):
-    script = STUCK + (
-        "def command():\n"
-        "    Path('begun').touch()\n"
-        "    try: threading.Event().wait()\n"
-        "    except BaseException: raise ValueError('because of it')\n"
-        "run_to_exit(command)"
-    )
-    status, said = ended(tmp_path, signal.SIGTERM, script)
-    assert (status, said) == (143, "cointoss: interrupted by SIGTERM\n")
-
-
-def test_what_is_raised_in_a_call_from_c_ends_the_process_with_one_line(tmp_path):
-    """C has no place for it: Python prints a traceback there, and goes on."""
-    script = STUCK + (
-        "import ctypes\n"
-        "@ctypes.CFUNCTYPE(None)\n"
-        "def called():\n"
-        "    Path('begun').touch()\n"
-        "    threading.Event().wait()\n"
-        "run_to_exit(called)"
-    )
-    status, said = ended(tmp_path, signal.SIGINT, script)
-    assert (status, said) == (130, "cointoss: interrupted by SIGINT\n")
+@pytest.mark.parametrize("end", ENDS)
+def test_nothing_keeps_the_process_and_what_was_printed_before_is_there(tmp_path, end):
+    script = f"{STUCK}def command():\n    print('first')\n    Path('begun').touch()\n    {ENDS[end]}\n"
+    with child(tmp_path, script + "run_to_exit(command)") as process:
+        wait_until_begun(process, tmp_path)
+        process.send_signal(signal.SIGINT)
+        assert process.communicate(timeout=60) == ("first\n", "cointoss: interrupted by SIGINT\n")
+    assert process.returncode == 130
 
 
 def test_a_signal_that_is_ignored_stays_so(tmp_path):
@@ -214,11 +201,3 @@ def test_a_signal_that_is_ignored_stays_so(tmp_path):
     with child(tmp_path, script) as process:
         assert process.communicate(timeout=60) == ("goes on\n", "")
     assert process.returncode == 3
-
-
-def test_what_was_printed_before_is_there(tmp_path):
-    script = f"{STUCK}def command():\n    print('first')\n    stuck()\nrun_to_exit(command)"
-    with child(tmp_path, script) as process:
-        wait_until_begun(process, tmp_path)
-        process.send_signal(signal.SIGINT)
-        assert process.communicate(timeout=60) == ("first\n", "cointoss: interrupted by SIGINT\n")

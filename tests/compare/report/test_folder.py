@@ -3,7 +3,6 @@
 import json
 import re
 import shutil
-from html.parser import HTMLParser
 from unittest.mock import patch
 
 import pytest
@@ -20,42 +19,13 @@ from cointoss.compare.report.contents import FILES, NOT_ASKED, require_folder
 from cointoss.compare.report.folder import BEING_DRAWN, write_report
 from cointoss.compare.report.page import versions
 from cointoss.models import certificate
-from cointoss.models.reading import load, parse, scenario_text
+from cointoss.models.reading import parse, scenario_text
 from tests.helpers.command_line import cointoss, refused
-from tests.helpers.draws import AIR, scenario
+from tests.helpers.draws import scenario
 from tests.helpers.films import film_written
+from tests.helpers.site import read
 
 SHORT = scenario_text("zloty").replace("0.40001", "0.05") + "\n[ending]\nmax_impacts = 2\n"
-
-
-class ParsedPage(HTMLParser):
-    """Collects what a page asks for from outside, its headings, and checks that its tags nest."""
-
-    VOID = frozenset({"meta", "br", "wbr", "img", "link", "input", "hr"})
-
-    def __init__(self, text):
-        super().__init__()
-        self.open, self.outside, self.headings, self.videos = [], [], [], 0
-        self.feed(text)
-        assert self.open == []
-
-    def handle_starttag(self, tag, attrs):
-        for name, value in attrs:
-            if name in ("src", "href") and not (value or "").startswith(("data:", "#")):
-                self.outside.append(value)
-        self.videos += tag == "video"
-        if tag not in self.VOID:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag, attrs):
-        pass
-
-    def handle_endtag(self, tag):
-        assert self.open.pop() == tag
-
-    def handle_data(self, data):
-        if self.open and self.open[-1] in ("h1", "h2"):
-            self.headings.append(data.strip())
 
 
 @pytest.fixture(scope="module")
@@ -71,27 +41,13 @@ def folder(found, tmp_path_factory):
     return target
 
 
-def test_the_folder_holds_page_film_numbers_and_paths(folder):
-    names = {"report.html", "toss.mp4", "numbers.json", "path-analytic.csv", "path-mujoco.csv"}
-    assert {path.name for path in folder.iterdir()} == names
-
-
 def test_the_page_stands_alone_and_has_its_parts(folder):
     text = (folder / "report.html").read_text(encoding="utf-8")
-    page = ParsedPage(text)
-    assert page.outside == []
-    assert "url(" not in text.replace("url(#", "")
-    assert page.videos == 1
-    expected = [
-        "short: do two engines toss this coin alike?",
-        "Heads and tails",
-        "Film",
-        "Motion",
-        "Impacts",
-        "Scenario",
-        "Settings and versions",
-    ]
-    assert page.headings == expected
+    assert all(address.startswith(("data:", "#")) for address in read(folder / "report.html").loaded)
+    assert text.count("<video") == 1
+    headings = re.findall(r"<h[12][^>]*>([^<]*)", text)
+    parts = ["Heads and tails", "Film", "Motion", "Impacts", "Scenario", "Settings and versions"]
+    assert headings == ["short: do two engines toss this coin alike?", *parts]
     assert "center_of_mass" in text
     assert "°" in text
     assert "<code>floor.restitution_kind</code></td><td>kinematic</td>" in text.replace("<wbr>", "")
@@ -112,12 +68,6 @@ def test_the_numbers_are_those_of_the_tosses(found, folder):
     assert numbers["tosses"][0]["impacts"][1]["time"] == found.analytic.impacts.time[1]
     assert numbers["comparison"]["impulse_difference"] == found.differences.impulse.tolist()
     assert numbers["comparison"]["horizon"] == found.horizon
-
-
-def test_the_film_has_its_frames(found, folder):
-    written = film_written(folder / "toss.mp4")
-    assert written.frames == frame_count(found.filmed(), SMALL)
-    assert written.rate == SMALL.frames_per_second
 
 
 @pytest.mark.parametrize("name", ["zloty", "contact_knurled"])
@@ -167,7 +117,7 @@ def test_without_opengl_the_report_says_what_to_install(tmp_path):
     html = page.read_text(encoding="utf-8")
     assert "No video." in html
     assert "libegl1" in html
-    assert ParsedPage(html).videos == 0
+    assert "<video" not in html
     assert not (tmp_path / "toss.mp4").exists()
 
 
@@ -179,7 +129,7 @@ def test_what_mujoco_cannot_realise_is_a_report_of_one_engine(tmp_path, monkeypa
     html = page.read_text(encoding="utf-8")
     assert "Not realisable in MuJoCo" in html
     assert "No video." not in html
-    assert ParsedPage(html).videos == 1
+    assert html.count("<video") == 1
     assert 'aria-label="Film of the toss"' in html
     assert "The toss by the analytic engine, drawn by MuJoCo, which can’t toss it." in html
     frames = frame_count([followed(analytic.toss(parse(text, "knurled")))], stamp)
@@ -201,12 +151,6 @@ def test_a_comparison_in_python_writes_the_report_and_the_film_of_the_commands(t
     assert {path.name for path in (tmp_path / "report").iterdir()} == set(FILES)
     assert found.film(str(tmp_path / "mine.mp4")) == tmp_path / "mine.mp4"
     assert film_written(tmp_path / "mine.mp4").frames == frame_count(found.filmed(), stamp)
-    with pytest.raises(
-        UnwritableError, match=r"mine\.avi: another kind of file; accepted: a name that ends in \.mp4 or"
-    ):
-        found.film(tmp_path / "mine.avi")
-    with pytest.raises(UnwritableError, match=r"mine\.toml: is no folder; accepted: a folder"):
-        found.report(source)
 
 
 def test_a_report_replaces_an_earlier_one_as_a_whole_and_nothing_else(folder, tmp_path):
@@ -256,36 +200,18 @@ def test_what_is_no_file_of_a_report_is_refused(folder, tmp_path):
     (earlier / "report.html").rmdir()
     with pytest.raises(UnwritableError, match="is the scenario; accepted: another file"):
         require_folder(earlier, str(earlier / "path-mujoco.csv"))
-    with pytest.raises(UnwritableError, match="is no folder; accepted: a folder"):
-        require_folder(earlier / "numbers.json", "fig24a")
 
 
-@pytest.mark.parametrize("max_time", [1e-9, 1e-3])
-def test_the_shortest_toss_has_a_report(tmp_path, max_time):
+@pytest.mark.parametrize("max_time", [1e-9, 1e-3, 0.05])
+def test_the_shortest_toss_has_a_report_which_tells_of_no_impact(tmp_path, max_time):
     page = write_report(compared(scenario(ending={"max_time": max_time}), "", "short"), tmp_path, ADVICE)
-    assert "max_time" in page.read_text(encoding="utf-8")
+    text = page.read_text(encoding="utf-8")
+    for told in ("max_time", "The coin does not touch the floor.", "No impact."):
+        assert told in text
+    for untold in ("S is the impulse", "dots are impacts", "Vertical lines are impacts"):
+        assert untold not in text
     numbers = json.loads((tmp_path / "numbers.json").read_text(encoding="utf-8"))
     assert [(toss["ending"], toss["impacts"]) for toss in numbers["tosses"]] == [("max_time", [])] * 2
     for engine in ("analytic", "mujoco"):
         rows = (tmp_path / f"path-{engine}.csv").read_text(encoding="utf-8").splitlines()
-        assert [float(row.split(",")[0]) for row in rows[1:]] == [0, max_time]
-
-
-def test_a_toss_without_impacts_has_a_report_too(tmp_path):
-    case = scenario(air=AIR, ending={"max_time": 0.05})
-    page = write_report(compared(case, "# made", "falling"), tmp_path, ADVICE)
-    text = page.read_text(encoding="utf-8")
-    assert "max_time" in text
-    assert "The coin does not touch the floor." in text
-    assert "No impact." in text
-    assert "S is the impulse" not in text
-    assert "dots are impacts" not in text
-    assert "Vertical lines are impacts" not in text
-
-
-def test_the_papers_scenario_says_what_it_assumes():
-    said = " ".join(line[2:] for line in scenario_text("fig24a").splitlines() if line.startswith("# "))
-    assert "not which coin, which floor, or g. Here: the ideal coin with h = 2 mm on a smooth floor" in said
-    case = load("fig24a")
-    assert (case.coin.center_of_mass, case.coin.thickness) == ((0, 0, 0), 2e-3)
-    assert (str(case.floor.contact), case.gravity) == ("smooth", 9.81)
+        assert [float(row.split(",")[0]) for row in (rows[1], rows[-1])] == [0, max_time]

@@ -20,6 +20,7 @@ from cointoss.compare.reproduction.claim import (
 )
 from cointoss.compare.reproduction.result import Reproduction, Result
 from tests.helpers.pages import DOCS
+from tests.helpers.studies import unseen
 
 KNOWN = Claim(
     claim="two and two are four", analytic="4", mujoco="4", criteria=(Criterion("sum", 4, "=", 4, "no more"),)
@@ -30,10 +31,6 @@ REFUTED = Claim(
     criteria=(Criterion("sum", 4, "=", 5, "as printed"), Criterion("error [1]", 1e-20, "<", 0.5, "rounding")),
     expected=False,
 )
-
-
-def unseen(done: int, whole: int) -> None:
-    assert done <= whole
 
 
 @pytest.mark.parametrize(
@@ -149,13 +146,6 @@ def test_a_run_leaves_its_claims_its_data_and_its_pictures(tmp_path, monkeypatch
     assert written == ["claims.json", "data.npz", "figure.png", "index.md"]
     assert read_claims(folder / "claims.json") == (KNOWN, REFUTED)
     assert np.load(folder / "data.npz")["sum"] == [4.0]
-    page = (folder / "index.md").read_text(encoding="utf-8")
-    for row in (
-        "| sum | 4 | = 4 | no more |",
-        "| sum | 4 | = 5 | as printed |",
-        "| error [1] | 1e-20 | < 0.5 | rounding |",
-    ):
-        assert row in page
     runner.reproduce("sum", tmp_path, unseen, quick=True)
     assert made == ["full", "quick"]
 

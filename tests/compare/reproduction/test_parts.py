@@ -1,7 +1,5 @@
 """Parts of a long study: kept, read again, made again where damaged, and removed at the end."""
 
-import os
-
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
@@ -10,10 +8,8 @@ from cointoss.compare.reproduction import runner
 from cointoss.compare.reproduction.claim import Claim
 from cointoss.compare.reproduction.parts import kept
 from cointoss.compare.reproduction.result import Reproduction, Result
-
-
-def unseen(done: int, whole: int) -> None:
-    assert done <= whole
+from tests.helpers.pickles import Runs
+from tests.helpers.studies import unseen
 
 
 def test_a_part_is_computed_once_and_again_where_its_file_is_damaged(tmp_path):
@@ -31,16 +27,6 @@ def test_a_part_is_computed_once_and_again_where_its_file_is_damaged(tmp_path):
     (folder / "a-1.npz").write_bytes(b"PK\x03\x04 damaged")
     assert kept(folder, "a-1", compute)["x"].tolist() == [0, 1, 2]
     assert made == [1, 1]
-
-
-class Runs:
-    """Makes a folder when it is unpickled."""
-
-    def __init__(self, folder):
-        self.folder = str(folder)
-
-    def __reduce__(self):
-        return os.mkdir, (self.folder,)
 
 
 def test_a_part_that_would_run_is_computed_again(tmp_path):

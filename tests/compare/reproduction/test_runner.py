@@ -28,15 +28,6 @@ def make(progress):
 
 REPRODUCTION = Reproduction(title="a fake", seconds=0, make=make, draw={{}})
 """
-PRINTED = """\
-as drawn
-
-{mark} {verdict}: two and two are five
-    measured  sum: {sum} (= 5: five)
-
-{name}: 1 {verdict}
-{folder}
-"""
 SUMS = {
     "good": "5",
     "doubtful": "4",
@@ -80,24 +71,6 @@ def test_names_are_found_without_importing_what_they_name():
     assert done.stdout.strip() == "[]"
 
 
-@pytest.mark.parametrize(
-    ("arguments", "told"),
-    [
-        (["no-such"], "no-such: no such name; accepted: "),
-        (["contact-laws", "no-such"], "no-such: no such name; accepted: "),
-        (["contact_laws"], "contact_laws: no such name; accepted: "),
-        (["contact-laws"], "--out DIR"),
-        ([], "NAME: missing; accepted: all, or one of: accuracy-and-stripes, "),
-    ],
-)
-def test_wrong_names_and_missing_arguments_are_exit_status_2(tmp_path, arguments, told):
-    out = [] if told == "--out DIR" else ["--out", tmp_path / "out"]
-    said = refused("reproduce", *arguments, *out)
-    assert told in said
-    assert "contact-laws" in said
-    assert list(tmp_path.iterdir()) == []
-
-
 @pytest.mark.usefixtures("fakes")
 def test_files_are_written_and_the_results_printed(tmp_path):
     old = tmp_path / "out" / "reproduction" / "fake-good"
@@ -105,11 +78,9 @@ def test_files_are_written_and_the_results_printed(tmp_path):
     for name in ("numbers.json", "data.npz", "mine.txt"):
         (old / name).write_text("old")
     answered = cointoss("reproduce", "fake-good", "--out", tmp_path / "out")
-    assert (answered.exit_code, answered.stdout, answered.stderr) == (
-        0,
-        PRINTED.format(name="fake-good", sum=5, mark="✓", verdict="holds", folder=old),
-        "",
-    )
+    assert (answered.exit_code, answered.stderr) == (0, "")
+    assert answered.stdout.startswith("as drawn\n\n✓ holds: two and two are five\n")
+    assert answered.stdout.endswith(f"\n\nfake-good: 1 holds\n{old}\n")
     assert sorted(path.name for path in old.iterdir()) == ["claims.json", "mine.txt", "numbers.json"]
     assert json.loads((old / "numbers.json").read_text()) == {"sum": 5}
     assert (old / "mine.txt").read_text() == "old"
@@ -119,20 +90,10 @@ def test_files_are_written_and_the_results_printed(tmp_path):
 def test_a_claim_that_fails_is_exit_status_1_and_keeps_the_evidence(tmp_path):
     answered = cointoss("reproduce", "fake-doubtful", "fake-good", "--out", tmp_path / "out")
     assert answered.exit_code == 1
-    failed, held = (
-        PRINTED.format(
-            name=name, sum=n, mark=mark, verdict=verdict, folder=runner.folder_of(name, tmp_path / "out")
-        )
-        for name, n, mark, verdict in (
-            ("fake-doubtful", 4, "✗", "does not hold"),
-            ("fake-good", 5, "✓", "holds"),
-        )
-    )
-    assert answered.stdout == f"{failed}\n{held}"
-    assert (
-        answered.stderr
-        == "cointoss: fake-doubtful: two and two are five: another verdict than the known one\n"
-    )
+    counts = [line for line in answered.stdout.splitlines() if line.startswith("fake-")]
+    assert counts == ["fake-doubtful: 1 does not hold", "fake-good: 1 holds"]
+    told = "cointoss: fake-doubtful: two and two are five: another verdict than the known one\n"
+    assert answered.stderr == told
     folder = tmp_path / "out" / "reproduction" / "fake-doubtful"
     assert json.loads((folder / "numbers.json").read_text()) == {"sum": 4}
 

@@ -9,15 +9,8 @@ from cointoss.compare.sweep.axes import Axis, parse_axis
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.fields import UNITS, split
 from cointoss.models.scenario import Scenario
-from tests.helpers.draws import AIR, scenario
-
-HERE = scenario(
-    coin={"center_of_mass": [1e-4, 0, 0]},
-    air=AIR,
-    floor={"restitution": 0.4},
-    release={"angles": [0.1, 0.2, 0.3], "angular_velocity": [1.0, 30.0, 2.0]},
-    ending={"max_impacts": 12},
-)
+from tests.helpers.basin_runs import TUMBLING
+from tests.helpers.draws import scenario
 
 
 def numeric_fields(model: type[BaseModel], path: str = "") -> set[str]:
@@ -39,7 +32,7 @@ def test_every_numeric_field_but_the_inertia_can_vary():
 
 @pytest.mark.parametrize("field", UNITS)
 def test_a_value_lands_in_its_field_alone_with_its_unit(field):
-    case = HERE.replace("ending.caught", 1.0)
+    case = TUMBLING.replace("ending.caught", 1.0)
     if "quaternion" in field:
         case = scenario(release={"quaternion": [0.5, 0.5, 0.5, 0.5]})
     table, key, index = split(field)
@@ -61,12 +54,12 @@ def test_a_value_lands_in_its_field_alone_with_its_unit(field):
 
 
 def test_an_axis_includes_both_ends_and_takes_units():
-    axis = parse_axis("release.position.z=20 cm:0.6:5", HERE)
+    axis = parse_axis("release.position.z=20 cm:0.6:5", TUMBLING)
     assert axis == Axis(field="release.position.z", unit="m", start=0.2, stop=0.6, count=5)
     assert axis.values.tolist() == pytest.approx([0.2, 0.3, 0.4, 0.5, 0.6], rel=1e-15)
-    assert parse_axis("floor.restitution=60 %:0.9:2", HERE).values.tolist() == [0.6, 0.9]
-    assert parse_axis("release.angular_velocity.eta=5:-5:3", HERE).values.tolist() == [5, 0, -5]
-    assert parse_axis("ending.max_impacts=1:9:5", HERE).values.tolist() == [1, 3, 5, 7, 9]
+    assert parse_axis("floor.restitution=60 %:0.9:2", TUMBLING).values.tolist() == [0.6, 0.9]
+    assert parse_axis("release.angular_velocity.eta=5:-5:3", TUMBLING).values.tolist() == [5, 0, -5]
+    assert parse_axis("ending.max_impacts=1:9:5", TUMBLING).values.tolist() == [1, 3, 5, 7, 9]
     drag = scenario(air={"exponent": 0.5, "normal": 0.1})
     assert parse_axis("air.normal=1:2:2", drag).unit == "kg*m**-2.5*s**-0.5"
 
@@ -93,4 +86,4 @@ def test_an_axis_includes_both_ends_and_takes_units():
 )
 def test_a_wrong_axis_is_refused_with_what_is_accepted(text, said):
     with pytest.raises(SweepError, match=said):
-        parse_axis(text, HERE)
+        parse_axis(text, TUMBLING)

@@ -21,6 +21,7 @@ from cointoss.compare.sweep.store import opened
 from cointoss.models.errors import ScenarioError
 from tests.helpers.basin_runs import SCENARIO, sweep_of
 from tests.helpers.command_line import refused
+from tests.helpers.pickles import Runs
 
 X, Y = "release.angular_velocity.eta", "release.position.z"
 AXES = (f"{X}=20:60:12", f"{Y}=0.2:0.6:10")
@@ -84,16 +85,6 @@ def described(path, name):
             file.write_text(json.dumps(whole))
 
     return change
-
-
-class Runs:
-    """Makes a folder when it is unpickled."""
-
-    def __init__(self, folder):
-        self.folder = str(folder)
-
-    def __reduce__(self):
-        return os.mkdir, (self.folder,)
 
 
 class Unpickler(numcodecs.abc.Codec):

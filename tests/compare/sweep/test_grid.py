@@ -1,29 +1,12 @@
 """Tiles cover a map once, and are cut into parts that cover them once."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep import grid
-from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.grid import Sweep, Tile, cut, gaps, tile_shape, tiles
-from cointoss.models.scenario import Scenario
-from tests.helpers import basin_runs
-from tests.helpers.draws import AIR, scenario
-
-HERE = scenario(
-    coin={"center_of_mass": [1e-4, 0, 0]},
-    air=AIR,
-    floor={"restitution": 0.4},
-    release={"angles": [0.1, 0.2, 0.3], "angular_velocity": [1.0, 30.0, 2.0]},
-    ending={"max_impacts": 12},
-)
-
-
-def sweep_of(x: str, y: str, case: Scenario = HERE, **given: Any) -> Sweep:
-    return basin_runs.sweep_of(x, y, case, **given)
+from cointoss.compare.sweep.grid import Tile, cut, gaps, tile_shape, tiles
+from tests.helpers.basin_runs import sweep_of
 
 
 @pytest.mark.parametrize("shape", [(2, 2), (300, 500), (2, 100_000), (100_000, 3), (129, 127)])
@@ -85,10 +68,3 @@ def test_a_tile_is_long_along_the_release_where_the_coin_varies_across():
     assert tile_shape(across) == (1 << 14, 1)
     along = sweep_of("release.position.z=1:2:20000", "gravity=9:10:500")
     assert tile_shape(along) == (1, 1 << 14)
-
-
-def test_axes_that_exclude_each_other_are_refused():
-    with pytest.raises(SweepError, match="on both axes"):
-        sweep_of("gravity=9:10:3", "gravity=8:9:3")
-    with pytest.raises(SweepError, match="max_impacts"):
-        sweep_of("gravity=9:10:3", "ending.max_impacts=1:3:3", after=1)

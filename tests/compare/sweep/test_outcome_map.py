@@ -49,13 +49,8 @@ def test_a_map_has_the_tosses_of_its_pixels(found):
     assert cointoss.basin("fig24a", x=X, y=Y, after=np.int64(0)).sweep.after == 0  # pyright: ignore
 
 
-def test_a_map_is_that_which_the_command_writes(found, tmp_path):
-    path = tmp_path / "map.zarr"
-    command("basin", "fig24a", "--x", X, "--y", Y, "--out", path)
-    read = cointoss.read_map(str(path))
-    assert read.sweep == found.sweep
-    for name, array in found.layers.items():
-        assert np.array_equal(read.layers[name], array)
+def test_a_map_in_xarray_is_that_on_disk(found, tmp_path):
+    path = found.save(tmp_path / "map.zarr")
     with xarray.open_dataset(path, engine="zarr", consolidated=True) as on_disk:
         ours = found.to_xarray()
         for name in ("outcome", "impacts", "release.angular_velocity.eta", "release.position.z"):
@@ -122,7 +117,7 @@ def test_a_map_is_saved_as_the_command_saves_it(found, margins, tmp_path):
     for name, made, more in (("plain", found, ()), ("margins", margins, ("--margin", "height"))):
         path = tmp_path / f"{name}.zarr"
         assert made.save(str(path)) == path
-        read = cointoss.read_map(path)
+        read = cointoss.read_map(str(path))
         assert read.sweep == made.sweep
         for layer, array in made.layers.items():
             assert np.array_equal(read.layers[layer], array)
@@ -183,9 +178,7 @@ after True -> after: True, accepted: a whole number
 after 1.5 -> after: 1.5, accepted: a whole number
 x None -> x: None, accepted: FIELD=START:STOP:N, such as
 y (1, 2) -> y: (1, 2), accepted: FIELD=START:STOP:N, such as
-x 'release.position.z=1' -> accepted: FIELD=START:STOP:N
 x 'release.position.z=0.1:1:9' -> release.position.z: on both axes; accepted: two fields
-y 'release.position.z=-1:1:3' -> release.position.z
 margin 3 -> margin: 3, accepted: text
 margin 'luck' -> margin luck: accepted: height
 """
@@ -199,9 +192,7 @@ def test_what_makes_no_map_is_refused(case):
         cointoss.basin("fig24a", **{"x": X, "y": Y, name: ast.literal_eval(value)})
 
 
-def test_two_arguments_may_make_no_map_together():
-    with pytest.raises(ValueError, match="margin: 'height' by mujoco, accepted: only by"):
-        cointoss.basin("fig24a", x=X, y=Y, margin="height", engine="mujoco")
+def test_two_axes_may_make_no_map_together():
     with pytest.raises(ValueError, match="100000 by 100000 pixels, accepted: at most 1e"):
         cointoss.basin("fig24a", x="release.position.z=0.1:1:100000", y="gravity=1:9:100000")
 

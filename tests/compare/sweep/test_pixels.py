@@ -11,28 +11,16 @@ from cointoss import analytic, coin_mj
 from cointoss.coin_mj import Realisation, Settings
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.grid import Sweep, Tile
+from cointoss.compare.sweep.grid import Tile
 from cointoss.compare.sweep.pixels import check, pixel_scenario, toss_pixels
 from cointoss.models.records import UnsupportedError
-from cointoss.models.scenario import Scenario
 from cointoss.models.unused import UnusedFieldWarning
-from tests.helpers import basin_runs
-from tests.helpers.draws import AIR, scenario
+from tests.helpers.basin_runs import TUMBLING, sweep_of
+from tests.helpers.draws import scenario
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
-HERE = scenario(
-    coin={"center_of_mass": [1e-4, 0, 0]},
-    air=AIR,
-    floor={"restitution": 0.4},
-    release={"angles": [0.1, 0.2, 0.3], "angular_velocity": [1.0, 30.0, 2.0]},
-    ending={"max_impacts": 12},
-)
 WHOLE = Tile(slice(0, 3), slice(0, 4))
-
-
-def sweep_of(x: str, y: str, case: Scenario = HERE, **given: Any) -> Sweep:
-    return basin_runs.sweep_of(x, y, case, **given)
 
 
 @pytest.mark.parametrize(
@@ -55,7 +43,7 @@ def test_each_pixel_of_a_largest_number_of_impacts_is_its_own_toss_to_the_bit():
 
 
 def assert_each_pixel_is_its_own_toss(x, y, after):
-    sweep = sweep_of(x, y, after=after)
+    sweep = sweep_of(x, y, TUMBLING, after=after)
     pixels = toss_pixels(sweep, WHOLE)
     assert pixels.outcome.shape == (3, 4)
     for i, at_y in enumerate(sweep.y.values):
@@ -86,7 +74,7 @@ def test_the_impacts_of_the_last_digit_are_those_of_one_toss():
 
 
 def test_a_part_of_a_map_is_that_part_of_the_whole():
-    sweep = sweep_of("floor.restitution=0.2:0.6:4", "release.position.z=0.2:0.6:3")
+    sweep = sweep_of("floor.restitution=0.2:0.6:4", "release.position.z=0.2:0.6:3", TUMBLING)
     whole, part = toss_pixels(sweep, WHOLE), toss_pixels(sweep, Tile(slice(1, 3), slice(2, 4)))
     assert np.array_equal(part.outcome, whole.outcome[1:3, 2:4])
     assert np.array_equal(part.impacts, whole.impacts[1:3, 2:4])
@@ -108,7 +96,7 @@ def test_a_part_of_a_map_is_that_part_of_the_whole():
 )
 def test_a_pixel_that_is_no_scenario_is_refused_before_the_first_toss(x, y, said):
     with pytest.raises(SweepError, match=said):
-        check(sweep_of(x, y))
+        check(sweep_of(x, y, TUMBLING))
 
 
 def test_euler_parameters_off_norm_are_refused_inside_an_axis():
@@ -120,11 +108,11 @@ def test_euler_parameters_off_norm_are_refused_inside_an_axis():
 
 def test_what_mujoco_cannot_toss_is_refused_at_either_end_of_an_axis():
     axes = ("floor.restitution=0.5:0:4", "release.position.z=0.2:1:3")
-    check(sweep_of(*axes))
+    check(sweep_of(*axes, TUMBLING))
     with pytest.raises(UnsupportedError, match=r"floor\.restitution = 0"):
-        check(sweep_of(*axes, engine=Engine.MUJOCO))
+        check(sweep_of(*axes, TUMBLING, engine=Engine.MUJOCO))
     one_step = replace(coin_mj.MANY, contact=Realisation.ONE_STEP)
-    check(sweep_of(*axes, engine=Engine.MUJOCO, settings=one_step))
+    check(sweep_of(*axes, TUMBLING, engine=Engine.MUJOCO, settings=one_step))
 
 
 def test_a_field_that_a_map_varies_is_one_that_is_used():
@@ -134,7 +122,7 @@ def test_a_field_that_a_map_varies_is_one_that_is_used():
         check(sweep_of("floor.friction=0:0.5:3", "release.position.z=0.3:0.4:3", rough))
         check(sweep_of("floor.friction=-0.0:0.5:2", "floor.restitution=0.5:0:2", rough))
     z = "release.position.z=0.3:0.4:3"
-    for case, x, y in ((HERE, "floor.friction=0.5:0:3", z), (rough, "gravity=9:10:2", z)):
+    for case, x, y in ((TUMBLING, "floor.friction=0.5:0:3", z), (rough, "gravity=9:10:2", z)):
         with pytest.warns(UnusedFieldWarning, match=r"^floor\.friction = "):
             check(sweep_of(x, y, case))
 
@@ -143,7 +131,7 @@ def test_a_field_that_a_map_varies_is_one_that_is_used():
 def test_a_pixel_by_mujoco_is_the_toss_with_the_settings_that_its_map_records(contact):
     axes = ("release.angular_velocity.eta=20:40:2", "release.position.z=0.2:0.3:2")
     chosen = replace(coin_mj.MANY, contact=Realisation(contact))
-    sweep = sweep_of(*axes, engine=Engine.MUJOCO, settings=chosen)
+    sweep = sweep_of(*axes, TUMBLING, engine=Engine.MUJOCO, settings=chosen)
     made = toss_pixels(sweep, Tile(slice(0, 2), slice(0, 2)))
     recorded: dict[str, Any] = sweep.settings.as_dict()
     assert recorded["contact"] == contact

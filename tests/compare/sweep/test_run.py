@@ -1,28 +1,12 @@
 """A tile is tossed in parts of a second."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 
 from cointoss.compare.sweep import run
-from cointoss.compare.sweep.grid import Sweep, Tile
+from cointoss.compare.sweep.grid import Tile
 from cointoss.compare.sweep.pixels import Pixels
-from cointoss.models.scenario import Scenario
-from tests.helpers import basin_runs
-from tests.helpers.draws import AIR, scenario
-
-HERE = scenario(
-    coin={"center_of_mass": [1e-4, 0, 0]},
-    air=AIR,
-    floor={"restitution": 0.4},
-    release={"angles": [0.1, 0.2, 0.3], "angular_velocity": [1.0, 30.0, 2.0]},
-    ending={"max_impacts": 12},
-)
-
-
-def sweep_of(x: str, y: str, case: Scenario = HERE, **given: Any) -> Sweep:
-    return basin_runs.sweep_of(x, y, case, **given)
+from tests.helpers.basin_runs import sweep_of
 
 
 @pytest.mark.parametrize(("cost", "most"), [(1e-5, 1 << 14), (4e-3, 250), (3.0, 8)])

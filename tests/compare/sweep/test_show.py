@@ -28,7 +28,7 @@ from cointoss.compare.sweep.store import opened
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import SCENARIO, basin, sweep_of
-from tests.helpers.command_line import HERE, cointoss, refused
+from tests.helpers.command_line import HERE, cointoss
 from tests.helpers.made_maps import halves
 
 COIN = f"{SCENARIO}[ending]\nmax_impacts = 2\n"
@@ -155,15 +155,6 @@ def test_a_report_without_a_video_is_made_by_the_command_that_it_names(coin, tmp
     assert NOT_ASKED in (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
     numbers = json.loads((tmp_path / "report" / "numbers.json").read_text(encoding="utf-8"))
     assert "--no-video" in shlex.split(numbers["map"]["command"])
-
-
-def test_a_folder_that_is_no_reports_is_refused_before_any_map(coin, tmp_path):
-    (tmp_path / "mine").mkdir()
-    (tmp_path / "mine" / "report.html").write_text("mine")
-    asked = ("--compare", "--out", tmp_path / "map.zarr", "--report", tmp_path / "mine")
-    assert "report.html is in the way" in refused("basin", coin, "--x", X, "--y", Y, *asked)
-    assert {path.name for path in tmp_path.iterdir()} == {"coin.toml", "mine"}
-    assert (tmp_path / "mine" / "report.html").read_text() == "mine"
 
 
 def test_a_back_end_for_drawing_is_chosen_before_mujoco_is_imported(coin, tmp_path):

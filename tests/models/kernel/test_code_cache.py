@@ -22,6 +22,7 @@ CALLEE = IMPORT + "\n\n@compiled\ndef part(x):\n    return {} * x\n"
 CALLER = IMPORT + "from {} import part\n\n\n@compiled\ndef whole(x):\n    return part(x) + {}\n"
 
 
+USER = IMPORT + "\n\n@compiled\ndef difference(p):\n    return p.a - p.b\n"
 FORK = """
 import gc, os, sys
 import numba
@@ -86,11 +87,14 @@ def run_caller(run, folder):
 
 @pytest.fixture
 def folder(tmp_path):
+    """A package with the kernel, and a function of it that calls one of another module."""
     for package in ("", "models", "analytic"):
         (tmp_path / "cointoss" / package).mkdir()
         # Without it the installed package would be found first.
         (tmp_path / "cointoss" / package / "__init__.py").touch()
     shutil.copytree(TOP / "models" / "kernel", tmp_path / "cointoss" / "models" / "kernel")
+    write(tmp_path, "cointoss.analytic.callee", CALLEE.format(2.0))
+    write(tmp_path, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
     return tmp_path
 
 
@@ -119,39 +123,31 @@ def test_plain_mode_compiles_anew_what_an_edit_can_change(folder, run):
         "from cointoss.analytic.caller import part, whole\n"
         "print(whole(10.0), *(sum(f.stats.cache_hits.values()) for f in (whole, part)))"
     )
-    write(folder, "cointoss.analytic.callee", CALLEE.format(2.0))
-    write(folder, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
     assert run(folder, script) == [21, 0, 0]
     assert run(folder, script) == [21, 1, 0]
     write(folder, "cointoss.analytic.callee", CALLEE.format(3.0))
     assert run(folder, script) == [31, 0, 0]
 
 
-def test_code_of_a_source_edited_since_it_was_imported_is_not_kept(folder, run):
+CHANGES = {
+    "edited": f"open('cointoss/analytic/callee.py', 'w').write({CALLEE.format('3.00')!r})",
+    "replaced by an older one": (
+        "import os; os.replace('cointoss/analytic/older.py', 'cointoss/analytic/callee.py')"
+    ),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_code_of_a_source_changed_since_it_was_imported_is_not_kept(folder, run, change):
     """Its folder is named by the source as it is when the function is compiled."""
-    write(folder, "cointoss.analytic.callee", CALLEE.format(2.0))
-    write(folder, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
+    write(folder, "cointoss.analytic.older", CALLEE.format(3.0))
+    os.utime(folder / "cointoss" / "analytic" / "older.py", (1e9, 1e9))
     calling = "from cointoss.analytic.caller import whole, part\n{}\nprint(whole(10.0), part(10.0))"
-    editing = f"open('cointoss/analytic/callee.py', 'w').write({CALLEE.format('3.00')!r})"
-    assert run(folder, calling.format(editing)) == [21, 20]
+    assert run(folder, calling.format(CHANGES[change])) == [21, 20]
     assert run(folder, calling.format("")) == [31, 30]
 
 
-def test_code_of_a_source_replaced_by_an_older_one_is_not_kept(folder, run):
-    write(folder, "cointoss.analytic.older", CALLEE.format(3.0))
-    os.utime(folder / "cointoss" / "analytic" / "older.py", (1e9, 1e9))
-    write(folder, "cointoss.analytic.callee", CALLEE.format(2.0))
-    write(folder, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
-    calling = "import os\nfrom cointoss.analytic.caller import whole\n{}\nprint(whole(10.0))"
-    assert run(
-        folder, calling.format("os.replace('cointoss/analytic/older.py', 'cointoss/analytic/callee.py')")
-    ) == [21]
-    assert run(folder, calling.format("")) == [31]
-
-
 def test_damaged_files_of_code_are_made_anew(folder, run_caller):
-    write(folder, "cointoss.analytic.callee", CALLEE.format(2.0))
-    write(folder, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
     assert run_caller() == [21, 0, 0, 0]
 
     def half_flipped(kept):
@@ -214,8 +210,6 @@ def test_code_is_kept_in_a_folder_of_the_user_alone(tmp_path, monkeypatch):
 
 def test_kept_code_calls_what_another_process_has_compiled_anew(folder, run, run_caller):
     """A process that compiles the callee alone numbers its functions otherwise."""
-    write(folder, "cointoss.analytic.callee", CALLEE.format(2.0))
-    write(folder, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
     write(
         folder,
         "cointoss.analytic.above",
@@ -259,8 +253,6 @@ def test_python_calls_what_was_only_kept_for_callers(folder, run):
 
 
 def test_code_kept_for_python_is_read_without_what_numba_can_compile(folder):
-    write(folder, "cointoss.analytic.callee", CALLEE.format(2.0))
-    write(folder, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
     script = "import sys\nfrom cointoss.analytic.caller import whole\nprint(whole(1.0))\n"
     imported = "print(int('numba.np.linalg' in sys.modules))"
     with forking(warm=False) as run:
@@ -271,9 +263,7 @@ def test_code_kept_for_python_is_read_without_what_numba_can_compile(folder):
 def test_named_tuples_with_other_fields_are_other_types(folder, run):
     """A function need not import the named tuple that it is given, so an edit there is not in its hash."""
     tuples = "from typing import NamedTuple\n\n\nclass Pair(NamedTuple):\n    {}: float\n    {}: float\n"
-    write(
-        folder, "cointoss.analytic.user", IMPORT + "\n\n@compiled\ndef difference(p):\n    return p.a - p.b\n"
-    )
+    write(folder, "cointoss.analytic.user", USER)
     script = (
         "from cointoss.analytic.{0} import difference\nfrom cointoss.models.pair import Pair\n"
         "print(difference({1}))"
@@ -292,9 +282,7 @@ def test_named_tuples_with_other_fields_are_other_types(folder, run):
 def test_a_named_tuple_that_has_gone_since_is_no_error(folder, module, run):
     """What was kept for it names its type: where that has another name now, or no module, it is kept anew."""
     tuples = "from typing import NamedTuple\n\n\nclass {}(NamedTuple):\n    a: float\n    b: float\n"
-    write(
-        folder, "cointoss.analytic.user", IMPORT + "\n\n@compiled\ndef difference(p):\n    return p.a - p.b\n"
-    )
+    write(folder, "cointoss.analytic.user", USER)
     script = (
         "from cointoss.analytic.user import difference\nfrom {} import {} as Two\n"
         "print(difference(Two(1.0, 3.0)))\n"
@@ -347,8 +335,6 @@ def test_two_processes_that_keep_code_at_once_do_not_mix_it_up(tmp_path, monkeyp
 
 @pytest.mark.parametrize("written", ["Path.mkdir", "CodeFiles._save_data", "CodeFiles._save_index"])
 def test_code_that_cannot_be_written_is_not_kept(folder, run, run_caller, written):
-    write(folder, "cointoss.analytic.callee", CALLEE.format(2.0))
-    write(folder, "cointoss.analytic.caller", CALLER.format("cointoss.analytic.callee", 1))
     (folder / "cache").mkdir()
     full_disk = (
         "from pathlib import Path\nfrom cointoss.models.kernel.fork.code_files import CodeFiles\n"

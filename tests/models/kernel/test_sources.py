@@ -4,17 +4,13 @@ import ast
 import importlib
 import inspect
 import pkgutil
-from pathlib import Path
 
 import pytest
 
 import cointoss
-from cointoss.models.kernel import sources
 from cointoss.models.kernel.fork.functions import CompiledFunction
 from cointoss.models.kernel.sources import imported, source_hash
 from tests.helpers.modules import write
-
-TOP = Path(sources.__file__).parents[2]
 
 
 def all_compiled():

@@ -1,13 +1,11 @@
 """Coins that end on their edge: laws of the first touch, draws, the fair coin, and what the page shows."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from cointoss.compare.engines import Engine
-from cointoss.compare.reproduction.claim import unexpected
 from cointoss.compare.reproduction.claims import edge
 from cointoss.compare.reproduction.declared import result
 from cointoss.compare.reproduction.saving import read_numbers
@@ -36,7 +34,7 @@ from cointoss.compare.reproduction.setups.edge_touches import (
 from cointoss.compare.reproduction.setups.ends import ended_as, tosses
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.records import Outcome
-from tests.helpers.pages import pictures, saved
+from tests.helpers.pages import saved
 
 SAVED = read_numbers(saved("edge"), EdgeRecord)
 LAWS = {DIAMETRAL: edge_by_angle, ANYHOW: edge_by_solid_angle}
@@ -119,11 +117,6 @@ def test_coins_that_end_on_their_edge_are_followed_to_their_rest():
     assert (found["times"] >= 0).all()
 
 
-def test_the_saved_claims_come_out_as_known():
-    assert pictures("EDGE.md", "edge") == {"figure.png"}
-    assert unexpected(claims(SAVED)) == ()
-
-
 def test_a_nickel_as_rare_on_its_edge_as_published_would_be_seen():
     rare = {"heads, paper": 300_000 - 50, "edge, paper": 50}
     nickel = {hand: {**by_factor, "as said": rare} for hand, by_factor in SAVED.nickel.items()}
@@ -132,4 +125,3 @@ def test_a_nickel_as_rare_on_its_edge_as_published_would_be_seen():
     assert on_edge(rare).value == pytest.approx(1 / 6000)
     assert fair(SAVED, DIAMETRAL, "0.4").low < fair(SAVED, DIAMETRAL, "0.4").value
     assert SEED == 1993
-    assert Path(saved("edge") / "figure.png").stat().st_size < 150_000

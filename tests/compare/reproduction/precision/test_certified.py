@@ -42,16 +42,13 @@ from tests.helpers.contacts import follow_step as contact_step
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
 COINS = [
-    (chi, air, law)
-    for chi, air, law in (
-        (0.6, False, "smooth"),
-        (0.6, True, "smooth"),
-        (0.3, False, "smooth"),
-        (0.0, False, "smooth"),
-        (0.3, True, "smooth"),
-        (0.6, False, "perfectly_rough"),
-        (0.2, False, "perfectly_rough"),
-    )
+    (0.6, False, "smooth"),
+    (0.6, True, "smooth"),
+    (0.3, False, "smooth"),
+    (0.0, False, "smooth"),
+    (0.3, True, "smooth"),
+    (0.6, False, "perfectly_rough"),
+    (0.2, False, "perfectly_rough"),
 ]
 
 
@@ -228,15 +225,19 @@ def test_contact_without_drag_in_air_is_that_in_vacuum():
     assert other.energy[lasting] == pytest.approx(one.energy[lasting], rel=1e-12)
 
 
+def in_contact(coin, e, s, rises, drift=0.0):
+    """Return the state of a coin in contact, of the energy e, whose mass centre is at the height s."""
+    w = -np.sqrt(2 * (e - s) / (coin.inertia[0] + 1 - s * s)) * (1 if rises else -1)
+    state, tilt = np.zeros((5, 2)), float(np.arcsin(-s))
+    state[:, 0] = [-np.sin(tilt), -np.cos(tilt) * w, tilt, w, drift]
+    return state
+
+
 @pytest.mark.parametrize("rises", [True, False])
 @pytest.mark.parametrize("e", [1.05, 1.3])
 def test_contact_keeps_its_energy_and_ends_where_the_force_does(e, rises):
     coin, _ = coin_of(0.5)
-    s = 0.2
-    w = -np.sqrt(2 * (e - s) / (coin.inertia[0] + 1 - s * s)) * (1 if rises else -1)
-    state = np.zeros((5, 2))
-    tilt = float(np.arcsin(-s))
-    state[:, 0] = [-np.sin(tilt), -np.cos(tilt) * w, tilt, w, 0]
+    state = in_contact(coin, e, 0.2, rises)
     slid = state.copy()
     lifts, passes, corner, start = keep_contact(coin, state, 1.0)
     assert passes == (rises and e < 1 + coin.inertia[0] / 2)
@@ -435,10 +436,7 @@ def test_a_contact_is_as_near_to_standing_as_its_energy_and_its_course_say(exces
     """A coin that rises comes to its energy's difference from the upright; one that falls is as it was."""
     coin, _ = coin_of(0.3)
     s = 0.7
-    w = -np.sqrt(2 * (1 + excess - s) / (coin.inertia[0] + 1 - s * s)) * (1 if rises else -1)
-    tilt = float(np.arcsin(-s))
-    state = np.zeros((5, 2))
-    state[:, 0] = [s, -np.cos(tilt) * w, tilt, w, 0.5]
+    state = in_contact(coin, 1 + excess, s, rises, drift=0.5)
     at_start = planar_state.from_upright(coin, state)
     assert at_start == pytest.approx(1 + excess - s + 1 - s)
     start, slid = state.copy(), state.copy()
@@ -457,11 +455,7 @@ def test_a_contact_is_as_near_to_standing_as_its_energy_and_its_course_say(exces
 def test_a_coin_that_lifts_off_almost_upright_touches_again_soon(excess):
     """There the gap is nearly zero with three derivatives."""
     coin, _ = coin_of(0.0)
-    e, s = 1 + coin.inertia[0] / 2 + excess, 0.2
-    w = -np.sqrt(2 * (e - s) / (coin.inertia[0] + 1 - s * s))
-    tilt = float(np.arcsin(-s))
-    state = np.zeros((5, 2))
-    state[:, 0] = [-np.sin(tilt), -np.cos(tilt) * w, tilt, w, 0]
+    state = in_contact(coin, 1 + coin.inertia[0] / 2 + excess, 0.2, rises=True)
     lifts, _, corner, start = keep_contact(coin, state, 1.0)
     assert lifts
     lifted = state.copy()

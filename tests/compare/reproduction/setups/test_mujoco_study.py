@@ -30,10 +30,7 @@ from cointoss.compare.reproduction.setups.mujoco_study import (
     tilted_touch,
 )
 from cointoss.models.laws import ContactLaw
-
-
-def unseen(done: int, whole: int) -> None:
-    assert done <= whole
+from tests.helpers.studies import unseen
 
 
 def test_touches_are_touches():

@@ -137,15 +137,6 @@ def test_a_bar_is_missed_by_one_class_that_is_too_slow(name, changed, missed):
     assert [missed in claim.claim for claim in found if not claim.holds] == [True]
 
 
-def test_the_tables_follow_from_the_times():
-    slow = {kind.name: replace(FAST, mean=2e-3) for kind in CLASSES if not kind.air}
-    lines = result_of("general-coins", GeneralCosts({**ALL_FAST.classes, **slow})).tables.splitlines()
-    assert "| thin, ideal, air, smooth | 0.4 | 0.3 | 0.6 | 0.7 | 0.1 | 0.05 | 0.2 | 0.05 |" in lines
-    # 1e6 * 4e-4 s / 2 and 1e9 * 2e-3 s / 16
-    assert next(line for line in lines if line.startswith("| general coin in air, 2 |")).count("3.3 min") == 1
-    assert next(line for line in lines if "in vacuum, 16" in line).split(" | ")[2] == "1.4 days"
-
-
 def test_a_small_study_is_made(monkeypatch):
     monkeypatch.setattr(general_coins, "CLASSES", tuple(IN_AIR[:2]))
     told = []

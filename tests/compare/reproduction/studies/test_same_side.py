@@ -94,21 +94,7 @@ def test_a_caught_coin_shows_its_first_side_as_often_as_the_theorem_says(engine,
 def test_the_command_catches_where_it_or_the_scenario_says(tmp_path):
     """The scenario's height is that of the command without one, and the command's goes before."""
     path = tmp_path / "hand.toml"
-    path.write_text(
-        """
-[coin]
-mass = "2 g"
-radius = "1.25 cm"
-thickness = "0 mm"
-[floor]
-restitution = 0.5
-contact = "smooth"
-[release]
-position = [0, 0, 1]
-[ending]
-caught = "1 m"
-"""
-    )
+    path.write_text(load("fig29").replace("air", {}, "ending.caught", 1.0).to_toml())
     arguments = ("--psi", "60 deg", "--tosses", "300")
     of_scenario = cointoss("hands", path, *arguments).stdout
     assert of_scenario.splitlines() == [
