@@ -24,7 +24,7 @@ from cointoss.models.errors import require_type
 from cointoss.models.interruptible import interruptible
 from cointoss.models.parts import Release
 from cointoss.models.reading import ScenarioSource, scenario_of
-from cointoss.models.records import Array, Impacts, Setting, States, Toss
+from cointoss.models.records import Array, Impacts, Setting, States, Toss, TrustEnd
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import stage
 
@@ -121,6 +121,8 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
     body, rules, start = scenario.body, scenario.rules, state_at_release(scenario.release)
     answer = run(body, rules, start, settings)
     impacts, end = Impacts.from_rows(answer.rows), answer.start_states[-1]
+    trusted, contacts = trusted_impacts(body, rules, answer), answer.contacts
+    before_contact = np.sum(impacts.time < contacts[0, 0]) if len(contacts) else len(impacts)
     path = Pieces(
         body=body,
         friction=friction_in_contact(rules),
@@ -133,11 +135,12 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
         engine="analytic",
         scenario=scenario,
         impacts=impacts,
-        contacts=answer.contacts,
+        contacts=contacts,
         outcome=answer.outcome,
         ending=answer.ending,
         end_time=answer.end_time,
-        trusted_impacts=trusted_impacts(body, rules, answer),
+        trusted_impacts=trusted,
+        trust_end=TrustEnd.of(trusted, before_contact=int(before_contact), count=len(impacts)),
         certificate=(
             Setting(name="flight", value=_flight(body)),
             Setting(name="error allowed in a step of flight, relative", value=settings.tolerance),

@@ -1,5 +1,6 @@
 """The event loop of a toss in MuJoCo: flight, impact, sustained contact, ending."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,9 @@ from cointoss.models.kernel.vectors import Vector
 from cointoss.models.perpetual import energy_history, start_history
 from cointoss.models.records import Ending, Outcome
 from cointoss.models.state import State
+
+ROUNDED_FLAT = 1e-13
+"""A flat coin's tilt, and its turn in √(r/g), by MuJoCo's rounding alone; measured: 3e-15 in five bounces."""
 
 
 @compiled
@@ -96,7 +100,7 @@ def toss_coin(
 
 @compiled
 def record(body: Body, time: float, touch: State, impulse: Vector, release: State, row: ImpactRow) -> None:
-    """Record an impact.
+    """Record an impact; that of a coin flat but for rounding is at the point under C.
 
     Args:
         body: the coin.
@@ -106,7 +110,11 @@ def record(body: Body, time: float, touch: State, impulse: Vector, release: Stat
         release: state at release.
         row: where it goes.
     """
-    point, _ = lowest_point(body, touch.R[2], touch.spin)
+    up, w = touch.R[2], touch.spin
+    turning = math.hypot(w[0], w[1]) * (body.radius / body.gravity) ** 0.5
+    if max(math.hypot(up[0], up[1]), turning) <= ROUNDED_FLAT:
+        up, w = (0.0, 0.0, up[2]), (0.0, 0.0, w[2])
+    point, _ = lowest_point(body, up, w)
     write_impact(body, impulse, point, touch, release, row)
     row.time = time
 

@@ -17,6 +17,7 @@ from cointoss.coin_mj.model.machine import Machine, machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import FINE, ROUGH, Friction, Realisation, Settings
 from cointoss.coin_mj.path import Knots
+from cointoss.coin_mj.trust import lawful_impacts, shared_impacts
 from cointoss.models.body import Body, Rules
 from cointoss.models.certificate import energies, measurements
 from cointoss.models.errors import require_type
@@ -35,6 +36,7 @@ from cointoss.models.records import (
     Outcome,
     Setting,
     Toss,
+    TrustEnd,
     UnsupportedError,
 )
 from cointoss.models.scenario import Scenario
@@ -43,8 +45,6 @@ from cointoss.models.stages import stage
 REALISABLE = (ContactLaw.SMOOTH, ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH)
 SOFTER = (10.0, 30.0)
 """How many times softer the contacts are that tell how far a toss can be trusted."""
-IMPULSE_CHANGE = 0.03
-"""Within the horizon no softer contact changes an impulse by more than this part."""
 _INTEGRATORS = "Tsitouras 5, in sustained contact RK4"
 CONTACTS_MEASURED, PARTS_MEASURED = 32, 16
 """The energy is measured in so many contacts, the longest, at the ends of so many parts of each."""
@@ -112,9 +112,10 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     Newton's by a part that falls with 1/√stiffness. A one-step contact is Newton's law at the attitude of
     the touch. A coin that stays in contact is followed there, until the toss is decided.
 
-    `trusted_impacts` counts the leading impacts that keep their faces, and their impulses to
-    `IMPULSE_CHANGE`, when the contact is softer, or its one step longer, by each of `SOFTER`: that makes a
-    spring's error three and five times larger. It is an estimate, no bound.
+    `trusted_impacts` counts the leading impacts that meet Newton's law for the point that touched, see
+    `cointoss.coin_mj.trust`, and that keep their faces, and their impulses to `IMPULSE_ERROR` there, when the
+    contact is softer, or its one step longer, by each of `SOFTER`: that makes a spring's error three and five
+    times larger. It is an estimate, no bound.
 
     Args:
         scenario: what to toss; or a file's path, or a name such as "fig24a".
@@ -141,6 +142,7 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
     answer = run(machine, scenario.rules)
     impacts = Impacts.from_rows(answer.rows)
     path = Knots(machine=machine, knots=answer.knots, restitution=scenario.floor.restitution)
+    trusted, trust_end = _trust(scenario, settings, impacts, answer.contacts)
     return Toss(
         engine="mujoco",
         scenario=scenario,
@@ -149,7 +151,8 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
         outcome=answer.outcome,
         ending=answer.ending,
         end_time=answer.end_time,
-        trusted_impacts=_trusted_impacts(scenario, settings, _before_contact(answer)),
+        trusted_impacts=trusted,
+        trust_end=trust_end,
         certificate=(
             Setting(name="MuJoCo", value=mujoco.__version__),
             *_contact_certificate(machine),
@@ -177,12 +180,6 @@ def warn_of_approximation(scenario: Scenario) -> None:
             ApproximationWarning,
             stacklevel=3,
         )
-
-
-def _before_contact(answer: MujocoRun) -> Impacts:
-    """Return the impacts before the first sustained contact."""
-    first = answer.contacts[0, 0] if len(answer.contacts) else np.inf
-    return Impacts.from_rows(answer.rows[answer.rows["time"] < first])
 
 
 def impacts_of(scenario: Scenario, *, settings: Settings = FINE, thickness: float | None = None) -> Impacts:
@@ -241,22 +238,24 @@ def _force_and_moment(body: Body, v: Vector, w: Vector) -> tuple[Vector, Vector]
     return f, subtract(m_B, cross(c, f))
 
 
-def _trusted_impacts(scenario: Scenario, settings: Settings, impacts: Impacts) -> int:
-    """Count the leading impacts that all coins share that are further from the hard limit.
+def _trust(scenario: Scenario, settings: Settings, impacts: Impacts, contacts: Array) -> tuple[int, TrustEnd]:
+    """Count the leading impacts that meet the law, and that coins further from the hard limit share.
 
     Their contacts are softened by `SOFTER`; where a thin coin's shape is made up it is ten times as thick.
+    None is counted after the first sustained contact.
+
+    Returns:
+        The count, and why no more are trusted.
     """
+    before_contact = int(np.sum(impacts.time < contacts[0, 0])) if len(contacts) else len(impacts)
+    trusted, end = lawful_impacts(scenario, impacts, before_contact)
     thickness = scenario.coin.thickness or 10 * shape_thickness(scenario)
-    trusted = len(impacts)
-    for part in SOFTER if trusted > 0 else ():
-        shorter = scenario.replace("ending.max_impacts", trusted)
-        softer = impacts_of(shorter, settings=settings.softened(part), thickness=thickness)
-        n = min(trusted, len(softer))
-        change = np.linalg.norm(softer.impulse[:n] - impacts.impulse[:n], axis=1)
-        agrees = (impacts.face[:n] == softer.face[:n]) & (
-            change <= IMPULSE_CHANGE * np.linalg.norm(impacts.impulse[:n], axis=1)
-        )
-        trusted = n if agrees.all() else int(np.argmin(agrees))
+    for part in SOFTER:
         if trusted == 0:
             break
-    return trusted
+        shorter = scenario.replace("ending.max_impacts", trusted)
+        softer = impacts_of(shorter, settings=settings.softened(part), thickness=thickness)
+        shared = shared_impacts(impacts, softer, trusted)
+        if shared < trusted:
+            trusted, end = shared, TrustEnd.ERRORS
+    return trusted, end

@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from cointoss.models.records import Setting as Setting
     from cointoss.models.records import States as States
     from cointoss.models.records import Toss as Toss
+    from cointoss.models.records import TrustEnd as TrustEnd
     from cointoss.models.records import UnsupportedError as UnsupportedError
     from cointoss.models.records import UnusableEngineError as UnusableEngineError
     from cointoss.models.releases import Releases as Releases
@@ -75,6 +76,7 @@ _NAMES = {
         "Setting",
         "States",
         "Toss",
+        "TrustEnd",
         "UnsupportedError",
         "UnusableEngineError",
     ),

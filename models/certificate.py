@@ -122,8 +122,22 @@ def law_residuals(body: Body, rules: Rules, impacts: Impacts) -> Array:
     own = np.where(flat, horizontal / size, own)
     if law == ContactLaw.COULOMB and rules.restitution_kind == RestitutionKind.ENERGETIC:
         return np.maximum(own, np.maximum(impacts.energy_change, 0) / (size * speed))
-    chi = np.where(-before[:, 2] > rules.restitution_threshold, rules.restitution, 0.0)
-    return np.maximum(own, np.abs(after[:, 2] + chi * before[:, 2]) / speed)
+    return np.maximum(own, np.abs(after[:, 2] + _restitution(rules, impacts) * before[:, 2]) / speed)
+
+
+def restitution_residuals(rules: Rules, impacts: Impacts) -> Array:
+    """Return by how much the normal velocity of the contact point misses Newton's law, (n,).
+
+    Relative to the change (1 + χ)|v_Az| that the law asks for: on a smooth floor that is the relative error
+    of an impulse that acts at the contact point. `law_residuals` takes it relative to |v_A|, which fast slip
+    makes large.
+
+    Args:
+        rules: the floor.
+        impacts: on it.
+    """
+    before, chi = impacts.contact_velocity_before[:, 2], _restitution(rules, impacts)
+    return np.abs(impacts.contact_velocity_after[:, 2] + chi * before) / ((1 + chi) * np.abs(before))
 
 
 def momentum_residuals(body: Body, impacts: Impacts) -> Array:
@@ -243,6 +257,12 @@ def _flights(
 @cache
 def _gauss(count: int) -> tuple[Array, Array]:
     return np.polynomial.legendre.leggauss(count)
+
+
+def _restitution(rules: Rules, impacts: Impacts) -> Array:
+    """Return χ of each impact: 0 up to the threshold of restitution, (n,)."""
+    fast = -impacts.contact_velocity_before[:, 2] > rules.restitution_threshold
+    return np.where(fast, rules.restitution, 0.0)
 
 
 def _off_slip(v_A: Array, S: Array, mu: float) -> Array:

@@ -97,6 +97,42 @@ _SENTENCES = {
 }
 
 
+class TrustEnd(Word):
+    """Why the impact after the trusted ones is not trusted."""
+
+    NONE = 0
+    ERRORS = 1
+    CONTACT = 2
+    SECOND_POINT = 3
+    RESTITUTION = 4
+
+    @classmethod
+    def of(cls, trusted: int, *, before_contact: int, count: int) -> "TrustEnd":
+        """Return why no more are trusted of impacts that all meet the contact law.
+
+        Args:
+            trusted: how many are.
+            before_contact: how many come before the first sustained contact.
+            count: how many there are.
+        """
+        if trusted >= count:
+            return cls.NONE
+        return cls.CONTACT if trusted >= before_contact else cls.ERRORS
+
+    def reason(self, number: int) -> str:
+        """Return why impact `number`, counted from 1, is not trusted; empty for `NONE`."""
+        return _REASONS[self].format(number=number)
+
+
+_REASONS = {
+    TrustEnd.NONE: "",
+    TrustEnd.ERRORS: "the engine's own errors could change impact {number}",
+    TrustEnd.CONTACT: "impact {number} comes after sustained contact",
+    TrustEnd.SECOND_POINT: "at impact {number} a second point lands within MuJoCo's contact",
+    TrustEnd.RESTITUTION: "at impact {number} MuJoCo's contact misses the restitution",
+}
+
+
 def _column(axes: str = "", unit: str = "", kind: type = np.float64) -> Any:
     shape = (len(AXES[axes][1]),) if axes else ()
     return field(metadata={"shape": shape, "kind": kind, "axes": axes, "unit": unit})
@@ -310,6 +346,8 @@ class Toss:
     """When the toss stopped [s]."""
     trusted_impacts: int
     """How many leading impacts the engine's own errors can't have changed; see the engine's `toss`."""
+    trust_end: TrustEnd
+    """Why the next impact is not trusted; `NONE` where all are."""
     certificate: Sequence[Setting]
     """Settings used and errors measured."""
     path: Path
@@ -324,6 +362,20 @@ class Toss:
     def sequence(self) -> str:
         """The faces up at the touches, as in "HHT"."""
         return self.impacts.sequence
+
+    @property
+    def trust_reason(self) -> str:
+        """Why the impact after the trusted ones is not trusted, in words; empty where all are."""
+        return self.trust_end.reason(self.trusted_impacts + 1)
+
+    @property
+    def trust(self) -> str:
+        """How many leading impacts are trusted, and why no more."""
+        trusted, count = self.trusted_impacts, len(self.impacts)
+        noun = "impact" if count == 1 else "impacts"
+        if trusted >= count:
+            return f"{count} {noun}"
+        return f"{trusted} of {count} {noun}" + (f": {self.trust_reason}" if self.trust_reason else "")
 
     @property
     def flags(self) -> tuple[frozenset[Flag], ...]:
@@ -358,7 +410,7 @@ class Toss:
                 "ending": f"{self.ending}: {self.ending.sentence}",
                 "end": f"{self.end_time:.6g} s, after {len(impacts)} impacts",
                 "sequence": notebook.shortened(sequence),
-                "trusted": f"{trusted} impacts" + ("" if trusted >= len(impacts) else ", before the bar"),
+                "trusted": self.trust,
             },
         )
 
@@ -373,6 +425,7 @@ class Toss:
             "ending": str(self.ending),
             "end_time": self.end_time,
             "trusted_impacts": self.trusted_impacts,
+            "trust_end": str(self.trust_end),
             "sequence": self.sequence,
         }
         return self.impacts.to_xarray().assign_attrs(about)

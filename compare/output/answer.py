@@ -47,6 +47,8 @@ def as_json(toss: Toss) -> dict[str, Any]:
         "ending": str(toss.ending),
         "end_time": toss.end_time,
         "trusted_impacts": toss.trusted_impacts,
+        "trust_end": str(toss.trust_end),
+        "trust_reason": toss.trust_reason,
         "impacts": [
             {**_impact(toss.impacts, i), "flags": sorted(flags)} for i, flags in enumerate(toss.flags)
         ],
@@ -109,15 +111,14 @@ def as_lines(toss: Toss, *, whole: bool = False) -> str:
         toss: by either engine.
         whole: whether every impact and contact has its line, and the sequence all its symbols.
     """
-    sequence, trusted, impacts = toss.sequence, toss.trusted_impacts, toss.impacts
-    shown = with_bar(sequence, trusted)
+    impacts, shown = toss.impacts, with_bar(toss.sequence, toss.trusted_impacts)
     lines = [
         f"engine    {toss.engine}",
         f"outcome   {toss.outcome}",
         f"ending    {toss.ending}: {toss.ending.sentence}",
         f"end       {toss.end_time:.6f} s after {counted(len(impacts), 'impact')}",
         f"sequence  {shown if whole else shortened(shown)}",
-        f"trusted   {counted(trusted, 'impact')}" + ("" if trusted >= len(sequence) else ", before the bar"),
+        f"trusted   {toss.trust}",
     ]
     if len(impacts):
         lines.append(f"checked   {_checked(toss)}")

@@ -5,10 +5,12 @@ from typing import NamedTuple
 
 from cointoss.compare.output.answer import counted
 from cointoss.compare.report.compared_tosses import ComparedTosses
-from cointoss.models.records import Ending, Outcome, Toss
+from cointoss.models.records import Ending, Outcome, Toss, TrustEnd
 
 REPORT_IT = "One engine is wrong: please report it"
 TINY_ERRORS = "tiny errors decide, and neither engine is wrong"
+OFF_THE_LAW = (TrustEnd.SECOND_POINT, TrustEnd.RESTITUTION)
+"""Ends of MuJoCo's trust where its impulse is not that of the contact law, however well the toss is known."""
 
 
 class Kind(StrEnum):
@@ -54,9 +56,12 @@ def horizon_sentence(comparison: ComparedTosses) -> str:
         return f"All faces must agree: the coin is caught before {errors} change one."
     if horizon >= count:
         return f"All faces must agree: {errors} change none."
+    off_the_law = _off_the_law(comparison)
     if horizon == 0:
-        return f"Not even the first face must agree: {errors} can change it."
+        return f"Not even the first face must agree: {off_the_law or f'{errors} can change it'}."
     first = "The first face" if horizon == 1 else f"The first {horizon} faces"
+    if off_the_law:
+        return f"{first}, up to the bar, must agree. {_sentence(off_the_law)}"
     return (
         f"{first}, up to the bar, must agree. Each impact amplifies small errors: after the bar {errors} can "
         "change a face."
@@ -76,6 +81,8 @@ def _agreement(comparison: ComparedTosses, same_outcome: bool) -> tuple[str, Kin
             f"they differ at impact {prefix + 1}, although {_first(horizon)} must agree. {REPORT_IT}",
             Kind.FAULT,
         )
+    off_the_law = _off_the_law(comparison)
+    then = off_the_law or f"after that {TINY_ERRORS}"
     certain = agree and horizon == prefix
     decided = Outcome.UNDECIDED not in (a.outcome, b.outcome)
     # The face in a hand may differ where the coin comes to it on its edge, unless it has flown only.
@@ -86,7 +93,10 @@ def _agreement(comparison: ComparedTosses, same_outcome: bool) -> tuple[str, Kin
     if count == 0:
         return _without_impact(a, b, in_contact), kind
     if not agree and prefix == 0:
-        return f"they differ from the first impact on. Not even that must agree: {TINY_ERRORS}", kind
+        return (
+            f"they differ from the first impact on. Not even that must agree: {off_the_law or TINY_ERRORS}",
+            kind,
+        )
     before = " before it is caught" if caught else ""
     shared = _all(count) if prefix == count else f"the {counted(prefix, 'impact')} that both count"
     first = f"they agree on {shared}{before}" if agree else f"they agree on {_first(prefix)}"
@@ -95,13 +105,17 @@ def _agreement(comparison: ComparedTosses, same_outcome: bool) -> tuple[str, Kin
         follows = "" if same_outcome else f"; {decides} decides"
         return f"{first}, as they must{follows}", kind
     if horizon == 0:
-        return f"{first}. Not even the first must agree: {TINY_ERRORS}", kind
+        return f"{first}. Not even the first must agree: {off_the_law or TINY_ERRORS}", kind
     if horizon == prefix:
-        return f"{first}, as they must; after that {TINY_ERRORS}", kind
-    return (
-        f"{first}. The first{'' if horizon == 1 else f' {horizon}'} must agree; after that {TINY_ERRORS}",
-        kind,
-    )
+        return f"{first}, as they must; {then}", kind
+    return f"{first}. The first{'' if horizon == 1 else f' {horizon}'} must agree; {then}", kind
+
+
+def _off_the_law(comparison: ComparedTosses) -> str:
+    """Return why MuJoCo's impulse after the horizon is not that of the law; empty where errors end it."""
+    _, mujoco = comparison.both
+    ends_it = comparison.horizon == mujoco.trusted_impacts and mujoco.trust_end in OFF_THE_LAW
+    return mujoco.trust_reason if ends_it else ""
 
 
 def _without_impact(a: Toss, b: Toss, in_contact: bool) -> str:

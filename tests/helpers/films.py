@@ -12,7 +12,7 @@ import numpy as np
 from cointoss.compare.film.drawing import Drawer, box_of
 from cointoss.compare.film.filmed import Filmed
 from cointoss.compare.film.play import play_of
-from cointoss.models.records import IMPACT_ROW, Array, Ending, Face, Impacts, Outcome, States, Toss
+from cointoss.models.records import IMPACT_ROW, Array, Ending, Face, Impacts, Outcome, States, Toss, TrustEnd
 from tests.helpers.draws import ZLOTY, scenario
 
 FLAT, TURNED = (1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)
@@ -72,6 +72,7 @@ def made(
         ending=ending,
         end_time=end,
         trusted_impacts=0,
+        trust_end=TrustEnd.ERRORS if impacts else TrustEnd.NONE,
         certificate=(),
         path=path,
     )

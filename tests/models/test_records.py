@@ -1,10 +1,12 @@
 """The records check themselves when they are made, and can't be changed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.models.records import IMPACT_ROW, Flag, Impacts
+from cointoss.models.records import IMPACT_ROW, Flag, Impacts, TrustEnd
 from tests.helpers.draws import draw_release, scenario
 
 
@@ -58,3 +60,19 @@ def test_flags_name_what_no_passive_floor_does():
     smooth = analytic.toss(scenario(release=draw_release(rng)))
     assert smooth.flags == (frozenset(),) * len(smooth.impacts)
     assert len(smooth.impacts) > 3
+
+
+def test_the_end_of_trust_has_a_name_and_says_which_impact_it_is():
+    tossed = analytic.toss(scenario())
+    count = len(tossed.impacts)
+    assert TrustEnd.of(count, before_contact=count, count=count) == TrustEnd.NONE
+    assert TrustEnd.of(2, before_contact=2, count=3) == TrustEnd.CONTACT
+    assert TrustEnd.of(1, before_contact=2, count=3) == TrustEnd.ERRORS
+    assert TrustEnd.of(1, before_contact=3, count=3) == TrustEnd.ERRORS
+    for end in TrustEnd:
+        told = replace(tossed, trusted_impacts=1, trust_end=end).trust
+        assert told.startswith(f"1 of {count} impacts")
+        assert ("impact 2" in told) == (end != TrustEnd.NONE)
+    assert replace(tossed, trusted_impacts=count, trust_end=TrustEnd.NONE).trust == f"{count} impacts"
+    one = analytic.toss(scenario(ending={"max_impacts": 1}))
+    assert (one.trusted_impacts, one.trust) == (1, "1 impact")

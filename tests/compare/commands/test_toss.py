@@ -18,7 +18,9 @@ def test_json_has_the_agreed_form():
     answered = cointoss("toss", "fig24a", "--json", "--max-impacts", 3)
     assert answered.exit_code == 0
     toss = json.loads(answered.stdout)
-    of_toss = "engine sequence outcome ending end_time trusted_impacts impacts contacts"
+    of_toss = (
+        "engine sequence outcome ending end_time trusted_impacts trust_end trust_reason impacts contacts"
+    )
     assert list(toss) == [*of_toss.split(), "scenario", "settings", "versions"]
     limited = load("fig24a").replace("ending.max_impacts", 3)
     assert Scenario.model_validate(toss["scenario"]) == limited
@@ -28,8 +30,38 @@ def test_json_has_the_agreed_form():
     assert toss["versions"]["cointoss"] == version(DISTRIBUTION)
     assert (toss["engine"], toss["sequence"], toss["ending"]) == ("analytic", "HHH", "max_impacts")
     assert len(toss["impacts"]) == 3
+    assert (toss["trusted_impacts"], toss["trust_end"], toss["trust_reason"]) == (3, "none", "")
     # tests/test_reference reads every other field.
     assert (toss["impacts"][0]["face"], toss["impacts"][0]["flags"]) == ("H", [])
+
+
+NEARLY_FLAT = """
+[coin]
+mass = "2 g"
+radius = "1.25 cm"
+thickness = 0
+[floor]
+contact = "smooth"
+restitution = 0.8
+[release]
+position = [0, 0, 0.2038736]
+angles = [0, 1e-6, 0]
+[ending]
+max_impacts = 3
+"""
+
+
+def test_the_answer_says_which_impact_ends_the_trust_and_why(tmp_path):
+    source = tmp_path / "nearly_flat.toml"
+    source.write_text(NEARLY_FLAT)
+    reason = "at impact 1 a second point lands within MuJoCo's contact"
+    text = cointoss("toss", source, "--engine", "mujoco").stdout
+    assert f"\nsequence  |HHH\ntrusted   0 of 3 impacts: {reason}\n" in text
+    toss = json.loads(cointoss("toss", source, "--engine", "mujoco", "--json").stdout)
+    assert (toss["trusted_impacts"], toss["trust_end"], toss["trust_reason"]) == (0, "second_point", reason)
+    assert "\ntrusted   3 impacts\n" in cointoss("toss", source).stdout
+    cut = cointoss("toss", "fig24a", "--max-impacts", 12).stdout
+    assert "\ntrusted   10 of 12 impacts: the engine's own errors could change impact 11\n" in cut
 
 
 @pytest.mark.parametrize(

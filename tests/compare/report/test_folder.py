@@ -1,5 +1,6 @@
 """The report's folder: a self-contained page, numbers, paths, and a film that plays."""
 
+import html
 import json
 import re
 import shutil
@@ -70,6 +71,29 @@ def test_the_numbers_are_those_of_the_tosses(found, folder):
     assert numbers["comparison"]["horizon"] == found.horizon
 
 
+<<<<<<< HEAD
+=======
+def test_the_report_says_which_impact_ends_mujocos_trust_and_why(tmp_path):
+    flat = {"position": [0, 0, 0.2038736], "angles": [0, 1e-6, 0]}
+    comparison = compare(scenario(coin={"thickness": 0.0}, release=flat, ending={"max_impacts": 3}))
+    write_report(comparison, tmp_path, "none here")
+    text = html.unescape((tmp_path / "report.html").read_text(encoding="utf-8"))
+    reason = "at impact 1 a second point lands within MuJoCo's contact"
+    assert f"they agree on all 3 impacts. Not even the first must agree: {reason}.</p>" in text
+    assert f"Not even the first face must agree: {reason}.</p>" in text
+    assert f"by itself it is trusted in 0 of 3 impacts: {reason}. " in text
+    numbers = json.loads((tmp_path / "numbers.json").read_text(encoding="utf-8"))
+    assert [toss["trust_reason"] for toss in numbers["tosses"]] == ["", reason]
+    assert numbers["comparison"]["horizon"] == 0
+
+
+def test_the_film_has_its_frames(found, folder):
+    written = film_written(folder / "toss.mp4")
+    assert written.frames == frame_count(found.filmed(), SMALL)
+    assert written.rate == SMALL.frames_per_second
+
+
+>>>>>>> mjtrust
 @pytest.mark.parametrize("name", ["zloty", "contact_knurled"])
 def test_the_page_stands_before_the_film_is_drawn_and_after_it_was_interrupted(tmp_path, name):
     """It says which command draws the film, of the engines that toss the coin."""

@@ -9,7 +9,7 @@ import pytest
 from cointoss import coin_mj
 from cointoss.compare.report.comparison import Comparison
 from cointoss.compare.report.verdict import Kind, horizon_sentence, verdict_of
-from cointoss.models.records import IMPACT_ROW, Ending, Face, Impacts, Outcome
+from cointoss.models.records import IMPACT_ROW, Ending, Face, Impacts, Outcome, TrustEnd
 from tests.helpers.films import MadePath
 from tests.helpers.films import made as made_by_formulas
 
@@ -30,6 +30,7 @@ def made(sequence, outcome=Outcome.HEADS, *, engine="analytic", ending=Ending.SE
         ending=ending,
         end_time=1.0,
         trusted_impacts=len(sequence),
+        trust_end=TrustEnd.NONE,
     )
 
 
@@ -148,3 +149,51 @@ def test_the_horizon_is_told_in_plain_words(name, horizon, begins):
     told = horizon_sentence(compared(TOSSES[name], TOSSES[name], len(TOSSES[name].impacts), horizon))
     assert told.startswith(begins)
     assert told.endswith(".")
+
+
+SECOND_POINT = "at impact {} a second point lands within MuJoCo's contact."
+
+
+@pytest.mark.parametrize(
+    ("b", "prefix", "horizon", "verdict", "told"),
+    [
+        (
+            "HHT",
+            3,
+            0,
+            "Heads by both engines: they agree on all 3 impacts. Not even the first must agree: ",
+            "Not even the first face must agree: ",
+        ),
+        (
+            "TTT",
+            0,
+            0,
+            "HEADS, TAILS: they differ from the first impact on. Not even that must agree: ",
+            "Not even the first face must agree: ",
+        ),
+        (
+            "HTT",
+            1,
+            1,
+            "HEADS, TAILS: they agree on the first impact, as they must; ",
+            "The first face, up to the bar, must agree. A",
+        ),
+        (
+            "HHTH",
+            3,
+            2,
+            "Heads by both engines: they agree on the first 3 impacts. The first 2 must agree; ",
+            "The first 2 faces, up to the bar, must agree. A",
+        ),
+    ],
+)
+def test_an_impact_that_is_not_the_laws_is_named_where_it_ends_the_horizon(b, prefix, horizon, verdict, told):
+    """There no tiny error decides: MuJoCo is wrong, and says so."""
+    ends = replace(TOSSES[b], trusted_impacts=horizon, trust_end=TrustEnd.SECOND_POINT)
+    found, reason = compared(TOSSES["HHT"], ends, prefix, horizon), SECOND_POINT.format(horizon + 1)
+    begins = verdict.replace("HEADS", WORDS["HEADS"]).replace("TAILS", WORDS["TAILS"])
+    assert verdict_of(found).text == begins + reason
+    assert horizon_sentence(found) == told + reason.removeprefix("a" if told.endswith("A") else "")
+    earlier = compared(TOSSES["HHT"], replace(ends, trusted_impacts=horizon + 1), prefix, horizon)
+    assert "tiny errors" in verdict_of(earlier).text
+    assert "errors" in horizon_sentence(earlier)
