@@ -152,7 +152,7 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
             Setting(name="energy at the end", value=_energy(body, end), unit="J"),
             Setting(name="energy of the lowest pass to the other face", value=_barrier(body, end), unit="J"),
             *measurements(
-                scenario, impacts, answer.contacts, _contact_energies(body, answer), path, force_and_moment
+                scenario, impacts, contacts, _contact_energies(body, answer), path, force_and_moment
             ),
         ),
         path=path,

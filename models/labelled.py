@@ -1,7 +1,8 @@
-"""Arrays with their axes and units, for xarray and pandas; both are imported where they are asked for."""
+"""Records of columns, checked, and labelled for xarray and pandas; both are imported where asked for."""
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Mapping
+from dataclasses import field, fields
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,15 +19,42 @@ AXES = {
 """Of a vector's components: the name of the dimension, and that of each component."""
 
 
-class Column(NamedTuple):
-    """One quantity of many rows."""
+def column(
+    axes: str = "",
+    unit: str | None = None,
+    *,
+    kind: type = np.float64,
+    long_name: str = "",
+    labels: Mapping[int, str] | None = None,
+) -> Any:
+    """Return a field of a record of columns.
 
-    values: NDArray[Any]
-    """(n,), or (n, components)."""
-    attributes: dict[str, Any]
-    """As CF has them: long_name, units, flag_values, flag_meanings."""
-    axes: str = ""
-    """One of `AXES`; empty for a number."""
+    Args:
+        axes: one of `AXES`; empty for a number.
+        unit: "" for a pure number, None for what is no quantity.
+        kind: of its numbers.
+        long_name: by default the field's name.
+        labels: what its numbers mean.
+    """
+    shape = (len(AXES[axes][1]),) if axes else ()
+    attributes = {"long_name": long_name} if long_name else {}
+    attributes |= {} if unit is None else {"units": unit}
+    attributes |= {} if labels is None else meanings_of(labels)
+    return field(metadata={"shape": shape, "kind": kind, "axes": axes, "attributes": attributes})
+
+
+def freeze(record: Any) -> None:
+    """Check that the columns of a record have one length and their shapes, and make them read-only.
+
+    Raises:
+        ValueError: naming the record, the column, its shape and what is expected.
+    """
+    n = len(getattr(record, fields(record)[0].name))
+    for item in fields(record):
+        array, expected = getattr(record, item.name), (n, *item.metadata["shape"])
+        if array.shape != expected:
+            raise ValueError(f"{type(record).__name__}.{item.name}: shape {array.shape}, expected {expected}")
+        array.setflags(write=False)
 
 
 def meanings_of(labels: Mapping[int, str]) -> dict[str, Any]:
@@ -34,58 +62,59 @@ def meanings_of(labels: Mapping[int, str]) -> dict[str, Any]:
     return {"flag_values": list(labels), "flag_meanings": " ".join(labels.values())}
 
 
-def dataset(row: str, columns: Mapping[str, Column], about: Mapping[str, Any]) -> "xr.Dataset":
-    """Return columns as a dataset of xarray.
+def dataset(record: Any, row: str, *, first: int | None = None) -> "xr.Dataset":
+    """Return a record of columns as a dataset of xarray.
 
     Args:
+        record: a dataclass whose fields are of `column`.
         row: the name of the dimension of the rows; a column of this name is its coordinate.
-        columns: by name.
-        about: attributes of the whole.
+        first: from which the rows are counted along that dimension, where no column has its name.
     """
     import xarray
 
-    variables, coordinates = {}, {}
-    for name, column in columns.items():
-        dimensions = [row]
-        if column.axes:
-            dimension, components = AXES[column.axes]
+    variables: dict[str, Any] = {}
+    coordinates: dict[str, Any] = {}
+    if first is not None:
+        coordinates[row] = (row, first + np.arange(len(record)), {"long_name": row})
+    for item in fields(record):
+        name, dimensions = item.name, [row]
+        if item.metadata["axes"]:
+            dimension, components = AXES[item.metadata["axes"]]
             dimensions.append(dimension)
             coordinates[dimension] = list(components)
-        (coordinates if name == row else variables)[name] = (dimensions, column.values, column.attributes)
-    return xarray.Dataset(variables, coordinates, dict(about))
+        attributes = {"long_name": name.replace("_", " "), **item.metadata["attributes"]}
+        (coordinates if name == row else variables)[name] = (dimensions, getattr(record, name), attributes)
+    return xarray.Dataset(variables, coordinates)
 
 
-def table(row: str, columns: Mapping[str, Column]) -> "pd.DataFrame":
-    """Return columns as a table of pandas: a column for each component, words for values that mean one.
+def table(record: Any, row: str, *, first: int | None = None) -> "pd.DataFrame":
+    """Return a record as a table of pandas: a column for each component, words for values that mean one.
 
-    Its `attrs["units"]` has the unit of each column that has one.
-
-    Args:
-        row: the column that is the table's index.
-        columns: by name.
+    Its `attrs["units"]` has the unit of each column that has one. The arguments are those of `dataset`.
     """
-    import xarray
+    import pandas
 
+    arrays = dataset(record, row, first=first)
     plain: dict[str, Any] = {}
     units: dict[str, str] = {}
-    for name, column in columns.items():
+    for name in [row, *arrays.data_vars]:
+        each = arrays[name]
         parts = (
-            {f"{name}_{part}": column.values[:, i] for i, part in enumerate(AXES[column.axes][1])}
-            if column.axes
-            else {name: _words(column)}
+            {f"{name}_{part}": each.values[:, i] for i, part in enumerate(each[each.dims[1]].values)}
+            if each.ndim > 1
+            else {str(name): _words(each)}
         )
         plain |= parts
-        if unit := column.attributes.get("units"):
-            units |= dict.fromkeys(parts, str(unit))
-    index = {row: plain.pop(row)}
-    frame = xarray.Dataset({name: (row, values) for name, values in plain.items()}, index).to_dataframe()
+        if unit := each.attrs.get("units"):
+            units |= dict.fromkeys(parts, unit)
+    del plain[row]
+    frame = pandas.DataFrame(plain, index=arrays.indexes[row])
     frame.attrs["units"] = units
     return frame
 
 
-def _words(column: Column) -> NDArray[Any]:
-    values: Sequence[int] | None = column.attributes.get("flag_values")
-    if values is None:
-        return column.values
-    words = dict(zip(values, column.attributes["flag_meanings"].split(), strict=True))
-    return np.array([words[value] for value in column.values.tolist()], dtype=object)
+def _words(array: "xr.DataArray") -> NDArray[Any]:
+    if "flag_values" not in array.attrs:
+        return array.values
+    words = dict(zip(array.attrs["flag_values"], array.attrs["flag_meanings"].split(), strict=True))
+    return np.array([words[value] for value in array.values.tolist()], dtype=object)

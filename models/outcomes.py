@@ -1,6 +1,6 @@
 """How many tosses ended."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from cointoss.models import notebook
 from cointoss.models.drawing import plots
-from cointoss.models.labelled import Column, dataset, meanings_of, table
+from cointoss.models.labelled import column, dataset, freeze, table
 from cointoss.models.records import Array, Ending, Face, Outcome
 
 if TYPE_CHECKING:
@@ -20,25 +20,20 @@ if TYPE_CHECKING:
 class Outcomes:
     """How many tosses of one coin ended, one row each; arrays are read-only."""
 
-    outcome: NDArray[np.int8]
+    outcome: NDArray[np.int8] = column(kind=np.int8, labels=Outcome.by_value())
     """`Outcome`, (n,)."""
-    ending: NDArray[np.int8]
+    ending: NDArray[np.int8] = column(kind=np.int8, labels=Ending.by_value())
     """`Ending`, (n,)."""
-    impacts: NDArray[np.int32]
+    impacts: NDArray[np.int32] = column(kind=np.int32)
     """Number of impacts, (n,)."""
-    last_face: NDArray[np.int8]
+    last_face: NDArray[np.int8] = column(kind=np.int8, labels={0: "none", **Face.by_value()})
     """The `Face` up at the last touch, (n,); 0 where there was none."""
-    end_time: Array
+    end_time: Array = column(unit="s")
     """When the toss stopped, (n,) [s]."""
 
     def __post_init__(self) -> None:
         """Check the shapes and make the arrays read-only."""
-        expected = (len(self.outcome),)
-        for item in fields(self):
-            array = getattr(self, item.name)
-            if array.shape != expected:
-                raise ValueError(f"Outcomes.{item.name}: shape {array.shape}, expected {expected}")
-            array.setflags(write=False)
+        freeze(self)
 
     def __len__(self) -> int:
         """Return the number of tosses."""
@@ -81,11 +76,11 @@ class Outcomes:
 
     def to_xarray(self) -> "xr.Dataset":
         """Return the outcomes as a dataset of xarray over `toss`, which counts from 0 as the releases do."""
-        return dataset("toss", self._columns(), {})
+        return dataset(self, "toss", first=0)
 
     def to_dataframe(self) -> "pd.DataFrame":
         """Return the outcomes as a table of pandas, a row each, in words."""
-        return table("toss", self._columns())
+        return table(self, "toss", first=0)
 
     def plot(self, ax: Any = None) -> Any:
         """Plot how many tosses had each outcome.
@@ -97,18 +92,3 @@ class Outcomes:
             The axes.
         """
         return plots().plot_outcomes(self, ax)
-
-    def _columns(self) -> dict[str, Column]:
-        words = {
-            "outcome": {item.value: str(item) for item in Outcome},
-            "ending": {item.value: str(item) for item in Ending},
-            "last_face": {0: "none", **{item.value: str(item) for item in Face}},
-        }
-        units = {"end_time": {"units": "s"}}
-        columns = {"toss": Column(np.arange(len(self)), {"long_name": "toss"})}
-        for item in fields(self):
-            about = {"long_name": item.name.replace("_", " "), **units.get(item.name, {})}
-            if item.name in words:
-                about |= meanings_of(words[item.name])
-            columns[item.name] = Column(getattr(self, item.name), about)
-        return columns

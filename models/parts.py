@@ -11,6 +11,7 @@ from pydantic import (
     BeforeValidator,
     ConfigDict,
     Field,
+    PlainSerializer,
     ValidationError,
     ValidationInfo,
     field_validator,
@@ -94,6 +95,7 @@ _Rows = Annotated[
     tuple[_Row, _Row, _Row],
     _list_of(3, "lists of 3 moments of inertia, such as [[8e-8, 0, 0], [0, 8e-8, 0], [0, 0, 1.6e-7]]"),
 ]
+_AS_WORD = PlainSerializer(str, when_used="json")
 _ZERO = (0.0, 0.0, 0.0)
 # Up to this kinematic restitution `coulomb` and its limit add energy in hardly an impact.
 _ROUTHS, _TAKING = (ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH), 0.7
@@ -234,7 +236,7 @@ class Floor(Part):
     """χ: normal speed of the contact point after an impact over that before it."""
     restitution_threshold: Annotated[float, _quantity("m/s"), _not_negative] = 0.0
     """Normal speed of approach up to which a touch is plastic, χ = 0 [m/s]."""
-    contact: Annotated[ContactLaw, BeforeValidator(_named(ContactLaw))]
+    contact: Annotated[ContactLaw, BeforeValidator(_named(ContactLaw)), _AS_WORD]
     """The contact law."""
     friction: Annotated[Number, _not_negative] = 0.0
     """μ, for the laws that slide with friction."""
@@ -242,7 +244,7 @@ class Floor(Part):
     """δ: the moment against rolling in sustained contact, over the normal force [m]."""
     pivoting_friction: Annotated[float, _quantity("m"), _not_negative] = 0.0
     """p: likewise against pivoting about the vertical [m]."""
-    restitution_kind: Annotated[RestitutionKind, BeforeValidator(_named(RestitutionKind))] = (
+    restitution_kind: Annotated[RestitutionKind, BeforeValidator(_named(RestitutionKind)), _AS_WORD] = (
         RestitutionKind.KINEMATIC
     )
     """"kinematic", or "energetic" for the law "coulomb"."""
@@ -319,7 +321,7 @@ class Release(Part):
 class EndingCriteria(Part):
     """When a toss is over."""
 
-    test: Annotated[EndingTest, BeforeValidator(_named(EndingTest))] = EndingTest.RIGOROUS
+    test: Annotated[EndingTest, BeforeValidator(_named(EndingTest)), _AS_WORD] = EndingTest.RIGOROUS
     """What decides that the face up is final."""
     max_impacts: Annotated[int | None, Field(ge=1, le=MOST_IMPACTS)] = None
     """The toss stops after so many impacts; by default after `MOST_IMPACTS`, or after `MOST_LOSSLESS` where

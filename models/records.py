@@ -1,7 +1,7 @@
 """What a toss gives: its impacts, how it ended, and its path; the same record from both engines."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -12,7 +12,7 @@ from cointoss.models import notebook
 from cointoss.models.drawing import plots
 from cointoss.models.interruptible import interruptible
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.labelled import AXES, Column, dataset, meanings_of, table
+from cointoss.models.labelled import column, dataset, freeze, table
 from cointoss.models.scenario import Scenario
 from cointoss.models.words import Word
 
@@ -50,51 +50,33 @@ class Outcome(Word):
 class Ending(Word):
     """Why a toss stopped."""
 
-    NONE = 0
-    SETTLED = 1
-    PAPER = 2
-    PAPER_SMOOTH = 3
-    MAX_IMPACTS = 4
-    MAX_TIME = 5
-    CHATTER = 6
-    NO_SOLUTION = 7
-    LYING = 8
-    STANDING = 9
-    PERPETUAL = 10
-    CONTACT_STEPS = 11
-    FLIGHT_STEPS = 12
-    AT_REST = 13
-    ROLLING = 14
-    CAUGHT = 15
-    NOT_CAUGHT = 16
-    PERIODIC = 17
+    sentence: str
+    """What the ending means."""
 
-    @property
-    def sentence(self) -> str:
-        """What the ending means."""
-        return _SENTENCES[self]
+    def __new__(cls, value: int, sentence: str) -> "Ending":
+        """Make a member of its integer and its sentence."""
+        member = int.__new__(cls, value)
+        member._value_, member.sentence = value, sentence
+        return member
 
-
-_SENTENCES = {
-    Ending.NONE: "The toss goes on.",
-    Ending.SETTLED: "The coin can no longer turn over, and this floor gives it no energy.",
-    Ending.PAPER: "The coin can no longer turn over, unless a later impact gives it energy.",
-    Ending.PAPER_SMOOTH: "The energy that can turn the coin over is below m g r: the paper's eq. (20).",
-    Ending.MAX_IMPACTS: "The toss stopped at [ending] max_impacts; raise it to go on.",
-    Ending.MAX_TIME: "The toss stopped at [ending] max_time; raise it to go on.",
-    Ending.CHATTER: "Ever faster impacts bring the coin into contact, where this law is not followed.",
-    Ending.NO_SOLUTION: "The contact law has no solution at this impact.",
-    Ending.LYING: "The coin lies on a face. It may still slide or spin, but that can't tip it.",
-    Ending.STANDING: "The coin stands on its edge: the floor turns it back from either rim.",
-    Ending.PERPETUAL: "Its recent losses, extrapolated, leave the coin enough energy to turn over for ever.",
-    Ending.PERIODIC: "The coin's contact has gone through a whole period, and repeats it for ever.",
-    Ending.CONTACT_STEPS: "The toss stopped at contact_steps; raise it to go on: --contact-steps N.",
-    Ending.FLIGHT_STEPS: "The toss stopped at flight_steps; raise it to go on: --flight-steps N.",
-    Ending.AT_REST: "The coin rests on its edge, held by the floor's resistance to rolling.",
-    Ending.CAUGHT: "A hand caught the coin at the height [ending] caught; the face up there counts.",
-    Ending.NOT_CAUGHT: "The coin never came down to the hand at the height [ending] caught.",
-    Ending.ROLLING: "The coin still rolls on its edge; to go on raise max_time or contact_steps.",
-}
+    NONE = 0, "The toss goes on."
+    SETTLED = 1, "The coin can no longer turn over, and this floor gives it no energy."
+    PAPER = 2, "The coin can no longer turn over, unless a later impact gives it energy."
+    PAPER_SMOOTH = 3, "The energy that can turn the coin over is below m g r: the paper's eq. (20)."
+    MAX_IMPACTS = 4, "The toss stopped at [ending] max_impacts; raise it to go on."
+    MAX_TIME = 5, "The toss stopped at [ending] max_time; raise it to go on."
+    CHATTER = 6, "Ever faster impacts bring the coin into contact, where this law is not followed."
+    NO_SOLUTION = 7, "The contact law has no solution at this impact."
+    LYING = 8, "The coin lies on a face. It may still slide or spin, but that can't tip it."
+    STANDING = 9, "The coin stands on its edge: the floor turns it back from either rim."
+    PERPETUAL = 10, "Its recent losses, extrapolated, leave the coin enough energy to turn over for ever."
+    CONTACT_STEPS = 11, "The toss stopped at contact_steps; raise it to go on: --contact-steps N."
+    FLIGHT_STEPS = 12, "The toss stopped at flight_steps; raise it to go on: --flight-steps N."
+    AT_REST = 13, "The coin rests on its edge, held by the floor's resistance to rolling."
+    ROLLING = 14, "The coin still rolls on its edge; to go on raise max_time or contact_steps."
+    CAUGHT = 15, "A hand caught the coin at the height [ending] caught; the face up there counts."
+    NOT_CAUGHT = 16, "The coin never came down to the hand at the height [ending] caught."
+    PERIODIC = 17, "The coin's contact has gone through a whole period, and repeats it for ever."
 
 
 class TrustEnd(Word):
@@ -133,67 +115,42 @@ _REASONS = {
 }
 
 
-def _column(axes: str = "", unit: str = "", kind: type = np.float64) -> Any:
-    shape = (len(AXES[axes][1]),) if axes else ()
-    return field(metadata={"shape": shape, "kind": kind, "axes": axes, "unit": unit})
-
-
-def _freeze(record: "Impacts | States") -> None:
-    """Check the shape of every column and make it read-only."""
-    n, name = len(record.time), type(record).__name__
-    for item in fields(record):
-        array = getattr(record, item.name)
-        expected = (n, *item.metadata["shape"])
-        if array.shape != expected:
-            raise ValueError(f"{name}.{item.name}: shape {array.shape}, expected {expected}")
-        array.setflags(write=False)
-
-
-def _columns(record: "Impacts | States") -> dict[str, Column]:
-    """Return the columns of a record with what they are."""
-    columns = {}
-    for item in fields(record):
-        about = {"long_name": item.name.replace("_", " "), "units": item.metadata["unit"]}
-        columns[item.name] = Column(getattr(record, item.name), about, item.metadata["axes"])
-    return columns
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Impacts:
     """The impacts of a toss, one row each, in order of time; arrays are read-only."""
 
-    time: Array = _column(unit="s")
+    time: Array = column(unit="s")
     """Of first touch, (n,) [s]."""
-    face: NDArray[np.int8] = _column(kind=np.int8)
+    face: NDArray[np.int8] = column(kind=np.int8, long_name="face up", labels=Face.by_value())
     """The `Face` up at the touch, (n,)."""
-    impulse: Array = _column("space", "N s")
+    impulse: Array = column("space", "N s")
     """S, of the floor on the coin, space frame, (n, 3) [N s]."""
-    point: Array = _column("body", "m")
+    point: Array = column("body", "m")
     """A from B, body frame, (n, 3) [m]."""
-    position: Array = _column("space", "m")
+    position: Array = column("space", "m")
     """Of C at the touch, space frame, (n, 3) [m]."""
-    quaternion: Array = _column("attitude")
+    quaternion: Array = column("attitude", "")
     """Euler parameters at the touch, body to space, (n, 4)."""
-    velocity_before: Array = _column("space", "m/s")
+    velocity_before: Array = column("space", "m/s")
     """Of C, space frame, (n, 3) [m/s]."""
-    velocity_after: Array = _column("space", "m/s")
+    velocity_after: Array = column("space", "m/s")
     """Of C, space frame, (n, 3) [m/s]."""
-    angular_velocity_before: Array = _column("body", "rad/s")
+    angular_velocity_before: Array = column("body", "rad/s")
     """ω, body frame, (n, 3) [rad/s]."""
-    angular_velocity_after: Array = _column("body", "rad/s")
+    angular_velocity_after: Array = column("body", "rad/s")
     """ω, body frame, (n, 3) [rad/s]."""
-    contact_velocity_before: Array = _column("space", "m/s")
+    contact_velocity_before: Array = column("space", "m/s")
     """v_A, space frame, (n, 3) [m/s]."""
-    contact_velocity_after: Array = _column("space", "m/s")
+    contact_velocity_after: Array = column("space", "m/s")
     """v_A, space frame, (n, 3) [m/s]."""
-    energy: Array = _column(unit="J")
+    energy: Array = column(unit="J")
     """After the impact: kinetic and m g z_C, (n,) [J]."""
-    energy_change: Array = _column(unit="J")
+    energy_change: Array = column(unit="J")
     """Of the impact, (n,) [J]; positive where the law feeds the coin."""
 
     def __post_init__(self) -> None:
         """Check every array's shape and make it read-only."""
-        _freeze(self)
+        freeze(self)
         if np.any(np.diff(self.time) < 0):
             raise ValueError("Impacts.time: must not decrease")
 
@@ -217,20 +174,11 @@ class Impacts:
 
     def to_xarray(self) -> "xr.Dataset":
         """Return the impacts as a dataset of xarray over `impact`, which counts from 1."""
-        return dataset("impact", self._columns(), {})
+        return dataset(self, "impact", first=1)
 
     def to_dataframe(self) -> "pd.DataFrame":
         """Return the impacts as a table of pandas, a row each."""
-        return table("impact", self._columns())
-
-    def _columns(self) -> dict[str, Column]:
-        faces = meanings_of({face.value: str(face) for face in Face})
-        number = Column(np.arange(1, len(self) + 1), {"long_name": "impact"})
-        return {
-            "impact": number,
-            **_columns(self),
-            "face": Column(self.face, {"long_name": "face up", **faces}),
-        }
+        return table(self, "impact", first=1)
 
 
 _ROW = [(item.name, item.metadata["kind"], item.metadata["shape"]) for item in fields(Impacts)]
@@ -242,20 +190,20 @@ IMPACT_ROW = np.dtype((np.record, np.dtype(_ROW, align=True)))
 class States:
     """States of the coin at several times; arrays are read-only."""
 
-    time: Array = _column(unit="s")
+    time: Array = column(unit="s")
     """(n,) [s]."""
-    position: Array = _column("space", "m")
+    position: Array = column("space", "m")
     """Of C, space frame, (n, 3) [m]."""
-    velocity: Array = _column("space", "m/s")
+    velocity: Array = column("space", "m/s")
     """Of C, space frame, (n, 3) [m/s]."""
-    quaternion: Array = _column("attitude")
+    quaternion: Array = column("attitude", "")
     """Euler parameters, body to space, (n, 4)."""
-    angular_velocity: Array = _column("body", "rad/s")
+    angular_velocity: Array = column("body", "rad/s")
     """ω, body frame, (n, 3) [rad/s]."""
 
     def __post_init__(self) -> None:
         """Check every array's shape and make it read-only."""
-        _freeze(self)
+        freeze(self)
 
     def __repr__(self) -> str:
         """Return how many there are, and from when to when."""
@@ -264,11 +212,11 @@ class States:
 
     def to_xarray(self) -> "xr.Dataset":
         """Return the states as a dataset of xarray over `time`."""
-        return dataset("time", _columns(self), {})
+        return dataset(self, "time")
 
     def to_dataframe(self) -> "pd.DataFrame":
         """Return the states as a table of pandas, a row for each time."""
-        return table("time", _columns(self))
+        return table(self, "time")
 
     @property
     def normal(self) -> Array:
@@ -402,7 +350,8 @@ class Toss:
         return notebook.block(
             f"{self.outcome}, by the engine {self.engine}",
             notebook.path_picture(
-                zip(times.tolist(), heights.tolist(), strict=True),
+                times.tolist(),
+                heights.tolist(),
                 touches,
                 float(impacts.time[trusted]) if trusted < len(impacts) else None,
             ),

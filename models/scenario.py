@@ -35,7 +35,6 @@ from cointoss.models.parts import (
     Release,
 )
 from cointoss.models.unused import warn_of_unused_fields
-from cointoss.models.words import Word
 from cointoss.models.writing import toml
 
 
@@ -148,7 +147,7 @@ class Scenario(Part):
 
     def as_tables(self) -> dict[str, Any]:
         """Return the scenario as a file has it: numbers in SI, lists, words for what has a name."""
-        return _as_in_a_file(self.model_dump(exclude_none=True))
+        return self.model_dump(mode="json", exclude_none=True)
 
     def to_toml(self) -> str:
         """Return the text of a scenario file, defaults included, that `parse` reads as this very scenario."""
@@ -197,14 +196,6 @@ class Scenario(Part):
             max_time=ending.max_time,
             caught=math.inf if ending.caught is None else ending.caught,
         )
-
-
-def _as_in_a_file(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {name: _as_in_a_file(entry) for name, entry in value.items()}
-    if isinstance(value, tuple):
-        return [_as_in_a_file(entry) for entry in value]
-    return str(value) if isinstance(value, Word) else value
 
 
 def _rows(M: NDArray[np.floating]) -> Matrix:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import KW_ONLY, dataclass
 from typing import TypeVar
 
 from cointoss.models.kernel.compiling import compiling
@@ -9,31 +10,27 @@ from cointoss.models.kernel.compiling import compiling
 Item = TypeVar("Item")
 
 
+@dataclass(eq=False)
 class Stage:
     """A part of the work: for how long it has run, and how far it is, where that is counted."""
 
-    def __init__(
-        self,
-        name: str,
-        unit: str = "",
-        *,
-        total: int | None = None,
-        done: int = 0,
-        detail: Callable[[], str] | None = None,
-        clock: Callable[[], float] = lambda: compiling.working_time,
-    ) -> None:
-        """Begin.
+    name: str
+    """What is done."""
+    unit: str = ""
+    """What is counted, as in "frames"."""
+    _: KW_ONLY
+    total: int | None = None
+    """How many there are; None where nothing is counted, or not yet."""
+    done: int = 0
+    """How many there are so far; those at the beginning say nothing of the speed."""
+    detail: Callable[[], str] = str
+    """Returns how far it is, in words; empty where none are known."""
+    clock: Callable[[], float] = lambda: compiling.working_time
+    """One that stands still while something is compiled [s]."""
 
-        Args:
-            name: what is done.
-            unit: what is counted, as in "frames".
-            total: how many there are; None where nothing is counted, or not yet.
-            done: how many there were before, which say nothing of the speed.
-            detail: returns how far it is, in words.
-            clock: one that stands still while something is compiled [s].
-        """
-        self.name, self.unit, self.total, self.done, self.before = name, unit, total, done, done
-        self._detail, self._clock, self._begun = detail, clock, clock()
+    def __post_init__(self) -> None:
+        """Begin."""
+        self._before, self._begun = self.done, self.clock()
 
     def progress(self, done: int, total: int) -> None:
         """Set how many are done, of how many."""
@@ -42,23 +39,18 @@ class Stage:
     @property
     def seconds(self) -> float:
         """For how long it has run [s]."""
-        return self._clock() - self._begun
+        return self.clock() - self._begun
 
     @property
     def rate(self) -> float | None:
         """How many are done in a second; None where none was yet."""
-        new = self.done - self.before
+        new = self.done - self._before
         return new / self.seconds if new > 0 and self.seconds > 0 else None
 
     @property
     def seconds_left(self) -> float | None:
         """How long it will run on at this rate [s]; None where that is not known."""
         return None if self.rate is None or self.total is None else (self.total - self.done) / self.rate
-
-    @property
-    def detail(self) -> str:
-        """How far it is, in words; empty where none are known."""
-        return "" if self._detail is None else self._detail()
 
 
 class Stages:
@@ -84,16 +76,11 @@ def stage(
     *,
     total: int | None = None,
     done: int = 0,
-    detail: Callable[[], str] | None = None,
+    detail: Callable[[], str] = str,
 ) -> Iterator[Callable[[int, int], None]]:
     """Return a function to be called with how many are done, of how many; the stage ends with the `with`.
 
-    Args:
-        name: as of a `Stage`, like the others.
-        unit: as of a `Stage`.
-        total: as of a `Stage`.
-        done: as of a `Stage`.
-        detail: as of a `Stage`.
+    The arguments are those of a `Stage`.
     """
     own = Stage(name, unit, total=total, done=done, detail=detail)
     is_outermost = not stages.open

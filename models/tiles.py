@@ -4,7 +4,8 @@ import threading
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import wait
-from typing import NamedTuple
+from dataclasses import fields
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import config
@@ -46,9 +47,10 @@ def toss_in_tiles(
         How each toss ended, in the order of `releases`.
     """
     n = len(releases)
-    outcome, ending, face = (np.empty(n, dtype=np.int8) for _ in range(3))
-    impacts, end_time = np.empty(n, dtype=np.int32), np.empty(n)
-    columns = Tile(states_of(releases), outcome, ending, face, impacts, end_time)
+    found: dict[str, NDArray[Any]] = {
+        item.name: np.empty(n, item.metadata["kind"]) for item in fields(Outcomes)
+    }
+    columns = Tile(states_of(releases), **found)
 
     cores = config.__dict__["NUMBA_NUM_THREADS"]
     tile = min(most, max(1, n // (PARTS * cores)))
@@ -77,4 +79,4 @@ def toss_in_tiles(
         left.clear()  # a signal's handler may have raised
     for each in tossing:
         each.result()
-    return Outcomes(outcome=outcome, ending=ending, impacts=impacts, last_face=face, end_time=end_time)
+    return Outcomes(**found)

@@ -28,8 +28,7 @@ COMMON = {
     "rad": {"rad": 1.0, "deg": 0.017453292519943295},
     "rad/s": {"rad/s": 1.0, "deg/s": 0.017453292519943295, "rpm": 0.10471975511965977},
 }
-"""What a unit is in the unit of SI, of those written often: they are read without pint."""
-"""Pint's factors from units that are written often, lest half a second goes by until pint is there."""
+"""Pint's factors of the units that are written often: reading them takes no half a second to import pint."""
 
 
 def in_si(text: str, unit: str) -> float:

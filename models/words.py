@@ -20,6 +20,11 @@ class Word(IntEnum):
                 return member
         raise ValueError(f"{cls.__name__}: {value!r}, accepted: {', '.join(map(str, cls))}")
 
+    @classmethod
+    def by_value(cls) -> dict[int, str]:
+        """Return the words by their integers."""
+        return {member.value: str(member) for member in cls}
+
     def __str__(self) -> str:
         """Return the word."""
         return self.name.lower()

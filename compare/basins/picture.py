@@ -1,7 +1,7 @@
 """Pictures of outcome maps."""
 
 from dataclasses import dataclass
-from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib import colormaps
@@ -14,11 +14,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from cointoss.compare.basins.boundary import boundary_pixels
 from cointoss.compare.basins.maps import OutcomeCodes, outcome_map
-from cointoss.compare.basins.picture_style import DPI, Palette
-from cointoss.compare.output.files import written_whole
+from cointoss.compare.basins.picture_style import Palette, PictureStyle
 from cointoss.compare.output.style import GREEN, GREY, GRID, OUTCOMES, PURPLE, SKY, VERMILION
 from cointoss.models.records import Outcome
 
+PLAIN = PictureStyle()
 PANEL_SIZE = (5.0, 4.5)
 """Of one map, width and height [inches]."""
 COMPARISON_SIZE = (3 * PANEL_SIZE[0], PANEL_SIZE[1])
@@ -58,53 +58,62 @@ class MapAxis:
     """At the last pixel's centre."""
 
 
+class Margins(NamedTuple):
+    """The margins of the pixels of a map."""
+
+    changes: ArrayLike
+    """The smallest change of each pixel that changes its outcome, infinite where none does, (y, x)."""
+    quantity: str
+    """What changes."""
+    unit: str
+    most: float
+    """The largest change that was tried [unit]."""
+
+
 def draw_map(
     outcomes: ArrayLike,
     *,
     x: MapAxis,
     y: MapAxis,
-    palette: Palette = Palette.SAFE,
-    boundaries: bool = False,
-    size: tuple[float, float] = PANEL_SIZE,
+    style: PictureStyle = PLAIN,
+    margins: Margins | None = None,
 ) -> Figure:
-    """Draw a map.
+    """Draw a map, and beside it the sizes of its margins, where it has them.
 
     Args:
         outcomes: the map, (y, x).
         x: of the columns.
         y: of the rows.
-        palette: the outcomes' colours.
-        boundaries: whether pixels at a boundary are coloured as such.
-        size: width and height [inches].
+        style: how to draw.
+        margins: of its pixels.
     """
-    figure = Figure(figsize=size, layout="constrained")
-    panel = figure.add_subplot()
-    _legend(figure, draw_panel(panel, outcomes, x=x, y=y, palette=palette, boundaries=boundaries))
+    size = PANEL_SIZE if margins is None else MARGINS_SIZE
+    figure = Figure(figsize=style.size or size, layout="constrained")
+    panels = figure.subplots(1, 1 if margins is None else 2, sharex=True, sharey=True, squeeze=False)[0]
+    patches = draw_panel(panels[0], outcomes, x=x, y=y, style=style)
+    if margins is not None:
+        patches += draw_margin_panel(panels[1], margins, x=x, y=y)
+        panels[0].set_title("outcome")
+        panels[1].set_title(f"change of {margins.quantity} that changes it")
+        panels[1].label_outer()
+    _legend(figure, patches)
     return figure
 
 
 def draw_panel(
-    axes: Axes,
-    outcomes: ArrayLike,
-    *,
-    x: MapAxis,
-    y: MapAxis,
-    palette: Palette = Palette.SAFE,
-    boundaries: bool = False,
+    axes: Axes, outcomes: ArrayLike, *, x: MapAxis, y: MapAxis, style: PictureStyle = PLAIN
 ) -> list[Patch]:
     """Draw a map into `axes`, and return what its legend has; see `draw_map` for the other arguments."""
     codes = outcome_map(outcomes)
-    _show(axes, _colored(codes, palette, boundaries), x, y)
+    _show(axes, _colored(codes, style), x, y)
     axes.set_ylabel(_label(y))
-    return _outcome_patches([codes], palette, boundaries)
+    return _outcome_patches([codes], style)
 
 
-def draw_margin_panel(
-    axes: Axes, margins: ArrayLike, *, x: MapAxis, y: MapAxis, quantity: str, unit: str, most: float
-) -> list[Patch]:
-    """Draw the sizes of margins with their scale, and return what their legend has; as in `draw_margins`."""
-    sizes = np.abs(np.asarray(margins, dtype=float))
-    found = sizes[np.isfinite(sizes)]
+def draw_margin_panel(axes: Axes, margins: Margins, *, x: MapAxis, y: MapAxis) -> list[Patch]:
+    """Draw the sizes of margins on a logarithmic scale, and return what their legend has."""
+    sizes = np.abs(np.asarray(margins.changes, dtype=float))
+    found, most, unit = sizes[np.isfinite(sizes)], margins.most, margins.unit
     ends = np.quantile(found, [_TAIL, 1 - _TAIL]) if found.size else np.array([most / 10, most])
     norm = LogNorm(*10.0 ** np.array([np.floor(np.log10(ends[0])), np.ceil(np.log10(ends[1]) + 1e-9)]))
     shades = np.round(255 * colormaps[_MARGINS](norm(np.minimum(sizes, most)))[..., :3]).astype(np.uint8)
@@ -112,7 +121,8 @@ def draw_margin_panel(
     _show(axes, shades, x, y)
     axes.set_ylabel(_label(y))
     shown, figure = ScalarMappable(norm, colormaps[_MARGINS]), axes.figure
-    figure.colorbar(shown, ax=axes, extend="both", label=f"smallest change of {quantity} [{unit}]")
+    label = f"smallest change of {margins.quantity} [{unit}]"
+    figure.colorbar(shown, ax=axes, extend="both", label=label)
     return [_patch(_NO_MARGIN, f"none found up to {most:g} {unit}")] if found.size < sizes.size else []
 
 
@@ -128,9 +138,7 @@ def draw_comparison(
     *,
     x: MapAxis,
     y: MapAxis,
-    palette: Palette = Palette.SAFE,
-    boundaries: bool = False,
-    size: tuple[float, float] = COMPARISON_SIZE,
+    style: PictureStyle = PLAIN,
     note: str = "",
 ) -> Figure:
     """Draw the maps of both engines and where they differ, side by side.
@@ -140,9 +148,7 @@ def draw_comparison(
         mujoco: the map by MuJoCo on the same grid, (y, x).
         x: of the columns.
         y: of the rows.
-        palette: the outcomes' colours.
-        boundaries: whether pixels at a boundary are coloured as such.
-        size: width and height of the whole [inches].
+        style: how to draw.
         note: more lines over the difference.
 
     Raises:
@@ -151,79 +157,24 @@ def draw_comparison(
     a, b = outcome_map(analytic), outcome_map(mujoco)
     if a.shape != b.shape:
         raise ValueError(f"mujoco: shape {b.shape}, accepted: that of analytic, {a.shape}")
-    figure = Figure(figsize=size, layout="constrained")
+    figure = Figure(figsize=style.size or COMPARISON_SIZE, layout="constrained")
     panels = figure.subplots(1, 3, sharex=True, sharey=True)
     decided = (a != Outcome.UNDECIDED) & (b != Outcome.UNDECIDED)
     different = decided & (a != b)
     difference = np.where(different[..., None], _rgb(_DIFFERENT), _rgb(_SAME))
-    difference[~decided] = _rgb(_COLORS[palette][Outcome.UNDECIDED])
+    difference[~decided] = _rgb(_COLORS[style.palette][Outcome.UNDECIDED])
     for axes, title, colors in zip(
         panels,
         ("analytic", "MuJoCo", f"{_difference_title(different, decided)}\n{note}".rstrip()),
-        (_colored(a, palette, boundaries), _colored(b, palette, boundaries), difference),
+        (_colored(a, style), _colored(b, style), difference),
         strict=True,
     ):
         _show(axes, colors, x, y)
         axes.set_title(title)
     panels[0].set_ylabel(_label(y))
     patches = [_patch(_SAME, "both alike"), _patch(_DIFFERENT, "different")]
-    _legend(figure, [*_outcome_patches([a, b], palette, boundaries), *patches])
+    _legend(figure, [*_outcome_patches([a, b], style), *patches])
     return figure
-
-
-def draw_margins(
-    outcomes: ArrayLike,
-    margins: ArrayLike,
-    *,
-    x: MapAxis,
-    y: MapAxis,
-    palette: Palette = Palette.SAFE,
-    boundaries: bool = False,
-    size: tuple[float, float] = MARGINS_SIZE,
-    quantity: str,
-    unit: str,
-    most: float,
-) -> Figure:
-    """Draw a map, and beside it the sizes of its margins on a logarithmic scale.
-
-    Args:
-        outcomes: the map, (y, x).
-        margins: the smallest change of each pixel that changes its outcome, infinite where none does, (y, x).
-        x: of the columns.
-        y: of the rows.
-        palette: the outcomes' colours.
-        boundaries: whether pixels at a boundary are coloured as such in the map.
-        size: width and height of the whole [inches].
-        quantity: what changes.
-        unit: of it.
-        most: the largest change that was tried [unit].
-    """
-    figure = Figure(figsize=size, layout="constrained")
-    panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    patches = [
-        *draw_panel(panels[0], outcomes, x=x, y=y, palette=palette, boundaries=boundaries),
-        *draw_margin_panel(panels[1], margins, x=x, y=y, quantity=quantity, unit=unit, most=most),
-    ]
-    for axes, title in zip(panels, ("outcome", f"change of {quantity} that changes it"), strict=True):
-        axes.set_title(title)
-    panels[1].label_outer()
-    _legend(figure, patches)
-    return figure
-
-
-def write_png(figure: Figure, path: Path, *, dpi: float = DPI) -> None:
-    """Write a figure as PNG, whole or not at all.
-
-    Args:
-        figure: what to write.
-        path: where.
-        dpi: pixels per inch.
-
-    Raises:
-        UnwritableError: naming the file and why.
-    """
-    with written_whole(path) as aside:
-        figure.savefig(aside, format="png", dpi=dpi)
 
 
 def _difference_title(different: NDArray[np.bool_], decided: NDArray[np.bool_]) -> str:
@@ -232,11 +183,11 @@ def _difference_title(different: NDArray[np.bool_], decided: NDArray[np.bool_]) 
     return f"different: {100 * different.sum() / decided.sum():.3g} % of the pixels both decide"
 
 
-def _colored(codes: OutcomeCodes, palette: Palette, boundaries: bool) -> NDArray[np.uint8]:
+def _colored(codes: OutcomeCodes, style: PictureStyle) -> NDArray[np.uint8]:
     """Return each pixel's colour, (y, x, 3)."""
-    colors = np.array([_rgb(_COLORS[palette][outcome]) for outcome in Outcome])[codes]
-    if boundaries:
-        colors[boundary_pixels(codes)] = _rgb(_BOUNDARY[palette])
+    colors = np.array([_rgb(_COLORS[style.palette][outcome]) for outcome in Outcome])[codes]
+    if style.boundaries:
+        colors[boundary_pixels(codes)] = _rgb(_BOUNDARY[style.palette])
     return colors
 
 
@@ -265,11 +216,11 @@ def _label(axis: MapAxis) -> str:
     return f"{axis.name} [{axis.unit}]" if axis.unit else axis.name
 
 
-def _outcome_patches(maps: list[OutcomeCodes], palette: Palette, boundaries: bool) -> list[Patch]:
+def _outcome_patches(maps: list[OutcomeCodes], style: PictureStyle) -> list[Patch]:
     present = [outcome for outcome in Outcome if any((codes == outcome).any() for codes in maps)]
     present.sort(key=lambda outcome: outcome is Outcome.UNDECIDED)
-    patches = [_patch(_COLORS[palette][outcome], str(outcome)) for outcome in present]
-    return [*patches, *([_patch(_BOUNDARY[palette], "boundary")] if boundaries else [])]
+    patches = [_patch(_COLORS[style.palette][outcome], str(outcome)) for outcome in present]
+    return [*patches, *([_patch(_BOUNDARY[style.palette], "boundary")] if style.boundaries else [])]
 
 
 def _patch(color: str, label: str) -> Patch:

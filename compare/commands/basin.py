@@ -1,7 +1,5 @@
 """`cointoss basin`: a map of outcomes."""
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +15,6 @@ from cointoss.compare.commands.common import (
     say,
 )
 from cointoss.compare.commands.names import axis_option, scenario_argument
-from cointoss.compare.output.interruption import Interruption
 
 
 class _Size(click.ParamType):
@@ -160,25 +157,5 @@ def basin(
             report=report,
             no_video=no_video,
         )
-        for result in make(job, _watched, say):
+        for result in make(job, say):
             click.echo(result)
-
-
-@contextmanager
-def _watched(name: str, done: int, count: int) -> Iterator[Callable[[int], None]]:
-    """Yield a function to report tosses to, which shows how many there are."""
-    from cointoss.models.stages import stage
-
-    kept = done
-
-    def more(tosses: int) -> None:
-        nonlocal kept
-        kept += tosses
-        progress(kept, count)
-
-    try:
-        with stage(name, "tosses", total=count, done=done) as progress:
-            yield more
-    except Interruption as interruption:
-        interruption.message = f"{name}: {kept} of {count} tosses are saved; --resume continues"
-        raise

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from cointoss.compare.metrics.margin import quantity_of
 from cointoss.compare.output.style import OUTCOMES
 from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.layers import NOT_TOSSED
@@ -20,7 +19,7 @@ _KINDS = {"outcome": "<i1", "impacts": "<i4", "margin": "<f4"}
 def page_map(found: OutcomeMap) -> dict[str, Any]:
     """Return a map as JSON; arrays row by row in base64, little-endian."""
     sweep = found.sweep
-    margin = quantity_of(sweep.margin) if sweep.margin else None
+    margin = sweep.quantity if sweep.margin else None
     return {
         "name": found.name,
         "title": sweep.title,

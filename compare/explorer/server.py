@@ -5,7 +5,7 @@ import json
 import re
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from http.server import BaseHTTPRequestHandler
 from pathlib import Path
 from socketserver import ThreadingTCPServer
@@ -19,7 +19,6 @@ from cointoss.compare.explorer.page_map import MOST_SHOWN, page_map
 from cointoss.compare.explorer.tosses import require_inside, toss_pixel
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.outcome_map import OutcomeMap
 from cointoss.compare.sweep.reading import read_map
 from cointoss.models.errors import ScenarioError
 from cointoss.models.records import UnsupportedError
@@ -85,10 +84,6 @@ class Explorer(ThreadingTCPServer):
         if not isinstance(sys.exception(), OSError):
             super().handle_error(request, client_address)
 
-    def map_now(self) -> OutcomeMap:
-        """Return the map as far as it is tossed now."""
-        return read_map(self.path, most=MOST_SHOWN)
-
 
 class Request(BaseHTTPRequestHandler):
     """One request."""
@@ -139,11 +134,11 @@ class Request(BaseHTTPRequestHandler):
 
     def _map(self, query: Query) -> Any:
         _require_names(query)
-        return page_map(self.server.map_now())
+        return page_map(read_map(self.server.path, most=MOST_SHOWN))
 
     def _toss(self, query: Query) -> Any:
         _require_names(query, "x", "y", also="engine")
-        x, y = (_number(name, query[name]) for name in ("x", "y"))
+        x, y = map(float, _read(query, ("x", "y"), _NUMBER, "a number"))
         require_inside(self.server.sweep, x, y)
         chosen = query.get("engine")
         if chosen is not None and chosen not in list(Engine):
@@ -154,7 +149,7 @@ class Request(BaseHTTPRequestHandler):
     def _tile(self, query: Query) -> bytes:
         names = ("level", "column", "row")
         _require_names(query, *names)
-        level, column, row = (_count(name, query[name]) for name in names)
+        level, column, row = map(int, _read(query, names, _COUNT, "a whole number"))
         return toss_tile(self.server.sweep, level, column, row).tobytes()
 
     def _refuse(self, status: int, message: str) -> None:
@@ -195,13 +190,8 @@ def _require_names(query: Query, *names: str, also: str = "") -> None:
         raise SweepError(f"accepted: {', '.join(names) or 'no query'}")
 
 
-def _number(name: str, text: str) -> float:
-    if not _NUMBER.fullmatch(text):
-        raise SweepError(f"{name}: accepted: a number")
-    return float(text)
-
-
-def _count(name: str, text: str) -> int:
-    if not _COUNT.fullmatch(text):
-        raise SweepError(f"{name}: accepted: a whole number")
-    return int(text)
+def _read(query: Query, names: Sequence[str], form: re.Pattern[str], accepted: str) -> list[str]:
+    for name in names:
+        if not form.fullmatch(query[name]):
+            raise SweepError(f"{name}: accepted: {accepted}")
+    return [query[name] for name in names]

@@ -10,10 +10,9 @@ from cointoss.coin_mj.model.state import of_release
 from cointoss.compare.film.filmed import Filmed
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.geometry import lowest_point
-from cointoss.models.kernel.vectors import add, apply, subtract
 from cointoss.models.parts import Release
 from cointoss.models.records import Array, Ending, States, Toss
-from cointoss.models.scenario import euler_parameters, vector
+from cointoss.models.scenario import vector
 
 SHOWN_FOR = 0.015
 """How long after an impact its impulse is shown [s]."""
@@ -74,22 +73,18 @@ class Play:
     def lowest_point(self, i: int) -> Array:
         """Return the coin's lowest point at one of the times, space frame, (3,) [m]."""
         states = self.states
-        up = rotation_matrix(euler_parameters(states.quaternion[i]))[2]
+        up = rotation_matrix(states.quaternion[i])[2]
         point, _ = lowest_point(self.toss.scenario.body, up, vector(states.angular_velocity[i]))
         return self._in_space(states.position[i], states.quaternion[i], np.array(point))
 
     def qpos(self, i: int) -> Array:
         """Return MuJoCo's coordinates of the coin at one of the times, (7,)."""
-        release = Release(
-            position=vector(self.states.position[i]), quaternion=euler_parameters(self.states.quaternion[i])
-        )
-        return of_release(self.toss.scenario.body, release)[0]
+        state = {"position": self.states.position[i], "quaternion": self.states.quaternion[i]}
+        return of_release(self.toss.scenario.body, Release.model_validate(state))[0]
 
     def _in_space(self, position: Array, quaternion: Array, point: Array) -> Array:
         """Return where a point of the coin, from B in the body frame, is in space."""
-        R = rotation_matrix(euler_parameters(quaternion))
-        from_C = subtract(vector(point), self.toss.scenario.body.center)
-        return np.array(add(vector(position), apply(R, from_C)))
+        return position + np.array(rotation_matrix(quaternion)) @ (point - self.toss.scenario.body.center)
 
 
 def _is_still(motion: Toss, times: Array) -> NDArray[np.bool_]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from cointoss.compare.film.back_end import drawing_problem
 from cointoss.models.parts import Release
 from cointoss.models.records import States
-from cointoss.models.scenario import Scenario, euler_parameters, vector
+from cointoss.models.scenario import Scenario
 
 Stills = NDArray[Any]
 """Red, green and blue, (n, height, width, 3) of uint8."""
@@ -47,7 +47,7 @@ def stills(scenario: Scenario, states: States) -> Stills | str:
     drawn = []
     with mujoco.Renderer(model, HEIGHT, WIDTH) as renderer:
         for x, e in zip(positions, states.quaternion, strict=True):
-            release = Release(position=vector(x), quaternion=euler_parameters(e))
+            release = Release.model_validate({"position": x, "quaternion": e})
             data.qpos[:], data.qvel[:] = of_release(body, release)
             mujoco.mj_forward(model, data)
             renderer.update_scene(data, camera)

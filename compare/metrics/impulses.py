@@ -7,9 +7,7 @@ import numpy as np
 from cointoss import analytic
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.geometry import gap
-from cointoss.models.parts import Release
 from cointoss.models.records import Array, Impacts, Toss
-from cointoss.models.scenario import euler_parameters, vector
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -54,15 +52,15 @@ def errors_of_impacts(toss: Toss) -> Array:
     impacts, scenario, body = toss.impacts, toss.scenario, toss.scenario.body
     law = np.empty((len(impacts), 3))
     for i in range(len(impacts)):
-        x, y, z = vector(impacts.position[i])
+        x, y, z = impacts.position[i].tolist()
         # MuJoCo's shape of a thin coin has a thickness: where it touches the floor, the coin itself is below.
         below = min(gap(body, z, rotation_matrix(impacts.quaternion[i])[2]), 0.0)
-        release = Release(
-            position=(x, y, z - below),
-            velocity=vector(impacts.velocity_before[i]),
-            quaternion=euler_parameters(impacts.quaternion[i]),
-            angular_velocity=vector(impacts.angular_velocity_before[i]),
-        )
+        release = {
+            "position": (x, y, z - below),
+            "velocity": impacts.velocity_before[i],
+            "quaternion": impacts.quaternion[i],
+            "angular_velocity": impacts.angular_velocity_before[i],
+        }
         again = analytic.toss(scenario.replace("release", release, "ending.max_impacts", 1))
         law[i] = again.impacts.impulse[0]
     return _relative(law, impacts.impulse)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from cointoss import analytic
 from cointoss.models.records import Array
-from cointoss.models.releases import Releases, check_releases
+from cointoss.models.releases import Releases, changed_releases, check_releases
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import counted
 
@@ -115,21 +115,16 @@ QUANTITIES = (
 """Horizontal position is left out: it changes nothing."""
 
 
-def names() -> tuple[str, ...]:
-    """Return the names of `QUANTITIES` in Latin letters."""
-    return tuple(_latin(quantity.name) for quantity in QUANTITIES)
-
-
 def quantity_of(name: str) -> Quantity:
     """Return the quantity of a name, its axis in Greek or Latin letters.
 
     Raises:
         ValueError: naming what is accepted.
     """
-    for quantity in QUANTITIES:
-        if _latin(name) == _latin(quantity.name):
-            return quantity
-    raise ValueError(f"{name}: accepted: {', '.join(names())}")
+    known = {_latin(quantity.name): quantity for quantity in QUANTITIES}
+    if _latin(name) not in known:
+        raise ValueError(f"{name}: accepted: {', '.join(known)}")
+    return known[_latin(name)]
 
 
 def _latin(name: str) -> str:
@@ -153,10 +148,7 @@ def margins(scenario: Scenario, proved_change: Proof | None = None) -> tuple[Mar
         scenario: whose coin is tossed.
         proved_change: gives a lower bound too; none is given without.
     """
-    release = scenario.release
-    rows = (release.position, release.velocity, release.attitude, release.angular_velocity)
-    position, velocity, quaternion, spin = (np.array([row], dtype=float) for row in rows)
-    start = Releases(position=position, velocity=velocity, quaternion=quaternion, angular_velocity=spin)
+    start = changed_releases(scenario.release, 1, {})
 
     def outcomes(releases: Releases) -> Codes:
         return analytic.toss_many(scenario, releases).outcome

@@ -1,9 +1,7 @@
 """How far two heads-and-tails sequences agree, and how far they must."""
 
 from cointoss import analytic
-from cointoss.models.parts import Release
 from cointoss.models.records import Array, Toss
-from cointoss.models.scenario import euler_parameters, vector
 
 SAFETY = 2.0
 """The horizon supposes errors so many times larger than those measured."""
@@ -32,14 +30,13 @@ def agreement_horizon(toss: Toss, errors: Array) -> int:
             break
         error = SAFETY * errors[: i + 1].max()
         for part in (error, -error):
-            release = Release(
-                position=vector(impacts.position[i]),
-                velocity=vector(_beyond(impacts.velocity_before[i], impacts.velocity_after[i], part)),
-                quaternion=euler_parameters(impacts.quaternion[i]),
-                angular_velocity=vector(
-                    _beyond(impacts.angular_velocity_before[i], impacts.angular_velocity_after[i], part)
-                ),
-            )
+            spin, spin_after = impacts.angular_velocity_before[i], impacts.angular_velocity_after[i]
+            release = {
+                "position": impacts.position[i],
+                "velocity": _beyond(impacts.velocity_before[i], impacts.velocity_after[i], part),
+                "quaternion": impacts.quaternion[i],
+                "angular_velocity": _beyond(spin, spin_after, part),
+            }
             most = max(shared - i - 1, 1)
             again = analytic.toss(scenario.replace("release", release, "ending.max_impacts", most))
             shared = min(shared, i + 1 + common_prefix(toss.sequence[i + 1 :], again.sequence))

@@ -2,6 +2,7 @@
 
 import csv
 import io
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -10,19 +11,7 @@ from cointoss.models import certificate
 from cointoss.models.notebook import shortened, with_bar
 from cointoss.models.records import Face, Impacts, Outcome, States, Toss, UnsupportedError
 
-_JSON_FIELDS = (
-    "impulse",
-    "point",
-    "position",
-    "quaternion",
-    "velocity_before",
-    "velocity_after",
-    "angular_velocity_before",
-    "angular_velocity_after",
-    "contact_velocity_before",
-    "contact_velocity_after",
-    "energy",
-)
+_JSON_FIELDS = [item.name for item in fields(Impacts) if item.name not in ("time", "face", "energy_change")]
 PATH_COLUMNS = {
     "time": ("t [s]",),
     "position": ("x [m]", "y [m]", "z [m]"),

@@ -170,7 +170,8 @@ class Display:
 
 def _phrase(stage: Stage) -> str:
     """Return a stage in words: how far it is, or for how long it has run."""
-    detail = f", {stage.detail}" if stage.detail else ""
+    said = stage.detail()
+    detail = f", {said}" if said else ""
     if stage.total is None:
         return f"{stage.name}: {_duration(stage.seconds)}{detail}"
     return f"{stage.name}:{_counted(stage)} {stage.unit}{_about(stage.seconds_left)}{detail}"

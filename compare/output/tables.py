@@ -56,6 +56,11 @@ def sheet(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return written.getvalue()
 
 
+def cells(line: str) -> list[str]:
+    """Return the cells of a row of a table in Markdown."""
+    return [cell.strip().replace(r"\|", "|") for cell in re.split(r"(?<!\\)\|", line.strip())[1:-1]]
+
+
 def unfolding(summary: str, *blocks: str) -> str:
     """Return Markdown that unfolds below a line of HTML."""
     return "\n\n".join([f"<details>\n<summary>{summary}</summary>", *blocks, "</details>"])
@@ -76,8 +81,7 @@ def _named(text: str) -> Iterator[tuple[str, str]]:
 
 def _read(block: str) -> tuple[list[str], list[list[str]]]:
     """Return the names of the columns of a table in Markdown, and its rows."""
-    lines = [re.split(r"(?<!\\)\|", line)[1:-1] for line in block.splitlines()]
-    head, _, *rows = [[cell.strip().replace(r"\|", "|") for cell in line] for line in lines]
+    head, _, *rows = map(cells, block.splitlines())
     return head, rows
 
 

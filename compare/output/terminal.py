@@ -5,6 +5,8 @@ import textwrap
 from collections.abc import Sequence
 from itertools import zip_longest
 
+from cointoss.compare.output.tables import cells
+
 GAP = "  "
 """Between two columns."""
 _TIED = "\N{NO-BREAK SPACE}"
@@ -25,7 +27,7 @@ def laid_out(markdown: str, width: int) -> str:
 
 
 def _table(markdown: str, width: int) -> str:
-    head, ruled, *rows = map(_cells, markdown.splitlines())
+    head, ruled, *rows = [[_plain(cell) for cell in cells(line)] for line in markdown.splitlines()]
     numbers = [mark.endswith(":") for mark in ruled]
     columns = list(zip(head, *rows, strict=True))
     widths = _widths(columns, width)
@@ -41,11 +43,6 @@ def _table(markdown: str, width: int) -> str:
     top, *below = ["\n".join(map(line, lines)) for lines in tall]
     rule = "─" * (sum(widths) + len(GAP) * (len(widths) - 1))
     return "\n".join([top, rule, ("\n\n" if spaced else "\n").join(below)])
-
-
-def _cells(row: str) -> list[str]:
-    """Return the cells of a row of Markdown."""
-    return [_plain(cell.strip()).replace("\\|", "|") for cell in re.split(r"(?<!\\)\|", row.strip())[1:-1]]
 
 
 def _plain(text: str) -> str:

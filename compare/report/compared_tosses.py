@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,9 +12,6 @@ from cointoss.compare.metrics.sequences import agreement_horizon, common_prefix
 from cointoss.compare.metrics.trajectories import attitude_angle, distance, parting_time
 from cointoss.models.records import Array, Toss, UnsupportedError
 from cointoss.models.scenario import Scenario
-
-if TYPE_CHECKING:
-    pass
 
 TIMES = 2400
 PARTED = 0.1

@@ -2,7 +2,7 @@
 
 import io
 import json
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,7 @@ from cointoss.compare.output.files import written_together
 from cointoss.compare.report.compared_tosses import ComparedTosses
 from cointoss.compare.report.contents import FILES, OF_THE_FILM
 from cointoss.compare.report.map_section import MapSection
-from cointoss.compare.report.page import Film, Page, render, versions
+from cointoss.compare.report.page import render, versions
 from cointoss.models.records import Array
 from cointoss.models.stages import stage
 
@@ -56,8 +56,8 @@ def write_report(
             (aside / f"path-{toss.engine}.csv").write_text(answer.path_csv(states), encoding="utf-8")
 
         being_drawn = BEING_DRAWN.format(engines="both" if comparison.mujoco else "analytic")
-        page = Page(comparison=comparison, film=None, no_video=no_video or being_drawn, maps=maps)
-        (aside / "report.html").write_text(render(page), encoding="utf-8")
+        page = render(comparison, no_video=no_video or being_drawn, maps=maps)
+        (aside / "report.html").write_text(page, encoding="utf-8")
     if no_video is None:
         with written_together(folder, OF_THE_FILM) as aside:
             from cointoss.compare.film.drawing import Camera
@@ -67,9 +67,8 @@ def write_report(
             filmed = comparison.filmed()
             with stage("drawing the film", "frames") as progress:
                 poster = write_video(filmed, Camera.CLOSE_UP, SMALL, aside / "toss.mp4", progress)
-            film = Film((aside / "toss.mp4").read_bytes(), _jpeg(poster))
-            with_film = replace(page, film=film, no_video=None)
-            (aside / "report.html").write_text(render(with_film), encoding="utf-8")
+            film = (aside / "toss.mp4").read_bytes(), _jpeg(poster)
+            (aside / "report.html").write_text(render(comparison, film=film, maps=maps), encoding="utf-8")
     return folder / "report.html"
 
 

@@ -2,10 +2,9 @@
 
 import platform
 from base64 import b64encode
-from dataclasses import dataclass
 from importlib import resources
 from itertools import zip_longest
-from typing import Any, NamedTuple
+from typing import Any
 
 import jinja2
 import numpy as np
@@ -32,37 +31,30 @@ MOST_SHOWN = 200
 PACKAGES = ("cointoss", "mujoco", "numpy", "scipy", "numba", "matplotlib", "mediapy")
 
 
-class Film(NamedTuple):
-    """The film of a report."""
+def render(
+    comparison: ComparedTosses,
+    *,
+    film: tuple[bytes, bytes] | None = None,
+    no_video: str = "",
+    maps: MapSection | None = None,
+) -> str:
+    """Return the HTML text of a page.
 
-    video: bytes
-    """The mp4."""
-    poster: bytes
-    """A frame that stands for it, as JPEG."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Page:
-    """What the page shows."""
-
-    comparison: ComparedTosses
-    film: Film | None
-    no_video: str | None
-    """Why there is no video, where there is none."""
-    maps: MapSection | None
-
-
-def render(page: Page) -> str:
-    """Return the HTML text of a page."""
+    Args:
+        comparison: of the tosses.
+        film: of them, as mp4, and a frame that stands for it, as JPEG.
+        no_video: why there is no film, where there is none.
+        maps: what the page also shows.
+    """
     folder = resources.files("cointoss.compare.report")
     template = (folder / "report.html.j2").read_text(encoding="utf-8")
     shared = {name: content.decode("utf-8") for name, content in shared_files().items()}
     modules = {name: text for name, text in shared.items() if name.endswith(".js")}
     modules |= {name: (folder / name).read_text(encoding="utf-8") for name in ("report.js", "present.js")}
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
-    comparison = page.comparison
     return environment.from_string(template).render(
-        page=page,
+        no_video=no_video,
+        maps=maps,
         compared=comparison,
         tosses=comparison.tosses,
         measured=certificate.NAMES,
@@ -82,8 +74,8 @@ def render(page: Page) -> str:
         rows=list(zip_longest(*(toss.sequence for toss in comparison.tosses), fillvalue="")),
         most_shown=MOST_SHOWN,
         impacts=_impact_rows(comparison),
-        film=[b64encode(part).decode("ascii") for part in page.film] if page.film else None,
-        map_picture=b64encode(page.maps.picture).decode("ascii") if page.maps else None,
+        film=[b64encode(part).decode("ascii") for part in film] if film else None,
+        map_picture=b64encode(maps.picture).decode("ascii") if maps else None,
         words=WORDS,
         printed_unit=printed_unit,
         safety=SAFETY,

@@ -1,6 +1,7 @@
 """Maps in a few lines of text, and how far two agree."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +9,9 @@ from numpy.typing import NDArray
 from cointoss.compare.basins.agreement import Agreement, Share, agreement
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.models.records import Array, Outcome
+
+if TYPE_CHECKING:
+    from cointoss.compare.metrics.margin import Quantity
 
 AWAY = 2.0
 """A pixel is away from the boundaries where all within this distance have its outcome [pixels]."""
@@ -30,19 +34,13 @@ def describe_map(path: Path, sweep: Sweep, fractions: dict[Outcome, float]) -> s
     return "\n".join(lines)
 
 
-def describe_margins(name: str, unit: str, most: float, sizes: Array) -> str:
-    """Return the margins of a map as text.
-
-    Args:
-        name: of the quantity that changes.
-        unit: of it.
-        most: the largest change that was tried [unit].
-        sizes: of the margins, (n,) [unit].
-    """
+def describe_margins(quantity: "Quantity", sizes: Array) -> str:
+    """Return the sizes of the margins of a map along a quantity, (n,) [its unit], as text."""
+    unit, most = quantity.unit, quantity.factor
     few, middle = np.quantile(sizes, [0.1, 0.5], method="lower")
     return "\n".join(
         [
-            f"margin     along {name}: median {middle:.3g} {unit}, a tenth below {few:.3g} {unit}",
+            f"margin     along {quantity.name}: median {middle:.3g} {unit}, a tenth below {few:.3g} {unit}",
             f"           {100 * np.isinf(sizes).mean():.3f} % without one up to {most:g} {unit}",
         ]
     )

@@ -10,7 +10,10 @@ import os
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from cointoss.compare.sweep.axes import MOST_VALUES
+from cointoss.compare.sweep.layers import LAYERS
 from cointoss.models.bounded import read_bounded
 from cointoss.models.errors import shown
 from cointoss.models.fields import UNITS
@@ -25,8 +28,6 @@ MOST_DESCRIBED = 1 << 20
 """Bytes of such a file."""
 MOST_IN_TILE = 1 << 20
 """Pixels of a tile."""
-_LAYERS = {"outcome": ("int8", -1), "impacts": ("int32", -1), "margin": ("float64", "NaN")}
-"""Types of the arrays over both axes, and what they hold where no toss was made."""
 _ATTRIBUTES = {
     "scenario": str,
     "engine": str,
@@ -66,7 +67,7 @@ def is_map(folder: Path) -> bool:
 
 def foreign_entry(folder: Path) -> str | None:
     """Return the name of something in a map's folder that is no part of a map, if there is any."""
-    known = {DESCRIPTION, *_LAYERS, *UNITS}
+    known = {DESCRIPTION, *LAYERS, *UNITS}
     return min((entry.name for entry in folder.iterdir() if entry.name not in known), default=None)
 
 
@@ -99,7 +100,7 @@ def require_chunk(folder: Path, name: Path, size: int) -> None:
         with (folder / name).open("rb") as file:
             stored, head = os.fstat(file.fileno()).st_size, file.read(18)
     except FileNotFoundError:
-        if name.parts[0] in _LAYERS:  # not tossed yet
+        if name.parts[0] in LAYERS:  # not tossed yet
             return
         raise FormError(f"{name}: lost") from None
     # What can't be compressed becomes longer, by less than this.
@@ -157,9 +158,11 @@ def _form(folder: Path) -> Form:
     tile = _sizes("outcome", arrays["outcome"].get("chunk_grid"), within=shape)
     if math.prod(tile) > MOST_IN_TILE:
         raise FormError(f"array outcome: tiles of {tile[1]} by {tile[0]} pixels")
-    for name, (kind, fill_value) in _LAYERS.items():
+    for name, (kind, fill_value) in LAYERS.items():
         if name in arrays:
-            _require_array(name, arrays[name], _array(kind, fill_value, shape, tile, ("y", "x")))
+            written = "NaN" if math.isnan(fill_value) else fill_value
+            due = _array(np.dtype(kind).name, written, shape, tile, ("y", "x"))
+            _require_array(name, arrays[name], due)
     return Form(attributes, x, y, (rows, columns), (tile[0], tile[1]))
 
 
@@ -169,7 +172,7 @@ def _arrays(folder: Path, described: dict[str, Any], *, has_margin: bool) -> dic
     listed = consolidated.get("metadata") if isinstance(consolidated, dict) else None
     if not isinstance(listed, dict):
         raise FormError("consolidated_metadata missing")
-    layers = set(_LAYERS) if has_margin else set(_LAYERS) - {"margin"}
+    layers = set(LAYERS) if has_margin else set(LAYERS) - {"margin"}
     if layers - set(listed):
         raise FormError(f"array {min(layers - set(listed))} missing")
     fields = set(listed) - layers
@@ -240,19 +243,10 @@ def _require_array(name: str, found: dict[str, Any], due: dict[str, Any]) -> Non
         if key not in due or _text(rest.get(key)) != _text(due[key]):
             raise FormError(f"array {name}: {key} = {shown(rest.get(key))}, not {shown(due.get(key))}")
     order = {} if due["data_type"] == "int8" else {"configuration": {"endian": "little"}}
-    match codecs:
-        case [{"name": "bytes", **given}, {"name": "zstd", "configuration": settings, **more}] if (
-            given == order and not more and _is_zstd(settings)
-        ):
-            return
-    raise FormError(f"array {name}: codecs {shown(codecs)}, not bytes and zstd")
-
-
-def _is_zstd(settings: object) -> bool:
-    match settings:
-        case {"level": int(), "checksum": bool(), **more}:
-            return not more
-    return False
+    settings = [{"level": 0, "checksum": is_checked} for is_checked in (True, False)]
+    ours = [[{"name": "bytes", **order}, {"name": "zstd", "configuration": each}] for each in settings]
+    if _text(codecs) not in map(_text, ours):
+        raise FormError(f"array {name}: codecs {shown(codecs)}, not bytes and zstd")
 
 
 def _text(value: object) -> str:

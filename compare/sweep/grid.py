@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import groupby
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,9 @@ from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.scenario import Scenario
 from cointoss.models.title import title_of_toss
+
+if TYPE_CHECKING:
+    from cointoss.compare.metrics.margin import Quantity
 
 TILE_TOSSES = {Engine.ANALYTIC: 1 << 14, Engine.MUJOCO: 1 << 10}
 """Most tosses in a tile, which is a file: seconds of work, so that many workers have some."""
@@ -45,12 +48,12 @@ class Sweep:
     after: int | None = None
     """The map shows the face at the touch after so many impacts; None for the final outcome."""
     margin: str | None = None
-    """Name of the quantity of the release, one of `QUANTITIES`, along which each pixel has its margin."""
+    """Name of the quantity of the release along which each pixel has its margin; with its axis in Greek."""
     name: str = ""
     """What its scenario is called; empty for one without a name."""
 
     def __post_init__(self) -> None:
-        """Check that the axes and `after` go together.
+        """Check that the axes, `after`, and the engine and `margin` go together; name the margin in full.
 
         Raises:
             SweepError: naming the field.
@@ -62,6 +65,21 @@ class Sweep:
             raise SweepError(
                 f"ending.max_impacts: an axis beside after = {self.after}; accepted: one of the two"
             )
+        if self.margin is not None:
+            if self.engine != Engine.ANALYTIC:
+                by = f"{self.margin!r} by {self.engine}"
+                raise SweepError(f"margin: {by}, accepted: only by the analytic engine")
+            object.__setattr__(self, "margin", self.quantity.name)
+
+    @property
+    def quantity(self) -> "Quantity":
+        """The quantity along which each pixel has its margin, of a sweep with margins."""
+        from cointoss.compare.metrics.margin import quantity_of
+
+        try:
+            return quantity_of(self.margin or "")
+        except ValueError as error:
+            raise SweepError(f"margin {error}") from None
 
     @property
     def title(self) -> str:

@@ -63,7 +63,7 @@ def basin(
         y=parse_axis(y, found),
         settings=tosser.package.MANY,
         after=None if after is None else int(after),
-        margin=_margin(margin, tosser),
+        margin=margin,
         name="" if isinstance(scenario, Scenario) else Path(scenario).stem,
     )
     ny, nx = sweep.shape
@@ -84,16 +84,3 @@ def basin(
             done += pixels.outcome.size
             progress(done, ny * nx)
     return OutcomeMap(name=name, sweep=sweep, **arrays)
-
-
-def _margin(name: str | None, engine: Engine) -> str | None:
-    if name is None:
-        return None
-    from cointoss.compare.metrics.margin import quantity_of
-
-    if engine != Engine.ANALYTIC:
-        raise SweepError(f"margin: {name!r} by {engine}, accepted: only by the analytic engine")
-    try:
-        return quantity_of(name).name
-    except ValueError as error:
-        raise SweepError(f"margin {error}") from None

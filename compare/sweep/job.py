@@ -6,27 +6,20 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from cointoss.compare.basins.picture_style import PictureStyle
 from cointoss.compare.engines import Engine
 from cointoss.compare.film.back_end import drawing_problem, require_mujoco
-from cointoss.compare.output.files import UnwritableError, require_file
+from cointoss.compare.output.files import UnwritableError, require_file, written_whole
 from cointoss.compare.report.contents import NOT_ASKED, require_folder
 from cointoss.compare.sweep import describe, run, store
 from cointoss.compare.sweep.axes import Axis, parse_axis
-from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.pixels import check
 from cointoss.models.reading import parse
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import stage
 
-if TYPE_CHECKING:
-    from cointoss.compare.metrics.margin import Quantity
-
-Watch = Callable[[str, int, int], AbstractContextManager[run.Tossed]]
-"""Called with a map's name, the pixels that it has, and how many it will have; gives what to tell of more."""
 Say = Callable[[str], None]
 """Called with what is waited for."""
 
@@ -73,7 +66,7 @@ def sweeps_of(job: Job, scenario: Scenario, x: Axis, y: Axis) -> dict[Path, Swee
     """Return the sweep of each map that is asked for; its engine is imported.
 
     Raises:
-        SweepError: for axes that exclude each other.
+        SweepError: for axes that exclude each other, and for a margin that there is none of.
     """
     chosen = {Engine.MUJOCO: {"contact": job.contact}}
     return {
@@ -84,20 +77,11 @@ def sweeps_of(job: Job, scenario: Scenario, x: Axis, y: Axis) -> dict[Path, Swee
             y=y,
             settings=replace(engine.package.MANY, **chosen.get(engine, {})),
             after=job.after,
-            margin=job.margin and _margin(job.margin).name,
+            margin=job.margin,
             name=Path(job.source).stem,
         )
         for path, engine in _engines_of(job).items()
     }
-
-
-def _margin(name: str) -> "Quantity":
-    from cointoss.compare.metrics.margin import quantity_of
-
-    try:
-        return quantity_of(name)
-    except ValueError as error:
-        raise SweepError(f"--margin {error}") from None
 
 
 def _engines_of(job: Job) -> dict[Path, Engine]:
@@ -105,7 +89,7 @@ def _engines_of(job: Job) -> dict[Path, Engine]:
     return {job.out: job.engine or Engine.ANALYTIC} | ({} if job.engine else {second: Engine.MUJOCO})
 
 
-def make(job: Job, watch: Watch, say: Say) -> Iterator[str]:
+def make(job: Job, say: Say) -> Iterator[str]:
     """Make what is asked for, and give the results as text, each as soon as it is there.
 
     Nothing is begun before all is checked that can be.
@@ -117,7 +101,6 @@ def make(job: Job, watch: Watch, say: Say) -> Iterator[str]:
     """
     scenario, engines = parse(job.text, job.source), _engines_of(job)
     x, y = parse_axis(job.x, scenario), parse_axis(job.y, scenario)
-    margin = None if job.margin is None else _margin(job.margin)
     for path in engines:
         store.require_place(path, resume=job.resume, overwrite=job.overwrite)
     if job.png is not None:
@@ -140,13 +123,10 @@ def make(job: Job, watch: Watch, say: Say) -> Iterator[str]:
     with _tosser(job.scheduler, say) as tosser:
         for path, sweep in sweeps.items():
             with store.opened(path, sweep, job.text, overwrite=job.overwrite) as map_:
-                left, whole = run.missing(map_), run.size(map_.tiles)
-                with watch(path.name, whole - run.size(left), whole) as tossed:
-                    run.fill(map_, sweep, left, tosser, tossed)
+                run.fill(map_, sweep, tosser)
                 yield describe.describe_map(path, sweep, run.fractions_of(map_))
-                if margin is not None:
-                    sizes = run.margins_of(map_)
-                    yield describe.describe_margins(margin.name, margin.unit, margin.factor, sizes)
+                if sweep.margin is not None:
+                    yield describe.describe_margins(sweep.quantity, run.margins_of(map_))
                     margins = map_.whole("margin") if drawn else None
                 if drawn:
                     maps.append(map_.whole("outcome"))
@@ -159,7 +139,9 @@ def make(job: Job, watch: Watch, say: Say) -> Iterator[str]:
         yield describe.describe_agreement(describe.measure(*maps))
     if job.png is not None:
         with stage("drawing the picture"):
-            show.write(job.png, maps, first, job.style, margins=margins)
+            drawn_map = show.png_of(maps, first, job.style, margins=margins)
+            with written_whole(job.png) as aside:
+                aside.write_bytes(drawn_map)
         yield f"picture    {job.png}"
     if job.report is not None:
         from cointoss.compare.report.comparison import compared

@@ -11,8 +11,12 @@ from cointoss.models.records import Outcome
 
 NOT_TOSSED = -1
 """What `outcome` and `impacts` hold where no toss was made yet."""
-NO_MARGIN = float("nan")
-"""What `margin` holds there."""
+LAYERS: dict[str, tuple[type[np.number], float]] = {
+    "outcome": (np.int8, NOT_TOSSED),
+    "impacts": (np.int32, NOT_TOSSED),
+    "margin": (np.float64, np.nan),
+}
+"""Types of the arrays over both axes, and what they hold where no toss was made."""
 
 
 class Layer(NamedTuple):
@@ -25,19 +29,16 @@ class Layer(NamedTuple):
 
 def layers_of(sweep: Sweep) -> dict[str, Layer]:
     """Return the arrays of a sweep's map, by name."""
-    meanings = meanings_of({NOT_TOSSED: "not_tossed", **{int(item): str(item) for item in Outcome}})
-    layers = {
-        "outcome": Layer(np.int8, NOT_TOSSED, {"long_name": "outcome", **meanings}),
-        "impacts": Layer(np.int32, NOT_TOSSED, {"long_name": "number of impacts"}),
+    meanings = meanings_of({NOT_TOSSED: "not_tossed", **Outcome.by_value()})
+    attributes = {
+        "outcome": {"long_name": "outcome", **meanings},
+        "impacts": {"long_name": "number of impacts"},
     }
-    if sweep.margin is None:
-        return layers
-    from cointoss.compare.metrics.margin import quantity_of
-
-    found = f"smallest change of the release's {sweep.margin} that was found to change the outcome"
-    attributes = {"long_name": f"{found}; infinite: none up to 1 SI unit"}
-    units = quantity_of(sweep.margin).unit
-    return {**layers, "margin": Layer(np.float64, NO_MARGIN, {**attributes, "units": units})}
+    if sweep.margin is not None:
+        found = f"smallest change of the release's {sweep.margin} that was found to change the outcome"
+        about = f"{found}; infinite: none up to 1 SI unit"
+        attributes["margin"] = {"long_name": about, "units": sweep.quantity.unit}
+    return {name: Layer(*LAYERS[name], about) for name, about in attributes.items()}
 
 
 def bytes_per_pixel(sweep: Sweep) -> int:

@@ -1,10 +1,9 @@
 """The outcomes of tosses over two fields of a scenario, as one record."""
 
 from base64 import b64encode
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from html import escape
-from io import BytesIO
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -67,8 +66,7 @@ class OutcomeMap:
     @property
     def layers(self) -> dict[str, NDArray[Any]]:
         """The arrays there are, by name."""
-        arrays = {item.name: getattr(self, item.name) for item in fields(self)}
-        return {name: arrays[name] for name in layers_of(self.sweep)}
+        return {name: getattr(self, name) for name in layers_of(self.sweep)}
 
     @property
     def x(self) -> Array:
@@ -84,7 +82,7 @@ class OutcomeMap:
     def shares(self) -> dict[str, float]:
         """The share of the pixels that each outcome has, and those not tossed yet, of what there is."""
         codes, counts = np.unique(self.outcome, return_counts=True)
-        labels = {NOT_TOSSED: "not tossed", **{int(item): str(item) for item in Outcome}}
+        labels = {NOT_TOSSED: "not tossed", **Outcome.by_value()}
         return {
             labels[code]: count / self.outcome.size
             for code, count in zip(codes.tolist(), counts.tolist(), strict=True)
@@ -110,13 +108,11 @@ class OutcomeMap:
     def _picture(self) -> str:
         if NOT_TOSSED in self.outcome:
             return notebook.shares_picture(self.shares)
-        from cointoss.compare.sweep.show import figure_of
+        from cointoss.compare.sweep.show import png_of
 
-        drawn = BytesIO()
-        figure = figure_of([self.outcome], self.sweep, PictureStyle(), self.margin)
-        figure.savefig(drawn, format="png", dpi=_HTML_DPI)
+        drawn = png_of([self.outcome], self.sweep, PictureStyle(dpi=_HTML_DPI), margins=self.margin)
         about = escape(f"map of the outcome: {self._size}")
-        return f'<img alt="{about}" src="data:image/png;base64,{b64encode(drawn.getvalue()).decode()}">'
+        return f'<img alt="{about}" src="data:image/png;base64,{b64encode(drawn).decode()}">'
 
     def to_xarray(self) -> "xr.Dataset":
         """Return the map as a dataset of xarray, as it is on disk: coordinates are named by their fields."""
@@ -138,7 +134,7 @@ class OutcomeMap:
 
     def to_dataframe(self) -> "pd.DataFrame":
         """Return the map as a table of pandas, a row a pixel, in words, with units in `attrs["units"]`."""
-        labels = {NOT_TOSSED: "not_tossed", **{int(item): str(item) for item in Outcome}}
+        labels = {NOT_TOSSED: "not_tossed", **Outcome.by_value()}
         arrays = self.to_xarray()
         words = [labels[code] for code in self.outcome.ravel().tolist()]
         columns = [self.sweep.y.field, self.sweep.x.field, *self.layers]
@@ -210,5 +206,5 @@ class OutcomeMap:
         with store.opened(folder, self.sweep, self.sweep.scenario.to_toml(), overwrite=overwrite) as map_:
             for tile in map_.tiles:
                 parts = {name: array[tile.rows, tile.columns] for name, array in self.layers.items()}
-                map_.write(tile, Pixels(**{"margin": None, **parts}))
+                map_.write(tile, Pixels(**parts))
         return folder

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep, Tile
+from cointoss.compare.sweep.layers import layers_of
 from cointoss.models.errors import ScenarioError
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.records import Array
@@ -39,7 +40,7 @@ class Pixels(NamedTuple):
     """`Outcome`, (y, x)."""
     impacts: NDArray[np.int32]
     """Number of impacts, (y, x)."""
-    margin: Array | None
+    margin: Array | None = None
     """As of a `Margin`, (y, x); None where none is asked for."""
 
 
@@ -62,20 +63,18 @@ def toss_pixels(sweep: Sweep, tile: Tile) -> Pixels:
         UnsupportedError: for a scenario that the engine can't toss.
     """
     y, x = sweep.y.values[tile.rows], sweep.x.values[tile.columns]
-    outcome, impacts = np.empty((len(y), len(x)), dtype=np.int8), np.empty((len(y), len(x)), dtype=np.int32)
-    margin = None if sweep.margin is None else np.empty((len(y), len(x)))
+    whole: dict[str, NDArray[Any]] = {
+        name: np.empty((len(y), len(x)), layer.kind) for name, layer in layers_of(sweep).items()
+    }
     for group in groups(sweep, y, x):
         tossed = _toss(sweep, group.scenario, group.releases)
-        parts: list[tuple[NDArray[Any], NDArray[Any]]] = [
-            (outcome, _shown(sweep, tossed)),
-            (impacts, tossed.impacts),
-        ]
-        if margin is not None:
-            parts.append((margin, _margins(sweep, group)))
-        for whole, part in parts:
-            block = whole[group.rows, group.columns]
+        parts: dict[str, NDArray[Any]] = {"outcome": _shown(sweep, tossed), "impacts": tossed.impacts}
+        if sweep.margin is not None:
+            parts["margin"] = _margins(sweep, group)
+        for name, part in parts.items():
+            block = whole[name][group.rows, group.columns]
             block[:] = part.reshape(block.shape)
-    return Pixels(outcome, impacts, margin)
+    return Pixels(**whole)
 
 
 def _toss(sweep: Sweep, scenario: Scenario, releases: Releases) -> Outcomes:
@@ -88,12 +87,12 @@ def _shown(sweep: Sweep, tossed: Outcomes) -> NDArray[np.int8]:
 
 
 def _margins(sweep: Sweep, group: Group) -> Array:
-    from cointoss.compare.metrics.margin import MANY, quantity_of, smallest_changes
+    from cointoss.compare.metrics.margin import MANY, smallest_changes
 
     def outcomes(releases: Releases) -> NDArray[np.int8]:
         return _shown(sweep, _toss(sweep, group.scenario, releases))
 
-    quantity = quantity_of(sweep.margin or "")
+    quantity = sweep.quantity
     found = smallest_changes(group.scenario, group.releases, quantity, outcomes=outcomes, search=MANY)
     return found * quantity.factor
 

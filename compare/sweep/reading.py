@@ -15,7 +15,7 @@ from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.errors import MapError, SweepError
 from cointoss.compare.sweep.form import MARGIN_ALONG, Form, read_form
 from cointoss.compare.sweep.grid import Sweep, tiles
-from cointoss.compare.sweep.layers import NOT_TOSSED, layers_of
+from cointoss.compare.sweep.layers import LAYERS, layers_of
 from cointoss.compare.sweep.outcome_map import OutcomeMap
 from cointoss.compare.sweep.store import Map
 from cointoss.models.errors import ScenarioError, shown
@@ -133,9 +133,7 @@ def _settings(engine: Engine, found: dict[str, Any]) -> EngineSettings:
 
 def _read(map_: Map, form: Form, names: Iterable[str], stride: int) -> dict[str, NDArray[Any]]:
     ny, nx = (-(-count // stride) for count in form.shape)
-    fills = {"outcome": NOT_TOSSED, "impacts": NOT_TOSSED, "margin": np.nan}
-    kinds = {"outcome": np.int8, "impacts": np.int32, "margin": np.float64}
-    arrays = {name: np.full((ny, nx), fills[name], kinds[name]) for name in names}
+    arrays = {name: np.full((ny, nx), LAYERS[name][1], LAYERS[name][0]) for name in names}
     for tile in tiles(form.shape, form.tile):
         tossed = map_.tossed(tile)
         if not tossed.any():
@@ -143,5 +141,5 @@ def _read(map_: Map, form: Form, names: Iterable[str], stride: int) -> dict[str,
         kept = tuple(slice(-(-part.start // stride), -(-part.stop // stride)) for part in tile)
         first = tuple(slice(-part.start % stride, None, stride) for part in tile)
         for name, array in arrays.items():
-            array[kept] = np.where(tossed, map_.read(tile, name), fills[name])[first]
+            array[kept] = np.where(tossed, map_.read(tile, name), LAYERS[name][1])[first]
     return arrays

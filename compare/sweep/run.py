@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from cointoss.compare.output.files import UnwritableError
+from cointoss.compare.output.interruption import Interruption
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep, Tile, cut, gaps
 from cointoss.compare.sweep.layers import bytes_per_pixel
@@ -16,11 +17,10 @@ from cointoss.compare.sweep.pixels import Pixels, toss_pixels
 from cointoss.compare.sweep.store import Map
 from cointoss.models.kernel.compiling import compiling
 from cointoss.models.records import Array, Outcome
+from cointoss.models.stages import stage
 
 Tosser = Callable[[Sweep, Iterable[Tile]], Iterator[tuple[Tile, Pixels]]]
 """Tosses all pixels of tiles and gives these or parts of them, in any order."""
-Tossed = Callable[[int], None]
-"""Called with the number of pixels that were just tossed."""
 
 FIRST, GROWTH, SECOND = 8, 8, 1.0
 """Pixels of the first part that is tossed; how many times as many the next may have; and its time [s]."""
@@ -56,16 +56,24 @@ def missing(map_: Map) -> list[Tile]:
     return [part for tile in map_.tiles for part in gaps(tile, map_.tossed(tile))]
 
 
-def fill(map_: Map, sweep: Sweep, tiles: Iterable[Tile], tosser: Tosser, tossed: Tossed) -> None:
-    """Toss tiles and keep each part as soon as it is tossed.
+def fill(map_: Map, sweep: Sweep, tosser: Tosser) -> None:
+    """Toss what a map lacks and keep each part as soon as it is tossed; an interruption says what is kept.
 
     Raises:
         UnwritableError: naming the map and why.
         SweepError, UnsupportedError: for a pixel that can't be tossed.
     """
-    for tile, pixels in tosser(sweep, tiles):
-        map_.write(tile, pixels)
-        tossed(pixels.outcome.size)
+    left, whole, name = missing(map_), size(map_.tiles), map_.path.name
+    kept = whole - size(left)
+    try:
+        with stage(name, "tosses", total=whole, done=kept) as progress:
+            for tile, pixels in tosser(sweep, left):
+                map_.write(tile, pixels)
+                kept += pixels.outcome.size
+                progress(kept, whole)
+    except Interruption as interruption:
+        interruption.message = f"{name}: {kept} of {whole} tosses are saved; --resume continues"
+        raise
 
 
 def fractions_of(map_: Map) -> dict[Outcome, float]:

@@ -3,19 +3,16 @@
 import io
 from collections.abc import Sequence
 from dataclasses import asdict
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties, findfont, get_font
 from numpy.typing import NDArray
 
 from cointoss.compare.basins import picture
 from cointoss.compare.basins.fractions import fractions
 from cointoss.compare.basins.picture_style import PictureStyle
-from cointoss.compare.metrics.margin import quantity_of
 from cointoss.compare.report.map_section import MapSection
 from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.describe import AWAY, measure, percent
@@ -23,27 +20,36 @@ from cointoss.compare.sweep.grid import Sweep
 from cointoss.models.records import Array
 
 
-def write(
-    png: Path,
+def png_of(
     maps: list[NDArray[np.int8]],
     sweep: Sweep,
     style: PictureStyle,
     *,
     margins: Array | None = None,
-) -> None:
+) -> bytes:
     """Draw one map, or those of both engines and where they differ, with the numbers of their agreement.
 
     Args:
-        png: the file.
         maps: (y, x) each, the first by the analytic engine if there are two.
         sweep: what the first was made of.
         style: how to draw.
         margins: of the first map, (y, x), to be drawn beside it.
 
-    Raises:
-        UnwritableError: naming the file and why.
+    Returns:
+        The content of a PNG file.
     """
-    picture.write_png(figure_of(maps, sweep, style, margins), png, dpi=style.dpi)
+    x, y = _drawn(sweep.x), _drawn(sweep.y)
+    if len(maps) > 1:
+        measured = measure(*maps)
+        note = f"agree: {percent(measured.away)} away from boundaries,\n{percent(measured.near)} near them"
+        figure = picture.draw_comparison(*maps, x=x, y=y, style=style, note=note)
+    else:
+        beside = None if margins is None else _margins(margins, sweep)
+        figure = picture.draw_map(maps[0], x=x, y=y, style=style, margins=beside)
+    figure.suptitle(_title(sweep), parse_math=False)
+    drawn = io.BytesIO()
+    figure.savefig(drawn, format="png", dpi=style.dpi)
+    return drawn.getvalue()
 
 
 def section(
@@ -57,14 +63,13 @@ def section(
         style: how to draw.
         command: that makes the maps.
     """
-    drawn, sweep = io.BytesIO(), sweeps[0]
-    figure_of(maps, sweep, style).savefig(drawn, format="png", dpi=style.dpi)
+    sweep = sweeps[0]
     shares = {
         sweep.engine.value: {str(outcome): share for outcome, share in fractions(outcomes).items()}
         for sweep, outcomes in zip(sweeps, maps, strict=True)
     }
     return MapSection(
-        picture=drawn.getvalue(),
+        picture=png_of(maps, sweep, style),
         numbers={
             "axes": {"x": asdict(sweep.x), "y": asdict(sweep.y)},
             "after": sweep.after,
@@ -76,45 +81,11 @@ def section(
     )
 
 
-def figure_of(
-    maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle, margins: Array | None = None
-) -> Figure:
-    """Draw one map, its margins beside it, or those of both engines; see `write` for the arguments."""
-    figure = _panels(maps, sweep, style, margins)
-    figure.suptitle(_title(sweep), parse_math=False)
-    return figure
-
-
 def _title(sweep: Sweep) -> str:
     """Return the title of a map, with what its font has; a file's name may hold anything."""
     glyphs = get_font(findfont(FontProperties())).get_charmap()
     shown = "" if sweep.after is None else f": face at touch {sweep.after + 1}"
     return "".join(char if ord(char) in glyphs else "?" for char in sweep.title + shown)
-
-
-def _panels(maps: list[NDArray[np.int8]], sweep: Sweep, style: PictureStyle, margins: Array | None) -> Figure:
-    x, y = _drawn(sweep.x), _drawn(sweep.y)
-    common: Any = {"x": x, "y": y, "palette": style.palette, "boundaries": style.boundaries}
-    if len(maps) > 1:
-        measured = measure(*maps)
-        return picture.draw_comparison(
-            *maps,
-            **common,
-            size=style.size or picture.COMPARISON_SIZE,
-            note=f"agree: {percent(measured.away)} away from boundaries,\n{percent(measured.near)} near them",
-        )
-    if margins is not None:
-        quantity = quantity_of(sweep.margin or "")
-        return picture.draw_margins(
-            maps[0],
-            margins,
-            **common,
-            size=style.size or picture.MARGINS_SIZE,
-            quantity=quantity.name,
-            unit=quantity.unit,
-            most=quantity.factor,
-        )
-    return picture.draw_map(maps[0], **common, size=style.size or picture.PANEL_SIZE)
 
 
 def draw_layer(axes: Axes, layer: Array | NDArray[np.int8], sweep: Sweep, style: PictureStyle) -> None:
@@ -128,14 +99,16 @@ def draw_layer(axes: Axes, layer: Array | NDArray[np.int8], sweep: Sweep, style:
     """
     x, y = _drawn(sweep.x), _drawn(sweep.y)
     if layer.dtype == np.int8:
-        shown = picture.draw_panel(axes, layer, x=x, y=y, palette=style.palette, boundaries=style.boundaries)
+        shown = picture.draw_panel(axes, layer, x=x, y=y, style=style)
     else:
-        quantity = quantity_of(sweep.margin or "")
-        about: Any = {"quantity": quantity.name, "unit": quantity.unit, "most": quantity.factor}
-        shown = picture.draw_margin_panel(axes, layer, x=x, y=y, **about)
+        shown = picture.draw_margin_panel(axes, _margins(layer, sweep), x=x, y=y)
     picture.legend_below(axes, shown)
     axes.set_title(_title(sweep), parse_math=False)
 
 
 def _drawn(axis: Axis) -> picture.MapAxis:
     return picture.MapAxis(name=axis.word, unit=axis.printed_unit, start=axis.start, stop=axis.stop)
+
+
+def _margins(changes: NDArray[Any], sweep: Sweep) -> picture.Margins:
+    return picture.Margins(changes, sweep.quantity.name, sweep.quantity.unit, most=sweep.quantity.factor)

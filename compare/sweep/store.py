@@ -84,13 +84,14 @@ class Map:
         """Whether it holds margins too."""
         return "margin" in self.group
 
-    def read(self, tile: Tile, name: str = "outcome") -> NDArray[Any]:
-        """Return a tile of an array, (y, x)."""
-        return self._read(name, tile)
+    def read(self, part: tuple[slice, ...], name: str = "outcome") -> NDArray[Any]:
+        """Return a part of an array, such as a tile, (y, x)."""
+        self._require_chunks(name, part)
+        return self._array(name)[part]
 
     def whole(self, name: str) -> NDArray[Any]:
         """Return all values of an array, (y, x), or of an axis by its field, (n,)."""
-        return self._read(name, tuple(slice(0, count) for count in self._array(name).shape))
+        return self.read(tuple(slice(0, count) for count in self._array(name).shape), name)
 
     def write(self, tile: Tile, pixels: Pixels) -> None:
         """Keep what is known of a tile, or of a part of one.
@@ -119,10 +120,6 @@ class Map:
             )
             array[tuple(around)] = array.fill_value
             array[part.rows, part.columns] = values
-
-    def _read(self, name: str, part: tuple[slice, ...]) -> NDArray[Any]:
-        self._require_chunks(name, part)
-        return self._array(name)[part]
 
     def _require_chunks(self, name: str, part: tuple[slice, ...]) -> None:
         """Refuse chunks of a part of an array that decode to another size than they should."""

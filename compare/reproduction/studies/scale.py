@@ -145,9 +145,8 @@ def _steps(sweep: Sweep, cores: int) -> dict[str, float]:
         tempfile.TemporaryDirectory() as folder,
         opened(Path(folder) / "map.zarr", sweep, text, overwrite=False) as map_,
     ):
-        left = sweep_run.missing(map_)
         marks.append(process_time())
-        sweep_run.fill(map_, sweep, left, tosser, lambda _: None)
+        sweep_run.fill(map_, sweep, tosser)
         marks.append(process_time())
         sweep_run.fractions_of(map_)
         marks.append(process_time())

@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from PIL import Image
 
-from cointoss.compare.basins.picture import MapAxis, draw_comparison, draw_map, write_png
-from cointoss.compare.basins.picture_style import Palette
+from cointoss.compare.basins.picture import MapAxis, draw_comparison, draw_map
+from cointoss.compare.basins.picture_style import Palette, PictureStyle
 from cointoss.models.records import Outcome
 from tests.helpers.made_maps import EDGE, HEADS, TAILS, UNDECIDED, halves, stripes
 
@@ -55,19 +54,24 @@ def test_axes_are_named_with_their_units_and_the_legend_names_what_is_there():
     assert axes.get_xlabel() == "release.angular_velocity.eta [rad/s]"
     assert axes.get_ylabel() == "floor.restitution"
     assert legend(figure) == ["heads", "tails", "edge", "undecided"]
-    assert legend(draw_map(halves(2, 4), x=X, y=Y, boundaries=True)) == ["heads", "tails", "boundary"]
+    assert legend(draw_map(halves(2, 4), x=X, y=Y, style=PictureStyle(boundaries=True))) == [
+        "heads",
+        "tails",
+        "boundary",
+    ]
 
 
 @pytest.mark.parametrize("palette", Palette)
 def test_a_palette_has_a_colour_for_every_outcome(palette):
-    color = drawn(draw_map(np.arange(5)[None], x=X, y=Y, palette=palette, boundaries=False))
+    color = drawn(draw_map(np.arange(5)[None], x=X, y=Y, style=PictureStyle(palette=palette)))
     assert len({color(x, 0.5) for x in (20, 30, 40, 50, 60)}) == len(Outcome)
 
 
 @pytest.mark.parametrize("palette", Palette)
 @pytest.mark.parametrize("width", [3.0, 5.0])
 def test_the_legend_stays_in_the_picture(palette, width):
-    figure = draw_map(np.arange(5)[None], x=X, y=Y, palette=palette, boundaries=True, size=(width, 4.0))
+    style = PictureStyle(palette=palette, boundaries=True, size=(width, 4.0))
+    figure = draw_map(np.arange(5)[None], x=X, y=Y, style=style)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     box = figure.legends[0].get_window_extent()
@@ -75,7 +79,9 @@ def test_the_legend_stays_in_the_picture(palette, width):
 
 
 def test_boundary_pixels_are_coloured_where_asked():
-    plain, marked = (drawn(draw_map(halves(2, 5), x=X, y=Y, boundaries=on)) for on in (False, True))
+    plain, marked = (
+        drawn(draw_map(halves(2, 5), x=X, y=Y, style=PictureStyle(boundaries=on))) for on in (False, True)
+    )
     assert [plain(x, 0.5) for x in (20, 30, 40, 50)] == [GOLD, GOLD, BLUE, BLUE]
     assert [marked(x, 0.5) for x in (20, 30, 40, 50)] == [GOLD, BLACK, BLACK, BLUE]
 
@@ -106,13 +112,3 @@ def test_a_comparison_of_nothing_says_so():
     assert figure.axes[2].get_title() == "difference: no pixel decided by both"
     with pytest.raises(ValueError, match="that of analytic"):
         draw_comparison(halves(2, 4), halves(4, 2), x=X, y=Y)
-
-
-def test_a_png_has_the_size_asked_for_and_replaces_whole(tmp_path):
-    target = tmp_path / "map.png"
-    target.write_bytes(b"old")
-    figure = draw_map(halves(4, 6), x=X, y=Y, size=(4.0, 3.0))
-    write_png(figure, target, dpi=50)
-    with Image.open(target) as image:
-        assert (image.format, image.size) == ("PNG", (200, 150))
-    assert list(tmp_path.iterdir()) == [target]

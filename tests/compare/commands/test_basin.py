@@ -7,7 +7,6 @@ from PIL import Image
 
 from cointoss.compare.basins.agreement import Agreement, Share
 from cointoss.compare.basins.picture import MapAxis, draw_comparison
-from cointoss.compare.basins.picture_style import Palette
 from cointoss.compare.sweep import describe
 from tests.helpers.basin_runs import SCENARIO, basin
 from tests.helpers.made_maps import halves
@@ -81,7 +80,5 @@ def test_the_agreement_is_told_near_the_boundaries_and_away_from_them():
 
 def test_the_difference_bears_the_note():
     axis = MapAxis(name="gravity", unit="", start=0, stop=1)
-    figure = draw_comparison(
-        halves(2, 4), halves(2, 4), x=axis, y=axis, palette=Palette.SAFE, note="all\nalike"
-    )
+    figure = draw_comparison(halves(2, 4), halves(2, 4), x=axis, y=axis, note="all\nalike")
     assert figure.axes[2].get_title() == "different: 0 % of the pixels both decide\nall\nalike"

@@ -31,7 +31,7 @@ ANSWERS = {
     "reproduce nothing": "nothing: no such name; accepted: accuracy-and-stripes, ",
     "reproduce contact-laws no-such --out out": "no-such: no such name; accepted: ",
     "reproduce contact_laws --out out": "contact_laws: no such name; accepted: ",
-    f"{AXES} --margin weight --out a.zarr": "--margin weight: accepted: height, velocity x,",
+    f"{AXES} --margin weight --out a.zarr": "margin weight: accepted: height, velocity x,",
     # numbers
     "toss fig24a --max-impacts 0": "'--max-impacts': 0; accepted: an integer >= 1 and <= 30000000",
     "toss fig24a --max-impacts 1e9": "'--max-impacts': 1e9; accepted: an integer >= 1 and ",

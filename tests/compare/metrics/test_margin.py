@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 from cointoss import analytic
-from cointoss.compare.basins.picture import MapAxis, draw_margins, write_png
+from cointoss.compare.basins.picture import MapAxis, Margins, draw_map
 from cointoss.compare.engines import Engine
 from cointoss.compare.metrics.margin import (
     MANY,
@@ -167,9 +167,8 @@ def test_margins_of_a_map_after_impacts_are_of_the_face_there(tmp_path):
 def test_margins_are_drawn_in_colours_of_their_size(tmp_path):
     sizes = np.array([[1e-6, -1e-3, 1.0], [np.inf, 1e-6, -1e-3]])
     axis = MapAxis(name="a", unit="m", start=0.0, stop=1.0)
-    figure = draw_margins(
-        np.array([[1, 2, 1], [2, 1, 2]]), sizes, x=axis, y=axis, quantity="height", unit="mm", most=1e3
-    )
+    found = Margins(sizes, quantity="height", unit="mm", most=1e3)
+    figure = draw_map(np.array([[1, 2, 1], [2, 1, 2]]), x=axis, y=axis, margins=found)
     drawn = np.asarray(figure.axes[1].images[0].get_array())
     assert np.array_equal(drawn[0, 1], drawn[1, 2])
     assert drawn[0, 0].sum() < drawn[0, 1].sum() < drawn[0, 2].sum()
@@ -180,16 +179,8 @@ def test_margins_are_drawn_in_colours_of_their_size(tmp_path):
         "none found up to 1000 mm",
     ]
     assert figure.axes[2].get_ylabel() == "smallest change of height [mm]"
-    everywhere = draw_margins(
-        np.ones((2, 2), dtype=int),
-        np.full((2, 2), np.inf),
-        x=axis,
-        y=axis,
-        quantity="height",
-        unit="mm",
-        most=1e3,
-    )
-    write_png(everywhere, tmp_path / "none.png")
+    none = found._replace(changes=np.full((2, 2), np.inf))
+    draw_map(np.ones((2, 2), dtype=int), x=axis, y=axis, margins=none).savefig(tmp_path / "none.png")
 
 
 def test_a_change_that_a_scenario_would_refuse_ends_the_search():

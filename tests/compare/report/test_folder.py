@@ -71,8 +71,6 @@ def test_the_numbers_are_those_of_the_tosses(found, folder):
     assert numbers["comparison"]["horizon"] == found.horizon
 
 
-<<<<<<< HEAD
-=======
 def test_the_report_says_which_impact_ends_mujocos_trust_and_why(tmp_path):
     flat = {"position": [0, 0, 0.2038736], "angles": [0, 1e-6, 0]}
     comparison = compare(scenario(coin={"thickness": 0.0}, release=flat, ending={"max_impacts": 3}))
@@ -93,7 +91,6 @@ def test_the_film_has_its_frames(found, folder):
     assert written.rate == SMALL.frames_per_second
 
 
->>>>>>> mjtrust
 @pytest.mark.parametrize("name", ["zloty", "contact_knurled"])
 def test_the_page_stands_before_the_film_is_drawn_and_after_it_was_interrupted(tmp_path, name):
     """It says which command draws the film, of the engines that toss the coin."""

@@ -12,7 +12,6 @@ from cointoss.compare.explorer.page_files import page_files
 from cointoss.compare.explorer.static import write_static
 from cointoss.compare.report.comparison import Comparison
 from cointoss.compare.report.map_section import MapSection
-from cointoss.compare.report.page import Page as Report
 from cointoss.compare.report.page import render
 from cointoss.compare.sweep.reading import read_map
 from cointoss.models.reading import parse
@@ -68,19 +67,16 @@ def report(words):
         "command": words,
     }
     return render(
-        Report(
-            comparison=Comparison(
-                name=words,
-                text=text,
-                analytic=analytic.toss(scenario),
-                mujoco=None,
-                not_realisable=words,
-                settings=coin_mj.FINE,
-            ),
-            film=None,
-            no_video=words,
-            maps=MapSection(picture=b"", numbers=numbers),
-        )
+        Comparison(
+            name=words,
+            text=text,
+            analytic=analytic.toss(scenario),
+            mujoco=None,
+            not_realisable=words,
+            settings=coin_mj.FINE,
+        ),
+        no_video=words,
+        maps=MapSection(picture=b"", numbers=numbers),
     )
 
 
