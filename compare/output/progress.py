@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from functools import partial
+from itertools import count
 from typing import Any
 
 from cointoss.models.kernel.compiling import Compiling, compiling
@@ -24,6 +25,17 @@ PAUSE = 2.0
 """Functions that are compiled within such a time of each other are compiled at one go [s]."""
 WIDTH = 100
 """Columns of a line where the terminal has no width."""
+
+
+def stepping(progress: Progress, whole: int) -> Callable[[Any], Any]:
+    """Return what counts a part of a job, of `whole` parts, and returns the result that it is given."""
+    done = count(1)
+
+    def step(result: Any) -> Any:
+        progress(next(done), whole)
+        return result
+
+    return step
 
 
 class Display:

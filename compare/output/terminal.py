@@ -20,7 +20,8 @@ def laid_out(markdown: str, width: int) -> str:
         width: of the terminal.
     """
     parts = [
-        _table(part, width) if part.startswith("|") else textwrap.fill(_plain(part), width)
+        # A paragraph may begin with an absolute value.
+        _table(part, width) if part.startswith("|") and "\n|" in part else textwrap.fill(_plain(part), width)
         for part in markdown.split("\n\n")
     ]
     return "\n\n".join(parts).replace(_TIED, " ")

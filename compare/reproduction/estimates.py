@@ -154,6 +154,17 @@ def ratio_of_shares(
     )
 
 
+def scatter_of_shares(shares: Array, counts: ArrayLike) -> float:
+    """Return the root of the mean square of p - 1/2 over groups, less what counting adds.
+
+    Args:
+        shares: of each group's tosses, (n,).
+        counts: tosses of each group, (n,) or the same for all.
+    """
+    by_chance = shares * (1 - shares) / (np.asarray(counts) - 1)
+    return float(np.sqrt(max(np.mean((shares - 1 / 2) ** 2 - by_chance), 0)))
+
+
 def chance_alike(counts: ArrayLike) -> float:
     """Return the probability by chance of counts that differ so much between two samples, by a χ² test.
 

@@ -4,16 +4,12 @@ import importlib
 import pkgutil
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from cointoss.compare.output.files import remove, require_folder, written_together
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.reproduction import claims, mujoco, paper, studies
 from cointoss.compare.reproduction.claim import read_claims
 from cointoss.compare.reproduction.result import FOLDER, Reproduction, Result, folder_of
-
-if TYPE_CHECKING:  # names are listed without it
-    pass
 
 ROOMS = (paper, claims, studies, mujoco)
 PARTS = "parts"

@@ -4,17 +4,16 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cointoss import analytic, coin_mj
+from cointoss import analytic
 from cointoss.compare.basins.picture import MapAxis, draw_panel
 from cointoss.compare.basins.stripes import crossings
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared, listed
 from cointoss.compare.reproduction.estimates import share
-from cointoss.compare.reproduction.setups.kellers_map import FASTEST, HIGHEST, middles
-from cointoss.compare.reproduction.setups.planar_maps import case
+from cointoss.compare.reproduction.setups.kellers_map import FASTEST, HIGHEST, middles, thrown
+from cointoss.compare.reproduction.setups.planar_maps import case, toss_many_by_mujoco
 from cointoss.models.records import Array, Face
-from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 
 BODIES = {"disc": BLUE, "bar": VERMILION}
@@ -44,9 +43,7 @@ def make(progress: Progress, points: int = 90, line: int = 2500, tosses_mujoco: 
         progress(2 * len(widths), 2 * len(BODIES) + 1)
     few = np.random.default_rng(SEED).choice(len(over), tosses_mujoco, replace=False)
     mujoco = {
-        body: coin_mj.toss_many(
-            _scenario(body), _releases(_scenario(body), over[few], up[few]), settings=coin_mj.FINE
-        )
+        body: toss_many_by_mujoco(_scenario(body), thrown(_scenario(body), over[few], up[few]))
         for body in BODIES
     }
     same = [int(np.sum(mujoco[body].outcome == data[body].ravel()[few])) for body in BODIES]
@@ -76,19 +73,8 @@ def _scenario(body: str) -> Scenario:
     return scenario.replace("coin.inertia", inertia)
 
 
-def _releases(scenario: Scenario, over: Array, up: Array) -> Releases:
-    """Return releases flat, one radius above the floor, with ω_0/π [1/s] and v_0/g [s]."""
-    zero = np.zeros_like(over)
-    return Releases(
-        position=np.column_stack([zero, zero, zero + scenario.coin.radius]),
-        velocity=np.column_stack([zero, zero, up * scenario.gravity]),
-        quaternion=np.column_stack([zero + 1, zero, zero, zero]),
-        angular_velocity=np.column_stack([over * np.pi, zero, zero]),
-    )
-
-
 def _faces(scenario: Scenario, over: Array, up: Array) -> NDArray[np.int8]:
-    return analytic.toss_many(scenario, _releases(scenario, over, up)).outcome
+    return analytic.toss_many(scenario, thrown(scenario, over, up)).outcome
 
 
 def _draw(data: Data) -> Figure:

@@ -3,14 +3,21 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from cointoss import analytic, coin_mj
+from cointoss import analytic
 from cointoss.analytic.events import run
 from cointoss.coin_mj.toss import impacts_of
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import share
-from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, faces_after, releases
+from cointoss.compare.reproduction.setups.planar_maps import (
+    HEIGHTS,
+    SPINS,
+    case,
+    faces_after,
+    releases,
+    toss_many_by_mujoco,
+)
 from cointoss.compare.reproduction.setups.release_arrays import chosen, moved
 from cointoss.models.parts import Release
 from cointoss.models.records import Outcome
@@ -41,9 +48,7 @@ def make(progress: Progress, count: int = 2000, tosses_mujoco: int = 200) -> Fin
     first = faces_after(scenario, flat, 0)
     found.apart, found.mujoco = _in_plane(flat)
     turned = moved(chosen(flat, slice(tosses_mujoco)), angular_velocity=np.array([0, 0, ASIDE[SHOWN]]))
-    found.heads_mujoco = np.mean(
-        coin_mj.toss_many(scenario, turned, settings=coin_mj.FINE).outcome == Outcome.HEADS
-    )
+    found.heads_mujoco = np.mean(toss_many_by_mujoco(scenario, turned).outcome == Outcome.HEADS)
     whole = 1 + len(ASIDE) + len(HEIGHTS_OF_DROP)
     progress(1, whole)
     found.changed, found.changed_first, found.heads = [], [], []

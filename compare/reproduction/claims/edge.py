@@ -8,7 +8,7 @@ import numpy as np
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Findings, declared, result
-from cointoss.compare.reproduction.estimates import difference, share
+from cointoss.compare.reproduction.estimates import difference, share_of
 from cointoss.compare.reproduction.result import Result
 from cointoss.compare.reproduction.saving import read_numbers
 from cointoss.compare.reproduction.setups.edge_classes import (
@@ -36,7 +36,7 @@ from cointoss.compare.reproduction.setups.edge_record import (
     Sizes,
     record_of,
 )
-from cointoss.compare.reproduction.setups.ends import Ends, ended_as, tosses
+from cointoss.compare.reproduction.setups.ends import Ends, ended_as, together, tosses
 from cointoss.models.records import Outcome
 
 LEAST_PROBABLE = 1e-3
@@ -55,7 +55,7 @@ def findings(record: EdgeRecord) -> Findings:
     of_angle = record.curves[DIAMETRAL]["0"][f"{ANGLE:.6g}"]
     thin, rod = (
         {
-            wobble: on_edge(_sum([list(curve.values())[at] for curve in record.curves[wobble].values()]))
+            wobble: on_edge(together(list(curve.values())[at] for curve in record.curves[wobble].values()))
             for wobble in HANDS
         }
         for at in (0, -1)
@@ -75,7 +75,7 @@ def findings(record: EdgeRecord) -> Findings:
         one_in=[_one_in(ends) for ends in nickels.values()],
         over={wobble: on_edge(ends) / PUBLISHED for wobble, ends in nickels.items()},
         more=difference(_flags(people), _flags(plain)),
-        rolling=share(np.arange(edges) < free.get("edge, standing", 0), "tosses on edge"),
+        rolling=share_of(free.get("edge, standing", 0), edges, "tosses on edge"),
         touched={turned: touch.touched - 1 / 3 for turned, touch in record.touches.items()},
         let_go={turned: touch.let_go - 1 / 3 for turned, touch in record.touches.items()},
         energy=record.touches[DIAMETRAL].energy,
@@ -94,24 +94,18 @@ def findings(record: EdgeRecord) -> Findings:
         },
         rod=rod,
         heads=_heads(record) - 1 / 2,
-        square={engine: on_edge(_sum(ends)) - 1 / 2 for engine, ends in square.items() if ends},
+        square={engine: on_edge(together(ends)) - 1 / 2 for engine, ends in square.items() if ends},
         tests=len(record.engines),
         least=min(map(alike, record.engines.values())),
         runs=1 / (1 - (1 - LEAST_PROBABLE) ** len(record.engines)),
     )
 
 
-def _sum(several: list[Ends]) -> Ends:
-    return {
-        name: sum(ends.get(name, 0) for ends in several) for name in {n for ends in several for n in ends}
-    }
-
-
 def _heads(found: EdgeRecord) -> Estimate:
     """Return the share of heads among all nickels that end on a face."""
-    ends = _sum([ends for by_factor in found.nickel.values() for ends in by_factor.values()])
+    ends = together(ends for by_factor in found.nickel.values() for ends in by_factor.values())
     heads, tails = (ended_as(ends, outcome) for outcome in (Outcome.HEADS, Outcome.TAILS))
-    return share(np.arange(heads + tails) < heads)
+    return share_of(heads, heads + tails)
 
 
 def _flags(ends: Ends) -> Any:

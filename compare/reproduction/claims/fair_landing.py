@@ -6,20 +6,20 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cointoss import analytic, coin_mj
-from cointoss.analytic.flight.integrated_flight import sample_flight
+from cointoss import analytic
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, INK, VERMILION
 from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import jackknife, mean
+from cointoss.compare.reproduction.estimates import jackknife, mean, scatter_of_shares
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.compare.reproduction.setups.kellers_map import caught
+from cointoss.compare.reproduction.setups.planar_maps import faces_after, toss_many_by_mujoco
 from cointoss.compare.reproduction.setups.release_arrays import chosen
 from cointoss.models.laws import ContactLaw
-from cointoss.models.parts import EndingCriteria, Floor
+from cointoss.models.parts import Floor
 from cointoss.models.reading import load
 from cointoss.models.records import Array, Face
-from cointoss.models.releases import Releases, states_of
 from cointoss.models.scenario import Scenario
 
 SEED = 2
@@ -47,8 +47,9 @@ def make(progress: Progress, hands: int = 1000, each: int = 20, tosses_mujoco: i
     first_faces, tossed = np.empty(0, dtype=np.int8), None
     for kind, aside in ASIDE.items():
         tossed = releases_of_hands(rng, hands, each, spread=SPREAD, aside=aside)
-        first_faces = _landed(scenario, tossed)
-        faces = [_caught(scenario, tossed), first_faces]
+        first_faces = faces_after(scenario, tossed, 0)
+        back = np.where(caught(scenario, tossed) > 0, Face.HEADS, Face.TAILS)
+        faces = [back, first_faces]
         faces += [analytic.toss_many(_on(scenario, floor), tossed).outcome for floor in FLOORS.values()]
         for landing, face in zip(LANDINGS, faces, strict=True):
             heads[kind, landing] = np.mean((face == Face.HEADS).reshape(hands, each), axis=1)
@@ -56,14 +57,14 @@ def make(progress: Progress, hands: int = 1000, each: int = 20, tosses_mujoco: i
     assert tossed is not None
     every = slice(None, None, len(tossed) // tosses_mujoco)
     few = chosen(tossed, every)
-    found.same = int(
-        np.sum(coin_mj.toss_many(_once(scenario), few, settings=coin_mj.FINE).last_face == first_faces[every])
+    found.same = int(np.sum(faces_after(scenario, few, 0, toss_many_by_mujoco) == first_faces[every]))
+    ended, by_analytic = (
+        toss_many(_on(scenario, next(iter(FLOORS.values()))), few).outcome
+        for toss_many in (toss_many_by_mujoco, analytic.toss_many)
     )
-    ended = coin_mj.toss_many(_on(scenario, next(iter(FLOORS.values()))), few, settings=coin_mj.FINE).outcome
-    by_analytic = analytic.toss_many(_on(scenario, next(iter(FLOORS.values()))), few).outcome
     found.heads_few = [float(np.mean(outcomes == Face.HEADS)) for outcomes in (ended, by_analytic)]
     progress(whole, whole)
-    bias = {key: bias_of_hands(shares, each) for key, shares in heads.items()}
+    bias = {key: scatter_of_shares(shares, each) for key, shares in heads.items()}
     found.together = {key: mean(shares, "hands") for key, shares in heads.items()}
     found.biases = "; ".join(
         f"spin {kind} " + ", ".join(f"{bias[kind, landing]:.2f} {landing}" for landing in LANDINGS)
@@ -72,7 +73,7 @@ def make(progress: Progress, hands: int = 1000, each: int = 20, tosses_mujoco: i
     found.few = len(few)
     found.bias = {
         f"bias {bounced} less that otherwise (spin {kind})": _less_fair(
-            heads, kind, bounced, lambda shares: bias_of_hands(shares, each)
+            heads, kind, bounced, lambda shares: scatter_of_shares(shares, each)
         )
         for kind in ASIDE
         for bounced in FLOORS
@@ -84,36 +85,6 @@ def make(progress: Progress, hands: int = 1000, each: int = 20, tosses_mujoco: i
 
 def _on(scenario: Scenario, floor: Floor) -> Scenario:
     return scenario.replace("floor", floor)
-
-
-def _landed(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
-    """Return the face up at the first touch, where a floor without restitution keeps the coin, (n,)."""
-    return analytic.toss_many(_once(scenario), tossed).last_face
-
-
-def _once(scenario: Scenario) -> Scenario:
-    return scenario.replace("ending", EndingCriteria(max_impacts=1))
-
-
-def _caught(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
-    """Return the face up when a coin in vacuum would be back at the height of its release, (n,)."""
-    faces, state = [], np.empty((1, 13))
-    for start in states_of(tossed):
-        sample_flight(scenario.body, start, 0.0, np.array([2 * start[5] / scenario.gravity]), state)
-        e = state[0, 6:10]
-        faces.append(Face.HEADS if e[1] ** 2 + e[2] ** 2 < 1 / 2 else Face.TAILS)
-    return np.array(faces, dtype=np.int8)
-
-
-def bias_of_hands(shares: Array, each: int) -> float:
-    """Return the root of the mean square of p - 1/2 over the hands, less what counting adds.
-
-    Args:
-        shares: of heads of each hand, (hands,).
-        each: tosses that they were counted in.
-    """
-    by_chance = shares * (1 - shares) / (each - 1)
-    return float(np.sqrt(max(np.mean((shares - 1 / 2) ** 2 - by_chance), 0)))
 
 
 def _less_fair(

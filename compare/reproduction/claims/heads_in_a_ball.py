@@ -5,14 +5,20 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from cointoss import analytic, coin_mj
+from cointoss import analytic
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, VERMILION
 from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import jackknife, mean_share, share
 from cointoss.compare.reproduction.setups.halving import halved
-from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
+from cointoss.compare.reproduction.setups.planar_maps import (
+    HEIGHTS,
+    SPINS,
+    case,
+    releases,
+    toss_many_by_mujoco,
+)
 from cointoss.models.records import Array, Outcome
 from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
@@ -47,7 +53,7 @@ def make(
         heads[kind] = np.array(rows)
     z, w = inside[0]
     ball = ball_about(scenario, z, w, MUJOCO_RADIUS, tosses_mujoco, rng)
-    found.mujoco = _heads(coin_mj.toss_many(scenario, ball, settings=coin_mj.FINE).outcome)
+    found.mujoco = _heads(toss_many_by_mujoco(scenario, ball).outcome)
     progress(2 * centers + 1, 2 * centers + 2)
     others = np.column_stack([rng.uniform(*HEIGHTS, many), rng.uniform(*SPINS, many)])
     alike = {

@@ -16,7 +16,7 @@ from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, VERMILION
 from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared, listed
-from cointoss.compare.reproduction.estimates import share
+from cointoss.compare.reproduction.estimates import share_of
 from cointoss.compare.reproduction.parts import Part, kept
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
 from cointoss.compare.reproduction.threads import all_cores
@@ -107,7 +107,7 @@ def _left_by(found: Mapping[str, NDArray[np.int64]], kinds: list[CoinClass], tes
 
 
 def _left(count: NDArray[np.int64]) -> Estimate:
-    return share(np.arange(count[TOSSES]) < count[LEFT])
+    return share_of(int(count[LEFT]), int(count[TOSSES]))
 
 
 def _draw(data: Data) -> Figure:

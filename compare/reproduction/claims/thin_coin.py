@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cointoss import analytic, coin_mj
+from cointoss import analytic
 from cointoss.analytic.events import run
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, INK, SKY, VERMILION
@@ -16,9 +16,10 @@ from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.estimates import difference, jackknife, share
 from cointoss.compare.reproduction.setups.face_changes import changes, share_after_row
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.compare.reproduction.setups.planar_maps import faces_after, toss_many_by_mujoco
 from cointoss.compare.reproduction.setups.release_arrays import chosen, moved
 from cointoss.models.laws import ContactLaw
-from cointoss.models.parts import Coin, EndingCriteria, Floor
+from cointoss.models.parts import Coin, Floor
 from cointoss.models.reading import load
 from cointoss.models.records import Outcome
 from cointoss.models.releases import Releases, states_of
@@ -73,7 +74,8 @@ def make(
     tossed = releases_of_hands(np.random.default_rng(SEED), count, aside=ASIDE)
     whole = len(FLOORS) * len(COINS) + 2
     done = 0
-    first = {coin: _first_faces(_case(coin, SMOOTH), chosen(tossed, slice(count_real))) for coin in COINS}
+    some = chosen(tossed, slice(count_real))
+    first = {coin: faces_after(_case(coin, SMOOTH), some, 0) for coin in COINS}
     progress(done := done + 1, whole)
     made: dict[tuple[str, str], Tossed] = {}
     after_row: dict[str, Estimate] = {}
@@ -92,7 +94,9 @@ def make(
             if floor == SMOOTH:
                 after_row[coin] = _share_after_row(scenario, chosen(tossed, slice(followed)))
             progress(done := done + 1, whole)
-    by_mujoco = _first_faces_by_mujoco(_case(REAL, SMOOTH), tossed, tosses_mujoco)
+    first_mujoco = faces_after(
+        _case(REAL, SMOOTH), chosen(tossed, slice(tosses_mujoco)), 0, toss_many_by_mujoco
+    )
     progress(done + 1, whole)
     heads = {key: tosses.share(Outcome.HEADS) for key, tosses in made.items()}
     uncertain = {key: share(tosses.uncertain) for key, tosses in made.items()}
@@ -101,7 +105,7 @@ def make(
     shown = {key: (heads[key], same.get(key, Estimate(1, 1, 1, count)), uncertain[key]) for key in made}
     return Findings(
         after_row=after_row,
-        same_by_mujoco=int(np.sum(by_mujoco == first[REAL][:tosses_mujoco])),
+        same_by_mujoco=int(np.sum(first_mujoco == first[REAL][:tosses_mujoco])),
         as_thin={coin: share(first[coin] == first[THIN]) for coin in COINS},
         same=same,
         same_words=_listed("as the thin coin's:", same, (NEAR, REAL)),
@@ -132,20 +136,6 @@ def _case(coin: str, floor: str) -> Scenario:
         x, y, z = zloty.coin.center_of_mass
         changed = ("coin.center_of_mass", (part * x, part * y, part * z))
     return zloty.replace(*changed, "floor", FLOOR[floor])
-
-
-def _first_touch(scenario: Scenario) -> Scenario:
-    return scenario.replace("ending", EndingCriteria(max_impacts=1))
-
-
-def _first_faces(scenario: Scenario, tossed: Releases) -> NDArray[np.int8]:
-    return analytic.toss_many(_first_touch(scenario), tossed).last_face
-
-
-def _first_faces_by_mujoco(scenario: Scenario, tossed: Releases, count: int) -> NDArray[np.int8]:
-    return coin_mj.toss_many(
-        _first_touch(scenario), chosen(tossed, slice(count)), settings=coin_mj.FINE
-    ).last_face
 
 
 def _share_after_row(scenario: Scenario, tossed: Releases) -> Estimate:

@@ -11,7 +11,7 @@ from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY, SHARE_OF_HEADS
 from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import jackknife
+from cointoss.compare.reproduction.estimates import jackknife, scatter_of_shares
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHTS,
     LANDINGS,
@@ -116,9 +116,7 @@ def spread_over_cells(z: Array, w: Array, heads: NDArray[np.bool_], cells: int) 
         cells: along each side.
     """
     p, count = _shares(z, w, heads, cells)
-    measured = count > 1
-    by_chance = p[measured] * (1 - p[measured]) / (count[measured] - 1)
-    return float(np.sqrt(max(np.mean((p[measured] - 1 / 2) ** 2 - by_chance), 0)))
+    return scatter_of_shares(p[count > 1], count[count > 1])
 
 
 def _error(weights: Array) -> float:

@@ -20,7 +20,7 @@ from cointoss.compare.reproduction.setups.mujoco_impacts import (
     on_floor,
     relative_errors,
 )
-from cointoss.compare.reproduction.setups.mujoco_study import draw_spreads
+from cointoss.compare.reproduction.setups.mujoco_study import Spread, draw_spreads, spread
 from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Array
@@ -55,14 +55,6 @@ MADE = (ContactLaw.SMOOTH, ContactLaw.PERFECTLY_ROUGH, ContactLaw.SLIP_PRESERVIN
 """The laws that MuJoCo realises."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Fit:
-    """How a contact of MuJoCo's meets a law: |S_law - S|/|S_law| over the impacts."""
-
-    median: float
-    worst: float
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LawFits:
     """Impulses of all laws and of all of MuJoCo's contacts from the same touches [N s]."""
@@ -71,9 +63,9 @@ class LawFits:
     """Of the laws, by name, (n, 3)."""
     contacts: dict[str, Array]
     """Of MuJoCo's contacts, by name, (n, 3)."""
-    fits: dict[str, dict[str, Fit]]
-    """Of each law by each contact."""
-    growing: dict[float, Fit]
+    fits: dict[str, dict[str, Spread]]
+    """|S_law - S|/|S_law| of each law by each contact."""
+    growing: dict[float, Spread]
     """Of the perfectly rough law by Coulomb's force, by its μ."""
 
     def best(self, law: str) -> str:
@@ -108,9 +100,8 @@ def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> LawFits
     return LawFits(laws=laws, contacts=contacts, fits=fits, growing=growing)
 
 
-def _fit(S_law: Array, S: Array) -> Fit:
-    errors = relative_errors(S_law, S)
-    return Fit(median=float(np.median(errors)), worst=float(errors.max()))
+def _fit(S_law: Array, S: Array) -> Spread:
+    return spread(relative_errors(S_law, S))
 
 
 def measures(found: LawFits) -> dict[str, Any]:
@@ -127,7 +118,7 @@ def measures(found: LawFits) -> dict[str, Any]:
 def tables(found: LawFits) -> str:
     """Return the tables, in Markdown."""
 
-    def cell(law: str, contact: str, fit: Fit) -> str:
+    def cell(law: str, contact: str, fit: Spread) -> str:
         said = f"{fit.median:.0e} ({fit.worst:.0e})"
         return f"**{said}**" if contact == found.best(law) and fit.median < REALISED else said
 

@@ -1,14 +1,13 @@
 """How MuJoCo's contacts tend to the hard limit: errors of single impacts over every setting."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from cointoss.coin_mj.bounce import HARDEST, one_step_solref, restitutions_of_a_ball, spring_solref
-from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.progress import Progress, stepping
 from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
 from cointoss.compare.reproduction.setups.mujoco_impacts import draw_touches
@@ -85,25 +84,19 @@ def compute(progress: Progress, sizes: Sizes = FULL, seed: int = SEED) -> Impact
     floors = smooth_and_rubbed(draw_touches(rng, sizes.impacts, (0.3, 1.0)))
     half = max(4, sizes.impacts // 2)
     axis = np.linspace(0, 1, sizes.cells).tolist()
-    jobs: dict[str, Callable[[], Any]] = {
-        "kinds": lambda: over_kinds(sizes.kinds, rng),
-        "stiffness": lambda: {name: over_stiffness(cases, STIFFNESSES) for name, cases in floors.items()},
-        "steps": lambda: {
-            name: over_steps(cases[:half], STEPS, MOST_STEPS) for name, cases in floors.items()
-        },
-        "restitution": lambda: over_restitution(half, RESTITUTIONS, rng),
-        "friction": lambda: over_friction(sizes.impacts, FRICTIONS, rng),
-        "spin": lambda: over_spin(half, SPINS, rng),
-        "tilt": lambda: over_tilt(half, TILTS, rng),
-        "cone": lambda: native_cone(CONE_RESTITUTION, CONE_TILTS, axis, [2 * part for part in axis]),
-        "formula": lambda: cone_formula(sizes.kinds, rng),
-        "users": _users,
-    }
-    parts = {}
-    for number, (name, job) in enumerate(jobs.items(), start=1):
-        parts[name] = job()
-        progress(number, len(jobs))
-    return ImpactErrors(**parts)
+    step = stepping(progress, len(fields(ImpactErrors)))
+    return ImpactErrors(
+        kinds=step(over_kinds(sizes.kinds, rng)),
+        stiffness=step({name: over_stiffness(cases, STIFFNESSES) for name, cases in floors.items()}),
+        steps=step({name: over_steps(cases[:half], STEPS, MOST_STEPS) for name, cases in floors.items()}),
+        restitution=step(over_restitution(half, RESTITUTIONS, rng)),
+        friction=step(over_friction(sizes.impacts, FRICTIONS, rng)),
+        spin=step(over_spin(half, SPINS, rng)),
+        tilt=step(over_tilt(half, TILTS, rng)),
+        cone=step(native_cone(CONE_RESTITUTION, CONE_TILTS, axis, [2 * part for part in axis])),
+        formula=step(cone_formula(sizes.kinds, rng)),
+        users=step(_users()),
+    )
 
 
 def _users() -> dict[str, list[float]]:

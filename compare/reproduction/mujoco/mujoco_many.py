@@ -18,18 +18,15 @@ from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.mujoco_fixed_steps import loop_model, restitutions_of_coins
 from cointoss.compare.reproduction.setups.mujoco_impacts import (
-    by_law,
-    by_mujoco,
     draw_touches,
-    first,
+    impulse_errors,
     on_floor,
-    relative_errors,
+    restitution_errors,
 )
 from cointoss.compare.reproduction.setups.mujoco_study import RESTITUTIONS, RUBBED, Spread, spread
 from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.laws import ContactLaw
 from cointoss.models.reading import load
-from cointoss.models.records import Array
 from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 
@@ -117,10 +114,7 @@ def _speed(
     start = time.process_time()
     outcomes = coin_mj.toss_many(scenario, releases, settings=settings)
     seconds = time.process_time() - start
-    found = by_mujoco(smooth, settings)
-    before, after = first(found, "contact_velocity_before"), first(found, "contact_velocity_after")
-    chi = np.array([case.floor.restitution for case in smooth])
-    restitution = spread(np.abs(-after[:, 2] / before[:, 2] - chi))
+    restitution = spread(restitution_errors(smooth, settings))
     duration = float(outcomes.end_time.mean())
     loops = {
         error: _loop(scenario, settings, smooth, error, threads / duration)
@@ -131,15 +125,11 @@ def _speed(
         tosses_per_second=threads * len(releases) / seconds,
         duration=duration,
         restitution=restitution,
-        smooth=spread(_errors(smooth, settings)),
-        coulomb=spread(_errors(rubbed, settings)),
+        smooth=spread(impulse_errors(smooth, settings)),
+        coulomb=spread(impulse_errors(rubbed, settings)),
         loop=loops[restitution.worst],
         loop_enough=loops[ENOUGH],
     )
-
-
-def _errors(cases: list[Scenario], settings: Settings) -> Array:
-    return relative_errors(first(by_law(cases), "impulse"), first(by_mujoco(cases, settings), "impulse"))
 
 
 def _loop(

@@ -5,12 +5,10 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
 from cointoss import coin_mj
-from cointoss.analytic.flight.integrated_flight import sample_flight
-from cointoss.analytic.toss import state_at_release
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import HEADS, INK, TAILS
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.setups.kellers_map import FASTEST, HIGHEST, middles
+from cointoss.compare.reproduction.setups.kellers_map import FASTEST, HIGHEST, caught, middles, thrown
 from cointoss.models.reading import load
 from cointoss.models.scenario import Scenario
 
@@ -30,9 +28,9 @@ def make(progress: Progress, size: int = 96) -> Findings:
     by_analytic, mujoco = np.empty((size, size)), np.empty((size, size))
     scenario = load("fig2")
     for column, spin in enumerate(spins):
-        by_analytic[:, column] = [_caught(_toss(scenario, spin, speed)) for speed in speeds]
-        thrown = _toss(scenario, spin, HIGHEST)
-        mujoco[:, column] = coin_mj.toss(thrown).sample(2 * speeds).normal[:, 2]
+        by_analytic[:, column] = caught(scenario, thrown(scenario, np.full(size, spin), speeds))
+        tossed = coin_mj.toss(_toss(scenario, spin, HIGHEST))
+        mujoco[:, column] = tossed.sample(2 * speeds).normal[:, 2]
         progress(column + 1, size)
     turns = np.outer(speeds, spins)
     # The first side is up within a quarter of a turn of a whole number of turns.
@@ -56,16 +54,8 @@ def make(progress: Progress, size: int = 96) -> Findings:
 def _toss(scenario: Scenario, spin: float, speed: float) -> Scenario:
     """Return Keller's toss with ω_0/π [1/s] and v_0/g [s]."""
     velocity, w = (0.0, 0.0, speed * scenario.gravity), (spin * np.pi, 0.0, 0.0)
-    thrown = scenario.replace("release.velocity", velocity, "release.angular_velocity", w)
-    return thrown.replace("ending.max_time", 2.01 * speed)
-
-
-def _caught(case: Scenario) -> float:
-    """Return n_z when the coin is back at the height of its release, by the analytic engine."""
-    times, states = np.array([2 * case.release.velocity[2] / case.gravity]), np.empty((1, 13))
-    sample_flight(case.body, state_at_release(case.release), 0.0, times, states)
-    e = states[0, 6:10]
-    return 1 - 2 * (e[1] ** 2 + e[2] ** 2)
+    tossed = scenario.replace("release.velocity", velocity, "release.angular_velocity", w)
+    return tossed.replace("ending.max_time", 2.01 * speed)
 
 
 def _draw(data: Data) -> Figure:

@@ -9,14 +9,12 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cointoss import analytic, coin_mj
+from cointoss import analytic
 from cointoss.compare.basins.picture import MapAxis, draw_panel
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY
-from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import jackknife, share
-from cointoss.compare.reproduction.parts import Part, kept
+from cointoss.compare.reproduction.estimates import share
 from cointoss.compare.reproduction.precision.magnified import MAGNIFICATION, Magnified, magnify
 from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
 from cointoss.compare.reproduction.precision.planar_state import HEIGHT, release
@@ -28,10 +26,10 @@ from cointoss.compare.reproduction.setups.planar_maps import (
     case,
     final_faces,
     releases,
+    toss_many_by_mujoco,
 )
-from cointoss.compare.reproduction.setups.uncertain_shares import uncertain_shares
+from cointoss.compare.reproduction.setups.uncertain_shares import ACCURACIES, kept_run, slope
 from cointoss.compare.reproduction.threads import all_cores
-from cointoss.models.kernel.sources import source_hash
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 
@@ -39,8 +37,6 @@ WINDOWS_BELOW = 25
 """A line through the map is magnified so many times, 1 included; the last is 4e-25 m long."""
 POINTS = 50
 """On a line."""
-ACCURACIES = 10.0 ** -np.arange(3, 25)
-"""ε, the accuracy of the height at release [m]."""
 DECADES = 3
 """α is the slope over so many of them."""
 DOUBLES = (3, 4)
@@ -80,9 +76,14 @@ def make(
     progress(done := done + 1, whole)
     jobs = list(product(MEDIA, range(runs)))
     made: dict[str, list[Array]] = {medium: [] for medium in MEDIA}
+
+    def run(job: tuple[str, int]) -> Array:
+        medium, number = job
+        scenario = case(air=medium == "air")
+        return kept_run(parts, medium, scenario, (SEED, number), population=population).shares
+
     with all_cores() as pool:
-        found = pool.map(lambda job: _shares(parts, job[0], job[1], population), jobs)
-        for (medium, _), shares in zip(jobs, found, strict=True):
+        for (medium, _), shares in zip(jobs, pool.map(run, jobs), strict=True):
             made[medium].append(shares)
             progress(done := done + 1, whole)
     for medium in MEDIA:
@@ -106,19 +107,6 @@ def make(
         media[medium] = _lines(followed) | _standing(off) | _slopes(shares)
         media[medium]["mujoco"] = mujoco if medium == "air" else "-"
     return Findings(data=data, media=media)
-
-
-def _shares(parts: Path, medium: str, number: int, population: int) -> Array:
-    """Return f at each of `ACCURACIES` as a run of the splitting finds it; kept, so that it is made once."""
-
-    def compute() -> Part:
-        rng = np.random.default_rng([SEED, number])
-        scenario = case(air=medium == "air")
-        run = uncertain_shares(scenario, rng, levels=len(ACCURACIES), population=population)
-        return {"shares": run.shares}
-
-    made_by = source_hash("cointoss.compare.reproduction.setups.uncertain_shares")
-    return kept(parts, f"{made_by}, {medium}, {number}, {population}", compute)["shares"]
 
 
 def _lines(followed: list[Magnified]) -> dict[str, Any]:
@@ -169,24 +157,6 @@ def _slopes(shares: Array) -> dict[str, Any]:
     }
 
 
-def slope(shares: Array, first: int, decades: int) -> Estimate:
-    """Return α over some decades of `ACCURACIES`, with a jackknife's interval over the runs.
-
-    Args:
-        shares: f, by run and accuracy, (n, m).
-        first: where it starts.
-        decades: how many.
-    """
-    return jackknife(
-        lambda kept: float(
-            np.log10(shares[kept, first].mean() / shares[kept, first + decades].mean()) / decades
-        ),
-        len(shares),
-        "runs",
-        parts=len(shares),
-    )
-
-
 def _window(stage: NDArray[np.intp]) -> Array:
     """Return how long the lines of a stage are [m]."""
     return (HEIGHTS[1] - HEIGHTS[0]) / MAGNIFICATION ** stage.astype(float)
@@ -219,7 +189,7 @@ def _by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
     start = releases(heights, spins)
     by_analytic = analytic.toss_many(scenario, start).outcome
     by_mujoco, nearby = (
-        coin_mj.toss_many(scenario, releases(heights + step, spins), settings=coin_mj.FINE).outcome
+        toss_many_by_mujoco(scenario, releases(heights + step, spins)).outcome
         for step in (0.0, ACCURACY_MUJOCO)
     )
     nearby_analytic = analytic.toss_many(scenario, releases(heights + ACCURACY_MUJOCO, spins)).outcome

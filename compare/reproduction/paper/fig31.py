@@ -9,13 +9,13 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cointoss import analytic, coin_mj
+from cointoss import analytic
 from cointoss.compare.basins.picture import draw_panel
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY, INK, PALE, VERMILION
 from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import ratio_of_shares, share
+from cointoss.compare.reproduction.estimates import ratio_of_shares, share, share_of
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHT,
     HEIGHTS,
@@ -25,6 +25,7 @@ from cointoss.compare.reproduction.setups.planar_maps import (
     case,
     faces_after,
     releases,
+    toss_many_by_mujoco,
     touched_faces,
     whole_grid,
 )
@@ -123,7 +124,7 @@ def make(
         ended=_ended(heights[:elastic], spins[:elastic]),
         mixed=_mixed(shares),
         elastic_share={
-            f"{step:.0e}": share(np.arange(elastic) < round(row[-1] * elastic), "twins") - 1 / 2
+            f"{step:.0e}": share_of(round(row[-1] * elastic), elastic, "twins") - 1 / 2
             for step, row in zip(ELASTIC_STEPS, shares, strict=True)
         },
     )
@@ -225,12 +226,8 @@ def _mixed(shares: Array) -> str:
 def _same_by_mujoco(scenario: Scenario, heights: Array, spins: Array) -> str:
     """Return how many faces agree with MuJoCo's after each of `SHOWN` impacts, in words."""
     faces, start = touched_faces(scenario, heights, spins, TOUCHES), releases(heights, spins)
-    same = []
-    for n in SHOWN:
-        once_more = scenario.replace("ending", EndingCriteria(max_impacts=n + 1))
-        same.append(
-            np.sum(coin_mj.toss_many(once_more, start, settings=coin_mj.FINE).after(n) == faces[:, n])
-        )
+    scenario = scenario.replace("ending", EndingCriteria())
+    same = [int(np.sum(faces_after(scenario, start, n, toss_many_by_mujoco) == faces[:, n])) for n in SHOWN]
     impacts = ", ".join(map(str, SHOWN))
     return f"{', '.join(map(str, same))} of {len(heights)} faces alike after {impacts} impacts"
 

@@ -1,5 +1,7 @@
 """Figs 5-7: a British 2-pound coin bounces: stills by MuJoCo, and what it does there."""
 
+from dataclasses import replace
+
 import numpy as np
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
@@ -89,15 +91,10 @@ def _sliding(slip: Array) -> str:
 
 def _nearby(scenario: Scenario, count: int) -> Releases:
     """Return the scenario's release `count` times, its attitude turned a little at random."""
-    release, rng = scenario.release, np.random.default_rng(SEED)
+    rng = np.random.default_rng(SEED)
     turned = Rotation.from_rotvec(rng.uniform(-SPREAD, SPREAD, (count, 3)))
-    attitude = Rotation.from_quat(release.attitude, scalar_first=True) * turned
-    return Releases(
-        position=np.tile(release.position, (count, 1)),
-        velocity=np.tile(release.velocity, (count, 1)),
-        quaternion=attitude.as_quat(scalar_first=True),
-        angular_velocity=np.tile(release.angular_velocity, (count, 1)),
-    )
+    attitude = Rotation.from_quat(scenario.release.attitude, scalar_first=True) * turned
+    return replace(Releases.of(scenario, count), quaternion=attitude.as_quat(scalar_first=True))
 
 
 def _draw(data: Data) -> Figure:

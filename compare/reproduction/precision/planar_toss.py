@@ -37,6 +37,10 @@ MOST_IMPACTS = 20_000
 CHATTERING, CHATTERING_ROUGH = 1e-10, 1e-15
 """The coin stays on the floor when all bounces to come last so short against what else changes. Contact errs
 by the third power of it on a smooth floor, by the second on a rough one."""
+COMPARED = 400
+"""Touches that are compared with those of a neighbour, at most."""
+APART = 0.1
+"""Two tosses have diverged when height, velocity and spin differ by so much in all, or the faces do."""
 _SLOW = 1e-25
 """What rounding leaves of a rim point that was stopped."""
 _FLYING, _LIFTING, _CHATTERING = 0, 1, 2
@@ -59,12 +63,15 @@ class PlanarOutcomes(NamedTuple):
     from_upright: Array
     """How near it came to standing in its last contact [m g r]; see `planar_state.from_upright`. NaN where
     none lasted before it was settled."""
+    left: Array
+    """The larger energy of this toss and the one before it in the row after the first impact at which they
+    have diverged, or after their last where they have not [m g r]; see `toss_many`."""
 
 
 def toss_many(
     coin: PlanarCoin, starts: Array, most_impacts: int = MOST_IMPACTS, *, to_contact: bool = False
 ) -> PlanarOutcomes:
-    """Toss coins.
+    """Toss coins; the releases of a line in a row, so that neighbours are compared.
 
     Args:
         coin: the coin.
@@ -80,6 +87,7 @@ def toss_many(
         contacts=np.empty(n, dtype=np.int64),
         energy=np.empty(n),
         from_upright=np.empty(n),
+        left=np.zeros(n),
     )
     _toss_all(coin, np.ascontiguousarray(starts), most_impacts, to_contact, outcomes)
     return outcomes
@@ -89,13 +97,25 @@ def toss_many(
 def _toss_all(
     coin: PlanarCoin, starts: Array, most_impacts: int, to_contact: bool, outcomes: PlanarOutcomes
 ) -> None:
-    outcome, impacts, itinerary, contacts, last_energy, nearest = outcomes
-    series, state, touches = room_for_series(), np.empty((SIZE, 2)), np.empty((0, 5))
+    outcome, impacts, itinerary, contacts, last_energy, nearest, left = outcomes
+    series, state, touches = room_for_series(), np.empty((SIZE, 2)), np.empty((2, COMPARED, 5))
     for i in range(len(starts)):
         copy_state(state, starts[i])
         outcome[i], impacts[i], itinerary[i], contacts[i], last_energy[i], nearest[i] = toss(
-            coin, state, most_impacts, to_contact, series, touches
+            coin, state, most_impacts, to_contact, series, touches[i % 2]
         )
+        if i > 0:
+            left[i] = _energy_left(touches, min(impacts[i - 1], impacts[i], COMPARED))
+
+
+@compiled
+def _energy_left(touches: Array, compared: int) -> float:
+    for n in range(compared):
+        a, b = touches[0, n], touches[1, n]
+        apart = abs(a[0] - b[0]) + abs(a[1] - b[1]) + abs(a[2] - b[2]) > APART
+        if apart or a[3] != b[3] or n == compared - 1:
+            return max(a[4], b[4])
+    return 0.0
 
 
 @compiled

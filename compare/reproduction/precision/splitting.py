@@ -15,10 +15,10 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.reproduction.precision.divergence import toss_lines
 from cointoss.compare.reproduction.precision.double_double import Pair, add, pair_of, scale
 from cointoss.compare.reproduction.precision.planar_coin import PlanarCoin
 from cointoss.compare.reproduction.precision.planar_state import part, put
+from cointoss.compare.reproduction.precision.planar_toss import toss_many
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import Array
 
@@ -42,6 +42,12 @@ class Replica:
     """The part of it that comes of intervals whose ends were alike, (n,)."""
     tosses: int
     undecided: int
+
+    @property
+    def largest_hidden(self) -> float:
+        """The largest part of any f that came of intervals whose ends were alike."""
+        seen = self.shares > 0
+        return float(np.max(self.hidden[seen] / self.shares[seen], initial=0.0))
 
 
 def replica(
@@ -74,7 +80,9 @@ def replica(
         if len(parents) == 0:
             break
         points = spread(parents, row, pair_of(largest / PARTS**level), PARTS + 1)
-        outcome, itinerary, energy = toss_lines(coin, points, PARTS + 1)
+        ends = toss_many(coin, points)
+        outcome, itinerary = (codes.reshape(-1, PARTS + 1) for codes in (ends.outcome, ends.itinerary))
+        left = ends.left.reshape(-1, PARTS + 1)[:, 1:]
         tosses, undecided = tosses + outcome.size, undecided + int(np.sum(outcome == 0))
         differs = outcome[:, 1:] != outcome[:, :-1]
         uncertain = (differs[:, 1:] | differs[:, :-1]).mean(axis=1)
@@ -83,7 +91,7 @@ def replica(
         wanders = itinerary[:, 1:] != itinerary[:, :-1]
         kind = np.where(differs, DIFFERENT, np.where(wanders, WANDERING, ALIKE)).ravel()
         weights = np.repeat(weights / PARTS, PARTS)
-        chance = chances(_scores(weights, kind, energy.ravel()), population)
+        chance = chances(_scores(weights, kind, left.ravel()), population)
         goes_on = rng.random(len(chance)) < chance
         parents = points.reshape(-1, PARTS + 1, *points.shape[1:])[:, :-1].reshape(-1, *points.shape[1:])
         parents, weights = parents[goes_on], weights[goes_on] / chance[goes_on]

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.analytic.single_impacts import strike
-from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.progress import Progress, stepping
 from cointoss.compare.reproduction.setups.contact_thresholds import onset_of_gain, onset_without_solution
 from cointoss.compare.reproduction.setups.random_impacts import draw_states
 from cointoss.models.body import Body, Rules
@@ -100,14 +100,7 @@ def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> Contact
         count: impacts for each law and restitution.
         seed: of the draws and of the searches.
     """
-    parts, done = len(LAWS) + 3 * len(COINS) + 2 * len(FRICTIONS_OF_ONSETS), 0
-
-    def step(result: Any) -> Any:
-        nonlocal done
-        done += 1
-        progress(done, parts)
-        return result
-
+    step = stepping(progress, len(LAWS) + 3 * len(COINS) + 2 * len(FRICTIONS_OF_ONSETS))
     rng = np.random.default_rng(seed)
     bodies = {name: body_of(name) for name in COINS}
     any_floor = rules_of("smooth")

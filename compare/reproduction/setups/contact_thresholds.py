@@ -7,6 +7,7 @@ import numpy as np
 from scipy.optimize import brentq, minimize
 
 from cointoss.analytic.single_impacts import strike
+from cointoss.compare.reproduction.setups.halving import halved
 from cointoss.models.attitude import quaternion_from_angles
 from cointoss.models.body import Body, Rules
 from cointoss.models.records import Array
@@ -71,15 +72,10 @@ def onset_without_solution(body: Body, rules: Rules, seed: int) -> float:
     """
 
     def onset(state: Array) -> float:
-        low, high = 0.0, MOST_FRICTION
-        while high - low > 1e-12 * high:
-            tried = np.linspace(low, high, 66)
-            _, solved = strike(body, rules, np.tile(state, (66, 1)), restitution=1.0, friction=tried)
-            if solved[-1]:
-                return MOST_FRICTION
-            first = int(np.argmin(solved))
-            low, high = tried[first - 1], tried[first]
-        return high
+        def is_solved(friction: float) -> bool:
+            return bool(strike(body, rules, state[None], restitution=1.0, friction=friction)[1][0])
+
+        return MOST_FRICTION if is_solved(MOST_FRICTION) else halved(0.0, MOST_FRICTION, is_solved)[1]
 
     return _least(onset, body, seed)
 

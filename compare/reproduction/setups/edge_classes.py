@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.reproduction.parts import Part, kept
-from cointoss.compare.reproduction.setups.ends import Ends
+from cointoss.compare.reproduction.setups.ends import Ends, counted, together
 from cointoss.models.attitude import quaternion_product
 from cointoss.models.hand import Hand
 from cointoss.models.kernel.sources import source_hash
-from cointoss.models.records import Array, Ending, Outcome
+from cointoss.models.records import Array
 from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 
@@ -108,20 +108,18 @@ def ends_of(kind: EdgeClass, count: int, size: int, parts: Path, engine: Engine 
         parts: folder of what an interrupted run had done.
         engine: that tosses.
     """
-    counts = np.zeros((len(Outcome), len(Ending)), dtype=np.int64)
-    label = zlib.crc32(repr(kind).encode())
+    found, label = [], zlib.crc32(repr(kind).encode())
     for number, first in enumerate(range(0, count, size)):
         many = min(size, count - first)
         name = f"{source_hash(_ENTRIES[engine])}-{engine}-{label:08x}-{number}-{many}"
-        counts += kept(parts, name, partial(_part, kind, number, many, engine))["counts"]
-    return {f"{Outcome(o)}, {Ending(e)}": int(counts[o, e]) for o, e in zip(*counts.nonzero(), strict=True)}
+        part = kept(parts, name, partial(_part, kind, number, many, engine))
+        found.append(dict(zip(part["ends"].tolist(), part["counts"].tolist(), strict=True)))
+    return together(found)
 
 
 def _part(kind: EdgeClass, number: int, count: int, engine: Engine) -> Part:
-    ended = engine.package.toss_many(kind.scenario, kind.releases(number, count))
-    counts = np.zeros((len(Outcome), len(Ending)), dtype=np.int64)
-    np.add.at(counts, (ended.outcome, ended.ending), 1)
-    return {"counts": counts}
+    ends = counted(engine.package.toss_many(kind.scenario, kind.releases(number, count)))
+    return {"ends": np.array(list(ends)), "counts": np.array(list(ends.values()))}
 
 
 def corner(aspect: float | Array) -> Any:

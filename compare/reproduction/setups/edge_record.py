@@ -1,6 +1,5 @@
 """The tosses of the edge study: which are made, and the record of how they end."""
 
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -9,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from cointoss.compare.engines import Engine
-from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.progress import Progress, stepping
 from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.estimates import share
 from cointoss.compare.reproduction.parts import kept
@@ -170,70 +169,55 @@ def record_of(sizes: Sizes, progress: Progress, parts: Path) -> EdgeRecord:
         progress: called as the work goes on.
         parts: folder of what an interrupted run had done.
     """
-    jobs = list(_jobs(sizes, parts))
-    done: dict[tuple[str, ...], Any] = {}
-    for number, (key, job) in enumerate(jobs, start=1):
-        done[key] = job()
-        progress(number, len(jobs))
-    ways = done["ways", "nickel"]
-    return EdgeRecord(
-        touches=_tree(done, "touches"),
-        curves=_tree(done, "curves"),
-        nickel=_tree(done, "nickel"),
-        wobbles=_tree(done, "wobbles"),
-        times=ways["times"].tolist(),
-        ways=ways["ways"].tolist(),
-        engines=_tree(done, "engines"),
-    )
+    curves, engines = len(sizes.chis) * len(sizes.aspects), 2 * len(sizes.shared)
+    by_hand = len(HANDS) * (curves + 1 + len(sizes.factors))
+    step = stepping(progress, len(TURNED) + by_hand + len(sizes.wobbles) + 1 + engines)
 
+    def ends(kind: EdgeClass, count: int, size: int, engine: Engine = Engine.ANALYTIC) -> Ends:
+        return step(ends_of(kind, count, size, parts, engine))
 
-def _tree(done: dict[tuple[str, ...], Any], first: str) -> dict[str, Any]:
-    """Return what lies below one name, as nested dicts."""
-    tree: dict[str, Any] = {}
-    for (name, *path, last), value in done.items():
-        if name == first:
-            branch = tree
-            for part in path:
-                branch = branch.setdefault(part, {})
-            branch[last] = value
-    return tree
+    def by_aspect(wobble: str, chi: float) -> dict[str, Ends]:
+        name, hand = f"{wobble}, χ = {chi:g}, h/D =", hand_of(wobble)
+        kinds = [
+            EdgeClass(name=f"{name} {aspect:.4g}", aspect=aspect, hand=hand, floor={"restitution": chi})
+            for aspect in sizes.aspects
+        ]
+        return {f"{kind.aspect:.6g}": ends(kind, sizes.curve[wobble], SIZE[wobble]) for kind in kinds}
 
+    def by_factor(wobble: str, factor: str) -> Ends:
+        many = sizes.factor if FACTORS[factor] else sizes.nickel
+        return ends(nickel(wobble, factor), many[wobble], SIZE[wobble])
 
-def _jobs(sizes: Sizes, parts: Path) -> Iterator[tuple[tuple[str, ...], Callable[[], Any]]]:
-    """Return what is to be done, each under its place in the record."""
-
-    def counted(
-        kind: EdgeClass, count: int, size: int, engine: Engine = Engine.ANALYTIC
-    ) -> Callable[[], Ends]:
-        return partial(ends_of, kind, count, size, parts, engine)
-
-    for turned in TURNED:
-        yield ("touches", turned), partial(_touch, turned, sizes.touches, parts)
-    for wobble in HANDS:
-        for chi in sizes.chis:
-            for aspect in sizes.aspects:
-                name = f"{wobble}, χ = {chi:g}, h/D = {aspect:.4g}"
-                kind = EdgeClass(name=name, aspect=aspect, hand=hand_of(wobble), floor={"restitution": chi})
-                key = "curves", wobble, f"{chi:g}", f"{aspect:.6g}"
-                yield key, counted(kind, sizes.curve[wobble], SIZE[wobble])
-    for wobble in HANDS:
-        for factor in ("as said", *sizes.factors):
-            many = (sizes.factor if FACTORS[factor] else sizes.nickel)[wobble]
-            yield ("nickel", wobble, factor), counted(nickel(wobble, factor), many, SIZE[wobble])
-    for scatter in sizes.wobbles:
+    def by_scatter(scatter: float) -> Ends:
         hand = replace(hand_of(DIAMETRAL), psi_scatter=np.radians(scatter))
         kind = EdgeClass(name=f"ψ = 90° ± {scatter:g}°", hand=hand, floor={})
-        yield ("wobbles", f"{scatter:g}"), counted(kind, sizes.wobble, SIZE[WOBBLING])
-    name = f"{source_hash('cointoss.analytic.events')}-ways-{sizes.ways}"
-    yield ("ways", "nickel"), partial(kept, parts, name, partial(way_to_rest, nickel(WOBBLING), sizes.ways))
-    for wobble, aspect, chi, resists in sizes.shared:
+        return ends(kind, sizes.wobble, SIZE[WOBBLING])
+
+    def by_engine(wobble: str, aspect: float, chi: float, resists: bool) -> tuple[str, dict[str, Ends]]:
         name = f"{wobble}, h/D = {aspect:.2g}, χ = {chi:g}{'' if resists else ', no resistance'}"
         floor = {"restitution": chi, **({} if resists else FACTORS[FREE]["floor"])}
-        kind = EdgeClass(name=name, aspect=aspect, hand=hand_of(wobble), floor=floor)
+        found = {}
         for engine, times in ((Engine.ANALYTIC, 4), (Engine.MUJOCO, 1)):
-            other = replace(kind, name=f"{name}, {engine}")
+            kind = EdgeClass(name=f"{name}, {engine}", aspect=aspect, hand=hand_of(wobble), floor=floor)
             many = times * sizes.mujoco[wobble] * (SQUARES if aspect == 1 and engine == Engine.MUJOCO else 1)
-            yield ("engines", name, engine.value), counted(other, many, 50 * times, engine)
+            found[engine.value] = ends(kind, many, 50 * times, engine)
+        return name, found
+
+    touches = {turned: step(_touch(turned, sizes.touches, parts)) for turned in TURNED}
+    name = f"{source_hash('cointoss.analytic.events')}-ways-{sizes.ways}"
+    ways = step(kept(parts, name, partial(way_to_rest, nickel(WOBBLING), sizes.ways)))
+    return EdgeRecord(
+        touches=touches,
+        curves={wobble: {f"{chi:g}": by_aspect(wobble, chi) for chi in sizes.chis} for wobble in HANDS},
+        nickel={
+            wobble: {factor: by_factor(wobble, factor) for factor in ("as said", *sizes.factors)}
+            for wobble in HANDS
+        },
+        wobbles={f"{scatter:g}": by_scatter(scatter) for scatter in sizes.wobbles},
+        times=ways["times"].tolist(),
+        ways=ways["ways"].tolist(),
+        engines=dict(by_engine(*one) for one in sizes.shared),
+    )
 
 
 def nickel(wobble: str, factor: str = "as said") -> EdgeClass:

@@ -1,11 +1,26 @@
 """How many tosses end how."""
 
+from collections import Counter
+from collections.abc import Iterable
+
 from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.estimates import share_of
-from cointoss.models.records import Outcome
+from cointoss.models.outcomes import Outcomes
+from cointoss.models.records import Ending, Outcome
 
 Ends = dict[str, int]
 """Numbers of tosses by outcome and ending, as in "edge, paper"."""
+
+
+def counted(ended: Outcomes) -> Ends:
+    """Return how many tosses ended how."""
+    codes = zip(ended.outcome, ended.ending, strict=True)
+    return dict(sorted(Counter(f"{Outcome(outcome)}, {Ending(ending)}" for outcome, ending in codes).items()))
+
+
+def together(several: Iterable[Ends]) -> Ends:
+    """Return how several groups of tosses end as one."""
+    return dict(sorted(sum(map(Counter, several), Counter[str]()).items()))
 
 
 def tosses(ends: Ends) -> int:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from cointoss.analytic.events import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.compare.metrics.sequences import common_prefix
+from cointoss.compare.reproduction.setups.general_coins import PAPER_OFFSET
 from cointoss.models.laws import ContactLaw
 from cointoss.models.reading import load
 from cointoss.models.records import Array, Face
@@ -35,7 +36,6 @@ APART = 1e-5 * np.arange(6)
 """Heights of the six tosses above the first [m]."""
 IMPACTS = 18
 """Of the longest printed sequence."""
-_OFFSET = (-1e-3, -1e-3, -2e-4)
 COINS = {
     "ideal, 2 mm": (2e-3, 0.0),
     "ideal, thin": (0.0, 0.0),
@@ -57,7 +57,7 @@ def toss_of(thickness: float, part: float, law: ContactLaw, friction: float) -> 
         law: of the floor.
         friction: of the floor.
     """
-    x, y, z = (part * c for c in _OFFSET)
+    x, y, z = (part * c for c in PAPER_OFFSET)
     coin = ("coin.thickness", thickness, "coin.center_of_mass", (x, y, z if thickness else 0.0))
     return load("fig24a").replace(*coin, "floor.contact", law, "floor.friction", friction)
 

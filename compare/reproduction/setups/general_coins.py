@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +14,17 @@ SEED = 15
 PAPER_OFFSET, THICKNESS = (-1e-3, -1e-3, -2e-4), 2e-3
 """C from B of the paper's imperfect coin, and how thick it is [m]; a thin coin has its ζ at 0."""
 AIR = {"normal": 0.8, "tangential": 0.2}
+
+
+def paper_coin(*, thick: bool, imperfect: bool) -> dict[str, Any]:
+    """Return the paper's coin as a scenario describes it."""
+    xi, eta, zeta = PAPER_OFFSET if imperfect else (0.0, 0.0, 0.0)
+    return {
+        "mass": 2e-3,
+        "radius": 1.25e-2,
+        "thickness": THICKNESS if thick else 0.0,
+        "center_of_mass": (xi, eta, zeta if thick else 0.0),
+    }
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,15 +50,9 @@ class CoinClass:
     @property
     def scenario(self) -> Scenario:
         """What is tossed."""
-        xi, eta, zeta = PAPER_OFFSET if self.imperfect else (0.0, 0.0, 0.0)
         return Scenario.model_validate(
             {
-                "coin": {
-                    "mass": 2e-3,
-                    "radius": 1.25e-2,
-                    "thickness": THICKNESS if self.thick else 0.0,
-                    "center_of_mass": (xi, eta, zeta if self.thick else 0.0),
-                },
+                "coin": paper_coin(thick=self.thick, imperfect=self.imperfect),
                 "air": AIR if self.air else {},
                 "floor": {
                     "restitution": 0.6,

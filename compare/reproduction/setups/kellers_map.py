@@ -1,8 +1,11 @@
-"""The axes of Keller's map, Fig. 2."""
+"""Keller's map, Fig. 2: its axes, and the coins that are tossed and caught in it."""
 
 import numpy as np
 
+from cointoss.analytic.flight.integrated_flight import sample_flight
 from cointoss.models.records import Array
+from cointoss.models.releases import Releases, states_of
+from cointoss.models.scenario import Scenario
 
 FASTEST, HIGHEST = 20.0, 0.25
 """Ends of the axes: ω_0/π [1/s] and v_0/g [s]."""
@@ -11,3 +14,23 @@ FASTEST, HIGHEST = 20.0, 0.25
 def middles(end: float, count: int) -> Array:
     """Return the middles of equal parts of an axis from 0 on: for an even count none lies on a boundary."""
     return (np.arange(count) + 0.5) * end / count
+
+
+def thrown(scenario: Scenario, over: Array, up: Array) -> Releases:
+    """Return releases flat, one radius above the floor, with ω_0/π [1/s] and v_0/g [s]."""
+    zero = np.zeros_like(over)
+    return Releases(
+        position=np.column_stack([zero, zero, zero + scenario.coin.radius]),
+        velocity=np.column_stack([zero, zero, up * scenario.gravity]),
+        quaternion=np.column_stack([zero + 1, zero, zero, zero]),
+        angular_velocity=np.column_stack([over * np.pi, zero, zero]),
+    )
+
+
+def caught(scenario: Scenario, tossed: Releases) -> Array:
+    """Return n_z when coins would be back, in vacuum, at the height of their release, (n,)."""
+    heights, state = [], np.empty((1, 13))
+    for start in states_of(tossed):
+        sample_flight(scenario.body, start, 0.0, np.array([2 * start[5] / scenario.gravity]), state)
+        heights.append(1 - 2 * (state[0, 7] ** 2 + state[0, 8] ** 2))
+    return np.array(heights)

@@ -1,12 +1,13 @@
 """Single impacts from random touches: MuJoCo's contacts beside the paper's laws."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
 
 from cointoss import analytic, coin_mj
 from cointoss.coin_mj import Settings
+from cointoss.compare.reproduction.setups.general_coins import PAPER_OFFSET
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
 from cointoss.models.laws import ContactLaw
@@ -20,8 +21,6 @@ ALONE = 1e-4
 """No second rim point may land so soon after the first [s]."""
 SLOWEST = 0.3
 """The contact point comes down at least so fast [m/s]."""
-OFFSET = (-1e-3, -1e-3, -2e-4)
-"""Mass centre of the paper's imperfect coin [m]."""
 
 
 def touch(
@@ -78,7 +77,7 @@ def draw_touches(
     while len(cases) < count:
         e = rng.normal(size=4)
         thickness = float(rng.choice([0.0, 2e-3]))
-        offset = np.array(OFFSET) * float(rng.integers(2))
+        offset = np.array(PAPER_OFFSET) * float(rng.integers(2))
         if thickness == 0:
             offset[2] = 0
         case = touch(
@@ -127,6 +126,18 @@ def first(impacts: list[Impacts], column: str) -> Array:
     """Return a column of the first impact of each, infinite where there is none, (n, ...)."""
     empty = np.full(getattr(impacts[0], column).shape[1:], np.inf)
     return np.array([getattr(one, column)[0] if len(one) else empty for one in impacts])
+
+
+def impulse_errors(cases: Sequence[Scenario], settings: Settings) -> Array:
+    """Return |S_law - S|/|S_law| of MuJoCo's first impulses, (n,)."""
+    return relative_errors(first(by_law(cases), "impulse"), first(by_mujoco(cases, settings), "impulse"))
+
+
+def restitution_errors(cases: Sequence[Scenario], settings: Settings) -> Array:
+    """Return |χ' - χ|, χ' the restitution of MuJoCo's first impacts, (n,)."""
+    found = by_mujoco(cases, settings)
+    after, before = first(found, "contact_velocity_after"), first(found, "contact_velocity_before")
+    return np.abs(-after[:, 2] / before[:, 2] - np.array([case.floor.restitution for case in cases]))
 
 
 def relative_errors(a: Array, b: Array) -> Array:

@@ -21,8 +21,10 @@ from cointoss.compare.reproduction.setups.mujoco_impacts import (
     by_mujoco,
     draw_touches,
     first,
+    impulse_errors,
     on_floor,
     relative_errors,
+    restitution_errors,
     touch,
     velocity_at_touch,
 )
@@ -204,12 +206,10 @@ def over_restitution(
     count: int, restitutions: Sequence[float], rng: np.random.Generator
 ) -> dict[float, Spread]:
     """Return |χ' - χ|, χ' the restitution that the default spring gives on a smooth floor, for each χ."""
-    answers = {}
-    for chi in restitutions:
-        found = by_mujoco(draw_touches(rng, count, (chi, chi)), Settings())
-        after, before = first(found, "contact_velocity_after"), first(found, "contact_velocity_before")
-        answers[chi] = spread(np.abs(-after[:, 2] / before[:, 2] - chi))
-    return answers
+    return {
+        chi: spread(restitution_errors(draw_touches(rng, count, (chi, chi)), Settings()))
+        for chi in restitutions
+    }
 
 
 def over_friction(count: int, frictions: Sequence[float], rng: np.random.Generator) -> dict[float, Spread]:
@@ -235,8 +235,7 @@ def over_tilt(count: int, tilts: Sequence[float], rng: np.random.Generator) -> d
 def default_errors(touches: Sequence[Scenario], friction: float = RUBBED) -> Spread:
     """Return the errors of impulses by the default contact, of touches of a floor with Coulomb's friction."""
     cases = [on_floor(case, ContactLaw.COULOMB, friction) for case in touches]
-    S, found = first(by_law(cases), "impulse"), first(by_mujoco(cases, Settings()), "impulse")
-    return spread(relative_errors(S, found))
+    return spread(impulse_errors(cases, Settings()))
 
 
 def tilted_touch(tilt: float, slip: Array, restitution: float) -> Scenario:

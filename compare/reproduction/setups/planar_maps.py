@@ -1,11 +1,13 @@
 """The maps of Figs 29 to 31: faces of the planar thin coin over its release height and spin."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss import analytic
+from cointoss import analytic, coin_mj
 from cointoss.analytic.events import run
 from cointoss.compare.basins.maps import OutcomeCodes
 from cointoss.compare.basins.picture import MapAxis
@@ -14,7 +16,7 @@ from cointoss.models.outcomes import Outcomes
 from cointoss.models.parts import Air
 from cointoss.models.reading import load
 from cointoss.models.records import Array
-from cointoss.models.releases import Releases
+from cointoss.models.releases import Releases, states_of
 from cointoss.models.scenario import Scenario
 
 HEIGHTS, SPINS = (0.2, 0.6), (20.0, 60.0)
@@ -24,6 +26,9 @@ SPIN = MapAxis(name="spin", unit="rad/s", start=SPINS[0], stop=SPINS[1])
 MEDIA = {"air": BLUE, "vacuum": VERMILION}
 LANDINGS = {"soft floor": BLUE, "bouncing": VERMILION}
 """How a toss ends, at its first touch or after its bounces; both with the colours of their curves."""
+
+toss_many_by_mujoco = partial(coin_mj.toss_many, settings=coin_mj.FINE)
+"""MuJoCo's tosses where single ones are compared."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -81,10 +86,14 @@ def final_faces(scenario: Scenario, grid: Grid) -> OutcomeCodes:
     return analytic.toss_many(scenario, grid.releases).outcome.reshape(grid.shape)
 
 
-def faces_after(scenario: Scenario, points: Releases, impacts: int) -> NDArray[np.int8]:
+def faces_after(
+    scenario: Scenario,
+    points: Releases,
+    impacts: int,
+    toss_many: Callable[[Scenario, Releases], Outcomes] = analytic.toss_many,
+) -> NDArray[np.int8]:
     """Return the face up at the touch after n impacts, the outcome where the toss ended before, (n,)."""
-    ended: Outcomes = analytic.toss_many(scenario.replace("ending.max_impacts", impacts + 1), points)
-    return ended.after(impacts)
+    return toss_many(scenario.replace("ending.max_impacts", impacts + 1), points).after(impacts)
 
 
 def touched_faces(scenario: Scenario, heights: Array, spins: Array, touches: int) -> NDArray[np.int8]:
@@ -98,8 +107,8 @@ def touched_faces(scenario: Scenario, heights: Array, spins: Array, touches: int
     """
     body, rules = scenario.body, scenario.replace("ending.max_impacts", touches).rules
     faces = np.empty((len(heights), touches), dtype=np.int8)
-    for row, z, w in zip(faces, heights, spins, strict=True):
-        tossed = run(body, rules, np.array([0, 0, z, 0, 0, 0, 1.0, 0, 0, 0, w, 0, 0]))
+    for row, state in zip(faces, states_of(releases(heights, spins)), strict=True):
+        tossed = run(body, rules, state)
         row[: len(tossed.rows)] = tossed.rows["face"]
         row[len(tossed.rows) :] = tossed.outcome
     return faces

@@ -14,11 +14,12 @@ from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY, OUTCOMES
 from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.estimates import chance_alike
-from cointoss.compare.reproduction.setups.ends import Ends, ended_as, tosses
+from cointoss.compare.reproduction.setups.ends import Ends, counted, ended_as, together, tosses
+from cointoss.compare.reproduction.setups.general_coins import AIR, paper_coin
 from cointoss.compare.reproduction.setups.study import study
 from cointoss.compare.reproduction.threads import all_cores
-from cointoss.models.parts import Release
-from cointoss.models.records import Ending, Outcome
+from cointoss.models.outcomes import Outcomes
+from cointoss.models.records import Outcome
 from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 
@@ -26,12 +27,9 @@ COUNT, COUNT_MUJOCO, SEED = 10_000, 5_000, 2008
 """Tosses of each coin by the analytic engine, and by MuJoCo; and the seed."""
 LEAST_PROBABLE = 1e-3
 """By chance one of ten tests falls below it once in a hundred runs."""
-PAPER_OFFSET = (-1e-3, -1e-3, -2e-4)
-THICKNESS = 2e-3
 COINS = ("ideal", "imperfect")
 FLOORS = ("smooth", "coulomb, kinematic", "coulomb, energetic")
 RESTITUTION = {"smooth": (0.1, 0.95), "coulomb, kinematic": (0.1, 0.7), "coulomb, energetic": (0.1, 0.95)}
-AIR = {"normal": 0.8, "tangential": 0.2}
 BY_BOTH, MEDIA = FLOORS[:2], ("air", "vacuum")
 """Floors that MuJoCo realises, and what is between them and the hand."""
 _SHOWN = (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.PERPETUAL, Outcome.UNDECIDED)
@@ -75,14 +73,13 @@ def compute(
     most, longest = 0, 0.0
     whole = len(jobs) + len(jobs_mujoco)
     with all_cores() as pool:
-        for done, (kind, outcome, ending, impacts, time) in enumerate(pool.map(_toss, jobs), start=1):
-            outcomes[_name(kind)][f"{outcome}, {ending}"] += 1
-            if outcome not in ("undecided", "perpetual"):
-                most, longest = max(most, impacts), max(longest, time)
+        for done, (kind, ended) in enumerate(pool.map(_toss, jobs), start=1):
+            outcomes[_name(kind)].update(counted(ended))
+            if ended.outcome[0] not in (Outcome.UNDECIDED, Outcome.PERPETUAL):
+                most, longest = max(most, int(ended.impacts[0])), max(longest, float(ended.end_time[0]))
             progress(done, whole)
-        ended = pool.map(toss_by_mujoco, jobs_mujoco)
-        for done, (kind, outcome, ending) in enumerate(ended, start=len(jobs) + 1):
-            mujoco[_name(kind)][f"{outcome}, {ending}"] += 1
+        for done, (kind, ended) in enumerate(pool.map(toss_by_mujoco, jobs_mujoco), start=len(jobs) + 1):
+            mujoco[_name(kind)].update(counted(ended))
             progress(done, whole)
     return EndingCounts(_ordered(outcomes), _ordered(mujoco), most, longest)
 
@@ -94,17 +91,9 @@ def _ordered(counts: dict[str, Counter[str]]) -> Counts:
 def draw_toss(rng: np.random.Generator, coin: str) -> tuple[Kind, Scenario]:
     """Draw a toss from a hand's height: thick or thin coin, floor, air, restitution, friction and release."""
     kind = Kind(coin, bool(rng.integers(2)), FLOORS[rng.integers(3)], bool(rng.integers(2)))
-    offset = np.array(PAPER_OFFSET) if coin == "imperfect" else np.zeros(3)
-    if not kind.thick:
-        offset[2] = 0.0
     law, _, restitution_kind = kind.floor.partition(", ")
     described: dict[str, Any] = {
-        "coin": {
-            "mass": 2e-3,
-            "radius": 1.25e-2,
-            "thickness": THICKNESS if kind.thick else 0.0,
-            "center_of_mass": offset.tolist(),
-        },
+        "coin": paper_coin(thick=kind.thick, imperfect=coin == "imperfect"),
         "air": AIR if kind.air else {},
         "floor": {
             "contact": law,
@@ -127,30 +116,18 @@ def _release(rng: np.random.Generator) -> dict[str, Any]:
     }
 
 
-def _toss(job: tuple[int, int, int]) -> tuple[Kind, str, str, int, float]:
+def _toss(job: tuple[int, int, int]) -> tuple[Kind, Outcomes]:
     kind, scenario = draw_toss(np.random.default_rng(job), COINS[job[1]])
-    ended = analytic.toss_many(scenario, _only(scenario.release))
-    outcome, ending = Outcome(ended.outcome[0]), Ending(ended.ending[0])
-    return kind, str(outcome), str(ending), int(ended.impacts[0]), float(ended.end_time[0])
+    return kind, analytic.toss_many(scenario, Releases.of(scenario, 1))
 
 
-def toss_by_mujoco(job: tuple[int, int, int]) -> tuple[Kind, str, str]:
-    """Return kind, outcome and ending of a toss by MuJoCo on one of the floors `BY_BOTH`."""
+def toss_by_mujoco(job: tuple[int, int, int]) -> tuple[Kind, Outcomes]:
+    """Make a toss by MuJoCo on one of the floors `BY_BOTH`."""
     rng = np.random.default_rng(job)
     kind, scenario = draw_toss(rng, COINS[job[1]])
     while kind.floor not in BY_BOTH:
         kind, scenario = draw_toss(rng, COINS[job[1]])
-    ended = coin_mj.toss_many(scenario, _only(scenario.release))
-    return kind, str(Outcome(ended.outcome[0])), str(Ending(ended.ending[0]))
-
-
-def _only(release: Release) -> Releases:
-    return Releases(
-        position=np.array([release.position]),
-        velocity=np.array([release.velocity]),
-        quaternion=np.array([release.attitude]),
-        angular_velocity=np.array([release.angular_velocity]),
-    )
+    return kind, coin_mj.toss_many(scenario, Releases.of(scenario, 1))
 
 
 def _name(kind: Kind) -> str:
@@ -161,8 +138,9 @@ def _name(kind: Kind) -> str:
 
 def within(outcomes: Counts, *words: str) -> Ends:
     """Return the ends of all kinds of tosses whose names have all of the words."""
-    named = [ends for name, ends in outcomes.items() if all(f", {word}, " in f", {name}, " for word in words)]
-    return dict(sum(map(Counter, named), Counter[str]()))
+    return together(
+        ends for name, ends in outcomes.items() if all(f", {word}, " in f", {name}, " for word in words)
+    )
 
 
 def by_both(counts: EndingCounts, *words: str) -> list[list[int]]:

@@ -1,7 +1,7 @@
 """Is coin tossing predictable? The share of tosses left uncertain, by accuracy and restitution."""
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from math import log10, sqrt
 from pathlib import Path
 from typing import Any
@@ -15,23 +15,24 @@ from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE
 from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.claim import Estimate
-from cointoss.compare.reproduction.estimates import in_words, jackknife
-from cointoss.compare.reproduction.parts import Part, kept
+from cointoss.compare.reproduction.estimates import in_words
 from cointoss.compare.reproduction.precision.planar_state import HEIGHT, SPIN, TILT
+from cointoss.compare.reproduction.precision.splitting import Replica
 from cointoss.compare.reproduction.setups.planar_maps import case
 from cointoss.compare.reproduction.setups.study import study
-from cointoss.compare.reproduction.setups.uncertain_shares import uncertain_shares
+from cointoss.compare.reproduction.setups.uncertain_shares import (
+    ACCURACIES,
+    LEAST,
+    kept_run,
+    of_runs,
+    slope,
+)
 from cointoss.compare.reproduction.threads import all_cores
-from cointoss.models.kernel.sources import source_hash
 from cointoss.models.records import Array
 
 SEED = 2014
 POPULATION = 60
 """Intervals at each level."""
-ACCURACIES = 10.0 ** -np.arange(3, 25)
-"""ε, of the height of the release [m]; the same number is that of another quantity in its own unit."""
-_LEAST = 1e-300
-"""In the place of a share that no run met."""
 SMOOTH, AIR, ROUGH = "smooth, vacuum", "smooth, air", "rough, vacuum"
 CHIS = {
     SMOOTH: (0.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95),
@@ -60,18 +61,6 @@ NEARLY_SMOOTH, FRACTAL = 0.9, 0.8
 
 
 @dataclass(frozen=True)
-class Run:
-    """What one run of the splitting found."""
-
-    shares: list[float]
-    """f at each of `ACCURACIES`."""
-    hidden: float
-    """Largest part of any f that came of intervals whose ends were alike."""
-    tosses: int
-    undecided: int
-
-
-@dataclass(frozen=True)
 class Case:
     """What was tossed, and the shares that each run of the splitting found."""
 
@@ -82,7 +71,7 @@ class Case:
     shares: list[list[float]]
     """f at each of `ACCURACIES`, by run."""
     hidden: float
-    """As of a `Run`, the largest."""
+    """Largest part of any f that came of intervals whose ends were alike."""
     tosses: int
     undecided: int
 
@@ -122,11 +111,11 @@ def compute(
     asked = [(floor, chi, "height") for floor in chis for chi in chis[floor]]
     asked += [(SMOOTH, CHI, quantity) for quantity in OTHERS]
     jobs = [(one, number) for number in range(max(runs.values())) for one in asked if number < runs[one[0]]]
-    found: dict[tuple[str, float, str], list[Run]] = {one: [] for one in asked}
+    found: dict[tuple[str, float, str], list[Replica]] = {one: [] for one in asked}
     with all_cores() as pool:
-        running = [pool.submit(_kept_run, parts, *one, number, population, levels) for one, number in jobs]
-        for done, ((one, _), made) in enumerate(zip(jobs, running, strict=True), start=1):
-            found[one].append(made.result())
+        made = pool.map(lambda job: run_once(parts, *job, population=population, levels=levels), jobs)
+        for done, ((one, _), run) in enumerate(zip(jobs, made, strict=True), start=1):
+            found[one].append(run)
             progress(done, len(jobs))
     scenario = case(air=False)
     fall = sqrt(2 * scenario.release.position[2] / scenario.gravity)
@@ -136,71 +125,43 @@ def compute(
     )
 
 
-def _case(floor: str, chi: float, quantity: str, runs: list[Run]) -> Case:
+def _case(floor: str, chi: float, quantity: str, runs: list[Replica]) -> Case:
     return Case(
         floor,
         chi,
         quantity,
-        shares=[run.shares for run in runs],
-        hidden=max(run.hidden for run in runs),
+        shares=[run.shares.tolist() for run in runs],
+        hidden=max(run.largest_hidden for run in runs),
         tosses=sum(run.tosses for run in runs),
         undecided=sum(run.undecided for run in runs),
     )
 
 
-def _kept_run(
-    parts: Path, floor: str, chi: float, quantity: str, number: int, population: int, levels: int
-) -> Run:
-    """Return a run that an earlier computation kept, or make it and keep it."""
-
-    def compute_part() -> Part:
-        made = run_once(floor, chi, quantity, number, population=population, levels=levels)
-        return {name: np.array(value) for name, value in asdict(made).items()}
-
-    made_by = source_hash("cointoss.compare.reproduction.setups.uncertain_shares")
-    name = f"{made_by}, {floor}, {chi:g}, {quantity}, {number}, {population} x {levels}"
-    return Run(**{name: array.tolist() for name, array in kept(parts, name, compute_part).items()})
-
-
-def run_once(floor: str, chi: float, quantity: str, number: int, *, population: int, levels: int) -> Run:
+def run_once(
+    parts: Path, asked: tuple[str, float, str], number: int, *, population: int, levels: int
+) -> Replica:
     """Run the splitting once for one case: releases uniform in height and spin, flat, at rest but for it."""
+    floor, chi, quantity = asked
     scenario = case(air=floor == AIR, restitution=chi)
     if floor == ROUGH:
         scenario = scenario.replace("floor.contact", "perfectly_rough")
     row = OTHERS.get(quantity, HEIGHT)
-    rng = np.random.default_rng([SEED, number, list(CHIS).index(floor), round(100 * chi), row])
-    made = uncertain_shares(scenario, rng, row=row, levels=levels, population=population)
-    seen = made.shares > 0
-    return Run(
-        shares=made.shares.tolist(),
-        hidden=float(np.max(made.hidden[seen] / made.shares[seen], initial=0.0)),
-        tosses=made.tosses,
-        undecided=made.undecided,
-    )
+    seed = SEED, number, list(CHIS).index(floor), round(100 * chi), row
+    name = f"{floor}, {chi:g}, {quantity}"
+    return kept_run(parts, name, scenario, seed, row=row, levels=levels, population=population)
 
 
 def share_at(one: Case, accuracy: float) -> Estimate:
     """Return f at one of `ACCURACIES`; the interval is one of its logarithm, and f is at most 1."""
     level = _level(accuracy)
-    found = _pooled(one, lambda mean: log10(max(mean[level], _LEAST)))
+    found = of_runs(np.array(one.shares), lambda f: log10(max(f[level], LEAST)))
     value, low, high = (min(10**x, 1.0) for x in (found.value, found.low, found.high))
     return Estimate(value, low, high, found.count, found.counted)
 
 
 def slope_from(one: Case, accuracy: float) -> Estimate:
     """Return α over `WINDOW` decades from one of `ACCURACIES` on."""
-    level = _level(accuracy)
-    return _pooled(
-        one, lambda mean: log10(max(mean[level], _LEAST) / max(mean[level + WINDOW], _LEAST)) / WINDOW
-    )
-
-
-def _pooled(one: Case, statistic: Callable[[Array], float]) -> Estimate:
-    """Return a statistic of the runs' mean, with a jackknife's interval over the runs."""
-    shares = np.array(one.shares)
-    return jackknife(
-        lambda kept: statistic(shares[kept].mean(axis=0)), len(shares), "runs", parts=len(shares)
-    )
+    return slope(np.array(one.shares), _level(accuracy), WINDOW)
 
 
 def _level(accuracy: float) -> int:
@@ -218,9 +179,8 @@ def accuracy_for(one: Case, share: float) -> float:
     below = np.flatnonzero(f <= share)
     if len(below) == 0 or below[0] == 0:
         return float("nan" if len(below) == 0 else "inf")
-    x, y = np.log10(ACCURACIES), np.log10(f)
-    i = below[0]
-    return float(10 ** (x[i - 1] + (x[i] - x[i - 1]) * (log10(share) - y[i - 1]) / (y[i] - y[i - 1])))
+    sides = [below[0], below[0] - 1]
+    return float(10 ** np.interp(log10(share), np.log10(f[sides]), np.log10(ACCURACIES[sides])))
 
 
 def smooth_from(one: Case) -> float:

@@ -1,6 +1,5 @@
 """What resistance to rolling and pivoting does: stopping distances, Euler's disk, and a nickel's edge."""
 
-from collections import Counter
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,7 +14,7 @@ from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, ORANGE
 from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.estimates import in_words
-from cointoss.compare.reproduction.setups.ends import Ends, ended_as, on_edge
+from cointoss.compare.reproduction.setups.ends import Ends, counted, ended_as, on_edge
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
 from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.attitude import quaternion_from_angles
@@ -178,11 +177,7 @@ def nickel_ends(size: float, count: int, seed: int) -> Ends:
         }
     )
     ended = analytic.toss_many(case, releases_of_hands(np.random.default_rng(seed), count, aside=10.0))
-    names = Counter(
-        f"{Outcome(outcome)}, {Ending(ending)}"
-        for outcome, ending in zip(ended.outcome, ended.ending, strict=True)
-    )
-    return dict(sorted(names.items()))
+    return counted(ended)
 
 
 def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> ResistanceRecord:

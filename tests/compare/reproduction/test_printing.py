@@ -94,3 +94,7 @@ def test_claims_are_printed_with_their_verdicts_and_counted():
 sums: 1 holds, 1 does not hold and 2 cannot be tested
 out"""
     )
+
+
+def test_a_paragraph_that_begins_with_an_absolute_value_is_no_table():
+    assert laid_out("|ΔS|/|S| of all impacts", 80) == "|ΔS|/|S| of all impacts"

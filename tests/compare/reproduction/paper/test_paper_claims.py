@@ -10,20 +10,20 @@ from cointoss.analytic.toss import toss
 from cointoss.compare.reproduction.claims import (
     accuracy_and_stripes,
     air_in_a_fall,
-    fair_landing,
     fig24_settings,
     heads_in_a_ball,
     standing_coins,
     stop_test,
     uniform_starts,
 )
+from cointoss.compare.reproduction.estimates import scatter_of_shares
 from cointoss.compare.reproduction.paper import fig27, fig31
-from cointoss.compare.reproduction.paper.fig30 import ACCURACIES, slope
 from cointoss.compare.reproduction.setups import fig24_readings
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
 from cointoss.compare.reproduction.setups.hands import HEIGHTS, SPINS, releases_of_hands
 from cointoss.compare.reproduction.setups.planar_maps import case, faces_after, releases, touched_faces
 from cointoss.compare.reproduction.setups.standing import standing
+from cointoss.compare.reproduction.setups.uncertain_shares import ACCURACIES, slope
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.laws import ContactLaw
 from cointoss.models.parts import Release
@@ -51,7 +51,7 @@ def test_a_coin_without_spin_is_not_turned_by_air_and_a_spinning_one_is():
 def test_the_bias_of_hands_is_freed_of_chance(p, bias):
     each = 10
     shares = np.random.default_rng(0).binomial(each, p, 20_000) / each
-    assert fair_landing.bias_of_hands(shares, each) == pytest.approx(bias, abs=0.02)
+    assert scatter_of_shares(shares, each) == pytest.approx(bias, abs=0.02)
     # Chance alone would look like a bias of 0.16.
     assert np.sqrt(np.mean((shares - p) ** 2)) > 0.09
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from cointoss.compare.reproduction.setups import uncertain_shares
 from cointoss.compare.reproduction.studies import predictability
 from cointoss.compare.reproduction.studies.predictability import (
     ACCURACIES,
@@ -40,7 +41,7 @@ def test_a_computation_goes_on_where_it_was(tmp_path, monkeypatch):
     arguments = {"runs": {SMOOTH: 2}, "population": 6, "chis": {SMOOTH: (0.3,)}, "levels": 6}
     first = compute(lambda *done: told.append(done), tmp_path, **arguments)
     assert told == [(n, 4) for n in range(1, 5)]
-    monkeypatch.setattr(predictability, "run_once", None)
+    monkeypatch.setattr(uncertain_shares, "uncertain_shares", None)
     assert compute(lambda *_: None, tmp_path, **arguments) == first
     assert all(0 < share < 1 for run in first.cases[0].shares for share in run[:2])
     assert 1e-17 < first.quantum_width < 1e-15
