@@ -53,7 +53,7 @@ class Setup(NamedTuple):
     history: EnergyHistory
     """Kept up."""
     with_graze: bool
-    """Whether the flights look for minima of the gap; they change nothing else."""
+    """Whether the flights before the first contact look for minima of the gap; they change nothing else."""
 
 
 class Spent(NamedTuple):
@@ -302,7 +302,7 @@ def fly_to_event(setup: Setup, y: Array, spent: Spent) -> Passage:
         caught = fly_to_hand(body, rules.caught, y, left)
         if caught < np.inf:
             return ends(after_flight(spent, caught), face_outcome(state_of(y)), Ending.CAUGHT)
-    flown = fly(body, y, left, setup.with_graze)
+    flown = fly(body, y, left, setup.with_graze and spent.steps == 0)
     spent = after_flight(spent, flown.time)
     if not flown.touches:
         return ends(spent, Outcome.UNDECIDED, Ending.MAX_TIME)

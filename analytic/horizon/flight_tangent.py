@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cointoss.analytic.air.force import force_and_moment, write_jacobian
-from cointoss.analytic.numerics.rotation import quaternion_rate
+from cointoss.analytic.numerics.rotation import quaternion_rate, turn_of
 from cointoss.models.body import Body
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
@@ -286,15 +286,8 @@ def _changed(change: Change, dt: float, rate: Change) -> Change:
 @compiled
 def _write_seen(state: State, row: Array, seen: Array) -> None:
     """Write a change of a state, (13,), as the coin sees it, (12,)."""
-    R, e = state.R, state.attitude
-    U = apply_transposed(R, state.velocity)
-    a, b, c, d = row[6], row[7], row[8], row[9]
-    # Twice the vector part of e* ∘ de.
-    turn = (
-        2 * (e[0] * b - e[1] * a - e[2] * d + e[3] * c),
-        2 * (e[0] * c - e[2] * a - e[3] * b + e[1] * d),
-        2 * (e[0] * d - e[3] * a - e[1] * c + e[2] * b),
-    )
+    R = state.R
+    U, turn = apply_transposed(R, state.velocity), turn_of(state.attitude, (row[6], row[7], row[8], row[9]))
     dU = add(apply_transposed(R, (row[3], row[4], row[5])), cross(U, turn))
     place = apply_transposed(R, (row[0], row[1], row[2]))
     _write(Change(place, dU, turn, (row[10], row[11], row[12])), seen)
