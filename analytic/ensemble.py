@@ -2,10 +2,12 @@
 
 import numpy as np
 
-from cointoss.analytic.events import toss_coin
+from cointoss.analytic.events import started_of, toss_coin
+from cointoss.analytic.horizon.horizon import ErrorsMade, count_trusted
 from cointoss.analytic.settings import MANY, ContactLimits, Settings, contact_limits
 from cointoss.models.body import Body, Rules
 from cointoss.models.errors import require_type
+from cointoss.models.impact_row import FIRST_ROOM
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.reading import ScenarioSource, scenario_of
@@ -18,13 +20,17 @@ TILE, SLOW_TILE = 512, 8
 """Most tosses that a thread makes at a time, in air with b > 0 the second."""
 
 
-def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Settings = MANY) -> Outcomes:
+def toss_many(
+    scenario: ScenarioSource, releases: Releases, *, settings: Settings = MANY, horizon: bool = False
+) -> Outcomes:
     """Toss the coin once from each release, by the event loop of `toss`: each toss is the same to the bit.
 
     Args:
         scenario: what to toss, or its path or name; its own release is not used.
         releases: the states at time 0.
         settings: of the engine.
+        horizon: whether to find how many impacts of each toss can be trusted, as `toss` does; tosses take up
+            to twice as long.
 
     Returns:
         How each toss ended, in the order of `releases`. The paths are not kept.
@@ -39,6 +45,15 @@ def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Setting
     limits = contact_limits(settings)
     most = TILE if body.air.exponent is None else SLOW_TILE
     with stage("tossing by the analytic engine", "tosses") as progress:
+        if horizon:
+            made = ErrorsMade()
+            return toss_in_tiles(
+                releases,
+                most,
+                lambda tile: _trust_each(body, rules, limits, made, tile),
+                progress,
+                horizon=True,
+            )
         return toss_in_tiles(releases, most, lambda tile: _toss_each(body, rules, limits, tile), progress)
 
 
@@ -51,3 +66,16 @@ def _toss_each(body: Body, rules: Rules, limits: ContactLimits, tile: Tile) -> N
         tile.outcome[i], tile.ending[i], tile.impacts[i] = outcome.value, ending.value, n
         tile.end_time[i] = end_time
         tile.last_face[i] = rows[(n - 1) % 2]["face"] if n > 0 else 0
+
+
+@compiled
+def _trust_each(body: Body, rules: Rules, limits: ContactLimits, made: ErrorsMade, tile: Tile) -> None:
+    room = np.zeros(FIRST_ROOM, IMPACT_ROW)
+    for i in range(len(tile.states)):
+        n, rows, pieces, outcome, ending, end_time = toss_coin(
+            body, rules, limits, tile.states[i], room, True
+        )
+        tile.outcome[i], tile.ending[i], tile.impacts[i] = outcome.value, ending.value, n
+        tile.end_time[i] = end_time
+        tile.last_face[i] = rows[n - 1]["face"] if n > 0 else 0
+        tile.trusted_impacts[i] = count_trusted(body, rules, rows[:n], started_of(pieces), made)

@@ -25,7 +25,7 @@ from cointoss.analytic.contact.rest import rests, rolls_upright
 from cointoss.analytic.flight.catch import fly_to_hand
 from cointoss.analytic.flight.flying import fly
 from cointoss.analytic.flight.state_vector import STATE_SIZE, state_of
-from cointoss.analytic.flight.touch_search import is_chattering
+from cointoss.analytic.flight.touch_search import Flown, is_chattering
 from cointoss.analytic.settings import FINE, ContactLimits, Settings, contact_limits
 from cointoss.models.body import Body, Rules, is_to_be_caught
 from cointoss.models.ending import classify_ending, endless, face_outcome, unless_caught
@@ -52,6 +52,8 @@ class Setup(NamedTuple):
     limits: ContactLimits
     history: EnergyHistory
     """Kept up."""
+    with_graze: bool
+    """Whether the flights before the first contact look for minima of the gap; they change nothing else."""
 
 
 class Spent(NamedTuple):
@@ -79,9 +81,29 @@ class Passage(NamedTuple):
     """Up to the event."""
     verdict: Verdict
     """Of an event that ends the toss."""
+    flown: Flown
+    """Of a flight up to a touch, or `NOT_FLOWN`."""
 
 
 GOES_ON = Verdict(Outcome.UNDECIDED, Ending.NONE)
+NOT_FLOWN = Flown(0.0, False, 0, 0, np.inf)
+_STEPS, _GRAZE = 2 + STATE_SIZE, 3 + STATE_SIZE
+"""Columns of the table of modes for the flights, after the time, the `Mode` and the state."""
+
+
+class Started(NamedTuple):
+    """Where modes start, and where the toss ends."""
+
+    times: Array
+    """(k,) [s]."""
+    states: Array
+    """(k, 13)."""
+    modes: NDArray[np.int8]
+    """What starts there: `Mode`, (k,)."""
+    steps: Array
+    """Of the flights, 0 of other modes, (k,)."""
+    grazes: Array
+    """Of the flights, see `Flown`, (k,) [m]."""
 
 
 class EventLog(NamedTuple):
@@ -89,17 +111,27 @@ class EventLog(NamedTuple):
 
     rows: NDArray[Any]
     """Impacts, (n,) of `IMPACT_ROW`."""
-    start_times: Array
-    """Where modes start, and where the toss ends, (k,) [s]."""
-    start_states: Array
-    """States there, (k, 13)."""
-    modes: NDArray[np.int8]
-    """What starts there: `Mode`, (k,)."""
+    started: Started
     contacts: Array
     """Start and end of every sustained contact, (n, 2) [s]."""
     outcome: Outcome
     ending: Ending
     end_time: float
+
+    @property
+    def start_times(self) -> Array:
+        """Where modes start, and where the toss ends, (k,) [s]."""
+        return self.started.times
+
+    @property
+    def start_states(self) -> Array:
+        """States there, (k, 13)."""
+        return self.started.states
+
+    @property
+    def modes(self) -> NDArray[np.int8]:
+        """What starts there: `Mode`, (k,)."""
+        return self.started.modes
 
 
 def run(body: Body, rules: Rules, start: Array, settings: Settings = FINE) -> EventLog:
@@ -108,16 +140,26 @@ def run(body: Body, rules: Rules, start: Array, settings: Settings = FINE) -> Ev
     n, rows, pieces, outcome, ending, end_time = toss_coin(
         body, rules, contact_limits(settings), start.copy(), room, True
     )
-    start_times, started = pieces[:, 0].copy(), pieces[:, 1].astype(np.int8)
+    started = started_of(pieces)
     return EventLog(
         rows=rows[:n].copy(),
-        start_times=start_times,
-        start_states=pieces[:, 2:].copy(),
-        modes=started,
-        contacts=contacts_of(start_times, started),
+        started=started,
+        contacts=contacts_of(started.times, started.modes),
         outcome=Outcome(outcome),
         ending=Ending(ending),
         end_time=end_time,
+    )
+
+
+@compiled
+def started_of(pieces: Array) -> Started:
+    """Return the modes of a toss from the table that `toss_coin` gives, (k, 17)."""
+    return Started(
+        pieces[:, 0].copy(),
+        pieces[:, 2:_STEPS].copy(),
+        pieces[:, 1].astype(np.int8),
+        pieces[:, _STEPS].copy(),
+        pieces[:, _GRAZE].copy(),
     )
 
 
@@ -144,19 +186,20 @@ def toss_coin(
             else impact number n is recorded in row n modulo m.
 
     Returns:
-        Number of impacts; the rows; where modes start, each with its time, `Mode` and state, and the end,
-        (k, 15), or none; outcome; ending; and the time of the end [s].
+        Number of impacts; the rows; where modes start, each with its time, `Mode` and state, the steps and
+        the graze of a flight, and the end, (k, 17), or none; outcome; ending; and the time of the end [s].
     """
     history = energy_history(NO_LOSS + limits.tolerance)
-    setup = Setup(body, rules, friction_in_contact(rules), limits, history)
-    pieces, k = np.empty((FIRST_ROOM if keep_all else 0, 2 + STATE_SIZE)), 0
+    setup = Setup(body, rules, friction_in_contact(rules), limits, history, keep_all)
+    pieces, k = np.empty((FIRST_ROOM if keep_all else 0, _GRAZE + 1)), 0
     mode, spent, verdict = Mode.FLIGHT.value, Spent(0.0, 0, 0), GOES_ON
     while True:
         if keep_all and mode != Mode.TOUCHING:
             if k == len(pieces):
                 pieces = doubled(pieces)
             pieces[k, 0], pieces[k, 1] = spent.time, mode
-            copy_into(pieces[k, 2:], y)
+            copy_into(pieces[k, 2:_STEPS], y)
+            pieces[k, _STEPS], pieces[k, _GRAZE] = 0, np.inf
             k += 1
         if mode == Mode.ENDED:
             break
@@ -165,6 +208,8 @@ def toss_coin(
         mode = mode_after(mode, passage.event)
         if keep_all:
             rows = with_room(rows, spent.impacts)
+            if before == Mode.FLIGHT:
+                pieces[k - 1, _STEPS], pieces[k - 1, _GRAZE] = passage.flown.steps, passage.flown.graze
         row = rows[spent.impacts % len(rows)]
         ending = reset(setup, before, passage, y, row)
         if ending != Ending.NONE:
@@ -204,7 +249,7 @@ def flow_to_event(setup: Setup, mode: int, y: Array, spent: Spent) -> Passage:
         return fly_to_event(setup, y, spent)
     if mode == Mode.TOUCHING:
         contact = contact_at(setup.body, setup.friction, mode, y)
-        return Passage(margin_event(contact, y), spent, GOES_ON)
+        return Passage(margin_event(contact, y), spent, GOES_ON, NOT_FLOWN)
     return hold_to_event(setup, mode, y, spent)
 
 
@@ -254,20 +299,20 @@ def fly_to_event(setup: Setup, y: Array, spent: Spent) -> Passage:
         return ends(spent, Outcome.UNDECIDED, Ending.MAX_IMPACTS)
     left = rules.max_time - spent.time
     if is_to_be_caught(rules):
-        flown = fly_to_hand(body, rules.caught, y, left)
-        if flown < np.inf:
-            return ends(after_flight(spent, flown), face_outcome(state_of(y)), Ending.CAUGHT)
-    flown, touches, _ = fly(body, y, left)
-    spent = after_flight(spent, flown)
-    if not touches:
+        caught = fly_to_hand(body, rules.caught, y, left)
+        if caught < np.inf:
+            return ends(after_flight(spent, caught), face_outcome(state_of(y)), Ending.CAUGHT)
+    flown = fly(body, y, left, setup.with_graze and spent.steps == 0)
+    spent = after_flight(spent, flown.time)
+    if not flown.touches:
         return ends(spent, Outcome.UNDECIDED, Ending.MAX_TIME)
     if not is_chattering(body, restitution_at(body, rules, y), state_of(y)):
-        return Passage(Event.IMPACT, spent, GOES_ON)
+        return Passage(Event.IMPACT, spent, GOES_ON, flown)
     spent = Spent(spent.time, spent.impacts, spent.steps + 1)
     verdict = classified(setup, y, spent.time)
     if verdict.ending == Ending.NONE and not supports_contact(rules.law):
         verdict = Verdict(verdict.outcome, Ending.CHATTER)
-    return Passage(Event.CHATTERS if verdict.ending == Ending.NONE else Event.ENDS, spent, verdict)
+    return Passage(Event.CHATTERS if verdict.ending == Ending.NONE else Event.ENDS, spent, verdict, flown)
 
 
 @compiled
@@ -279,7 +324,7 @@ def after_flight(spent: Spent, flown: float) -> Spent:
 @compiled
 def ends(spent: Spent, outcome: Outcome, ending: Ending) -> Passage:
     """Return the `Passage` to the end of the toss."""
-    return Passage(Event.ENDS, spent, Verdict(outcome, ending))
+    return Passage(Event.ENDS, spent, Verdict(outcome, ending), NOT_FLOWN)
 
 
 @compiled
@@ -314,14 +359,14 @@ def hold_to_event(setup: Setup, mode: int, y: Array, spent: Spent) -> Passage:
         dt = step.next_dt
         in_mode += 1
         if step.event == Event.NO_SOLUTION:
-            return Passage(step.event, spent, Verdict(Outcome.UNDECIDED, Ending.NO_SOLUTION))
+            return Passage(step.event, spent, Verdict(Outcome.UNDECIDED, Ending.NO_SOLUTION), NOT_FLOWN)
         spent = Spent(spent.time + step.elapsed, spent.impacts, spent.steps + cost_of(body, step))
         if step.event == Event.FALLS_FLAT:
-            return Passage(step.event, spent, GOES_ON)
+            return Passage(step.event, spent, GOES_ON, NOT_FLOWN)
         contact = contact_at(body, friction, mode, y)
         verdict = classified(setup, y, spent.time)
         if verdict.ending != Ending.NONE:
-            return Passage(Event.ENDS, spent, verdict)
+            return Passage(Event.ENDS, spent, verdict, NOT_FLOWN)
         if has_resistance(friction) and rests(contact, y):
             return ends(spent, Outcome.EDGE, Ending.AT_REST)
         if not step.is_over:
@@ -332,12 +377,12 @@ def hold_to_event(setup: Setup, mode: int, y: Array, spent: Spent) -> Passage:
         if stands_for_good(contact, in_mode, early, y):
             return ends(spent, Outcome.EDGE, Ending.STANDING)
         if comes_upright(contact, y):
-            return Passage(Event.COMES_UPRIGHT, spent, GOES_ON)
+            return Passage(Event.COMES_UPRIGHT, spent, GOES_ON, NOT_FLOWN)
         if spent.steps >= limits.steps:
             return out_of_budget(contact, y, spent, Ending.CONTACT_STEPS)
         if step.is_over:
             event = margin_event(contact, y) if step.event == Event.NONE else step.event
-            return Passage(event, spent, GOES_ON)
+            return Passage(event, spent, GOES_ON, NOT_FLOWN)
     return out_of_budget(contact, y, spent, Ending.MAX_TIME)
 
 

@@ -121,8 +121,8 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
     body, rules, start = scenario.body, scenario.rules, state_at_release(scenario.release)
     answer = run(body, rules, start, settings)
     impacts, end = Impacts.from_rows(answer.rows), answer.start_states[-1]
-    leading = _before_contact(answer)
-    trusted = trusted_impacts(body, rules, leading)
+    trusted, contacts = trusted_impacts(body, rules, answer), answer.contacts
+    before_contact = np.sum(impacts.time < contacts[0, 0]) if len(contacts) else len(impacts)
     path = Pieces(
         body=body,
         friction=friction_in_contact(rules),
@@ -135,12 +135,12 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
         engine="analytic",
         scenario=scenario,
         impacts=impacts,
-        contacts=answer.contacts,
+        contacts=contacts,
         outcome=answer.outcome,
         ending=answer.ending,
         end_time=answer.end_time,
         trusted_impacts=trusted,
-        trust_end=TrustEnd.of(trusted, before_contact=len(leading.rows), count=len(impacts)),
+        trust_end=TrustEnd.of(trusted, before_contact=int(before_contact), count=len(impacts)),
         certificate=(
             Setting(name="flight", value=_flight(body)),
             Setting(name="error allowed in a step of flight, relative", value=settings.tolerance),
@@ -152,7 +152,7 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
             Setting(name="energy at the end", value=_energy(body, end), unit="J"),
             Setting(name="energy of the lowest pass to the other face", value=_barrier(body, end), unit="J"),
             *measurements(
-                scenario, impacts, answer.contacts, _contact_energies(body, answer), path, force_and_moment
+                scenario, impacts, contacts, _contact_energies(body, answer), path, force_and_moment
             ),
         ),
         path=path,
@@ -165,13 +165,6 @@ def _flight(body: Body) -> str:
     if in_vacuum(body):
         return "closed form of the symmetric top"
     return f"power series without spin about the normal, else {_INTEGRATED}"
-
-
-def _before_contact(answer: EventLog) -> EventLog:
-    """Return the toss up to the first sustained contact."""
-    if len(answer.contacts) == 0:
-        return answer
-    return answer._replace(rows=answer.rows[answer.rows["time"] < answer.contacts[0, 0]])
 
 
 def _contact_energies(body: Body, log: EventLog) -> Array:

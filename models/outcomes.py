@@ -30,6 +30,8 @@ class Outcomes:
     """The `Face` up at the last touch, (n,); 0 where there was none."""
     end_time: Array = column(unit="s")
     """When the toss stopped, (n,) [s]."""
+    trusted_impacts: NDArray[np.int32] | None = column(kind=np.int32, optional=True)
+    """How many of the leading impacts can be trusted, (n,); None where that was not asked for."""
 
     def __post_init__(self) -> None:
         """Check the shapes and make the arrays read-only."""

@@ -29,10 +29,16 @@ class Tile(NamedTuple):
     last_face: NDArray[np.int8]
     impacts: NDArray[np.int32]
     end_time: Array
+    trusted_impacts: NDArray[np.int32]
 
 
 def toss_in_tiles(
-    releases: Releases, most: int, toss_tile: Callable[[Tile], None], progress: Callable[[int, int], None]
+    releases: Releases,
+    most: int,
+    toss_tile: Callable[[Tile], None],
+    progress: Callable[[int, int], None],
+    *,
+    horizon: bool = False,
 ) -> Outcomes:
     """Make tosses, tile by tile, on the cores that this process may use or `NUMBA_NUM_THREADS` sets.
 
@@ -41,6 +47,7 @@ def toss_in_tiles(
         most: tosses that a thread makes at a time, at most; Ctrl-C leaves them to their thread.
         toss_tile: makes some tosses, and writes how they end. It should not hold Python's lock.
         progress: called after each tile with the number of tosses so far and of all, on any thread.
+        horizon: whether it writes how many impacts can be trusted, too.
 
     Returns:
         How each toss ended, in the order of `releases`.
@@ -80,4 +87,6 @@ def toss_in_tiles(
         left.clear()  # a signal's handler may have raised
     for each in tossing:
         each.result()
+    if not horizon:
+        del found["trusted_impacts"]
     return Outcomes(**found)

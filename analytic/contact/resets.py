@@ -1,7 +1,7 @@
 """The resets of a toss: each maps the state at an event to that in which the next mode starts."""
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from cointoss.analytic.contact import upright
 from cointoss.analytic.contact.automaton import Mode, project
@@ -29,7 +29,7 @@ from cointoss.models.body import Body, Rules
 from cointoss.models.geometry import FLAT_SINE, contact_velocity, evaluate_gap, lowest_point
 from cointoss.models.impact_row import write_impact
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import add, apply, scale, subtract
+from cointoss.models.kernel.vectors import Vector, add, apply, scale, subtract
 from cointoss.models.laws import RestitutionKind
 from cointoss.models.records import Array, Ending
 from cointoss.models.state import State
@@ -38,9 +38,38 @@ _TIP = 1e-12
 """The angle by which a coin is tipped off the rim that lifts [rad]."""
 
 
+class Impact(NamedTuple):
+    """What the floor does to a coin that touches it."""
+
+    point: Vector
+    """A from B, body frame [m]."""
+    contact_velocity: Vector
+    """v_A before, space frame [m/s]."""
+    impulse: Vector
+    """Space frame [N s]."""
+    after: State
+    ending: Ending
+    """`Ending.NO_SOLUTION` where the contact law has none, else `Ending.NONE`."""
+
+
+@compiled
+def impact_of(body: Body, rules: Rules, chi: float, before: State) -> Impact:
+    """Return the `Impact` of a coin that touches the floor, at the restitution χ: Newton's law."""
+    x, v, e, w, R = before
+    point, flat = lowest_point(body, R[2], w)
+    arm = apply(R, subtract(point, body.center))
+    out = (point[0] ** 2 + point[1] ** 2) ** 0.5
+    tau = apply(R, (-point[1] / out, point[0] / out, 0.0)) if out > 0 else (1.0, 0.0, 0.0)
+    v_A = contact_velocity(body, R, v, w, point)
+    S, ending = impulse(body, rules, chi, ImpactPoint(R, arm, tau, v_A, flat))
+    v_after = add(v, scale(1 / body.mass, S))
+    w_after = w if flat else add(w, spin_gained(body, R, arm, S))
+    return Impact(point, v_A, S, State(x, v_after, e, w_after, R), ending)
+
+
 @compiled
 def hit(body: Body, rules: Rules, chi: float, y: Array, row: Any) -> Ending:
-    """Let the floor act on the coin in state y, which touches it, and record the impact: Newton's law.
+    """Let the floor act on the coin in state y, which touches it, and record the impact.
 
     Args:
         body: the coin.
@@ -53,19 +82,11 @@ def hit(body: Body, rules: Rules, chi: float, y: Array, row: Any) -> Ending:
         `Ending.NO_SOLUTION` where the contact law has none, else `Ending.NONE`.
     """
     before = state_of(y)
-    x, v, e, w, R = before
-    point, flat = lowest_point(body, R[2], w)
-    arm = apply(R, subtract(point, body.center))
-    out = (point[0] ** 2 + point[1] ** 2) ** 0.5
-    tau = apply(R, (-point[1] / out, point[0] / out, 0.0)) if out > 0 else (1.0, 0.0, 0.0)
-    v_A = contact_velocity(body, R, v, w, point)
-    S, ending = impulse(body, rules, chi, ImpactPoint(R, arm, tau, v_A, flat))
-    v_after = add(v, scale(1 / body.mass, S))
-    w_after = w if flat else add(w, spin_gained(body, R, arm, S))
-    write_impact(body, S, point, before, State(x, v_after, e, w_after, R), row)
-    set_velocity(y, v_after)
-    set_spin(y, w_after)
-    return ending
+    struck = impact_of(body, rules, chi, before)
+    write_impact(body, struck.impulse, struck.point, before, struck.after, row)
+    set_velocity(y, struck.after.velocity)
+    set_spin(y, struck.after.spin)
+    return struck.ending
 
 
 @compiled

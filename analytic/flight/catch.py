@@ -24,14 +24,14 @@ def fly_to_hand(body: Body, height: float, y: Array, longest: float) -> float:
         The time of flight [s]; infinite where the coin is not caught.
     """
     flying = y.copy()
-    flown, elapsed, is_above = fly(body, flying, longest)[0], 0.0, position_of(y)[2] > height
+    flown, elapsed, is_above = fly(body, flying, longest, False).time, 0.0, position_of(y)[2] > height
     copy_into(flying, y)
     while elapsed < flown:
         approach = approach_hand(body, height, is_above, state_of(flying), flown - elapsed)
         if approach.is_caught:
             copy_into(y, flying)
             return elapsed
-        fly(body, flying, approach.step)
+        fly(body, flying, approach.step, False)
         is_above = approach.is_above
         elapsed += approach.step
     return np.inf

@@ -14,7 +14,7 @@ from cointoss.analytic.flight.fall import (
 )
 from cointoss.analytic.flight.first_touch import Bounds, Found, bounds_of, first_touch, lowest_dip
 from cointoss.analytic.flight.state_vector import position_of, state_of, velocity_of
-from cointoss.analytic.flight.touch_search import smallest_flight
+from cointoss.analytic.flight.touch_search import Flown, smallest_flight
 from cointoss.analytic.flight.turning import Turning, turn, turning_of
 from cointoss.models.body import Body, in_vacuum
 from cointoss.models.geometry import evaluate_gap
@@ -24,25 +24,26 @@ from cointoss.models.kernel.vectors import Vector, norm
 
 
 @compiled
-def fly_closed(body: Body, y: Array, longest: float) -> tuple[float, bool, int]:
+def fly_closed(body: Body, y: Array, longest: float, with_graze: bool) -> Flown:
     """Fly a coin that `turns_in_closed_form` until it first touches the floor; see `flying.fly`."""
-    time, inside, evaluations = 0.0, 0.0, 0
+    start, time, inside, evaluations, pieces = y.copy(), 0.0, 0.0, 0, 0
     while True:
-        result, flown, made = _search(body, y, inside, longest - time)
-        time, evaluations = time + flown, evaluations + made
+        result, flown, made, more = _search(body, y, inside, longest - time)
+        time, evaluations, pieces = time + flown, evaluations + made, pieces + more
         state = state_of(y)
         starts_on_floor = result == Found.TOUCH and time == 0
         if starts_on_floor and evaluate_gap(body, state).speed >= -smallest_flight(body, state).speed:
             # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch.
             result = Found.GRAZE
         if result != Found.GRAZE:
-            return time, result == Found.TOUCH, evaluations
+            graze = closed_graze(body, start, time) if with_graze else np.inf
+            return Flown(time, result == Found.TOUCH, evaluations, pieces, graze)
         # It flies on from there, where it hardly sinks for a while.
         inside = smallest_flight(body, state).time
 
 
 @compiled
-def _search(body: Body, y: Array, inside: float, longest: float) -> tuple[Found, float, int]:
+def _search(body: Body, y: Array, inside: float, longest: float) -> tuple[Found, float, int, int]:
     """Fly to a touch, to a graze or to the end; y becomes the state there.
 
     Args:
@@ -52,7 +53,7 @@ def _search(body: Body, y: Array, inside: float, longest: float) -> tuple[Found,
         longest: the longest flight wanted [s].
 
     Returns:
-        What is `Found`, when [s], and the number of gap evaluations.
+        What is `Found`, when [s], and the numbers of gap evaluations and of pieces.
     """
     if in_vacuum(body):
         turning, heights = turning_of(body, state_of(y)), _parabola(body, y)
@@ -60,17 +61,18 @@ def _search(body: Body, y: Array, inside: float, longest: float) -> tuple[Found,
         result, t, evaluations = first_touch(body, turning, heights, inside, longest, bounds)
         fall_freely(body, y, t, y)
         turn(turning, y, t, 1.0, y)
-        return result, t, evaluations
+        return result, t, evaluations, 1
     series = np.empty((4, ORDER + 1))
-    time, result, evaluations = 0.0, Found.NOTHING, 0
+    time, result, evaluations, pieces = 0.0, Found.NOTHING, 0, 0
     while time < longest and result == Found.NOTHING:
         turning = turning_of(body, state_of(y))
         piece = expand(body, turning, y, clock(slowing_of(body), longest - time), series)
         heights, bounds = series[3, : piece.order + 1], _bounds(body, turning, piece, velocity_of(y))
         result, s, made = first_touch(body, turning, heights, inside, piece.length, bounds)
         fly_on(turning, piece, series, s, y, y)
-        time, inside, evaluations = time + time_of(piece.slowing, s), 0.0, evaluations + made
-    return result, min(time, longest), evaluations
+        time, inside = time + time_of(piece.slowing, s), 0.0
+        evaluations, pieces = evaluations + made, pieces + 1
+    return result, min(time, longest), evaluations, pieces
 
 
 @compiled

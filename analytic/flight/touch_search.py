@@ -38,6 +38,32 @@ class LeastFlight(NamedTuple):
     """Largest of the gap in that time [m/s²]."""
 
 
+class Flown(NamedTuple):
+    """A flight to its first touch, or as long as was wanted."""
+
+    time: float
+    """How long it was [s]."""
+    touches: bool
+    evaluations: int
+    """Of the gap."""
+    steps: int
+    """Or pieces, which make the errors of the state at its end."""
+    graze: float
+    """No minimum of the gap on the way is below half of this height, unless it is above a tenth of the radius
+    [m]; infinite where there is none, or none was looked for."""
+
+
+class Lowest(NamedTuple):
+    """The lowest minimum of the gap so far, and where the coin was last seen."""
+
+    graze: float
+    """See `Flown`."""
+    height: float
+    """Of the gap, last [m]."""
+    speed: float
+    """Its rate, last [m/s]."""
+
+
 @compiled
 def gap_acceleration(body: Body, flight: Flight) -> float:
     """Return the second derivative of the gap in free flight, at a state that is not flat [m/s²].
@@ -127,7 +153,43 @@ def smallest_flight(body: Body, state: State) -> LeastFlight:
 
 
 @compiled
-def fly_by_steps(body: Body, y: Array, longest: float, with_graze: bool) -> tuple[float, bool, int, float]:
+def seen(lowest: Lowest, height: float, speed: float) -> Lowest:
+    """Return the `Lowest` with one more evaluation of the gap.
+
+    Steps shrink towards a minimum of the gap, so that the last one before it starts hardly higher.
+    """
+    is_past = lowest.speed < 0 <= speed
+    graze = min(lowest.graze, lowest.height, height) if is_past else lowest.graze
+    return Lowest(graze, height, speed)
+
+
+@compiled
+def seen_between(body: Body, y: Array, within: Window, order: int, work: Array, lowest: Lowest) -> Lowest:
+    """Return the `Lowest` after a part of a step in which the coin surely does not touch.
+
+    Args:
+        body: the coin.
+        y: state at the start of the step, (13,).
+        within: the part; the coin has been seen at its start.
+        order: of the step, see `flight_step`.
+        work: see `flight_work`.
+        lowest: at the start of the part.
+    """
+    y_near, t, end = np.empty(STATE_SIZE), within.start + within.least, within.start + within.length
+    while t < end:
+        within_step(body, y, t, order, work, y_near)
+        near = state_of(y_near)
+        height, speed = evaluate_gap(body, near)
+        lowest = seen(lowest, height, speed)
+        ahead = clear(body, near, end - t)
+        if height <= TOUCH * body.radius or t + ahead == t:
+            ahead = max(ahead, smallest_flight(body, near).time, TIME_STEP * t)
+        t += ahead
+    return lowest
+
+
+@compiled
+def fly_by_steps(body: Body, y: Array, longest: float, with_graze: bool) -> Flown:
     """Fly until the coin first touches the floor.
 
     Every step is searched by steps of `clear_time`, which never pass a touch; each ends at a state computed
@@ -138,21 +200,17 @@ def fly_by_steps(body: Body, y: Array, longest: float, with_graze: bool) -> tupl
         y: state at the start, (13,); becomes the state at the touch, or at the end of the flight.
         longest: the longest flight wanted [s].
         with_graze: whether minima of the gap are looked for on the way.
-
-    Returns:
-        The time of flight [s], whether the coin touches, the number of gap evaluations, and a graze: a
-        height such that no minimum of the gap on the way is below half of it, infinite where it has none [m].
     """
     work, y_near, coefficients = flight_work(body), np.empty(STATE_SIZE), np.empty((2, DEGREE + 1))
     start = state_of(y)
     elapsed, dt, expected = 0.0, first_step(body, y), expected_flight(body, start)
     # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch at once.
     touching_speed = -smallest_flight(body, start).speed
-    # The steps shrink towards a minimum of the gap, so that the last one before it starts hardly higher.
-    graze, height_before, speed_before, evaluations = np.inf, np.inf, 0.0, 0
+    lowest, evaluations, steps = Lowest(np.inf, np.inf, 0.0), 0, 0
     while elapsed < longest:
         made, dt, order = flight_step(body, y, dt, min(longest - elapsed, expected), work)
         expected = np.inf
+        steps += 1
         copy_into(y_near, y)
         inside, in_step, patience = 0.0, 0, _MANY
         while inside < made:
@@ -160,28 +218,30 @@ def fly_by_steps(body: Body, y: Array, longest: float, with_graze: bool) -> tupl
             height, speed = evaluate_gap(body, near)
             evaluations += 1
             in_step += 1
-            if speed_before < 0 <= speed:
-                graze = min(graze, height_before, height)
-            height_before, speed_before = height, speed
+            lowest = seen(lowest, height, speed)
             ahead = clear(body, near, made - inside)
             # Also where time itself has no finer step than the coin still has to fall.
             on_floor = height <= TOUCH * body.radius or inside + ahead == inside
             if on_floor:
                 if speed < touching_speed:
                     copy_into(y, y_near)
-                    return elapsed + inside, True, evaluations, graze
+                    return Flown(elapsed + inside, True, evaluations, steps, lowest.graze)
                 ahead = max(ahead, smallest_flight(body, near).time, TIME_STEP * inside)
             lifts_off = on_floor and in_step == 1
-            if body.air.exponent is None and not with_graze and (lifts_off or in_step == patience):
+            if body.air.exponent is None and (lifts_off or in_step == patience):
                 polynomials = gap_polynomials(body, work, order, made, coefficients)
                 sink = sink_of_squares(body, near.R[2]) if lifts_off else 0.0
                 patience *= 1 if lifts_off else 2
                 window = Window(inside, made - inside, ahead)
-                ahead = max(ahead, time_surely_clear(body, polynomials, sink, window))
+                surely = time_surely_clear(body, polynomials, sink, window)
+                if with_graze and surely > ahead:
+                    skipped = Window(inside, min(surely, made - inside), ahead)
+                    lowest = seen_between(body, y, skipped, order, work, lowest)
+                ahead = max(ahead, surely)
             touching_speed = 0.0
             inside += ahead
             if inside < made:
                 within_step(body, y, inside, order, work, y_near)
         finish_step(body, made, order, work, y, y_near)
         elapsed += made
-    return longest, False, evaluations, graze
+    return Flown(longest, False, evaluations, steps, lowest.graze)

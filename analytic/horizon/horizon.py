@@ -2,22 +2,37 @@
 
 The errors of every flight and touch are carried forward by the tangent map, from event to event: of the state
 just after an impact, compared at that impact, and of its time. They are kept as vectors whose outer products
-add up to the covariance, which in a chatter could not hold its own digits.
+add up to the covariance, which in a chatter could not hold its own digits. Where the coin is changes nothing:
+the vectors have its height, velocity, Euler parameters and spin, and the time of the event.
 """
 
-import numpy as np
+from typing import Any, NamedTuple
 
-from cointoss.analytic.events import EventLog
-from cointoss.analytic.flight.flying import fly_with_graze, steps_of
-from cointoss.analytic.flight.state_vector import STATE_SIZE, spin_of
+import numpy as np
+from numpy.typing import NDArray
+
+from cointoss.analytic.contact.automaton import Mode
+from cointoss.analytic.events import EventLog, Started
+from cointoss.analytic.flight.state_vector import (
+    STATE_SIZE,
+    set_attitude,
+    set_position,
+    set_spin,
+    set_velocity,
+    spin_of,
+    state_of,
+    velocity_of,
+)
 from cointoss.analytic.flight.turning import turns_in_closed_form
-from cointoss.analytic.horizon.flight_tangent import flight_tangent
-from cointoss.analytic.horizon.sensitivity import delay_of, flight_map, impact_map, touch_map
+from cointoss.analytic.horizon.flight_tangent import COARSE, flight_tangent, longest_step
 from cointoss.analytic.horizon.touch_derivatives import Touch, touch_derivatives
+from cointoss.analytic.numerics.householder import reflect_to_triangle
 from cointoss.analytic.numerics.tolerances import TIME_STEP, TOUCH
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body, Rules
 from cointoss.models.geometry import FLAT_SINE
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import norm
 from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Array
 
@@ -38,145 +53,275 @@ TIME_ERROR = 1e-7
 """Within the horizon the time of an impact is good to this [s]."""
 IMPULSE_ERROR = 1e-5
 """Within the horizon an impulse is good to this part of it."""
-MOST_CARRIED, TOUCH_COST, DRAG_COST = 1e5, 20.0, 400.0
-"""Errors are carried through this much turning [rad], which takes seconds: an impact costs as much as the
-second, a turn in air with b > 0 the third times as much as another."""
+MOST_CARRIED, TOUCH_COST, DRAG_COST = 3e6, 20.0, 400.0
+"""Errors are carried through so many steps, which takes seconds. An impact costs as much as the second; a
+step in air with b > 0 as much as the third number of others."""
 LINEAR_RANGE = 1e-3
 """Tilt, closing speed and time of flight must be known to this part of theirs, so that the tangent map holds;
 the tilt's direction is the place on the rim."""
 
+# An error vector has the state from its height on, and the time. A table has those carried from the impact
+# before, those made in a flight, as if at its start and as if at its end, and that of the touch.
+_FIRST, _TIME = 2, STATE_SIZE - 2
+_AT_START = _TIME + 1
+_AT_END = _AT_START + _TIME
+_AT_TOUCH = _AT_END + _TIME
 
-def trusted_impacts(body: Body, rules: Rules, toss: EventLog) -> int:
+
+class ErrorsMade(NamedTuple):
+    """The errors that a toss makes, and how far they are carried."""
+
+    step: float = STEP_ERROR
+    turn: float = TURN_ERROR
+    most_carried: float = MOST_CARRIED
+
+
+def trusted_impacts(body: Body, rules: Rules, toss: EventLog, made: ErrorsMade | None = None) -> int:
     """Count the leading impacts whose time, impulse, face, place and order the engine's errors cannot change.
 
-    None is counted after which the errors were carried through `MOST_CARRIED`.
+    None is counted after the first sustained contact, nor after the errors were carried through
+    `MOST_CARRIED`.
 
     Args:
         body: the coin.
         rules: floor and ending.
         toss: from its release on.
+        made: the errors, by default those of this engine.
     """
-    # Of the state after the last impact, and of its time.
-    errors, carried = np.zeros((STATE_SIZE + 1, 0)), 0.0
-    for i, row in enumerate(toss.rows):
-        y = toss.start_states[i].copy()
-        carried += TOUCH_COST + _turning(body, y, row["time"] - toss.start_times[i])
-        if carried > MOST_CARRIED:
+    return count_trusted(body, rules, toss.rows, toss.started, made or ErrorsMade())
+
+
+@compiled
+def count_trusted(body: Body, rules: Rules, rows: NDArray[Any], started: Started, made: ErrorsMade) -> int:
+    """Return `trusted_impacts`.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        rows: the impacts, (n,) of `IMPACT_ROW`.
+        started: the modes of the toss.
+        made: the errors.
+    """
+    errors, changes = np.zeros((_AT_TOUCH + 1, _TIME + 1)), np.empty((_TIME, STATE_SIZE))
+    y, carried = np.empty(STATE_SIZE), 0.0
+    for i in range(len(rows)):
+        row, start = rows[i], started.states[i]
+        # A touch that chatters starts another mode before the next impact.
+        if started.modes[i] != Mode.FLIGHT or started.times[i + 1] != row.time:
             return i
-        closed = turns_in_closed_form(body, spin_of(y))
-        at_start, flight, at_end, duration, graze = _flight(
-            body, rules, y, toss.start_times[i], CLOSED_FORM if closed else 1.0
-        )
-        errors = np.hstack([flight @ np.hstack([errors, at_start]), at_end])
+        duration = row.time - started.times[i]
+        carried += TOUCH_COST + _cost(body, start, duration)
+        if carried > made.most_carried:
+            return i
+        _write_touch(row, y)
+        closed = turns_in_closed_form(body, spin_of(start))
+        step = made.step * started.steps[i] * (CLOSED_FORM if closed else 1.0)
+        turn = made.turn * started.steps[i] * (CLOSED_FORM if closed else 1.0)
         touch = touch_derivatives(body, rules, y)
         if not touch.closing < 0:
             return i
+        _fly_errors(body, start, y, duration, changes, errors)
+        _write_made(body, start, y, (step, turn), changes, errors)
         found_to = CLOSED_TOUCH if closed else TOUCH
-        early = found_to * body.radius / touch.closing - closed * TIME_STEP * duration
-        delay = np.append(delay_of(touch) @ errors, early)
-        sinking = _sinking(body, errors)
-        errors = np.column_stack([touch_map(touch) @ errors, early * np.append(touch.rate, 1)])
+        early = found_to * body.radius / touch.closing
+        if closed:
+            early -= TIME_STEP * duration
+        sinking, delay = _sinking(body, errors), _delay_errors(touch, early, errors)
         # The first touch has none before it with which to change places.
-        in_order = sinking < graze / 2 and (i == 0 or _size(delay) <= LINEAR_RANGE * duration)
+        in_order = sinking < started.grazes[i] / 2 and (i == 0 or delay <= LINEAR_RANGE * duration)
         if not (in_order and _holds(rules, row, touch, errors)):
             return i
-        # A triangle of as many error vectors as dimensions has the same covariance.
-        errors = np.transpose(np.linalg.qr((impact_map(touch) @ errors).T, mode="r"))
-    return len(toss.rows)
+        _strike_errors(touch, errors)
+        reflect_to_triangle(errors)
+    return len(rows)
 
 
-def _turning(body: Body, y: Array, duration: float) -> float:
-    """Return about how far a coin turns in a flight, which says how many steps it takes [rad].
+@compiled
+def _write_touch(row: Any, y: Array) -> None:
+    """Write the state in which the coin touched at an impact into y, (13,)."""
+    x, v, e, w = row.position, row.velocity_before, row.quaternion, row.angular_velocity_before
+    set_position(y, (x[0], x[1], x[2]))
+    set_velocity(y, (v[0], v[1], v[2]))
+    set_attitude(y, (e[0], e[1], e[2], e[3]))
+    set_spin(y, (w[0], w[1], w[2]))
+
+
+@compiled
+def _cost(body: Body, y: Array, duration: float) -> float:
+    """Return about how many steps the tangent map of a flight takes, each as one in linear air.
 
     Args:
         body: the coin.
         y: state at the start, (13,).
         duration: of the flight [s].
     """
-    turned = duration * ((body.gravity / body.radius) ** 0.5 + float(np.linalg.norm(y[10:13])))
-    return turned if body.air.exponent is None else DRAG_COST * turned
+    turned = duration * ((body.gravity / body.radius) ** 0.5 + norm(spin_of(y)))
+    steps = turned / longest_step(turned, COARSE)
+    return steps if body.air.exponent is None else DRAG_COST * steps
 
 
-def _flight(
-    body: Body, rules: Rules, y: Array, start_time: float, part: float
-) -> tuple[Array, Array, Array, float, float]:
-    """Fly from y to the next touch.
+@compiled
+def _fly_errors(body: Body, start: Array, end: Array, duration: float, changes: Array, errors: Array) -> None:
+    """Carry the errors of a state and its time through a flight.
 
     Args:
         body: the coin.
-        rules: floor and ending.
-        y: state at the start, (13,); becomes that at the touch.
-        start_time: its time [s].
-        part: of the errors of a step that the flight makes.
+        start: state, (13,).
+        end: state, (13,).
+        duration: of the flight [s].
+        changes: becomes how the state at the end changes with each component at the start from the height on,
+            one in each row, (11, 13).
+        errors: table of error vectors; the first, carried from the impact before, are changed.
+    """
+    changes[:] = 0.0
+    for j in range(_TIME):
+        changes[j, _FIRST + j] = 1.0
+    flight_tangent(body, state_of(start), state_of(end), duration, COARSE, changes[1:])
+    before = np.empty(_TIME)
+    for row in errors[:_AT_START]:
+        for j in range(_TIME):
+            before[j] = row[j]
+            row[j] = 0.0
+        for j in range(_TIME):
+            for k in range(_TIME):
+                row[k] += before[j] * changes[j, _FIRST + k]
+
+
+@compiled
+def _write_made(
+    body: Body, start: Array, end: Array, made: tuple[float, float], changes: Array, errors: Array
+) -> None:
+    """Write the errors that a flight makes: as vectors at its start, carried on, and as if made at its end.
+
+    What is exactly zero is kept so by symmetry: rounding too keeps a flat coin flat. The scales of the
+    components are those of `flight.step_error`, but for the height's.
+
+    Args:
+        body: the coin.
+        start: state, (13,).
+        end: state, (13,).
+        made: of the motion and of the Euler parameters, relative, by all steps.
+        changes: see `_fly_errors`.
+        errors: table of error vectors.
+    """
+    for y, first in ((start, _AT_START), (end, _AT_END)):
+        height = max(abs(y[2]), body.radius)
+        speed = (body.gravity * body.radius) ** 0.5 + norm(velocity_of(y))
+        spin = (body.gravity / body.radius) ** 0.5 + norm(spin_of(y))
+        for j in range(_TIME):
+            component = _FIRST + j
+            scale = height if j == 0 else speed if component < 6 else spin
+            error = made[1] if 6 <= component < 10 else made[0] * scale
+            if start[component] == 0 and end[component] == 0:
+                error = 0.0
+            row = errors[first + j]
+            row[_TIME] = 0.0
+            for k in range(_TIME):
+                at_end = 1.0 if k == j else 0.0
+                row[k] = error * (changes[j, _FIRST + k] if first == _AT_START else at_end)
+
+
+@compiled
+def _delay_errors(touch: Touch, early: float, errors: Array) -> float:
+    """Carry the errors from the touch's undisturbed time to its own.
+
+    Args:
+        touch: its derivatives.
+        early: by how much the touch may be found early or late [s].
+        errors: table of error vectors, of which the last is made by the touch.
 
     Returns:
-        Errors that the flight makes, as vectors at its start, (14, 13); its tangent map, (14, 14); the same
-        errors as if all were made at its end; its duration [s]; and its graze, see `fly_with_graze`.
+        The `_size` of the delays of the touch [s].
     """
-    start, at_first = y.copy(), _step_errors(body, y)
-    duration, graze = fly_with_graze(body, y, rules.max_time - start_time)
-    tangents, moved = np.eye(STATE_SIZE), np.zeros(STATE_SIZE, dtype=np.bool_)
-    made = part * steps_of(body, start, duration)
-    flight_tangent(body, start, duration, tangents, moved)
-    # What stays exactly zero is kept so by symmetry: rounding too keeps a flat coin flat.
-    at_start, at_end = (
-        np.eye(STATE_SIZE + 1, STATE_SIZE) * made * moved * errors
-        for errors in (at_first, _step_errors(body, y))
-    )
-    return at_start, flight_map(tangents), at_end, duration, graze
+    delays = early * early
+    for i in range(_AT_TOUCH + 1):
+        row, delay = errors[i], early
+        if i == _AT_TOUCH:
+            row[:] = 0.0
+        else:
+            delay = 0.0
+            for k in range(_TIME):
+                delay -= touch.gap[_FIRST + k] * row[k]
+            delay /= touch.closing
+            delays += delay * delay
+        for k in range(_TIME):
+            row[k] += delay * touch.rate[_FIRST + k]
+        row[_TIME] += delay
+    return SAFETY * delays**0.5
 
 
-def _step_errors(body: Body, y: Array) -> Array:
-    """Return the errors of a step in the components of the state, (13,); x and y change no impact.
-
-    The scales are those of `flight.step_error`, but for the height's.
-    """
-    speed = (body.gravity * body.radius) ** 0.5 + float(np.linalg.norm(y[3:6]))
-    spin = (body.gravity / body.radius) ** 0.5 + float(np.linalg.norm(y[10:13]))
-    height = max(abs(y[2]), body.radius)
-    motion = STEP_ERROR * np.array([0, 0, height, *[speed] * 3, *[0] * 4, *[spin] * 3])
-    return motion + TURN_ERROR * np.array([*[0] * 6, *[1] * 4, *[0] * 3])
-
-
-def _size(errors: Array) -> float:
-    """Return `SAFETY` standard deviations of what the error vectors change, one in each column."""
-    return SAFETY * float(np.linalg.norm(errors))
+@compiled
+def _strike_errors(touch: Touch, errors: Array) -> None:
+    """Carry all errors through the impact."""
+    before = np.empty(_TIME)
+    for row in errors:
+        for k in range(_TIME):
+            before[k] = row[k]
+        for k in range(_TIME):
+            after = 0.0
+            for j in range(_TIME):
+                after += touch.after[_FIRST + k, _FIRST + j] * before[j]
+            row[k] = after
 
 
+@compiled
+def _size(errors: Array, first: int, last: int) -> float:
+    """Return `SAFETY` standard deviations of these components of the errors together."""
+    squares = 0.0
+    for row in errors:
+        for k in range(first, last):
+            squares += row[k] * row[k]
+    return SAFETY * squares**0.5
+
+
+@compiled
+def _size_of(slopes: Array, errors: Array) -> float:
+    """Return `SAFETY` standard deviations of quantities with these derivatives by the state, (n, 13)."""
+    squares = 0.0
+    for row in errors:
+        for slope in slopes:
+            changed = 0.0
+            for k in range(_TIME):
+                changed += slope[_FIRST + k] * row[k]
+            squares += changed * changed
+    return SAFETY * squares**0.5
+
+
+@compiled
 def _sinking(body: Body, errors: Array) -> float:
     """Return by how much the errors lower the gap of any rim point at the end of a flight, at most [m]."""
-    reach = np.linalg.norm(body.center) + body.radius + body.thickness / 2
-    return _size(errors[2]) + 2 * float(reach) * _size(errors[6:10])
+    reach = norm(body.center) + body.radius + body.thickness / 2
+    flown = errors[:_AT_TOUCH]
+    return _size(flown, 0, 1) + 2 * reach * _size(flown, 6 - _FIRST, 10 - _FIRST)
 
 
-def _holds(rules: Rules, row: np.void, touch: Touch, errors: Array) -> bool:
+@compiled
+def _holds(rules: Rules, row: Any, touch: Touch, errors: Array) -> bool:
     """Return whether an impact keeps its time, face, place and impulse within the errors.
 
     Args:
         rules: floor and ending.
         row: the impact.
         touch: its derivatives.
-        errors: of the state and the time at the touch, one vector in each column, (14, n).
+        errors: of the state and the time at the touch, table of error vectors.
     """
-
-    def error(rows: Array) -> float:
-        return _size(rows @ errors[:STATE_SIZE])
-
-    up, v_A = rotation_matrix(row["quaternion"])[2], row["contact_velocity_before"]
-    tilt_sine = np.hypot(up[0], up[1])
+    e, v_A, S = row.quaternion, row.contact_velocity_before, row.impulse
+    up = rotation_matrix((e[0], e[1], e[2], e[3]))[2]
+    tilt_sine = (up[0] ** 2 + up[1] ** 2) ** 0.5
+    tilted = _size_of(touch.up[:2], errors)
     if tilt_sine <= FLAT_SINE:
         # Flat, the coin has no one lowest point, unless it is kept so exactly and does not turn.
-        in_place = error(touch.up[:2]) == error(touch.contact_velocity[:2]) == 0
+        in_place = tilted == 0 and _size_of(touch.contact_velocity[:2], errors) == 0
     else:
         slips = rules.law == ContactLaw.SLIDING_FRICTION and rules.friction > 0
-        in_place = error(touch.up[:2]) <= LINEAR_RANGE * tilt_sine and not (slips and not v_A[:2].any())
+        in_place = tilted <= LINEAR_RANGE * tilt_sine and not (slips and v_A[0] == 0 and v_A[1] == 0)
     speed, threshold = abs(v_A[2]), rules.restitution_threshold
-    same_restitution = threshold == 0 or error(touch.contact_velocity[2]) < abs(speed - threshold)
-    return bool(
+    closing = _size_of(touch.contact_velocity[2:], errors)
+    return (
         in_place
-        and same_restitution
-        and _size(errors[-1]) <= TIME_ERROR
-        and error(touch.up[2]) < abs(up[2])
-        and error(touch.contact_velocity[2]) <= LINEAR_RANGE * speed
-        and error(touch.impulse) <= IMPULSE_ERROR * np.linalg.norm(row["impulse"])
+        and (threshold == 0 or closing < abs(speed - threshold))
+        and _size(errors, _TIME, _TIME + 1) <= TIME_ERROR
+        and _size_of(touch.up[2:], errors) < abs(up[2])
+        and closing <= LINEAR_RANGE * speed
+        and _size_of(touch.impulse, errors) <= IMPULSE_ERROR * norm((S[0], S[1], S[2]))
     )

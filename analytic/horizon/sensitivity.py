@@ -14,8 +14,8 @@ import numpy as np
 
 from cointoss.analytic.events import EventLog
 from cointoss.analytic.flight.flying import fly
-from cointoss.analytic.flight.state_vector import STATE_SIZE
-from cointoss.analytic.horizon.flight_tangent import flight_tangent
+from cointoss.analytic.flight.state_vector import STATE_SIZE, state_of
+from cointoss.analytic.horizon.flight_tangent import FINE, flight_tangent
 from cointoss.analytic.horizon.touch_derivatives import Touch, touch_derivatives
 from cointoss.models.body import Body, Rules
 from cointoss.models.records import Array
@@ -50,10 +50,10 @@ def event_tangent(body: Body, rules: Rules, toss: EventLog, number: int) -> Arra
         toss: from its release on.
         number: of the impact, from 0; the first map starts at the release.
     """
-    y, start = toss.start_states[number].copy(), toss.start_states[number].copy()
-    duration, *_ = fly(body, y, rules.max_time - toss.start_times[number])
+    start, y = toss.start_states[number], toss.start_states[number].copy()
+    duration = fly(body, y, rules.max_time - toss.start_times[number], False).time
     tangents = np.eye(STATE_SIZE)
-    flight_tangent(body, start, duration, tangents, np.zeros(STATE_SIZE, dtype=np.bool_))
+    flight_tangent(body, state_of(start), state_of(y), duration, FINE, tangents)
     touch = touch_derivatives(body, rules, y)
     return impact_map(touch) @ touch_map(touch) @ flight_map(tangents)
 

@@ -4,19 +4,27 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cointoss.analytic.contact.resets import hit, restitution_at
+from cointoss.analytic.contact.resets import impact_of, restitution_at
 from cointoss.analytic.flight.equations_of_motion import derivative
-from cointoss.analytic.flight.state_vector import STATE_SIZE, normalise, spin_of, state_of, velocity_of
+from cointoss.analytic.flight.state_vector import (
+    STATE_SIZE,
+    attitude_of,
+    normalise,
+    spin_of,
+    state_of,
+    velocity_of,
+)
+from cointoss.analytic.numerics.rotation import quaternion_rate, turn_of
 from cointoss.models.body import Body, Rules
-from cointoss.models.geometry import FLAT_SINE, gap
+from cointoss.models.geometry import FLAT_SINE, contact_velocity, gap, lowest_point
 from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import Vector, norm
+from cointoss.models.kernel.vectors import Vector, apply, cross, dot, norm, scale, subtract
 from cointoss.models.laws import ContactLaw
-from cointoss.models.records import IMPACT_ROW, Array
+from cointoss.models.records import Array
 
 STEP = 1e-5
-"""The largest change of a component, relative to the coin's scales: r of positions, 1 of Euler parameters,
+"""The largest change of a component, relative to the coin's scales: 1 of Euler parameters,
 V = √(g r) + |v| + r |ω| of velocities, V/r of angular velocities. Truncation and rounding then err by 1e-10
 of the derivative; where Coulomb friction is integrated, by 1e-8."""
 TO_KINK = 1e-2
@@ -24,8 +32,12 @@ TO_KINK = 1e-2
 LEAST_STEP = 1e-11
 """Smaller changes drown in rounding."""
 
-# A touch as numbers: the gap, the upward unit vector, the velocity of A, the impulse, and the state after.
+# A touch as numbers: the gap, the upward unit vector, the velocity of A, the impulse, and the state after, or
+# the spin gained.
 _UP, _VELOCITY, _IMPULSE, _AFTER = 1, 4, 7, 10
+_GAINED, _VALUES = 10, 13
+_PARAMETERS = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+_AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 class Touch(NamedTuple):
@@ -47,6 +59,7 @@ class Touch(NamedTuple):
     """Of the state after the impact, (13, 13)."""
 
 
+@compiled
 def touch_derivatives(body: Body, rules: Rules, y: Array) -> Touch:
     """Return the derivatives of a touch and of its impact, the Euler parameters kept at norm 1.
 
@@ -55,11 +68,10 @@ def touch_derivatives(body: Body, rules: Rules, y: Array) -> Touch:
         rules: floor and ending.
         y: state at the touch, before the impact, (13,).
     """
-    rate, values = np.empty(STATE_SIZE), np.empty(_AFTER + STATE_SIZE)
-    chi = restitution_at(body, rules, y)
+    state, rate, chi = state_of(y), np.empty(STATE_SIZE), restitution_at(body, rules, y)
     derivative(body, y, rate)
-    touch_values(body, rules, chi, y, values)
-    v_A = values[_VELOCITY], values[_VELOCITY + 1], values[_VELOCITY + 2]
+    point, _ = lowest_point(body, state.R[2], state.spin)
+    v_A = contact_velocity(body, state.R, state.velocity, state.spin, point)
     slopes = touch_differences(body, rules, chi, y, step_size(body, rules, y, v_A))
     return Touch(
         v_A[2],
@@ -70,27 +82,6 @@ def touch_derivatives(body: Body, rules: Rules, y: Array) -> Touch:
         slopes[_IMPULSE:_AFTER],
         slopes[_AFTER:],
     )
-
-
-@compiled
-def touch_values(body: Body, rules: Rules, chi: float, y: Array, values: Array) -> None:
-    """Write gap, upward unit vector, velocity of A, impulse and the state after into `values`.
-
-    Args:
-        body: the coin.
-        rules: floor and ending.
-        chi: restitution of the touch.
-        y: state at the touch, (13,).
-        values: where they go, (23,).
-    """
-    up, rows = state_of(y).R[2], np.zeros(1, IMPACT_ROW)
-    values[0] = gap(body, y[2], up)
-    copy_into(values[_AFTER:], y)
-    hit(body, rules, chi, values[_AFTER:], rows[0])
-    for i in range(3):
-        values[_UP + i] = up[i]
-        values[_VELOCITY + i] = rows[0].contact_velocity_before[i]
-        values[_IMPULSE + i] = rows[0].impulse[i]
 
 
 @compiled
@@ -127,34 +118,103 @@ def speed_scale(body: Body, y: Array) -> float:
 
 @compiled
 def touch_differences(body: Body, rules: Rules, chi: float, y: Array, part: float) -> Array:
-    """Return central differences of `touch_values`, over changes of the state's components, (23, 13).
+    """Return the derivatives of a touch by the state's components, (23, 13), by central differences.
+
+    The law is asked beside the touch in six directions: velocities, and turns about ξ, η, ζ. A spin does what
+    it does to v_A; the Euler parameters do what they turn.
 
     Args:
         body: the coin.
         rules: floor and ending.
         chi: restitution of the touch, and of those beside it.
         y: state at the touch, (13,).
-        part: size of the changes, relative to the coin's scales; the Euler parameters keep norm 1.
+        part: size of the changes, relative to the coin's scales.
     """
-    speed = speed_scale(body, y)
-    slopes = np.empty((_AFTER + STATE_SIZE, STATE_SIZE))
-    ends, moved = np.empty((2, _AFTER + STATE_SIZE)), np.empty(STATE_SIZE)
-    for column in range(STATE_SIZE):
-        size = (
-            body.radius
-            if column < 3
-            else speed
-            if column < 6
-            else 1.0
-            if column < 10
-            else speed / body.radius
-        )
-        change = part * size
-        for i in range(2):
-            copy_into(moved, y)
-            moved[column] += change if i == 0 else -change
-            normalise(moved)
-            touch_values(body, rules, chi, moved, ends[i])
-        for i in range(len(slopes)):
-            slopes[i, column] = (ends[0, i] - ends[1, i]) / (2 * change)
+    state, slopes = state_of(y), np.zeros((_AFTER + STATE_SIZE, STATE_SIZE))
+    e, by_velocity, by_turn = state.attitude, np.empty((_VALUES, 3)), np.empty((_VALUES, 3))
+    _write_differences(body, rules, chi, y, part, by_velocity, by_turn)
+    point, _ = lowest_point(body, state.R[2], state.spin)
+    arm = subtract(point, body.center)
+    for k in range(3):
+        _write_column(body, by_velocity, _AXES[k], slopes[:, 3 + k])
+        _write_column(body, by_velocity, apply(state.R, cross(_AXES[k], arm)), slopes[:, 10 + k])
+        for column in (k, 3 + k, 10 + k):
+            slopes[_AFTER + column, column] += 1.0
+    slopes[0, 2] = 1.0
+    for j in range(4):
+        turn = turn_of(e, _PARAMETERS[j])
+        _write_column(body, by_turn, turn, slopes[:, 6 + j])
+        turned = quaternion_rate(e, turn)
+        for i in range(4):
+            slopes[_AFTER + 6 + i, 6 + j] = turned[i]
     return slopes
+
+
+@compiled
+def _write_differences(
+    body: Body, rules: Rules, chi: float, y: Array, part: float, by_velocity: Array, by_turn: Array
+) -> None:
+    """Write the differences of `_touch_values` by velocities along x, y, z, and by turns about ξ, η, ζ.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        chi: restitution.
+        y: state at the touch, (13,).
+        part: see `touch_differences`.
+        by_velocity: where the one go, (13, 3).
+        by_turn: where the other go, (13, 3).
+    """
+    speed, moved, ends = speed_scale(body, y), np.empty(STATE_SIZE), np.empty((2, _VALUES))
+    for column in range(6):
+        size = part * (speed if column < 3 else 1.0)
+        for i in range(2):
+            change = size if i == 0 else -size
+            copy_into(moved, y)
+            if column < 3:
+                moved[3 + column] += change
+            else:
+                turned = quaternion_rate(attitude_of(y), scale(change, _AXES[column - 3]))
+                for j in range(4):
+                    moved[6 + j] += turned[j]
+                normalise(moved)
+            _write_values(body, rules, chi, moved, ends[i])
+        for i in range(_VALUES):
+            slope = (ends[0, i] - ends[1, i]) / (2 * size)
+            if column < 3:
+                by_velocity[i, column] = slope
+            else:
+                by_turn[i, column - 3] = slope
+
+
+@compiled
+def _write_values(body: Body, rules: Rules, chi: float, y: Array, values: Array) -> None:
+    """Write gap, upward unit vector, velocity of A, impulse and the spin gained into `values`, (13,)."""
+    state = state_of(y)
+    up, struck = state.R[2], impact_of(body, rules, chi, state)
+    values[0] = gap(body, y[2], up)
+    for i in range(3):
+        values[_UP + i] = up[i]
+        values[_VELOCITY + i] = struck.contact_velocity[i]
+        values[_IMPULSE + i] = struck.impulse[i]
+        values[_GAINED + i] = struck.after.spin[i] - state.spin[i]
+
+
+@compiled
+def _write_column(body: Body, differences: Array, change: Vector, column: Array) -> None:
+    """Write what a change along three directions does to a touch and to the motion after it.
+
+    Args:
+        body: the coin.
+        differences: by those directions, (13, 3).
+        change: along them, (3,).
+        column: of the derivatives, (23,).
+    """
+    for i in range(_VALUES):
+        changed = dot((differences[i, 0], differences[i, 1], differences[i, 2]), change)
+        if i < _GAINED:
+            column[i] = changed
+            if i >= _IMPULSE:
+                column[_AFTER + 3 + i - _IMPULSE] = changed / body.mass
+        else:
+            column[_AFTER + 10 + i - _GAINED] = changed

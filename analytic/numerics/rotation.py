@@ -107,6 +107,17 @@ def quaternion_from_matrix(R: Matrix) -> Quaternion:
 
 
 @compiled
+def turn_of(e: Quaternion, change: Quaternion) -> Vector:
+    """Return the small turn that a change of the Euler parameters is, 2 e* ∘ de, body frame, (3,) [rad]."""
+    a, b, c, d = change
+    return (
+        2 * (e[0] * b - e[1] * a - e[2] * d + e[3] * c),
+        2 * (e[0] * c - e[2] * a - e[3] * b + e[1] * d),
+        2 * (e[0] * d - e[3] * a - e[1] * c + e[2] * b),
+    )
+
+
+@compiled
 def quaternion_rate(e: Quaternion, w: Vector) -> Quaternion:
     """Return ė = ½ e ∘ ω, the inverse of eq. (17) of Strzalko et al. 2008 on the unit sphere.
 

@@ -62,6 +62,12 @@ def apply_transposed(M: Matrix, a: Vector) -> Vector:
 
 
 @compiled
+def multiply(A: Matrix, B: Matrix) -> Matrix:
+    """Return A B."""
+    return apply_transposed(B, A[0]), apply_transposed(B, A[1]), apply_transposed(B, A[2])
+
+
+@compiled
 def solve(M: Matrix, b: Vector) -> Vector:
     """Solve M x = b for a 3 by 3 matrix M, by Cramer's rule."""
     column_0 = (M[0][0], M[1][0], M[2][0])

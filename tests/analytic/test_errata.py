@@ -5,7 +5,9 @@ import pytest
 
 from cointoss import analytic
 from cointoss.analytic.flight.equations_of_motion import derivative
-from cointoss.analytic.horizon.flight_tangent import flight_tangent
+from cointoss.analytic.flight.flying import sample
+from cointoss.analytic.flight.state_vector import state_of
+from cointoss.analytic.horizon.flight_tangent import FINE, flight_tangent
 from cointoss.analytic.numerics.euler_angles import axis_rotation
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.barriers import barrier
@@ -134,9 +136,10 @@ def test_forces_that_depend_on_the_attitude_alone_couple_eqs_21_and_22():
 
 def growth_of_spin(case, change, duration):
     """Give by how much a small change of the angular velocity has grown after a flight."""
-    y, changes = state_at_release(case.release), np.zeros((1, 13))
+    start, changes, states = state_at_release(case.release), np.zeros((1, 13)), np.empty((1, 13))
     changes[0, 10:] = change
-    flight_tangent(case.body, y, duration, changes, np.zeros(13, dtype=np.bool_))
+    sample(case.body, start, 0.0, np.array([duration]), states)
+    flight_tangent(case.body, state_of(start), state_of(states[0]), duration, FINE, changes)
     return np.linalg.norm(changes[0, 10:]) / np.linalg.norm(change)
 
 

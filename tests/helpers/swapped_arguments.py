@@ -24,7 +24,7 @@ from cointoss.models.state import State, state
 def swap_records(body: Body, rules: Rules, y: Array, now: State, A: ImpactPoint) -> None:
     """Swap coin, floor, state and contact point."""
     settled_face(rules, body, now)  # pyright: ignore[reportArgumentType]
-    fly(y, body, 1.0)  # pyright: ignore[reportArgumentType]
+    fly(y, body, 1.0, False)  # pyright: ignore[reportArgumentType]
     impulse(body, rules, A, 0.5)  # pyright: ignore[reportArgumentType]
     settled_face(body, rules, y)  # pyright: ignore[reportArgumentType]
 

@@ -1,12 +1,14 @@
 """Section 5.1: the transient Lyapunov exponents of free fall, by the tangent map of the flight."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from cointoss import analytic, coin_mj
-from cointoss.analytic.horizon.flight_tangent import flight_tangent
+from cointoss.analytic.flight.flying import sample
+from cointoss.analytic.flight.state_vector import state_of
+from cointoss.analytic.horizon.flight_tangent import FINE, flight_tangent
 from cointoss.analytic.toss import state_at_release
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.reproduction.declared import Data, Findings, declared
@@ -82,21 +84,28 @@ def _exponents(case: Scenario, times: Array) -> Array:
     Changes of the state, on the coin's scales, are carried by the tangent map and made orthogonal again at
     each of `times` (Benettin and others). They keep the quaternion's norm.
     """
-    body, y = case.body, state_at_release(case.release)
-    e0, e1, e2, e3 = y[6:10]
+    body, (release, *states) = case.body, _flown(case, [0.0, *times])
+    e0, e1, e2, e3 = release[6:10]
     basis = np.delete(np.eye(13), 9, axis=0)
     basis[6:9, 6:10] = [[-e1, e0, e3, -e2], [-e2, -e3, e0, e1], [-e3, e2, -e1, e0]]
     # Turned at random, so that each direction has a part of the fastest.
     Q = np.linalg.qr(np.random.default_rng(51).normal(size=(12, 12)))[0] @ basis
-    growth, before, rows = np.zeros(12), 0.0, []
-    for t in times:
+    growth, before, start, rows = np.zeros(12), 0.0, release, []
+    for t, end in zip(times, states, strict=True):
         changes = np.ascontiguousarray(Q * _sizes(body))
-        flight_tangent(body, y, t - before, changes, np.zeros(13, dtype=np.bool_))
+        flight_tangent(body, state_of(start), state_of(end), t - before, FINE, changes)
         orthogonal, R = np.linalg.qr((changes / _sizes(body)).T)
         growth += np.log(np.abs(np.diag(R)))
-        Q, before = orthogonal.T, t
+        Q, before, start = orthogonal.T, t, end
         rows.append(growth / t)
     return np.array(rows)
+
+
+def _flown(case: Scenario, times: Sequence[float]) -> Array:
+    """Return the states of a flight without a floor at these times [s], (n, 13)."""
+    states = np.empty((len(times), 13))
+    sample(case.body, state_at_release(case.release), 0.0, np.array(times), states)
+    return states
 
 
 def _power(exponents: Array, longest: float) -> float:
@@ -121,8 +130,8 @@ def _growth_of_tangent(case: Scenario, direction: Array) -> float:
     """Return the same by the tangent map."""
     changes = np.zeros((1, 13))
     changes[0, 10:] = direction
-    y = state_at_release(case.release)
-    flight_tangent(case.body, y, SHORT, changes, np.zeros(13, dtype=np.bool_))
+    start, end = map(state_of, _flown(case, [0.0, SHORT]))
+    flight_tangent(case.body, start, end, SHORT, FINE, changes)
     return float(np.log(np.linalg.norm(changes[0, 10:]) / np.linalg.norm(direction)) / SHORT)
 
 

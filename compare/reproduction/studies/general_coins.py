@@ -208,7 +208,7 @@ def replay_flights(body, rules, start_times, states, touches):
         touches: whether that is a touch, (n,); written to.
     """
     for i in range(len(states)):
-        _, touches[i], _ = fly(body, states[i], rules.max_time - start_times[i])
+        touches[i] = fly(body, states[i], rules.max_time - start_times[i], False).touches
 
 
 @compiled

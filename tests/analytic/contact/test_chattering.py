@@ -34,7 +34,7 @@ def at_the_end(case, speed, duration, *, bouncing):
     y = touching(body, speed)
     while bouncing and -evaluate_gap(body, state_of(y)).speed > 1e-3 * speed:
         hit(body, rules, rules.restitution, y, rows[0])
-        elapsed += fly(body, y, 1.0)[0]
+        elapsed += fly(body, y, 1.0, False).time
     hit(body, rules, 0.0, y, rows[0])
     friction, state = FloorFriction(rules.friction), np.empty((1, 13))
     end_mode(body, friction, Mode.TOUCHING, y)

@@ -5,7 +5,7 @@ import pytest
 
 from cointoss.analytic.events import run
 from cointoss.analytic.flight.closed_flight import fly_closed, sample_closed
-from cointoss.analytic.flight.flying import fly_with_graze, sample
+from cointoss.analytic.flight.flying import fly, sample
 from cointoss.analytic.flight.integrated_flight import sample_flight
 from cointoss.analytic.flight.state_vector import spin_of, state_of
 from cointoss.analytic.flight.touch_search import fly_by_steps
@@ -43,7 +43,7 @@ def test_a_flight_in_closed_form_is_the_integrated_one(thickness, air):
         case, start = draw_flight(rng, thickness, air)
         body, closed, integrated = case.body, start.copy(), start.copy()
         assert turns_in_closed_form(body, spin_of(start))
-        flown, touches, evaluated = fly_closed(body, closed, 10.0)
+        flown, touches, evaluated, *_ = fly_closed(body, closed, 10.0, False)
         other, also_touches, *_ = fly_by_steps(body, integrated, 10.0, True)
         assert touches
         assert also_touches
@@ -66,7 +66,7 @@ def test_samples_are_states_of_the_flight(air):
     for _ in range(20):
         case, start = draw_flight(rng, 2e-3, air)
         body, end = case.body, start.copy()
-        times = np.linspace(0, fly_closed(body, end, 10.0)[0], 9)
+        times = np.linspace(0, fly_closed(body, end, 10.0, False).time, 9)
         closed, integrated = np.empty((9, 13)), np.empty((9, 13))
         sample_closed(body, start, 0.0, times, closed)
         sample_flight(body, start, 0.0, times, integrated)
@@ -121,7 +121,7 @@ def test_no_touch_is_passed_and_no_minimum_is_below_half_of_the_graze(thickness,
     for _ in range(150):
         case, start = draw_flight(rng, thickness, air)
         body, end = case.body, start.copy()
-        flown, height = fly_with_graze(body, end, 10.0)
+        flown, *_, height = fly(body, end, 10.0, True)
         states = np.empty((1500, 13))
         sample(body, start, 0.0, flown * np.linspace(1e-6, 1 - 1e-6, len(states)), states)
         gaps = gaps_of(body, states)
@@ -168,7 +168,7 @@ def test_a_spin_that_dies_away_to_nothing_leaves_the_fall_right(spin):
     air, release = {"normal": 50.0, "tangential": 12.5}, {"position": [0, 0, 60.0], "angles": [0.3, 1.0, 0.2]}
     case = scenario(air=air, release={**release, "angular_velocity": [spin, spin / 2, 0.0]})
     closed, integrated = state_at_release(case.release), state_at_release(case.release)
-    flown, *_ = fly_closed(case.body, closed, 500.0)
+    flown, *_ = fly_closed(case.body, closed, 500.0, False)
     other, *_ = fly_by_steps(case.body, integrated, 500.0, False)
     assert flown == pytest.approx(other, rel=1e-12)
     assert closed[:10] == pytest.approx(integrated[:10], abs=1e-11)
@@ -178,7 +178,7 @@ def test_a_coin_released_upright_on_the_floor_touches_it_at_once():
     release = {"position": [0, 0, ZLOTY["radius"]], "angles": [0.3, np.pi / 2, 0.2]}
     case = scenario(release={**release, "angular_velocity": [20.0, 10.0, 5.0]})
     y = state_at_release(case.release)
-    flown, touches, _ = fly_closed(case.body, y, 1.0)
+    flown, touches, *_ = fly_closed(case.body, y, 1.0, False)
     assert (flown, touches) == (0.0, True)
     assert abs(evaluate_gap(case.body, state_of(y)).gap) < 1e-13 * case.body.radius
 
@@ -189,6 +189,6 @@ def test_a_flight_that_is_cut_short_keeps_its_velocity():
     for duration in np.concatenate([10.0 ** np.arange(-15, 0), np.linspace(1e-12, 3e-12, 40)]):
         y = np.zeros(13)
         y[2], y[5], y[6], y[10] = 1.2, -2.0, 1.0, 20.0
-        assert fly_closed(body, y, duration)[0] == duration
+        assert fly_closed(body, y, duration, False).time == duration
         assert y[5] == pytest.approx(-2.0, abs=1.1 * 9.81 * duration + 1e-15)
         assert y[5] < -1.99 or duration > 1e-3

@@ -4,15 +4,14 @@ import numpy as np
 import pytest
 
 from cointoss.analytic.events import run
-from cointoss.analytic.flight.integrated_flight import accepted_step, first_step, sample_flight
-from cointoss.analytic.horizon.flight_tangent import flight_tangent
+from cointoss.analytic.flight.flying import sample
+from cointoss.analytic.flight.state_vector import state_of
+from cointoss.analytic.horizon.flight_tangent import COARSE, FINE, flight_tangent
 from cointoss.analytic.horizon.sensitivity import event_tangent
-from cointoss.analytic.numerics.tableau import STAGES
-from cointoss.analytic.numerics.tolerances import STEP_ERROR
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.laws import ContactLaw
 from cointoss.models.scenario import Scenario
-from tests.helpers.draws import AIR, IMPERFECT, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 SIZES = np.array([1e-2, 1e-2, 1e-2, *[1.0] * 7, *[50.0] * 3])
 """Of the components of a state: length, speed, attitude, spin."""
@@ -24,22 +23,18 @@ THICKNESSES_AND_OFFSETS = [
 ]
 
 
-def flown(case: Scenario, start: np.ndarray, duration: float) -> tuple[np.ndarray, np.ndarray]:
-    """Give the state at the end of a flight and its tangent map."""
-    y, changes = start.copy(), np.eye(13)
-    flight_tangent(case.body, y, duration, changes, np.zeros(13, dtype=bool))
-    return y, changes.T
+def flown(case: Scenario, start: np.ndarray, duration: float) -> np.ndarray:
+    """Give the state at the end of a flight."""
+    states = np.empty((1, 13))
+    sample(case.body, start, 0.0, np.array([duration]), states)
+    return states[0]
 
 
-def by_steps(case: Scenario, start: np.ndarray, duration: float) -> np.ndarray:
-    """Give the state at the end of a flight by Runge-Kutta steps."""
-    y, stages, y_new, elapsed = start.copy(), np.empty((STAGES, 13)), np.empty(13), 0.0
-    dt = first_step(case.body, y)
-    while elapsed < duration:
-        made, dt = accepted_step(case.body, y, min(dt, duration - elapsed), STEP_ERROR, stages, y_new)
-        y[:] = y_new
-        elapsed += made
-    return y
+def tangent_of(case: Scenario, start: np.ndarray, duration: float, accuracy: float = FINE) -> np.ndarray:
+    """Give the tangent map of a flight."""
+    changes, end = np.eye(13), flown(case, start, duration)
+    flight_tangent(case.body, state_of(start), state_of(end), duration, accuracy, changes)
+    return changes.T
 
 
 def directions(start: np.ndarray) -> np.ndarray:
@@ -51,49 +46,59 @@ def directions(start: np.ndarray) -> np.ndarray:
     return rows
 
 
+def strayed(case: Scenario, start: np.ndarray, duration: float, accuracy: float) -> list[float]:
+    """Give how far the tangent map is off central differences of the flight, of each change's growth."""
+    tangent, small, off = tangent_of(case, start, duration, accuracy), 1e-5, []
+    for change in directions(start):
+        ends = [flown(case, start + sign * small * change, duration) for sign in (1, -1)]
+        difference = (ends[0] - ends[1]) / (2 * small) / SIZES
+        off.append(np.abs((tangent @ change) / SIZES - difference).max() / np.abs(difference).max())
+    return off
+
+
 @pytest.mark.parametrize(("thickness", "offset"), THICKNESSES_AND_OFFSETS)
 @pytest.mark.parametrize("air", [{}, AIR])
 def test_a_flight_s_tangent_map_is_its_derivative(thickness, offset, air):
-    rng = np.random.default_rng(41)
+    """To what the differences err by, or as coarsely as the horizon wants it, or nearly so."""
     coin = {**ZLOTY, "thickness": thickness, "center_of_mass": offset}
-    case = scenario(coin=coin, air=air, release=draw_release(rng))
-    start, duration, small = state_at_release(case.release), 0.2, 1e-5
-    end, tangent = flown(case, start, duration)
-    states = np.empty((1, 13))
-    sample_flight(case.body, start, 0.0, np.array([duration]), states)
-    assert end == pytest.approx(by_steps(case, start, duration), abs=1e-14)
-    assert end == pytest.approx(states[0], abs=1e-12), "Runge-Kutta steps and the power series"
-    for change in directions(start):
-        ends = [flown(case, start + sign * small * change, duration)[0] for sign in (1, -1)]
-        difference = (ends[0] - ends[1]) / (2 * small)
-        assert (tangent @ change) / SIZES == pytest.approx(difference / SIZES, abs=1e-5)
+    case = scenario(coin=coin, air=air, release=draw_release(np.random.default_rng(41)))
+    start = state_at_release(case.release)
+    assert max(strayed(case, start, 0.2, FINE)) < 1e-6
+    assert max(strayed(case, start, 0.2, COARSE)) < 3 * COARSE
+
+
+def test_the_steps_of_the_tangent_map_are_of_the_fourth_order():
+    case = scenario(
+        coin={**ZLOTY, "center_of_mass": PAPER_OFFSET},
+        air=AIR,
+        release=draw_release(np.random.default_rng(4)),
+    )
+    start = state_at_release(case.release)
+    exact = tangent_of(case, start, 0.2)
+    errors = [
+        np.abs((tangent_of(case, start, 0.2, accuracy) - exact) / SIZES[:, None]).max()
+        for accuracy in (1.6e-2, 1e-3)
+    ]
+    assert 11 < errors[0] / errors[1] < 22
 
 
 @pytest.mark.parametrize("exponent", [0.5, 1.0])
-def test_where_air_takes_quadratures_the_growth_is_known_to_a_thousandth(exponent):
-    """Its steps are coarse; the flights that are compared take those of the engine."""
-    coin = IMPERFECT
+def test_where_air_takes_quadratures_the_growth_is_known_as_well(exponent):
+    coin = {**ZLOTY, "center_of_mass": PAPER_OFFSET}
     air = {"normal": 2.0, "tangential": 0.5, "exponent": exponent}
     case = scenario(coin=coin, air=air, release=draw_release(np.random.default_rng(41)))
-    start, duration, small = state_at_release(case.release), 0.4, 1e-5
-    _, tangent = flown(case, start, duration)
-    for change in directions(start)[3::4]:
-        ends = [by_steps(case, start + sign * small * change, duration) for sign in (1, -1)]
-        difference = (ends[0] - ends[1]) / (2 * small) / SIZES
-        grown = np.abs(difference).max()
-        # What the horizon needs; measured: up to 1.6e-4.
-        assert (tangent @ change) / SIZES == pytest.approx(difference, abs=1e-3 * grown)
+    assert max(strayed(case, state_at_release(case.release), 0.4, COARSE)) < 3 * COARSE
 
 
 def test_the_tangent_map_of_a_coin_that_does_not_turn_is_a_fall():
     """A change of velocity grows with time, one of the place stays, one of the spin turns the coin."""
     case = scenario(release={"angles": [0.3, 0.7, 0.2], "velocity": [0.1, 0.2, 0.3]})
     start, duration = state_at_release(case.release), 0.25
-    _, tangent = flown(case, start, duration)
+    tangent = tangent_of(case, start, duration)
     expected = np.eye(6)
     expected[:3, 3:] = duration * np.eye(3)
     assert tangent[:6, :6] == pytest.approx(expected, abs=1e-14)
-    assert np.all(tangent[:6, 6:] == 0)
+    assert tangent[:6, 6:] == pytest.approx(np.zeros((6, 7)), abs=1e-14)
     assert tangent[10:, 10:] == pytest.approx(np.eye(3), abs=1e-14)
     a, b, c, d = start[6:10]
     turn = np.array([[-b, -c, -d], [a, -d, c], [d, a, -b], [-c, b, a]]) / 2
@@ -104,9 +109,9 @@ def test_the_tangent_map_of_a_coin_that_does_not_turn_is_a_fall():
 def test_a_flight_shrinks_volumes_as_the_air_s_drag_says(air):
     """Liouville: without air volumes of states are kept; with b = 0 they shrink by the drag's trace."""
     rng = np.random.default_rng(42)
-    case = scenario(coin=IMPERFECT, air={**air}, release=draw_release(rng))
+    case = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}, air={**air}, release=draw_release(rng))
     body, start, duration = case.body, state_at_release(case.release), 0.2
-    end, tangent = flown(case, start, duration)
+    end, tangent = flown(case, start, duration), tangent_of(case, start, duration)
     before, after = directions(start), directions(end)
     # On the sphere of quaternions both ends have an orthonormal base of three.
     volumes = np.linalg.lstsq(after.T, tangent @ before.T, rcond=None)[0]

@@ -7,8 +7,13 @@ import pytest
 
 from cointoss import analytic
 from cointoss.analytic.events import EventLog, run
-from cointoss.analytic.horizon import horizon
-from cointoss.analytic.horizon.horizon import IMPULSE_ERROR, TIME_ERROR, trusted_impacts
+from cointoss.analytic.horizon.horizon import (
+    IMPULSE_ERROR,
+    TIME_ERROR,
+    TOUCH_COST,
+    ErrorsMade,
+    trusted_impacts,
+)
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.records import Impacts
 from cointoss.models.scenario import Scenario
@@ -102,14 +107,13 @@ def test_neither_of_two_neighbouring_tosses_trusts_the_impact_at_which_they_part
     assert trusted_up_to_it >= 5
 
 
-def test_larger_errors_shorten_the_horizon(monkeypatch):
+def test_larger_errors_shorten_the_horizon():
     case = draw_toss(np.random.default_rng(53), 4)
     toss = run(case.body, case.rules, state_at_release(case.release))
-    trusted: list[int] = []
-    for factor in (1, 1e2, 1e4, 1e8):
-        monkeypatch.setattr(horizon, "STEP_ERROR", 1e-15 * factor)
-        monkeypatch.setattr(horizon, "TURN_ERROR", 3e-15 * factor)
-        trusted.append(trusted_impacts(case.body, case.rules, toss))
+    trusted = [
+        trusted_impacts(case.body, case.rules, toss, ErrorsMade(1e-15 * factor, 3e-15 * factor))
+        for factor in (1, 1e2, 1e4, 1e8)
+    ]
     assert trusted == sorted(trusted, reverse=True)
     assert trusted[0] > trusted[1] > trusted[2] > trusted[3] >= 0
 
@@ -126,12 +130,15 @@ def test_a_coin_kept_flat_by_symmetry_is_trusted_to_its_end():
     assert tilted.trusted_impacts == 0
 
 
-def test_errors_are_carried_through_so_much_turning_and_no_impact_after_it_is_trusted(monkeypatch):
+def test_errors_are_carried_through_so_many_steps_and_no_impact_after_them_is_trusted():
+    """A coin that hardly turns takes few between its touches."""
     case = scenario(release={"angular_velocity": [0, 0, 5.0]}, ending={"max_impacts": 8})
     log = run(case.body, case.rules, state_at_release(case.release))
-    assert trusted_impacts(case.body, case.rules, log) == 8
-    monkeypatch.setattr(horizon, "MOST_CARRIED", 4.5 * horizon.TOUCH_COST + 33 * log.rows["time"][3])
-    assert trusted_impacts(case.body, case.rules, log) == 4
+    few = [ErrorsMade(most_carried=touches * 2 * TOUCH_COST) for touches in (0, 3, 100)]
+    trusted = [trusted_impacts(case.body, case.rules, log, made) for made in few]
+    assert trusted[0] == 0
+    assert 2 <= trusted[1] < 6
+    assert trusted[2] == 8
 
 
 def test_a_coin_that_falls_for_a_thousand_seconds_is_not_trusted_beyond_what_takes_seconds():
