@@ -18,7 +18,7 @@ from cointoss.models.errors import require_type
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.reading import ScenarioSource, scenario_of
-from cointoss.models.records import IMPACT_ROW
+from cointoss.models.records import IMPACT_ROW, UnsupportedError
 from cointoss.models.releases import Releases, check_releases
 from cointoss.models.stages import stage
 from cointoss.models.tiles import Tile, toss_in_tiles
@@ -27,7 +27,9 @@ TILE = 8
 """Most tosses that a thread makes at a time."""
 
 
-def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Settings = MANY) -> Outcomes:
+def toss_many(
+    scenario: ScenarioSource, releases: Releases, *, settings: Settings = MANY, horizon: bool = False
+) -> Outcomes:
     """Toss the coin once from each release, by the event loop of `toss`.
 
     Each toss is that of `toss` with the same settings, to the bit. By default they are coarser than those of
@@ -37,12 +39,13 @@ def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Setting
         scenario: what to toss, or its path or name; its own release is not used.
         releases: the states at time 0.
         settings: how MuJoCo realises the floor, and how finely it steps.
+        horizon: whether to find how many impacts can be trusted; this engine does so for `toss` alone.
 
     Returns:
         How each toss ended, in the order of `releases`. The paths are not kept.
 
     Raises:
-        UnsupportedError: as `toss`.
+        UnsupportedError: as `toss`; and for a horizon.
         ValueError: for a release that a scenario with this coin and air would refuse.
 
     Warns:
@@ -51,6 +54,8 @@ def toss_many(scenario: ScenarioSource, releases: Releases, *, settings: Setting
     require_type("settings", settings, Settings, "coin_mj.Settings, such as coin_mj.MANY")
     described = scenario_of(scenario)
     require_supported(described, settings=settings)
+    if horizon:
+        raise UnsupportedError("horizon = True: accepted by the MuJoCo engine: False, or one toss at a time")
     warn_of_approximation(described)
     check_releases(described, releases)
     thickness, rules = shape_thickness(described), described.rules

@@ -7,6 +7,7 @@ import pytest
 
 from cointoss import analytic
 from cointoss.analytic.events import run
+from cointoss.analytic.horizon.horizon import trusted_impacts
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.hand import Hand
 from cointoss.models.laws import ContactLaw
@@ -47,6 +48,27 @@ def test_each_toss_is_that_of_toss_to_the_bit(law, air, thickness, offset, n):
     )
     drawn, releases = draw_releases(rng, n)
     assert_each_is_a_toss(case, drawn, analytic.toss_many(case, releases))
+
+
+@pytest.mark.parametrize("air", [{}, AIR])
+@pytest.mark.parametrize("contact", ["smooth", "coulomb"])
+def test_many_tosses_tell_how_far_each_can_be_trusted(air, contact):
+    """As the horizon of one toss does; and that changes no toss."""
+    floor = {"restitution": 0.5, "contact": contact, "friction": 0.3 * (contact == "coulomb")}
+    case = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}, air=air, floor=floor)
+    drawn, releases = draw_releases(np.random.default_rng(4), 12)
+    plain, outcomes = (analytic.toss_many(case, releases, horizon=horizon) for horizon in (False, True))
+    assert plain.trusted_impacts is None
+    assert outcomes.trusted_impacts is not None
+    starts = [state_at_release(Release.model_validate(release)) for release in drawn]
+    logs = [run(case.body, case.rules, start, analytic.MANY) for start in starts]
+    trusted = [trusted_impacts(case.body, case.rules, log) for log in logs]
+    assert outcomes.trusted_impacts.tolist() == trusted
+    assert max(trusted) > min(trusted) > 0
+    for name in ("outcome", "ending", "impacts", "last_face", "end_time"):
+        assert np.array_equal(getattr(plain, name), getattr(outcomes, name))
+    assert "trusted_impacts" in outcomes.to_dataframe()
+    assert "trusted_impacts" not in plain.to_dataframe()
 
 
 def test_the_endings_of_toss_are_all_met():

@@ -285,7 +285,7 @@ def called_in(function, *arguments):
 
 def test_linear_air_is_compiled_without_the_quadrature():
     """Beside it the few lines of linear air are slower: their calls are no longer inlined."""
-    linear, other = (called_in(fly, coin(b), np.zeros(13), 1.0) for b in (0.0, 0.5))
+    linear, other = (called_in(fly, coin(b), np.zeros(13), 1.0, False) for b in (0.0, 0.5))
     quadrature = {"wall_friction_change", "pressure_change"}
     assert "expand_flight" in linear
     assert quadrature <= other
