@@ -16,7 +16,7 @@ from cointoss.compare.sweep.layers import bytes_per_pixel
 from cointoss.compare.sweep.pixels import Pixels, toss_pixels
 from cointoss.compare.sweep.store import Map
 from cointoss.models.kernel.compiling import compiling
-from cointoss.models.records import Array, Outcome
+from cointoss.models.records import Outcome
 from cointoss.models.stages import stage
 
 Tosser = Callable[[Sweep, Iterable[Tile]], Iterator[tuple[Tile, Pixels]]]
@@ -82,11 +82,6 @@ def fractions_of(map_: Map) -> dict[Outcome, float]:
     for tile in map_.tiles:
         counts += np.bincount(map_.read(tile).ravel(), minlength=len(Outcome))
     return {outcome: float(counts[outcome] / counts.sum()) for outcome in Outcome}
-
-
-def margins_of(map_: Map) -> Array:
-    """Return the sizes of a map's margins, tile by tile, (n,)."""
-    return np.concatenate([np.abs(map_.read(tile, "margin")).ravel() for tile in map_.tiles])
 
 
 def size(tiles: Iterable[Tile]) -> int:
