@@ -15,8 +15,7 @@ def untrusted_pixels(sweep: Sweep, trusted_impacts: NDArray[np.int32]) -> NDArra
 
     Args:
         sweep: of the map.
-        trusted_impacts: of each pixel, (y, x).
+        trusted_impacts: of each pixel, below 0 where no toss was made yet, (y, x).
     """
-    if sweep.after is None:
-        return np.ones(trusted_impacts.shape, dtype=bool)
-    return trusted_impacts <= sweep.after
+    most = np.inf if sweep.after is None else sweep.after
+    return (trusted_impacts >= 0) & (trusted_impacts <= most)
