@@ -46,7 +46,7 @@ def basin(
         margin: also find the smallest change of this quantity of the release, such as "height", that changes
             a pixel's outcome; by the analytic engine only.
         trust: also count the impacts of each pixel that the engine's own errors cannot have changed, which
-            takes up to twice as long; by the analytic engine only.
+            takes two to three times as long; by the analytic engine only.
 
     Raises:
         ScenarioError: naming file, field, value and what is accepted.
