@@ -47,12 +47,18 @@ def describe_margins(quantity: "Quantity", margins: Array) -> str:
     )
 
 
-def describe_trust(sweep: Sweep, trusted_impacts: NDArray[np.int32]) -> str:
-    """Return the numbers of trusted impacts of a map, (y, x), and what they do not cover, as text."""
-    few, middle = np.quantile(trusted_impacts, [0.1, 0.5], method="lower")
-    share = 100 * untrusted_pixels(sweep, trusted_impacts).mean()
+def describe_trust(sweep: Sweep, counts: NDArray[np.int64]) -> str:
+    """Return as text what trusted impacts cover of a map.
+
+    Args:
+        sweep: what the map is made of.
+        counts: how many pixels have 0, 1, 2, ... trusted impacts, (n,).
+    """
+    few, middle = np.searchsorted(np.cumsum(counts), counts.sum() * np.array([0.1, 0.5]))
+    untrusted = untrusted_pixels(sweep, np.arange(len(counts), dtype=np.int32))
+    share = 100 * counts[untrusted].sum() / counts.sum()
     if sweep.after is None:
-        why = "no final outcome is covered by trusted impacts; --after N maps what is"
+        why = "trusted impacts cover the face at a touch (--after N), but no final outcome"
     else:
         why = f"impact {sweep.after + 1} is not trusted, or the toss ended before"
     return "\n".join(

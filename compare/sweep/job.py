@@ -134,9 +134,9 @@ def make(job: Job, say: Say) -> Iterator[str]:
                     margins = map_.whole("margin")
                     yield describe.describe_margins(sweep.quantity, margins)
                 if sweep.trust:
-                    trusted = map_.whole("trusted_impacts")
-                    yield describe.describe_trust(sweep, trusted)
-                    untrusted = untrusted_pixels(sweep, trusted)
+                    yield describe.describe_trust(sweep, run.trusted_counts(map_))
+                    if drawn:
+                        untrusted = untrusted_pixels(sweep, map_.whole("trusted_impacts"))
                 if drawn:
                     maps.append(map_.whole("outcome"))
     if not drawn:

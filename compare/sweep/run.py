@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.output.interruption import Interruption
@@ -82,6 +83,16 @@ def fractions_of(map_: Map) -> dict[Outcome, float]:
     for tile in map_.tiles:
         counts += np.bincount(map_.read(tile).ravel(), minlength=len(Outcome))
     return {outcome: float(counts[outcome] / counts.sum()) for outcome in Outcome}
+
+
+def trusted_counts(map_: Map) -> NDArray[np.int64]:
+    """Return how many pixels have 0, 1, 2, ... trusted impacts, without the whole map in memory, (n,)."""
+    counts = np.zeros(1, dtype=np.int64)
+    for tile in map_.tiles:
+        found = np.bincount(map_.read(tile, "trusted_impacts").ravel(), minlength=len(counts))
+        found[: len(counts)] += counts
+        counts = found
+    return counts
 
 
 def size(tiles: Iterable[Tile]) -> int:

@@ -182,7 +182,9 @@ def test_untrusted_pixels_are_hatched(page, tmp_path):
     longer = SCENARIO.replace("max_impacts = 4", "max_impacts = 20")
     path = small_map(tmp_path, "--trust", "--after", "6", size=(6, 4), text=longer)
     found = read_map(path)
-    assert 0 < found.untrusted.sum() < found.untrusted.size
+    untrusted = found.untrusted
+    assert untrusted is not None
+    assert 0 < untrusted.sum() < untrusted.size
     with serving(path) as explorer:
         page.open(explorer.url)
         page.wait_for("document.body.dataset.ready")
@@ -191,9 +193,9 @@ def test_untrusted_pixels_are_hatched(page, tmp_path):
         for row, column in product(range(4), range(6)):
             x, y = (round(at) for at in place_of(page, column, row, (6, 4)))
             around = shown[y - round(top) - 9 : y - round(top) + 9, x - round(left) - 9 : x - round(left) + 9]
-            assert (np.unique(around.reshape(-1, 3), axis=0).shape[0] > 1) == found.untrusted[row, column]
+            assert (np.unique(around.reshape(-1, 3), axis=0).shape[0] > 1) == untrusted[row, column]
         page.mouse("mouseMoved", *place_of(page, 2, 1, (6, 4)))
-        count = found.trusted_impacts[1, 2]
+        count = found.layers["trusted_impacts"][1, 2]
         page.wait_for(f"document.getElementById('readout').textContent.includes(', {count} of them trusted')")
     assert page.complaints() == []
 

@@ -15,6 +15,8 @@ from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 import cointoss
+from cointoss.compare.engines import Engine
+from cointoss.compare.sweep import grid
 from cointoss.compare.sweep.layers import NOT_TOSSED
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
@@ -74,11 +76,12 @@ def test_a_map_counts_the_trusted_impacts_of_each_pixel(trusted):
 
 
 def test_no_outcome_of_a_toss_that_ended_is_covered():
-    """At restitution 0.1 each impact of these tosses is trusted; the horizon does not cover what follows."""
+    """At restitution 0.1 all impacts of some tosses are trusted; the horizon does not cover what follows."""
     softer = cointoss.load("fig24a").replace("floor.restitution", 0.1)
     for after in (8, None):
         found = cointoss.basin(softer, x=X, y=Y, after=after, trust=True)
         ended = found.impacts <= 8
+        assert found.untrusted is not None
         assert np.any(ended & (found.trusted_impacts == found.impacts))
         assert np.all(found.untrusted[ended])
         assert after is not None or found.untrusted.all()
@@ -153,6 +156,18 @@ def test_a_plot_hatches_untrusted_pixels(found, trusted):
     assert trusted._repr_html_().count("<img") == 1
 
 
+def test_the_command_says_what_is_untrusted(trusted, tmp_path, monkeypatch):
+    monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, 10)
+    asked = ("--x", X, "--y", Y, "--after", 8, "--trust", "--out", tmp_path / "map.zarr")
+    answered = command("basin", "fig24a", *asked, "--png", tmp_path / "map.png", "--dpi", 40)
+    few, middle = np.quantile(trusted.trusted_impacts, [0.1, 0.5], method="inverted_cdf")
+    assert f"trusted    median {middle} impacts, a tenth at most {few}\n" in answered.stdout
+    share = 100 * trusted.untrusted.mean()
+    said = f"untrusted  {share:.3f} %: impact 9 is not trusted, or the toss ended before\n"
+    assert said in answered.stdout
+    assert (tmp_path / "map.png").exists()
+
+
 def contents(store):
     """Return the files of a map, their bytes by their names, but for the scenario, whose text is its own."""
     files = {part.relative_to(store): part.read_bytes() for part in store.rglob("*") if part.is_file()}
@@ -203,7 +218,7 @@ def test_a_pixel_without_its_trusted_impacts_is_tossed_again(trusted, tmp_path):
     asked = ("basin", "fig24a", "--x", X, "--y", Y, "--after", 8, "--out", path, "--resume")
     assert "another set of arrays (--trust)" in command(*asked).stderr
     assert command(*asked, "--trust").exit_code == 0
-    assert np.array_equal(cointoss.read_map(path).trusted_impacts, trusted.trusted_impacts)
+    assert np.array_equal(cointoss.read_map(path).layers["trusted_impacts"], trusted.trusted_impacts)
 
 
 def test_a_map_is_saved_over_no_other_and_only_whole(found, tmp_path):
