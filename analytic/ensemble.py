@@ -29,8 +29,8 @@ def toss_many(
         scenario: what to toss, or its path or name; its own release is not used.
         releases: the states at time 0.
         settings: of the engine.
-        horizon: whether to find how many impacts of each toss can be trusted, as `toss` does; tosses take up
-            to twice as long.
+        horizon: whether to find how many impacts of each toss can be trusted, as `toss` does; tosses take
+            two to three times as long.
 
     Returns:
         How each toss ended, in the order of `releases`. The paths are not kept.

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from cointoss.compare.basins.boundary import boundary_pixels
 from cointoss.compare.basins.maps import OutcomeCodes, outcome_map
 from cointoss.compare.basins.picture_style import Palette, PictureStyle
-from cointoss.compare.output.style import GREEN, GREY, GRID, OUTCOMES, PURPLE, SKY, VERMILION
+from cointoss.compare.output.style import GREEN, GREY, GRID, ORANGE, OUTCOMES, PALE, PURPLE, SKY, VERMILION
 from cointoss.models.records import Outcome
 
 PLAIN = PictureStyle()
@@ -29,6 +29,10 @@ _ENTRY_WIDTH = 1.2  # of the legend [inches]
 _MARGINS, _NO_MARGIN = "cividis", GRID
 _TAIL = 0.005
 """Of the margins at either end, so many share the last colour."""
+_HATCH_SIDE, _HATCH_PERIOD, _HATCH_WIDTH = 1200, 24, 6
+"""Of a hatch over a panel: dots along both sides, and the distance and the width of its lines [dots]."""
+_HATCH_TINT = 0.3
+"""Opacity between its lines, so that a single pixel is seen there too."""
 _SAME, _DIFFERENT = "#e6e9ed", VERMILION
 
 
@@ -44,6 +48,7 @@ _COLORS = {
     },
 }
 _BOUNDARY = {Palette.SAFE: "#000000", Palette.PAPER: VERMILION}
+_HATCH = {Palette.SAFE: "#FFFFFF", Palette.PAPER: ORANGE}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,6 +82,7 @@ def draw_map(
     y: MapAxis,
     style: PictureStyle = PLAIN,
     margins: Margins | None = None,
+    untrusted: NDArray[np.bool_] | None = None,
 ) -> Figure:
     """Draw a map, and beside it the sizes of its margins, where it has them.
 
@@ -86,11 +92,12 @@ def draw_map(
         y: of the rows.
         style: how to draw.
         margins: of its pixels.
+        untrusted: the pixels that the horizon of trust does not cover, (y, x), which are hatched.
     """
     size = PANEL_SIZE if margins is None else MARGINS_SIZE
     figure = Figure(figsize=style.size or size, layout="constrained")
     panels = figure.subplots(1, 1 if margins is None else 2, sharex=True, sharey=True, squeeze=False)[0]
-    patches = draw_panel(panels[0], outcomes, x=x, y=y, style=style)
+    patches = draw_panel(panels[0], outcomes, x=x, y=y, style=style, untrusted=untrusted)
     if margins is not None:
         patches += draw_margin_panel(panels[1], margins, x=x, y=y)
         panels[0].set_title("outcome")
@@ -101,13 +108,39 @@ def draw_map(
 
 
 def draw_panel(
-    axes: Axes, outcomes: ArrayLike, *, x: MapAxis, y: MapAxis, style: PictureStyle = PLAIN
+    axes: Axes,
+    outcomes: ArrayLike,
+    *,
+    x: MapAxis,
+    y: MapAxis,
+    style: PictureStyle = PLAIN,
+    untrusted: NDArray[np.bool_] | None = None,
 ) -> list[Patch]:
     """Draw a map into `axes`, and return what its legend has; see `draw_map` for the other arguments."""
     codes = outcome_map(outcomes)
     _show(axes, _colored(codes, style), x, y)
     axes.set_ylabel(_label(y))
-    return _outcome_patches([codes], style)
+    patches = _outcome_patches([codes], style)
+    if untrusted is None:
+        return patches
+    color = _HATCH[style.palette]
+    _show(axes, _hatch(untrusted, color), x, y, shape=codes.shape)
+    label = f"untrusted: {100 * untrusted.mean():.3g} %"
+    return [*patches, Patch(facecolor=PALE, edgecolor=color, hatch="/////", linewidth=0.6, label=label)]
+
+
+def _hatch(mask: NDArray[np.bool_], color: str) -> NDArray[np.uint8]:
+    """Return tint and lines of one colour over the pixels of a mask, transparent elsewhere, (side, side, 4).
+
+    The lines are dots and no paths, so that a mask of many single pixels costs no more than another.
+    """
+    dots = np.arange(_HATCH_SIDE)
+    rows, columns = (dots * count // _HATCH_SIDE for count in mask.shape)
+    lines = (dots[None, :] - dots[:, None]) % _HATCH_PERIOD < _HATCH_WIDTH
+    shades = np.zeros((_HATCH_SIDE, _HATCH_SIDE, 4), dtype=np.uint8)
+    shades[..., :3] = _rgb(color)
+    shades[..., 3] = mask[rows][:, columns] * np.where(lines, 255, round(255 * _HATCH_TINT))
+    return shades
 
 
 def draw_margin_panel(axes: Axes, margins: Margins, *, x: MapAxis, y: MapAxis) -> list[Patch]:
@@ -195,8 +228,16 @@ def _rgb(color: str) -> NDArray[np.uint8]:
     return np.round(255 * np.array(to_rgb(color))).astype(np.uint8)
 
 
-def _show(axes: Axes, colors: NDArray[np.uint8], x: MapAxis, y: MapAxis) -> None:
-    ny, nx = colors.shape[:2]
+def _show(
+    axes: Axes,
+    colors: NDArray[np.uint8],
+    x: MapAxis,
+    y: MapAxis,
+    *,
+    shape: tuple[int, ...] | None = None,
+) -> None:
+    """Draw colours, (rows, columns, 3 or 4), where the pixels of a map are, of their own shape by default."""
+    ny, nx = shape or colors.shape[:2]
     # Where several pixels share a dot, their colours are mixed: dropping some would make patterns.
     axes.imshow(
         colors, origin="lower", aspect="auto", extent=(*_ends(x, nx), *_ends(y, ny)), interpolation="auto"

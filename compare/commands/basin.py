@@ -66,6 +66,11 @@ class _Size(click.ParamType):
     help="Also map the smallest change of this quantity of the release that changes a pixel's outcome: "
     "height, velocity x (y, z), attitude about xi (eta, zeta) or spin about xi (eta, zeta).",
 )
+@click.option(
+    "--trust",
+    is_flag=True,
+    help="Also count the impacts of each pixel that the engine's own errors cannot have changed.",
+)
 @click.option("--resume", is_flag=True, help="Continue a map; begin it where there is none.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing map.")
 @click.option("--scheduler", metavar="ADDRESS", help="Address of a Dask scheduler on whose workers to toss.")
@@ -94,6 +99,7 @@ def basin(
     contact: str | None,
     after: int | None,
     margin: str | None,
+    trust: bool,
     resume: bool,
     overwrite: bool,
     scheduler: str | None,
@@ -117,9 +123,10 @@ def basin(
         raise click.UsageError("--engine and --compare: accepted: one of them")
     if contact is not None and not (both or engine == "mujoco"):
         raise click.UsageError(f"--contact {contact}: accepted: only beside --engine mujoco or --compare")
-    if margin is not None and (both or engine == "mujoco"):
+    if both or engine == "mujoco":
         beside = "--compare" if both else f"--engine {engine}"
-        raise click.UsageError(f"--margin {margin} {beside}: accepted: only by the analytic engine alone")
+        for asked in ([] if margin is None else [f"--margin {margin}"]) + ["--trust"] * trust:
+            raise click.UsageError(f"{asked} {beside}: accepted: only by the analytic engine alone")
     if report is not None and not both:
         raise click.UsageError(f"--report {report}: accepted: only beside --compare")
     if no_video and report is None:
@@ -147,6 +154,7 @@ def basin(
             contact=contact or "spring",
             after=after,
             margin=margin,
+            trust=trust,
             resume=resume,
             overwrite=overwrite,
             scheduler=scheduler,

@@ -41,7 +41,7 @@ def toss_tile(sweep: Sweep, level: int, column: int, row: int) -> NDArray[np.int
     y, rows = _values(sweep.y, level, row)
     outcome = np.full((SIDE, SIDE), NOT_TOSSED, dtype=np.int8)
     if x is not None and y is not None:
-        finer = replace(sweep, x=x, y=y, margin=None)
+        finer = replace(sweep, x=x, y=y, margin=None, trust=False)
         outcome[rows, columns] = toss_pixels(finer, Tile(slice(0, y.count), slice(0, x.count))).outcome
     return outcome
 

@@ -13,13 +13,14 @@ from cointoss.compare.sweep.outcome_map import OutcomeMap
 
 MOST_SHOWN = 4_000_000
 """Pixels on the page: of a larger map every second, third, ..."""
-_KINDS = {"outcome": "<i1", "impacts": "<i4", "margin": "<f4"}
+_KINDS = {"outcome": "<i1", "impacts": "<i4", "margin": "<f4", "trusted_impacts": "<i4", "untrusted": "<i1"}
 
 
 def page_map(found: OutcomeMap) -> dict[str, Any]:
     """Return a map as JSON; arrays row by row in base64, little-endian."""
     sweep = found.sweep
     margin = sweep.quantity if sweep.margin else None
+    untrusted = {} if found.untrusted is None else {"untrusted": found.untrusted}
     return {
         "name": found.name,
         "title": sweep.title,
@@ -34,7 +35,7 @@ def page_map(found: OutcomeMap) -> dict[str, Any]:
         "margin": margin and {"along": margin.name, "unit": margin.unit},
         "arrays": {
             name: b64encode(array.astype(_KINDS[name]).tobytes()).decode("ascii")
-            for name, array in found.layers.items()
+            for name, array in (found.layers | untrusted).items()
         },
     }
 

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from cointoss.compare.basins.agreement import Agreement, Share, agreement
 from cointoss.compare.sweep.grid import Sweep
+from cointoss.compare.sweep.untrusted import untrusted_pixels
 from cointoss.models.records import Array, Outcome
 
 if TYPE_CHECKING:
@@ -34,14 +35,36 @@ def describe_map(path: Path, sweep: Sweep, fractions: dict[Outcome, float]) -> s
     return "\n".join(lines)
 
 
-def describe_margins(quantity: "Quantity", sizes: Array) -> str:
-    """Return the sizes of the margins of a map along a quantity, (n,) [its unit], as text."""
-    unit, most = quantity.unit, quantity.factor
+def describe_margins(quantity: "Quantity", margins: Array) -> str:
+    """Return the sizes of the margins of a map along a quantity, (y, x) [its unit], as text."""
+    unit, most, sizes = quantity.unit, quantity.factor, np.abs(margins)
     few, middle = np.quantile(sizes, [0.1, 0.5], method="lower")
     return "\n".join(
         [
             f"margin     along {quantity.name}: median {middle:.3g} {unit}, a tenth below {few:.3g} {unit}",
             f"           {100 * np.isinf(sizes).mean():.3f} % without one up to {most:g} {unit}",
+        ]
+    )
+
+
+def describe_trust(sweep: Sweep, counts: NDArray[np.int64]) -> str:
+    """Return as text what trusted impacts cover of a map.
+
+    Args:
+        sweep: what the map is made of.
+        counts: how many pixels have 0, 1, 2, ... trusted impacts, (n,).
+    """
+    few, middle = np.searchsorted(np.cumsum(counts), counts.sum() * np.array([0.1, 0.5]))
+    untrusted = untrusted_pixels(sweep, np.arange(len(counts), dtype=np.int32))
+    share = 100 * counts[untrusted].sum() / counts.sum()
+    if sweep.after is None:
+        why = "trusted impacts cover the face at a touch (--after N), but no final outcome"
+    else:
+        why = f"impact {sweep.after + 1} is not trusted, or the toss ended before"
+    return "\n".join(
+        [
+            f"trusted    median {middle} impacts, a tenth at most {few}",
+            f"untrusted  {share:.3f} %: {why}",
         ]
     )
 

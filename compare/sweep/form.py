@@ -22,6 +22,8 @@ FORMAT = 1
 """Of a map, under the attribute `cointoss_map`."""
 MARGIN_ALONG = "margin_along"
 """Attribute of a map with margins: their quantity."""
+TRUST = "trust"
+"""Attribute of a map with counts of trusted impacts: true."""
 DESCRIPTION = "zarr.json"
 """Name of the file that describes a map, and of those that describe its arrays."""
 MOST_DESCRIBED = 1 << 20
@@ -35,6 +37,8 @@ _ATTRIBUTES = {
     "after": int | None,
     "versions": dict,
 }
+_OPTIONAL = {"margin": MARGIN_ALONG, "trusted_impacts": TRUST}
+"""Arrays that not every map has, and the attribute of one that has it."""
 _DEEPEST = 3
 """Folders within a map: an array, its chunks, those of a row."""
 
@@ -149,10 +153,13 @@ def _form(folder: Path) -> Form:
             raise FormError(f"attribute {name} = {shown(attributes[name])}")
     if not isinstance(attributes.get(MARGIN_ALONG, ""), str):
         raise FormError(f"attribute {MARGIN_ALONG} = {shown(attributes[MARGIN_ALONG])}")
+    if attributes.get(TRUST, True) is not True:
+        raise FormError(f"attribute {TRUST} = {shown(attributes[TRUST])}")
     for name, due in (("zarr_format", 3), ("node_type", "group")):
         if described.get(name) != due:
             raise FormError(f"{name} = {shown(described.get(name))}, not {due}")
-    arrays = _arrays(folder, described, has_margin=MARGIN_ALONG in attributes)
+    absent = {name for name, attribute in _OPTIONAL.items() if attribute not in attributes}
+    arrays = _arrays(folder, described, set(LAYERS) - absent)
     (x, columns), (y, rows) = (_axis(arrays, dimension) for dimension in ("x", "y"))
     shape = rows, columns
     tile = _sizes("outcome", arrays["outcome"].get("chunk_grid"), within=shape)
@@ -166,13 +173,12 @@ def _form(folder: Path) -> Form:
     return Form(attributes, x, y, (rows, columns), (tile[0], tile[1]))
 
 
-def _arrays(folder: Path, described: dict[str, Any], *, has_margin: bool) -> dict[str, dict[str, Any]]:
+def _arrays(folder: Path, described: dict[str, Any], layers: set[str]) -> dict[str, dict[str, Any]]:
     """Return the descriptions of the arrays by their names, of which the map has copies."""
     consolidated = described.get("consolidated_metadata")
     listed = consolidated.get("metadata") if isinstance(consolidated, dict) else None
     if not isinstance(listed, dict):
         raise FormError("consolidated_metadata missing")
-    layers = set(LAYERS) if has_margin else set(LAYERS) - {"margin"}
     if layers - set(listed):
         raise FormError(f"array {min(layers - set(listed))} missing")
     fields = set(listed) - layers

@@ -49,11 +49,15 @@ class Sweep:
     """The map shows the face at the touch after so many impacts; None for the final outcome."""
     margin: str | None = None
     """Name of the quantity of the release along which each pixel has its margin; with its axis in Greek."""
+    trust: bool = False
+    """Whether each pixel has its number of trusted impacts."""
     name: str = ""
     """What its scenario is called; empty for one without a name."""
 
     def __post_init__(self) -> None:
-        """Check that the axes, `after`, and the engine and `margin` go together; name the margin in full.
+        """Check that the axes, `after`, and the engine with what is asked of it go together.
+
+        The margin's quantity is named in full.
 
         Raises:
             SweepError: naming the field.
@@ -65,6 +69,8 @@ class Sweep:
             raise SweepError(
                 f"ending.max_impacts: an axis beside after = {self.after}; accepted: one of the two"
             )
+        if self.trust and self.engine != Engine.ANALYTIC:
+            raise SweepError(f"trust: by {self.engine}, accepted: only by the analytic engine")
         if self.margin is not None:
             if self.engine != Engine.ANALYTIC:
                 by = f"{self.margin!r} by {self.engine}"

@@ -30,6 +30,7 @@ def basin(
     engine: str = "analytic",
     after: int | None = None,
     margin: str | None = None,
+    trust: bool = False,
 ) -> OutcomeMap:
     """Toss a coin once for each pair of values of two fields, on all cores, and return the map.
 
@@ -44,6 +45,8 @@ def basin(
         after: show the face at the touch after so many impacts; by default the final outcome.
         margin: also find the smallest change of this quantity of the release, such as "height", that changes
             a pixel's outcome; by the analytic engine only.
+        trust: also count the impacts of each pixel that the engine's own errors cannot have changed, which
+            takes two to three times as long; by the analytic engine only.
 
     Raises:
         ScenarioError: naming file, field, value and what is accepted.
@@ -53,6 +56,8 @@ def basin(
     for name, text, accepted in (("x", x, FORM), ("y", y, FORM), ("margin", margin or "", "text")):
         if not isinstance(text, str):
             raise SweepError(f"{name}: {text!r}, accepted: {accepted}")
+    if not isinstance(trust, bool):
+        raise SweepError(f"trust: {trust!r}, accepted: True or False")
     found, tosser = scenario_of(scenario), Engine(engine)
     if after is not None and not (is_whole(after) and 0 <= after <= MOST_AFTER):
         raise SweepError(f"after: {after!r}, accepted: a whole number from 0 to {MOST_AFTER}")
@@ -64,6 +69,7 @@ def basin(
         settings=tosser.package.MANY,
         after=None if after is None else int(after),
         margin=margin,
+        trust=trust,
         name="" if isinstance(scenario, Scenario) else Path(scenario).stem,
     )
     ny, nx = sweep.shape

@@ -16,6 +16,7 @@ from cointoss.compare.sweep import describe, run, store
 from cointoss.compare.sweep.axes import Axis, parse_axis
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.pixels import check
+from cointoss.compare.sweep.untrusted import untrusted_pixels
 from cointoss.models.reading import parse
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import stage
@@ -46,6 +47,8 @@ class Job:
     """As of a `Sweep`."""
     margin: str | None
     """Name of the quantity along which margins are mapped."""
+    trust: bool
+    """Whether trusted impacts are counted."""
     resume: bool
     """Whether to go on with maps that are there."""
     overwrite: bool
@@ -78,6 +81,7 @@ def sweeps_of(job: Job, scenario: Scenario, x: Axis, y: Axis) -> dict[Path, Swee
             settings=replace(engine.package.MANY, **chosen.get(engine, {})),
             after=job.after,
             margin=job.margin,
+            trust=job.trust,
             name=Path(job.source).stem,
         )
         for path, engine in _engines_of(job).items()
@@ -116,7 +120,8 @@ def make(job: Job, say: Say) -> Iterator[str]:
     if job.resume:
         for path, sweep in sweeps.items():
             store.require_same(path, sweep)
-    drawn, maps, margins = len(sweeps) > 1 or job.png is not None, [], None
+    drawn, maps = len(sweeps) > 1 or job.png is not None, []
+    margins = untrusted = None
     for sweep in sweeps.values():
         check(sweep)
         run.require_room(sweep, job.out.parent, maps=len(sweeps), drawn=drawn)
@@ -126,8 +131,12 @@ def make(job: Job, say: Say) -> Iterator[str]:
                 run.fill(map_, sweep, tosser)
                 yield describe.describe_map(path, sweep, run.fractions_of(map_))
                 if sweep.margin is not None:
-                    yield describe.describe_margins(sweep.quantity, run.margins_of(map_))
-                    margins = map_.whole("margin") if drawn else None
+                    margins = map_.whole("margin")
+                    yield describe.describe_margins(sweep.quantity, margins)
+                if sweep.trust:
+                    yield describe.describe_trust(sweep, run.trusted_counts(map_))
+                    if drawn:
+                        untrusted = untrusted_pixels(sweep, map_.whole("trusted_impacts"))
                 if drawn:
                     maps.append(map_.whole("outcome"))
     if not drawn:
@@ -139,7 +148,7 @@ def make(job: Job, say: Say) -> Iterator[str]:
         yield describe.describe_agreement(describe.measure(*maps))
     if job.png is not None:
         with stage("drawing the picture"):
-            drawn_map = show.png_of(maps, first, job.style, margins=margins)
+            drawn_map = show.png_of(maps, first, job.style, margins=margins, untrusted=untrusted)
             with written_whole(job.png) as aside:
                 aside.write_bytes(drawn_map)
         yield f"picture    {job.png}"

@@ -3,6 +3,7 @@
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.grid import Sweep
@@ -10,11 +11,12 @@ from cointoss.models.labelled import meanings_of
 from cointoss.models.records import Outcome
 
 NOT_TOSSED = -1
-"""What `outcome` and `impacts` hold where no toss was made yet."""
+"""What `outcome` and the counts hold where no toss was made yet."""
 LAYERS: dict[str, tuple[type[np.number], float]] = {
     "outcome": (np.int8, NOT_TOSSED),
     "impacts": (np.int32, NOT_TOSSED),
     "margin": (np.float64, np.nan),
+    "trusted_impacts": (np.int32, NOT_TOSSED),
 }
 """Types of the arrays over both axes, and what they hold where no toss was made."""
 
@@ -38,7 +40,18 @@ def layers_of(sweep: Sweep) -> dict[str, Layer]:
         found = f"smallest change of the release's {sweep.margin} that was found to change the outcome"
         about = f"{found}; infinite: none up to 1 SI unit"
         attributes["margin"] = {"long_name": about, "units": sweep.quantity.unit}
+    if sweep.trust:
+        upto = "" if sweep.after is None else f" up to touch {sweep.after + 1}"
+        about = f"number of leading impacts{upto} that the engine's own errors cannot have changed"
+        attributes["trusted_impacts"] = {"long_name": about}
     return {name: Layer(*LAYERS[name], about) for name, about in attributes.items()}
+
+
+def holds_tosses(name: str, values: NDArray[Any]) -> NDArray[np.bool_]:
+    """Return where an array of a map, by its name, holds what a toss gave."""
+    if name == "outcome":
+        return np.isin(values, list(Outcome))
+    return ~np.isnan(values) if name == "margin" else values >= 0
 
 
 def bytes_per_pixel(sweep: Sweep) -> int:

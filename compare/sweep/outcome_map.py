@@ -18,6 +18,7 @@ from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.layers import NOT_TOSSED, axis_attributes, layers_of
 from cointoss.compare.sweep.pixels import Pixels
+from cointoss.compare.sweep.untrusted import untrusted_pixels
 from cointoss.models import notebook
 from cointoss.models.records import Array, Outcome
 
@@ -45,6 +46,9 @@ class OutcomeMap:
     """Number of impacts, or -1, (ny, nx)."""
     margin: Array | None = None
     """The smallest change of `sweep.margin` that was found to change the outcome, (ny, nx)."""
+    trusted_impacts: NDArray[np.int32] | None = None
+    """Number of leading impacts, up to the touch that is shown, that the engine's own errors cannot have
+    changed, or -1, (ny, nx)."""
     stride: int = 1
     """Every so many-th pixel of the sweep is here, along both axes."""
 
@@ -79,6 +83,15 @@ class OutcomeMap:
         return self.sweep.y.values[:: self.stride]
 
     @cached_property
+    def untrusted(self) -> NDArray[np.bool_] | None:
+        """The pixels whose face or outcome the trusted impacts do not cover, (ny, nx), where they are known.
+
+        Of the face at touch n + 1, one is covered where n + 1 impacts are trusted. The outcome of a toss that
+        ended before is not covered, nor is any final outcome: the horizon of trust ends with the last impact.
+        """
+        return None if self.trusted_impacts is None else untrusted_pixels(self.sweep, self.trusted_impacts)
+
+    @cached_property
     def shares(self) -> dict[str, float]:
         """The share of the pixels that each outcome has, and those not tossed yet, of what there is."""
         codes, counts = np.unique(self.outcome, return_counts=True)
@@ -110,7 +123,8 @@ class OutcomeMap:
             return notebook.shares_picture(self.shares)
         from cointoss.compare.sweep.show import png_of
 
-        drawn = png_of([self.outcome], self.sweep, PictureStyle(dpi=_HTML_DPI), margins=self.margin)
+        style = PictureStyle(dpi=_HTML_DPI)
+        drawn = png_of([self.outcome], self.sweep, style, margins=self.margin, untrusted=self.untrusted)
         about = escape(f"map of the outcome: {self._size}")
         return f'<img alt="{about}" src="data:image/png;base64,{b64encode(drawn).decode()}">'
 
@@ -151,7 +165,7 @@ class OutcomeMap:
         palette: str = "safe",
         boundaries: bool = False,
     ) -> "Axes":
-        """Draw the outcomes, or the margins where the map has them.
+        """Draw the outcomes, hatched where the trusted impacts do not cover them, or the margins.
 
         Args:
             ax: where to draw, by default in a new figure of pyplot.
@@ -178,9 +192,8 @@ class OutcomeMap:
         from cointoss.compare.sweep.show import draw_layer
 
         axes = axes_or_new(ax)
-        draw_layer(
-            axes, drawn[layer], self.sweep, PictureStyle(palette=Palette(palette), boundaries=boundaries)
-        )
+        style = PictureStyle(palette=Palette(palette), boundaries=boundaries)
+        draw_layer(axes, drawn[layer], self.sweep, style, untrusted=self.untrusted)
         return axes
 
     def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:

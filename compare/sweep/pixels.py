@@ -42,6 +42,8 @@ class Pixels(NamedTuple):
     """Number of impacts, (y, x)."""
     margin: Array | None = None
     """As of a `Margin`, (y, x); None where none is asked for."""
+    trusted_impacts: NDArray[np.int32] | None = None
+    """As of an `Outcomes`, (y, x); None where they are not asked for."""
 
 
 class Group(NamedTuple):
@@ -67,18 +69,21 @@ def toss_pixels(sweep: Sweep, tile: Tile) -> Pixels:
         name: np.empty((len(y), len(x)), layer.kind) for name, layer in layers_of(sweep).items()
     }
     for group in groups(sweep, y, x):
-        tossed = _toss(sweep, group.scenario, group.releases)
+        tossed = _toss(sweep, group.scenario, group.releases, horizon=sweep.trust)
         parts: dict[str, NDArray[Any]] = {"outcome": _shown(sweep, tossed), "impacts": tossed.impacts}
         if sweep.margin is not None:
             parts["margin"] = _margins(sweep, group)
+        if tossed.trusted_impacts is not None:
+            parts["trusted_impacts"] = tossed.trusted_impacts
         for name, part in parts.items():
             block = whole[name][group.rows, group.columns]
             block[:] = part.reshape(block.shape)
     return Pixels(**whole)
 
 
-def _toss(sweep: Sweep, scenario: Scenario, releases: Releases) -> Outcomes:
-    return sweep.engine.package.toss_many(scenario, releases, settings=sweep.settings)
+def _toss(sweep: Sweep, scenario: Scenario, releases: Releases, *, horizon: bool = False) -> Outcomes:
+    more: Any = {"horizon": True} if horizon else {}  # of the analytic engine alone
+    return sweep.engine.package.toss_many(scenario, releases, settings=sweep.settings, **more)
 
 
 def _shown(sweep: Sweep, tossed: Outcomes) -> NDArray[np.int8]:

@@ -13,7 +13,7 @@ from cointoss.compare.engines import Engine, EngineSettings
 from cointoss.compare.film.back_end import BackEndError, require_mujoco
 from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.errors import MapError, SweepError
-from cointoss.compare.sweep.form import MARGIN_ALONG, Form, read_form
+from cointoss.compare.sweep.form import MARGIN_ALONG, TRUST, Form, read_form
 from cointoss.compare.sweep.grid import Sweep, tiles
 from cointoss.compare.sweep.layers import LAYERS, layers_of
 from cointoss.compare.sweep.outcome_map import OutcomeMap
@@ -101,6 +101,7 @@ def _sweep(path: Path, form: Form, map_: Map) -> Sweep:
         settings=_settings(engine, attributes["engine_settings"]),
         after=after,
         margin=attributes.get(MARGIN_ALONG),
+        trust=TRUST in attributes,
         name=name,
     )
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.output.interruption import Interruption
@@ -16,7 +17,7 @@ from cointoss.compare.sweep.layers import bytes_per_pixel
 from cointoss.compare.sweep.pixels import Pixels, toss_pixels
 from cointoss.compare.sweep.store import Map
 from cointoss.models.kernel.compiling import compiling
-from cointoss.models.records import Array, Outcome
+from cointoss.models.records import Outcome
 from cointoss.models.stages import stage
 
 Tosser = Callable[[Sweep, Iterable[Tile]], Iterator[tuple[Tile, Pixels]]]
@@ -84,9 +85,14 @@ def fractions_of(map_: Map) -> dict[Outcome, float]:
     return {outcome: float(counts[outcome] / counts.sum()) for outcome in Outcome}
 
 
-def margins_of(map_: Map) -> Array:
-    """Return the sizes of a map's margins, tile by tile, (n,)."""
-    return np.concatenate([np.abs(map_.read(tile, "margin")).ravel() for tile in map_.tiles])
+def trusted_counts(map_: Map) -> NDArray[np.int64]:
+    """Return how many pixels have 0, 1, 2, ... trusted impacts, without the whole map in memory, (n,)."""
+    counts = np.zeros(1, dtype=np.int64)
+    for tile in map_.tiles:
+        found = np.bincount(map_.read(tile, "trusted_impacts").ravel(), minlength=len(counts))
+        found[: len(counts)] += counts
+        counts = found
+    return counts
 
 
 def size(tiles: Iterable[Tile]) -> int:

@@ -26,6 +26,7 @@ def png_of(
     style: PictureStyle,
     *,
     margins: Array | None = None,
+    untrusted: NDArray[np.bool_] | None = None,
 ) -> bytes:
     """Draw one map, or those of both engines and where they differ, with the numbers of their agreement.
 
@@ -34,6 +35,7 @@ def png_of(
         sweep: what the first was made of.
         style: how to draw.
         margins: of the first map, (y, x), to be drawn beside it.
+        untrusted: the pixels of a single map, (y, x), that are hatched.
 
     Returns:
         The content of a PNG file.
@@ -45,7 +47,7 @@ def png_of(
         figure = picture.draw_comparison(*maps, x=x, y=y, style=style, note=note)
     else:
         beside = None if margins is None else _margins(margins, sweep)
-        figure = picture.draw_map(maps[0], x=x, y=y, style=style, margins=beside)
+        figure = picture.draw_map(maps[0], x=x, y=y, style=style, margins=beside, untrusted=untrusted)
     figure.suptitle(_title(sweep), parse_math=False)
     drawn = io.BytesIO()
     figure.savefig(drawn, format="png", dpi=style.dpi)
@@ -88,7 +90,14 @@ def _title(sweep: Sweep) -> str:
     return "".join(char if ord(char) in glyphs else "?" for char in sweep.title + shown)
 
 
-def draw_layer(axes: Axes, layer: Array | NDArray[np.int8], sweep: Sweep, style: PictureStyle) -> None:
+def draw_layer(
+    axes: Axes,
+    layer: Array | NDArray[np.int8],
+    sweep: Sweep,
+    style: PictureStyle,
+    *,
+    untrusted: NDArray[np.bool_] | None = None,
+) -> None:
     """Draw the outcomes of a map, or its margins, into `axes`, with a legend below.
 
     Args:
@@ -96,10 +105,11 @@ def draw_layer(axes: Axes, layer: Array | NDArray[np.int8], sweep: Sweep, style:
         layer: outcomes, of int8, or margins, (y, x).
         sweep: what the map is made of.
         style: how to draw.
+        untrusted: the pixels of the outcomes that are hatched, (y, x).
     """
     x, y = _drawn(sweep.x), _drawn(sweep.y)
     if layer.dtype == np.int8:
-        shown = picture.draw_panel(axes, layer, x=x, y=y, style=style)
+        shown = picture.draw_panel(axes, layer, x=x, y=y, style=style, untrusted=untrusted)
     else:
         shown = picture.draw_margin_panel(axes, _margins(layer, sweep), x=x, y=y)
     picture.legend_below(axes, shown)

@@ -27,17 +27,17 @@ from cointoss.compare.sweep.form import (
     DESCRIPTION,
     FORMAT,
     MARGIN_ALONG,
+    TRUST,
     foreign_entry,
     is_map,
     read_form,
     require_chunk,
 )
 from cointoss.compare.sweep.grid import Sweep, Tile, tile_shape, tiles
-from cointoss.compare.sweep.layers import axis_attributes, layers_of
+from cointoss.compare.sweep.layers import LAYERS, axis_attributes, holds_tosses, layers_of
 from cointoss.compare.sweep.pixels import Pixels
 from cointoss.models.errors import ScenarioError
 from cointoss.models.reading import parse
-from cointoss.models.records import Outcome
 
 _WAYS_OUT = "accepted: a new name, or --overwrite"
 
@@ -71,18 +71,12 @@ class Map:
         if not (self.path / next(self._files("outcome", tile))).exists():
             return none
         try:
-            outcome, impacts = (self.read(tile, name) for name in ("outcome", "impacts"))
-            margin = self.read(tile, "margin") if self.has_margin else np.zeros(outcome.shape)
+            parts = [holds_tosses(name, self.read(tile, name)) for name in LAYERS if name in self.group]
         except OSError:
             raise
         except Exception:  # its checksum is wrong, or it breaks off; each codec fails in its own way
             return none
-        return np.isin(outcome, list(Outcome)) & (impacts >= 0) & ~np.isnan(margin)
-
-    @cached_property
-    def has_margin(self) -> bool:
-        """Whether it holds margins too."""
-        return "margin" in self.group
+        return np.logical_and.reduce(parts)
 
     def read(self, part: tuple[slice, ...], name: str = "outcome") -> NDArray[Any]:
         """Return a part of an array, such as a tile, (y, x)."""
@@ -100,10 +94,9 @@ class Map:
             UnwritableError: naming the map and why, for every error of the system.
         """
         with naming(self.path):
-            if pixels.margin is not None:
-                self._put("margin", tile, pixels.margin)
-            self._put("impacts", tile, pixels.impacts)
-            self._put("outcome", tile, pixels.outcome)
+            for name in reversed(LAYERS):  # the outcome last: where it is, the tile is whole
+                if (values := getattr(pixels, name)) is not None:
+                    self._put(name, tile, values)
 
     def _put(self, name: str, part: Tile, values: NDArray[Any]) -> None:
         """Write a part of a tile; a file around it that is damaged holds nothing else."""
@@ -261,6 +254,7 @@ def _attributes(sweep: Sweep, scenario_text: str) -> dict[str, Any]:
         "engine_settings": sweep.settings.as_dict(),
         "after": sweep.after,
         **({} if sweep.margin is None else {MARGIN_ALONG: sweep.margin}),
+        **({TRUST: True} if sweep.trust else {}),
         "versions": {**sweep.engine.versions, "zarr": version("zarr")},
     }
 
@@ -290,6 +284,7 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], sweep: Sweep) -> M
         (f"engine's settings, {json.dumps(settings)}", settings == sweep.settings.as_dict()),
         ("number of impacts (--after)", attributes["after"] == sweep.after),
         ("quantity of its margins (--margin)", attributes.get(MARGIN_ALONG) == sweep.margin),
+        ("set of arrays (--trust)", (TRUST in attributes) == sweep.trust),
         ("grid in x", is_axis(form.x, sweep.x)),
         ("grid in y", is_axis(form.y, sweep.y)),
         (f"versions, {json.dumps(made_by)}", made_by == sweep.engine.versions),

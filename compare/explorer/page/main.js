@@ -20,6 +20,7 @@ async function begin() {
   map = await loadMap();
   map.impacts = new Int32Array(bytes(map.arrays.impacts));
   map.margins = map.arrays.margin ? new Float32Array(bytes(map.arrays.margin)) : null;
+  map.trusted = map.arrays.trusted_impacts ? new Int32Array(bytes(map.arrays.trusted_impacts)) : null;
   describe();
   stage = makeStage(byId("played"), {
     hint: "Click a pixel of the map: both engines toss its coin.",
@@ -57,6 +58,7 @@ function describe() {
   const present = new Set(Int8Array.from(bytesOf(map.arrays.outcome)));
   const entries = Object.entries(map.outcomes).filter(([code]) => present.has(Number(code))).map(([, one]) => [one.label, one.color]);
   if (present.has(-1)) entries.push(["not tossed", "var(--untossed)"]);
+  if (map.trusted) entries.push(["untrusted", "repeating-linear-gradient(135deg, #fff 0 2px, var(--soft) 2px 6px)"]);
   byId("legend").replaceChildren(...entries.map(([label, color]) => {
     const item = document.createElement("li"), patch = document.createElement("i");
     patch.style.background = color;
@@ -76,9 +78,11 @@ function releaseText(place) {
 function placeText(place) {
   const parts = [releaseText(place)];
   if (place.code !== null) parts.push(place.code < 0 ? "not tossed" : map.outcomes[place.code].label);
-  if (place.index !== null && map.impacts[place.index] >= 0) parts.push(counted(map.impacts[place.index], "impact"));
+  if (place.index !== null && map.impacts[place.index] >= 0) parts.push(`${counted(map.impacts[place.index], "impact")}${trustText(place)}`);
   return `${parts.join("; ")}${marginText(place)}`;
 }
+
+const trustText = ({ index }) => (map.trusted && map.trusted[index] >= 0 ? `, ${map.trusted[index]} of them trusted` : "");
 
 function marginText(place) {
   if (!map.margins || place.index === null || Number.isNaN(map.margins[place.index])) return "";

@@ -8,6 +8,7 @@ const SIDE = 32; // of a tile, in its own pixels
 const FINEST = 30;
 const COARSE = 9; // a pixel larger than so many on the screen is cut finer
 const KEPT = 400; // tiles
+const HATCH = 7; // between two lines over untrusted pixels
 
 export function makeMap({ canvas, map, grid, tile, onHover, onChoose, onProblem }) {
   const { x, y } = map.axes, nx = x.count, ny = y.count;
@@ -38,6 +39,7 @@ export function makeMap({ canvas, map, grid, tile, onHover, onChoose, onProblem 
   }
 
   let base = picture(codes, columns, rows);
+  const untrusted = map.arrays.untrusted ? mask(Int8Array.from(bytes(map.arrays.untrusted)), columns, rows) : null;
 
   const frame = () => {
     const { width, height } = canvas.getBoundingClientRect();
@@ -92,12 +94,39 @@ export function makeMap({ canvas, map, grid, tile, onHover, onChoose, onProblem 
     const [bottom, top] = [down(-stride / 2, box), down((rows - 0.5) * stride, box)];
     pen.imageSmoothingEnabled = (right - left) / columns < 1;
     pen.drawImage(base, left, top, right - left, bottom - top);
+    if (untrusted) drawHatch(pen, box, [left, top, right - left, bottom - top]);
     const wanted = level(box);
     for (let each = 1; each <= wanted; each++) drawTiles(pen, box, each, each === wanted);
     if (grid) drawGrid(pen, box);
     if (chosen) drawCursor(pen, box, wanted);
     pen.restore();
     drawAxes(pen, box);
+  }
+
+  // A tint and lines over the untrusted pixels. Finer tiles are drawn over both: what they toss has no count.
+  function drawHatch(pen, box, place) {
+    const layer = document.createElement("canvas"), lines = layer.getContext("2d");
+    layer.width = canvas.width;
+    layer.height = canvas.height;
+    lines.setTransform(pen.getTransform());
+    lines.imageSmoothingEnabled = false;
+    lines.drawImage(untrusted, ...place);
+    lines.globalCompositeOperation = "source-in";
+    lines.strokeStyle = "#fff";
+    lines.lineWidth = 1.5;
+    lines.beginPath();
+    for (let from = box.left - box.height; from < box.left + box.width; from += HATCH) {
+      lines.moveTo(from, box.top + box.height);
+      lines.lineTo(from + box.height, box.top);
+    }
+    lines.stroke();
+    pen.globalAlpha = 0.3;
+    pen.drawImage(untrusted, ...place);
+    pen.globalAlpha = 1;
+    pen.save();
+    pen.setTransform(1, 0, 0, 1, 0, 0);
+    pen.drawImage(layer, 0, 0);
+    pen.restore();
   }
 
   function visible(level) {
@@ -308,6 +337,20 @@ export function makeMap({ canvas, map, grid, tile, onHover, onChoose, onProblem 
   });
   redraw();
   return { zoom: (factor) => zoom(factor, chosen?.u, chosen?.v), showWhole() { view = whole(); redraw(); }, choose };
+}
+
+// White where a value is 1, else transparent.
+function mask(values, width, height) {
+  const image = document.createElement("canvas");
+  image.width = width;
+  image.height = height;
+  const pen = image.getContext("2d"), pixels = pen.createImageData(width, height);
+  values.forEach((value, at) => {
+    const start = 4 * ((height - 1 - Math.floor(at / width)) * width + (at % width));
+    pixels.data.fill(255 * value, start, start + 4);
+  });
+  pen.putImageData(pixels, 0, 0);
+  return image;
 }
 
 function clearOutside(image, values) {

@@ -178,6 +178,28 @@ def test_the_margin_of_a_pixel_is_told(page, tmp_path):
     assert shown == pytest.approx(found, rel=5e-3)
 
 
+def test_untrusted_pixels_are_hatched(page, tmp_path):
+    longer = SCENARIO.replace("max_impacts = 4", "max_impacts = 20")
+    path = small_map(tmp_path, "--trust", "--after", "6", size=(6, 4), text=longer)
+    found = read_map(path)
+    untrusted = found.untrusted
+    assert untrusted is not None
+    assert 0 < untrusted.sum() < untrusted.size
+    with serving(path) as explorer:
+        page.open(explorer.url)
+        page.wait_for("document.body.dataset.ready")
+        assert "untrusted" in page.text("legend")
+        shown, (left, top, _, _) = picture(page, "map").astype(int), box(page, "map")
+        for row, column in product(range(4), range(6)):
+            x, y = (round(at) for at in place_of(page, column, row, (6, 4)))
+            around = shown[y - round(top) - 9 : y - round(top) + 9, x - round(left) - 9 : x - round(left) + 9]
+            assert (np.unique(around.reshape(-1, 3), axis=0).shape[0] > 1) == untrusted[row, column]
+        page.mouse("mouseMoved", *place_of(page, 2, 1, (6, 4)))
+        count = found.layers["trusted_impacts"][1, 2]
+        page.wait_for(f"document.getElementById('readout').textContent.includes(', {count} of them trusted')")
+    assert page.complaints() == []
+
+
 def test_each_sequence_has_its_own_horizon(page, server):
     page.open(server.url)
     toss = {"engine": "analytic", "sequence": "HHTTH", "trusted": 2, "count": 9, "path": {}}

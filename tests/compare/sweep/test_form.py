@@ -308,6 +308,8 @@ ATTRIBUTES = {
     NO_MAP: {"engine_settings": {"contact_tolerance": "1"}},
     "attribute engine_settings = ": {"engine_settings": []},
     "attribute margin_along = 7": {"margin_along": 7},
+    "attribute trust = 1": {"trust": 1},
+    "array trusted_impacts missing": {"trust": True},
     "(attribute cointoss_map is not 1)": {"cointoss_map": 2},
     "attribute versions missing": {"versions": GONE},
     'attribute versions = "1"': {"versions": "1"},

@@ -15,6 +15,8 @@ from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 import cointoss
+from cointoss.compare.engines import Engine
+from cointoss.compare.sweep import grid
 from cointoss.compare.sweep.layers import NOT_TOSSED
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
@@ -35,6 +37,11 @@ def margins():
     )
 
 
+@pytest.fixture(scope="module")
+def trusted():
+    return cointoss.basin("fig24a", x=X, y=Y, after=8, trust=True)
+
+
 def test_a_map_has_the_tosses_of_its_pixels(found):
     scenario = cointoss.load("fig24a")
     assert (found.x[0], found.x[-1], found.y[0], found.y[-1]) == (20, 60, 0.2, 0.6)
@@ -47,6 +54,37 @@ def test_a_map_has_the_tosses_of_its_pixels(found):
     with pytest.raises(ValueError, match="read-only"):
         found.outcome[0, 0] = 0
     assert cointoss.basin("fig24a", x=X, y=Y, after=np.int64(0)).sweep.after == 0  # pyright: ignore
+
+
+def test_a_map_counts_the_trusted_impacts_of_each_pixel(trusted):
+    scenario = cointoss.load("fig24a")
+    covered = 0
+    for row, height in enumerate(trusted.y):
+        for column, spin in enumerate(trusted.x):
+            changed = scenario.replace("release.angular_velocity.eta", spin, "release.position.z", height)
+            toss = cointoss.analytic.toss(changed)
+            assert trusted.trusted_impacts[row, column] == min(toss.trusted_impacts, 9)
+            is_covered = not trusted.untrusted[row, column]
+            assert is_covered == (toss.trusted_impacts >= 9)
+            if is_covered:
+                assert trusted.outcome[row, column] == toss.impacts.face[8]
+            covered += is_covered
+    assert 0 < covered < trusted.outcome.size
+    assert trusted.to_dataframe()["trusted_impacts"].tolist() == trusted.trusted_impacts.ravel().tolist()
+    about = trusted.to_xarray()["trusted_impacts"].attrs["long_name"]
+    assert about == "number of leading impacts up to touch 9 that the engine's own errors cannot have changed"
+
+
+def test_no_outcome_of_a_toss_that_ended_is_covered():
+    """At restitution 0.1 all impacts of some tosses are trusted; the horizon does not cover what follows."""
+    softer = cointoss.load("fig24a").replace("floor.restitution", 0.1)
+    for after in (8, None):
+        found = cointoss.basin(softer, x=X, y=Y, after=after, trust=True)
+        ended = found.impacts <= 8
+        assert found.untrusted is not None
+        assert np.any(ended & (found.trusted_impacts == found.impacts))
+        assert np.all(found.untrusted[ended])
+        assert after is not None or found.untrusted.all()
 
 
 def test_a_map_in_xarray_is_that_on_disk(found, tmp_path):
@@ -105,6 +143,31 @@ def test_a_plot_shows_the_map_or_its_margins(found, margins):
     pyplot.close(own)
 
 
+def test_a_plot_hatches_untrusted_pixels(found, trusted):
+    panel = trusted.plot(Figure().add_subplot())
+    picture, hatch = (image.get_array() for image in panel.get_images())
+    share = trusted.untrusted.mean()
+    rows, columns = (np.arange(len(hatch)) * count // len(hatch) for count in trusted.outcome.shape)
+    assert picture.shape[:2] == trusted.outcome.shape
+    assert np.array_equal(hatch[..., 3] > 0, trusted.untrusted[rows][:, columns])
+    assert panel.get_images()[0].get_extent() == panel.get_images()[1].get_extent()
+    assert panel.get_legend().get_texts()[-1].get_text() == f"untrusted: {100 * share:.3g} %"
+    assert len(found.plot(Figure().add_subplot()).get_images()) == 1
+    assert trusted._repr_html_().count("<img") == 1
+
+
+def test_the_command_says_what_is_untrusted(trusted, tmp_path, monkeypatch):
+    monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, 10)
+    asked = ("--x", X, "--y", Y, "--after", 8, "--trust", "--out", tmp_path / "map.zarr")
+    answered = command("basin", "fig24a", *asked, "--png", tmp_path / "map.png", "--dpi", 40)
+    few, middle = np.quantile(trusted.trusted_impacts, [0.1, 0.5], method="inverted_cdf")
+    assert f"trusted    median {middle} impacts, a tenth at most {few}\n" in answered.stdout
+    share = 100 * trusted.untrusted.mean()
+    said = f"untrusted  {share:.3f} %: impact 9 is not trusted, or the toss ended before\n"
+    assert said in answered.stdout
+    assert (tmp_path / "map.png").exists()
+
+
 def contents(store):
     """Return the files of a map, their bytes by their names, but for the scenario, whose text is its own."""
     files = {part.relative_to(store): part.read_bytes() for part in store.rglob("*") if part.is_file()}
@@ -113,8 +176,12 @@ def contents(store):
     return files, described, parse(text, "saved")
 
 
-def test_a_map_is_saved_as_the_command_saves_it(found, margins, tmp_path):
-    for name, made, more in (("plain", found, ()), ("margins", margins, ("--margin", "height"))):
+def test_a_map_is_saved_as_the_command_saves_it(found, margins, trusted, tmp_path):
+    for name, made, more in (
+        ("plain", found, ()),
+        ("margins", margins, ("--margin", "height")),
+        ("trusted", trusted, ("--after", 8, "--trust")),
+    ):
         path = tmp_path / f"{name}.zarr"
         assert made.save(str(path)) == path
         read = cointoss.read_map(str(path))
@@ -141,6 +208,17 @@ def test_a_part_of_a_map_is_saved_and_gone_on_with(found, tmp_path):
     assert cointoss.read_map(path).shares == {"not tossed": 1}
     command("basin", "fig24a", "--x", X, "--y", Y, "--out", path, "--resume")
     assert np.array_equal(cointoss.read_map(path).outcome, found.outcome)
+
+
+def test_a_pixel_without_its_trusted_impacts_is_tossed_again(trusted, tmp_path):
+    lost = trusted.trusted_impacts.copy()
+    lost[2, 3] = NOT_TOSSED
+    path = replace(trusted, trusted_impacts=lost).save(tmp_path / "m.zarr")
+    assert cointoss.read_map(path).shares["not tossed"] == 1 / 35
+    asked = ("basin", "fig24a", "--x", X, "--y", Y, "--after", 8, "--out", path, "--resume")
+    assert "another set of arrays (--trust)" in command(*asked).stderr
+    assert command(*asked, "--trust").exit_code == 0
+    assert np.array_equal(cointoss.read_map(path).layers["trusted_impacts"], trusted.trusted_impacts)
 
 
 def test_a_map_is_saved_over_no_other_and_only_whole(found, tmp_path):
@@ -181,6 +259,7 @@ y (1, 2) -> y: (1, 2), accepted: FIELD=START:STOP:N, such as
 x 'release.position.z=0.1:1:9' -> release.position.z: on both axes; accepted: two fields
 margin 3 -> margin: 3, accepted: text
 margin 'luck' -> margin luck: accepted: height
+trust 1 -> trust: 1, accepted: True or False
 """
 
 
@@ -190,6 +269,11 @@ def test_what_makes_no_map_is_refused(case):
     name, _, value = given.partition(" ")
     with pytest.raises(ValueError, match=re.escape(named)):
         cointoss.basin("fig24a", **{"x": X, "y": Y, name: ast.literal_eval(value)})
+
+
+def test_only_the_analytic_engine_counts_trusted_impacts():
+    with pytest.raises(cointoss.SweepError, match="trust: by mujoco, accepted: only by the analytic engine"):
+        cointoss.basin("fig24a", x=X, y=Y, engine="mujoco", trust=True)
 
 
 def test_two_axes_may_make_no_map_together():
