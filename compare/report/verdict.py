@@ -35,13 +35,11 @@ class Verdict(NamedTuple):
 
 def verdict_of(comparison: ComparedTosses) -> Verdict:
     """Return the verdict."""
+    certainly = ", and that is certain" if comparison.analytic.outcome_certain else ""
     if comparison.mujoco is None:
-        says = (
-            f"{_outcome(comparison.analytic)} by the analytic engine alone{_certainly(comparison.analytic)}"
-        )
+        says = f"{_outcome(comparison.analytic)} by the analytic engine alone{certainly}"
         return Verdict(_sentence(f"{says}: MuJoCo can't toss this coin on this floor"), Kind.ALONE)
     a, b = (_outcome(toss) for toss in comparison.both)
-    certainly = _certainly(comparison.analytic)
     says = f"{a} by both engines{certainly}" if a == b else f"{a} by the analytic engine, {b} by MuJoCo"
     agreement, kind = _agreement(comparison, a == b)
     return Verdict(_sentence(f"{says}: {agreement}"), kind)
@@ -137,10 +135,6 @@ def _outcome(toss: Toss) -> str:
     return {Outcome.EDGE: "on its edge", Outcome.PERPETUAL: "moving for ever"}.get(
         toss.outcome, str(toss.outcome)
     )
-
-
-def _certainly(toss: Toss) -> str:
-    return ", and that is certain" if toss.outcome_certain else ""
 
 
 def _all(count: int) -> str:

@@ -1,4 +1,4 @@
-"""Outcomes that are called certain: no change as small as rounding makes another, and ties are never certain."""
+"""Outcomes that are called certain: no rounding changes one, and ties are never certain."""
 
 import numpy as np
 import pytest
