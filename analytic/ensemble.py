@@ -3,7 +3,7 @@
 import numpy as np
 
 from cointoss.analytic.events import started_of, toss_coin
-from cointoss.analytic.horizon.horizon import ErrorsMade, count_trusted
+from cointoss.analytic.horizon.horizon import ErrorsMade, find_horizon
 from cointoss.analytic.settings import MANY, ContactLimits, Settings, contact_limits
 from cointoss.models.body import Body, Rules
 from cointoss.models.errors import require_type
@@ -78,4 +78,4 @@ def _trust_each(body: Body, rules: Rules, limits: ContactLimits, made: ErrorsMad
         tile.outcome[i], tile.ending[i], tile.impacts[i] = outcome.value, ending.value, n
         tile.end_time[i] = end_time
         tile.last_face[i] = rows[n - 1]["face"] if n > 0 else 0
-        tile.trusted_impacts[i] = count_trusted(body, rules, rows[:n], started_of(pieces), made)
+        tile.trusted_impacts[i] = find_horizon(body, rules, rows[:n], started_of(pieces), made).impacts

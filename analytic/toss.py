@@ -14,7 +14,8 @@ from cointoss.analytic.contact.sampling import floor_force, sample_contact
 from cointoss.analytic.events import EventLog, run
 from cointoss.analytic.flight.flying import sample
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
-from cointoss.analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR, trusted_impacts
+from cointoss.analytic.horizon.certainty import outcome_is_certain
+from cointoss.analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR, horizon_of
 from cointoss.analytic.settings import FINE, Settings
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.barriers import barrier, energy
@@ -104,6 +105,9 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     map of the toss, cannot change. Up to there time is good to `horizon.TIME_ERROR` and impulse to
     `horizon.IMPULSE_ERROR`.
 
+    `outcome_certain` says whether these errors cannot change the outcome either: neighbours of the toss end
+    as it does, see `cointoss.analytic.horizon.certainty`.
+
     Args:
         scenario: what to toss; or a file's path, or a name such as "fig24a".
         settings: of the engine.
@@ -121,7 +125,7 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
     body, rules, start = scenario.body, scenario.rules, state_at_release(scenario.release)
     answer = run(body, rules, start, settings)
     impacts, end = Impacts.from_rows(answer.rows), answer.start_states[-1]
-    trusted, contacts = trusted_impacts(body, rules, answer), answer.contacts
+    horizon, contacts = horizon_of(body, rules, answer), answer.contacts
     before_contact = np.sum(impacts.time < contacts[0, 0]) if len(contacts) else len(impacts)
     path = Pieces(
         body=body,
@@ -139,8 +143,9 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
         outcome=answer.outcome,
         ending=answer.ending,
         end_time=answer.end_time,
-        trusted_impacts=trusted,
-        trust_end=TrustEnd.of(trusted, before_contact=int(before_contact), count=len(impacts)),
+        outcome_certain=outcome_is_certain(body, rules, answer, horizon),
+        trusted_impacts=horizon.impacts,
+        trust_end=TrustEnd.of(horizon.impacts, before_contact=int(before_contact), count=len(impacts)),
         certificate=(
             Setting(name="flight", value=_flight(body)),
             Setting(name="error allowed in a step of flight, relative", value=settings.tolerance),

@@ -292,6 +292,8 @@ class Toss:
     ending: Ending
     end_time: float
     """When the toss stopped [s]."""
+    outcome_certain: bool
+    """Whether the engine's own errors can't change the outcome; False too where it does not find that out."""
     trusted_impacts: int
     """How many leading impacts the engine's own errors can't have changed; see the engine's `toss`."""
     trust_end: TrustEnd
@@ -310,6 +312,11 @@ class Toss:
     def sequence(self) -> str:
         """The faces up at the touches, as in "HHT"."""
         return self.impacts.sequence
+
+    @property
+    def outcome_told(self) -> str:
+        """The outcome, and whether it is certain, in words."""
+        return f"{self.outcome}, and that is certain" if self.outcome_certain else str(self.outcome)
 
     @property
     def trust_reason(self) -> str:
@@ -373,6 +380,7 @@ class Toss:
             "outcome": str(self.outcome),
             "ending": str(self.ending),
             "end_time": self.end_time,
+            "outcome_certain": self.outcome_certain,
             "trusted_impacts": self.trusted_impacts,
             "trust_end": str(self.trust_end),
             "sequence": self.sequence,

@@ -39,8 +39,8 @@ def pytest_collection_finish():
 
 @pytest.fixture
 def without_horizon(monkeypatch):
-    """Let no toss find out how many of its impacts to trust, which takes longer than the toss."""
-    monkeypatch.setattr(import_module("cointoss.analytic.toss"), "trusted_impacts", lambda *_: 0)
+    """Let no toss find out whether its outcome is certain, which takes longer than the toss."""
+    monkeypatch.setattr(import_module("cointoss.analytic.toss"), "outcome_is_certain", lambda *_: False)
     monkeypatch.setattr(import_module("cointoss.coin_mj.toss"), "SOFTER", ())
 
 

@@ -68,6 +68,16 @@ _AT_END = _AT_START + _TIME
 _AT_TOUCH = _AT_END + _TIME
 
 
+class Horizon(NamedTuple):
+    """How far a toss can be trusted."""
+
+    impacts: int
+    """So many leading ones."""
+    errors: Array
+    """Of the state after the last of them, from its height on, and of its time: vectors, one in each row, of
+    which the outer products add up to the covariance, (12, 12)."""
+
+
 class ErrorsMade(NamedTuple):
     """The errors that a toss makes, and how far they are carried."""
 
@@ -76,10 +86,11 @@ class ErrorsMade(NamedTuple):
     most_carried: float = MOST_CARRIED
 
 
-def trusted_impacts(body: Body, rules: Rules, toss: EventLog, made: ErrorsMade | None = None) -> int:
-    """Count the leading impacts whose time, impulse, face, place and order the engine's errors cannot change.
+def horizon_of(body: Body, rules: Rules, toss: EventLog, made: ErrorsMade | None = None) -> Horizon:
+    """Return how far a toss can be trusted.
 
-    None is counted after the first sustained contact, nor after the errors were carried through
+    Trusted are the leading impacts whose time, impulse, face, place and order the engine's errors cannot
+    change. None is counted after the first sustained contact, nor after the errors were carried through
     `MOST_CARRIED`.
 
     Args:
@@ -88,12 +99,12 @@ def trusted_impacts(body: Body, rules: Rules, toss: EventLog, made: ErrorsMade |
         toss: from its release on.
         made: the errors, by default those of this engine.
     """
-    return count_trusted(body, rules, toss.rows, toss.started, made or ErrorsMade())
+    return find_horizon(body, rules, toss.rows, toss.started, made or ErrorsMade())
 
 
 @compiled
-def count_trusted(body: Body, rules: Rules, rows: NDArray[Any], started: Started, made: ErrorsMade) -> int:
-    """Return `trusted_impacts`.
+def find_horizon(body: Body, rules: Rules, rows: NDArray[Any], started: Started, made: ErrorsMade) -> Horizon:
+    """Return the same as `horizon_of`.
 
     Args:
         body: the coin.
@@ -103,23 +114,23 @@ def count_trusted(body: Body, rules: Rules, rows: NDArray[Any], started: Started
         made: the errors.
     """
     errors, changes = np.zeros((_AT_TOUCH + 1, _TIME + 1)), np.empty((_TIME, STATE_SIZE))
-    y, carried = np.empty(STATE_SIZE), 0.0
+    y, carried, kept = np.empty(STATE_SIZE), 0.0, np.zeros((_TIME + 1, _TIME + 1))
     for i in range(len(rows)):
         row, start = rows[i], started.states[i]
         # A touch that chatters starts another mode before the next impact.
         if started.modes[i] != Mode.FLIGHT or started.times[i + 1] != row.time:
-            return i
+            return Horizon(i, kept)
         duration = row.time - started.times[i]
         carried += TOUCH_COST + _cost(body, start, duration)
         if carried > made.most_carried:
-            return i
+            return Horizon(i, kept)
         _write_touch(row, y)
         closed = turns_in_closed_form(body, spin_of(start))
         step = made.step * started.steps[i] * (CLOSED_FORM if closed else 1.0)
         turn = made.turn * started.steps[i] * (CLOSED_FORM if closed else 1.0)
         touch = touch_derivatives(body, rules, y)
         if not touch.closing < 0:
-            return i
+            return Horizon(i, kept)
         _fly_errors(body, start, y, duration, changes, errors)
         _write_made(body, start, y, (step, turn), changes, errors)
         found_to = CLOSED_TOUCH if closed else TOUCH
@@ -130,10 +141,11 @@ def count_trusted(body: Body, rules: Rules, rows: NDArray[Any], started: Started
         # The first touch has none before it with which to change places.
         in_order = sinking < started.grazes[i] / 2 and (i == 0 or delay <= LINEAR_RANGE * duration)
         if not (in_order and _holds(rules, row, touch, errors)):
-            return i
+            return Horizon(i, kept)
         _strike_errors(touch, errors)
         reflect_to_triangle(errors)
-    return len(rows)
+        kept[:] = errors[:_AT_START]
+    return Horizon(len(rows), kept)
 
 
 @compiled

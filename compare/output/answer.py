@@ -35,6 +35,7 @@ def as_json(toss: Toss) -> dict[str, Any]:
         "outcome": str(toss.outcome),
         "ending": str(toss.ending),
         "end_time": toss.end_time,
+        "outcome_certain": toss.outcome_certain,
         "trusted_impacts": toss.trusted_impacts,
         "trust_end": str(toss.trust_end),
         "trust_reason": toss.trust_reason,
@@ -103,7 +104,7 @@ def as_lines(toss: Toss, *, whole: bool = False) -> str:
     impacts, shown = toss.impacts, with_bar(toss.sequence, toss.trusted_impacts)
     lines = [
         f"engine    {toss.engine}",
-        f"outcome   {toss.outcome}",
+        f"outcome   {toss.outcome_told}",
         f"ending    {toss.ending}: {toss.ending.sentence}",
         f"end       {toss.end_time:.6f} s after {counted(len(impacts), 'impact')}",
         f"sequence  {shown if whole else shortened(shown)}",

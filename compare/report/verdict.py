@@ -35,11 +35,12 @@ class Verdict(NamedTuple):
 
 def verdict_of(comparison: ComparedTosses) -> Verdict:
     """Return the verdict."""
+    certainly = ", and that is certain" if comparison.analytic.outcome_certain else ""
     if comparison.mujoco is None:
-        says = f"{_outcome(comparison.analytic)} by the analytic engine alone"
+        says = f"{_outcome(comparison.analytic)} by the analytic engine alone{certainly}"
         return Verdict(_sentence(f"{says}: MuJoCo can't toss this coin on this floor"), Kind.ALONE)
     a, b = (_outcome(toss) for toss in comparison.both)
-    says = f"{a} by both engines" if a == b else f"{a} by the analytic engine, {b} by MuJoCo"
+    says = f"{a} by both engines{certainly}" if a == b else f"{a} by the analytic engine, {b} by MuJoCo"
     agreement, kind = _agreement(comparison, a == b)
     return Verdict(_sentence(f"{says}: {agreement}"), kind)
 

@@ -7,7 +7,7 @@ import pytest
 
 from cointoss import analytic
 from cointoss.analytic.events import run
-from cointoss.analytic.horizon.horizon import trusted_impacts
+from cointoss.analytic.horizon.horizon import horizon_of
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.hand import Hand
 from cointoss.models.laws import ContactLaw
@@ -62,7 +62,7 @@ def test_many_tosses_tell_how_far_each_can_be_trusted(air, contact):
     assert outcomes.trusted_impacts is not None
     starts = [state_at_release(Release.model_validate(release)) for release in drawn]
     logs = [run(case.body, case.rules, start, analytic.MANY) for start in starts]
-    trusted = [trusted_impacts(case.body, case.rules, log) for log in logs]
+    trusted = [horizon_of(case.body, case.rules, log).impacts for log in logs]
     assert outcomes.trusted_impacts.tolist() == trusted
     assert max(trusted) > min(trusted) > 0
     for name in ("outcome", "ending", "impacts", "last_face", "end_time"):

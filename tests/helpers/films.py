@@ -71,6 +71,7 @@ def made(
         outcome=outcome,
         ending=ending,
         end_time=end,
+        outcome_certain=False,
         trusted_impacts=0,
         trust_end=TrustEnd.ERRORS if impacts else TrustEnd.NONE,
         certificate=(),

@@ -12,7 +12,7 @@ from cointoss.analytic.horizon.horizon import (
     TIME_ERROR,
     TOUCH_COST,
     ErrorsMade,
-    trusted_impacts,
+    horizon_of,
 )
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.records import Impacts
@@ -100,7 +100,7 @@ def test_neither_of_two_neighbouring_tosses_trusts_the_impact_at_which_they_part
         if not apart.any():
             continue
         jumps += 1
-        trusted = [trusted_impacts(body, rules, toss) for toss in (a, b)]
+        trusted = [horizon_of(body, rules, toss).impacts for toss in (a, b)]
         assert max(trusted) <= np.argmax(apart)
         trusted_up_to_it += max(trusted) == np.argmax(apart)
     assert jumps >= 10
@@ -111,7 +111,7 @@ def test_larger_errors_shorten_the_horizon():
     case = draw_toss(np.random.default_rng(53), 4)
     toss = run(case.body, case.rules, state_at_release(case.release))
     trusted = [
-        trusted_impacts(case.body, case.rules, toss, ErrorsMade(1e-15 * factor, 3e-15 * factor))
+        horizon_of(case.body, case.rules, toss, ErrorsMade(1e-15 * factor, 3e-15 * factor)).impacts
         for factor in (1, 1e2, 1e4, 1e8)
     ]
     assert trusted == sorted(trusted, reverse=True)
@@ -135,7 +135,7 @@ def test_errors_are_carried_through_so_many_steps_and_no_impact_after_them_is_tr
     case = scenario(release={"angular_velocity": [0, 0, 5.0]}, ending={"max_impacts": 8})
     log = run(case.body, case.rules, state_at_release(case.release))
     few = [ErrorsMade(most_carried=touches * 2 * TOUCH_COST) for touches in (0, 3, 100)]
-    trusted = [trusted_impacts(case.body, case.rules, log, made) for made in few]
+    trusted = [horizon_of(case.body, case.rules, log, made).impacts for made in few]
     assert trusted[0] == 0
     assert 2 <= trusted[1] < 6
     assert trusted[2] == 8

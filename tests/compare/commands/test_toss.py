@@ -19,7 +19,8 @@ def test_json_has_the_agreed_form():
     assert answered.exit_code == 0
     toss = json.loads(answered.stdout)
     of_toss = (
-        "engine sequence outcome ending end_time trusted_impacts trust_end trust_reason impacts contacts"
+        "engine sequence outcome ending end_time outcome_certain trusted_impacts trust_end trust_reason "
+        "impacts contacts"
     )
     assert list(toss) == [*of_toss.split(), "scenario", "settings", "versions"]
     limited = load("fig24a").replace("ending.max_impacts", 3)

@@ -1,0 +1,76 @@
+"""Outcomes that are called certain: no rounding changes one, and ties are never certain."""
+
+import numpy as np
+import pytest
+
+from cointoss import analytic
+from cointoss.analytic.events import run
+from cointoss.analytic.horizon.certainty import outcome_is_certain
+from cointoss.analytic.horizon.horizon import horizon_of
+from cointoss.analytic.settings import MANY
+from cointoss.analytic.toss import state_at_release
+from cointoss.compare.reproduction.studies.endings import COINS, draw_toss
+from cointoss.models.records import Outcome
+from tests.helpers.draws import ZLOTY, scenario
+
+ROUNDING, MOVED = 2e-15, 6
+"""The size of changes to a release, relative, and how many of them are tried."""
+
+
+@pytest.mark.parametrize("count", [60, pytest.param(2000, marks=pytest.mark.slow)])
+def test_no_certain_outcome_changes_and_most_that_do_not_are_called_certain(count):
+    """Tosses of all coins, floors and airs; in truth an outcome is certain that no moved release changes."""
+    rng, called, in_truth = np.random.default_rng(12), 0, 0
+    for number in range(count):
+        _, case = draw_toss(rng, COINS[number % len(COINS)])
+        body, rules, start = case.body, case.rules, state_at_release(case.release)
+        toss = run(body, rules, start, MANY)
+        certain = outcome_is_certain(body, rules, toss, horizon_of(body, rules, toss))
+        moved = (start * (1 + ROUNDING * rng.normal(size=len(start))) for _ in range(MOVED))
+        same = all(run(body, rules, y, MANY).outcome == toss.outcome for y in moved)
+        assert same or not certain
+        called, in_truth = called + certain, in_truth + same
+    assert called > in_truth / 2 > count / 4
+
+
+TIES = {
+    # Its mass centre comes down exactly above its rim.
+    "thick": {
+        "coin": {"mass": 0.01, "radius": 0.0125, "thickness": 0.005},
+        "floor": {"restitution": 0.5},
+        "release": {"position": [0, 0, 0.2], "angles": [0, float(np.arctan2(2 * 0.0125, 0.005)), 0]},
+    },
+    # cos(90°) = 6e-17 decides its face.
+    "thin": {
+        "coin": {**ZLOTY, "thickness": 0.0},
+        "floor": {"restitution": 0.5},
+        "release": {"position": [0, 0, 0.2], "angles": [0, np.pi / 2, 0]},
+    },
+}
+
+
+@pytest.mark.parametrize("tie", TIES)
+def test_a_coin_that_lands_between_two_outcomes_is_not_certain(tie):
+    tossed = analytic.toss(scenario(**TIES[tie]))
+    assert tossed.outcome != Outcome.UNDECIDED
+    assert not tossed.outcome_certain
+    assert tossed.outcome_told == str(tossed.outcome)
+
+
+def test_a_coin_that_falls_flat_or_is_cut_short():
+    flat = analytic.toss(scenario(floor={"restitution": 0.5}, release={"position": [0, 0, 0.2]}))
+    assert flat.outcome_certain
+    assert flat.outcome_told == "heads, and that is certain"
+    cut = analytic.toss(scenario(release={"position": [0, 0, 0.2]}, ending={"max_impacts": 1}))
+    assert cut.outcome == Outcome.UNDECIDED
+    assert not cut.outcome_certain
+
+
+def test_a_catch_is_certain_unless_the_coin_is_upright_in_it():
+    """A coin that turns at ω from heads is upright when ω t = π/2."""
+    fall = 2 * 0.3 / 9.81
+    for angle, certain in ((1.0, True), (np.pi / 2, False)):
+        release = {"position": [0, 0, 0.5], "angular_velocity": [float(angle / fall**0.5), 0, 0]}
+        tossed = analytic.toss(scenario(release=release, ending={"caught": 0.2}))
+        assert tossed.outcome in (Outcome.HEADS, Outcome.TAILS)
+        assert tossed.outcome_certain == certain
