@@ -31,6 +31,7 @@ from cointoss.analytic.numerics.tolerances import TIME_STEP, TOUCH
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body, Rules
 from cointoss.models.geometry import FLAT_SINE
+from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import norm
 from cointoss.models.laws import ContactLaw
@@ -144,7 +145,8 @@ def find_horizon(body: Body, rules: Rules, rows: NDArray[Any], started: Started,
             return Horizon(i, kept)
         _strike_errors(touch, errors)
         reflect_to_triangle(errors)
-        kept[:] = errors[:_AT_START]
+        for j in range(_AT_START):
+            copy_into(kept[j], errors[j])
     return Horizon(len(rows), kept)
 
 

@@ -4,6 +4,7 @@ import ast
 import hashlib
 import json
 import os
+import threading
 from collections.abc import Iterator
 from contextlib import suppress
 from functools import cache
@@ -70,6 +71,8 @@ class _Imports:
     def __init__(self) -> None:
         self._known: dict[str, list[str]] | None = None
         self._has_new = False
+        # Python 3.11 counts how deep trees are for all threads together, and fails where two parse at once.
+        self._parsing = threading.Lock()
 
     def of(self, source: bytes, digest: str, package: str) -> list[str]:
         """Return what may be modules of the project among the names that a source in a package imports."""
@@ -77,7 +80,9 @@ class _Imports:
         if known is None:
             known = self._known = json.loads(read_kept(_kept_imports(), _ABOUT) or b"{}")
         if key not in known:
-            found = {name for node in ast.walk(ast.parse(source)) for name in _imported_by(node, package)}
+            with self._parsing:
+                tree = ast.parse(source)
+            found = {name for node in ast.walk(tree) for name in _imported_by(node, package)}
             known[key] = sorted(filter(part_of, found))
             self._has_new = True
         return known[key]
