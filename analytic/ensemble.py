@@ -39,6 +39,7 @@ def toss_many(
         ValueError: for a release that a scenario with this coin and air would refuse.
     """
     require_type("settings", settings, Settings, "analytic.Settings, such as analytic.MANY")
+    require_type("horizon", horizon, bool, "True or False")
     described = scenario_of(scenario)
     check_releases(described, releases)
     body, rules = described.body, described.rules

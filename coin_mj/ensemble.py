@@ -52,6 +52,7 @@ def toss_many(
         ApproximationWarning: as `toss`.
     """
     require_type("settings", settings, Settings, "coin_mj.Settings, such as coin_mj.MANY")
+    require_type("horizon", horizon, bool, "True or False")
     described = scenario_of(scenario)
     require_supported(described, settings=settings)
     if horizon:

@@ -10,8 +10,8 @@ import numpy as np
 from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.events import EventLog, run
 from cointoss.analytic.horizon.horizon import Horizon
-from cointoss.analytic.settings import MANY
-from cointoss.models.body import Body, Rules
+from cointoss.analytic.settings import Settings
+from cointoss.models.body import Body, Rules, is_to_be_caught
 from cointoss.models.records import Array, Outcome
 
 FAR = 30.0
@@ -20,6 +20,8 @@ LEAST = 1e-9
 """And so far at least, against the scales of the coin: as a step of sustained contact errs."""
 PAIRS = 2
 """Of neighbours, on opposite sides."""
+FOLLOWED = Settings(contact_steps=50_000)
+"""Neighbours are not followed through longer contacts, which would take seconds."""
 
 
 def outcome_is_certain(body: Body, rules: Rules, toss: EventLog, horizon: Horizon) -> bool:
@@ -34,7 +36,9 @@ def outcome_is_certain(body: Body, rules: Rules, toss: EventLog, horizon: Horizo
     if toss.outcome == Outcome.UNDECIDED:
         return False
     ended = toss.started.modes[horizon.impacts] == Mode.ENDED
-    first, rng = horizon.impacts - int(ended), np.random.default_rng(0)
+    # What passes a hand may do so on any flight.
+    first = 0 if is_to_be_caught(rules) else horizon.impacts - int(ended)
+    rng = np.random.default_rng(0)
     start, time = toss.start_states[first], toss.start_times[first]
     left = rules._replace(max_impacts=rules.max_impacts - first, max_time=rules.max_time - time)
     scales = _scales(body, start)
@@ -45,7 +49,7 @@ def outcome_is_certain(body: Body, rules: Rules, toss: EventLog, horizon: Horizo
         for side in (1.0, -1.0):
             y = start + side * change
             y[6:10] /= np.linalg.norm(y[6:10])
-            if not _ends_alike(run(body, left, y, MANY), toss, first):
+            if not _ends_alike(run(body, left, y, FOLLOWED), toss, first):
                 return False
     return True
 

@@ -61,6 +61,9 @@ LINEAR_RANGE = 1e-3
 """Tilt, closing speed and time of flight must be known to this part of theirs, so that the tangent map holds;
 the tilt's direction is the place on the rim."""
 
+NEAR_EDGE = 10 * FLAT_SINE
+"""A coin whose normal is within this of level touches as if upright, or might: which rim lands is open."""
+
 # An error vector has the state from its height on, and the time. A table has those carried from the impact
 # before, those made in a flight, as if at its start and as if at its end, and that of the touch.
 _FIRST, _TIME = 2, STATE_SIZE - 2
@@ -335,7 +338,7 @@ def _holds(rules: Rules, row: Any, touch: Touch, errors: Array) -> bool:
         in_place
         and (threshold == 0 or closing < abs(speed - threshold))
         and _size(errors, _TIME, _TIME + 1) <= TIME_ERROR
-        and _size_of(touch.up[2:], errors) < abs(up[2])
+        and _size_of(touch.up[2:], errors) < abs(up[2]) - NEAR_EDGE
         and closing <= LINEAR_RANGE * speed
         and _size_of(touch.impulse, errors) <= IMPULSE_ERROR * norm((S[0], S[1], S[2]))
     )

@@ -57,6 +57,14 @@ def test_a_coin_that_lands_between_two_outcomes_is_not_certain(tie):
     assert tossed.outcome_told == str(tossed.outcome)
 
 
+def test_a_hand_that_a_coin_leaves_is_not_certain_to_have_let_it_go():
+    """Released downwards at the height of the hand: the last digit decides whether it is caught at once."""
+    release = {"position": [0, 0, 0.05], "velocity": [0, 0, -1.0], "angles": [0, 2.08, 0]}
+    spin = {"angular_velocity": [-74, -70, -35]}
+    case = scenario(floor={"restitution": 0.9}, release={**release, **spin}, ending={"caught": 0.05})
+    assert not analytic.toss(case).outcome_certain
+
+
 def test_a_coin_that_falls_flat_or_is_cut_short():
     flat = analytic.toss(scenario(floor={"restitution": 0.5}, release={"position": [0, 0, 0.2]}))
     assert flat.outcome_certain

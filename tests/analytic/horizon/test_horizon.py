@@ -148,6 +148,16 @@ def test_a_coin_that_falls_for_a_thousand_seconds_is_not_trusted_beyond_what_tak
     assert 0 < tossed.trusted_impacts < len(tossed.impacts)
 
 
+@pytest.mark.parametrize("lean", [3.55e-15, 9.8e-15, 1.14e-14, 5e-14])
+def test_a_touch_so_near_to_upright_that_either_rim_may_land_is_not_trusted(lean):
+    """Its lowest point is taken under C up to 1e-14 rad: another impulse by half."""
+    coin = {"mass": 0.01, "radius": 0.0125, "thickness": 0.01}
+    release = {"position": [0, 0, 0.05], "angles": [0, np.pi / 2 + lean, 0]}
+    assert (
+        analytic.toss(scenario(coin=coin, floor={"restitution": 0.5}, release=release)).trusted_impacts == 0
+    )
+
+
 def test_a_flat_coin_that_turns_and_does_not_fall_is_not_trusted():
     """The whole face touches at once, and the gap has no rate."""
     release = {"position": [0, 0, 1e-3], "angular_velocity": [5.0, 0, 0]}
