@@ -2,7 +2,6 @@
 
 import os
 import sys
-from importlib.metadata import version as version_of
 from pathlib import Path
 
 HERE = Path(__file__).parent
@@ -10,16 +9,18 @@ MADE = HERE.parent / "out" / "docs"
 """What `make docs` computes for the site, and keeps for the next time."""
 sys.path[:0] = [str(HERE.parent), str(HERE / "extensions")]
 
+import cointoss  # noqa: E402  it lies in the folder above
+
 project = "cointoss"
 author = copyright = "The cointoss authors"
-version = release = version_of("cointoss")
+version = release = cointoss.__version__
 root_doc = "index"
 extensions = ["myst_nb", "sphinx_design", "sphinx.ext.autodoc", "docstrings", "pages"]
 exclude_patterns = ["extensions", "**.ipynb"]
 # Quotes stay as they are written.
 smartquotes_action = "D"
 nitpicky = True
-nitpick_ignore_regex = [("py:.*", r"numpy\..*")]
+nitpick_ignore_regex = [("py:.*", r"(numpy|collections\.abc)\..*")]
 
 html_theme = "furo"
 html_title = f"cointoss {release}"

@@ -1,14 +1,16 @@
 """The notebooks for Jupyter are those of the pages, which the site runs."""
 
 import re
-import runpy
+import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = sorted((DOCS / "examples").glob("*.md"))
-notebook_of = runpy.run_path(str(DOCS / "extensions" / "written.py"))["notebook_of"]
+sys.path.append(str(DOCS / "extensions"))
+notebook_of = import_module("written").notebook_of
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
