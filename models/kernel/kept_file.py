@@ -2,13 +2,28 @@
 
 import hashlib
 import os
+import pickle
 import uuid
 from pathlib import Path
+from typing import Any
 
 _DIGEST = hashlib.sha256().digest_size
 
 
-def read_kept(path: str | os.PathLike[str], about: str) -> bytes | None:
+def read_object(path: Path, about: str) -> Any:
+    """Return the pickled object that a file keeps, or None as `read_kept` does.
+
+    None too where it names what has gone: a folder of kept code outlives the sources whose types it names,
+    and pickle may raise any error then.
+    """
+    data = read_kept(path, about)
+    try:
+        return None if data is None else pickle.loads(data)
+    except Exception:
+        return None
+
+
+def read_kept(path: Path, about: str) -> bytes | None:
     """Return what a file keeps, or None where another user could have written it, or it keeps something else.
 
     A file begins with a digest, so that one whose bits have changed is as if it were missing.
@@ -18,7 +33,7 @@ def read_kept(path: str | os.PathLike[str], about: str) -> bytes | None:
         about: what is kept, as it was when it was written.
     """
     try:
-        with open(path, "rb") as file:  # noqa: PTH123  pathlib would take as long as the rest
+        with path.open("rb") as file:
             kept, described = file.read(), os.fstat(file.fileno())
     except OSError:
         return None
@@ -36,7 +51,7 @@ def write_kept(path: Path, about: str, data: bytes) -> None:
     """
     beside = path.with_name(f"{path.name}.{uuid.uuid4().hex}")
     try:
-        with open(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:  # noqa: PTH123
+        with os.fdopen(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
             os.fchmod(file.fileno(), 0o600)
             file.write(_digest(about, data) + data)
         beside.replace(path)

@@ -3,7 +3,6 @@
 import ast
 import hashlib
 import json
-import os
 import threading
 from collections.abc import Iterator
 from contextlib import suppress
@@ -135,9 +134,10 @@ def _hashed(module: str, home: Path) -> tuple[str, ...]:
 @cache
 def _file(module: str, home: Path) -> Path | None:
     """Return the file of a module of the project, None where there is none of this name."""
-    path = os.path.join(home, *module.split(".")[1:])  # noqa: PTH118  pathlib would take five times as long
-    files = (f"{path}.py", os.path.join(path, "__init__.py"))  # noqa: PTH118
-    return next((Path(file) for file in files if part_of(module) and os.path.isfile(file)), None)  # noqa: PTH113
+    if not part_of(module):
+        return None
+    path = home.joinpath(*module.split(".")[1:])
+    return next((file for file in (path.with_suffix(".py"), path / "__init__.py") if file.is_file()), None)
 
 
 @cache

@@ -4,7 +4,6 @@
 # pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
 # pyright: reportIncompatibleMethodOverride=false
 
-import pickle
 import uuid
 from contextlib import AbstractContextManager, suppress
 from pathlib import Path
@@ -19,7 +18,7 @@ from numba.core.runtime import rtsys
 
 from cointoss.models.kernel.code_cache import Locator, turn
 from cointoss.models.kernel.fork.callee_code import CalleeCode
-from cointoss.models.kernel.kept_file import read_kept, write_kept
+from cointoss.models.kernel.kept_file import read_object, write_kept
 
 
 class FunctionFiles(CompileResultCacheImpl):
@@ -135,7 +134,7 @@ class CodeFiles(IndexDataCacheFile):
     numba numbers the code's files, and two processes that compile at once may give one number to code for
     different arguments; then a third would run the one for the other.
 
-    Machine code is run as it is read: see `read_kept`.
+    Machine code is run as it is read: see `read_object`.
     """
 
     def load(self, key: Any) -> Any:
@@ -148,16 +147,8 @@ class CodeFiles(IndexDataCacheFile):
         return self._load(self._index_name) or {}
 
     def _load(self, name: str) -> Any:
-        """Return what a file keeps, or None where it is missing, damaged, or another's.
-
-        A function need not import the types of its arguments, so that its folder outlives them: what names a
-        type that has gone is of other sources, and pickle may raise any error.
-        """
-        try:
-            data = read_kept(Path(self._cache_path, name), self._about(name))
-            return None if data is None else pickle.loads(data)
-        except Exception:
-            return None
+        """Return what a file keeps, or None where it is missing, damaged, or another's."""
+        return read_object(Path(self._cache_path, name), self._about(name))
 
     def _about(self, name: str) -> str:
         """Return what a file keeps: for one name, one version of numba and one source."""

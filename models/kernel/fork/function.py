@@ -13,7 +13,7 @@ from cointoss.models.kernel.code_cache import cache_folder, is_kept, turn
 from cointoss.models.kernel.fork import numba_version
 from cointoss.models.kernel.fork.machine_code import Kept, MachineCode, processor
 from cointoss.models.kernel.fork.values import Passed, passed
-from cointoss.models.kernel.kept_file import read_kept, write_kept
+from cointoss.models.kernel.kept_file import read_object, write_kept
 from cointoss.models.kernel.sources import source_hash
 
 
@@ -118,9 +118,5 @@ class CompiledFunction:
 
 def _read(file: Path) -> Kept | None:
     """Return what a file keeps, or None where it is missing, damaged, another's, or of other sources."""
-    try:
-        data = read_kept(file, file.name)
-        kept = None if data is None else cast("Kept", pickle.loads(data))
-    except Exception:  # it names a type that has gone
-        return None
+    kept = cast("Kept | None", read_object(file, file.name))
     return kept if kept is not None and kept.can_be_loaded else None
