@@ -4,12 +4,12 @@ import os
 import sys
 from pathlib import Path
 
+import cointoss
+
 HERE = Path(__file__).parent
 MADE = HERE.parent / "out" / "docs"
 """What `make docs` computes for the site, and keeps for the next time."""
-sys.path[:0] = [str(HERE.parent), str(HERE / "extensions")]
-
-import cointoss  # noqa: E402  it lies in the folder above
+sys.path.insert(0, str(HERE / "extensions"))
 
 project = "cointoss"
 author = copyright = "The cointoss authors"
