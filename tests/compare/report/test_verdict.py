@@ -45,6 +45,7 @@ def compared(a, b, prefix, horizon):
 
 TOSSES = {
     "HHT": made("HHT"),
+    "sure": replace(made("HHT"), outcome_certain=True),
     "HTT": made("HTT", Outcome.TAILS),
     "HHTH": made("HHTH"),
     "TTT": made("TTT", Outcome.TAILS),
@@ -66,6 +67,11 @@ HHT HHT 3 3 AGREE
     Heads by both engines: they agree on all 3 impacts, as they must.
 HHT HHT 3 1 AGREE
     Heads by both engines: they agree on all 3 impacts. The first must agree; after that DECIDE
+sure HHT 3 1 AGREE
+    Heads by both engines, and that is certain: they agree on all 3 impacts. The first must agree; after that
+    DECIDE
+sure HTT 1 1 DIFFER
+    HEADS, TAILS: they agree on the first impact, as they must; after that DECIDE
 HHT HHTH 3 2 DIFFER
     Heads by both engines: they agree on the first 3 impacts. The first 2 must agree; after that DECIDE
 HHT HTT 1 1 DIFFER
