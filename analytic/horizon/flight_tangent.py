@@ -68,7 +68,7 @@ class Change(NamedTuple):
 
 
 class Linear(NamedTuple):
-    """The equations of a `Change` at a motion, but for what is a vector product."""
+    """What the rate of change of a `Change` depends on at a motion."""
 
     motion: Motion
     velocity_by_velocity: Matrix
@@ -79,8 +79,8 @@ class Linear(NamedTuple):
     """g u [m/s²]."""
 
 
-class Air(NamedTuple):
-    """The derivatives of what the air does, body frame: of its acceleration of C, and of the spin."""
+class AirDerivatives(NamedTuple):
+    """The derivatives of what the air does to the rates of U and ω, body frame."""
 
     velocity_by_velocity: Matrix
     velocity_by_spin: Matrix
@@ -120,7 +120,7 @@ def flight_tangent(
 
 
 @compiled
-def _step(body: Body, motion: Motion, air: Air, dt: float, seen: Array) -> Motion:
+def _step(body: Body, motion: Motion, air: AirDerivatives, dt: float, seen: Array) -> Motion:
     """Carry a motion and its changes, one in each row, (n, 12), through a step of Runge-Kutta's method.
 
     Args:
@@ -179,13 +179,13 @@ def change_rate(at: Linear, change: Change) -> Change:
 
 
 @compiled
-def _linear_at(body: Body, motion: Motion, air: Air) -> Linear:
-    """Return the equations at a motion; in linear air, those of `air` are the same at all."""
+def _linear_at(body: Body, motion: Motion, air: AirDerivatives) -> Linear:
+    """Return the equations at a motion; in linear air the derivatives `air` are the same at every one."""
     return _linear(body, motion, air if body.air.exponent is None else _air_at(body, motion))
 
 
 @compiled
-def _linear(body: Body, motion: Motion, air: Air) -> Linear:
+def _linear(body: Body, motion: Motion, air: AirDerivatives) -> Linear:
     """Return the equations at a motion, with the air there."""
     u, U, w = motion
     J = body.inertia
@@ -212,13 +212,13 @@ def _minus(A: Matrix, B: Matrix) -> Matrix:
 
 
 @compiled
-def _air_at(body: Body, motion: Motion) -> Air:
+def _air_at(body: Body, motion: Motion) -> AirDerivatives:
     """Return the derivatives of what the air does at a motion."""
     jacobian = np.empty((6, 6))
     write_jacobian(body, motion.velocity, motion.spin, jacobian)
     part, J_inverse = 1 / body.mass, body.inertia_inverse
     by_v, by_w = _block(jacobian, 0, 0), _block(jacobian, 0, 3)
-    return Air(
+    return AirDerivatives(
         (scale(part, by_v[0]), scale(part, by_v[1]), scale(part, by_v[2])),
         (scale(part, by_w[0]), scale(part, by_w[1]), scale(part, by_w[2])),
         multiply(J_inverse, _block(jacobian, 3, 0)),
@@ -252,7 +252,7 @@ def longest_step(turned: float, accuracy: float) -> float:
 
 
 @compiled
-def fastest(body: Body, motion: Motion, air: Air) -> float:
+def fastest(body: Body, motion: Motion, air: AirDerivatives) -> float:
     """Return the fastest rate of a motion: turning |ω| or wobbling |J ω|/J_ξ, and the air's [1/s]."""
     J_inverse, w = body.inertia_inverse, motion.spin
     easiest = max(J_inverse[0][0], J_inverse[1][1], J_inverse[2][2])

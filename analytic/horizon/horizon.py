@@ -60,7 +60,6 @@ step in air with b > 0 as much as the third number of others."""
 LINEAR_RANGE = 1e-3
 """Tilt, closing speed and time of flight must be known to this part of theirs, so that the tangent map holds;
 the tilt's direction is the place on the rim."""
-
 NEAR_EDGE = 10 * FLAT_SINE
 """A coin whose normal is within this of level touches as if upright, or might: which rim lands is open."""
 
@@ -130,13 +129,12 @@ def find_horizon(body: Body, rules: Rules, rows: NDArray[Any], started: Started,
             return Horizon(i, kept)
         _write_touch(row, y)
         closed = turns_in_closed_form(body, spin_of(start))
-        step = made.step * started.steps[i] * (CLOSED_FORM if closed else 1.0)
-        turn = made.turn * started.steps[i] * (CLOSED_FORM if closed else 1.0)
+        steps = started.steps[i] * (CLOSED_FORM if closed else 1.0)
         touch = touch_derivatives(body, rules, y)
         if not touch.closing < 0:
             return Horizon(i, kept)
         _fly_errors(body, start, y, duration, changes, errors)
-        _write_made(body, start, y, (step, turn), changes, errors)
+        _write_made(body, start, y, (steps * made.step, steps * made.turn), changes, errors)
         found_to = CLOSED_TOUCH if closed else TOUCH
         early = found_to * body.radius / touch.closing
         if closed:

@@ -16,29 +16,9 @@ from cointoss.analytic.events import EventLog
 from cointoss.analytic.flight.flying import fly
 from cointoss.analytic.flight.state_vector import STATE_SIZE, state_of
 from cointoss.analytic.horizon.flight_tangent import FINE, flight_tangent
-from cointoss.analytic.horizon.touch_derivatives import Touch, touch_derivatives
+from cointoss.analytic.horizon.touch_derivatives import touch_derivatives
 from cointoss.models.body import Body, Rules
 from cointoss.models.records import Array
-
-
-def flight_map(tangents: Array) -> Array:
-    """Return the map of a flight of fixed duration, (14, 14), from its `tangents`, one in a row, (13, 13)."""
-    return _with_time(tangents.T)
-
-
-def delay_of(touch: Touch) -> Array:
-    """Return the delay of a touch, a row that acts on a change at the touch's undisturbed time, (14,) [s]."""
-    return -np.append(touch.gap, 0) / touch.closing
-
-
-def touch_map(touch: Touch) -> Array:
-    """Return the map from a change at the touch's undisturbed time to that at its own, (14, 14)."""
-    return np.eye(STATE_SIZE + 1) + np.outer(np.append(touch.rate, 1), delay_of(touch))
-
-
-def impact_map(touch: Touch) -> Array:
-    """Return the map of the impact, (14, 14)."""
-    return _with_time(touch.after)
 
 
 def event_tangent(body: Body, rules: Rules, toss: EventLog, number: int) -> Array:
@@ -55,10 +35,13 @@ def event_tangent(body: Body, rules: Rules, toss: EventLog, number: int) -> Arra
     tangents = np.eye(STATE_SIZE)
     flight_tangent(body, state_of(start), state_of(y), duration, FINE, tangents)
     touch = touch_derivatives(body, rules, y)
-    return impact_map(touch) @ touch_map(touch) @ flight_map(tangents)
+    delay = -np.append(touch.gap, 0) / touch.closing
+    to_the_touch = np.eye(STATE_SIZE + 1) + np.outer(np.append(touch.rate, 1), delay)
+    return _with_time(touch.after) @ to_the_touch @ _with_time(tangents.T)
 
 
 def _with_time(of_state: Array) -> Array:
+    """Return a map of the state, (13, 13), as one of an event that keeps its time, (14, 14)."""
     of_event = np.eye(STATE_SIZE + 1)
     of_event[:STATE_SIZE, :STATE_SIZE] = of_state
     return of_event

@@ -154,7 +154,7 @@ def touch_differences(body: Body, rules: Rules, chi: float, y: Array, part: floa
 def _write_differences(
     body: Body, rules: Rules, chi: float, y: Array, part: float, by_velocity: Array, by_turn: Array
 ) -> None:
-    """Write the differences of `_touch_values` by velocities along x, y, z, and by turns about ξ, η, ζ.
+    """Write the differences of `_write_values` by velocities along x, y, z, and by turns about ξ, η, ζ.
 
     Args:
         body: the coin.

@@ -174,35 +174,3 @@ def body_spin_rate(e: Quaternion, e_acceleration: Quaternion) -> Vector:
         e_acceleration: ë, (4,) [1/s²].
     """
     return body_spin(e, e_acceleration)
-
-
-@compiled
-def rotation_change(e: Quaternion, de: Quaternion) -> Matrix:
-    """Return the change of the rotation matrix R(e), as `cointoss.models.attitude` writes it, with e.
-
-    Args:
-        e: Euler parameters, body to space, (4,).
-        de: their change, (4,).
-
-    Returns:
-        dR: a tuple of three rows.
-    """
-    e0, e1, e2, e3 = e[0], e[1], e[2], e[3]
-    d0, d1, d2, d3 = de[0], de[1], de[2], de[3]
-    return (
-        (
-            -4 * (e2 * d2 + e3 * d3),
-            2 * (e1 * d2 + d1 * e2 - e0 * d3 - d0 * e3),
-            2 * (e0 * d2 + d0 * e2 + e1 * d3 + d1 * e3),
-        ),
-        (
-            2 * (e1 * d2 + d1 * e2 + e0 * d3 + d0 * e3),
-            -4 * (e1 * d1 + e3 * d3),
-            2 * (e2 * d3 + d2 * e3 - e0 * d1 - d0 * e1),
-        ),
-        (
-            2 * (e1 * d3 + d1 * e3 - e0 * d2 - d0 * e2),
-            2 * (e0 * d1 + d0 * e1 + e2 * d3 + d2 * e3),
-            -4 * (e1 * d1 + e2 * d2),
-        ),
-    )
