@@ -28,7 +28,7 @@ from cointoss.analytic.flight.state_vector import STATE_SIZE, state_of
 from cointoss.analytic.flight.touch_search import Flown, is_chattering
 from cointoss.analytic.settings import FINE, ContactLimits, Settings, contact_limits
 from cointoss.models.body import Body, Rules, is_to_be_caught
-from cointoss.models.ending import classify_ending, endless, face_outcome, unless_caught
+from cointoss.models.ending import classify_ending, endless, face_outcome, out_of_steps, unless_caught
 from cointoss.models.impact_row import FIRST_ROOM, with_room
 from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
@@ -38,6 +38,8 @@ from cointoss.models.records import IMPACT_ROW, Array, Ending, Outcome
 
 # A step that takes less than this part of √(r/g) counts as so many, or changes without time could go on.
 _NO_TIME, _STALLED = 1e-12, 1000
+# An event after the first sustained contact takes as long as so many steps.
+_EVENT = 4
 NO_LOSS = 1e-12
 """A loss in the time √(r/g) that rounding may cause, against the energy; steps of contact come on top."""
 
@@ -63,7 +65,7 @@ class Spent(NamedTuple):
     """Now [s]."""
     impacts: int
     steps: int
-    """In sustained contacts; a touch that chatters counts as one."""
+    """From the first sustained contact on; an event counts as `_EVENT`."""
 
 
 class Verdict(NamedTuple):
@@ -219,7 +221,7 @@ def toss_coin(
             spent = Spent(spent.time, impacts, spent.steps)
             verdict = classified(setup, y, spent.time)
         if verdict.ending == Ending.NONE and mode != Mode.TOUCHING and spent.steps >= limits.steps:
-            verdict = Verdict(Outcome.UNDECIDED, Ending.CONTACT_STEPS)
+            verdict = steps_spent(setup)
         if verdict.ending != Ending.NONE and mode != Mode.ENDED:
             mode = mode_after(mode, Event.ENDS)
     outcome, ending = unless_caught(rules, verdict.outcome, verdict.ending)
@@ -301,9 +303,11 @@ def fly_to_event(setup: Setup, y: Array, spent: Spent) -> Passage:
     if is_to_be_caught(rules):
         caught = fly_to_hand(body, rules.caught, y, left)
         if caught < np.inf:
-            return ends(after_flight(spent, caught), face_outcome(state_of(y)), Ending.CAUGHT)
+            spent = Spent(spent.time + caught, spent.impacts, spent.steps)
+            return ends(spent, face_outcome(state_of(y)), Ending.CAUGHT)
     flown = fly(body, y, left, setup.with_graze and spent.steps == 0)
-    spent = after_flight(spent, flown.time)
+    steps = _EVENT + flown.steps if spent.steps > 0 else 0
+    spent = Spent(spent.time + flown.time, spent.impacts, spent.steps + steps)
     if not flown.touches:
         return ends(spent, Outcome.UNDECIDED, Ending.MAX_TIME)
     if not is_chattering(body, restitution_at(body, rules, y), state_of(y)):
@@ -313,12 +317,6 @@ def fly_to_event(setup: Setup, y: Array, spent: Spent) -> Passage:
     if verdict.ending == Ending.NONE and not supports_contact(rules.law):
         verdict = Verdict(verdict.outcome, Ending.CHATTER)
     return Passage(Event.CHATTERS if verdict.ending == Ending.NONE else Event.ENDS, spent, verdict, flown)
-
-
-@compiled
-def after_flight(spent: Spent, flown: float) -> Spent:
-    """Return what is spent after a flight of this time [s]."""
-    return Spent(spent.time + flown, spent.impacts, spent.steps)
 
 
 @compiled
@@ -379,30 +377,39 @@ def hold_to_event(setup: Setup, mode: int, y: Array, spent: Spent) -> Passage:
         if comes_upright(contact, y):
             return Passage(Event.COMES_UPRIGHT, spent, GOES_ON, NOT_FLOWN)
         if spent.steps >= limits.steps:
-            return out_of_budget(contact, y, spent, Ending.CONTACT_STEPS)
+            return out_of_budget(contact, y, spent, steps_spent(setup))
         if step.is_over:
             event = margin_event(contact, y) if step.event == Event.NONE else step.event
             return Passage(event, spent, GOES_ON, NOT_FLOWN)
-    return out_of_budget(contact, y, spent, Ending.MAX_TIME)
+    return out_of_budget(contact, y, spent, Verdict(Outcome.UNDECIDED, Ending.MAX_TIME))
 
 
 @compiled
 def cost_of(body: Body, step: Step) -> int:
     """Return what a step counts against the budget: more where the mode ends again in no time."""
     is_short = step.elapsed < _NO_TIME * (body.radius / body.gravity) ** 0.5
-    return _STALLED if step.is_over and step.event == Event.NONE and is_short else 1
+    if step.is_over and step.event == Event.NONE and is_short:
+        return _STALLED
+    return 1 + _EVENT if step.is_over else 1
 
 
 @compiled
-def out_of_budget(contact: Contact, y: Array, spent: Spent, ending: Ending) -> Passage:
+def steps_spent(setup: Setup) -> Verdict:
+    """Return the `Verdict` on a toss whose steps are spent."""
+    outcome, ending = out_of_steps(setup.history)
+    return Verdict(outcome, ending)
+
+
+@compiled
+def out_of_budget(contact: Contact, y: Array, spent: Spent, verdict: Verdict) -> Passage:
     """Return how a toss ends in contact as a budget is spent.
 
     Args:
         contact: the contact.
         y: state, (13,).
         spent: so far.
-        ending: named after the budget.
+        verdict: on a coin that does not roll on its edge.
     """
     if rolls_upright(contact, y):
-        return ends(spent, Outcome.EDGE, Ending.ROLLING)
-    return ends(spent, Outcome.UNDECIDED, ending)
+        verdict = Verdict(Outcome.EDGE, Ending.ROLLING)
+    return Passage(Event.ENDS, spent, verdict, NOT_FLOWN)

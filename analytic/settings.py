@@ -18,8 +18,9 @@ class Settings:
     """Error allowed in a step of flight, relative; compiled in."""
     contact_tolerance: float = CONTACT_STEP_ERROR
     """Error allowed in a step of sustained contact, relative."""
-    contact_steps: int = 2_000_000
-    """The most steps in the sustained contacts of a toss; a mode that takes no time costs a thousand."""
+    contact_steps: int = 250_000
+    """The most steps of a toss in contacts and flights from its first sustained contact on; an event counts
+    as four, a mode that takes no time as a thousand."""
 
     def __post_init__(self) -> None:
         """Check the numbers.

@@ -16,7 +16,7 @@ from cointoss.models.geometry import tilt_sine_of
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, apply, dot, norm
 from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
-from cointoss.models.perpetual import EnergyHistory, energy_loss_converges
+from cointoss.models.perpetual import EnergyHistory, energy_loss_converges, is_long_transient
 from cointoss.models.records import Ending, Face, Outcome
 from cointoss.models.state import State
 
@@ -99,6 +99,18 @@ def endless(body: Body, rules: Rules, state: State, ending: Ending) -> tuple[Out
     if settled != Ending.NONE:
         return outcome, settled
     return Outcome.PERPETUAL, ending
+
+
+@compiled
+def out_of_steps(history: EnergyHistory) -> tuple[Outcome, Ending]:
+    """Return how a toss ends whose steps in contact are spent: in a long transient, or undecided.
+
+    Args:
+        history: of the toss.
+    """
+    if is_long_transient(history):
+        return Outcome.TRANSIENT, Ending.TRANSIENT
+    return Outcome.UNDECIDED, Ending.CONTACT_STEPS
 
 
 @compiled

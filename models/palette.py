@@ -2,7 +2,14 @@
 
 HEADS, TAILS = "#F5AB1F", "#0D5CA8"
 """The coin's faces, gold and blue, as in models/coin.xml; they differ in brightness too."""
-EDGE, PERPETUAL, UNDECIDED = "#009E73", "#CC79A7", "#FFFFFF"
+EDGE, PERPETUAL, TRANSIENT, UNDECIDED = "#009E73", "#CC79A7", "#56B4E9", "#FFFFFF"
 """Of Okabe and Ito's colours, which the colour-blind can distinguish; and white, as paper."""
-COLORS = {"undecided": UNDECIDED, "heads": HEADS, "tails": TAILS, "edge": EDGE, "perpetual": PERPETUAL}
+COLORS = {
+    "undecided": UNDECIDED,
+    "heads": HEADS,
+    "tails": TAILS,
+    "edge": EDGE,
+    "perpetual": PERPETUAL,
+    "transient": TRANSIENT,
+}
 """By the word for the outcome."""

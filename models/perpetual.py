@@ -52,6 +52,12 @@ def start_history(body: Body, history: EnergyHistory, time: float) -> None:
 
 
 @compiled
+def is_long_transient(history: EnergyHistory) -> bool:
+    """Return whether a coin has gone on so long after its first contact that its losses could be judged."""
+    return history.energies[-_FEW] < np.inf
+
+
+@compiled
 def energy_loss_converges(
     body: Body, rules: Rules, state: State, time: float, history: EnergyHistory
 ) -> bool:
@@ -82,7 +88,7 @@ def energy_loss_converges(
     history.next_check[0] = start + 2 * elapsed
     copy_into(energies[:-1], energies[1:])
     energies[-1] = E
-    if not energies[-_FEW] < np.inf:
+    if not is_long_transient(history):
         return False
     elapsed /= (body.radius / body.gravity) ** 0.5
     none = E * min(history.no_loss * elapsed / 2, _LARGEST_NONE)

@@ -45,6 +45,7 @@ class Outcome(Word):
     TAILS = 2
     EDGE = 3
     PERPETUAL = 4
+    TRANSIENT = 5
 
 
 class Ending(Word):
@@ -77,6 +78,7 @@ class Ending(Word):
     CAUGHT = 15, "A hand caught the coin at the height [ending] caught; the face up there counts."
     NOT_CAUGHT = 16, "The coin never came down to the hand at the height [ending] caught."
     PERIODIC = 17, "The coin's contact has gone through a whole period, and repeats it for ever."
+    TRANSIENT = 18, "A long transient: after contact_steps its losses had neither settled it nor died away."
 
 
 class TrustEnd(Word):

@@ -13,7 +13,7 @@ from cointoss.coin_mj.steps.knots import Knot, Step, add_knot
 from cointoss.coin_mj.steps.mujoco_step import set_margin, set_spring
 from cointoss.coin_mj.steps.resistance import shortest_stop
 from cointoss.models.body import Rules
-from cointoss.models.ending import classify_ending
+from cointoss.models.ending import classify_ending, out_of_steps
 from cointoss.models.geometry import lowest_point
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector, apply, cross, subtract
@@ -104,7 +104,7 @@ def follow_contact(
         if ending == Ending.NONE and rests(coin, now, upright > 0):
             outcome, ending = Outcome.EDGE, Ending.AT_REST
         if ending == Ending.NONE and steps_left <= 0:
-            outcome, ending = out_of_budget(coin, upright > 0, Ending.CONTACT_STEPS)
+            outcome, ending = out_of_budget(coin, upright > 0, *out_of_steps(history))
         if ending != Ending.NONE:
             return ContactExit.DECIDED, time, steps_left, outcome, ending
         dt, lands = next_step(coin, rules.restitution, up, up_rate, w, sunk)
@@ -122,7 +122,7 @@ def follow_contact(
         # Half a period of the spring.
         if unloaded * frequency_of(dt) > math.pi:
             return ContactExit.LIFT_OFF, time, steps_left, Outcome.UNDECIDED, Ending.NONE
-    outcome, ending = out_of_budget(coin, upright > 0, Ending.MAX_TIME)
+    outcome, ending = out_of_budget(coin, upright > 0, Outcome.UNDECIDED, Ending.MAX_TIME)
     return ContactExit.DECIDED, time, steps_left, outcome, ending
 
 
@@ -171,17 +171,20 @@ def rests(coin: MujocoCoin, state: State, upright: bool) -> bool:
 
 
 @compiled
-def out_of_budget(coin: MujocoCoin, upright: bool, ending: Ending) -> tuple[Outcome, Ending]:
+def out_of_budget(
+    coin: MujocoCoin, upright: bool, outcome: Outcome, ending: Ending
+) -> tuple[Outcome, Ending]:
     """Return the outcome and ending of a toss that ends in contact as a budget is spent.
 
     Args:
         coin: MuJoCo's.
         upright: whether it is on both rims.
-        ending: named after the budget.
+        outcome: of a coin that does not roll on its edge.
+        ending: likewise.
     """
     if upright and coin.resists:
         return Outcome.EDGE, Ending.ROLLING
-    return Outcome.UNDECIDED, ending
+    return outcome, ending
 
 
 @compiled

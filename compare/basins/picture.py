@@ -15,7 +15,18 @@ from numpy.typing import ArrayLike, NDArray
 from cointoss.compare.basins.boundary import boundary_pixels
 from cointoss.compare.basins.maps import OutcomeCodes, outcome_map
 from cointoss.compare.basins.picture_style import Palette, PictureStyle
-from cointoss.compare.output.style import GREEN, GREY, GRID, ORANGE, OUTCOMES, PALE, PURPLE, SKY, VERMILION
+from cointoss.compare.output.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    GRID,
+    ORANGE,
+    OUTCOMES,
+    PALE,
+    PURPLE,
+    SKY,
+    VERMILION,
+)
 from cointoss.models.records import Outcome
 
 PLAIN = PictureStyle()
@@ -25,7 +36,7 @@ COMPARISON_SIZE = (3 * PANEL_SIZE[0], PANEL_SIZE[1])
 """Of three maps side by side, width and height [inches]."""
 MARGINS_SIZE = (2 * PANEL_SIZE[0] + 0.8, PANEL_SIZE[1])
 """Of a map and its margins, width and height [inches]."""
-_ENTRY_WIDTH = 1.2  # of the legend [inches]
+_ENTRY_WIDTH = 1.3  # of the legend [inches]
 _MARGINS, _NO_MARGIN = "cividis", GRID
 _TAIL = 0.005
 """Of the margins at either end, so many share the last colour."""
@@ -45,6 +56,7 @@ _COLORS = {
         Outcome.TAILS: "#FFFFFF",
         Outcome.EDGE: GREEN,
         Outcome.PERPETUAL: SKY,
+        Outcome.TRANSIENT: BLUE,
     },
 }
 _BOUNDARY = {Palette.SAFE: "#000000", Palette.PAPER: VERMILION}

@@ -25,7 +25,7 @@ from cointoss.compare.commands.names import scenario_argument
 @click.option(
     "--contact-steps",
     type=Count(1, 1_000_000_000),
-    help="Stop after this number of steps of sustained contact; by default an engine's own.",
+    help="Stop after this number of steps of sustained contact and after it; by default an engine's own.",
 )
 @click.option(
     "--flight-steps",

@@ -112,7 +112,7 @@ def as_lines(toss: Toss, *, whole: bool = False) -> str:
     ]
     if len(impacts):
         lines.append(f"checked   {_checked(toss)}")
-    if toss.outcome == Outcome.PERPETUAL:
+    if toss.outcome in (Outcome.PERPETUAL, Outcome.TRANSIENT):
         energies = [
             f"{item.name}: {1e3 * float(item.value):.4f} mJ" for item in toss.certificate if item.unit == "J"
         ]

@@ -4,12 +4,12 @@ from typing import Any
 
 from matplotlib.colors import LinearSegmentedColormap
 
-from cointoss.models.palette import COLORS, EDGE, HEADS, PERPETUAL, TAILS
+from cointoss.models.palette import COLORS, EDGE, HEADS, PERPETUAL, TAILS, TRANSIENT
 from cointoss.models.records import Outcome
 
 # Okabe and Ito's colours, which the colour-blind can distinguish.
 BLUE, VERMILION, GREEN = "#0072B2", "#D55E00", EDGE
-PURPLE, ORANGE, SKY = PERPETUAL, "#E69F00", "#56B4E9"
+PURPLE, ORANGE, SKY = PERPETUAL, "#E69F00", TRANSIENT
 INK, GREY, PALE, GRID = "#1b2430", "#5b6675", "#9aa4b0", "#d9dee5"
 """Of letters, of axes, of what stands behind the rest, and of the grid."""
 OUTCOMES = {outcome: COLORS[str(outcome)] for outcome in Outcome}

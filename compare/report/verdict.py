@@ -132,9 +132,12 @@ def _outcome(toss: Toss) -> str:
         return f"{toss.outcome} in the hand"
     if toss.ending == Ending.NOT_CAUGHT:
         return "not caught"
-    return {Outcome.EDGE: "on its edge", Outcome.PERPETUAL: "moving for ever"}.get(
-        toss.outcome, str(toss.outcome)
-    )
+    told = {
+        Outcome.EDGE: "on its edge",
+        Outcome.PERPETUAL: "moving for ever",
+        Outcome.TRANSIENT: "moving still",
+    }
+    return told.get(toss.outcome, str(toss.outcome))
 
 
 def _all(count: int) -> str:

@@ -109,7 +109,7 @@ def test_impacts_become_a_table(tossed):
 
 def test_outcomes_become_labelled_arrays_and_a_table(outcomes):
     found = outcomes.to_xarray()
-    assert found.outcome.attrs["flag_meanings"] == "undecided heads tails edge perpetual"
+    assert found.outcome.attrs["flag_meanings"] == "undecided heads tails edge perpetual transient"
     assert (found.end_time.attrs["units"], found.sizes["toss"]) == ("s", 3)
     table = outcomes.to_dataframe()
     assert table["outcome"].tolist() == ["heads", "tails", "heads"]

@@ -88,7 +88,7 @@ def stops(body: Body, rules: Rules, start: Array) -> NDArray[np.int64]:
         if len(below):
             face = rows["face"][below[0]]
             others = {*rows["face"][below[0] + 1 :].tolist(), int(tossed.outcome)} - {int(face)}
-            open_ends = {int(Outcome.PERPETUAL), int(Outcome.UNDECIDED)}
+            open_ends = {int(Outcome.PERPETUAL), int(Outcome.TRANSIENT), int(Outcome.UNDECIDED)}
             count[NAMED] = 1
             count[LEFT] = bool(others - open_ends)
             count[OPEN] = bool(others) and not count[LEFT]

@@ -32,7 +32,7 @@ FLOORS = ("smooth", "coulomb, kinematic", "coulomb, energetic")
 RESTITUTION = {"smooth": (0.1, 0.95), "coulomb, kinematic": (0.1, 0.7), "coulomb, energetic": (0.1, 0.95)}
 BY_BOTH, MEDIA = FLOORS[:2], ("air", "vacuum")
 """Floors that MuJoCo realises, and what is between them and the hand."""
-_SHOWN = (Outcome.HEADS, Outcome.TAILS, Outcome.EDGE, Outcome.PERPETUAL, Outcome.UNDECIDED)
+_SHOWN = (*(outcome for outcome in Outcome if outcome != Outcome.UNDECIDED), Outcome.UNDECIDED)
 
 
 Counts = dict[str, Ends]
@@ -75,7 +75,7 @@ def compute(
     with all_cores() as pool:
         for done, (kind, ended) in enumerate(pool.map(_toss, jobs), start=1):
             outcomes[_name(kind)].update(counted(ended))
-            if ended.outcome[0] not in (Outcome.UNDECIDED, Outcome.PERPETUAL):
+            if ended.outcome[0] not in (Outcome.UNDECIDED, Outcome.PERPETUAL, Outcome.TRANSIENT):
                 most, longest = max(most, int(ended.impacts[0])), max(longest, float(ended.end_time[0]))
             progress(done, whole)
         for done, (kind, ended) in enumerate(pool.map(toss_by_mujoco, jobs_mujoco), start=len(jobs) + 1):

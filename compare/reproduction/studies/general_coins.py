@@ -22,6 +22,7 @@ from cointoss.analytic.flight.flying import fly
 from cointoss.analytic.settings import MANY, contact_limits
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.tables import paragraphs, table
+from cointoss.compare.reproduction.setups.ends import ended_as
 from cointoss.compare.reproduction.setups.general_coins import CLASSES, CoinClass
 from cointoss.compare.reproduction.setups.map_times import map_times
 from cointoss.compare.reproduction.setups.study import study
@@ -37,12 +38,10 @@ CALLS = 101
 """Timed to know what a call from Python takes, which is no part of a toss."""
 MOST_PIECES = 100_000
 """Flights and contacts that are replayed together, more or less; each is a state."""
-BARS: dict[str, tuple[float, Callable[[CoinClass], bool]]] = {
-    "in air": (0.5e-3, lambda kind: kind.air),
-    "of an ideal coin in vacuum": (1e-3, lambda kind: not kind.air and not kind.imperfect),
-    "of an imperfect coin in vacuum": (5e-3, lambda kind: not kind.air and kind.imperfect),
-}
-"""Bars of the mean time of a toss [s], and the classes of which they are."""
+BARS = {"mean": (0.5e-3, True), "percentile_99": (10e-3, True), "median": (1e-3, False)}
+"""Of the times of a class: the bar [s], and whether it is one of the classes in air."""
+NAMES = {"mean": "mean", "percentile_99": "99th percentile", "median": "median"}
+"""Of those times."""
 LONGEST = 1.0
 """Bar of the time of any toss [s]."""
 
@@ -247,17 +246,20 @@ def replay_contacts(body, rules, tolerance, start_times, modes, states, end_time
 def measures(costs: GeneralCosts) -> dict[str, Any]:
     """Return what the claims name: of each of `BARS` the slowest class, and of all the longest toss."""
     bars = {}
-    for which, (most, is_of) in BARS.items():
-        means = {kind.name: costs.classes[kind.name].mean for kind in CLASSES if is_of(kind)}
-        slowest = max(means, key=means.__getitem__)
-        minutes = 1e6 * most / 2 / 60
-        bars[which] = {
+    for which, (most, air) in BARS.items():
+        times = {kind.name: getattr(costs.classes[kind.name], which) for kind in CLASSES if kind.air == air}
+        slowest = max(times, key=times.__getitem__)
+        bars[f"{NAMES[which]} {'in air' if air else 'in vacuum'}"] = {
             "slowest": slowest,
-            "mean": 1e3 * means[slowest],
+            "time": 1e3 * times[slowest],
             "most": 1e3 * most,
-            "minutes": minutes,
         }
-    return {"bars": bars, "worst": max(one.worst for one in costs.classes.values())}
+    counts = [one.ends for one in costs.classes.values()]
+    return {
+        "bars": bars,
+        "worst": max(one.worst for one in costs.classes.values()),
+        "undecided": sum(ended_as(ends, Outcome.UNDECIDED) for ends in counts),
+    }
 
 
 def tables(costs: GeneralCosts) -> str:

@@ -210,7 +210,7 @@ def measures(found: ResistanceRecord) -> dict[str, Any]:
         "undecided": sum(
             ended_as(ends, outcome)
             for ends in found.nickel.values()
-            for outcome in (Outcome.UNDECIDED, Outcome.PERPETUAL)
+            for outcome in (Outcome.UNDECIDED, Outcome.PERPETUAL, Outcome.TRANSIENT)
         ),
         "rolling": sum(
             ends.get(f"edge, {Ending.ROLLING}", 0) for size, ends in found.nickel.items() if size != "0"

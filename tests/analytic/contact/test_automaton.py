@@ -138,6 +138,39 @@ def test_a_spent_budget_of_contact_steps_ends_a_toss_by_its_name():
     assert analytic.toss(scenario(**ON_EDGE)).outcome != Outcome.UNDECIDED
 
 
+LONG_TRANSIENT = {
+    "coin": {**THIN, "center_of_mass": [-1e-3, -1e-3, 0.0]},
+    "floor": {"restitution": 0.6},
+    "release": {
+        "position": [0.0, 0.0, 0.3747560971770383],
+        "velocity": [-0.03200196085390527, -0.10979981526988393, -0.1830476274400961],
+        "quaternion": [-0.5418881956767218, -0.15356369236780862, -0.8262376892282368, 0.010327471683593022],
+        "angular_velocity": [-7.912209261788022, 34.396989938015054, 0.6038303043052566],
+    },
+}
+
+
+def test_a_coin_whose_losses_could_be_judged_when_its_steps_are_spent_is_in_a_long_transient():
+    def tossed(steps: int) -> tuple[Outcome, Ending]:
+        toss = analytic.toss(scenario(**LONG_TRANSIENT), settings=Settings(contact_steps=steps))
+        return toss.outcome, toss.ending
+
+    assert tossed(100) == (Outcome.UNDECIDED, Ending.CONTACT_STEPS)
+    assert tossed(6000) == tossed(8000) == (Outcome.TRANSIENT, Ending.TRANSIENT)
+    assert tossed(20_000) == (Outcome.TAILS, Ending.SETTLED)
+
+
+def test_steps_of_flights_and_events_after_the_first_contact_are_counted_and_none_before():
+    case = scenario(**LONG_TRANSIENT)
+    log = run(case.body, case.rules, state_at_release(case.release), Settings(contact_steps=100))
+    after = log.start_times >= log.contacts[0, 0]
+    flights = after & (log.modes == Mode.FLIGHT)
+    assert np.sum(log.started.steps[~after]) > 10
+    assert np.sum(flights) > 1
+    # In contact there are steps too, so that flights and their events alone do not spend it all.
+    assert np.sum(log.started.steps[flights] + 4) < 100 + 4 + np.max(log.started.steps[flights])
+
+
 def test_a_contact_that_no_step_is_short_enough_to_follow_has_no_solution():
     case = scenario(floor={"contact": "coulomb", "friction": 0.3})
     y = state_at_release(case.release)

@@ -13,7 +13,7 @@ from tests.helpers.made_maps import HEADS, TAILS, halves, line
         (np.zeros((0, 3), np.int8), "at least one"),
         (np.ones((3, 3)), "float64"),
         (np.ones((3, 3), bool), "bool"),
-        (np.full((3, 3), 5), "5 is no outcome, accepted: 0 to 4"),
+        (np.full((3, 3), 6), "6 is no outcome, accepted: 0 to 5"),
         (np.full((3, 3), -1), "-1 is no outcome"),
         (np.ones(3, int), r"shape \(3,\)"),
     ],

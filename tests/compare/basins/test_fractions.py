@@ -12,5 +12,6 @@ def test_fractions_count_every_outcome_and_the_undecided():
         Outcome.TAILS: 0.25,
         Outcome.EDGE: 0.125,
         Outcome.PERPETUAL: 0.0,
+        Outcome.TRANSIENT: 0.0,
     }
     assert fractions(halves(3, 8))[Outcome.HEADS] == 0.5

@@ -63,15 +63,15 @@ def test_axes_are_named_with_their_units_and_the_legend_names_what_is_there():
 
 @pytest.mark.parametrize("palette", Palette)
 def test_a_palette_has_a_colour_for_every_outcome(palette):
-    color = drawn(draw_map(np.arange(5)[None], x=X, y=Y, style=PictureStyle(palette=palette)))
-    assert len({color(x, 0.5) for x in (20, 30, 40, 50, 60)}) == len(Outcome)
+    color = drawn(draw_map(np.arange(len(Outcome))[None], x=X, y=Y, style=PictureStyle(palette=palette)))
+    assert len({color(x, 0.5) for x in np.linspace(20, 60, len(Outcome))}) == len(Outcome)
 
 
 @pytest.mark.parametrize("palette", Palette)
 @pytest.mark.parametrize("width", [3.0, 5.0])
 def test_the_legend_stays_in_the_picture(palette, width):
     style = PictureStyle(palette=palette, boundaries=True, size=(width, 4.0))
-    figure = draw_map(np.arange(5)[None], x=X, y=Y, style=style)
+    figure = draw_map(np.arange(len(Outcome))[None], x=X, y=Y, style=style)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     box = figure.legends[0].get_window_extent()

@@ -124,10 +124,11 @@ def test_a_timed_toss_is_one_of_toss_many():
 @pytest.mark.parametrize(
     ("name", "changed", "missed"),
     [
-        ("thick, imperfect, air, coulomb", {"mean": 6e-4}, "in air"),
-        ("thin, ideal, vacuum, smooth", {"mean": 1.1e-3}, "of an ideal coin in vacuum"),
-        ("thin, imperfect, vacuum, coulomb", {"mean": 5.1e-3}, "of an imperfect coin in vacuum"),
+        ("thick, imperfect, air, coulomb", {"mean": 6e-4}, "mean in air"),
+        ("thin, ideal, air, coulomb", {"percentile_99": 1.1e-2}, "99th percentile in air"),
+        ("thin, imperfect, vacuum, coulomb", {"median": 1.1e-3}, "median in vacuum"),
         ("thin, ideal, air, smooth", {"worst": 1.1}, "no toss takes more than 1 s"),
+        ("thin, ideal, air, smooth", {"ends": {"undecided, contact_steps": 2}}, "no toss stays undecided"),
     ],
 )
 def test_a_bar_is_missed_by_one_class_that_is_too_slow(name, changed, missed):
