@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from cointoss.analytic.events import started_of, toss_coin
+from cointoss.analytic.events import Verdict, started_of, toss_coin
+from cointoss.analytic.horizon.certainty import certainty_of
 from cointoss.analytic.horizon.horizon import ErrorsMade, find_horizon
 from cointoss.analytic.settings import MANY, ContactLimits, Settings, contact_limits
 from cointoss.models.body import Body, Rules
@@ -21,7 +22,12 @@ TILE, SLOW_TILE = 512, 8
 
 
 def toss_many(
-    scenario: ScenarioSource, releases: Releases, *, settings: Settings = MANY, horizon: bool = False
+    scenario: ScenarioSource,
+    releases: Releases,
+    *,
+    settings: Settings = MANY,
+    horizon: bool = False,
+    certain: bool = False,
 ) -> Outcomes:
     """Toss the coin once from each release, by the event loop of `toss`: each toss is the same to the bit.
 
@@ -31,6 +37,8 @@ def toss_many(
         settings: of the engine.
         horizon: whether to find how many impacts of each toss can be trusted, as `toss` does; tosses take
             two to three times as long.
+        certain: whether to find that, and whether the outcome of each toss is certain, as `toss` does; tosses
+            take two to seven times as long.
 
     Returns:
         How each toss ended, in the order of `releases`. The paths are not kept.
@@ -40,20 +48,21 @@ def toss_many(
     """
     require_type("settings", settings, Settings, "analytic.Settings, such as analytic.MANY")
     require_type("horizon", horizon, bool, "True or False")
+    require_type("certain", certain, bool, "True or False")
     described = scenario_of(scenario)
     check_releases(described, releases)
     body, rules = described.body, described.rules
     limits = contact_limits(settings)
     most = TILE if body.air.exponent is None else SLOW_TILE
     with stage("tossing by the analytic engine", "tosses") as progress:
-        if horizon:
+        if horizon or certain:
             made = ErrorsMade()
             return toss_in_tiles(
                 releases,
                 most,
-                lambda tile: _trust_each(body, rules, limits, made, tile),
+                lambda tile: _trust_each(body, rules, limits, made, certain, tile),
                 progress,
-                horizon=True,
+                also=["trusted_impacts", *["outcome_certain"] * certain],
             )
         return toss_in_tiles(releases, most, lambda tile: _toss_each(body, rules, limits, tile), progress)
 
@@ -70,7 +79,9 @@ def _toss_each(body: Body, rules: Rules, limits: ContactLimits, tile: Tile) -> N
 
 
 @compiled
-def _trust_each(body: Body, rules: Rules, limits: ContactLimits, made: ErrorsMade, tile: Tile) -> None:
+def _trust_each(
+    body: Body, rules: Rules, limits: ContactLimits, made: ErrorsMade, certain: bool, tile: Tile
+) -> None:
     room = np.zeros(FIRST_ROOM, IMPACT_ROW)
     for i in range(len(tile.states)):
         n, rows, pieces, outcome, ending, end_time = toss_coin(
@@ -79,4 +90,9 @@ def _trust_each(body: Body, rules: Rules, limits: ContactLimits, made: ErrorsMad
         tile.outcome[i], tile.ending[i], tile.impacts[i] = outcome.value, ending.value, n
         tile.end_time[i] = end_time
         tile.last_face[i] = rows[n - 1]["face"] if n > 0 else 0
-        tile.trusted_impacts[i] = find_horizon(body, rules, rows[:n], started_of(pieces), made).impacts
+        started, rows = started_of(pieces), rows[:n]
+        found = find_horizon(body, rules, rows, started, made)
+        tile.trusted_impacts[i] = found.impacts
+        if certain:
+            verdict = Verdict(outcome, ending)
+            tile.outcome_certain[i] = certainty_of(body, rules, rows, started, verdict, found).certain

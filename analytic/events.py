@@ -121,6 +121,11 @@ class EventLog(NamedTuple):
     end_time: float
 
     @property
+    def verdict(self) -> Verdict:
+        """The outcome and the ending."""
+        return Verdict(self.outcome, self.ending)
+
+    @property
     def start_times(self) -> Array:
         """Where modes start, and where the toss ends, (k,) [s]."""
         return self.started.times

@@ -14,7 +14,7 @@ from cointoss.analytic.contact.sampling import floor_force, sample_contact
 from cointoss.analytic.events import EventLog, run
 from cointoss.analytic.flight.flying import sample
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
-from cointoss.analytic.horizon.certainty import outcome_is_certain
+from cointoss.analytic.horizon.certainty import certainty_of, other_outcome
 from cointoss.analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR, horizon_of
 from cointoss.analytic.settings import FINE, Settings
 from cointoss.models.attitude import rotation_matrix
@@ -106,7 +106,8 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     `horizon.IMPULSE_ERROR`.
 
     `outcome_certain` says whether these errors cannot change the outcome either: neighbours of the toss end
-    as it does, see `cointoss.analytic.horizon.certainty`.
+    as it does, see `cointoss.analytic.horizon.certainty`. Where one of them has another outcome,
+    `other_outcome` says which, and about how little leads to it.
 
     Args:
         scenario: what to toss; or a file's path, or a name such as "fig24a".
@@ -126,6 +127,7 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
     answer = run(body, rules, start, settings)
     impacts, end = Impacts.from_rows(answer.rows), answer.start_states[-1]
     horizon, contacts = horizon_of(body, rules, answer), answer.contacts
+    certainty = certainty_of(body, rules, answer.rows, answer.started, answer.verdict, horizon)
     before_contact = np.sum(impacts.time < contacts[0, 0]) if len(contacts) else len(impacts)
     path = Pieces(
         body=body,
@@ -143,7 +145,8 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
         outcome=answer.outcome,
         ending=answer.ending,
         end_time=answer.end_time,
-        outcome_certain=outcome_is_certain(body, rules, answer, horizon),
+        outcome_certain=certainty.certain,
+        other_outcome=other_outcome(body, rules, answer, horizon, certainty),
         trusted_impacts=horizon.impacts,
         trust_end=TrustEnd.of(horizon.impacts, before_contact=int(before_contact), count=len(impacts)),
         certificate=(

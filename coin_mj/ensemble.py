@@ -28,7 +28,12 @@ TILE = 8
 
 
 def toss_many(
-    scenario: ScenarioSource, releases: Releases, *, settings: Settings = MANY, horizon: bool = False
+    scenario: ScenarioSource,
+    releases: Releases,
+    *,
+    settings: Settings = MANY,
+    horizon: bool = False,
+    certain: bool = False,
 ) -> Outcomes:
     """Toss the coin once from each release, by the event loop of `toss`.
 
@@ -40,12 +45,13 @@ def toss_many(
         releases: the states at time 0.
         settings: how MuJoCo realises the floor, and how finely it steps.
         horizon: whether to find how many impacts can be trusted; this engine does so for `toss` alone.
+        certain: whether to find which outcomes are certain; this engine does not.
 
     Returns:
         How each toss ended, in the order of `releases`. The paths are not kept.
 
     Raises:
-        UnsupportedError: as `toss`; and for a horizon.
+        UnsupportedError: as `toss`; and for a horizon or for certainty.
         ValueError: for a release that a scenario with this coin and air would refuse.
 
     Warns:
@@ -53,10 +59,13 @@ def toss_many(
     """
     require_type("settings", settings, Settings, "coin_mj.Settings, such as coin_mj.MANY")
     require_type("horizon", horizon, bool, "True or False")
+    require_type("certain", certain, bool, "True or False")
     described = scenario_of(scenario)
     require_supported(described, settings=settings)
     if horizon:
         raise UnsupportedError("horizon = True: accepted by the MuJoCo engine: False, or one toss at a time")
+    if certain:
+        raise UnsupportedError("certain = True: accepted by the MuJoCo engine: False")
     warn_of_approximation(described)
     check_releases(described, releases)
     thickness, rules = shape_thickness(described), described.rules

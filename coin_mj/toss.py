@@ -116,7 +116,7 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     `cointoss.coin_mj.trust`, and that keep their faces, and their impulses to `IMPULSE_ERROR` there, when the
     contact is softer, or its one step longer, by each of `SOFTER`: that makes a spring's error three and five
     times larger. It is an estimate, no bound. Whether the outcome is certain this engine does not find out:
-    `outcome_certain` is False.
+    `outcome_certain` is None.
 
     Args:
         scenario: what to toss; or a file's path, or a name such as "fig24a".
@@ -152,7 +152,8 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
         outcome=answer.outcome,
         ending=answer.ending,
         end_time=answer.end_time,
-        outcome_certain=False,
+        outcome_certain=None,
+        other_outcome=None,
         trusted_impacts=trusted,
         trust_end=trust_end,
         certificate=(

@@ -61,6 +61,24 @@ class Rules(NamedTuple):
 
 
 @compiled
+def with_budgets(rules: Rules, max_impacts: int, max_time: float) -> Rules:
+    """Return the rules with other budgets."""
+    return Rules(
+        rules.law,
+        rules.restitution,
+        rules.restitution_threshold,
+        rules.restitution_kind,
+        rules.friction,
+        rules.rolling_friction,
+        rules.pivoting_friction,
+        rules.test,
+        max_impacts,
+        max_time,
+        rules.caught,
+    )
+
+
+@compiled
 def resists(rules: Rules) -> bool:
     """Return whether the floor resists rolling or pivoting."""
     return rules.rolling_friction > 0 or rules.pivoting_friction > 0

@@ -32,6 +32,8 @@ class Outcomes:
     """When the toss stopped, (n,) [s]."""
     trusted_impacts: NDArray[np.int32] | None = column(kind=np.int32, optional=True)
     """How many of the leading impacts can be trusted, (n,); None where that was not asked for."""
+    outcome_certain: NDArray[np.bool_] | None = column(kind=np.bool_, optional=True)
+    """Whether the engine's own errors can't change the outcome, (n,); None where that was not asked for."""
 
     def __post_init__(self) -> None:
         """Check the shapes and make the arrays read-only."""

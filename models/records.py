@@ -281,6 +281,23 @@ class Setting:
     unit: str = ""
 
 
+@dataclass(frozen=True, kw_only=True)
+class OtherOutcome:
+    """Another outcome that a toss might have had, and how little leads to it."""
+
+    outcome: Outcome
+    change: float
+    """Of the coin's state, against its scales: r, √(g r) + |v|, 1 and √(g/r) + |ω|."""
+    impact: int
+    """The change is made just after so many impacts; 0 for the release."""
+
+    @property
+    def told(self) -> str:
+        """The change, in words."""
+        where = f"after impact {self.impact}" if self.impact else "at the release"
+        return f"a change of {self.change:.0e} {where} decides"
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Toss:
     """One toss by one engine."""
@@ -294,8 +311,10 @@ class Toss:
     ending: Ending
     end_time: float
     """When the toss stopped [s]."""
-    outcome_certain: bool
-    """Whether the engine's own errors can't change the outcome; False too where it does not find that out."""
+    outcome_certain: bool | None
+    """Whether the engine's own errors can't change the outcome; None where it does not find that out."""
+    other_outcome: OtherOutcome | None
+    """That these errors may lead to, where one was found."""
     trusted_impacts: int
     """How many leading impacts the engine's own errors can't have changed; see the engine's `toss`."""
     trust_end: TrustEnd
@@ -318,7 +337,10 @@ class Toss:
     @property
     def outcome_told(self) -> str:
         """The outcome, and whether it is certain, in words."""
-        return f"{self.outcome}, and that is certain" if self.outcome_certain else str(self.outcome)
+        if self.outcome_certain:
+            return f"{self.outcome}, and that is certain"
+        other = self.other_outcome
+        return f"{self.outcome} or {other.outcome}: {other.told}" if other else str(self.outcome)
 
     @property
     def trust_reason(self) -> str:
@@ -382,7 +404,7 @@ class Toss:
             "outcome": str(self.outcome),
             "ending": str(self.ending),
             "end_time": self.end_time,
-            "outcome_certain": self.outcome_certain,
+            **({} if self.outcome_certain is None else {"outcome_certain": self.outcome_certain}),
             "trusted_impacts": self.trusted_impacts,
             "trust_end": str(self.trust_end),
             "sequence": self.sequence,

@@ -2,7 +2,7 @@
 
 import threading
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from concurrent.futures import wait
 from dataclasses import fields
 from typing import Any, NamedTuple
@@ -30,6 +30,7 @@ class Tile(NamedTuple):
     impacts: NDArray[np.int32]
     end_time: Array
     trusted_impacts: NDArray[np.int32]
+    outcome_certain: NDArray[np.bool_]
 
 
 def toss_in_tiles(
@@ -38,7 +39,7 @@ def toss_in_tiles(
     toss_tile: Callable[[Tile], None],
     progress: Callable[[int, int], None],
     *,
-    horizon: bool = False,
+    also: Collection[str] = (),
 ) -> Outcomes:
     """Make tosses, tile by tile, on the cores that this process may use or `NUMBA_NUM_THREADS` sets.
 
@@ -47,7 +48,7 @@ def toss_in_tiles(
         most: tosses that a thread makes at a time, at most; Ctrl-C leaves them to their thread.
         toss_tile: makes some tosses, and writes how they end. It should not hold Python's lock.
         progress: called after each tile with the number of tosses so far and of all, on any thread.
-        horizon: whether it writes how many impacts can be trusted, too.
+        also: the optional columns of `Outcomes` that it writes.
 
     Returns:
         How each toss ended, in the order of `releases`.
@@ -87,6 +88,7 @@ def toss_in_tiles(
         left.clear()  # a signal's handler may have raised
     for each in tossing:
         each.result()
-    if not horizon:
-        del found["trusted_impacts"]
+    for item in fields(Outcomes):
+        if item.default is None and item.name not in also:
+            del found[item.name]
     return Outcomes(**found)

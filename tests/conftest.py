@@ -8,7 +8,9 @@ from importlib import import_module
 import pytest
 from hypothesis import HealthCheck, settings
 
+from cointoss.analytic.horizon.certainty import Certainty
 from cointoss.compare.film.back_end import drawing_problem
+from cointoss.models.records import Outcome
 from tests.helpers.browser import Page, browser
 from tests.helpers.explored import serving, small_map
 
@@ -40,7 +42,8 @@ def pytest_collection_finish():
 @pytest.fixture
 def without_horizon(monkeypatch):
     """Let no toss find out whether its outcome is certain, which takes longer than the toss."""
-    monkeypatch.setattr(import_module("cointoss.analytic.toss"), "outcome_is_certain", lambda *_: False)
+    unknown = Certainty(False, Outcome.UNDECIDED, 0, 0.0)
+    monkeypatch.setattr(import_module("cointoss.analytic.toss"), "certainty_of", lambda *_: unknown)
     monkeypatch.setattr(import_module("cointoss.coin_mj.toss"), "SOFTER", ())
 
 

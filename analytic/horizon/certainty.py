@@ -5,14 +5,22 @@ errors. Where all of them have the same touches, faces and ending, no boundary o
 is an estimate from samples, no bound; but errors that impacts have amplified have one direction left.
 """
 
+from typing import Any, NamedTuple
+
 import numpy as np
+from numpy.typing import NDArray
 
 from cointoss.analytic.contact.automaton import Mode
-from cointoss.analytic.events import EventLog, run
+from cointoss.analytic.events import EventLog, Started, Verdict, toss_coin
+from cointoss.analytic.flight.state_vector import STATE_SIZE, normalise, spin_of, velocity_of
 from cointoss.analytic.horizon.horizon import Horizon
-from cointoss.analytic.settings import Settings
-from cointoss.models.body import Body, Rules, is_to_be_caught
-from cointoss.models.records import Array, Outcome
+from cointoss.analytic.numerics.tolerances import CONTACT_STEP_ERROR
+from cointoss.analytic.settings import ContactLimits
+from cointoss.models.body import Body, Rules, is_to_be_caught, with_budgets
+from cointoss.models.impact_row import FIRST_ROOM
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import norm
+from cointoss.models.records import IMPACT_ROW, Array, Ending, OtherOutcome, Outcome
 
 FAR = 30.0
 """So many standard deviations of its errors are its neighbours away."""
@@ -20,48 +28,143 @@ LEAST = 1e-9
 """And so far at least, against the scales of the coin: as a step of sustained contact errs."""
 PAIRS = 2
 """Of neighbours, on opposite sides."""
-FOLLOWED = Settings(contact_steps=50_000)
-"""Neighbours are not followed through longer contacts, which would take seconds."""
+FOLLOWED = 50_000
+"""Steps of contact up to which neighbours are followed; more would take seconds."""
+_CLOSER = 0.1
+"""A change that gives another outcome is made smaller by this factor, down to rounding."""
+
+# An error vector has the state from its height on, and the time, which changes nothing.
+_FIRST, _ERRORS = 2, STATE_SIZE - 1
+_draw = np.random.default_rng(0)
+_SIGNS = _draw.choice([-1.0, 1.0], (PAIRS, _ERRORS))
+_LEAST = LEAST * _draw.normal(size=(PAIRS, STATE_SIZE - _FIRST))
 
 
-def outcome_is_certain(body: Body, rules: Rules, toss: EventLog, horizon: Horizon) -> bool:
-    """Return whether all neighbours of a toss end as it does; False where it is undecided.
+class Start(NamedTuple):
+    """Where the neighbours of a toss start beside it."""
+
+    impact: int
+    """After so many impacts."""
+    state: Array
+    """Of the toss, (13,)."""
+    rules: Rules
+    """With what the toss has left of its budgets."""
+
+
+class Certainty(NamedTuple):
+    """Whether an outcome is certain, and the first neighbour that says it is not."""
+
+    certain: bool
+    outcome: Outcome
+    """Of that neighbour."""
+    pair: int
+    """Its number."""
+    side: float
+    """1 or -1."""
+
+
+@compiled
+def start_of(rules: Rules, started: Started, horizon: Horizon) -> Start:
+    """Return the `Start` of the neighbours of a toss; for the arguments see `certainty_of`."""
+    ended = started.modes[horizon.impacts] == Mode.ENDED
+    # What passes a hand may do so on any flight.
+    first = 0 if is_to_be_caught(rules) else horizon.impacts - (1 if ended else 0)
+    left = with_budgets(rules, rules.max_impacts - first, rules.max_time - started.times[first])
+    return Start(first, started.states[first], left)
+
+
+@compiled
+def _scales(body: Body, y: Array) -> Array:
+    """Return the scales of a state's components from the height on, (11,)."""
+    scales = np.ones(STATE_SIZE - _FIRST)
+    scales[0] = body.radius
+    for i in range(3):
+        scales[1 + i] = (body.gravity * body.radius) ** 0.5 + norm(velocity_of(y))
+        scales[8 + i] = (body.gravity / body.radius) ** 0.5 + norm(spin_of(y))
+    return scales
+
+
+@compiled
+def neighbour(body: Body, start: Start, horizon: Horizon, pair: int, size: float) -> Array:
+    """Return the state in which a neighbour starts, (13,).
+
+    Args:
+        body: the coin.
+        start: of the neighbours.
+        horizon: of the toss.
+        pair: number of the pair of neighbours.
+        size: of the change, against that of the pair; negative for the other of it.
+    """
+    y, scales = start.state.copy(), _scales(body, start.state)
+    for i in range(STATE_SIZE - _FIRST):
+        by_errors = 0.0
+        for k in range(_ERRORS):
+            by_errors += _SIGNS[pair, k] * horizon.errors[k, i]
+        y[_FIRST + i] += size * (FAR * by_errors + _LEAST[pair, i] * scales[i])
+    normalise(y)
+    return y
+
+
+@compiled
+def end_of(body: Body, rules: Rules, y: Array) -> tuple[NDArray[Any], Outcome, Ending]:
+    """Return the impacts, the outcome and the ending of a neighbour that starts in the state y, (13,)."""
+    limits, room = ContactLimits(FOLLOWED, CONTACT_STEP_ERROR), np.zeros(FIRST_ROOM, IMPACT_ROW)
+    n, rows, _, outcome, ending, _ = toss_coin(body, rules, limits, y, room, True)
+    return rows[:n], outcome, ending
+
+
+@compiled
+def certainty_of(
+    body: Body, rules: Rules, rows: NDArray[Any], started: Started, verdict: Verdict, horizon: Horizon
+) -> Certainty:
+    """Return whether all neighbours of a toss end as it does; not if it is undecided, or a transient.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        rows: the impacts of the toss, (n,) of `IMPACT_ROW`.
+        started: its modes.
+        verdict: how it ended.
+        horizon: how far it can be trusted.
+    """
+    if verdict.outcome == Outcome.UNDECIDED or verdict.outcome == Outcome.TRANSIENT:
+        return Certainty(False, verdict.outcome, 0, 0.0)
+    start = start_of(rules, started, horizon)
+    for pair in range(PAIRS):
+        for side in (1.0, -1.0):
+            y = neighbour(body, start, horizon, pair, side)
+            found, outcome, ending = end_of(body, start.rules, y)
+            same = outcome == verdict.outcome and ending == verdict.ending
+            same = same and len(found) == len(rows) - start.impact
+            for i in range(len(found)):
+                same = same and found[i].face == rows[start.impact + i].face
+            if not same:
+                return Certainty(False, outcome, pair, side)
+    return Certainty(True, verdict.outcome, 0, 0.0)
+
+
+def other_outcome(
+    body: Body, rules: Rules, toss: EventLog, horizon: Horizon, certainty: Certainty
+) -> OtherOutcome | None:
+    """Return the outcome of the neighbour that ends otherwise, and about the least change that leads to it.
 
     Args:
         body: the coin.
         rules: floor and ending.
         toss: from its release on.
         horizon: how far it can be trusted.
+        certainty: of its outcome.
+
+    Returns:
+        None where there is no such neighbour, or none with another outcome that is decided.
     """
-    if toss.outcome == Outcome.UNDECIDED:
-        return False
-    ended = toss.started.modes[horizon.impacts] == Mode.ENDED
-    # What passes a hand may do so on any flight.
-    first = 0 if is_to_be_caught(rules) else horizon.impacts - int(ended)
-    rng = np.random.default_rng(0)
-    start, time = toss.start_states[first], toss.start_times[first]
-    left = rules._replace(max_impacts=rules.max_impacts - first, max_time=rules.max_time - time)
-    scales = _scales(body, start)
-    for _ in range(PAIRS):
-        by_errors = FAR * rng.choice([-1.0, 1.0], len(horizon.errors)) @ horizon.errors
-        # Where the coin is changes nothing; the last error is that of the time.
-        change = np.concatenate([[0.0, 0.0], by_errors[:-1] + LEAST * scales * rng.normal(size=len(scales))])
-        for side in (1.0, -1.0):
-            y = start + side * change
-            y[6:10] /= np.linalg.norm(y[6:10])
-            if not _ends_alike(run(body, left, y, FOLLOWED), toss, first):
-                return False
-    return True
-
-
-def _scales(body: Body, y: Array) -> Array:
-    """Return the scales of a state's components from the height on, (11,)."""
-    speed = (body.gravity * body.radius) ** 0.5 + float(np.linalg.norm(y[3:6]))
-    spin = (body.gravity / body.radius) ** 0.5 + float(np.linalg.norm(y[10:13]))
-    return np.array([body.radius, *[speed] * 3, *[1.0] * 4, *[spin] * 3])
-
-
-def _ends_alike(neighbour: EventLog, toss: EventLog, first: int) -> bool:
-    """Return whether a neighbour has the faces of a toss from an impact on, its outcome and its ending."""
-    same = (neighbour.outcome, neighbour.ending) == (toss.outcome, toss.ending)
-    return same and np.array_equal(neighbour.rows["face"], toss.rows["face"][first:])
+    start, size, found = start_of(rules, toss.started, horizon), certainty.side, None
+    outcome = certainty.outcome
+    while outcome not in (toss.outcome, Outcome.UNDECIDED, Outcome.TRANSIENT):
+        y = neighbour(body, start, horizon, certainty.pair, size)
+        change = float(np.max(np.abs(y - start.state)[_FIRST:] / _scales(body, start.state)))
+        _, outcome, _ = end_of(body, start.rules, y)
+        if outcome == certainty.outcome:
+            found = OtherOutcome(outcome=Outcome(outcome), change=change, impact=start.impact)
+        size *= _CLOSER
+    return found

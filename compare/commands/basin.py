@@ -69,7 +69,7 @@ class _Size(click.ParamType):
 @click.option(
     "--trust",
     is_flag=True,
-    help="Also count the impacts of each pixel that the engine's own errors cannot have changed.",
+    help="Also find which pixels the engine's own errors may have decided.",
 )
 @click.option("--resume", is_flag=True, help="Continue a map; begin it where there is none.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing map.")

@@ -36,6 +36,7 @@ def page_map(found: OutcomeMap) -> dict[str, Any]:
         "arrays": {
             name: b64encode(array.astype(_KINDS[name]).tobytes()).decode("ascii")
             for name, array in (found.layers | untrusted).items()
+            if name in _KINDS
         },
     }
 

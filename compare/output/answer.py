@@ -9,7 +9,15 @@ import numpy as np
 
 from cointoss.models import certificate
 from cointoss.models.notebook import shortened, with_bar
-from cointoss.models.records import Face, Impacts, Outcome, States, Toss, UnsupportedError
+from cointoss.models.records import (
+    Face,
+    Impacts,
+    OtherOutcome,
+    Outcome,
+    States,
+    Toss,
+    UnsupportedError,
+)
 
 _JSON_FIELDS = [item.name for item in fields(Impacts) if item.name not in ("time", "face", "energy_change")]
 PATH_COLUMNS = {
@@ -36,6 +44,7 @@ def as_json(toss: Toss) -> dict[str, Any]:
         "ending": str(toss.ending),
         "end_time": toss.end_time,
         "outcome_certain": toss.outcome_certain,
+        "other_outcome": _other(toss.other_outcome),
         "trusted_impacts": toss.trusted_impacts,
         "trust_end": str(toss.trust_end),
         "trust_reason": toss.trust_reason,
@@ -44,6 +53,10 @@ def as_json(toss: Toss) -> dict[str, Any]:
         ],
         "contacts": [{"start": start, "end": end} for start, end in toss.contacts.tolist()],
     }
+
+
+def _other(other: OtherOutcome | None) -> dict[str, Any] | None:
+    return other and {"outcome": str(other.outcome), "change": other.change, "after_impact": other.impact}
 
 
 def _impact(impacts: Impacts, i: int) -> dict[str, Any]:

@@ -36,13 +36,21 @@ class Verdict(NamedTuple):
 def verdict_of(comparison: ComparedTosses) -> Verdict:
     """Return the verdict."""
     certainly = ", and that is certain" if comparison.analytic.outcome_certain else ""
+    doubt = _doubt(comparison.analytic)
     if comparison.mujoco is None:
         says = f"{_outcome(comparison.analytic)} by the analytic engine alone{certainly}"
-        return Verdict(_sentence(f"{says}: MuJoCo can't toss this coin on this floor"), Kind.ALONE)
+        return Verdict(_sentence(f"{says}: MuJoCo can't toss this coin on this floor") + doubt, Kind.ALONE)
     a, b = (_outcome(toss) for toss in comparison.both)
     says = f"{a} by both engines{certainly}" if a == b else f"{a} by the analytic engine, {b} by MuJoCo"
     agreement, kind = _agreement(comparison, a == b)
-    return Verdict(_sentence(f"{says}: {agreement}"), kind)
+    return Verdict(_sentence(f"{says}: {agreement}") + doubt, kind)
+
+
+def _doubt(toss: Toss) -> str:
+    other = toss.other_outcome
+    if other is None:
+        return ""
+    return f" {_sentence(f'{_told(toss.outcome)} or {_told(other.outcome)}: {other.told}')}"
 
 
 def horizon_sentence(comparison: ComparedTosses) -> str:
@@ -132,12 +140,16 @@ def _outcome(toss: Toss) -> str:
         return f"{toss.outcome} in the hand"
     if toss.ending == Ending.NOT_CAUGHT:
         return "not caught"
+    return _told(toss.outcome)
+
+
+def _told(outcome: Outcome) -> str:
     told = {
         Outcome.EDGE: "on its edge",
         Outcome.PERPETUAL: "moving for ever",
         Outcome.TRANSIENT: "moving still",
     }
-    return told.get(toss.outcome, str(toss.outcome))
+    return told.get(outcome, str(outcome))
 
 
 def _all(count: int) -> str:

@@ -48,19 +48,18 @@ def describe_margins(quantity: "Quantity", margins: Array) -> str:
 
 
 def describe_trust(sweep: Sweep, counts: NDArray[np.int64]) -> str:
-    """Return as text what trusted impacts cover of a map.
+    """Return as text how much of a map can be trusted.
 
     Args:
         sweep: what the map is made of.
-        counts: how many pixels have 0, 1, 2, ... trusted impacts, (n,).
+        counts: how many pixels have 0, 1, 2, ... trusted impacts, or an outcome uncertain and certain, (n,).
     """
-    few, middle = np.searchsorted(np.cumsum(counts), counts.sum() * np.array([0.1, 0.5]))
-    untrusted = untrusted_pixels(sweep, np.arange(len(counts), dtype=np.int32))
+    untrusted = untrusted_pixels(sweep.after, np.arange(len(counts), dtype=np.int32))
     share = 100 * counts[untrusted].sum() / counts.sum()
     if sweep.after is None:
-        why = "trusted impacts cover the face at a touch (--after N), but no final outcome"
-    else:
-        why = f"impact {sweep.after + 1} is not trusted, or the toss ended before"
+        return f"untrusted  {share:.3f} %: the engine's own errors may have decided the outcome"
+    why = f"impact {sweep.after + 1} is not trusted, or the toss ended before"
+    few, middle = np.searchsorted(np.cumsum(counts), counts.sum() * np.array([0.1, 0.5]))
     return "\n".join(
         [
             f"trusted    median {middle} impacts, a tenth at most {few}",

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from cointoss.compare.sweep.axes import MOST_VALUES
-from cointoss.compare.sweep.layers import LAYERS
+from cointoss.compare.sweep.layers import LAYERS, trust_layer
 from cointoss.models.bounded import read_bounded
 from cointoss.models.errors import shown
 from cointoss.models.fields import UNITS
@@ -23,7 +23,7 @@ FORMAT = 1
 MARGIN_ALONG = "margin_along"
 """Attribute of a map with margins: their quantity."""
 TRUST = "trust"
-"""Attribute of a map with counts of trusted impacts: true."""
+"""Attribute of a map that says which of its pixels can be trusted: true."""
 DESCRIPTION = "zarr.json"
 """Name of the file that describes a map, and of those that describe its arrays."""
 MOST_DESCRIBED = 1 << 20
@@ -37,8 +37,6 @@ _ATTRIBUTES = {
     "after": int | None,
     "versions": dict,
 }
-_OPTIONAL = {"margin": MARGIN_ALONG, "trusted_impacts": TRUST}
-"""Arrays that not every map has, and the attribute of one that has it."""
 _DEEPEST = 3
 """Folders within a map: an array, its chunks, those of a row."""
 
@@ -158,7 +156,9 @@ def _form(folder: Path) -> Form:
     for name, due in (("zarr_format", 3), ("node_type", "group")):
         if described.get(name) != due:
             raise FormError(f"{name} = {shown(described.get(name))}, not {due}")
-    absent = {name for name, attribute in _OPTIONAL.items() if attribute not in attributes}
+    absent = {"margin", "trusted_impacts", "outcome_certain"}
+    absent -= {"margin"} if MARGIN_ALONG in attributes else set()
+    absent -= {trust_layer(attributes["after"])} if TRUST in attributes else set()
     arrays = _arrays(folder, described, set(LAYERS) - absent)
     (x, columns), (y, rows) = (_axis(arrays, dimension) for dimension in ("x", "y"))
     shape = rows, columns

@@ -50,7 +50,7 @@ class Sweep:
     margin: str | None = None
     """Name of the quantity of the release along which each pixel has its margin; with its axis in Greek."""
     trust: bool = False
-    """Whether each pixel has its number of trusted impacts."""
+    """Whether it is found which pixels can be trusted."""
     name: str = ""
     """What its scenario is called; empty for one without a name."""
 

@@ -45,8 +45,8 @@ def basin(
         after: show the face at the touch after so many impacts; by default the final outcome.
         margin: also find the smallest change of this quantity of the release, such as "height", that changes
             a pixel's outcome; by the analytic engine only.
-        trust: also count the impacts of each pixel that the engine's own errors cannot have changed, which
-            takes two to three times as long; by the analytic engine only.
+        trust: also find which pixels the engine's own errors may have decided, in two to three times the
+            time with `after`, else in two to seven; by the analytic engine only.
 
     Raises:
         ScenarioError: naming file, field, value and what is accepted.

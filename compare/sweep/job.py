@@ -15,6 +15,7 @@ from cointoss.compare.report.contents import NOT_ASKED, require_folder
 from cointoss.compare.sweep import describe, run, store
 from cointoss.compare.sweep.axes import Axis, parse_axis
 from cointoss.compare.sweep.grid import Sweep
+from cointoss.compare.sweep.layers import trust_layer
 from cointoss.compare.sweep.pixels import check
 from cointoss.compare.sweep.untrusted import untrusted_pixels
 from cointoss.models.reading import parse
@@ -48,7 +49,7 @@ class Job:
     margin: str | None
     """Name of the quantity along which margins are mapped."""
     trust: bool
-    """Whether trusted impacts are counted."""
+    """Whether the pixels that can be trusted are found."""
     resume: bool
     """Whether to go on with maps that are there."""
     overwrite: bool
@@ -134,9 +135,9 @@ def make(job: Job, say: Say) -> Iterator[str]:
                     margins = map_.whole("margin")
                     yield describe.describe_margins(sweep.quantity, margins)
                 if sweep.trust:
-                    yield describe.describe_trust(sweep, run.trusted_counts(map_))
+                    yield describe.describe_trust(sweep, run.trust_counts(map_, sweep.after))
                     if drawn:
-                        untrusted = untrusted_pixels(sweep, map_.whole("trusted_impacts"))
+                        untrusted = untrusted_pixels(sweep.after, map_.whole(trust_layer(sweep.after)))
                 if drawn:
                     maps.append(map_.whole("outcome"))
     if not drawn:

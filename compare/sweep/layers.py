@@ -17,6 +17,7 @@ LAYERS: dict[str, tuple[type[np.number], float]] = {
     "impacts": (np.int32, NOT_TOSSED),
     "margin": (np.float64, np.nan),
     "trusted_impacts": (np.int32, NOT_TOSSED),
+    "outcome_certain": (np.int8, NOT_TOSSED),
 }
 """Types of the arrays over both axes, and what they hold where no toss was made."""
 
@@ -40,11 +41,20 @@ def layers_of(sweep: Sweep) -> dict[str, Layer]:
         found = f"smallest change of the release's {sweep.margin} that was found to change the outcome"
         about = f"{found}; infinite: none up to 1 SI unit"
         attributes["margin"] = {"long_name": about, "units": sweep.quantity.unit}
-    if sweep.trust:
-        upto = "" if sweep.after is None else f" up to touch {sweep.after + 1}"
-        about = f"number of leading impacts{upto} that the engine's own errors cannot have changed"
+    if sweep.trust and sweep.after is not None:
+        upto = f"up to touch {sweep.after + 1}"
+        about = f"number of leading impacts {upto} that the engine's own errors cannot have changed"
         attributes["trusted_impacts"] = {"long_name": about}
+    elif sweep.trust:
+        meanings = meanings_of({NOT_TOSSED: "not_tossed", 0: "uncertain", 1: "certain"})
+        about = "whether the engine's own errors cannot change the outcome"
+        attributes["outcome_certain"] = {"long_name": about, **meanings}
     return {name: Layer(*LAYERS[name], about) for name, about in attributes.items()}
+
+
+def trust_layer(after: int | None) -> str:
+    """Return the name of the array that says which pixels can be trusted, of a map with this `--after`."""
+    return "outcome_certain" if after is None else "trusted_impacts"
 
 
 def holds_tosses(name: str, values: NDArray[Any]) -> NDArray[np.bool_]:

@@ -16,7 +16,7 @@ from cointoss.compare.basins.picture_style import Palette, PictureStyle
 from cointoss.compare.output.plots import axes_or_new
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep
-from cointoss.compare.sweep.layers import NOT_TOSSED, axis_attributes, layers_of
+from cointoss.compare.sweep.layers import NOT_TOSSED, axis_attributes, layers_of, trust_layer
 from cointoss.compare.sweep.pixels import Pixels
 from cointoss.compare.sweep.untrusted import untrusted_pixels
 from cointoss.models import notebook
@@ -49,6 +49,8 @@ class OutcomeMap:
     trusted_impacts: NDArray[np.int32] | None = None
     """Number of leading impacts, up to the touch that is shown, that the engine's own errors cannot have
     changed, or -1, (ny, nx)."""
+    outcome_certain: NDArray[np.int8] | None = None
+    """Of final outcomes: 1 where the engine's own errors cannot change it, else 0, or -1, (ny, nx)."""
     stride: int = 1
     """Every so many-th pixel of the sweep is here, along both axes."""
 
@@ -84,12 +86,15 @@ class OutcomeMap:
 
     @cached_property
     def untrusted(self) -> NDArray[np.bool_] | None:
-        """The pixels whose face or outcome the trusted impacts do not cover, (ny, nx), where they are known.
+        """The pixels that the engine's own errors may have decided, (ny, nx), where that is known.
 
-        Of the face at touch n + 1, one is covered where n + 1 impacts are trusted. The outcome of a toss that
-        ended before is not covered, nor is any final outcome: the horizon of trust ends with the last impact.
+        The face at touch n + 1 can be trusted where n + 1 impacts can, but no outcome of a toss that ended
+        before. A final outcome can be trusted where it is certain.
         """
-        return None if self.trusted_impacts is None else untrusted_pixels(self.sweep, self.trusted_impacts)
+        if not self.sweep.trust:
+            return None
+        after = self.sweep.after
+        return untrusted_pixels(after, self.layers[trust_layer(after)])
 
     @cached_property
     def shares(self) -> dict[str, float]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep, Tile
-from cointoss.compare.sweep.layers import layers_of
+from cointoss.compare.sweep.layers import layers_of, trust_layer
 from cointoss.models.errors import ScenarioError
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.records import Array
@@ -44,6 +44,8 @@ class Pixels(NamedTuple):
     """As of a `Margin`, (y, x); None where none is asked for."""
     trusted_impacts: NDArray[np.int32] | None = None
     """As of an `Outcomes`, (y, x); None where they are not asked for."""
+    outcome_certain: NDArray[np.int8] | None = None
+    """Likewise: 1 where the outcome is certain, 0 where it is not."""
 
 
 class Group(NamedTuple):
@@ -69,20 +71,22 @@ def toss_pixels(sweep: Sweep, tile: Tile) -> Pixels:
         name: np.empty((len(y), len(x)), layer.kind) for name, layer in layers_of(sweep).items()
     }
     for group in groups(sweep, y, x):
-        tossed = _toss(sweep, group.scenario, group.releases, horizon=sweep.trust)
+        tossed = _toss(sweep, group.scenario, group.releases, trust=sweep.trust)
         parts: dict[str, NDArray[Any]] = {"outcome": _shown(sweep, tossed), "impacts": tossed.impacts}
         if sweep.margin is not None:
             parts["margin"] = _margins(sweep, group)
-        if tossed.trusted_impacts is not None:
-            parts["trusted_impacts"] = tossed.trusted_impacts
+        if sweep.trust:
+            parts[trust_layer(sweep.after)] = getattr(tossed, trust_layer(sweep.after))
         for name, part in parts.items():
             block = whole[name][group.rows, group.columns]
             block[:] = part.reshape(block.shape)
     return Pixels(**whole)
 
 
-def _toss(sweep: Sweep, scenario: Scenario, releases: Releases, *, horizon: bool = False) -> Outcomes:
-    more: Any = {"horizon": True} if horizon else {}  # of the analytic engine alone
+def _toss(sweep: Sweep, scenario: Scenario, releases: Releases, *, trust: bool = False) -> Outcomes:
+    # These are of the analytic engine alone.
+    asked = {"trusted_impacts": "horizon", "outcome_certain": "certain"}
+    more: Any = {asked[trust_layer(sweep.after)]: True} if trust else {}
     return sweep.engine.package.toss_many(scenario, releases, settings=sweep.settings, **more)
 
 

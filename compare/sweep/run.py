@@ -13,7 +13,7 @@ from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.output.interruption import Interruption
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep, Tile, cut, gaps
-from cointoss.compare.sweep.layers import bytes_per_pixel
+from cointoss.compare.sweep.layers import bytes_per_pixel, trust_layer
 from cointoss.compare.sweep.pixels import Pixels, toss_pixels
 from cointoss.compare.sweep.store import Map
 from cointoss.models.kernel.compiling import compiling
@@ -85,11 +85,11 @@ def fractions_of(map_: Map) -> dict[Outcome, float]:
     return {outcome: float(counts[outcome] / counts.sum()) for outcome in Outcome}
 
 
-def trusted_counts(map_: Map) -> NDArray[np.int64]:
-    """Return how many pixels have 0, 1, 2, ... trusted impacts, without the whole map in memory, (n,)."""
+def trust_counts(map_: Map, after: int | None) -> NDArray[np.int64]:
+    """Return how many pixels have 0, 1, ... in the `trust_layer`, without the whole map in memory, (n,)."""
     counts = np.zeros(1, dtype=np.int64)
     for tile in map_.tiles:
-        found = np.bincount(map_.read(tile, "trusted_impacts").ravel(), minlength=len(counts))
+        found = np.bincount(map_.read(tile, trust_layer(after)).ravel(), minlength=len(counts))
         found[: len(counts)] += counts
         counts = found
     return counts

@@ -7,6 +7,7 @@ import pytest
 
 from cointoss import analytic
 from cointoss.analytic.events import run
+from cointoss.analytic.horizon.certainty import certainty_of
 from cointoss.analytic.horizon.horizon import horizon_of
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.hand import Hand
@@ -58,15 +59,27 @@ def test_many_tosses_tell_how_far_each_can_be_trusted(air, contact):
     case = scenario(coin={**ZLOTY, "center_of_mass": PAPER_OFFSET}, air=air, floor=floor)
     drawn, releases = draw_releases(np.random.default_rng(4), 12)
     plain, outcomes = (analytic.toss_many(case, releases, horizon=horizon) for horizon in (False, True))
-    assert plain.trusted_impacts is None
+    certain = analytic.toss_many(case, releases, certain=True)
+    assert plain.trusted_impacts is plain.outcome_certain is outcomes.outcome_certain is None
     assert outcomes.trusted_impacts is not None
     starts = [state_at_release(Release.model_validate(release)) for release in drawn]
     logs = [run(case.body, case.rules, start, analytic.MANY) for start in starts]
-    trusted = [horizon_of(case.body, case.rules, log).impacts for log in logs]
+    horizons = [horizon_of(case.body, case.rules, log) for log in logs]
+    trusted = [horizon.impacts for horizon in horizons]
     assert outcomes.trusted_impacts.tolist() == trusted
     assert max(trusted) > min(trusted) > 0
+    in_turn = [
+        certainty_of(case.body, case.rules, log.rows, log.started, log.verdict, horizon).certain
+        for log, horizon in zip(logs, horizons, strict=True)
+    ]
+    assert certain.outcome_certain is not None
+    assert certain.trusted_impacts is not None
+    assert certain.outcome_certain.tolist() == in_turn
+    assert 0 < sum(in_turn)
+    assert np.array_equal(certain.trusted_impacts, outcomes.trusted_impacts)
     for name in ("outcome", "ending", "impacts", "last_face", "end_time"):
         assert np.array_equal(getattr(plain, name), getattr(outcomes, name))
+        assert np.array_equal(getattr(plain, name), getattr(certain, name))
     assert "trusted_impacts" in outcomes.to_dataframe()
     assert "trusted_impacts" not in plain.to_dataframe()
 

@@ -97,6 +97,8 @@ def test_what_toss_refuses_is_refused_and_what_it_warns_of_is_warned_of():
         coin_mj.toss_many(scenario(floor={"restitution": 0.0}), releases)
     with pytest.raises(UnsupportedError, match="horizon = True: accepted"):
         coin_mj.toss_many(scenario(), releases, horizon=True)
+    with pytest.raises(UnsupportedError, match="certain = True: accepted"):
+        coin_mj.toss_many(scenario(), releases, certain=True)
     with pytest.raises(ValueError, match="a coin above the floor"):
         coin_mj.toss_many(scenario(), releases_of(1, position=[0, 0, 0]))
     rough = scenario(floor={"contact": "perfectly_rough"}, ending={"max_impacts": 1})

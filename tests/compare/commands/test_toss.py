@@ -19,8 +19,8 @@ def test_json_has_the_agreed_form():
     assert answered.exit_code == 0
     toss = json.loads(answered.stdout)
     of_toss = (
-        "engine sequence outcome ending end_time outcome_certain trusted_impacts trust_end trust_reason "
-        "impacts contacts"
+        "engine sequence outcome ending end_time outcome_certain other_outcome trusted_impacts trust_end "
+        "trust_reason impacts contacts"
     )
     assert list(toss) == [*of_toss.split(), "scenario", "settings", "versions"]
     limited = load("fig24a").replace("ending.max_impacts", 3)
@@ -34,6 +34,34 @@ def test_json_has_the_agreed_form():
     assert (toss["trusted_impacts"], toss["trust_end"], toss["trust_reason"]) == (3, "none", "")
     # tests/test_reference reads every other field.
     assert (toss["impacts"][0]["face"], toss["impacts"][0]["flags"]) == ("H", [])
+
+
+UPRIGHT = """
+[coin]
+mass = "2 g"
+radius = "1.25 cm"
+thickness = 0
+[floor]
+contact = "smooth"
+restitution = 0.5
+[release]
+position = [0, 0, 0.2]
+angles = [0, 1.5707963267948966, 0]
+"""
+
+
+def test_a_tie_is_told_with_what_decides_it(tmp_path):
+    source = tmp_path / "upright.toml"
+    source.write_text(UPRIGHT)
+    found = json.loads(cointoss("toss", source, "--json").stdout)
+    other = found["other_outcome"]
+    assert (found["outcome"], found["outcome_certain"]) == ("heads", False)
+    assert (other["outcome"], other["after_impact"]) == ("tails", 0)
+    assert 0 < other["change"] < 1e-13
+    told = f"outcome   heads or tails: a change of {other['change']:.0e} at the release decides\n"
+    assert told in cointoss("toss", source).stdout
+    by_mujoco = json.loads(cointoss("toss", source, "--engine", "mujoco", "--json").stdout)
+    assert by_mujoco["outcome_certain"] is by_mujoco["other_outcome"] is None
 
 
 NEARLY_FLAT = """

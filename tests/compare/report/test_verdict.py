@@ -9,7 +9,7 @@ import pytest
 from cointoss import coin_mj
 from cointoss.compare.report.comparison import Comparison
 from cointoss.compare.report.verdict import Kind, horizon_sentence, verdict_of
-from cointoss.models.records import IMPACT_ROW, Ending, Face, Impacts, Outcome, TrustEnd
+from cointoss.models.records import IMPACT_ROW, Ending, Face, Impacts, OtherOutcome, Outcome, TrustEnd
 from tests.helpers.films import MadePath
 from tests.helpers.films import made as made_by_formulas
 
@@ -46,6 +46,7 @@ def compared(a, b, prefix, horizon):
 TOSSES = {
     "HHT": made("HHT"),
     "sure": replace(made("HHT"), outcome_certain=True),
+    "open": replace(made("HHT"), other_outcome=OtherOutcome(outcome=Outcome.EDGE, change=1.2e-16, impact=2)),
     "HTT": made("HTT", Outcome.TAILS),
     "HHTH": made("HHTH"),
     "TTT": made("TTT", Outcome.TAILS),
@@ -70,6 +71,9 @@ HHT HHT 3 1 AGREE
 sure HHT 3 1 AGREE
     Heads by both engines, and that is certain: they agree on all 3 impacts. The first must agree; after that
     DECIDE
+open HHT 3 1 AGREE
+    Heads by both engines: they agree on all 3 impacts. The first must agree; after that DECIDE Heads or on
+    its edge: a change of 1e-16 after impact 2 decides.
 sure HTT 1 1 DIFFER
     HEADS, TAILS: they agree on the first impact, as they must; after that DECIDE
 HHT HHTH 3 2 DIFFER

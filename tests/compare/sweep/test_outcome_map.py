@@ -42,6 +42,11 @@ def trusted():
     return cointoss.basin("fig24a", x=X, y=Y, after=8, trust=True)
 
 
+@pytest.fixture(scope="module")
+def certain():
+    return cointoss.basin("fig24a", x=X, y=Y, trust=True)
+
+
 def test_a_map_has_the_tosses_of_its_pixels(found):
     scenario = cointoss.load("fig24a")
     assert (found.x[0], found.x[-1], found.y[0], found.y[-1]) == (20, 60, 0.2, 0.6)
@@ -75,16 +80,30 @@ def test_a_map_counts_the_trusted_impacts_of_each_pixel(trusted):
     assert about == "number of leading impacts up to touch 9 that the engine's own errors cannot have changed"
 
 
-def test_no_outcome_of_a_toss_that_ended_is_covered():
+def test_of_a_map_of_a_touch_no_outcome_of_a_toss_that_ended_is_trusted():
     """At restitution 0.1 all impacts of some tosses are trusted; the horizon does not cover what follows."""
     softer = cointoss.load("fig24a").replace("floor.restitution", 0.1)
-    for after in (8, None):
-        found = cointoss.basin(softer, x=X, y=Y, after=after, trust=True)
-        ended = found.impacts <= 8
-        assert found.untrusted is not None
-        assert np.any(ended & (found.trusted_impacts == found.impacts))
-        assert np.all(found.untrusted[ended])
-        assert after is not None or found.untrusted.all()
+    found = cointoss.basin(softer, x=X, y=Y, after=8, trust=True)
+    ended = found.impacts <= 8
+    assert found.untrusted is not None
+    assert np.any(ended & (found.trusted_impacts == found.impacts))
+    assert np.all(found.untrusted[ended])
+
+
+def test_a_final_outcome_is_trusted_where_it_is_certain(certain):
+    scenario = cointoss.load("fig24a")
+    for row, height in enumerate(certain.y):
+        for column, spin in enumerate(certain.x):
+            changed = scenario.replace("release.angular_velocity.eta", spin, "release.position.z", height)
+            toss = cointoss.analytic.toss(changed)
+            assert certain.outcome[row, column] == toss.outcome
+            assert certain.outcome_certain[row, column] == toss.outcome_certain
+    assert np.array_equal(certain.untrusted, certain.outcome_certain == 0)
+    assert 0 < certain.untrusted.sum() < certain.untrusted.size
+    assert certain.trusted_impacts is None
+    kept = certain.to_xarray()["outcome_certain"]
+    assert kept.attrs["long_name"] == "whether the engine's own errors cannot change the outcome"
+    assert kept.attrs["flag_meanings"] == "not_tossed uncertain certain"
 
 
 def test_a_map_in_xarray_is_that_on_disk(found, tmp_path):
@@ -166,6 +185,18 @@ def test_the_command_says_what_is_untrusted(trusted, tmp_path, monkeypatch):
     said = f"untrusted  {share:.3f} %: impact 9 is not trusted, or the toss ended before\n"
     assert said in answered.stdout
     assert (tmp_path / "map.png").exists()
+
+
+def test_the_command_says_which_outcomes_may_be_decided_by_errors(certain, tmp_path):
+    path = tmp_path / "map.zarr"
+    answered = command("basin", "fig24a", "--x", X, "--y", Y, "--trust", "--out", path)
+    share = 100 * certain.untrusted.mean()
+    said = f"untrusted  {share:.3f} %: the engine's own errors may have decided the outcome\n"
+    assert said in answered.stdout
+    read = cointoss.read_map(path)
+    assert np.array_equal(read.layers["outcome_certain"], certain.outcome_certain)
+    assert read.untrusted is not None
+    assert np.array_equal(read.untrusted, certain.untrusted)
 
 
 def contents(store):
