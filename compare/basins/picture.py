@@ -135,10 +135,13 @@ def draw_panel(
     patches = _outcome_patches([codes], style)
     if untrusted is None:
         return patches
-    color = _HATCH[style.palette]
-    _show(axes, _hatch(untrusted, color), x, y, shape=codes.shape)
-    label = f"untrusted: {100 * untrusted.mean():.3g} %"
-    return [*patches, Patch(facecolor=PALE, edgecolor=color, hatch="/////", linewidth=0.6, label=label)]
+    _show(axes, _hatch(untrusted, _HATCH[style.palette]), x, y, shape=codes.shape)
+    return [*patches, _hatch_patch(untrusted, style)]
+
+
+def _hatch_patch(untrusted: NDArray[np.bool_], style: PictureStyle) -> Patch:
+    color, label = _HATCH[style.palette], f"untrusted: {100 * untrusted.mean():.3g} %"
+    return Patch(facecolor=PALE, edgecolor=color, hatch="/////", linewidth=0.6, label=label)
 
 
 def _hatch(mask: NDArray[np.bool_], color: str) -> NDArray[np.uint8]:
@@ -185,6 +188,7 @@ def draw_comparison(
     y: MapAxis,
     style: PictureStyle = PLAIN,
     note: str = "",
+    untrusted: NDArray[np.bool_] | None = None,
 ) -> Figure:
     """Draw the maps of both engines and where they differ, side by side.
 
@@ -195,6 +199,7 @@ def draw_comparison(
         y: of the rows.
         style: how to draw.
         note: more lines over the difference.
+        untrusted: the pixels of the analytic map, (y, x), that are hatched.
 
     Raises:
         ValueError: for maps of two shapes.
@@ -218,6 +223,9 @@ def draw_comparison(
         axes.set_title(title)
     panels[0].set_ylabel(_label(y))
     patches = [_patch(_SAME, "both alike"), _patch(_DIFFERENT, "different")]
+    if untrusted is not None:
+        _show(panels[0], _hatch(untrusted, _HATCH[style.palette]), x, y, shape=a.shape)
+        patches.append(_hatch_patch(untrusted, style))
     _legend(figure, [*_outcome_patches([a, b], style), *patches])
     return figure
 

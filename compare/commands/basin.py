@@ -125,7 +125,7 @@ def basin(
         raise click.UsageError(f"--contact {contact}: accepted: only beside --engine mujoco or --compare")
     if both or engine == "mujoco":
         beside = "--compare" if both else f"--engine {engine}"
-        for asked in ([] if margin is None else [f"--margin {margin}"]) + ["--trust"] * trust:
+        for asked in ([] if margin is None else [f"--margin {margin}"]) + ["--trust"] * (trust and not both):
             raise click.UsageError(f"{asked} {beside}: accepted: only by the analytic engine alone")
     if report is not None and not both:
         raise click.UsageError(f"--report {report}: accepted: only beside --compare")

@@ -82,7 +82,7 @@ def sweeps_of(job: Job, scenario: Scenario, x: Axis, y: Axis) -> dict[Path, Swee
             settings=replace(engine.package.MANY, **chosen.get(engine, {})),
             after=job.after,
             margin=job.margin,
-            trust=job.trust,
+            trust=job.trust and engine == Engine.ANALYTIC,
             name=Path(job.source).stem,
         )
         for path, engine in _engines_of(job).items()
@@ -159,7 +159,8 @@ def make(job: Job, say: Say) -> Iterator[str]:
 
         fine = replace(Engine.MUJOCO.package.FINE, contact=job.contact)
         both = compared(first.scenario, job.text, Path(job.source).stem, fine)
-        shown = show.section(maps, list(sweeps.values()), job.style, _command(job))
+        made = list(sweeps.values())
+        shown = show.section(maps, made, job.style, _command(job), untrusted=untrusted)
         page = write_report(both, job.report, no_video, maps=shown)
         yield f"report     {page}"
 
@@ -177,7 +178,7 @@ def _command(job: Job) -> str:
     if job.after is not None:
         words += ["--after", job.after]
     words += ["--compare", "--contact", job.contact, "--out", job.out, "--report", job.report, "--resume"]
-    words += ["--no-video"] * job.no_video
+    words += ["--trust"] * job.trust + ["--no-video"] * job.no_video
     style = job.style
     words += ["--palette", style.palette, "--dpi", style.dpi] + ["--boundaries"] * style.boundaries
     if style.size is not None:

@@ -35,7 +35,7 @@ def png_of(
         sweep: what the first was made of.
         style: how to draw.
         margins: of the first map, (y, x), to be drawn beside it.
-        untrusted: the pixels of a single map, (y, x), that are hatched.
+        untrusted: the pixels of the first map, (y, x), that are hatched.
 
     Returns:
         The content of a PNG file.
@@ -44,7 +44,7 @@ def png_of(
     if len(maps) > 1:
         measured = measure(*maps)
         note = f"agree: {percent(measured.away)} away from boundaries,\n{percent(measured.near)} near them"
-        figure = picture.draw_comparison(*maps, x=x, y=y, style=style, note=note)
+        figure = picture.draw_comparison(*maps, x=x, y=y, style=style, note=note, untrusted=untrusted)
     else:
         beside = None if margins is None else _margins(margins, sweep)
         figure = picture.draw_map(maps[0], x=x, y=y, style=style, margins=beside, untrusted=untrusted)
@@ -55,7 +55,12 @@ def png_of(
 
 
 def section(
-    maps: list[NDArray[np.int8]], sweeps: Sequence[Sweep], style: PictureStyle, command: str
+    maps: list[NDArray[np.int8]],
+    sweeps: Sequence[Sweep],
+    style: PictureStyle,
+    command: str,
+    *,
+    untrusted: NDArray[np.bool_] | None = None,
 ) -> MapSection:
     """Return what a report shows of the maps of both engines.
 
@@ -64,6 +69,7 @@ def section(
         sweeps: what each was made of.
         style: how to draw.
         command: that makes the maps.
+        untrusted: the pixels of the first map, (y, x), that are hatched.
     """
     sweep = sweeps[0]
     shares = {
@@ -71,12 +77,13 @@ def section(
         for sweep, outcomes in zip(sweeps, maps, strict=True)
     }
     return MapSection(
-        picture=png_of(maps, sweep, style),
+        picture=png_of(maps, sweep, style, untrusted=untrusted),
         numbers={
             "axes": {"x": asdict(sweep.x), "y": asdict(sweep.y)},
             "after": sweep.after,
             "fractions": shares,
             "agreement": {"distance": AWAY, **asdict(measure(*maps))},
+            "untrusted": None if untrusted is None else float(untrusted.mean()),
             "settings": {sweep.engine.value: sweep.settings.as_dict() for sweep in sweeps},
             "command": command,
         },

@@ -107,6 +107,18 @@ def test_a_comparison_shows_both_maps_and_where_they_differ():
     assert legend(figure) == ["heads", "tails", "edge", "undecided", "both alike", "different"]
 
 
+def test_a_comparison_hatches_the_untrusted_pixels_of_the_analytic_map():
+    maps, untrusted = [np.full((2, 4), HEADS, np.int8)] * 2, np.array([[True, True, False, False]] * 2)
+    figure = draw_comparison(*maps, x=X, y=Y, untrusted=untrusted)
+    left, middle = (drawn(figure, panel) for panel in range(2))
+    across = np.linspace(20, 60, 120)
+    for color, at in ((left, across), (middle, across)):
+        hatched = np.array([color(x, 0.6) != GOLD for x in at])
+        assert not hatched[70:].any()
+        assert hatched[:50].any() == (color is left)
+    assert legend(figure)[-1] == "untrusted: 50 %"
+
+
 def test_a_comparison_of_nothing_says_so():
     figure = draw_comparison(np.zeros((2, 3), int), halves(2, 3), x=X, y=Y)
     assert figure.axes[2].get_title() == "difference: no pixel decided by both"

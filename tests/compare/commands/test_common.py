@@ -64,7 +64,6 @@ ANSWERS = {
     f"{AXES} --margin height --engine mujoco --out a.zarr": "--margin height --engine mujoco: accepted: only",
     f"{AXES} --margin height --compare --out a.zarr": "--margin height --compare: accepted: only by",
     f"{AXES} --trust --engine mujoco --out a.zarr": "--trust --engine mujoco: accepted: only",
-    f"{AXES} --trust --compare --out a.zarr": "--trust --compare: accepted: only by",
     # what excludes another
     "solref --restitution 0.5 --dt 2ms --steps 40": "--steps 40: accepted: only beside --spring",
     "basin fig24a --x ending.max_impacts=1:3:3 --y gravity=9:10:2 --after 2 --out a.zarr": (

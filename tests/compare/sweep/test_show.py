@@ -24,6 +24,7 @@ from cointoss.compare.report.folder import write_report
 from cointoss.compare.sweep import job, show
 from cointoss.compare.sweep.axes import parse_axis
 from cointoss.compare.sweep.describe import AWAY
+from cointoss.compare.sweep.reading import read_map
 from cointoss.compare.sweep.store import opened
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
@@ -43,10 +44,10 @@ def coin(tmp_path, monkeypatch):
     return tmp_path / "coin.toml"
 
 
-def section_of(maps, after=None):
+def section_of(maps, after=None, untrusted=None):
     case = parse(COIN, "coin")
     sweeps = [sweep_of(X, Y, case, engine, after=after) for engine in Engine]
-    return show.section(maps, sweeps, PictureStyle(dpi=20), "cointoss basin")
+    return show.section(maps, sweeps, PictureStyle(dpi=20), "cointoss basin", untrusted=untrusted)
 
 
 def shown_of(section, folder):
@@ -108,6 +109,25 @@ def test_the_report_has_the_numbers_of_both_maps_and_the_command(coin, tmp_path,
     # The report's own toss is by the contact of the maps.
     mujoco = compare(parse(COIN, "coin"), Settings(contact=Realisation(contact))).both[1]
     assert found["tosses"][1]["impacts"][1]["impulse"] == mujoco.impacts.impulse[1].tolist()
+
+
+def test_the_report_hatches_what_the_analytic_engine_cannot_be_trusted_with(coin, tmp_path):
+    out, report = tmp_path / "map.zarr", tmp_path / "report"
+    asked = ("--x", X, "--y", Y, "--trust", "--compare", "--out", out, "--report", report)
+    answered = basin(coin, *asked)
+    assert answered.exit_code == 0, answered.stderr
+    numbers = json.loads((report / "numbers.json").read_text(encoding="utf-8"))["map"]
+    found = read_map(out)
+    assert found.untrusted is not None
+    assert numbers["untrusted"] == found.untrusted.mean() > 0
+    assert read_map(tmp_path / "map-mujoco.zarr").untrusted is None
+    assert "--trust" in shlex.split(numbers["command"])
+    maps, hatched = [halves(20, 20)] * 2, np.arange(400).reshape(20, 20) < 100
+    plain, shown = section_of(maps), section_of(maps, untrusted=hatched)
+    assert "untrusted" not in shown_of(plain, tmp_path / "plain")
+    said = "untrusted, hatched: its own errors may have decided 25.000 % –"
+    assert said in shown_of(shown, tmp_path / "shown")
+    assert shown.picture != plain.picture
 
 
 def test_the_section_tells_what_is_on_made_maps(tmp_path):

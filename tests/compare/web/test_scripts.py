@@ -63,6 +63,7 @@ def report(words):
         "after": None,
         "fractions": {"analytic": {words: 1.0}, "mujoco": {words: 1.0}},
         "agreement": {"distance": 2.0, "away": share, "near": share, "undecided": 0},
+        "untrusted": None,
         "settings": {"analytic": {words: words}},
         "command": words,
     }
