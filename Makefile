@@ -6,6 +6,8 @@ READY := $(VENV)/.ready
 SCENARIOS := table fig24a
 # What the site computes, made again where the code has changed.
 MADE := out/docs
+# The analytic engine for a browser.
+ENGINE := out/engine.wasm
 CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path '*/__pycache__/*')
 
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
@@ -42,7 +44,7 @@ bench: $(READY)
 	$(BIN)/pytest tests/benchmarks --benchmark-enable --benchmark-columns=min,median,rounds
 
 # The pages of docs/ as a site, out/site/index.html; its links and its pages in the browser are tested.
-docs: $(VENV)/.ready-docs chromium compiled $(MADE)/pages/explorer.html
+docs: $(VENV)/.ready-docs chromium compiled $(MADE)/pages/explorer.html $(ENGINE)
 	rm -rf out/site
 	@$(call told,making the site of docs/,$(BIN)/sphinx-build -q -W --keep-going -d $(MADE)/doctrees docs out/site)
 	$(BIN)/pytest tests/site
@@ -62,6 +64,9 @@ $(MADE)/pages/explorer.html: $(READY) $(CODE) docs/conf.py $(wildcard docs/exten
 	  --after 2 --out $(MADE)/map.zarr
 	$(BIN)/cointoss compare table --no-video --out $(@D)/report
 	$(BIN)/cointoss explore $(MADE)/map.zarr --static $@
+
+$(ENGINE): $(CODE) | $(VENV)/.ready-docs
+	@$(call told,compiling the engine to WebAssembly,$(BIN)/python -m cointoss.compare.web.wasm.build $@)
 
 lint: $(READY)
 	$(BIN)/ruff check .

@@ -86,7 +86,7 @@ def kept_code(callee: CompileResult, passed: Passed, kind: Returned) -> Kept | N
     codegen, description = context.codegen(), callee.fndesc
     library = codegen.create_library(callee.library.name)
     name = f"{description.mangled_name}.{uuid.uuid4().hex}"
-    entry = _entry(context, description, name, passed, kind)
+    entry = entry_module(context, description, name, passed, kind)
     if entry is None:
         return None
     library.add_ir_module(entry)
@@ -103,19 +103,21 @@ def kept_code(callee: CompileResult, passed: Passed, kind: Returned) -> Kept | N
             variable.linkage = "internal"  # Python's constants, which nothing here uses
     library._optimize_final_module()
     whole.verify()
-    calls = tuple(_declared(whole))
+    calls = tuple(declared(whole))
     kept = Kept(name, codegen._tm.emit_object(whole), calls, passed.form, kind)
     return kept if not any(each.startswith(_OTHERS) for each in calls) and kept.can_be_loaded else None
 
 
-def _declared(module: binding.ModuleRef) -> Iterator[str]:
+def declared(module: binding.ModuleRef) -> Iterator[str]:
     """Yield the names of what a module uses of others."""
     for each in (*module.functions, *module.global_variables):
         if each.is_declaration and not each.name.startswith("llvm."):
             yield each.name
 
 
-def _entry(context: Any, description: Any, name: str, passed: Passed, kind: Returned) -> ir.Module | None:
+def entry_module(
+    context: Any, description: Any, name: str, passed: Passed, kind: Returned
+) -> ir.Module | None:
     """Return the code of the entry, or None where numba passes other numbers."""
     module = context.create_module("entry")
     of_callee = context.call_conv.get_function_type(description.restype, description.argtypes)

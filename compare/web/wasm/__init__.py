@@ -1,0 +1,1 @@
+"""The analytic engine as WebAssembly: its compiled functions, lowered for a browser."""

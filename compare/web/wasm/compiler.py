@@ -1,0 +1,171 @@
+"""Compiled functions as one object file of WebAssembly; for a process of its own, whose compiler it changes.
+
+numba lowers Python for the machine that it runs on. Here its target has 32-bit addresses from the start: the
+layout of arrays in memory is part of the code of every function. Nothing that is compiled so is run.
+"""
+
+# numba describes few types.
+# pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
+
+from collections.abc import Mapping
+from typing import Any
+
+from llvmlite import binding
+from numba import _dynfunc, njit, types
+from numba.core.cpu import CPUContext
+from numba.core.registry import cpu_target
+from numba.core.runtime import rtsys
+
+from cointoss.models.kernel.fork.callee_code import Codegen, callee_codegen, spare_references
+from cointoss.models.kernel.fork.entry import declared, entry_module, returned_kind
+from cointoss.models.kernel.fork.values import Passed
+
+TRIPLE = "wasm32-unknown-unknown"
+C_LIBRARY = {
+    *("malloc", "free", "memcpy", "memset", "hypot", "pow", "log", "log2", "log1p", "exp", "expm1"),
+    *("sin", "cos", "tan", "asin", "acos", "atan2"),
+}
+"""What the code may call of a C library that is linked to it."""
+MEMORY = """
+target triple = "wasm32-unknown-unknown"
+declare ptr @malloc(i32)
+declare void @free(ptr)
+
+define noalias ptr @NRT_MemInfo_alloc_aligned(i64 %size, i32 %align) noinline {
+  %length = trunc i64 %size to i32
+  %room = add i32 %align, 48
+  %whole = add i32 %room, %length
+  %block = call ptr @malloc(i32 %whole)
+  %none = icmp eq ptr %block, null
+  br i1 %none, label %failed, label %made
+made:
+  %start = ptrtoint ptr %block to i32
+  %last = add i32 %start, %room
+  %over = urem i32 %last, %align
+  %data = sub i32 %last, %over
+  %address = inttoptr i32 %data to ptr
+  store i64 1, ptr %block
+  %place = getelementptr i8, ptr %block, i32 24
+  store ptr %address, ptr %place
+  ret ptr %block
+failed:
+  ret ptr null
+}
+
+define void @NRT_MemInfo_call_dtor(ptr %block) noinline {
+  call void @free(ptr %block)
+  ret void
+}
+
+define ptr @NRT_MemInfo_data_fast(ptr %block) {
+  %place = getelementptr i8, ptr %block, i32 24
+  %address = load ptr, ptr %place
+  ret ptr %address
+}
+
+define void @NRT_incref(ptr %block) {
+  %none = icmp eq ptr %block, null
+  br i1 %none, label %done, label %counted
+counted:
+  %before = load i64, ptr %block
+  %after = add i64 %before, 1
+  store i64 %after, ptr %block
+  ret void
+done:
+  ret void
+}
+
+define void @NRT_decref(ptr %block) {
+  %none = icmp eq ptr %block, null
+  br i1 %none, label %done, label %counted
+counted:
+  %before = load i64, ptr %block
+  %after = sub i64 %before, 1
+  store i64 %after, ptr %block
+  %unused = icmp eq i64 %after, 0
+  br i1 %unused, label %freed, label %done
+freed:
+  call void @NRT_MemInfo_call_dtor(ptr %block)
+  ret void
+done:
+  ret void
+}
+"""
+"""The part of numba's runtime that makes and frees arrays: a count of references, at byte 24 the address."""
+
+
+class _Nothing:
+    """In the place of what would make and run machine code."""
+
+    def __getattr__(self, name: str) -> Any:
+        return lambda *_, **__: 0
+
+
+def object_code(functions: Mapping[str, tuple[Any, tuple[Any, ...]]]) -> bytes:
+    """Return an object file with an entry for each function.
+
+    An entry takes the addresses of its numbers, of room for what it returns, and of room for an error's
+    address; it returns 0 unless it failed. An array is passed as the numbers 0, 0, its size, 8, its address,
+    its shape and its strides, each an integer of 64 bits.
+
+    Args:
+        functions: by the name of its entry, each compiled function and numba's types of its arguments.
+
+    Raises:
+        RuntimeError: where the code calls what a page does not have.
+    """
+    machine = _change_target()
+    codegen = Codegen()
+    context = cpu_target.target_context.subtarget(enable_nrt=True, _internal_codegen=codegen)
+    library = codegen.create_library("engine")
+    whole = library._final_module
+    for name, (function, kinds) in functions.items():
+        function.dispatcher.compile(kinds)
+        callee = function.dispatcher.overloads[kinds]
+        description = callee.fndesc
+        expected = context.call_conv.get_function_type(description.restype, description.argtypes).args[2:]
+        kind = returned_kind(types.none)
+        passed = Passed("", "q" * len(expected), [])
+        entry = entry_module(context, description, name, passed, kind) if kind is not None else None
+        if entry is None:
+            raise RuntimeError(f"{name}: cannot be called by rows of numbers")
+        library.add_ir_module(entry)
+        callee.library.link_into(whole)
+    whole.link_in(binding.parse_assembly(MEMORY))
+    for each in (*whole.functions, *whole.global_variables):
+        if each.name not in functions and not each.is_declaration:
+            each.linkage = "internal"
+    spare_references(whole, codegen)
+    whole.triple = TRIPLE
+    library._optimize_final_module()
+    whole.verify()
+    if foreign := set(declared(whole)) - C_LIBRARY:
+        raise RuntimeError(f"the engine calls {', '.join(sorted(foreign))}, which a page does not have")
+    return machine.emit_object(whole)
+
+
+def _change_target() -> binding.TargetMachine:
+    """Let numba compile for WebAssembly from here on, and make no machine code."""
+    binding.initialize_all_targets()
+    binding.initialize_all_asmprinters()
+    machine = binding.Target.from_triple(TRIPLE).create_target_machine(opt=3, features="+bulk-memory")
+    njit(lambda: None)()  # numba makes its own runtime for this machine when it first compiles
+    rtsys.initialize(cpu_target.target_context)
+    whole_of_numba = cpu_target.target_context.codegen()
+    _kept.append(whole_of_numba._engine)
+    for codegen in (whole_of_numba, callee_codegen()):
+        codegen._tm, codegen._target_data = machine, machine.target_data
+        codegen._data_layout, codegen._engine = str(machine.target_data), _Nothing()
+    rtsys.library._get_module_for_linking = lambda: binding.parse_assembly(f'target triple = "{TRIPLE}"')
+    CPUContext.get_executable = lambda _, *described: _not_run(*described)
+    return machine
+
+
+_kept: list[Any] = []
+"""What owns modules that numba still asks for their names."""
+
+
+def _not_run(library: Any, description: Any, environment: Any) -> Any:
+    return _dynfunc.make_function(
+        description.lookup_module(), description.qualname, "never run", 0, environment, (library,)
+    )

@@ -1,0 +1,41 @@
+"""Building the engine for a browser: what is refused, in a line; tests/site tests what it makes."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from cointoss.compare.web.wasm import build as building
+from cointoss.compare.web.wasm.build import _leb128, main
+
+
+def test_numbers_are_written_seven_bits_a_byte():
+    assert [_leb128(number) for number in (0, 127, 128, 300)] == [b"\0", b"\x7f", b"\x80\1", b"\xac\2"]
+
+
+@pytest.mark.parametrize("arguments", [[], ["a.wasm", "b.wasm"]])
+def test_one_file_is_named(arguments, capsys):
+    assert main(arguments) == 2
+    assert capsys.readouterr().err == "usage: python -m cointoss.compare.web.wasm.build FILE\n"
+
+
+def test_without_its_linker_it_says_what_to_install(monkeypatch, capsys, tmp_path):
+    monkeypatch.setattr(building, "find_spec", lambda _: None)
+    assert main([str(tmp_path / "engine.wasm")]) == 2
+    said = "engine.wasm: ziglang is missing, which links WebAssembly: pip install --group docs\n"
+    assert capsys.readouterr().err == said
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_another_numba_or_compiler_is_refused(monkeypatch, capsys, tmp_path):
+    monkeypatch.setattr(building, "find_spec", lambda _: True)
+    monkeypatch.setattr(building, "numba_version", lambda: "0.64.0")
+    assert main([str(tmp_path / "engine.wasm")]) == 2
+    assert capsys.readouterr().err.startswith("engine.wasm: numba 0.64.0: accepted for WebAssembly: ")
+    script = "import sys; from cointoss.compare.web.wasm import build; build.find_spec = lambda _: True; "
+    asked = [sys.executable, "-c", f"{script}sys.exit(build.main([{str(tmp_path / 'engine.wasm')!r}]))"]
+    plain = {**os.environ, "COINTOSS_COMPILER": "plain"}
+    done = subprocess.run(asked, env=plain, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr.endswith("needs the compiler of models/kernel/fork: unset COINTOSS_COMPILER\n")

@@ -1,0 +1,160 @@
+"""The engine in a browser against the package: the same certain outcomes and paths, and errors in a line."""
+
+from base64 import b64encode
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import cointoss
+from cointoss import analytic
+from cointoss.analytic.horizon.horizon import IMPULSE_ERROR, TIME_ERROR
+from cointoss.analytic.toss import state_at_release
+from cointoss.compare.reproduction.setups.general_coins import CLASSES
+from cointoss.compare.web.wasm.interface import numbers_of
+from cointoss.models.laws import ContactLaw
+from cointoss.models.records import Outcome, UnsupportedError
+from tests.helpers.browser import Page
+from tests.helpers.draws import AIR, scenario
+from tests.helpers.many import draw_releases
+
+ENGINE = Path(__file__).parents[2] / "out" / "engine.wasm"
+WRAPPER = Path(analytic.__file__).parents[1] / "compare" / "web" / "wasm" / "engine.js"
+LAWS = [str(law) for law in ContactLaw]
+LARGEST = 400_000
+"""Bytes of the engine, by gzip less than half."""
+
+
+@pytest.fixture(scope="module")
+def loaded(chromium, tmp_path_factory):
+    """A page of one file that has loaded the engine."""
+    folder = tmp_path_factory.mktemp("engine")
+    module, engine = (b64encode(file.read_bytes()).decode() for file in (WRAPPER, ENGINE))
+    (folder / "page.html").write_text(
+        f"""<!doctype html><title>engine</title><body><script type="module">
+        import {{ load }} from "data:text/javascript;base64,{module}";
+        const bytes = Uint8Array.from(atob("{engine}"), (c) => c.charCodeAt(0));
+        const message = async (ask) => {{
+          try {{ await ask(); }} catch (error) {{ return error.message; }}
+        }};
+        Object.assign(window, {{ load, bytes, message, engine: await load(bytes) }});
+        document.body.dataset.ready = "true";
+        </script>"""
+    )
+    with Page(chromium) as page:
+        page.open((folder / "page.html").as_uri())
+        yield page
+        assert page.complaints() == []
+
+
+def numbers(case):
+    """Return the numbers of a scenario as JavaScript; what is endless has no JSON."""
+    return "[" + ",".join("Infinity" if np.isinf(n) else repr(n) for n in numbers_of(case).tolist()) + "]"
+
+
+def tossed(page, case, states, wanted):
+    """Return the outcomes of many tosses in the page, as arrays by name."""
+    given = f"{numbers(case)}, {np.ravel(states).tolist()}, '{wanted}'"
+    plain = "Object.fromEntries(Object.entries(all).map(([name, each]) => [name, each && [...each]]))"
+    found = page.value(f"(() => {{ const all = engine.tossEach({given}); return {plain}; }})()")
+    return {name: each and np.array(each) for name, each in found.items()}
+
+
+def test_the_engine_is_small_and_says_what_made_it(loaded):
+    assert ENGINE.stat().st_size < LARGEST
+    assert loaded.value("engine.about.version") == version("cointoss-dynamics")
+    assert loaded.value("engine.about.outcomes[3]") == str(Outcome.EDGE)
+
+
+@pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: kind.name)
+def test_outcomes_that_the_package_calls_certain_are_the_same(loaded, kind):
+    count = 60
+    native = analytic.toss_many(kind.scenario, kind.releases(count), certain=True)
+    found = tossed(loaded, kind.scenario, kind.starts(count), "outcome")
+    assert native.outcome_certain is not None
+    assert native.outcome_certain.sum() > count / 3
+    for name in ("outcome", "ending", "impacts"):
+        ours, theirs = getattr(native, name), found[name]
+        assert np.array_equal(ours[native.outcome_certain], theirs[native.outcome_certain])
+    assert found["trustedImpacts"] is found["outcomeCertain"] is None
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_every_law_is_there(loaded, law):
+    friction = 0.3 if law in ("sliding_friction", "coulomb") else 0.0
+    case = scenario(
+        air=AIR, floor={"contact": law, "friction": friction, "restitution": 0.5}, ending={"max_impacts": 30}
+    )
+    drawn, releases = draw_releases(np.random.default_rng(7), 40)
+    native = analytic.toss_many(case, releases, certain=True)
+    states = np.hstack([releases.position, releases.velocity, releases.quaternion, releases.angular_velocity])
+    found = tossed(loaded, case, states, "certain")
+    certain = native.outcome_certain
+    assert certain is not None
+    assert native.trusted_impacts is not None
+    assert np.array_equal(native.outcome[certain], found["outcome"][certain])
+    # The horizon follows from the errors of the flights, which rounding hardly changes.
+    assert np.abs(native.trusted_impacts - found["trustedImpacts"]).max() <= 1
+    assert len(drawn) == len(found["outcome"])
+
+
+def test_one_toss_has_the_impacts_and_the_path_of_the_package(loaded):
+    case = cointoss.load("fig24a")
+    toss, release = analytic.toss(case), state_at_release(case.release).tolist()
+    times = np.linspace(0, toss.impacts.time[2], 40)
+    found = loaded.value(
+        f"(() => {{ const toss = engine.toss({numbers(case)}, {release}); "
+        f"return {{ ...toss, states: [...toss.path({times.tolist()}).states] }}; }})()"
+    )
+    assert (found["outcome"], found["ending"]) == (str(toss.outcome), str(toss.ending))
+    assert found["sentence"] == toss.ending.sentence
+    assert abs(found["trustedImpacts"] - toss.trusted_impacts) <= 1
+    trusted = min(found["trustedImpacts"], toss.trusted_impacts)
+    assert found["sequence"][:trusted] == toss.sequence[:trusted]
+    for ours, theirs in zip(range(trusted), found["impacts"], strict=False):
+        assert theirs["time"] == pytest.approx(toss.impacts.time[ours], abs=TIME_ERROR)
+        impulse = toss.impacts.impulse[ours]
+        assert theirs["impulse"] == pytest.approx(impulse, abs=IMPULSE_ERROR * float(np.linalg.norm(impulse)))
+    positions = np.reshape(found["states"], (len(times), 13))[:, :3]
+    assert positions == pytest.approx(toss.path.sample(times).position, abs=1e-7)
+
+
+def test_a_toss_with_more_impacts_than_there_is_room_for_is_whole(loaded):
+    case = cointoss.load("zloty")
+    release = state_at_release(case.release).tolist()
+    found = loaded.value(f"engine.toss({numbers(case)}, {release})")
+    assert len(found["impacts"]) == len(found["sequence"]) > 512
+    assert found["endTime"] > found["impacts"][-1]["time"]
+
+
+def test_memory_is_given_back(loaded):
+    case = cointoss.load("fig24a")
+    many = f"engine.tossEach({numbers(case)}, new Float64Array(13 * 2000).fill(0.1), 'certain')"
+    toss = f"engine.toss({numbers(case)}, {state_at_release(case.release).tolist()})"
+    once = f"(() => {{ {many}; {toss}.path([0, 1]); return engine.memory; }})()"
+    again = f"(() => {{ for (let i = 0; i < 20; i++) {{ {many}; {toss}; }} return engine.memory; }})()"
+    assert loaded.value(once) == loaded.value(again)
+
+
+@pytest.mark.parametrize(
+    ("asked", "told"),
+    [
+        ("load(bytes.slice(0, 100))", "engine.wasm: cannot be read ("),
+        ("load(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0]))", "engine.wasm: is no engine of cointoss"),
+        ("load(bytes, '0.0.1')", f"engine.wasm: of version {version('cointoss-dynamics')}; accepted: 0.0.1"),
+        ("engine.tossEach([], [], 'all')", "wanted: all; accepted: outcome, trust, certain"),
+        ("engine.tossEach([], [1, 2])", "releases: 2 numbers; accepted: 13 for each"),
+        ("engine.toss([], { length: 2 ** 30 })", "the browser refuses 8589934592 bytes of memory"),
+    ],
+)
+def test_what_cannot_be_is_told_in_a_line(loaded, asked, told):
+    found = loaded.value(f"message(async () => {asked})")
+    assert found.startswith(told)
+    assert "\n" not in found
+
+
+def test_air_with_an_exponent_is_refused():
+    case = scenario(air={**AIR, "exponent": 0.5})
+    with pytest.raises(UnsupportedError, match=r"air\.exponent = 0\.5: accepted in a page: 0"):
+        numbers_of(case)
