@@ -226,7 +226,7 @@ def toss_coin(
             spent = Spent(spent.time, impacts, spent.steps)
             verdict = classified(setup, y, spent.time)
         if verdict.ending == Ending.NONE and mode != Mode.TOUCHING and spent.steps >= limits.steps:
-            verdict = steps_spent(setup)
+            verdict = steps_spent(setup, y)
         if verdict.ending != Ending.NONE and mode != Mode.ENDED:
             mode = mode_after(mode, Event.ENDS)
     outcome, ending = unless_caught(rules, verdict.outcome, verdict.ending)
@@ -382,7 +382,7 @@ def hold_to_event(setup: Setup, mode: int, y: Array, spent: Spent) -> Passage:
         if comes_upright(contact, y):
             return Passage(Event.COMES_UPRIGHT, spent, GOES_ON, NOT_FLOWN)
         if spent.steps >= limits.steps:
-            return out_of_budget(contact, y, spent, steps_spent(setup))
+            return out_of_budget(contact, y, spent, steps_spent(setup, y))
         if step.is_over:
             event = margin_event(contact, y) if step.event == Event.NONE else step.event
             return Passage(event, spent, GOES_ON, NOT_FLOWN)
@@ -399,9 +399,9 @@ def cost_of(body: Body, step: Step) -> int:
 
 
 @compiled
-def steps_spent(setup: Setup) -> Verdict:
-    """Return the `Verdict` on a toss whose steps are spent."""
-    outcome, ending = out_of_steps(setup.history)
+def steps_spent(setup: Setup, y: Array) -> Verdict:
+    """Return the `Verdict` on a toss whose steps are spent in the state y, (13,)."""
+    outcome, ending = out_of_steps(setup.body, setup.rules, state_of(y), setup.history)
     return Verdict(outcome, ending)
 
 

@@ -102,12 +102,20 @@ def endless(body: Body, rules: Rules, state: State, ending: Ending) -> tuple[Out
 
 
 @compiled
-def out_of_steps(history: EnergyHistory) -> tuple[Outcome, Ending]:
+def out_of_steps(body: Body, rules: Rules, state: State, history: EnergyHistory) -> tuple[Outcome, Ending]:
     """Return how a toss ends whose steps in contact are spent: in a long transient, or undecided.
 
+    Where the test of its scenario has not come true, the face may still be settled.
+
     Args:
+        body: the coin.
+        rules: floor and ending.
+        state: of the coin, a `State`.
         history: of the toss.
     """
+    outcome, settled = settled_face(body, rules, state)
+    if settled != Ending.NONE:
+        return outcome, settled
     if is_long_transient(history):
         return Outcome.TRANSIENT, Ending.TRANSIENT
     return Outcome.UNDECIDED, Ending.CONTACT_STEPS

@@ -30,8 +30,8 @@ PAIRS = 2
 """Of neighbours, on opposite sides."""
 FOLLOWED = 50_000
 """Steps of contact up to which neighbours are followed; more would take seconds."""
-_CLOSER = 0.1
-"""A change that gives another outcome is made smaller by this factor, down to rounding."""
+_CLOSER, _CLOSER_STEPS = 0.1, 16
+"""A change that gives another outcome is made smaller by this factor, at most so often: down to rounding."""
 
 # An error vector has the state from its height on, and the time, which changes nothing.
 _FIRST, _ERRORS = 2, STATE_SIZE - 1
@@ -158,13 +158,16 @@ def other_outcome(
     Returns:
         None where there is no such neighbour, or none with another outcome that is decided.
     """
+    if certainty.outcome in (toss.outcome, Outcome.UNDECIDED, Outcome.TRANSIENT):
+        return None
     start, size, found = start_of(rules, toss.started, horizon), certainty.side, None
-    outcome = certainty.outcome
-    while outcome not in (toss.outcome, Outcome.UNDECIDED, Outcome.TRANSIENT):
+    # The toss itself, made again from here, may end otherwise: its times are counted from another start.
+    for _ in range(_CLOSER_STEPS):
         y = neighbour(body, start, horizon, certainty.pair, size)
         change = float(np.max(np.abs(y - start.state)[_FIRST:] / _scales(body, start.state)))
         _, outcome, _ = end_of(body, start.rules, y)
-        if outcome == certainty.outcome:
-            found = OtherOutcome(outcome=Outcome(outcome), change=change, impact=start.impact)
+        if outcome != certainty.outcome or change == 0:
+            break
+        found = OtherOutcome(outcome=Outcome(outcome), change=change, impact=start.impact)
         size *= _CLOSER
     return found

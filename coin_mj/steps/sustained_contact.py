@@ -104,7 +104,7 @@ def follow_contact(
         if ending == Ending.NONE and rests(coin, now, upright > 0):
             outcome, ending = Outcome.EDGE, Ending.AT_REST
         if ending == Ending.NONE and steps_left <= 0:
-            outcome, ending = out_of_budget(coin, upright > 0, *out_of_steps(history))
+            outcome, ending = out_of_budget(coin, upright > 0, *out_of_steps(body, rules, now, history))
         if ending != Ending.NONE:
             return ContactExit.DECIDED, time, steps_left, outcome, ending
         dt, lands = next_step(coin, rules.restitution, up, up_rate, w, sunk)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cointoss.compare.basins.boundary import distance_to_doubt
-from cointoss.compare.basins.maps import outcome_map
+from cointoss.compare.basins.maps import measured, outcome_map
 from cointoss.models.records import Outcome
 
 
@@ -48,7 +48,7 @@ def agreement(reference: ArrayLike, other: ArrayLike, *, distance: float) -> Agr
     Raises:
         ValueError: for maps of two shapes.
     """
-    a, b = outcome_map(reference), outcome_map(other)
+    a, b = measured(outcome_map(reference)), measured(outcome_map(other))
     if a.shape != b.shape:
         raise ValueError(f"other: shape {b.shape}, accepted: that of the reference, {a.shape}")
     decided = (a != Outcome.UNDECIDED) & (b != Outcome.UNDECIDED)

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cointoss.compare.basins.maps import outcome_map
+from cointoss.compare.basins.maps import measured, outcome_map
 from cointoss.models.records import Array, Outcome
 
 
@@ -12,7 +12,7 @@ def boundary_pixels(outcomes: ArrayLike) -> NDArray[np.bool_]:
 
     An undecided pixel is no boundary, nor does it make one of its neighbours.
     """
-    codes = outcome_map(outcomes)
+    codes = measured(outcome_map(outcomes))
     boundary = np.zeros(codes.shape, dtype=bool)
     for first, second in ((np.s_[:, :-1], np.s_[:, 1:]), (np.s_[:-1], np.s_[1:])):
         a, b = codes[first], codes[second]
@@ -31,7 +31,7 @@ def distance_to_doubt(outcomes: ArrayLike) -> Array:
     # A map alone does not need it.
     from scipy.ndimage import distance_transform_edt
 
-    codes = np.pad(outcome_map(outcomes), 1, constant_values=Outcome.UNDECIDED)
+    codes = np.pad(measured(outcome_map(outcomes)), 1, constant_values=Outcome.UNDECIDED)
     distance = np.zeros(codes.shape)
     for outcome in Outcome:
         if outcome is not Outcome.UNDECIDED:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import entr
 
-from cointoss.compare.basins.maps import outcome_map
+from cointoss.compare.basins.maps import measured, outcome_map
 from cointoss.models.records import Outcome
 
 
@@ -60,7 +60,7 @@ def basin_entropy(outcomes: ArrayLike, *, box: int) -> BasinEntropy:
     Raises:
         ValueError: for a box of less than 2 pixels, or larger than the map.
     """
-    codes = outcome_map(outcomes)
+    codes = measured(outcome_map(outcomes))
     if not 2 <= box <= min(codes.shape):
         raise ValueError(f"box: {box} pixels, accepted: 2 to {min(codes.shape)}, the map's shorter side")
     ny, nx = (n // box for n in codes.shape)

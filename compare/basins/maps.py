@@ -21,6 +21,11 @@ def outcome_map(outcomes: ArrayLike) -> OutcomeCodes:
     return codes
 
 
+def measured(codes: OutcomeCodes) -> OutcomeCodes:
+    """Return codes as they are measured, where a transient is left out as the undecided are, in any shape."""
+    return np.where(codes == Outcome.TRANSIENT, Outcome.UNDECIDED.value, codes).astype(np.int8)
+
+
 def outcome_codes(outcomes: ArrayLike) -> OutcomeCodes:
     """Return an array as outcomes, in any shape.
 

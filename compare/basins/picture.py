@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 from numpy.typing import ArrayLike, NDArray
 
 from cointoss.compare.basins.boundary import boundary_pixels
-from cointoss.compare.basins.maps import OutcomeCodes, outcome_map
+from cointoss.compare.basins.maps import OutcomeCodes, measured, outcome_map
 from cointoss.compare.basins.picture_style import Palette, PictureStyle
 from cointoss.compare.output.style import (
     BLUE,
@@ -209,7 +209,7 @@ def draw_comparison(
         raise ValueError(f"mujoco: shape {b.shape}, accepted: that of analytic, {a.shape}")
     figure = Figure(figsize=style.size or COMPARISON_SIZE, layout="constrained")
     panels = figure.subplots(1, 3, sharex=True, sharey=True)
-    decided = (a != Outcome.UNDECIDED) & (b != Outcome.UNDECIDED)
+    decided = (measured(a) != Outcome.UNDECIDED) & (measured(b) != Outcome.UNDECIDED)
     different = decided & (a != b)
     difference = np.where(different[..., None], _rgb(_DIFFERENT), _rgb(_SAME))
     difference[~decided] = _rgb(_COLORS[style.palette][Outcome.UNDECIDED])

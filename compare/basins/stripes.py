@@ -7,7 +7,7 @@ maps after n = 0, 1, 2, ... impacts are all asked alike; a column is a row of th
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cointoss.compare.basins.maps import outcome_codes
+from cointoss.compare.basins.maps import measured, outcome_codes
 from cointoss.models.records import Array, Outcome
 
 
@@ -21,7 +21,7 @@ def crossings(outcomes: ArrayLike) -> NDArray[np.int64]:
     Args:
         outcomes: along the lines, (..., points).
     """
-    codes = outcome_codes(outcomes)
+    codes = measured(outcome_codes(outcomes))
     points = np.arange(codes.shape[-1])
     last_decided = np.maximum.accumulate(np.where(codes != Outcome.UNDECIDED, points, 0), axis=-1)
     held = np.take_along_axis(codes, last_decided, axis=-1)
@@ -39,7 +39,7 @@ def stripe_widths(outcomes: ArrayLike, *, spacing: float) -> Array:
         outcomes: along the lines, (..., points).
         spacing: between neighbouring points.
     """
-    codes = outcome_codes(outcomes)
+    codes = measured(outcome_codes(outcomes))
     lines = codes.reshape(-1, codes.shape[-1])
     line, before = np.nonzero(lines[:, 1:] != lines[:, :-1])
     same_line = line[1:] == line[:-1]

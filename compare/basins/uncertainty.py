@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.stats import t
 
-from cointoss.compare.basins.maps import OutcomeCodes, outcome_map
+from cointoss.compare.basins.maps import OutcomeCodes, measured, outcome_map
 from cointoss.models.records import Array, Outcome
 
 BANDS = 8
@@ -72,7 +72,7 @@ def uncertainty_exponent(
     Raises:
         ValueError: for such ε or such a confidence as is not accepted.
     """
-    codes = outcome_map(outcomes)
+    codes = measured(outcome_map(outcomes))
     lines = codes if along == "x" else codes.T
     distances = _checked(epsilons, lines.shape[1])
     if not 0 < confidence < 1:

@@ -93,7 +93,7 @@ def _agreement(comparison: ComparedTosses, same_outcome: bool) -> tuple[str, Kin
     off_the_law = _off_the_law(comparison)
     then = off_the_law or f"after that {TINY_ERRORS}"
     certain = agree and horizon == prefix
-    decided = Outcome.UNDECIDED not in (a.outcome, b.outcome)
+    decided = not {Outcome.UNDECIDED, Outcome.TRANSIENT} & {a.outcome, b.outcome}
     # The face in a hand may differ where the coin comes to it on its edge, unless it has flown only.
     leads_to_it = not in_contact and not (caught and count)
     if certain and decided and not same_outcome and leads_to_it:

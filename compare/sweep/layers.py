@@ -61,6 +61,8 @@ def holds_tosses(name: str, values: NDArray[Any]) -> NDArray[np.bool_]:
     """Return where an array of a map, by its name, holds what a toss gave."""
     if name == "outcome":
         return np.isin(values, list(Outcome))
+    if name == "outcome_certain":
+        return np.isin(values, (0, 1))
     return ~np.isnan(values) if name == "margin" else values >= 0
 
 

@@ -170,7 +170,7 @@ class OutcomeMap:
         palette: str = "safe",
         boundaries: bool = False,
     ) -> "Axes":
-        """Draw the outcomes, hatched where the trusted impacts do not cover them, or the margins.
+        """Draw the outcomes, hatched where the engine's own errors may have decided, or the margins.
 
         Args:
             ax: where to draw, by default in a new figure of pyplot.

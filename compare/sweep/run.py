@@ -87,11 +87,12 @@ def fractions_of(map_: Map) -> dict[Outcome, float]:
 
 def trust_counts(map_: Map, after: int | None) -> NDArray[np.int64]:
     """Return how many pixels have 0, 1, ... in the `trust_layer`, without the whole map in memory, (n,)."""
-    counts = np.zeros(1, dtype=np.int64)
+    most = 1 if after is None else after + 1
+    counts = np.zeros(most + 1, dtype=np.int64)
     for tile in map_.tiles:
-        found = np.bincount(map_.read(tile, trust_layer(after)).ravel(), minlength=len(counts))
-        found[: len(counts)] += counts
-        counts = found
+        # A number that a stranger made larger takes no more room.
+        found = np.minimum(map_.read(tile, trust_layer(after)).ravel(), most)
+        counts += np.bincount(found, minlength=len(counts))
     return counts
 
 

@@ -50,3 +50,16 @@ def draw_coin(rng: np.random.Generator) -> dict[str, Any]:
     if thickness == 0:
         offset[2] = 0
     return {**ZLOTY, "thickness": thickness, "center_of_mass": offset.tolist()}
+
+
+LONG_TRANSIENT = {
+    "coin": {**THIN, "center_of_mass": [-1e-3, -1e-3, 0.0]},
+    "floor": {"restitution": 0.6},
+    "release": {
+        "position": [0.0, 0.0, 0.3747560971770383],
+        "velocity": [-0.03200196085390527, -0.10979981526988393, -0.1830476274400961],
+        "quaternion": [-0.5418881956767218, -0.15356369236780862, -0.8262376892282368, 0.010327471683593022],
+        "angular_velocity": [-7.912209261788022, 34.396989938015054, 0.6038303043052566],
+    },
+}
+"""A coin in vacuum that loses energy for long; the analytic engine settles it after 41 s."""

@@ -22,7 +22,7 @@ from cointoss.analytic.toss import state_at_release
 from cointoss.models.perpetual import energy_history
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.contacts import held, put_on_floor, upright_coin
-from tests.helpers.draws import AIR, IMPERFECT, PAPER_OFFSET, THIN, ZLOTY, scenario
+from tests.helpers.draws import AIR, IMPERFECT, LONG_TRANSIENT, PAPER_OFFSET, THIN, ZLOTY, scenario
 
 ONE_RIM = {Mode.SLIDING, Mode.INCIPIENT_SLIP, Mode.STICKING}
 CONTACT = ONE_RIM | {Mode.UPRIGHT}
@@ -138,18 +138,6 @@ def test_a_spent_budget_of_contact_steps_ends_a_toss_by_its_name():
     assert analytic.toss(scenario(**ON_EDGE)).outcome != Outcome.UNDECIDED
 
 
-LONG_TRANSIENT = {
-    "coin": {**THIN, "center_of_mass": [-1e-3, -1e-3, 0.0]},
-    "floor": {"restitution": 0.6},
-    "release": {
-        "position": [0.0, 0.0, 0.3747560971770383],
-        "velocity": [-0.03200196085390527, -0.10979981526988393, -0.1830476274400961],
-        "quaternion": [-0.5418881956767218, -0.15356369236780862, -0.8262376892282368, 0.010327471683593022],
-        "angular_velocity": [-7.912209261788022, 34.396989938015054, 0.6038303043052566],
-    },
-}
-
-
 def test_a_coin_whose_losses_could_be_judged_when_its_steps_are_spent_is_in_a_long_transient():
     def tossed(steps: int) -> tuple[Outcome, Ending]:
         toss = analytic.toss(scenario(**LONG_TRANSIENT), settings=Settings(contact_steps=steps))
@@ -160,6 +148,30 @@ def test_a_coin_whose_losses_could_be_judged_when_its_steps_are_spent_is_in_a_lo
     assert tossed(20_000) == (Outcome.TAILS, Ending.SETTLED)
 
 
+def test_a_coin_whose_face_is_settled_when_its_steps_are_spent_has_that_face():
+    """`lying` waits until it lies, which its steps may not reach."""
+    case = scenario(
+        coin=THIN,
+        floor={"contact": "coulomb", "restitution": 0.35211072081587824, "friction": 0.5235770795992176},
+        release={
+            "position": [0.0, 0.0, 0.15322121712898534],
+            "velocity": [0.19395121082161892, -0.20564430774957326, -0.05694080828330428],
+            "quaternion": [
+                0.5053240878680411,
+                -0.19510325410976284,
+                -0.47532927851883044,
+                -0.6932851963217459,
+            ],
+            "angular_velocity": [-34.12213505541779, 28.643114495841388, 26.30384567812179],
+        },
+        ending={"test": "lying"},
+    )
+    tossed = analytic.toss(case, settings=Settings(contact_steps=20_000))
+    assert (tossed.outcome, tossed.ending) == (Outcome.HEADS, Ending.PAPER)
+    early = analytic.toss(case, settings=Settings(contact_steps=3))
+    assert early.ending in (Ending.CONTACT_STEPS, Ending.PAPER)
+
+
 def test_steps_of_flights_and_events_after_the_first_contact_are_counted_and_none_before():
     case = scenario(**LONG_TRANSIENT)
     log = run(case.body, case.rules, state_at_release(case.release), Settings(contact_steps=100))
@@ -167,8 +179,11 @@ def test_steps_of_flights_and_events_after_the_first_contact_are_counted_and_non
     flights = after & (log.modes == Mode.FLIGHT)
     assert np.sum(log.started.steps[~after]) > 10
     assert np.sum(flights) > 1
-    # In contact there are steps too, so that flights and their events alone do not spend it all.
-    assert np.sum(log.started.steps[flights] + 4) < 100 + 4 + np.max(log.started.steps[flights])
+    # In contact there are steps too, so that flights and their events alone do not spend it all; with them
+    # and the events of contacts hardly more is spent than there is.
+    spent = np.sum(log.started.steps[flights] + 4) + 4 * np.sum(after & ~flights)
+    assert spent < 100 + 8 + np.max(log.started.steps[flights])
+    assert np.sum(after) < 100 / 4
 
 
 def test_a_contact_that_no_step_is_short_enough_to_follow_has_no_solution():

@@ -7,11 +7,11 @@ from cointoss import analytic
 from cointoss.analytic.events import run
 from cointoss.analytic.horizon.certainty import certainty_of
 from cointoss.analytic.horizon.horizon import horizon_of
-from cointoss.analytic.settings import MANY
+from cointoss.analytic.settings import MANY, Settings
 from cointoss.analytic.toss import state_at_release
 from cointoss.compare.reproduction.studies.endings import COINS, draw_toss
 from cointoss.models.records import Outcome
-from tests.helpers.draws import ZLOTY, scenario
+from tests.helpers.draws import AIR, ZLOTY, scenario
 
 ROUNDING, MOVED = 2e-15, 6
 """The size of changes to a release, relative, and how many of them are tried."""
@@ -64,6 +64,48 @@ def test_a_coin_that_lands_between_two_outcomes_is_not_certain(tie):
     # Far below what the engine's errors have grown to, and of a coin that has just been released below all.
     assert 0 < other.change < (1e-7 if other.impact else 1e-13)
     assert tossed.outcome_told == f"{tossed.outcome} or {other.outcome}: {other.told}"
+
+
+@pytest.mark.parametrize("tolerance", [1e-9, 1e-6])
+def test_of_random_tosses_another_outcome_is_found_in_no_time(tolerance):
+    """Where rounding alone decides, the toss made again from its last trusted impact ends otherwise."""
+    rng, found, settings = np.random.default_rng(7), [], Settings(contact_tolerance=tolerance)
+    for number in range(150):
+        _, case = draw_toss(rng, COINS[number % len(COINS)])
+        tossed = analytic.toss(case, settings=settings)
+        found.append(tossed.other_outcome)
+        assert tossed.other_outcome is None or not tossed.outcome_certain
+        assert tossed.other_outcome is None or tossed.other_outcome.outcome != tossed.outcome
+    assert any(found)
+
+
+ROUNDING_DECIDES = {
+    "coin": ZLOTY,
+    "floor": {"restitution": 0.9},
+    "release": {
+        "position": [0, 0, 0.48527268669589396],
+        "angles": [2.2600962543850756, 1.0135626083377651, 0.39653652485758706],
+        "angular_velocity": [-2.1945247207385523, 35.94959155432673, -36.59161407253166],
+    },
+}
+
+
+def test_a_toss_whose_end_rounding_decides_says_so():
+    other = analytic.toss(scenario(**ROUNDING_DECIDES)).other_outcome
+    assert other is not None
+    assert other.change < 1e-15
+
+
+def test_a_neighbour_is_tossed_in_the_time_that_is_left():
+    """A coin that settles late, in a toss that is cut off soon after."""
+    case = scenario(
+        air=AIR, floor={"restitution": 0.7}, release={"position": [0, 0, 0.3], "angles": [0, 1, 0]}
+    )
+    whole = analytic.toss(case)
+    assert whole.outcome_certain
+    for spare, certain in ((1e-3, True), (-1e-3, False)):
+        cut = analytic.toss(case.replace("ending.max_time", whole.end_time + spare))
+        assert cut.outcome_certain is certain
 
 
 def test_a_hand_that_a_coin_leaves_is_not_certain_to_have_let_it_go():

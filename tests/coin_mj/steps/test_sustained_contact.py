@@ -17,7 +17,7 @@ from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import energy
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
 from cointoss.models.records import Ending, Outcome
-from tests.helpers.draws import AIR, PAPER_OFFSET, THIN, ZLOTY, scenario
+from tests.helpers.draws import AIR, LONG_TRANSIENT, PAPER_OFFSET, THIN, ZLOTY, scenario
 from tests.helpers.many import draw_releases
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
@@ -207,3 +207,11 @@ def test_outcomes_are_as_frequent_as_those_of_the_other_engine(law):
         ]
     assert all(sum(row) == 600 for row in counts.values())
     assert chance_alike(list(counts.values())) > 1e-3
+
+
+def test_steps_that_are_spent_leave_a_long_transient_or_an_undecided_toss():
+    for steps, ending in ((5000, Ending.CONTACT_STEPS), (20_000, Ending.TRANSIENT)):
+        settings = replace(coin_mj.MANY, contact_steps=steps)
+        tossed = coin_mj.toss(scenario(**LONG_TRANSIENT), settings=settings)
+        assert tossed.ending == ending
+        assert tossed.outcome == (Outcome.TRANSIENT if ending == Ending.TRANSIENT else Outcome.UNDECIDED)

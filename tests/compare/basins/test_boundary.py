@@ -3,7 +3,11 @@
 import numpy as np
 import pytest
 
+from cointoss.compare.basins.agreement import agreement
 from cointoss.compare.basins.boundary import boundary_pixels, distance_to_doubt
+from cointoss.compare.basins.entropy import basin_entropy
+from cointoss.compare.basins.stripes import crossings
+from cointoss.models.records import Outcome
 from tests.helpers.made_maps import HEADS, TAILS, halves, line
 
 
@@ -21,6 +25,16 @@ from tests.helpers.made_maps import HEADS, TAILS, halves, line
 def test_what_is_no_outcome_map_is_refused(outcomes, said):
     with pytest.raises(ValueError, match=said):
         boundary_pixels(outcomes)
+
+
+def test_a_transient_is_left_out_as_the_undecided_are():
+    transient = halves(8, 8)
+    transient[3, 3:6] = Outcome.TRANSIENT
+    undecided = np.where(transient == Outcome.TRANSIENT, Outcome.UNDECIDED, transient)
+    for measure in (boundary_pixels, distance_to_doubt, crossings):
+        assert np.array_equal(measure(transient), measure(undecided))
+    assert basin_entropy(transient, box=2) == basin_entropy(undecided, box=2)
+    assert agreement(halves(8, 8), transient, distance=1) == agreement(halves(8, 8), undecided, distance=1)
 
 
 def test_boundary_pixels_lie_on_both_sides_of_a_boundary_and_not_at_the_undecided():

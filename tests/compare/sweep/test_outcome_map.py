@@ -173,6 +173,8 @@ def test_a_plot_hatches_untrusted_pixels(found, trusted):
     assert panel.get_legend().get_texts()[-1].get_text() == f"untrusted: {100 * share:.3g} %"
     assert len(found.plot(Figure().add_subplot()).get_images()) == 1
     assert trusted._repr_html_().count("<img") == 1
+    plain = replace(trusted, sweep=replace(trusted.sweep, trust=False), trusted_impacts=None)
+    assert trusted._repr_html_() != plain._repr_html_()
 
 
 def test_the_command_says_what_is_untrusted(trusted, tmp_path, monkeypatch):
@@ -185,6 +187,16 @@ def test_the_command_says_what_is_untrusted(trusted, tmp_path, monkeypatch):
     said = f"untrusted  {share:.3f} %: impact 9 is not trusted, or the toss ended before\n"
     assert said in answered.stdout
     assert (tmp_path / "map.png").exists()
+
+
+def test_a_count_that_a_stranger_made_huge_takes_no_room(trusted, tmp_path):
+    huge = trusted.trusted_impacts.copy()
+    huge[0, 0] = 2_000_000_000
+    path = replace(trusted, trusted_impacts=huge).save(tmp_path / "m.zarr")
+    asked = ("--x", X, "--y", Y, "--after", 8, "--trust", "--out", path, "--resume")
+    answered = command("basin", "fig24a", *asked)
+    assert answered.exit_code == 0
+    assert "untrusted  " in answered.stdout
 
 
 def test_the_command_says_which_outcomes_may_be_decided_by_errors(certain, tmp_path):

@@ -19,6 +19,7 @@ from cointoss.coin_mj import Realisation
 from cointoss.compare.engines import Engine
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.sweep import grid, run
+from cointoss.compare.sweep.layers import holds_tosses
 from cointoss.compare.sweep.store import Map, opened, require_place
 from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import (
@@ -213,6 +214,15 @@ def test_a_map_that_holds_something_else_is_not_replaced(coin, tmp_path):
     said = refused("basin", coin, *AXES, "--out", out, "--overwrite")
     assert said == f"cointoss: {out}: holds notes.txt, which is no part of a map; accepted: a new name\n"
     assert (out / "notes.txt").read_text() == "mine"
+
+
+def test_a_certainty_that_means_nothing_is_found_again():
+    assert holds_tosses("outcome_certain", np.array([-1, 0, 1, 7], np.int8)).tolist() == [
+        False,
+        True,
+        True,
+        False,
+    ]
 
 
 @pytest.mark.parametrize("value", [-7, 6, 100])
