@@ -7,8 +7,8 @@ SCENARIOS := table fig24a
 # What the site computes, made again where the code has changed.
 MADE := out/docs
 # The analytic engine for a browser.
-ENGINE := out/engine.wasm
-CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path '*/__pycache__/*')
+ENGINE := compare/web/wasm/engine.wasm
+CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path '*/__pycache__/*' -not -name '*.wasm')
 
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 # Tests start hundreds of processes, each of which would compile all modules to bytecode.
@@ -44,7 +44,7 @@ bench: $(READY)
 	$(BIN)/pytest tests/benchmarks --benchmark-enable --benchmark-columns=min,median,rounds
 
 # The pages of docs/ as a site, out/site/index.html; its links and its pages in the browser are tested.
-docs: $(VENV)/.ready-docs chromium compiled $(MADE)/pages/explorer.html $(ENGINE)
+docs: $(VENV)/.ready-docs chromium compiled $(MADE)/pages/explorer.html
 	rm -rf out/site
 	@$(call told,making the site of docs/,$(BIN)/sphinx-build -q -W --keep-going -d $(MADE)/doctrees docs out/site)
 	$(BIN)/pytest tests/site
@@ -57,7 +57,7 @@ pages: $(VENV)/.ready-docs
 lock: $(VENV)/.ready-docs
 	$(BIN)/python -m pip freeze --exclude-editable > constraints.txt
 
-$(MADE)/pages/explorer.html: $(READY) $(CODE) docs/conf.py $(wildcard docs/extensions/*.py) | compiled
+$(MADE)/pages/explorer.html: $(READY) $(CODE) $(ENGINE) docs/conf.py $(wildcard docs/extensions/*.py) | compiled
 	rm -rf $(MADE)
 	mkdir -p $(@D)
 	$(BIN)/cointoss basin fig24a --x release.angular_velocity.eta=20:60:160 --y release.position.z=0.2:0.6:120 \
@@ -107,4 +107,4 @@ compiled: $(READY) | opengl
 	@$(BIN)/cointoss toss fig24a --engine mujoco >/dev/null & $(BIN)/cointoss toss fig24a >/dev/null && wait
 
 clean:
-	rm -rf $(VENV) out .pytest_cache .ruff_cache .hypothesis .import_linter_cache
+	rm -rf $(VENV) out $(ENGINE) .pytest_cache .ruff_cache .hypothesis .import_linter_cache

@@ -3,9 +3,11 @@
 from importlib import resources
 
 from cointoss.compare.web.scripts import shared_files
+from cointoss.compare.web.wasm.carried import wrapper
 
 
 def page_files() -> dict[str, bytes]:
     """Return the files by their names."""
     page = resources.files("cointoss.compare.explorer") / "page"
-    return shared_files() | {entry.name: entry.read_bytes() for entry in page.iterdir()}
+    own = {entry.name: entry.read_bytes() for entry in page.iterdir()}
+    return {**shared_files(), **own, "engine.js": wrapper()}

@@ -7,11 +7,14 @@ import numpy as np
 from cointoss.compare.engines import Engine
 from cointoss.compare.explorer.page_files import page_files
 from cointoss.compare.explorer.page_map import page_map
-from cointoss.compare.explorer.tosses import toss_pixel
+from cointoss.compare.explorer.tosses import MOST_IMPACTS, toss_pixel
 from cointoss.compare.output.files import write_text
+from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.outcome_map import OutcomeMap
 from cointoss.compare.sweep.reading import read_map
+from cointoss.compare.web.playable import coin_of
 from cointoss.compare.web.scripts import POLICY, data_element, import_map
+from cointoss.compare.web.wasm.carried import engine_data
 from cointoss.models.stages import counted
 
 MOST_BYTES = 10_000_000
@@ -26,6 +29,8 @@ SAMPLES = 300
 
 def write_static(map_path: Path, out: Path) -> None:
     """Write a page with a map and the tosses of a grid of its pixels, by both engines.
+
+    Where the package carries the engine for a browser, and it tosses such a map, it tosses any pixel there.
 
     Args:
         map_path: of the map.
@@ -45,7 +50,16 @@ def write_static(map_path: Path, out: Path) -> None:
         tosses[f"{column},{row}"] = [
             toss_pixel(sweep, *at, engine, samples=SAMPLES, most_symbols=SAMPLES // 4) for engine in Engine
         ]
-    write_text(out, _page(found, {"columns": columns, "rows": rows, "tosses": tosses}))
+    held = {"columns": columns, "rows": rows, "tosses": tosses, "engine": _engine(sweep)}
+    write_text(out, _page(found, held))
+
+
+def _engine(sweep: Sweep) -> dict[str, object] | None:
+    """Return what the page needs to toss any pixel itself, or None where it cannot."""
+    most = MOST_IMPACTS[Engine.ANALYTIC]
+    followed = sweep.scenario.replace("ending.max_impacts", min(most, sweep.scenario.rules.max_impacts))
+    found = engine_data(followed, (sweep.x.field, sweep.y.field))
+    return found and {**found, "coin": coin_of(sweep.scenario), "samples": SAMPLES}
 
 
 def _spread(count: int, most: int) -> list[int]:

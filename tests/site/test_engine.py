@@ -11,16 +11,21 @@ import cointoss
 from cointoss import analytic
 from cointoss.analytic.horizon.horizon import IMPULSE_ERROR, TIME_ERROR
 from cointoss.analytic.toss import state_at_release
+from cointoss.compare.explorer import static
 from cointoss.compare.reproduction.setups.general_coins import CLASSES
-from cointoss.compare.web.wasm.interface import numbers_of
+from cointoss.compare.sweep.reading import read_map
+from cointoss.compare.web import wasm
+from cointoss.compare.web.wasm.carried import engine_data
+from cointoss.compare.web.wasm.interface import PLACES, numbers_of
 from cointoss.models.laws import ContactLaw
 from cointoss.models.records import Outcome, UnsupportedError
 from tests.helpers.browser import Page
 from tests.helpers.draws import AIR, scenario
+from tests.helpers.explored import small_map
 from tests.helpers.many import draw_releases
 
-ENGINE = Path(__file__).parents[2] / "out" / "engine.wasm"
-WRAPPER = Path(analytic.__file__).parents[1] / "compare" / "web" / "wasm" / "engine.js"
+WASM = Path(wasm.__file__).parent
+ENGINE, WRAPPER = WASM / "engine.wasm", WASM / "engine.js"
 LAWS = [str(law) for law in ContactLaw]
 LARGEST = 400_000
 """Bytes of the engine, by gzip less than half."""
@@ -158,3 +163,48 @@ def test_air_with_an_exponent_is_refused():
     case = scenario(air={**AIR, "exponent": 0.5})
     with pytest.raises(UnsupportedError, match=r"air\.exponent = 0\.5: accepted in a page: 0"):
         numbers_of(case)
+
+
+def test_any_pixel_of_the_explorer_in_a_file_is_tossed_by_the_engine_in_it(page, tmp_path, monkeypatch):
+    monkeypatch.setattr(static, "COLUMNS", 2)
+    monkeypatch.setattr(static, "ROWS", 2)
+    target = tmp_path / "map.html"
+    static.write_static(small_map(tmp_path, size=(24, 18)), target)
+    sweep = read_map(tmp_path / "map.zarr").sweep
+    x, y = float(sweep.x.values[3]), float(sweep.y.values[9])
+    page.open(f"{target.as_uri()}#x={x}&y={y}")
+    page.wait_for("document.getElementById('outcome').textContent.includes(' impacts in ')")
+    page.wait_for("document.getElementById('outcome').textContent.includes('MuJoCo: tossed only')")
+    case = sweep.scenario.replace("release.angular_velocity.eta", x, "release.position.z", y)
+    toss = analytic.toss(case)
+    told = page.text("outcome")
+    assert f"analytic: {toss.outcome} after {len(toss.impacts)} impacts in {toss.end_time:.4f} s." in told
+    assert "MuJoCo: tossed only where there is a dot." in told
+    assert "Any pixel can be tossed" in page.text("about")
+    assert page.complaints() == []
+    page.value("document.getElementById('map').focus()")
+    page.press("ArrowRight")
+    page.wait_for(f"location.hash.includes('x={float(sweep.x.values[4])}')")
+
+
+def test_a_map_whose_axes_are_no_numbers_of_a_row_has_no_engine():
+    case = cointoss.load("fig24a")
+    assert engine_data(case, ["release.position.z", "floor.restitution"]) is not None
+    assert engine_data(case, ["release.position.z", "coin.radius"]) is None
+    in_air = scenario(air={**AIR, "exponent": 0.5})
+    assert engine_data(in_air, ["release.position.z"]) is None
+
+
+@pytest.mark.parametrize("field", PLACES)
+def test_a_field_is_at_its_place(field):
+    fixed = {"floor.contact": "coulomb", "floor.friction": 0.2, "ending.max_impacts": 100}
+    case, (row, at) = cointoss.load("fig24a"), PLACES[field]
+    for name, value in fixed.items():
+        case = case.replace(name, value)
+    changed = case.replace(field, 0.375)
+    rows = [
+        {"numbers": numbers_of(each), "release": state_at_release(each.release)} for each in (case, changed)
+    ]
+    differ = {(name, int(i)) for name in rows[0] for i in np.flatnonzero(rows[0][name] != rows[1][name])}
+    assert differ == {(row, at)}
+    assert rows[1][row][at] == 0.375

@@ -1,6 +1,6 @@
 // The explorer's page: the map, the pixel that is chosen, and its toss by both engines.
 
-import { grid, isStatic, loadMap, tile, toss } from "./source.js";
+import { anywhere, grid, isStatic, loadMap, tile, toss } from "./source.js";
 import { indexOf, shown, valueAt } from "./axes.js";
 import { clamp, makeMap } from "./map.js";
 import { LABELS } from "./motion.js";
@@ -32,7 +32,7 @@ async function begin() {
   });
   const whole = map.axes.x.field !== "ending.max_impacts" && map.axes.y.field !== "ending.max_impacts";
   view = makeMap({
-    canvas: byId("map"), map, grid, tile: isStatic || !whole ? null : tile,
+    canvas: byId("map"), map, grid, anywhere, tile: isStatic || !whole ? null : tile,
     onHover: (place) => (byId("readout").textContent = placeText(place)),
     onChoose: choose,
     onProblem: (message) => (byId("readout").textContent = message),
@@ -52,7 +52,7 @@ function describe() {
       (map.after === null ? "the final outcome." : `the face at touch ${map.after + 1}, or the outcome of a toss that ended before.`)];
   if (map.stride > 1) parts.push(`One pixel of every ${map.stride} along each axis is shown.`);
   if (map.tossed < 1) parts.push(`The map is not finished: ${(100 * map.tossed).toFixed(1)} % is tossed${isStatic ? "" : "; reload to see more"}.`);
-  if (isStatic) parts.push("Dots mark the pixels whose tosses are in this page.");
+  if (isStatic) parts.push(anywhere ? "Any pixel can be tossed; dots mark those that MuJoCo has tossed, too." : "Dots mark the pixels whose tosses are in this page.");
   byId("about").textContent = parts.join(" ");
   byId("fields").textContent = `Across: ${fieldText(map.axes.x)}. Up: ${fieldText(map.axes.y)}.`;
   const present = new Set(Int8Array.from(bytesOf(map.arrays.outcome)));

@@ -10,7 +10,7 @@ const COARSE = 9; // a pixel larger than so many on the screen is cut finer
 const KEPT = 400; // tiles
 const HATCH = 7; // between two lines over untrusted pixels
 
-export function makeMap({ canvas, map, grid, tile, onHover, onChoose, onProblem }) {
+export function makeMap({ canvas, map, grid, anywhere, tile, onHover, onChoose, onProblem }) {
   const { x, y } = map.axes, nx = x.count, ny = y.count;
   const codes = Int8Array.from(bytes(map.arrays.outcome));
   const stride = map.stride, columns = Math.ceil(nx / stride), rows = Math.ceil(ny / stride);
@@ -58,7 +58,7 @@ export function makeMap({ canvas, map, grid, tile, onHover, onChoose, onProblem 
 
   // The nearest pixel, of the finer map where it is shown, or that can be tossed.
   function snapped(u, v) {
-    if (grid) return { u: nearest(grid.columns, u), v: nearest(grid.rows, v) };
+    if (!anywhere) return { u: nearest(grid.columns, u), v: nearest(grid.rows, v) };
     const cells = 2 ** level(frame());
     const cell = (at, count) => clamp((Math.floor((at + 0.5) * cells) + 0.5) / cells - 0.5, 0, count - 1);
     const coarse = (at, count) => clamp(Math.round(at / stride) * stride, 0, count - 1);
@@ -66,7 +66,7 @@ export function makeMap({ canvas, map, grid, tile, onHover, onChoose, onProblem 
   }
 
   function place(u, v, exactly = false) {
-    const at = exactly && !grid ? { u, v } : snapped(u, v), box = frame(), column = Math.round(at.u / stride), row = Math.round(at.v / stride);
+    const at = exactly && anywhere ? { u, v } : snapped(u, v), box = frame(), column = Math.round(at.u / stride), row = Math.round(at.v / stride);
     const isPixel = Number.isInteger(at.u / stride) && Number.isInteger(at.v / stride);
     const index = row * columns + column, found = isPixel ? codes[index] : tileCode(at, level(box));
     return { ...at, x: valueAt(x, at.u), y: valueAt(y, at.v), code: found, index: isPixel ? index : null, step: 2 ** -level(box) * stride };
@@ -283,7 +283,7 @@ export function makeMap({ canvas, map, grid, tile, onHover, onChoose, onProblem 
 
   function step(dx, dy) {
     if (!chosen) return choose((view.left + view.right) / 2, (view.bottom + view.top) / 2);
-    if (grid) {
+    if (!anywhere) {
       const next = (list, at, by) => list[clamp(list.indexOf(at) + by, 0, list.length - 1)];
       return choose(next(grid.columns, chosen.u, dx), next(grid.rows, chosen.v, dy));
     }

@@ -34,6 +34,8 @@ export interface Impact {
 export interface Path {
   /** Position of the mass centre, velocity, Euler parameters and spin in the body frame, 13 numbers a time. */
   states: Float64Array;
+  /** [J] */
+  energies: Float64Array;
   /** The floor's force in sustained contacts, space frame, zero in flight, 3 numbers a time [N]. */
   forces: Float64Array;
 }

@@ -101,10 +101,15 @@ export class Engine {
 
   #sample(numbers, path, times) {
     const { piece } = this.about, count = times.length;
-    return this.#run([numbers, path, times, count * STATE, count * 3], (at, call) => {
+    return this.#run([numbers, path, times, count * STATE, count * 4], (at, call) => {
       call("sample_path", row(at[0], numbers.length), table(at[1], path.length / piece, piece), row(at[2], count),
-        table(at[3], count, STATE), table(at[4], count, 3));
-      return { states: this.#read(at[3], count * STATE), forces: this.#read(at[4], count * 3) };
+        table(at[3], count, STATE), table(at[4], count, 4));
+      const more = this.#read(at[4], count * 4);
+      return {
+        states: this.#read(at[3], count * STATE),
+        energies: more.filter((_, i) => i % 4 === 0),
+        forces: more.filter((_, i) => i % 4 !== 0),
+      };
     });
   }
 

@@ -10,10 +10,11 @@ from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.sampling import floor_force, sample_contact
 from cointoss.analytic.events import Verdict, started_of, toss_coin
 from cointoss.analytic.flight.flying import sample
-from cointoss.analytic.flight.state_vector import STATE_SIZE
+from cointoss.analytic.flight.state_vector import STATE_SIZE, position_of, spin_of, velocity_of
 from cointoss.analytic.horizon.certainty import certainty_of
 from cointoss.analytic.horizon.horizon import MOST_CARRIED, STEP_ERROR, TURN_ERROR, ErrorsMade, find_horizon
 from cointoss.analytic.settings import MANY, ContactLimits, Settings
+from cointoss.models.barriers import energy
 from cointoss.models.body import AirLaw, Body, Rules
 from cointoss.models.drag import Drag
 from cointoss.models.impact_row import FIRST_ROOM
@@ -27,6 +28,17 @@ IMPACT = ("time", "face", "energy", "impulse_x", "impulse_y", "impulse_z")
 """Columns of an impact, in SI."""
 PIECE = 2 + STATE_SIZE
 """Numbers of a piece of a path: when it starts, its `Mode`, and the state there."""
+PLACES = {
+    **{f"release.position.{axis}": ("release", i) for i, axis in enumerate("xyz")},
+    **{f"release.velocity.{axis}": ("release", 3 + i) for i, axis in enumerate("xyz")},
+    **{
+        f"release.angular_velocity.{axis}": ("release", 10 + i)
+        for i, axis in enumerate(("xi", "eta", "zeta"))
+    },
+    "floor.restitution": ("numbers", 35),
+    "floor.friction": ("numbers", 38),
+}
+"""Fields of a scenario that are one number of its row, or of its release: which, and where."""
 NO_TRUST, TRUST, CERTAIN = range(3)
 """What is found beside the outcome: nothing, the trusted impacts, and whether the outcome is certain, too."""
 
@@ -164,15 +176,15 @@ def toss_one(
 
 
 @compiled
-def sample_path(numbers: Array, pieces: Array, times: Array, states: Array, forces: Array) -> None:
-    """Write the states of a path, and the floor's force in sustained contacts.
+def sample_path(numbers: Array, pieces: Array, times: Array, states: Array, more: Array) -> None:
+    """Write the states of a path, its energies, and the floor's force in sustained contacts.
 
     Args:
         numbers: of the scenario, see `numbers_of`.
         pieces: of the path, all of them, see `toss_one`.
         times: increasing, from 0 to the end, (n,) [s].
         states: where they go, (n, 13).
-        forces: where they go, space frame, zero in flight, (n, 3) [N].
+        more: where energies [J] and forces, space frame, zero in flight [N], go, (n, 4).
     """
     body, rules, limits = body_of(numbers), rules_of(numbers), limits_of(numbers)
     friction, first = friction_in_contact(rules), 0
@@ -188,11 +200,13 @@ def sample_path(numbers: Array, pieces: Array, times: Array, states: Array, forc
         start, mode = piece[2:].copy(), int(piece[1])
         if mode == Mode.FLIGHT.value or mode == Mode.ENDED.value:
             sample(body, start, piece[0], times[first:last], states[first:last])
-            forces[first:last] = 0.0
         else:
             contact = contact_at(body, friction, mode, start)
             sample_contact(contact, start, piece[0], times[first:last], limits.tolerance, states[first:last])
-            for i in range(first, last):
-                force = floor_force(contact_at(body, friction, mode, states[i]), states[i])
-                forces[i, 0], forces[i, 1], forces[i, 2] = force
+        for i in range(first, last):
+            y, force = states[i], (0.0, 0.0, 0.0)
+            if mode != Mode.FLIGHT.value and mode != Mode.ENDED.value:
+                force = floor_force(contact_at(body, friction, mode, y), y)
+            more[i, 0] = energy(body, position_of(y)[2], velocity_of(y), spin_of(y))
+            more[i, 1], more[i, 2], more[i, 3] = force
         first = last

@@ -110,6 +110,7 @@ def static_page(tmp_path, monkeypatch):
             return {"engine": engine.value, "problem": words}
 
         monkeypatch.setattr(static, "toss_pixel", toss_pixel)
+        monkeypatch.setattr(static, "engine_data", lambda *_: None)
         write_static(path, tmp_path / "page.html")
         return tmp_path / "page.html"
 

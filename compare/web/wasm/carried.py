@@ -1,0 +1,54 @@
+"""The engine's file, where the package carries it, and what a page needs beside it to toss one scenario."""
+
+from base64 import b64encode
+from collections.abc import Sequence
+from importlib import resources
+from typing import Any
+
+import numpy as np
+
+from cointoss.analytic.toss import state_at_release
+from cointoss.compare.web.wasm.interface import PLACES, numbers_of
+from cointoss.models.records import UnsupportedError
+from cointoss.models.scenario import Scenario
+
+FILE = "engine.wasm"
+"""`make docs` builds it in this folder."""
+
+
+def wrapper() -> bytes:
+    """Return engine.js."""
+    return (resources.files("cointoss.compare.web.wasm") / "engine.js").read_bytes()
+
+
+def engine_bytes() -> bytes | None:
+    """Return the engine's file, or None where it was not built."""
+    file = resources.files("cointoss.compare.web.wasm") / FILE
+    return file.read_bytes() if file.is_file() else None
+
+
+def engine_data(scenario: Scenario, fields: Sequence[str]) -> dict[str, Any] | None:
+    """Return what a page needs to toss a scenario with other values of some fields, as JSON.
+
+    Args:
+        scenario: to be tossed.
+        fields: that vary.
+
+    Returns:
+        None where the engine was not built, or does not toss it so.
+    """
+    content = engine_bytes()
+    if content is None or not set(fields) <= set(PLACES):
+        return None
+    try:
+        numbers = numbers_of(scenario)
+    except UnsupportedError:
+        return None
+    # What is endless has no JSON.
+    finite = [None if np.isinf(number) else number for number in numbers.tolist()]
+    return {
+        "wasm": b64encode(content).decode("ascii"),
+        "numbers": finite,
+        "release": state_at_release(scenario.release).tolist(),
+        "places": [PLACES[field] for field in fields],
+    }
