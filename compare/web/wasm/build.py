@@ -10,7 +10,9 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from cointoss.compare.output.files import written_whole
+from cointoss.compare.web.wasm.carried import SECTION
 from cointoss.models.kernel.fork import TESTED, numba_version
+from cointoss.models.kernel.sources import source_hash
 
 ENTRIES = {
     "toss_each": ("numbers", "table", "integer", "table"),
@@ -20,8 +22,6 @@ ENTRIES = {
 """The functions of `interface`, and their arguments: rows of numbers, tables of two axes, an integer."""
 STACK = 1 << 20
 """Bytes of the stack."""
-SECTION = "cointoss"
-"""Name of the part of the file that says what made it."""
 
 
 def build(out: Path) -> None:
@@ -82,6 +82,7 @@ def _description() -> dict[str, object]:
 
     return {
         "version": version("cointoss-dynamics"),
+        "sources": source_hash(interface.__name__),
         "answer": interface.ANSWER,
         "impact": interface.IMPACT,
         "piece": interface.PIECE,

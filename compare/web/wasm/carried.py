@@ -1,5 +1,6 @@
 """The engine's file, where the package carries it, and what a page needs beside it to toss one scenario."""
 
+import json
 from base64 import b64encode
 from collections.abc import Sequence
 from importlib import resources
@@ -8,10 +9,14 @@ from typing import Any
 import numpy as np
 
 from cointoss.analytic.toss import state_at_release
+from cointoss.compare.web.wasm import interface
 from cointoss.compare.web.wasm.interface import PLACES, numbers_of
+from cointoss.models.kernel.sources import source_hash
 from cointoss.models.records import UnsupportedError
 from cointoss.models.scenario import Scenario
 
+SECTION = "cointoss"
+"""Name of the last part of the file, which says what made it."""
 FILE = "engine.wasm"
 """`make docs` builds it in this folder."""
 
@@ -22,9 +27,21 @@ def wrapper() -> bytes:
 
 
 def engine_bytes() -> bytes | None:
-    """Return the engine's file, or None where it was not built."""
+    """Return the engine's file, or None where it was not built, or of other sources."""
     file = resources.files("cointoss.compare.web.wasm") / FILE
-    return file.read_bytes() if file.is_file() else None
+    if not file.is_file():
+        return None
+    content = file.read_bytes()
+    return content if made_of(content) == source_hash(interface.__name__) else None
+
+
+def made_of(content: bytes) -> str:
+    """Return the hash of the sources of an engine's file, empty where it has none."""
+    _, found, about = content.rpartition(SECTION.encode() + b"{")
+    try:
+        return str(json.loads(b"{" + about)["sources"]) if found else ""
+    except (ValueError, KeyError):
+        return ""
 
 
 def engine_data(scenario: Scenario, fields: Sequence[str]) -> dict[str, Any] | None:
