@@ -59,7 +59,8 @@ def _engine(sweep: Sweep) -> dict[str, object] | None:
     most = MOST_IMPACTS[Engine.ANALYTIC]
     followed = sweep.scenario.replace("ending.max_impacts", min(most, sweep.scenario.rules.max_impacts))
     found = engine_data(followed, (sweep.x.field, sweep.y.field))
-    return found and {**found, "coin": coin_of(sweep.scenario), "samples": SAMPLES}
+    cut = most if most < sweep.scenario.rules.max_impacts else None
+    return found and {**found, "coin": coin_of(sweep.scenario), "samples": SAMPLES, "most": cut}
 
 
 def _spread(count: int, most: int) -> list[int]:

@@ -135,8 +135,10 @@ def test_a_toss_with_more_impacts_than_there_is_room_for_is_whole(loaded):
 
 def test_memory_is_given_back(loaded):
     case = cointoss.load("fig24a")
-    many = f"engine.tossEach({numbers(case)}, new Float64Array(13 * 2000).fill(0.1), 'certain')"
+    many = f"engine.tossEach({numbers(case)}, MANY, 'certain')"
     toss = f"engine.toss({numbers(case)}, {state_at_release(case.release).tolist()})"
+    release = state_at_release(case.release).tolist()
+    loaded.value(f"window.MANY = Array.from({{ length: 200 }}, () => {release}).flat(); 0")
     once = f"(() => {{ {many}; {toss}.path([0, 1]); return engine.memory; }})()"
     again = f"(() => {{ for (let i = 0; i < 20; i++) {{ {many}; {toss}; }} return engine.memory; }})()"
     assert loaded.value(once) == loaded.value(again)
@@ -149,12 +151,27 @@ def test_memory_is_given_back(loaded):
         ("load(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0]))", "engine.wasm: is no engine of cointoss"),
         ("load(bytes, '0.0.1')", f"engine.wasm: of version {version('cointoss-dynamics')}; accepted: 0.0.1"),
         ("engine.tossEach([], [], 'all')", "wanted: all; accepted: outcome, trust, certain"),
-        ("engine.tossEach([], [1, 2])", "releases: 2 numbers; accepted: 13 for each"),
-        ("engine.toss([], { length: 2 ** 30 })", "the browser refuses 8589934592 bytes of memory"),
+        ("engine.tossEach(N, [1, 2])", "releases: 2 numbers; accepted: 13 for each"),
+        ("engine.toss([], R)", "numbers: 0 of them; accepted: 47"),
+        (
+            "engine.toss(N.map((n, i) => (i === 1 ? NaN : n)), R)",
+            "numbers: NaN at 1; accepted: a finite number",
+        ),
+        ("engine.toss(N, R.slice(1))", "release: 12 numbers; accepted: 13"),
+        (
+            "engine.tossEach(N, R.map((n, i) => (i === 3 ? Infinity : n)))",
+            "release: Infinity at 3; accepted: a",
+        ),
+        ("engine.toss(N, R.map((n, i) => (i > 5 ? 0 : n)))", "release: a quaternion of norm 0; accepted: 1"),
+        ("engine.toss(N, R).path([0.2, 0.1])", "times: 0.1 at 1; accepted: increasing from 0 to "),
+        ("engine.toss(N, R).path([NaN])", "times: NaN at 0; accepted: increasing from 0 to "),
+        ("engine.toss(N, R).path([99])", "times: 99 at 0; accepted: increasing from 0 to "),
     ],
 )
 def test_what_cannot_be_is_told_in_a_line(loaded, asked, told):
-    found = loaded.value(f"message(async () => {asked})")
+    case = cointoss.load("fig24a")
+    given = f"const N = {numbers(case)}, R = {state_at_release(case.release).tolist()};"
+    found = loaded.value(f"(() => {{ {given} return message(async () => {asked}); }})()")
     assert found.startswith(told)
     assert "\n" not in found
 

@@ -42,9 +42,9 @@ let loaded = null;
 
 // The toss of a point by the engine in the page, as the server gives it.
 async function tossedHere(place) {
-  const { wasm, numbers, release, places, coin, samples } = data.engine;
+  const { wasm, numbers, release, places, coin, samples, most } = data.engine;
   loaded ??= load(Uint8Array.from(atob(wasm), (sign) => sign.charCodeAt(0)));
-  const engine = await loaded, rows = { numbers: numbers.map((one) => one ?? Infinity), release: [...release] };
+  const engine = await loaded, rows = { numbers: [...numbers], release: [...release] };
   [place.x, place.y].forEach((value, i) => (rows[places[i][0]][places[i][1]] = value));
   const toss = engine.toss(rows.numbers, rows.release), { impacts, endTime } = toss, shown = impacts.slice(0, samples / 4);
   const even = Array.from({ length: samples }, (_, i) => (i * endTime) / (samples - 1));
@@ -54,7 +54,7 @@ async function tossedHere(place) {
   return {
     engine: "analytic",
     outcome: toss.outcome,
-    ending: toss.sentence,
+    ending: impacts.length === most ? `It is shown up to impact ${most}.` : toss.sentence,
     end_time: endTime,
     count: impacts.length,
     sequence: toss.sequence.slice(0, shown.length),

@@ -10,9 +10,9 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from cointoss.compare.output.files import written_whole
-from cointoss.compare.web.wasm.carried import SECTION
+from cointoss.compare.web.wasm.carried import SECTION, sources
 from cointoss.models.kernel.fork import TESTED, numba_version
-from cointoss.models.kernel.sources import source_hash
+from cointoss.models.kernel.sources import is_as_imported
 
 ENTRIES = {
     "toss_each": ("numbers", "table", "integer", "table"),
@@ -58,6 +58,8 @@ def build(out: Path) -> None:
         code.write_bytes(object_code(functions))
         linked = Path(folder) / "engine.wasm"
         _link(code, linked)
+        if not is_as_imported(interface.__name__):
+            raise RuntimeError("its sources have changed while they were compiled: build it again")
         with written_whole(out) as aside:
             aside.write_bytes(linked.read_bytes() + _section(_description()))
 
@@ -82,7 +84,9 @@ def _description() -> dict[str, object]:
 
     return {
         "version": version("cointoss-dynamics"),
-        "sources": source_hash(interface.__name__),
+        "sources": sources(),
+        "numbers": interface.NUMBERS,
+        "endless": interface.ENDLESS,
         "answer": interface.ANSWER,
         "impact": interface.IMPACT,
         "piece": interface.PIECE,

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from cointoss.analytic.toss import state_at_release
-from cointoss.compare.web.wasm import interface
 from cointoss.compare.web.wasm.interface import PLACES, numbers_of
+from cointoss.models.kernel.fork import numba_version
 from cointoss.models.kernel.sources import source_hash
 from cointoss.models.records import UnsupportedError
 from cointoss.models.scenario import Scenario
@@ -32,7 +32,12 @@ def engine_bytes() -> bytes | None:
     if not file.is_file():
         return None
     content = file.read_bytes()
-    return content if made_of(content) == source_hash(interface.__name__) else None
+    return content if made_of(content) == sources() else None
+
+
+def sources() -> str:
+    """Return what the engine is made of: the hash of what is compiled and compiles it, and numba."""
+    return f"{source_hash('cointoss.compare.web.wasm.build')}, numba {numba_version()}"
 
 
 def made_of(content: bytes) -> str:

@@ -54,7 +54,7 @@ export interface Toss {
   trustedImpacts: number;
   /** Whether they cannot change the outcome. */
   outcomeCertain: boolean;
-  /** Sample the path at increasing times, from 0 to `endTime`. */
+  /** Sample the path at increasing times, from 0 to `endTime`; others are an EngineError. */
   path(times: ArrayLike<number>): Path;
 }
 
@@ -65,6 +65,10 @@ export class Engine {
   /** What made engine.wasm, and what its numbers mean. */
   readonly about: {
     version: string;
+    sources: string;
+    /** How many numbers a scenario has, and which of them may be infinite, or null. */
+    numbers: number;
+    endless: number[];
     answer: string[];
     impact: string[];
     piece: number;
@@ -81,10 +85,10 @@ export class Engine {
    * @param releases states at time 0: position, velocity, Euler parameters, spin in the body frame, 13 numbers each
    * @throws EngineError for what is not accepted, and where memory is refused
    */
-  tossEach(numbers: ArrayLike<number>, releases: ArrayLike<number>, wanted?: Wanted): Outcomes;
+  tossEach(numbers: ArrayLike<number | null>, releases: ArrayLike<number>, wanted?: Wanted): Outcomes;
 
   /** Toss a coin and keep its impacts and its path; the release is 13 numbers. */
-  toss(numbers: ArrayLike<number>, release: ArrayLike<number>): Toss;
+  toss(numbers: ArrayLike<number | null>, release: ArrayLike<number>): Toss;
 }
 
 /**

@@ -44,10 +44,11 @@ export class Engine {
   tossEach(numbers, releases, wanted = "outcome") {
     const level = ["outcome", "trust", "certain"].indexOf(wanted);
     if (level < 0) throw new EngineError(`wanted: ${wanted}; accepted: outcome, trust, certain`);
-    const width = this.about.answer.length, count = releases.length / STATE;
+    const width = this.about.answer.length, count = releases.length / STATE, given = this.#row(numbers);
     if (!Number.isInteger(count)) throw new EngineError(`releases: ${releases.length} numbers; accepted: 13 for each`);
-    const answers = this.#run([numbers, releases, count * width], ([first, second, third], call) => {
-      call("toss_each", row(first, numbers.length), table(second, count, STATE), [level], table(third, count, width));
+    requireReleases(releases);
+    const answers = this.#run([given, releases, count * width], ([first, second, third], call) => {
+      call("toss_each", row(first, given.length), table(second, count, STATE), [level], table(third, count, width));
       return this.#read(third, count * width);
     });
     const column = (name, Kind) => Kind.from({ length: count }, (_, i) => answers[i * width + this.about.answer.indexOf(name)]);
@@ -64,17 +65,19 @@ export class Engine {
 
   /** Toss a coin and keep its impacts and its path; see engine.d.ts. */
   toss(numbers, release) {
-    const { answer: names, impact, piece } = this.about, wide = impact.length;
+    const { answer: names, impact, piece } = this.about, wide = impact.length, given = this.#row(numbers);
+    if (release.length !== STATE) throw new EngineError(`release: ${release.length} numbers; accepted: 13`);
+    requireReleases(release);
     for (let room = ROOM; ; ) {
       const { impacts: most, pieces: length } = room;
-      const found = this.#run([numbers, release, names.length, most * wide, length * piece, 2], (at, call) => {
-        call("toss_one", row(at[0], numbers.length), row(at[1], STATE), row(at[2], names.length),
+      const found = this.#run([given, release, names.length, most * wide, length * piece, 2], (at, call) => {
+        call("toss_one", row(at[0], given.length), row(at[1], STATE), row(at[2], names.length),
           table(at[3], most, wide), table(at[4], length, piece), row(at[5], 2));
         const [impacts, pieces] = this.#read(at[5], 2);
         if (impacts > most || pieces > length) return { impacts, pieces };
         return { answer: this.#read(at[2], names.length), hits: this.#read(at[3], impacts * wide), path: this.#read(at[4], pieces * piece) };
       });
-      if (found.answer) return this.#told(numbers, found);
+      if (found.answer) return this.#told(given, found);
       room = found;
     }
   }
@@ -100,7 +103,10 @@ export class Engine {
   }
 
   #sample(numbers, path, times) {
-    const { piece } = this.about, count = times.length;
+    const { piece } = this.about, count = times.length, end = path[path.length - piece];
+    for (let i = 0; i < count; i++)
+      if (!(times[i] >= (i ? times[i - 1] : 0) && times[i] <= end))
+        throw new EngineError(`times: ${times[i]} at ${i}; accepted: increasing from 0 to ${end} s`);
     return this.#run([numbers, path, times, count * STATE, count * 4], (at, call) => {
       call("sample_path", row(at[0], numbers.length), table(at[1], path.length / piece, piece), row(at[2], count),
         table(at[3], count, STATE), table(at[4], count, 4));
@@ -110,6 +116,17 @@ export class Engine {
         energies: more.filter((_, i) => i % 4 === 0),
         forces: more.filter((_, i) => i % 4 !== 0),
       };
+    });
+  }
+
+  // A scenario's numbers, where null stands for what is endless, as JSON has it.
+  #row(numbers) {
+    const { numbers: length, endless } = this.about;
+    if (numbers.length !== length) throw new EngineError(`numbers: ${numbers.length} of them; accepted: ${length}`);
+    return Float64Array.from(numbers, (number, i) => {
+      const found = number === null && endless.includes(i) ? Infinity : number;
+      if (typeof found === "number" && (Number.isFinite(found) || (found === Infinity && endless.includes(i)))) return found;
+      throw new EngineError(`numbers: ${number} at ${i}; accepted: a finite number`);
     });
   }
 
@@ -141,6 +158,15 @@ export class Engine {
     } finally {
       for (const address of held) this.#exports.free(address);
     }
+  }
+}
+
+function requireReleases(numbers) {
+  for (let i = 0; i < numbers.length; i++)
+    if (!Number.isFinite(numbers[i])) throw new EngineError(`release: ${numbers[i]} at ${i % STATE}; accepted: a finite number`);
+  for (let i = 0; i < numbers.length; i += STATE) {
+    const norm = Math.hypot(numbers[i + 6], numbers[i + 7], numbers[i + 8], numbers[i + 9]);
+    if (!(Math.abs(norm - 1) < 1e-6)) throw new EngineError(`release: a quaternion of norm ${norm}; accepted: 1`);
   }
 }
 

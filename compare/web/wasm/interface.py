@@ -26,6 +26,8 @@ ANSWER = ("outcome", "ending", "impacts", "last_face", "end_time", "trusted_impa
 """Columns of what is answered of a toss; the last two are -1 where they were not asked for."""
 IMPACT = ("time", "face", "energy", "impulse_x", "impulse_y", "impulse_z")
 """Columns of an impact, in SI."""
+NUMBERS, ENDLESS = 47, (43, 44)
+"""Length of a row of `numbers_of`, and where it may be infinite: the longest time, the height of no hand."""
 PIECE = 2 + STATE_SIZE
 """Numbers of a piece of a path: when it starts, its `Mode`, and the state there."""
 PLACES = {

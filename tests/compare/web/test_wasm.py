@@ -7,10 +7,9 @@ import sys
 import pytest
 
 from cointoss.compare.web.wasm import build as building
-from cointoss.compare.web.wasm import carried, interface
+from cointoss.compare.web.wasm import carried
 from cointoss.compare.web.wasm.build import _leb128, main
-from cointoss.compare.web.wasm.carried import engine_bytes, made_of
-from cointoss.models.kernel.sources import source_hash
+from cointoss.compare.web.wasm.carried import engine_bytes, made_of, sources
 
 
 @pytest.mark.parametrize("content", [b"", b"cointoss{", b'cointoss{"version": "1"}', b"\0asm" + bytes(100)])
@@ -20,7 +19,7 @@ def test_a_file_of_other_sources_is_not_carried(content, monkeypatch, tmp_path):
     assert engine_bytes() is None
     (tmp_path / "engine.wasm").write_bytes(content)
     assert engine_bytes() is None
-    about = f'{{"sources": "{source_hash(interface.__name__)}"}}'
+    about = f'{{"sources": "{sources()}"}}'
     (tmp_path / "engine.wasm").write_bytes(whole := content + b"cointoss" + about.encode())
     assert engine_bytes() == whole
 
