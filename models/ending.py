@@ -16,7 +16,7 @@ from cointoss.models.geometry import tilt_sine_of
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, apply, dot, norm
 from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
-from cointoss.models.perpetual import EnergyHistory, energy_loss_converges, is_long_transient
+from cointoss.models.perpetual import EnergyHistory, can_be_judged, energy_loss_converges
 from cointoss.models.records import Ending, Face, Outcome
 from cointoss.models.state import State
 
@@ -116,7 +116,7 @@ def out_of_steps(body: Body, rules: Rules, state: State, history: EnergyHistory)
     outcome, settled = settled_face(body, rules, state)
     if settled != Ending.NONE:
         return outcome, settled
-    if is_long_transient(history):
+    if can_be_judged(history):
         return Outcome.TRANSIENT, Ending.TRANSIENT
     return Outcome.UNDECIDED, Ending.CONTACT_STEPS
 

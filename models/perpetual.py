@@ -52,8 +52,8 @@ def start_history(body: Body, history: EnergyHistory, time: float) -> None:
 
 
 @compiled
-def is_long_transient(history: EnergyHistory) -> bool:
-    """Return whether a coin has gone on so long after its first contact that its losses could be judged."""
+def can_be_judged(history: EnergyHistory) -> bool:
+    """Return whether a coin has gone on so long after its first contact that its losses can be judged."""
     return history.energies[-_FEW] < np.inf
 
 
@@ -88,7 +88,7 @@ def energy_loss_converges(
     history.next_check[0] = start + 2 * elapsed
     copy_into(energies[:-1], energies[1:])
     energies[-1] = E
-    if not is_long_transient(history):
+    if not can_be_judged(history):
         return False
     elapsed /= (body.radius / body.gravity) ** 0.5
     none = E * min(history.no_loss * elapsed / 2, _LARGEST_NONE)

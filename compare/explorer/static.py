@@ -13,7 +13,7 @@ from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.outcome_map import OutcomeMap
 from cointoss.compare.sweep.reading import read_map
 from cointoss.compare.web.playable import coin_of
-from cointoss.compare.web.scripts import POLICY, data_element, import_map
+from cointoss.compare.web.scripts import ENGINE_POLICY, POLICY, data_element, import_map
 from cointoss.compare.web.wasm.carried import engine_data
 from cointoss.models.stages import counted
 
@@ -69,20 +69,21 @@ def _spread(count: int, most: int) -> list[int]:
     return ((np.arange(number) + 0.5) * count / number).astype(int).tolist()
 
 
-def _page(found: OutcomeMap, grid: dict[str, object]) -> str:
+def _page(found: OutcomeMap, held: dict[str, object]) -> str:
     """Return the page as one text: its modules in an import map, as data."""
     files = {name: content.decode("utf-8") for name, content in page_files().items()}
     modules = {name: text for name, text in files.items() if name.endswith(".js")}
+    policy = ENGINE_POLICY if held["engine"] else POLICY
     parts = {
         '<meta charset="utf-8">': f'<meta charset="utf-8">\n'
-        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">',
+        f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
         **{
             f'<link rel="stylesheet" href="{name}">': f"<style>\n{files[name]}</style>"
             for name in files
             if name.endswith(".css")
         },
         '<script type="module" src="main.js"></script>': f"<!-- three.js:\n{files['LICENSE']}-->\n"
-        f"{import_map(modules)}\n{data_element({'map': page_map(found), **grid}, id_='data')}\n"
+        f"{import_map(modules)}\n{data_element({'map': page_map(found), **held}, id_='data')}\n"
         '<script type="module">import "main.js";</script>',
     }
     page = files["index.html"]

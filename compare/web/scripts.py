@@ -6,10 +6,12 @@ from base64 import b64encode
 from importlib import resources
 
 POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval' data:; style-src 'unsafe-inline'; "
+    "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; "
     "img-src data: blob:; media-src data:"
 )
 """The Content-Security-Policy of a page of one file: it loads nothing."""
+ENGINE_POLICY = POLICY.replace("script-src", "script-src 'wasm-unsafe-eval'")
+"""That of one that holds the engine, which it compiles."""
 _IMPORTED = re.compile(r"""(from\s*["'])\./([\w.]+\.js)(["'])""")
 
 

@@ -10,7 +10,6 @@ import numpy as np
 
 from cointoss.analytic.toss import state_at_release
 from cointoss.compare.web.wasm.interface import PLACES, numbers_of
-from cointoss.models.kernel.fork import numba_version
 from cointoss.models.kernel.sources import source_hash
 from cointoss.models.records import UnsupportedError
 from cointoss.models.scenario import Scenario
@@ -36,8 +35,8 @@ def engine_bytes() -> bytes | None:
 
 
 def sources() -> str:
-    """Return what the engine is made of: the hash of what is compiled and compiles it, and numba."""
-    return f"{source_hash('cointoss.compare.web.wasm.build')}, numba {numba_version()}"
+    """Return the hash of what the engine is made of: of all that is compiled, and compiles it."""
+    return source_hash("cointoss.compare.web.wasm.build")
 
 
 def made_of(content: bytes) -> str:

@@ -17,7 +17,7 @@ from numba.core.registry import cpu_target
 from numba.core.runtime import rtsys
 
 from cointoss.models.kernel.fork.callee_code import Codegen, callee_codegen, spare_references
-from cointoss.models.kernel.fork.entry import declared, entry_module, returned_kind
+from cointoss.models.kernel.fork.entry import MEMORY, declared, entry_module, returned_kind
 from cointoss.models.kernel.fork.values import Passed
 
 TRIPLE = "wasm32-unknown-unknown"
@@ -26,63 +26,43 @@ C_LIBRARY = {
     *("sin", "cos", "tan", "asin", "acos", "atan2"),
 }
 """What the code may call of a C library that is linked to it."""
-MEMORY = """
+COUNTING = """
 target triple = "wasm32-unknown-unknown"
 declare ptr @malloc(i32)
-declare void @free(ptr)
+declare void @NRT_MemInfo_call_dtor(ptr)
 
-define noalias ptr @NRT_MemInfo_alloc_aligned(i64 %size, i32 %align) noinline {
+define ptr @NRT_room(i64 %size) {
   %length = trunc i64 %size to i32
-  %room = add i32 %align, 48
-  %whole = add i32 %room, %length
-  %block = call ptr @malloc(i32 %whole)
-  %none = icmp eq ptr %block, null
-  br i1 %none, label %failed, label %made
-made:
-  %start = ptrtoint ptr %block to i32
-  %last = add i32 %start, %room
-  %over = urem i32 %last, %align
-  %data = sub i32 %last, %over
-  %address = inttoptr i32 %data to ptr
-  store i64 1, ptr %block
-  %place = getelementptr i8, ptr %block, i32 24
-  store ptr %address, ptr %place
+  %block = call ptr @malloc(i32 %length)
   ret ptr %block
-failed:
-  ret ptr null
-}
-
-define void @NRT_MemInfo_call_dtor(ptr %block) noinline {
-  call void @free(ptr %block)
-  ret void
 }
 
 define ptr @NRT_MemInfo_data_fast(ptr %block) {
-  %place = getelementptr i8, ptr %block, i32 24
+  %place = getelementptr i64, ptr %block, i32 3
   %address = load ptr, ptr %place
   ret ptr %address
 }
 
-define void @NRT_incref(ptr %block) {
+define i64 @NRT_counted(ptr %block, i64 %more) {
   %none = icmp eq ptr %block, null
-  br i1 %none, label %done, label %counted
-counted:
+  br i1 %none, label %left, label %there
+there:
   %before = load i64, ptr %block
-  %after = add i64 %before, 1
+  %after = add i64 %before, %more
   store i64 %after, ptr %block
-  ret void
-done:
+  ret i64 %after
+left:
+  ret i64 1
+}
+
+define void @NRT_incref(ptr %block) {
+  %count = call i64 @NRT_counted(ptr %block, i64 1)
   ret void
 }
 
 define void @NRT_decref(ptr %block) {
-  %none = icmp eq ptr %block, null
-  br i1 %none, label %done, label %counted
-counted:
-  %before = load i64, ptr %block
-  %after = sub i64 %before, 1
-  store i64 %after, ptr %block
-  %unused = icmp eq i64 %after, 0
+  %count = call i64 @NRT_counted(ptr %block, i64 -1)
+  %unused = icmp eq i64 %count, 0
   br i1 %unused, label %freed, label %done
 freed:
   call void @NRT_MemInfo_call_dtor(ptr %block)
@@ -91,7 +71,7 @@ done:
   ret void
 }
 """
-"""The part of numba's runtime that makes and frees arrays: a count of references, at byte 24 the address."""
+"""What numba's runtime has beside `MEMORY`: the counting of references, in a block's first eight bytes."""
 
 
 class _Nothing:
@@ -131,7 +111,8 @@ def object_code(functions: Mapping[str, tuple[Any, tuple[Any, ...]]]) -> bytes:
             raise RuntimeError(f"{name}: cannot be called by rows of numbers")
         library.add_ir_module(entry)
         callee.library.link_into(whole)
-    whole.link_in(binding.parse_assembly(MEMORY))
+    for text in (MEMORY, COUNTING):
+        whole.link_in(binding.parse_assembly(text))
     for each in (*whole.functions, *whole.global_variables):
         if each.name not in functions and not each.is_declaration:
             each.linkage = "internal"

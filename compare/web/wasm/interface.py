@@ -31,12 +31,15 @@ NUMBERS, ENDLESS = 47, (43, 44)
 PIECE = 2 + STATE_SIZE
 """Numbers of a piece of a path: when it starts, its `Mode`, and the state there."""
 PLACES = {
-    **{f"release.position.{axis}": ("release", i) for i, axis in enumerate("xyz")},
-    **{f"release.velocity.{axis}": ("release", 3 + i) for i, axis in enumerate("xyz")},
-    **{
-        f"release.angular_velocity.{axis}": ("release", 10 + i)
-        for i, axis in enumerate(("xi", "eta", "zeta"))
-    },
+    "release.position.x": ("release", 0),
+    "release.position.y": ("release", 1),
+    "release.position.z": ("release", 2),
+    "release.velocity.x": ("release", 3),
+    "release.velocity.y": ("release", 4),
+    "release.velocity.z": ("release", 5),
+    "release.angular_velocity.xi": ("release", 10),
+    "release.angular_velocity.eta": ("release", 11),
+    "release.angular_velocity.zeta": ("release", 12),
     "floor.restitution": ("numbers", 35),
     "floor.friction": ("numbers", 38),
 }

@@ -20,14 +20,14 @@ from cointoss.models.kernel.fork.machine_code import Kept
 from cointoss.models.kernel.fork.values import Passed, Returned
 
 MEMORY = """
-declare ptr @malloc(i64)
+declare ptr @NRT_room(i64)
 declare void @free(ptr)
 
 define noalias ptr @NRT_MemInfo_alloc_aligned(i64 %size, i32 %align) noinline {
   %wide = zext i32 %align to i64
   %room = add i64 %wide, 48
   %whole = add i64 %room, %size
-  %block = call ptr @malloc(i64 %whole)
+  %block = call ptr @NRT_room(i64 %whole)
   %none = icmp eq ptr %block, null
   br i1 %none, label %failed, label %made
 made:
@@ -56,7 +56,18 @@ define void @NRT_MemInfo_call_dtor(ptr %block) noinline {
   ret void
 }
 """
-"""The part of numba's runtime that makes and frees arrays, with numba's layout of what counts references."""
+"""The part of numba's runtime that makes and frees arrays, with numba's layout of what counts references.
+
+`NRT_room` is the machine's own: its C library counts bytes in 64 bits, or in 32.
+"""
+_ROOM = """
+declare ptr @malloc(i64)
+
+define ptr @NRT_room(i64 %size) {
+  %block = call ptr @malloc(i64 %size)
+  ret ptr %block
+}
+"""
 _INT, _WORD = ir.IntType(64), 8
 _OTHERS = ("Py", "_Py", "NRT_", "numba_", "_ZN")
 """How the names of functions begin that only numba and Python itself have."""
@@ -94,6 +105,7 @@ def kept_code(callee: CompileResult, passed: Passed, kind: Returned) -> Kept | N
     # Nothing else calls these functions here, so LLVM may change them as it likes.
     callee.library.link_into(whole, "private")
     whole.link_in(binding.parse_assembly(MEMORY))
+    whole.link_in(binding.parse_assembly(_ROOM))
     for function in whole.functions:
         if function.name.startswith("NRT_") and not function.is_declaration:
             function.linkage = "internal"

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.analytic.events import run
+from cointoss.analytic.events import Verdict, run
 from cointoss.analytic.horizon.certainty import certainty_of
 from cointoss.analytic.horizon.horizon import horizon_of
 from cointoss.analytic.settings import MANY, Settings
 from cointoss.analytic.toss import state_at_release
 from cointoss.compare.reproduction.studies.endings import COINS, draw_toss
-from cointoss.models.records import Outcome
+from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import AIR, ZLOTY, scenario
 
 ROUNDING, MOVED = 2e-15, 6
@@ -94,6 +94,22 @@ def test_a_toss_whose_end_rounding_decides_says_so():
     other = analytic.toss(scenario(**ROUNDING_DECIDES)).other_outcome
     assert other is not None
     assert other.change < 1e-15
+
+
+def test_an_outcome_with_another_ending_or_none_to_change_is_not_certain():
+    case = scenario(floor={"restitution": 0.5}, release={"position": [0, 0, 0.2]})
+    log = run(case.body, case.rules, state_at_release(case.release), MANY)
+    horizon = horizon_of(case.body, case.rules, log)
+
+    def certainty(outcome, ending):
+        verdict = Verdict(outcome, ending)
+        return certainty_of(case.body, case.rules, log.rows, log.started, verdict, horizon)
+
+    assert certainty(log.outcome, log.ending).certain
+    assert not certainty(log.outcome, Ending.PERIODIC).certain
+    # No neighbour is tossed.
+    for outcome in (Outcome.UNDECIDED, Outcome.TRANSIENT):
+        assert certainty(outcome, log.ending) == (False, outcome, 0, 0.0)
 
 
 def test_a_neighbour_is_tossed_in_the_time_that_is_left():

@@ -119,6 +119,13 @@ def test_a_comparison_hatches_the_untrusted_pixels_of_the_analytic_map():
     assert legend(figure)[-1] == "untrusted: 50 %"
 
 
+def test_a_comparison_leaves_out_what_either_map_has_in_a_transient():
+    a, b = np.full((2, 2, 4), HEADS, np.int8)
+    a[:, 0], b[:, 1], b[:, 2] = Outcome.TRANSIENT, Outcome.TRANSIENT, TAILS
+    title = draw_comparison(a, b, x=X, y=Y).axes[2].get_title()
+    assert title == "different: 50 % of the pixels both decide"
+
+
 def test_a_comparison_of_nothing_says_so():
     figure = draw_comparison(np.zeros((2, 3), int), halves(2, 3), x=X, y=Y)
     assert figure.axes[2].get_title() == "difference: no pixel decided by both"

@@ -2,13 +2,17 @@
 
 import csv
 import json
+import math
+from dataclasses import replace
 from importlib.metadata import version
 
 import pytest
 
 from cointoss import analytic
+from cointoss.compare.output.answer import as_json
 from cointoss.models.distribution import DISTRIBUTION
 from cointoss.models.reading import load, scenario_text
+from cointoss.models.records import OtherOutcome, Outcome
 from cointoss.models.scenario import Scenario
 from tests.helpers.command_line import cointoss, refused
 from tests.helpers.draws import THIN, scenario
@@ -36,23 +40,28 @@ def test_json_has_the_agreed_form():
     assert (toss["impacts"][0]["face"], toss["impacts"][0]["flags"]) == ("H", [])
 
 
-UPRIGHT = """
-[coin]
-mass = "2 g"
-radius = "1.25 cm"
-thickness = 0
-[floor]
-contact = "smooth"
-restitution = 0.5
-[release]
-position = [0, 0, 0.2]
-angles = [0, 1.5707963267948966, 0]
-"""
+def dropped(folder, *, restitution, height, tilt):
+    """Write a scenario of a thin coin that is dropped onto a smooth floor, and return its file."""
+    source = folder / "dropped.toml"
+    source.write_text(
+        f"""
+        [coin]
+        mass = "2 g"
+        radius = "1.25 cm"
+        thickness = 0
+        [floor]
+        contact = "smooth"
+        restitution = {restitution}
+        [release]
+        position = [0, 0, {height}]
+        angles = [0, {tilt}, 0]
+        """
+    )
+    return source
 
 
 def test_a_tie_is_told_with_what_decides_it(tmp_path):
-    source = tmp_path / "upright.toml"
-    source.write_text(UPRIGHT)
+    source = dropped(tmp_path, restitution=0.5, height=0.2, tilt=math.pi / 2)
     found = json.loads(cointoss("toss", source, "--json").stdout)
     other = found["other_outcome"]
     assert (found["outcome"], found["outcome_certain"]) == ("heads", False)
@@ -64,31 +73,20 @@ def test_a_tie_is_told_with_what_decides_it(tmp_path):
     assert by_mujoco["outcome_certain"] is by_mujoco["other_outcome"] is None
 
 
-NEARLY_FLAT = """
-[coin]
-mass = "2 g"
-radius = "1.25 cm"
-thickness = 0
-[floor]
-contact = "smooth"
-restitution = 0.8
-[release]
-position = [0, 0, 0.2038736]
-angles = [0, 1e-6, 0]
-[ending]
-max_impacts = 3
-"""
+def test_another_outcome_is_told_with_the_impact_after_which_a_change_leads_to_it():
+    other = OtherOutcome(outcome=Outcome.EDGE, change=2e-9, impact=12)
+    told = as_json(replace(analytic.toss("fig24a"), other_outcome=other))["other_outcome"]
+    assert told == {"outcome": "edge", "change": 2e-9, "after_impact": 12}
 
 
 def test_the_answer_says_which_impact_ends_the_trust_and_why(tmp_path):
-    source = tmp_path / "nearly_flat.toml"
-    source.write_text(NEARLY_FLAT)
+    source, three = dropped(tmp_path, restitution=0.8, height=0.2038736, tilt=1e-6), ("--max-impacts", 3)
     reason = "at impact 1 a second point lands within MuJoCo's contact"
-    text = cointoss("toss", source, "--engine", "mujoco").stdout
+    text = cointoss("toss", source, *three, "--engine", "mujoco").stdout
     assert f"\nsequence  |HHH\ntrusted   0 of 3 impacts: {reason}\n" in text
-    toss = json.loads(cointoss("toss", source, "--engine", "mujoco", "--json").stdout)
+    toss = json.loads(cointoss("toss", source, *three, "--engine", "mujoco", "--json").stdout)
     assert (toss["trusted_impacts"], toss["trust_end"], toss["trust_reason"]) == (0, "second_point", reason)
-    assert "\ntrusted   3 impacts\n" in cointoss("toss", source).stdout
+    assert "\ntrusted   3 impacts\n" in cointoss("toss", source, *three).stdout
     cut = cointoss("toss", "fig24a", "--max-impacts", 12).stdout
     assert "\ntrusted   10 of 12 impacts: the engine's own errors could change impact 11\n" in cut
 

@@ -266,6 +266,7 @@ def test_the_static_page_works_from_a_file_with_the_network_off(page, map_path, 
     target = tmp_path / "a map.html"
     answered = cointoss("explore", map_path, "--static", target)
     assert (answered.exit_code, answered.stdout) == (0, f"{target}\n"), answered.stderr
+    assert "wasm-unsafe-eval" not in target.read_text("utf-8")
     held = json.loads(re.findall(r'id="data">(.*)</script>', target.read_text("utf-8"))[0])
     assert (held["columns"], held["rows"]) == ([6, 18], [4, 13])
     # At most 12 by 9 pixels are tossed, and the map is cut to MOST_PIXELS; an engine has its own place.

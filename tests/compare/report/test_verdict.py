@@ -61,6 +61,7 @@ TOSSES = {
     "bounced": made("HT", ending=Ending.CAUGHT),
     "bounced-turned": made("HT", Outcome.TAILS, ending=Ending.CAUGHT),
     "cut": made("HH", Outcome.UNDECIDED, ending=Ending.MAX_IMPACTS),
+    "moving": made("HHT", Outcome.TRANSIENT, ending=Ending.TRANSIENT),
     "flying": made("", Outcome.UNDECIDED, ending=Ending.MAX_TIME),
 }
 VERDICTS = """
@@ -108,6 +109,9 @@ bounced bounced 2 2 AGREE
 bounced bounced-turned 2 2 DIFFER
     HELD by the analytic engine, tails in the hand by MuJoCo: they agree on both impacts before it is caught,
     as they must; the flight to the hand decides.
+HHT moving 3 3 DIFFER
+    Heads by the analytic engine, moving still by MuJoCo: they agree on all 3 impacts, as they must; what the
+    floor does after that decides.
 cut cut 2 2 AGREE
     Undecided by both engines: they agree on both impacts, as they must.
 flying flying 0 0 AGREE
