@@ -7,8 +7,27 @@ from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector
 
 Quaternion = tuple[float, float, float, float]
+# Euler parameters whose norm is 1 within rounding stay as they are: made from angles, or brought to norm 1
+# before, they would change in their last digit.
+_NORM_ROUNDING = 1e-15
 
 
+@compiled
+def norm_of(e: Quaternion) -> float:
+    """Return the norm of Euler parameters."""
+    return math.sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + e[3] * e[3])
+
+
+@compiled
+def normalized(e: Quaternion) -> Quaternion:
+    """Return Euler parameters brought to norm 1."""
+    size = norm_of(e)
+    if abs(size - 1) <= _NORM_ROUNDING:
+        return e
+    return e[0] / size, e[1] / size, e[2] / size, e[3] / size
+
+
+@compiled
 def quaternion_from_angles(angles: Vector) -> Quaternion:
     """Return the Euler parameters of the classical Euler angles (z-x-z).
 

@@ -67,7 +67,8 @@ def rim_offset(body: Body, n_z: float) -> tuple[float, float]:
     return out, up
 
 
-def highest_on_floor(body):
+@compiled
+def highest_on_floor(body: Body) -> float:
     """Return the largest height that the mass centre of a coin that touches the floor may have [m]."""
     c = body.center
     return math.hypot(body.radius + math.hypot(c[0], c[1]), body.thickness / 2 + abs(c[2]))

@@ -3,6 +3,8 @@
 import math
 from typing import NamedTuple
 
+from cointoss.models.kernel.compiled import compiled
+
 _SHARE_ERROR = 1e-9
 
 
@@ -22,6 +24,7 @@ class Drag(NamedTuple):
     """d_n: about the normal ζ [kg m²/s]."""
 
 
+@compiled
 def linear_drag(radius: float, thickness: float, normal: float, tangential: float) -> Drag:
     """Integrate the air's force over both faces and the wall of a cylinder for b = 0.
 
@@ -41,19 +44,21 @@ def linear_drag(radius: float, thickness: float, normal: float, tangential: floa
     """
     r, h, ln, lt = radius, thickness, normal, tangential
     pi = math.pi
+    # Powers of 3.0 and 4.0 are rounded once; those of integers would be multiplied out.
     return Drag(
         force_tangential=2 * pi * r**2 * lt + pi * r * h * lt + pi / 2 * r * h * ln,
         force_normal=pi * r**2 * ln + 2 * pi * r * h * lt,
         moment_tangential=(
-            pi / 4 * r**4 * ln
+            pi / 4 * r**4.0 * ln
             + pi / 2 * r**2 * h**2 * lt
-            + pi / 24 * r * h**3 * ln
-            + (pi * r**3 * h + pi / 12 * r * h**3) * lt
+            + pi / 24 * r * h**3.0 * ln
+            + (pi * r**3.0 * h + pi / 12 * r * h**3.0) * lt
         ),
-        moment_normal=(pi * r**4 + 2 * pi * r**3 * h) * lt,
+        moment_normal=(pi * r**4.0 + 2 * pi * r**3.0 * h) * lt,
     )
 
 
+@compiled
 def sliding_share(drag: Drag, offset: float) -> float:
     """Return the part a of its horizontal energy that air can still turn into height on a smooth floor.
 
@@ -76,13 +81,15 @@ def sliding_share(drag: Drag, offset: float) -> float:
     while high - low > _SHARE_ERROR:
         a = (low + high) / 2
         needed = ((1 - a) * offset * largest) ** 2
-        if largest > 0 and (mu := _least_eigenvalue(drag, a)) >= 0 and 4 * mu * least_moment >= needed:
+        mu = _least_eigenvalue(drag, a)
+        if largest > 0 and mu >= 0 and 4 * mu * least_moment >= needed:
             high = a
         else:
             low = a
     return high
 
 
+@compiled
 def _least_eigenvalue(drag: Drag, a: float) -> float:
     """Return μ of `sliding_share`: with the sine of the tilt squared as x, it is convex in x."""
     across, apart = drag.force_tangential, drag.force_normal - drag.force_tangential
@@ -90,7 +97,8 @@ def _least_eigenvalue(drag: Drag, a: float) -> float:
     trace, A = (1 + a) * across + apart, -(1 - a) * across - apart
     B = -(1 - a * a) * apart * (2 * across + apart)
     x = min(max((((1 + a) * (across + apart / 2)) ** 2 - A * A) / B, 0.0), 1.0) if B != 0 else 0.0
-    candidates = (
-        (trace - (1 - a) * apart * tilt - math.sqrt(max(A * A + B * tilt, 0.0))) / 2 for tilt in (0.0, x, 1.0)
-    )
-    return min(a * across, *candidates)
+    least = a * across
+    for tilt in (0.0, x, 1.0):
+        root = math.sqrt(max(A * A + B * tilt, 0.0))
+        least = min(least, (trace - (1 - a) * apart * tilt - root) / 2)
+    return least

@@ -95,27 +95,46 @@ def shown(value: Any) -> str:
 
 
 def _accepted(detail: ErrorDetails, model: type[BaseModel]) -> str:
-    kind, rules = _described(detail["loc"], model)
-    form, bounds = _form(rules), _bounds(rules)
+    loc = detail["loc"]
     match detail["type"]:
         case "value_error":
             return str(_cause(detail))
-        case "missing" | "model_type" if issubclass(kind, BaseModel):
+        case "missing" | "model_type" if issubclass(kind := _described(loc, model)[0], BaseModel):
             return f"a table [{_field(detail)}] with {', '.join(kind.model_fields)}"
-        case "missing":
-            return form.replace("a number", f"a number{bounds}", 1)
-        case "greater_than" | "greater_than_equal" | "less_than_equal" if kind is int:
-            return f"a whole number{bounds}"
+        case "missing" as problem:
+            return accepted(loc, model, problem)
         case "greater_than" | "greater_than_equal" | "less_than_equal":
-            return form.partition(",")[0].replace("a number", f"a number{bounds}", 1)
+            return accepted(loc, model, "bounds")
         case "finite_number":
-            return "a finite number"
-        case "float_type":
-            return form
-        case "int_type":
-            return f"a whole number{bounds}"
+            return accepted(loc, model, "finite")
+        case "float_type" | "int_type":
+            return accepted(loc, model, "type")
         case _:
             return detail["msg"]
+
+
+def accepted(loc: tuple[int | str, ...], model: type[BaseModel], problem: str) -> str:
+    """Return what a field that is a number, a word or a list of them accepts.
+
+    Args:
+        loc: its names, and its place in a list.
+        model: of which it is a field.
+        problem: "missing"; "type", where it is something else; "finite"; or "bounds", beyond them.
+    """
+    kind, rules = _described(loc, model)
+    form, bounds = _form(rules), _bounds(rules)
+    if problem == "finite":
+        return "a finite number"
+    if kind is int:
+        return f"a whole number{bounds}"
+    if problem == "bounds":
+        form = form.partition(",")[0]
+    return form if problem == "type" else form.replace("a number", f"a number{bounds}", 1)
+
+
+def ends_of(loc: tuple[int | str, ...], model: type[BaseModel]) -> dict[str, float]:
+    """Return the ends of the range of a field that is a number: its lowest as "ge", its highest as "le"."""
+    return {key: bound for key, bound in _ends(_described(loc, model)[1]) if key in ("ge", "le")}
 
 
 def _described(loc: tuple[int | str, ...], model: type[BaseModel]) -> tuple[type, list[Any]]:
@@ -146,12 +165,16 @@ def _form(rules: list[Any]) -> str:
 def _bounds(rules: list[Any]) -> str:
     """Return the bounds of a number, with a space before."""
     signs = {"gt": ">", "ge": ">=", "le": "<="}
-    flat = [one for rule in rules for one in (rule.metadata if isinstance(rule, FieldInfo) else [rule])]
     bounds = [
-        (sign, getattr(rule, key)) for key, sign in signs.items() for rule in flat if hasattr(rule, key)
+        f"{signs[key]} {bound if isinstance(bound, int) else f'{bound:g}'}" for key, bound in _ends(rules)
     ]
-    shown_bounds = (f"{sign} {bound if isinstance(bound, int) else f'{bound:g}'}" for sign, bound in bounds)
-    return " " * bool(bounds) + " and ".join(shown_bounds)
+    return " " * bool(bounds) + " and ".join(bounds)
+
+
+def _ends(rules: list[Any]) -> list[tuple[str, float]]:
+    """Return the bounds of a number, each with its kind."""
+    flat = [one for rule in rules for one in (rule.metadata if isinstance(rule, FieldInfo) else [rule])]
+    return [(key, getattr(rule, key)) for key in ("gt", "ge", "le") for rule in flat if hasattr(rule, key)]
 
 
 def _known(detail: ErrorDetails, model: type[BaseModel]) -> str:

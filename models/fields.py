@@ -8,15 +8,16 @@ from pydantic import BaseModel
 
 from cointoss.models.errors import ScenarioError, shown
 
-_SPACE, _BODY = ("x", "y", "z"), ("xi", "eta", "zeta")
-_COMPONENTS = {
-    "coin.center_of_mass": _BODY,
-    "release.position": _SPACE,
-    "release.velocity": _SPACE,
+SPACE, BODY = ("x", "y", "z"), ("xi", "eta", "zeta")
+COMPONENTS = {
+    "coin.center_of_mass": BODY,
+    "release.position": SPACE,
+    "release.velocity": SPACE,
     "release.angles": ("psi", "theta", "phi"),
     "release.quaternion": ("e0", "e1", "e2", "e3"),
-    "release.angular_velocity": _BODY,
+    "release.angular_velocity": BODY,
 }
+"""The fields that are lists of numbers, and what their components are called."""
 _ZERO = (0.0, 0.0, 0.0)
 _DEFAULTS = {
     "coin.center_of_mass": _ZERO,
@@ -38,7 +39,7 @@ def lambda_unit(exponent: float) -> str:
 
 
 def _components(path: str, unit: str, *words: str) -> dict[str, tuple[str, str]]:
-    return {f"{path}.{name}": (word, unit) for name, word in zip(_COMPONENTS[path], words, strict=True)}
+    return {f"{path}.{name}": (word, unit) for name, word in zip(COMPONENTS[path], words, strict=True)}
 
 
 _NUMBERS = {
@@ -93,9 +94,9 @@ def split(field: str) -> tuple[str, str, int | None]:
         "" for no table; None for no component.
     """
     path, _, last = field.rpartition(".")
-    if last in _COMPONENTS.get(path, ()):
+    if last in COMPONENTS.get(path, ()):
         table, _, key = path.partition(".")
-        return table, key, _COMPONENTS[path].index(last)
+        return table, key, COMPONENTS[path].index(last)
     table, _, key = field.partition(".")
     return (table, key, None) if key else ("", table, None)
 
@@ -114,8 +115,8 @@ def put(data: dict[str, Any], field: str, value: Any) -> None:
         ScenarioError: for a component that a field does not have.
     """
     path, _, last = field.rpartition(".")
-    if last not in _COMPONENTS.get(path, last):
-        accepted = ", ".join(f"{path}.{name}" for name in _COMPONENTS[path])
+    if last not in COMPONENTS.get(path, last):
+        accepted = ", ".join(f"{path}.{name}" for name in COMPONENTS[path])
         raise ScenarioError(f"{field} = {shown(value)}: unknown component; accepted: {accepted}")
     table, key, index = split(field)
     part = data

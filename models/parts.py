@@ -1,6 +1,5 @@
 """The parts of a scenario: coin, air, floor, release and ending; frozen, and validated when made."""
 
-import math
 from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Self
 
@@ -18,17 +17,22 @@ from pydantic import (
     model_validator,
 )
 
-from cointoss.models.attitude import Quaternion, quaternion_from_angles
+from cointoss.models.attitude import Quaternion, normalized, quaternion_from_angles
 from cointoss.models.errors import FieldError, ScenarioError, describe
-from cointoss.models.fields import lambda_unit
-from cointoss.models.inertia import (
-    cylinder_inertia,
-    inertia_about_mass_center,
-    is_positive_definite,
-    obeys_triangle_inequality,
+from cointoss.models.faults import (
+    ACCEPTED,
+    Fault,
+    Found,
+    fault_of_center,
+    fault_of_floor,
+    fault_of_inertia,
+    fault_of_quaternion,
 )
+from cointoss.models.fields import lambda_unit, split
 from cointoss.models.kernel.vectors import Matrix, Vector
 from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
+from cointoss.models.making import MOST_IMPACTS, Cylinder, moved_inertia
+from cointoss.models.state import State, state
 from cointoss.models.units import in_si
 from cointoss.models.words import Word
 
@@ -59,16 +63,8 @@ def _list_of(count: int, accepted: str) -> BeforeValidator:
 
 # Sizes beyond all coins, within which products of powers stay far from the range of floating-point numbers.
 LARGEST, SMALLEST = 1e9, 1e-9
-# Spins and drags beyond all tosses, which would take hours to follow; against √(g/r).
-FASTEST_SPIN, FASTEST_DRAG = 1e5, 1e4
 # In an angle beyond it the digits that tell one attitude from another are gone [rad].
 LARGEST_ANGLE = 1e6
-# More impacts than a coin needs that loses energy; and enough of one that may never lose any.
-MOST_IMPACTS, MOST_LOSSLESS = 30_000_000, 1_000_000
-# Euler parameters whose norm is 1 within rounding stay as they are: made from angles, or brought to norm 1
-# before, they would change in their last digit.
-NORM_ROUNDING = 1e-15
-
 _within = Field(ge=-LARGEST, le=LARGEST)
 _size = Field(ge=SMALLEST, le=LARGEST)
 _not_negative = Field(ge=0, le=LARGEST)
@@ -97,9 +93,6 @@ _Rows = Annotated[
 ]
 _AS_WORD = PlainSerializer(str, when_used="json")
 _ZERO = (0.0, 0.0, 0.0)
-# Up to this kinematic restitution `coulomb` and its limit add energy in hardly an impact.
-_ROUTHS, _TAKING = (ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH), 0.7
-_IN_CONTACT = (ContactLaw.SMOOTH, *_ROUTHS)
 RESISTANCES = ("rolling_friction", "pivoting_friction")
 """The fields of a floor that resist the motion of a coin in sustained contact."""
 
@@ -136,6 +129,34 @@ class Part(BaseModel):
         return super().model_copy(deep=deep)
 
 
+def _require_none(found: Found) -> None:
+    """Refuse a value that is checked, for what was found wrong with it."""
+    if found.fault != Fault.NONE:
+        raise ValueError(ACCEPTED[found.fault][1].format(limit=found.limit))
+
+
+def refuse(found: Found, part: Part, **words: str) -> None:
+    """Refuse a part of a scenario, or a scenario, for what was found wrong with it.
+
+    Args:
+        found: a fault, or none.
+        part: that is checked.
+        words: of the fault's sentence.
+
+    Raises:
+        FieldError: naming field, value and what is accepted.
+    """
+    if found.fault == Fault.NONE:
+        return
+    field, accepted = ACCEPTED[found.fault]
+    table, key, index = split(field)
+    is_whole = table in type(part).model_fields
+    value = getattr(getattr(part, table) if is_whole else part, key)
+    value = str(value) if isinstance(value, Word) else value if index is None else value[index]
+    name = field if is_whole else field.removeprefix(f"{table}.")
+    raise FieldError(name, value, accepted.format(limit=found.limit, **words))
+
+
 class Coin(Part):
     """A cylinder of radius r and thickness h whose mass centre C may lie off its geometric centre B."""
 
@@ -154,60 +175,45 @@ class Coin(Part):
     @field_validator("center_of_mass")
     @classmethod
     def _inside_the_coin(cls, c: Vector, info: ValidationInfo) -> Vector:
-        r, h = info.data.get("radius"), info.data.get("thickness")
-        if r is not None and not np.hypot(c[0], c[1]) < r:
-            raise ValueError(f"a point inside the coin: sqrt(xi^2 + eta^2) < radius = {r} m")
-        if h is not None and not abs(c[2]) <= h / 2:
-            raise ValueError(f"a point inside the coin: |zeta| <= thickness/2 = {h / 2} m")
+        if cylinder := _cylinder(info.data):
+            _require_none(fault_of_center(cylinder, c))
         return c
 
     @field_validator("inertia")
     @classmethod
     def _inertia_of_a_body(cls, inertia: Matrix | None, info: ValidationInfo) -> Matrix | None:
-        if inertia is None:
-            return None
-        J = np.array(inertia)
-        if not np.allclose(J, J.T, rtol=0, atol=1e-12 * np.abs(J).max()):
-            raise ValueError("a symmetric 3 by 3 matrix")
-        if not is_positive_definite(J):
-            raise ValueError("a positive definite matrix: every principal moment > 0")
-        if not obeys_triangle_inequality(J):
-            raise ValueError("a body's inertia: no principal moment above the sum of the other two")
-        m, r = info.data.get("mass"), info.data.get("radius")
-        if m is not None and r is not None:
-            moments = np.linalg.eigvalsh(J) / (m * r * r)
-            if not (moments[0] >= 1e-6 and moments[-1] <= 1e6):
-                raise ValueError(f"principal moments from 1e-6 to 1e6 m r^2 = {m * r * r:.3g} kg m^2")
+        if inertia is not None and (cylinder := _cylinder(info.data)):
+            _require_none(fault_of_inertia(cylinder, inertia, True))
         return inertia
 
     @model_validator(mode="after")
     def _positive_inertia(self) -> Self:
-        if self.inertia is None and not is_positive_definite(self.inertia_about_C):
-            raise FieldError(
-                "center_of_mass",
-                self.center_of_mass,
-                "a center of mass that leaves a positive definite inertia about it, "
-                f"such as sqrt(xi^2 + eta^2) < radius/2 = {self.radius / 2} m, or give coin.inertia",
-            )
-        if self.inertia is None and not obeys_triangle_inequality(self.inertia_about_C):
-            raise FieldError(
-                "center_of_mass",
-                self.center_of_mass,
-                "a center of mass that leaves an inertia about it with no principal moment above the sum of "
-                "the other two, so one nearer to (0, 0, 0), or give coin.inertia",
-            )
+        if self.inertia is None:
+            refuse(fault_of_inertia(self.cylinder, self.moments, False), self)
         return self
+
+    @property
+    def cylinder(self) -> Cylinder:
+        """The mass and the size."""
+        return Cylinder(self.mass, self.radius, self.thickness)
+
+    @property
+    def moments(self) -> Matrix:
+        """J_C, body frame, as rows [kg m²]."""
+        return moved_inertia(self.cylinder, self.center_of_mass) if self.inertia is None else self.inertia
 
     @property
     def inertia_about_C(self) -> NDArray[np.float64]:
         """J_C, body frame, (3, 3), read-only [kg m²]."""
-        if self.inertia is not None:
-            J = np.array(self.inertia)
-        else:
-            J_B = cylinder_inertia(self.mass, self.radius, self.thickness)
-            J = inertia_about_mass_center(J_B, self.mass, self.center_of_mass)
+        J = np.array(self.moments)
         J.setflags(write=False)
         return J
+
+
+def _cylinder(fields: Mapping[str, Any]) -> Cylinder | None:
+    """Return the mass and the size of a coin that is being checked, None where one of them is wrong."""
+    are_there = all(name in fields for name in Cylinder._fields)
+    return Cylinder(*(fields[name] for name in Cylinder._fields)) if are_there else None
 
 
 class Air(Part):
@@ -250,34 +256,12 @@ class Floor(Part):
     """"kinematic", or "energetic" for the law "coulomb"."""
 
     @model_validator(mode="after")
-    def _kind_of_a_law_that_has_it(self) -> Self:
-        if self.restitution_kind == RestitutionKind.ENERGETIC and self.contact != ContactLaw.COULOMB:
-            raise FieldError(
-                "restitution_kind",
-                str(self.restitution_kind),
-                f'"kinematic" with contact = "{self.contact}"; "energetic" only with "coulomb"',
-            )
+    def _of_its_law(self) -> Self:
+        found = fault_of_floor(
+            self.contact, self.restitution_kind, self.rolling_friction, self.pivoting_friction
+        )
+        refuse(found, self, contact=str(self.contact))
         return self
-
-    @model_validator(mode="after")
-    def _resistance_of_a_law_in_contact(self) -> Self:
-        for name in RESISTANCES:
-            if getattr(self, name) > 0 and self.contact not in _IN_CONTACT:
-                accepted = ", ".join(f'"{law}"' for law in _IN_CONTACT)
-                raise FieldError(
-                    name,
-                    getattr(self, name),
-                    f'0 with contact = "{self.contact}", which is not followed into sustained contact; '
-                    f"a length with {accepted}",
-                )
-        return self
-
-    @property
-    def takes_energy(self) -> bool:
-        """Whether impacts take energy, and add none or hardly any (docs/CONTACT.md)."""
-        if self.contact == ContactLaw.SMOOTH or self.restitution_kind == RestitutionKind.ENERGETIC:
-            return self.restitution < 1
-        return self.contact in _ROUTHS and self.restitution <= _TAKING
 
 
 class Release(Part):
@@ -299,12 +283,8 @@ class Release(Part):
     def _unit_norm(cls, e: Quaternion | None) -> Quaternion | None:
         if e is None:
             return None
-        size = math.hypot(*e)
-        if not abs(size - 1) <= 1e-3:
-            raise ValueError(f"four numbers of norm 1 within 1e-3 (the norm here is {size:.6g})")
-        if abs(size - 1) <= NORM_ROUNDING:
-            return e
-        return tuple(x / size for x in e)  # pyright: ignore[reportReturnType]
+        _require_none(fault_of_quaternion(e))
+        return normalized(e)
 
     @model_validator(mode="after")
     def _one_attitude(self) -> Self:
@@ -317,6 +297,11 @@ class Release(Part):
         """Euler parameters e0, e1, e2, e3, body to space, of norm 1."""
         return self.quaternion or quaternion_from_angles(self.angles or _ZERO)
 
+    @property
+    def state(self) -> State:
+        """The state of the coin."""
+        return state(self.position, self.velocity, self.attitude, self.angular_velocity)
+
 
 class EndingCriteria(Part):
     """When a toss is over."""
@@ -324,8 +309,8 @@ class EndingCriteria(Part):
     test: Annotated[EndingTest, BeforeValidator(_named(EndingTest)), _AS_WORD] = EndingTest.RIGOROUS
     """What decides that the face up is final."""
     max_impacts: Annotated[int | None, Field(ge=1, le=MOST_IMPACTS)] = None
-    """The toss stops after so many impacts; by default after `MOST_IMPACTS`, or after `MOST_LOSSLESS` where
-    impacts may take no energy."""
+    """The toss stops after so many impacts; by default see
+    `cointoss.models.making.most_impacts`."""
     max_time: Annotated[float, _quantity("s"), _size] = 1_000_000.0
     """The toss stops at this time [s]."""
     caught: Annotated[float | None, _size, _quantity("m")] = None

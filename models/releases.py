@@ -7,17 +7,17 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
+from cointoss.models.attitude import norm_of, normalized, quaternion_from_angles
 from cointoss.models.body import Body
-from cointoss.models.clearance import damping_rate
 from cointoss.models.errors import require_type, shown
+from cointoss.models.faults import ACCEPTED, NORM_ERROR, Fault, Found, fault_of_release
 from cointoss.models.fields import UNITS, split
-from cointoss.models.geometry import gap
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.parts import FASTEST_DRAG, FASTEST_SPIN, LARGEST, NORM_ROUNDING, Release
+from cointoss.models.parts import LARGEST, Release
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
+from cointoss.models.state import state
 from cointoss.models.units import in_si
 
 HEIGHT, SPIN = "release.position.z", "release.angular_velocity"
@@ -58,11 +58,10 @@ class Releases:
             n = len(array)
             _refuse(item.name, array, ~(np.abs(array) <= LARGEST).all(axis=1), f"numbers within {LARGEST:g}")
             if item.name == "quaternion":
-                # In a map the attitude is often one; numpy's own norm rounds otherwise than math.hypot.
-                distinct = array[:1] if (array == array[:1]).all() else array
-                size = np.array([math.hypot(*e) for e in distinct.tolist()])
-                _refuse(item.name, array, ~(np.abs(size - 1) <= 1e-3), "four numbers of norm 1 within 1e-3")
-                array /= np.where(np.abs(size - 1) <= NORM_ROUNDING, 1.0, size)[:, None]
+                wrong = _normalize(array)
+                _refuse(
+                    item.name, array, np.arange(n) == wrong, f"four numbers of norm 1 within {NORM_ERROR:g}"
+                )
             array.setflags(write=False)
             object.__setattr__(self, item.name, array)
 
@@ -179,20 +178,14 @@ def check_releases(scenario: Scenario, releases: Releases) -> None:
         ValueError: for a coin below the floor, and for a spin or a drag too fast to follow.
     """
     require_type("releases", releases, Releases, "Releases, as of Releases.of(scenario, n, height=...)")
-    body = scenario.body
-    clearance, damping = _clearance_and_damping(
-        body, releases.position, releases.velocity, releases.quaternion, releases.angular_velocity
-    )
-    rate = (body.gravity / body.radius) ** 0.5
-    w = releases.angular_velocity
-    _refuse("position", releases.position, clearance < -1e-12 * body.radius, "a coin above the floor")
-    fastest = FASTEST_SPIN * rate
-    too_fast = ~(np.linalg.norm(w, axis=1) <= fastest)
-    _refuse(
-        "angular_velocity", w, too_fast, f"a spin of at most {FASTEST_SPIN:g} sqrt(g/r) = {fastest:.3g} rad/s"
-    )
-    accepted = f"air that slows the coin at a rate of at most {FASTEST_DRAG:g} sqrt(g/r)"
-    _refuse("velocity", releases.velocity, ~(damping <= FASTEST_DRAG * rate), accepted)
+    rows = (releases.position, releases.velocity, releases.quaternion, releases.angular_velocity)
+    row, found = _first_fault(scenario.body, *rows)
+    if found.fault != Fault.NONE:
+        field, accepted = ACCEPTED[found.fault]
+        name = "velocity" if field == "air" else split(field)[1]
+        _refuse(
+            name, getattr(releases, name), np.arange(len(releases)) == row, accepted.format(limit=found.limit)
+        )
 
 
 def _refuse(name: str, rows: Array, refused: ArrayLike, accepted: str) -> None:
@@ -202,14 +195,27 @@ def _refuse(name: str, rows: Array, refused: ArrayLike, accepted: str) -> None:
 
 
 @compiled
-def _clearance_and_damping(
+def _normalize(quaternions: Array) -> int:
+    """Bring Euler parameters, (n, 4), to norm 1; return the first row that is too far from it, or -1."""
+    for i in range(len(quaternions)):
+        row = quaternions[i]
+        e = (row[0], row[1], row[2], row[3])
+        if not abs(norm_of(e) - 1) <= NORM_ERROR:
+            return i
+        row[0], row[1], row[2], row[3] = normalized(e)
+    return -1
+
+
+@compiled
+def _first_fault(
     body: Body, positions: Array, velocities: Array, attitudes: Array, spins: Array
-) -> tuple[Array, Array]:
-    """Return the gap [m] and the rate at which drag changes velocities [1/s] of each release, (n,) both."""
-    clearance, damping = np.empty(len(positions)), np.empty(len(positions))
+) -> tuple[int, Found]:
+    """Return the first release with a fault, and the fault; the last where there is none."""
+    found, i = Found(Fault.NONE, 0.0), 0
     for i in range(len(positions)):
-        z, v, e, w = positions[i, 2], velocities[i], attitudes[i], spins[i]
-        clearance[i] = gap(body, z, rotation_matrix(e)[2])
-        fall = (2 * max(z, 0.0) / body.gravity) ** 0.5
-        damping[i] = damping_rate(body, (v[0], v[1], v[2]), (w[0], w[1], w[2]), fall)
-    return clearance, damping
+        x, v, e, w = positions[i], velocities[i], attitudes[i], spins[i]
+        at = state((x[0], x[1], x[2]), (v[0], v[1], v[2]), (e[0], e[1], e[2], e[3]), (w[0], w[1], w[2]))
+        found = fault_of_release(body, at)
+        if found.fault != Fault.NONE:
+            break
+    return i, found

@@ -11,21 +11,14 @@ from pydantic import (
     model_validator,
 )
 
-from cointoss.models.attitude import Quaternion, rotation_matrix
-from cointoss.models.barriers import highest_on_floor
+from cointoss.models.attitude import Quaternion
 from cointoss.models.body import AirLaw, Body, Rules
-from cointoss.models.clearance import damping_rate
-from cointoss.models.drag import linear_drag, sliding_share
-from cointoss.models.errors import FieldError, ScenarioError, describe, require_type
+from cointoss.models.errors import ScenarioError, describe, require_type
+from cointoss.models.faults import fault_of_toss
 from cointoss.models.fields import put
-from cointoss.models.geometry import gap
-from cointoss.models.kernel.vectors import Matrix, Vector
+from cointoss.models.kernel.vectors import Vector
+from cointoss.models.making import make_body, most_impacts
 from cointoss.models.parts import (
-    FASTEST_DRAG,
-    FASTEST_SPIN,
-    MOST_IMPACTS,
-    MOST_LOSSLESS,
-    RESISTANCES,
     Acceleration,
     Air,
     Coin,
@@ -33,6 +26,7 @@ from cointoss.models.parts import (
     Floor,
     Part,
     Release,
+    refuse,
 )
 from cointoss.models.unused import warn_of_unused_fields
 from cointoss.models.writing import toml
@@ -65,54 +59,8 @@ class Scenario(Part):
     __init__.__dict__["__pydantic_base_init__"] = True
 
     @model_validator(mode="after")
-    def _above_the_floor(self) -> Self:
-        numbers = np.hstack([np.ravel(part) for part in self.body if not isinstance(part, AirLaw)])
-        if not np.all(np.isfinite(numbers)):
-            raise FieldError(
-                "coin", self.coin, "a coin whose inertia, its inverse and drag are finite numbers"
-            )
-        R = rotation_matrix(self.release.attitude)
-        clearance = gap(self.body, self.release.position[2], R[2])
-        if clearance < -1e-12 * self.coin.radius:
-            z = self.release.position[2]
-            raise FieldError("release.position.z", z, f"a coin above the floor: z >= {z - clearance:.6g} m")
-        return self
-
-    @model_validator(mode="after")
-    def _within_reach(self) -> Self:
-        rate = (self.gravity / self.coin.radius) ** 0.5
-        w = self.release.angular_velocity
-        if not math.hypot(*w) <= FASTEST_SPIN * rate:
-            accepted = f"a spin of at most {FASTEST_SPIN:g} sqrt(g/r) = {FASTEST_SPIN * rate:.3g} rad/s"
-            raise FieldError("release.angular_velocity", w, accepted)
-        fall = (2 * max(self.release.position[2], 0) / self.gravity) ** 0.5
-        if not damping_rate(self.body, self.release.velocity, w, fall) <= FASTEST_DRAG * rate:
-            accepted = f"air that slows the coin at a rate of at most {FASTEST_DRAG:g} sqrt(g/r)"
-            raise FieldError("air", self.air, accepted)
-        return self
-
-    @model_validator(mode="after")
-    def _pressed_in_one_way(self) -> Self:
-        sizes = [getattr(self.floor, name) for name in RESISTANCES]
-        if not any(sizes):
-            return self
-        # Up to there K + q ẑᵀ is positive definite: see analytic/contact/resistance.py.
-        most = 2 * (self.body.inertia_smallest / self.coin.mass) ** 0.5
-        if not math.hypot(*sizes) < most:
-            name, size = max(zip(RESISTANCES, sizes, strict=True), key=lambda pair: pair[1])
-            accepted = (
-                "lengths with sqrt(rolling_friction^2 + pivoting_friction^2) < 2 sqrt(J/m) "
-                f"= {most:.6g} m, J the least moment of inertia: beyond, the floor's force has no solution"
-            )
-            raise FieldError(f"floor.{name}", size, accepted)
-        return self
-
-    @model_validator(mode="after")
-    def _caught_in_flight(self) -> Self:
-        caught, reach = self.ending.caught, highest_on_floor(self.body)
-        if caught is not None and not caught > reach:
-            accepted = f"more than {reach:.6g} m, so that the coin is caught in flight"
-            raise FieldError("ending.caught", caught, accepted)
+    def _together(self) -> Self:
+        refuse(fault_of_toss(self.body, self.rules, self.release.state), self)
         return self
 
     def replace(self, field: str, value: Any, /, *more: Any) -> "Scenario":
@@ -157,32 +105,15 @@ class Scenario(Part):
     def body(self) -> Body:
         """The coin in its air and gravity, for compiled code."""
         coin, air = self.coin, self.air
-        J = coin.inertia_about_C
-        moments = np.linalg.eigvalsh(J)
-        drag = linear_drag(coin.radius, coin.thickness, air.normal, air.tangential)
         is_linear = air.exponent == 0 or air.normal == air.tangential == 0
-        return Body(
-            mass=coin.mass,
-            radius=coin.radius,
-            thickness=coin.thickness,
-            center=coin.center_of_mass,
-            inertia=_rows(J),
-            inertia_inverse=_rows(np.linalg.inv(J)),
-            inertia_smallest=float(moments[0]),
-            inertia_largest=float(moments[-1]),
-            air=AirLaw(None if is_linear else air.exponent, normal=air.normal, tangential=air.tangential),
-            drag=drag,
-            sliding_share=sliding_share(drag, float(np.linalg.norm(coin.center_of_mass))),
-            gravity=self.gravity,
-        )
+        law = AirLaw(None if is_linear else air.exponent, normal=air.normal, tangential=air.tangential)
+        return make_body(coin.cylinder, coin.center_of_mass, coin.moments, law, self.gravity)
 
     @property
     def rules(self) -> Rules:
         """The floor and the ending, for compiled code."""
         floor, ending = self.floor, self.ending
-        most = ending.max_impacts
-        if most is None:
-            most = MOST_IMPACTS if floor.takes_energy else MOST_LOSSLESS
+        most = ending.max_impacts or most_impacts(floor.contact, floor.restitution_kind, floor.restitution)
         return Rules(
             law=floor.contact,
             restitution=floor.restitution,
@@ -196,11 +127,6 @@ class Scenario(Part):
             max_time=ending.max_time,
             caught=math.inf if ending.caught is None else ending.caught,
         )
-
-
-def _rows(M: NDArray[np.floating]) -> Matrix:
-    first, second, third = (vector(row) for row in M)
-    return first, second, third
 
 
 def vector(row: NDArray[np.floating]) -> Vector:

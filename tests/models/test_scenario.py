@@ -10,7 +10,8 @@ import pytest
 
 from cointoss.models.errors import ScenarioError
 from cointoss.models.laws import ContactLaw, EndingTest
-from cointoss.models.parts import MOST_IMPACTS, MOST_LOSSLESS, Coin, Release
+from cointoss.models.making import MOST_IMPACTS, MOST_LOSSLESS
+from cointoss.models.parts import Coin, Release
 from cointoss.models.reading import MOST_BYTES, load, named_scenarios, parse, scenario_text
 from cointoss.models.scenario import Scenario
 from tests.helpers.draws import scenario

@@ -1,0 +1,80 @@
+"""Makes what a toss needs to know of a scenario's numbers."""
+
+from typing import NamedTuple
+
+from cointoss.models.body import AirLaw, Body
+from cointoss.models.drag import linear_drag, sliding_share
+from cointoss.models.inertia import cylinder_inertia, inertia_about_mass_center, inverse, principal_moments
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Matrix, Vector, norm
+from cointoss.models.laws import ContactLaw, RestitutionKind
+
+# More impacts than a coin needs that loses energy; and enough of one that may never lose any.
+MOST_IMPACTS, MOST_LOSSLESS = 30_000_000, 1_000_000
+# Up to this kinematic restitution `coulomb` and its limit add energy in hardly an impact.
+_TAKING = 0.7
+
+
+class Cylinder(NamedTuple):
+    """The mass and the size of a coin."""
+
+    mass: float
+    """m [kg]."""
+    radius: float
+    """r [m]."""
+    thickness: float
+    """h [m]."""
+
+
+@compiled
+def moved_inertia(cylinder: Cylinder, center: Vector) -> Matrix:
+    """Return J_C of a uniform cylinder's inertia about B, body frame [kg m²].
+
+    Args:
+        cylinder: mass and size.
+        center: C from B, body frame [m].
+    """
+    J_B = cylinder_inertia(cylinder.mass, cylinder.radius, cylinder.thickness)
+    return inertia_about_mass_center(J_B, cylinder.mass, center)
+
+
+@compiled
+def make_body(cylinder: Cylinder, center: Vector, J: Matrix, air: AirLaw, gravity: float) -> Body:
+    """Return the coin in its air and gravity.
+
+    Args:
+        cylinder: mass and size.
+        center: C from B, body frame [m].
+        J: inertia about C, body frame [kg m²].
+        air: its resistance.
+        gravity: g [m/s²].
+    """
+    low, _, high = principal_moments(J)
+    drag = linear_drag(cylinder.radius, cylinder.thickness, air.normal, air.tangential)
+    return Body(
+        cylinder.mass,
+        cylinder.radius,
+        cylinder.thickness,
+        center,
+        J,
+        inverse(J),
+        low,
+        high,
+        air,
+        drag,
+        sliding_share(drag, norm(center)),
+        gravity,
+    )
+
+
+@compiled
+def most_impacts(law: ContactLaw, kind: RestitutionKind, restitution: float) -> int:
+    """Return after how many impacts a toss is given up by default: soon where they may take no energy.
+
+    docs/CONTACT.md says which laws take energy, and add none or hardly any.
+    """
+    is_rouths = law == ContactLaw.COULOMB or law == ContactLaw.PERFECTLY_ROUGH
+    takes_energy = is_rouths and restitution <= _TAKING
+    if law == ContactLaw.SMOOTH or kind == RestitutionKind.ENERGETIC:
+        takes_energy = restitution < 1
+    return MOST_IMPACTS if takes_energy else MOST_LOSSLESS
