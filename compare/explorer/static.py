@@ -12,7 +12,6 @@ from cointoss.compare.output.files import write_text
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.outcome_map import OutcomeMap
 from cointoss.compare.sweep.reading import read_map
-from cointoss.compare.web.playable import coin_of
 from cointoss.compare.web.scripts import ENGINE_POLICY, POLICY, data_element, import_map
 from cointoss.compare.web.wasm.carried import engine_data
 from cointoss.models.stages import counted
@@ -57,10 +56,11 @@ def write_static(map_path: Path, out: Path) -> None:
 def _engine(sweep: Sweep) -> dict[str, object] | None:
     """Return what the page needs to toss any pixel itself, or None where it cannot."""
     most = MOST_IMPACTS[Engine.ANALYTIC]
-    followed = sweep.scenario.replace("ending.max_impacts", min(most, sweep.scenario.rules.max_impacts))
-    found = engine_data(followed, (sweep.x.field, sweep.y.field))
+    found = engine_data(
+        sweep.scenario.replace("ending.max_impacts", min(most, sweep.scenario.rules.max_impacts))
+    )
     cut = most if most < sweep.scenario.rules.max_impacts else None
-    return found and {**found, "coin": coin_of(sweep.scenario), "samples": SAMPLES, "most": cut}
+    return found and {**found, "samples": SAMPLES, "most": cut}
 
 
 def _spread(count: int, most: int) -> list[int]:

@@ -1,6 +1,9 @@
 // Where the map and its tosses come from: the server, or the page itself where it is one file.
 
-import { load } from "./engine.js";
+import { changed } from "./engine.js";
+import { startWorkers } from "./workers.js";
+
+const SIDE = 32; // of a tile, in its own pixels
 
 const held = document.getElementById("data");
 const data = held && JSON.parse(held.textContent);
@@ -38,36 +41,41 @@ export async function toss(engine, place) {
   return (await (await asked(`toss?${query}`)).json())[0];
 }
 
-let loaded = null;
+let started = null;
+
+// The engine in the page, on workers; it is started when it is first asked.
+const workers = () => (started ??= startWorkers(bytesOf(data.engine.wasm)));
 
 // The toss of a point by the engine in the page, as the server gives it.
 async function tossedHere(place) {
-  const { wasm, numbers, release, places, coin, samples, most } = data.engine;
-  loaded ??= load(Uint8Array.from(atob(wasm), (sign) => sign.charCodeAt(0)));
-  const engine = await loaded, rows = { numbers: [...numbers], release: [...release] };
-  [place.x, place.y].forEach((value, i) => (rows[places[i][0]][places[i][1]] = value));
-  const toss = engine.toss(rows.numbers, rows.release), { impacts, endTime } = toss, shown = impacts.slice(0, samples / 4);
-  const even = Array.from({ length: samples }, (_, i) => (i * endTime) / (samples - 1));
-  const hits = shown.flatMap(({ time }) => [time * (1 - 2 ** -52), time]);
-  const times = [...new Set([...even, ...hits])].filter((time) => time <= endTime).sort((a, b) => a - b);
-  const { states, energies } = toss.path(times), part = (first, count) => times.flatMap((_, i) => [...states.subarray(13 * i + first, 13 * i + first + count)]);
-  return {
-    engine: "analytic",
-    outcome: toss.outcome,
-    ending: impacts.length === most ? `It is shown up to impact ${most}.` : toss.sentence,
-    end_time: endTime,
-    count: impacts.length,
-    sequence: toss.sequence.slice(0, shown.length),
-    times: shown.map(({ time }) => time),
-    trusted: toss.trustedImpacts,
-    notes: [],
-    coin,
-    path: { time: times, position: part(0, 3), quaternion: part(6, 4), energy: [...energies] },
-  };
+  const { x, y } = data.map.axes, { scenario, samples, most } = data.engine;
+  const tossed = await (await workers()).toss(changed(scenario, { [x.field]: place.x, [y.field]: place.y }), samples);
+  return tossed.count === most ? { ...tossed, ending: `It is shown up to impact ${most}.` } : tossed;
 }
 
-// Outcomes of a tile of a finer map, row by row.
+// Outcomes of a tile of a finer map, row by row, as compare/explorer/finer.py gives them.
 export async function tile(level, column, row) {
+  if (data) return tiledHere(level, column, row);
   const answer = await asked(`tile?${new URLSearchParams({ level, column, row })}`);
   return new Int8Array(await answer.arrayBuffer());
 }
+
+async function tiledHere(level, column, row) {
+  const { axes, after } = data.map, codes = new Int8Array(SIDE * SIDE).fill(-1);
+  const x = partOf(axes.x, level, column), y = partOf(axes.y, level, row);
+  if (!x || !y) return codes;
+  await (await workers()).map(data.engine.scenario, x, y, { after }, (part) =>
+    part.rows.forEach((j, at) => part.columns.forEach((i, along) => (codes[(y.first + j) * SIDE + x.first + i] = part.codes[at * part.columns.length + along]))));
+  return codes;
+}
+
+// The part of an axis that a tile has, and where in the tile it begins; null for none.
+function partOf(axis, level, number) {
+  const places = Array.from({ length: SIDE }, (_, k) => (number * SIDE + k + 0.5) / 2 ** level - 0.5);
+  const inside = places.filter((place) => place >= 0 && place <= axis.count - 1);
+  if (!inside.length) return null;
+  const [start, stop] = [inside[0], inside.at(-1)].map((place) => axis.start + place * ((axis.stop - axis.start) / (axis.count - 1)));
+  return { field: axis.field, start, stop, count: inside.length, first: places.indexOf(inside[0]) };
+}
+
+const bytesOf = (text) => Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0));

@@ -15,8 +15,9 @@ from cointoss.models.kernel.fork import TESTED, numba_version
 from cointoss.models.kernel.sources import is_as_imported
 
 ENTRIES = {
-    "toss_each": ("numbers", "table", "integer", "table"),
-    "toss_one": ("numbers", "numbers", "numbers", "table", "table", "numbers"),
+    "examine": ("numbers", "numbers"),
+    "toss_each": ("table", "integer", "table"),
+    "toss_one": ("numbers", "numbers", "table", "table", "numbers"),
     "sample_path": ("numbers", "table", "numbers", "table", "table"),
 }
 """The functions of `interface`, and their arguments: rows of numbers, tables of two axes, an integer."""
@@ -69,7 +70,14 @@ def _link(code: Path, linked: Path) -> None:
     exported = [f"-Wl,--export={name}" for name in (*ENTRIES, "malloc", "free")]
     command = [
         *(sys.executable, "-m", "ziglang", "cc", "-target", "wasm32-wasi", "-mexec-model=reactor", "-O3"),
-        *(str(code), *exported, "-Wl,--no-entry", "-Wl,--strip-all", f"-Wl,-z,stack-size={STACK}"),
+        *(
+            str(code),
+            str(Path(__file__).with_name("cpow.c")),
+            *exported,
+            "-Wl,--no-entry",
+            "-Wl,--strip-all",
+            f"-Wl,-z,stack-size={STACK}",
+        ),
         *("-o", str(linked)),
     ]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -80,14 +88,17 @@ def _link(code: Path, linked: Path) -> None:
 def _description() -> dict[str, object]:
     """Return what engine.js has to know of the engine."""
     from cointoss.compare.web.wasm import interface
+    from cointoss.compare.web.wasm.fields import described
+    from cointoss.models.faults import ACCEPTED
     from cointoss.models.records import Ending, Outcome
 
     return {
         "version": version("cointoss-dynamics"),
         "sources": sources(),
-        "numbers": interface.NUMBERS,
-        "endless": interface.ENDLESS,
+        "fields": described(),
+        "faults": {fault.value: sentence for fault, sentence in ACCEPTED.items()},
         "answer": interface.ANSWER,
+        "examined": interface.EXAMINED,
         "impact": interface.IMPACT,
         "piece": interface.PIECE,
         "outcomes": Outcome.by_value(),

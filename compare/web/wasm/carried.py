@@ -2,16 +2,11 @@
 
 import json
 from base64 import b64encode
-from collections.abc import Sequence
 from importlib import resources
 from typing import Any
 
-import numpy as np
-
-from cointoss.analytic.toss import state_at_release
-from cointoss.compare.web.wasm.interface import PLACES, numbers_of
+from cointoss.compare.web.wasm.fields import fields_of
 from cointoss.models.kernel.sources import source_hash
-from cointoss.models.records import UnsupportedError
 from cointoss.models.scenario import Scenario
 
 SECTION = "cointoss"
@@ -20,9 +15,10 @@ FILE = "engine.wasm"
 """`make docs` builds it in this folder."""
 
 
-def wrapper() -> bytes:
-    """Return engine.js."""
-    return (resources.files("cointoss.compare.web.wasm") / "engine.js").read_bytes()
+def engine_scripts() -> dict[str, bytes]:
+    """Return the scripts by which a page uses the engine, by their names."""
+    folder = resources.files("cointoss.compare.web.wasm")
+    return {name: (folder / name).read_bytes() for name in ("engine.js", "workers.js")}
 
 
 def engine_bytes() -> bytes | None:
@@ -48,28 +44,16 @@ def made_of(content: bytes) -> str:
         return ""
 
 
-def engine_data(scenario: Scenario, fields: Sequence[str]) -> dict[str, Any] | None:
+def engine_data(scenario: Scenario) -> dict[str, Any] | None:
     """Return what a page needs to toss a scenario with other values of some fields, as JSON.
 
     Args:
         scenario: to be tossed.
-        fields: that vary.
 
     Returns:
-        None where the engine was not built, or does not toss it so.
+        None where the engine was not built.
     """
     content = engine_bytes()
-    if content is None or not set(fields) <= set(PLACES):
+    if content is None:
         return None
-    try:
-        numbers = numbers_of(scenario)
-    except UnsupportedError:
-        return None
-    # What is endless has no JSON.
-    finite = [None if np.isinf(number) else number for number in numbers.tolist()]
-    return {
-        "wasm": b64encode(content).decode("ascii"),
-        "numbers": finite,
-        "release": state_at_release(scenario.release).tolist(),
-        "places": [PLACES[field] for field in fields],
-    }
+    return {"wasm": b64encode(content).decode("ascii"), "scenario": fields_of(scenario)}

@@ -23,9 +23,9 @@ from cointoss.models.kernel.fork.values import Passed
 TRIPLE = "wasm32-unknown-unknown"
 C_LIBRARY = {
     *("malloc", "free", "memcpy", "memset", "hypot", "pow", "log", "log2", "log1p", "exp", "expm1"),
-    *("sin", "cos", "tan", "asin", "acos", "atan2"),
+    *("sin", "cos", "tan", "asin", "acos", "atan2", "acosh", "lgamma", "numba_cpow"),
 }
-"""What the code may call of a C library that is linked to it."""
+"""What the code may call of a C library that is linked to it, and of cpow.c."""
 COUNTING = """
 target triple = "wasm32-unknown-unknown"
 declare ptr @malloc(i32)

@@ -1,10 +1,15 @@
-// The analytic engine in a page: it takes rows of numbers in SI, and gives its memory back after each call.
+// The analytic engine in a page: it tosses scenarios, and gives its memory back after each call.
+//
+// A scenario is an object of its fields, numbers in SI: { "coin.radius": 0.0125, "floor.contact": "smooth", ... }.
 
 const WORD = 8; // bytes of a number, and of an integer that is passed
 const STATE = 13; // numbers of a state of the coin
 const SECTION = "cointoss"; // of engine.wasm, says what made it
 const MOST_BYTES = 2 ** 31; // that the engine is asked for at once
 const ROOM = { impacts: 256, pieces: 512 }; // for one toss at first
+const AT_ONCE = 4096; // scenarios that are passed at a time
+const WANTED = ["outcome", "trust", "certain"];
+const LISTS = { "release.angles": 0, "release.quaternion": null, "coin.inertia": null }; // each whole or not at all; what is missing
 
 export class EngineError extends Error {}
 
@@ -13,7 +18,7 @@ export async function load(bytes, version) {
   if (typeof WebAssembly === "undefined") throw new EngineError("this browser has no WebAssembly");
   let module;
   try {
-    module = await WebAssembly.compile(bytes);
+    module = bytes instanceof WebAssembly.Module ? bytes : await WebAssembly.compile(bytes);
   } catch (problem) {
     throw new EngineError(`engine.wasm: cannot be read (${problem.message})`);
   }
@@ -22,17 +27,24 @@ export async function load(bytes, version) {
   const about = JSON.parse(new TextDecoder().decode(section));
   if (version !== undefined && about.version !== version)
     throw new EngineError(`engine.wasm: of version ${about.version}; accepted: ${version}`);
-  const { exports } = await WebAssembly.instantiate(module);
-  exports._initialize();
-  return new Engine(exports, about);
+  let instance;
+  try {
+    instance = await WebAssembly.instantiate(module);
+  } catch (problem) {
+    throw new EngineError(`engine.wasm: cannot be started (${problem.message})`);
+  }
+  instance.exports._initialize();
+  return new Engine(instance.exports, about, module);
 }
 
 export class Engine {
   #exports;
 
-  constructor(exports, about) {
+  constructor(exports, about, module) {
     this.#exports = exports;
     this.about = about;
+    this.module = module;
+    this.places = new Map(about.fields.map(({ name }, i) => [name, i]));
   }
 
   /** Bytes of memory that the engine holds. */
@@ -40,18 +52,153 @@ export class Engine {
     return this.#exports.memory.buffer.byteLength;
   }
 
-  /** Toss a coin once from each release; see engine.d.ts. */
-  tossEach(numbers, releases, wanted = "outcome") {
-    const level = ["outcome", "trust", "certain"].indexOf(wanted);
-    if (level < 0) throw new EngineError(`wanted: ${wanted}; accepted: outcome, trust, certain`);
-    const width = this.about.answer.length, count = releases.length / STATE, given = this.#row(numbers);
-    if (!Number.isInteger(count)) throw new EngineError(`releases: ${releases.length} numbers; accepted: 13 for each`);
-    requireReleases(releases);
-    const answers = this.#run([given, releases, count * width], ([first, second, third], call) => {
-      call("toss_each", row(first, given.length), table(second, count, STATE), [level], table(third, count, width));
-      return this.#read(third, count * width);
+  /** What is wrong with a scenario, in the package's words; null where it is one. */
+  fault(scenario) {
+    try {
+      this.row(scenario);
+    } catch (problem) {
+      if (problem instanceof EngineError) return problem.message;
+      throw problem;
+    }
+    return null;
+  }
+
+  /** A scenario as a row of numbers; what is none is an EngineError. */
+  row(scenario) {
+    const { fields } = this.about, wrong = problems(scenario, fields);
+    if (wrong.length) {
+      const others = [...new Set(wrong.slice(1).map(({ shown }) => shown))];
+      throw new EngineError(wrong[0].message + (others.length ? ` (also wrong: ${others.join(", ")})` : ""));
+    }
+    const row = Float64Array.from(fields, ({ name, words, default: missing }) => {
+      const value = scenario[name] ?? missing ?? listed(scenario, name);
+      return words ? Number(Object.keys(words).find((code) => words[code] === value)) : value ?? NaN;
     });
-    const column = (name, Kind) => Kind.from({ length: count }, (_, i) => answers[i * width + this.about.answer.indexOf(name)]);
+    const { fault } = this.#examine(row);
+    const found = this.about.faults[fault];
+    if (found) throw new EngineError(faultText(found, this.#examine(row).limit, scenario, fields));
+    return row;
+  }
+
+  /** Toss a coin and keep its impacts and its path; see engine.d.ts. */
+  toss(scenario) {
+    return this.tossRow(this.row(scenario));
+  }
+
+  /** Toss many scenarios that differ in some fields; see engine.d.ts. */
+  tossEach(scenario, changes, wanted = "outcome") {
+    const columns = Object.entries(changes), count = columns[0]?.[1].length;
+    if (count === undefined || columns.some(([, values]) => values.length !== count))
+      throw new EngineError("changes: accepted: lists of one length, by the fields that they change");
+    const first = Object.fromEntries(columns.map(([field, values]) => [field, values[0]]));
+    const base = count ? this.row(changed(scenario, first)) : [];
+    const places = columns.map(([field, values]) => ({ at: this.#place(field), whole: this.about.fields[this.#place(field)].whole, values }));
+    return this.#each(count, base, (row, i) => {
+      for (const { at, whole, values } of places) row[at] = whole ? Math.trunc(values[i]) : values[i];
+    }, wanted);
+  }
+
+  /** The mapped outcomes of a part of a map, row by row: for workers; see workers.js. */
+  tossGrid({ row, x, y, after, trust }) {
+    const wide = x.values.length, max = this.#place("ending.max_impacts"), base = Float64Array.from(row);
+    if (after !== null) base[max] = Math.min(after + 1, base[max] || Infinity);
+    const wanted = trust ? (after === null ? "certain" : "trust") : "outcome", [across, up] = [x, y].map(({ field }) => this.#place(field));
+    const found = this.#each(wide * y.values.length, base, (made, i) => {
+      made[across] = x.values[i % wide];
+      made[up] = y.values[Math.floor(i / wide)];
+    }, wanted);
+    const { outcome, impacts, lastFace, trustedImpacts, outcomeCertain } = found;
+    const isTouch = (i) => after !== null && impacts[i] > after;
+    return {
+      codes: outcome.map((code, i) => (isTouch(i) ? lastFace[i] : code)),
+      trusted: trust ? outcome.map((_, i) => Number(after === null ? outcomeCertain[i] === 1 : trustedImpacts[i] > after)) : null,
+    };
+  }
+
+  /** Toss a row of numbers. */
+  tossRow(row) {
+    const { answer: names, impact, piece } = this.about, wide = impact.length;
+    for (let room = ROOM; ; ) {
+      const { impacts: most, pieces: length } = room;
+      const found = this.#run([row, names.length, most * wide, length * piece, 2], (at, call) => {
+        call("toss_one", line(at[0], row.length), line(at[1], names.length), table(at[2], most, wide), table(at[3], length, piece), line(at[4], 2));
+        const [impacts, pieces] = this.#read(at[4], 2);
+        if (impacts > most || pieces > length) return { impacts, pieces };
+        return { answer: this.#read(at[1], names.length), hits: this.#read(at[2], impacts * wide), path: this.#read(at[3], pieces * piece) };
+      });
+      if (found.answer) return this.#told(row, found);
+      room = found;
+    }
+  }
+
+  #told(row, { answer, hits, path }) {
+    const of = (name) => answer[this.about.answer.indexOf(name)], wide = this.about.impact.length;
+    const impacts = Array.from({ length: hits.length / wide }, (_, i) => {
+      const [time, face, energy, ...impulse] = hits.subarray(i * wide, (i + 1) * wide);
+      return { time, face: face === 1 ? "H" : "T", energy, impulse };
+    });
+    const [ending, sentence] = this.about.endings[of("ending")], at = (field) => row[this.#place(field)];
+    return {
+      outcome: this.about.outcomes[of("outcome")],
+      ending,
+      sentence,
+      endTime: of("end_time"),
+      impacts,
+      sequence: impacts.map(({ face }) => face).join(""),
+      trustedImpacts: of("trusted_impacts"),
+      outcomeCertain: of("outcome_certain") === 1,
+      coin: {
+        radius: at("coin.radius"),
+        thickness: at("coin.thickness"),
+        center: ["xi", "eta", "zeta"].map((axis) => at(`coin.center_of_mass.${axis}`)),
+        barrier: this.#examine(row).barrier,
+      },
+      path: (times) => this.#sample(row, path, times),
+    };
+  }
+
+  #sample(row, path, times) {
+    const { piece } = this.about, count = times.length, end = path[path.length - piece];
+    for (let i = 0; i < count; i++)
+      if (!(times[i] >= (i ? times[i - 1] : 0) && times[i] <= end))
+        throw new EngineError(`times: ${times[i]} at ${i}; accepted: increasing from 0 to ${end} s`);
+    return this.#run([row, path, times, count * STATE, count * 4], (at, call) => {
+      call("sample_path", line(at[0], row.length), table(at[1], path.length / piece, piece), line(at[2], count), table(at[3], count, STATE), table(at[4], count, 4));
+      const more = this.#read(at[4], count * 4);
+      return {
+        states: this.#read(at[3], count * STATE),
+        energies: more.filter((_, i) => i % 4 === 0),
+        forces: more.filter((_, i) => i % 4 !== 0),
+      };
+    });
+  }
+
+  #examine(row) {
+    const { examined } = this.about;
+    return this.#run([row, examined.length], ([given, told], call) => {
+      call("examine", line(given, row.length), line(told, examined.length));
+      return Object.fromEntries([...this.#read(told, examined.length)].map((number, i) => [examined[i], number]));
+    });
+  }
+
+  // Tosses of many copies of a row, each of which `change` changes.
+  #each(count, base, change, wanted) {
+    const level = WANTED.indexOf(wanted), names = this.about.answer, wide = names.length;
+    if (level < 0) throw new EngineError(`wanted: ${wanted}; accepted: ${WANTED.join(", ")}`);
+    const answers = new Float64Array(count * wide);
+    for (let start = 0; start < count; start += AT_ONCE) {
+      const length = Math.min(AT_ONCE, count - start), rows = new Float64Array(length * base.length);
+      for (let i = 0; i < length; i++) {
+        const row = rows.subarray(i * base.length, (i + 1) * base.length);
+        row.set(base);
+        change(row, start + i);
+      }
+      answers.set(this.#run([rows, length * wide], ([given, told], call) => {
+        call("toss_each", table(given, length, base.length), [level], table(told, length, wide));
+        return this.#read(told, length * wide);
+      }), start * wide);
+    }
+    const column = (name, Kind) => Kind.from({ length: count }, (_, i) => answers[i * wide + names.indexOf(name)]);
     return {
       outcome: column("outcome", Int8Array),
       ending: column("ending", Int8Array),
@@ -63,71 +210,10 @@ export class Engine {
     };
   }
 
-  /** Toss a coin and keep its impacts and its path; see engine.d.ts. */
-  toss(numbers, release) {
-    const { answer: names, impact, piece } = this.about, wide = impact.length, given = this.#row(numbers);
-    if (release.length !== STATE) throw new EngineError(`release: ${release.length} numbers; accepted: 13`);
-    requireReleases(release);
-    for (let room = ROOM; ; ) {
-      const { impacts: most, pieces: length } = room;
-      const found = this.#run([given, release, names.length, most * wide, length * piece, 2], (at, call) => {
-        call("toss_one", row(at[0], given.length), row(at[1], STATE), row(at[2], names.length),
-          table(at[3], most, wide), table(at[4], length, piece), row(at[5], 2));
-        const [impacts, pieces] = this.#read(at[5], 2);
-        if (impacts > most || pieces > length) return { impacts, pieces };
-        return { answer: this.#read(at[2], names.length), hits: this.#read(at[3], impacts * wide), path: this.#read(at[4], pieces * piece) };
-      });
-      if (found.answer) return this.#told(given, found);
-      room = found;
-    }
-  }
-
-  #told(numbers, { answer, hits, path }) {
-    const of = (name) => answer[this.about.answer.indexOf(name)], wide = this.about.impact.length;
-    const impacts = Array.from({ length: hits.length / wide }, (_, i) => {
-      const [time, face, energy, ...impulse] = hits.subarray(i * wide, (i + 1) * wide);
-      return { time, face: face === 1 ? "H" : "T", energy, impulse };
-    });
-    const [ending, sentence] = this.about.endings[of("ending")];
-    return {
-      outcome: this.about.outcomes[of("outcome")],
-      ending,
-      sentence,
-      endTime: of("end_time"),
-      impacts,
-      sequence: impacts.map(({ face }) => face).join(""),
-      trustedImpacts: of("trusted_impacts"),
-      outcomeCertain: of("outcome_certain") === 1,
-      path: (times) => this.#sample(numbers, path, times),
-    };
-  }
-
-  #sample(numbers, path, times) {
-    const { piece } = this.about, count = times.length, end = path[path.length - piece];
-    for (let i = 0; i < count; i++)
-      if (!(times[i] >= (i ? times[i - 1] : 0) && times[i] <= end))
-        throw new EngineError(`times: ${times[i]} at ${i}; accepted: increasing from 0 to ${end} s`);
-    return this.#run([numbers, path, times, count * STATE, count * 4], (at, call) => {
-      call("sample_path", row(at[0], numbers.length), table(at[1], path.length / piece, piece), row(at[2], count),
-        table(at[3], count, STATE), table(at[4], count, 4));
-      const more = this.#read(at[4], count * 4);
-      return {
-        states: this.#read(at[3], count * STATE),
-        energies: more.filter((_, i) => i % 4 === 0),
-        forces: more.filter((_, i) => i % 4 !== 0),
-      };
-    });
-  }
-
-  // A scenario's numbers, where null stands for what is endless, as JSON has it.
-  #row(numbers) {
-    const { numbers: length, endless } = this.about;
-    if (numbers.length !== length) throw new EngineError(`numbers: ${numbers.length} of them; accepted: ${length}`);
-    return Float64Array.from(numbers, (number, i) => {
-      const found = number === null && endless.includes(i) ? Infinity : number;
-      if (typeof found === "number" && (Number.isFinite(found) || (found === Infinity && endless.includes(i)))) return found;
-      throw new EngineError(`numbers: ${number} at ${i}; accepted: a finite number`);
-    });
+  #place(field) {
+    const place = this.places.get(field);
+    if (place === undefined || this.about.fields[place].words) throw new EngineError(`${field}: accepted: a field that is a number`);
+    return place;
   }
 
   #read(address, count) {
@@ -161,15 +247,131 @@ export class Engine {
   }
 }
 
-function requireReleases(numbers) {
-  for (let i = 0; i < numbers.length; i++)
-    if (!Number.isFinite(numbers[i])) throw new EngineError(`release: ${numbers[i]} at ${i % STATE}; accepted: a finite number`);
-  for (let i = 0; i < numbers.length; i += STATE) {
-    const norm = Math.hypot(numbers[i + 6], numbers[i + 7], numbers[i + 8], numbers[i + 9]);
-    if (!(Math.abs(norm - 1) < 1e-6)) throw new EngineError(`release: a quaternion of norm ${norm}; accepted: 1`);
-  }
+/** A scenario with other values of some fields; the angles and the quaternion of a release take the place of each other. */
+export function changed(scenario, values) {
+  const made = { ...scenario, ...values }, other = { "release.angles": "release.quaternion", "release.quaternion": "release.angles" };
+  for (const list of new Set(Object.keys(values).map(listOf)))
+    for (const name of Object.keys(scenario)) if (other[list] && listOf(name) === other[list]) delete made[name];
+  return made;
 }
 
 // An array of numbers as the engine takes it: its size, the bytes of a number, its place, shape and strides.
-const row = (address, length) => [0, 0, length, WORD, address, length, WORD];
+const line = (address, length) => [0, 0, length, WORD, address, length, WORD];
 const table = (address, rows, columns) => [0, 0, rows * columns, WORD, address, rows, columns, columns * WORD, WORD];
+
+const listOf = (name) => Object.keys(LISTS).find((list) => name.startsWith(`${list}.`));
+
+// What stands for a missing entry of a list that is given: null for nothing.
+function listed(scenario, name) {
+  const list = listOf(name);
+  return list === "release.angles" && !Object.keys(scenario).some((key) => listOf(key) === "release.quaternion") ? LISTS[list] : null;
+}
+
+// What is wrong with the fields of a scenario, each for itself, in the package's words.
+function problems(scenario, fields) {
+  if (typeof scenario !== "object" || scenario === null) return [{ shown: "", message: "scenario: accepted: an object of its fields" }];
+  const names = fields.map(({ name }) => name), wrong = [];
+  for (const name of Object.keys(scenario)) {
+    if (names.includes(name)) continue;
+    const table = name.slice(0, name.lastIndexOf(".") + 1), known = names.filter((each) => each.startsWith(table) && table).map((each) => each.slice(table.length));
+    wrong.push({ shown: name, message: `${name} = ${written(scenario[name])}: unknown key; accepted: ${(known.length ? known : ["gravity", "coin", "air", "floor", "release", "ending"]).join(", ")}` });
+  }
+  for (const { name, shown, words, whole, least, most, accepted } of fields) {
+    const value = scenario[name] ?? null, refuse = (why) => wrong.push({ shown, message: `${shown} = ${written(value)}: accepted: ${accepted[why]}` });
+    if (value === null) {
+      const path = shown.replace(/\[.*/, "");
+      if (accepted.missing && !wrong.some((one) => one.shown === path)) wrong.push({ shown: path, message: `${path}: missing; accepted: ${accepted.missing}` });
+    } else if (words ? !Object.values(words).includes(value) : typeof value !== "number") refuse("type");
+    else if (!words && !Number.isFinite(value)) refuse("finite");
+    else if (whole && !Number.isInteger(value)) refuse("type");
+    else if ((least !== null && value < least) || (most !== null && value > most)) refuse("bounds");
+  }
+  const entries = (list) => names.filter((name) => listOf(name) === list), given = (list) => entries(list).filter((name) => (scenario[name] ?? null) !== null);
+  if (given("release.angles").length && given("release.quaternion").length) {
+    const value = entries("release.quaternion").map((name) => written(scenario[name] ?? 0));
+    wrong.push({ shown: "release.quaternion", message: `release.quaternion = [${value.join(", ")}]: accepted: either angles or quaternion, not both` });
+  }
+  for (const [list, missing] of Object.entries(LISTS))
+    if (missing === null && given(list).length && given(list).length < entries(list).length)
+      wrong.push({ shown: list, message: `${list}: accepted: all its ${entries(list).length} numbers, or none` });
+  return wrong;
+}
+
+// A number or a text as Python writes it.
+function written(value, isFloat = false) {
+  if (typeof value === "string") return `"${value}"`;
+  if (typeof value === "boolean") return value ? "True" : "False";
+  if (typeof value !== "number") return String(value);
+  if (!Number.isFinite(value)) return Number.isNaN(value) ? "nan" : value > 0 ? "inf" : "-inf";
+  const [digits, power] = value.toExponential().split("e").map((part, i) => (i ? Number(part) : part));
+  if (value !== 0 && (power < -4 || power >= 16)) return exponent(digits, power);
+  return Number.isInteger(value) && isFloat ? `${value}.0` : String(value);
+}
+
+const exponent = (digits, power) => `${digits}e${power < 0 ? "-" : "+"}${String(Math.abs(power)).padStart(2, "0")}`;
+
+// A number with so many significant digits, as Python's format "g" writes it.
+function general(value, digits) {
+  if (!Number.isFinite(value)) return written(value);
+  const [mantissa, power] = value.toExponential(digits - 1).split("e").map((part, i) => (i ? Number(part) : part));
+  const short = (text) => (text.includes(".") ? text.replace(/\.?0+$/, "") : text);
+  return power < -4 || power >= digits ? exponent(short(mantissa), power) : short(value.toFixed(Math.max(digits - 1 - power, 0)));
+}
+
+// The sentence of a fault that only several fields show together.
+function faultText([field, accepted], limit, scenario, fields) {
+  const of = (path) => fields.filter(({ name }) => name === path || name.startsWith(`${path}.`)), value = ({ name, default: missing }) => scenario[name] ?? missing;
+  const number = (one) => written(value(one), true), found = of(field);
+  const lists = (list) => `(${of(list).map(number).join(", ")})`;
+  const part = () => {
+    const keys = [...new Set(found.map(({ name }) => name.split(".")[1]))].filter((key) => of(`${field}.${key}`).some((one) => (value(one) ?? null) !== null));
+    return `{${keys.map((key) => `'${key}': ${of(`${field}.${key}`).length > 1 ? lists(`${field}.${key}`) : number(of(`${field}.${key}`)[0])}`).join(", ")}}`;
+  };
+  const text = found.length === 1 ? number(found[0]) : field.includes(".") ? `[${found.map(number).join(", ")}]` : part();
+  const sentence = accepted.replace("{limit:.6g}", general(limit, 6)).replace("{limit:.3g}", general(limit, 3)).replace("{limit}", written(limit, true)).replace("{contact}", scenario["floor.contact"]);
+  return `${field} = ${text.length <= 80 ? text : `${text.slice(0, 77)}...`}: accepted: ${sentence}`;
+}
+
+// In a worker it answers what workers.js asks.
+const NAME = "cointoss engine";
+if (typeof WorkerGlobalScope !== "undefined" && self.name === NAME) {
+  let engine = null;
+  const answers = {
+    load: async (bytes) => (engine = await load(bytes)).about.version,
+    grid: (part) => engine.tossGrid(part),
+    each: (scenario, changes, wanted) => engine.tossEach(scenario, changes, wanted),
+    played: (scenario, samples) => played(engine.toss(scenario), samples),
+  };
+  self.onmessage = async ({ data: { id, method, given } }) => {
+    try {
+      self.postMessage({ id, answer: await answers[method](...given) });
+    } catch (problem) {
+      self.postMessage({ id, problem: problem instanceof EngineError ? problem.message : `the engine failed: ${problem.message}` });
+    }
+  };
+}
+
+/** A worker that runs this very module. */
+export const startWorker = () => new Worker(import.meta.url, { type: "module", name: NAME });
+
+/** A toss as the scripts of a page play it, with its path at evenly spread times, and on both sides of its first impacts. */
+export function played(toss, samples) {
+  const { impacts, endTime } = toss, shown = impacts.slice(0, samples / 4);
+  const even = Array.from({ length: samples }, (_, i) => (i * endTime) / (samples - 1)), hits = shown.flatMap(({ time }) => [time * (1 - 2 ** -52), time]);
+  const times = [...new Set([...even, ...hits])].filter((time) => time <= endTime).sort((a, b) => a - b);
+  const { states, energies } = toss.path(times), part = (first, count) => times.flatMap((_, i) => [...states.subarray(13 * i + first, 13 * i + first + count)]);
+  return {
+    engine: "analytic",
+    outcome: toss.outcome,
+    certain: toss.outcomeCertain,
+    ending: toss.sentence,
+    end_time: endTime,
+    count: impacts.length,
+    sequence: toss.sequence.slice(0, shown.length),
+    times: shown.map(({ time }) => time),
+    trusted: toss.trustedImpacts,
+    notes: [],
+    coin: toss.coin,
+    path: { time: times, position: part(0, 3), quaternion: part(6, 4), energy: [...energies] },
+  };
+}

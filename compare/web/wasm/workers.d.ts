@@ -1,0 +1,50 @@
+/** Many tosses on workers, so that the page goes on meanwhile. */
+
+import type { Axis, Engine, Outcomes, PlayedToss, Scenario, Wanted } from "./engine.js";
+
+/** Some pixels of a map: all of some rows and columns. */
+export interface MapPart {
+  /** Until finer pixels come, each stands for the square of so many pixels that begins at it. */
+  stride: number;
+  columns: Int32Array;
+  rows: Int32Array;
+  /** Outcomes, or faces at the mapped touch, row by row: numbers of `Engine.about.outcomes`; -2 for what is no scenario. */
+  codes: Int8Array;
+  /** 1 where the engine's own errors cannot change them; null where that was not asked for. */
+  trusted: Int8Array | null;
+}
+
+export interface MapOptions {
+  /** The map shows the face at the touch after so many impacts, or the outcome of a toss that ended before; null for final outcomes. */
+  after?: number | null;
+  trust?: boolean;
+}
+
+export class Workers {
+  /** The engine in the page itself. */
+  readonly engine: Engine;
+  /** Workers that run; 0 where the page itself tosses, part by part. */
+  readonly count: number;
+
+  /** Toss a coin, with about so many samples of its path. */
+  toss(scenario: Scenario, samples: number): Promise<PlayedToss>;
+
+  /** Toss a coin many times, as `Engine.tossEach`. */
+  tossEach(scenario: Scenario, changes: Record<string, ArrayLike<number>>, wanted?: Wanted): Promise<Outcomes>;
+
+  /**
+   * Toss a map, coarse pixels first, each pixel once.
+   * @param onPart is called with each part
+   * @param signal ends it: no further part is tossed, and the promise is rejected with the signal's reason
+   */
+  map(scenario: Scenario, x: Axis, y: Axis, options: MapOptions, onPart: (part: MapPart) => void, signal?: AbortSignal): Promise<void>;
+
+  /** End the workers. */
+  end(): void;
+}
+
+/**
+ * Load the engine, and start a worker for each core.
+ * @throws EngineError as `load` does
+ */
+export function startWorkers(bytes: BufferSource, version?: string): Promise<Workers>;
