@@ -41,7 +41,7 @@ export class Workers {
   async #add() {
     let worker;
     try {
-      worker = new Thread(startWorker());
+      worker = new Thread(startWorker(), () => this.#replace(worker));
       await worker.ask("load", [this.engine.module]).catch(() => worker.ask("load", [this.#bytes]));
     } catch {
       worker?.end();
@@ -84,9 +84,10 @@ export class Workers {
 
   /** End the workers; what they were asked is refused. */
   end() {
-    for (const worker of this.#all) worker.end();
+    const all = [...this.#all];
     this.#all.clear();
-    this.#idle = [];
+    for (const worker of all) worker.end();
+    for (const { reject } of this.#waiting.splice(0)) reject(new EngineError("the engine was ended"));
   }
 
   #size = (trust) => Math.min(Math.max(Math.round(this.#rate * PART) || FIRST, trust ? 8 : 16), MOST);
@@ -102,7 +103,6 @@ export class Workers {
       return await worker.ask(method, given);
     } finally {
       if (worker.isAlive) this.#free(worker);
-      else this.#replace(worker);
     }
   }
 
@@ -112,8 +112,10 @@ export class Workers {
     else this.#idle.push(worker);
   }
 
+  // One that never ran is not replaced.
   #replace(worker) {
-    this.#all.delete(worker);
+    this.#idle = this.#idle.filter((each) => each !== worker);
+    if (!this.#all.delete(worker)) return;
     this.#add().then(() => {
       if (!this.count) for (const { reject } of this.#waiting.splice(0)) reject(new EngineError("a worker has died, and no other starts: load the page again"));
     });
@@ -123,11 +125,13 @@ export class Workers {
 // A worker that is asked one thing at a time.
 class Thread {
   #worker;
+  #onDeath;
   #waits = null;
   isAlive = true;
 
-  constructor(worker) {
+  constructor(worker, onDeath) {
     this.#worker = worker;
+    this.#onDeath = onDeath;
     worker.onmessage = ({ data: { answer, problem } }) => this.#settle(problem === undefined ? null : new EngineError(problem), answer);
     worker.onerror = (event) => {
       event.preventDefault();
@@ -152,6 +156,7 @@ class Thread {
     this.isAlive = false;
     this.#worker.terminate();
     this.#settle(new EngineError(`a worker of the engine has died${why}`));
+    this.#onDeath();
   }
 
   #settle(problem, answer) {
