@@ -2,7 +2,8 @@
 
 import { anywhere, grid, isStatic, loadMap, tile, toss } from "./source.js";
 import { indexOf, shown, valueAt } from "./axes.js";
-import { clamp, makeMap } from "./map.js";
+import { makeMap } from "./map.js";
+import { clamp } from "./map_view.js";
 import { LABELS } from "./motion.js";
 import { makeStage } from "./stage.js";
 import { horizonText, markTouch, showSequences } from "./sequences.js";

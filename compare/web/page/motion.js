@@ -2,10 +2,13 @@
 
 export const LABELS = { analytic: "analytic", mujoco: "MuJoCo" };
 
+// What a toss is called: by its own label, or by its engine.
+export const nameOf = (toss) => toss.label ?? LABELS[toss.engine];
+
 const TURN = 180 / Math.PI;
 
 function linesOf(tosses, values, more = {}) {
-  return tosses.map((toss) => ({ name: LABELS[toss.engine], kind: toss.engine, time: toss.path.time, values: values(toss.path), ...more }));
+  return tosses.map((toss) => ({ name: nameOf(toss), kind: toss.engine, time: toss.path.time, values: values(toss.path), ...more }));
 }
 
 const along = (axis) => (path) => path.time.map((_, k) => 1e3 * path.position[3 * k + axis]);

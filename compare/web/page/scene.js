@@ -1,9 +1,9 @@
-// Both tosses in 3D, side by side: gold with an H is heads, blue with a T is tails, as in the films.
+// Tosses in 3D, side by side: gold with an H is heads, blue with a T is tails, as in the films.
 
 import * as THREE from "./three.module.min.js";
 import { placeIn } from "./sampled.js";
 
-const TRAIL = "#7d8894";
+const TRAIL = "#7d8894", PIN = "#d6006c";
 
 export function makeScene(canvas) {
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -30,6 +30,13 @@ export function makeScene(canvas) {
     body.add(new THREE.Mesh(shape, [side, faceMaterial("#f5ab1f", "#2a1a00", "H"), faceMaterial("#0d5ca8", "#ffffff", "T")]));
     body.position.set(...toss.coin.center.map((part) => -part));
     coin.add(body);
+    // A pin along the normal through the mass centre, where that lies aside.
+    if (Math.hypot(...toss.coin.center.slice(0, 2)) > 1e-3 * r) {
+      const pin = new THREE.CylinderGeometry(0.035 * r, 0.035 * r, 2 * half + 0.06 * r, 12).rotateX(Math.PI / 2);
+      const place = new THREE.Mesh(pin, new THREE.MeshBasicMaterial({ color: PIN, fog: false }));
+      place.position.z = -toss.coin.center[2];
+      coin.add(place);
+    }
     scene.add(coin);
 
     // Light from straight above: the shadow is the coin, pressed flat.

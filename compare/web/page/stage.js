@@ -1,4 +1,4 @@
-// Both coins side by side in 3D, with their clock and what one can choose.
+// One coin, or two side by side, in 3D, with their clock and what one can choose.
 
 import { LABELS } from "./motion.js";
 import { makePlayer } from "./player.js";
@@ -6,9 +6,7 @@ import { makeScene } from "./scene.js";
 
 const MARKUP = `
 <div class="stage" id="stage">
-  <canvas id="coins" role="img" aria-label="The coin as tossed by each engine"></canvas>
-  <div class="panel analytic"><b></b> <span id="state-analytic"></span></div>
-  <div class="panel mujoco"><b></b> <span id="state-mujoco"></span></div>
+  <canvas id="coins" role="img"></canvas>
   <p id="hint"></p>
 </div>
 <div class="controls">
@@ -25,10 +23,20 @@ const MARKUP = `
 </div>`;
 
 // Fills a box with the stage. `hint` stands in it until there are tosses; `without` says what works without WebGL.
-export function makeStage(box, { hint = "", without, onTime }) {
+// `labels` names the coins by the engine of their tosses, and `shown` says what the picture shows.
+export function makeStage(box, { hint = "", without, labels = LABELS, shown = "The coin as tossed by each engine", onTime }) {
   box.innerHTML = MARKUP;
   const byId = (id) => document.getElementById(id);
-  for (const [engine, label] of Object.entries(LABELS)) box.querySelector(`.${engine} b`).textContent = label;
+  byId("coins").setAttribute("aria-label", shown);
+  const states = Object.entries(labels).map(([engine, label]) => {
+    const panel = document.createElement("div"), name = document.createElement("b"), state = document.createElement("span");
+    panel.className = `panel ${engine}`;
+    name.textContent = label;
+    state.id = `state-${engine}`;
+    panel.append(name, " ", state);
+    byId("hint").before(panel);
+    return state;
+  });
   byId("hint").textContent = hint;
   let scene = null;
   try {
@@ -56,12 +64,12 @@ export function makeStage(box, { hint = "", without, onTime }) {
     clear,
     seek: player.seek,
     // Tosses, null for one that is missing, and what each panel says; `fresh` plays them from the start.
-    show(tosses, states, fresh) {
+    show(tosses, told, fresh) {
       clear();
       scene?.show(tosses);
-      Object.keys(LABELS).forEach((engine, i) => {
-        byId(`state-${engine}`).textContent = states[i] ?? "";
-        box.querySelector(`.panel.${engine}`).hidden = i >= tosses.length;
+      states.forEach((state, i) => {
+        state.textContent = told[i] ?? "";
+        state.parentElement.hidden = i >= tosses.length;
       });
       player.load(Math.max(0, ...tosses.filter((one) => one?.path).map((one) => one.end_time)), fresh);
     },

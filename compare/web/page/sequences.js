@@ -1,6 +1,6 @@
 // The faces up at the touches of both tosses, each up to its horizon, and those of the pixel before.
 
-import { LABELS } from "./motion.js";
+import { nameOf } from "./motion.js";
 
 export function commonPrefix(a, b) {
   let n = 0;
@@ -9,7 +9,7 @@ export function commonPrefix(a, b) {
 }
 
 export function showSequences(box, tosses, before, after) {
-  const rows = tosses.filter((toss) => toss?.path).map((toss) => row(LABELS[toss.engine], toss.engine, toss, after));
+  const rows = tosses.filter((toss) => toss?.path).map((toss) => row(nameOf(toss), toss.engine, toss, after));
   if (before) rows.push(row("before", "", before, null));
   const longest = Math.max(0, ...tosses.filter((toss) => toss?.path).map((toss) => toss.sequence.length));
   const numbers = element("div", "row numbers");
@@ -50,7 +50,7 @@ export function horizonText(tosses, before, after) {
   const [a, b] = tosses.map((toss) => (toss?.path ? toss : null)), parts = [];
   const own = (toss) => (toss.trusted >= toss.count ? `all ${toss.count}` : `the first ${toss.trusted}`);
   if (a || b) {
-    const horizons = [a, b].filter(Boolean).map((toss) => `${LABELS[toss.engine]}: ${own(toss)}`).join(", ");
+    const horizons = [a, b].filter(Boolean).map((toss) => `${nameOf(toss)}: ${own(toss)}`).join(", ");
     parts.push(`Horizon of trust, the bar: ${horizons}. Up to it the errors of the engine itself change no face; ` +
       "after it each impact amplifies small errors.");
   }

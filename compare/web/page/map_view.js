@@ -1,0 +1,241 @@
+// A map on a canvas: its window and axes; zoom by wheel, pinch and keys; panning; the cursor and the hatch.
+
+import { title, indexOf, shown } from "./axes.js";
+import { ticks } from "./ticks.js";
+
+const LEFT = 74, BOTTOM = 52, TOP = 10, RIGHT = 14;
+const HATCH = 7; // between two lines over untrusted pixels
+const FINE = 1e-6; // values closer than this, relative, are labelled by their difference from one of them
+
+export const clamp = (value, low, high) => Math.min(Math.max(value, low), high);
+export const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+// A window is { left, right, bottom, top } in the coordinates u, v of the pixels. `about` has: the canvas; axes(),
+// of { x, y } as in axes.js; whole(), the window of all; hold(window), which keeps one on the map; limits(), the
+// least and the largest part of the whole, { least, most }; paint(pen, at), which draws inside of the axes;
+// and what is called: hover(u, v), choose(u, v), step(columns, rows), about() for where keys zoom, and where they
+// are wanted moved() and end(whether), when the window changes and when it can be no smaller.
+export function makeView(about) {
+  const { canvas, axes, whole, hold = (window) => window, limits, paint } = about;
+  let window_ = whole(), waiting = 0, drag = null, pinch = null;
+  const touches = new Map();
+
+  const frame = () => {
+    const { width, height } = canvas.getBoundingClientRect();
+    return { left: LEFT, top: TOP, width: Math.max(width - LEFT - RIGHT, 40), height: Math.max(height - TOP - BOTTOM, 40) };
+  };
+
+  function placing() {
+    const box = frame(), { left, right, bottom, top } = window_;
+    return {
+      box, window: window_,
+      across: (u) => box.left + ((u - left) / (right - left)) * box.width,
+      down: (v) => box.top + box.height - ((v - bottom) / (top - bottom)) * box.height,
+    };
+  }
+
+  function draw() {
+    waiting = 0;
+    const dots = devicePixelRatio || 1, size = canvas.getBoundingClientRect();
+    canvas.width = Math.round(size.width * dots);
+    canvas.height = Math.round(size.height * dots);
+    const pen = canvas.getContext("2d"), at = placing(), { box } = at;
+    pen.scale(dots, dots);
+    pen.clearRect(0, 0, size.width, size.height);
+    pen.save();
+    pen.beginPath();
+    pen.rect(box.left, box.top, box.width, box.height);
+    pen.clip();
+    paint(pen, at);
+    pen.restore();
+    drawAxes(pen, at, axes());
+  }
+
+  function redraw() {
+    if (!waiting) waiting = requestAnimationFrame(draw);
+  }
+
+  function show(window) {
+    window_ = hold(window);
+    redraw();
+    about.moved?.();
+  }
+
+  const moved = (from, du, dv) => ({ left: from.left + du, right: from.right + du, bottom: from.bottom + dv, top: from.top + dv });
+
+  function zoom(factor, u = (window_.left + window_.right) / 2, v = (window_.bottom + window_.top) / 2) {
+    const { left, right, bottom, top } = window_, { least, most } = limits(window_);
+    const size = clamp(factor, Math.min(least, 1), Math.max(most, 1));
+    about.end?.(factor < size);
+    show({ left: u + (left - u) * size, right: u + (right - u) * size, bottom: v + (bottom - v) * size, top: v + (top - v) * size });
+  }
+
+  // The window goes along where a point is outside of it.
+  function reveal(u, v) {
+    const { left, right, bottom, top } = window_;
+    if (u < left || u > right || v < bottom || v > top) show(moved(window_, u - (left + right) / 2, v - (bottom + top) / 2));
+    else redraw();
+  }
+
+  function under(event) {
+    const size = canvas.getBoundingClientRect(), box = frame();
+    const px = event.clientX - size.left - box.left, py = event.clientY - size.top - box.top;
+    const { left, right, bottom, top } = window_;
+    return {
+      inside: px >= 0 && py >= 0 && px <= box.width && py <= box.height,
+      u: left + (px / box.width) * (right - left), v: top - (py / box.height) * (top - bottom),
+    };
+  }
+
+  // Two fingers: the points below them stay there.
+  function pinched() {
+    const [a, b] = touches.values(), spread = Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
+    const middle = { clientX: (a.clientX + b.clientX) / 2, clientY: (a.clientY + b.clientY) / 2 };
+    if (pinch) {
+      const from = under(pinch.middle), to = under(middle);
+      window_ = moved(window_, from.u - to.u, from.v - to.v);
+      if (spread > 0 && pinch.spread > 0) zoom(pinch.spread / spread, from.u, from.v);
+    }
+    pinch = { spread, middle };
+  }
+
+  canvas.addEventListener("wheel", (event) => {
+    const at = under(event);
+    if (!at.inside) return;
+    event.preventDefault();
+    zoom(Math.exp(clamp(event.deltaY, -120, 120) / 300), at.u, at.v);
+  }, { passive: false });
+  canvas.addEventListener("pointerdown", (event) => {
+    if (event.pointerType === "touch") touches.set(event.pointerId, event);
+    if (event.button === 0) drag = { x: event.clientX, y: event.clientY, window: window_, moved: touches.size > 1 };
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const at = under(event), box = frame();
+    if (touches.has(event.pointerId)) {
+      touches.set(event.pointerId, event);
+      if (touches.size === 2) pinched();
+    } else if (drag && event.buttons) {
+      const dx = event.clientX - drag.x, dy = event.clientY - drag.y, { left, right, bottom, top } = drag.window;
+      drag.moved ||= Math.hypot(dx, dy) > 4;
+      if (drag.moved) show(moved(drag.window, (-dx / box.width) * (right - left), (dy / box.height) * (top - bottom)));
+    } else if (at.inside) about.hover(at.u, at.v);
+  });
+  for (const end of ["pointerup", "pointercancel"]) {
+    canvas.addEventListener(end, (event) => {
+      touches.delete(event.pointerId);
+      pinch = null;
+    });
+  }
+  canvas.addEventListener("click", (event) => {
+    const at = under(event), was = drag?.moved;
+    drag = null;
+    if (!was && at.inside) about.choose(at.u, at.v);
+  });
+  canvas.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const by = event.shiftKey ? 10 : 1, { u, v } = about.about() ?? {};
+    const actions = {
+      ArrowLeft: () => about.step(-by, 0), ArrowRight: () => about.step(by, 0), ArrowUp: () => about.step(0, by), ArrowDown: () => about.step(0, -by),
+      "+": () => zoom(0.5, u, v), "=": () => zoom(0.5, u, v), "-": () => zoom(2, u, v), 0: () => show(whole()), Enter: () => about.step(0, 0),
+    };
+    if (actions[event.key]) {
+      event.preventDefault();
+      actions[event.key]();
+    }
+  });
+  new ResizeObserver(redraw).observe(canvas);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+  redraw();
+  return { redraw, show, reveal, frame, window: () => window_, zoom: (factor) => zoom(factor, about.about()?.u, about.about()?.v), showWhole: () => show(whole()) };
+}
+
+function drawAxes(pen, { box, window, across, down }, { x, y }) {
+  const family = getComputedStyle(document.body).fontFamily;
+  const along = labels(x, window.left, window.right, box.width / 90), up = labels(y, window.bottom, window.top, box.height / 55);
+  pen.strokeStyle = style("--soft");
+  pen.lineWidth = 1;
+  pen.strokeRect(box.left - 0.5, box.top - 0.5, box.width + 1, box.height + 1);
+  pen.fillStyle = style("--ink");
+  pen.font = `15px ${family}`;
+  pen.textAlign = "center";
+  pen.textBaseline = "top";
+  for (const { value, text } of along.marks) {
+    const at = across(indexOf(x, value));
+    pen.strokeRect(at, box.top + box.height, 0, 6);
+    pen.fillText(text, at, box.top + box.height + 9);
+  }
+  pen.font = `600 15px ${family}`;
+  pen.fillText(along.title, box.left + box.width / 2, box.top + box.height + 31, box.width + LEFT);
+  pen.font = `15px ${family}`;
+  pen.textAlign = "right";
+  pen.textBaseline = "middle";
+  for (const { value, text } of up.marks) {
+    const at = down(indexOf(y, value));
+    pen.strokeRect(box.left - 6, at, 6, 0);
+    pen.fillText(text, box.left - 9, at, LEFT - 30);
+  }
+  pen.save();
+  pen.translate(11, box.top + box.height / 2);
+  pen.rotate(-Math.PI / 2);
+  pen.textAlign = "center";
+  pen.font = `600 15px ${family}`;
+  pen.fillText(up.title, 0, 0, box.height + BOTTOM);
+  pen.restore();
+}
+
+// An axis's ticks with their texts, and its title. Where they would need many digits they are differences.
+function labels(axis, low, high, most) {
+  const [start, stop] = [low, high].map((at) => axis.start + at * ((axis.stop - axis.start) / (axis.count - 1)));
+  const size = Math.max(Math.abs(start), Math.abs(stop));
+  if (Math.abs(stop - start) > FINE * size) {
+    const { values, step } = ticks(start, stop, most);
+    return { title: title(axis), marks: values.map((value) => ({ value, text: shown(value, step) })) };
+  }
+  const middle = (start + stop) / 2, { values, step } = ticks(start - middle, stop - middle, most);
+  const text = (value) => (value > 0 ? "+" : "") + (Math.abs(value) < step / 2 ? "0" : value.toExponential(step < 1 ? 1 : 0).replace(".0e", "e"));
+  return { title: title({ ...axis, word: `${axis.word} − ${middle}` }), marks: values.map((value) => ({ value: middle + value, text: text(value) })) };
+}
+
+// A tint and lines over the pixels of a mask that is stretched over a place, [left, top, width, height].
+export function drawHatch(pen, { box }, image, place) {
+  const layer = document.createElement("canvas"), lines = layer.getContext("2d");
+  layer.width = pen.canvas.width;
+  layer.height = pen.canvas.height;
+  lines.setTransform(pen.getTransform());
+  lines.imageSmoothingEnabled = false;
+  lines.drawImage(image, ...place);
+  lines.globalCompositeOperation = "source-in";
+  lines.strokeStyle = "#fff";
+  lines.lineWidth = 1.5;
+  lines.beginPath();
+  for (let from = box.left - box.height; from < box.left + box.width; from += HATCH) {
+    lines.moveTo(from, box.top + box.height);
+    lines.lineTo(from + box.height, box.top);
+  }
+  lines.stroke();
+  pen.globalAlpha = 0.3;
+  pen.drawImage(image, ...place);
+  pen.globalAlpha = 1;
+  pen.save();
+  pen.setTransform(1, 0, 0, 1, 0, 0);
+  pen.drawImage(layer, 0, 0);
+  pen.restore();
+}
+
+// A cross about a pixel whose half sizes are given in the coordinates of pixels.
+export function drawCursor(pen, { box, window, across, down }, { u, v }, half) {
+  const wide = Math.max((half.u * box.width) / (window.right - window.left), 5);
+  const high = Math.max((half.v * box.height) / (window.top - window.bottom), 5);
+  const cx = across(u), cy = down(v);
+  for (const [color, width] of [["#fff", 5], [style("--cursor"), 3]]) {
+    pen.strokeStyle = color;
+    pen.lineWidth = width;
+    pen.strokeRect(cx - wide, cy - high, 2 * wide, 2 * high);
+    pen.beginPath();
+    for (const [dx, dy, reach] of [[1, 0, wide], [-1, 0, wide], [0, 1, high], [0, -1, high]]) {
+      pen.moveTo(cx + dx * (reach + 2), cy + dy * (reach + 2));
+      pen.lineTo(cx + dx * (reach + 14), cy + dy * (reach + 14));
+    }
+    pen.stroke();
+  }
+}
