@@ -11,6 +11,7 @@ from cointoss.compare.commands.common import ARGUMENTS, refuse
 from cointoss.compare.commands.compare import compare
 from cointoss.compare.commands.explore import explore
 from cointoss.compare.commands.hands import hands
+from cointoss.compare.commands.lab import lab
 from cointoss.compare.commands.reproduce import reproduce
 from cointoss.compare.commands.scenarios import scenarios
 from cointoss.compare.commands.solref import solref
@@ -60,7 +61,7 @@ class _Commands(click.Group):
 
 @click.group(
     cls=_Commands,
-    commands=[basin, compare, explore, hands, reproduce, scenarios, solref, toss, video],
+    commands=[basin, compare, explore, hands, lab, reproduce, scenarios, solref, toss, video],
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     invoke_without_command=True,
 )

@@ -36,7 +36,9 @@ def _reproductions() -> list[str]:
     return [*names(), "all"]
 
 
-scenario_argument = click.argument("scenario", **_completing(_scenarios, files=True))
+_named = _completing(_scenarios, files=True)
+scenario_argument = click.argument("scenario", **_named)
+spared_scenario_argument = click.argument("scenario", default="fig24a", **_named)
 reproductions_argument = click.argument(
     "names", nargs=-1, metavar="[NAME ...]", **_completing(_reproductions)
 )

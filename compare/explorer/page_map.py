@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from cointoss.compare.output.style import OUTCOMES
 from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.layers import NOT_TOSSED
 from cointoss.compare.sweep.outcome_map import OutcomeMap
+from cointoss.compare.web.playable import shown_outcomes
 
 MOST_SHOWN = 4_000_000
 """Pixels on the page: of a larger map every second, third, ..."""
@@ -29,9 +29,7 @@ def page_map(found: OutcomeMap) -> dict[str, Any]:
         "stride": found.stride,
         "tossed": float(np.mean(found.outcome != NOT_TOSSED)),
         "axes": {name: _axis(axis) for name, axis in (("x", sweep.x), ("y", sweep.y))},
-        "outcomes": {
-            int(outcome): {"label": str(outcome), "color": color} for outcome, color in OUTCOMES.items()
-        },
+        "outcomes": shown_outcomes(),
         "margin": margin and {"along": margin.name, "unit": margin.unit},
         "arrays": {
             name: b64encode(array.astype(_KINDS[name]).tobytes()).decode("ascii")

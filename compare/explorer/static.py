@@ -10,9 +10,8 @@ from cointoss.compare.explorer.page_map import page_map
 from cointoss.compare.explorer.tosses import MOST_IMPACTS, toss_pixel
 from cointoss.compare.output.files import write_text
 from cointoss.compare.sweep.grid import Sweep
-from cointoss.compare.sweep.outcome_map import OutcomeMap
 from cointoss.compare.sweep.reading import read_map
-from cointoss.compare.web.scripts import ENGINE_POLICY, POLICY, data_element, import_map
+from cointoss.compare.web.scripts import ENGINE_POLICY, POLICY, one_file
 from cointoss.compare.web.wasm.carried import engine_data
 from cointoss.models.stages import counted
 
@@ -50,7 +49,8 @@ def write_static(map_path: Path, out: Path) -> None:
             toss_pixel(sweep, *at, engine, samples=SAMPLES, most_symbols=SAMPLES // 4) for engine in Engine
         ]
     held = {"columns": columns, "rows": rows, "tosses": tosses, "engine": _engine(sweep)}
-    write_text(out, _page(found, held))
+    policy = ENGINE_POLICY if held["engine"] else POLICY
+    write_text(out, one_file(page_files(), {"map": page_map(found), **held}, policy))
 
 
 def _engine(sweep: Sweep) -> dict[str, object] | None:
@@ -67,26 +67,3 @@ def _spread(count: int, most: int) -> list[int]:
     """Return the indices of at most so many pixels of an axis, evenly spread, none of them twice."""
     number = min(count, most)
     return ((np.arange(number) + 0.5) * count / number).astype(int).tolist()
-
-
-def _page(found: OutcomeMap, held: dict[str, object]) -> str:
-    """Return the page as one text: its modules in an import map, as data."""
-    files = {name: content.decode("utf-8") for name, content in page_files().items()}
-    modules = {name: text for name, text in files.items() if name.endswith(".js")}
-    policy = ENGINE_POLICY if held["engine"] else POLICY
-    parts = {
-        '<meta charset="utf-8">': f'<meta charset="utf-8">\n'
-        f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
-        **{
-            f'<link rel="stylesheet" href="{name}">': f"<style>\n{files[name]}</style>"
-            for name in files
-            if name.endswith(".css")
-        },
-        '<script type="module" src="main.js"></script>': f"<!-- three.js:\n{files['LICENSE']}-->\n"
-        f"{import_map(modules)}\n{data_element({'map': page_map(found), **held}, id_='data')}\n"
-        '<script type="module">import "main.js";</script>',
-    }
-    page = files["index.html"]
-    for mark, part in parts.items():
-        page = page.replace(mark, part)
-    return page

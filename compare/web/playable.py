@@ -6,10 +6,16 @@ from typing import Any
 import numpy as np
 
 from cointoss.coin_mj.model.scene import shape_thickness
+from cointoss.compare.output.style import OUTCOMES
 from cointoss.models.barriers import barrier
 from cointoss.models.certificate import energies
 from cointoss.models.records import Array, Toss
 from cointoss.models.scenario import Scenario
+
+
+def shown_outcomes() -> dict[int, dict[str, str]]:
+    """Return the word and the colour of each outcome, by its integer."""
+    return {int(outcome): {"label": str(outcome), "color": color} for outcome, color in OUTCOMES.items()}
 
 
 def coin_of(scenario: Scenario) -> dict[str, Any]:

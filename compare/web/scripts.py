@@ -3,6 +3,7 @@
 import json
 import re
 from base64 import b64encode
+from collections.abc import Mapping
 from importlib import resources
 
 POLICY = (
@@ -12,6 +13,7 @@ POLICY = (
 """The Content-Security-Policy of a page of one file: it loads nothing."""
 ENGINE_POLICY = POLICY.replace("script-src", "script-src 'wasm-unsafe-eval'")
 """That of one that holds the engine, which it compiles."""
+_SCRIPT = re.compile(r'<script type="module" src="([\w.]+)"></script>')
 _IMPORTED = re.compile(r"""(from\s*["'])\./([\w.]+\.js)(["'])""")
 
 
@@ -20,6 +22,28 @@ def shared_files() -> dict[str, bytes]:
     page = resources.files("cointoss.compare.web") / "page"
     entries = [entry for folder in (page, page / "three") for entry in folder.iterdir() if entry.is_file()]
     return {entry.name: entry.read_bytes() for entry in entries}
+
+
+def one_file(files: Mapping[str, bytes], data: object, policy: str) -> str:
+    """Return a page as one text that loads nothing: its styles, its modules in an import map, and its data.
+
+    Args:
+        files: of the page by name, index.html among them, and three.js's LICENSE.
+        data: what its scripts read from the element `data`, as JSON.
+        policy: its Content-Security-Policy.
+    """
+    texts = {name: content.decode("utf-8") for name, content in files.items()}
+    page = texts["index.html"].replace(
+        '<meta charset="utf-8">',
+        f'<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="{policy}">',
+    )
+    for name, text in texts.items():
+        page = page.replace(f'<link rel="stylesheet" href="{name}">', f"<style>\n{text}</style>")
+    modules = {name: text for name, text in texts.items() if name.endswith(".js")}
+    parts = (
+        f"<!-- three.js:\n{texts['LICENSE']}-->\n{import_map(modules)}\n{data_element(data, id_='data')}\n"
+    )
+    return _SCRIPT.sub(lambda found: f'{parts}<script type="module">import "{found[1]}";</script>', page)
 
 
 def import_map(modules: dict[str, str]) -> str:

@@ -37,6 +37,7 @@ export function makeView(about) {
   function draw() {
     waiting = 0;
     const dots = devicePixelRatio || 1, size = canvas.getBoundingClientRect();
+    if (!size.width || !size.height) return;
     canvas.width = Math.round(size.width * dots);
     canvas.height = Math.round(size.height * dots);
     const pen = canvas.getContext("2d"), at = placing(), { box } = at;

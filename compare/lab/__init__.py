@@ -1,0 +1,1 @@
+"""The lab: a page that tosses coins by itself; imports web and below."""

@@ -1,0 +1,71 @@
+// A hand: releases that scatter about one, and the share of heads among them with its interval.
+
+const Z = 2.5758293035489004; // of a normal, within which are 99 %
+const SLICE = 20; // milliseconds in which the page does nothing else
+export const TOSSES = 2000;
+
+// What a hand scatters, each relative to its size, by one normal number for each group.
+const GROUPS = [["release.position.z"], ["release.velocity.x", "release.velocity.y", "release.velocity.z"],
+  ["release.angular_velocity.xi", "release.angular_velocity.eta", "release.angular_velocity.zeta"]];
+
+const groupOf = (field) => GROUPS.findIndex((group) => group.includes(field));
+
+// Wilson's interval at 99 %, as the package counts shares.
+export function wilson(met, count) {
+  const share = met / count, square = Z ** 2 / count, middle = (share + square / 2) / (1 + square);
+  const half = (Z / (1 + square)) * Math.sqrt((share * (1 - share)) / count + square / count / 4);
+  return { share, low: Math.max(middle - half, 0), high: Math.min(middle + half, 1), count };
+}
+
+// Releases of a hand, values by field; the same for the same seed.
+export function releases(scenario, scatter, count, seed = 0) {
+  const normal = normals(seed), found = {};
+  const factors = Array.from({ length: count }, () => GROUPS.map(() => 1 + scatter * normal()));
+  GROUPS.forEach((group, i) => {
+    for (const field of group) if (scenario[field]) found[field] = Float64Array.from(factors, (factor) => scenario[field] * factor[i]);
+  });
+  return found;
+}
+
+// Points of the ellipse of `size` standard deviations about a release, over the fields of a map.
+export function ellipse({ x, y, scenario }, scatter, size = 2) {
+  const reach = (field) => (groupOf(field) < 0 ? 0 : size * scatter * scenario[field]);
+  const isOne = groupOf(x.field) === groupOf(y.field);
+  return Array.from({ length: 97 }, (_, i) => {
+    const angle = (i * Math.PI) / 48;
+    return [scenario[x.field] + reach(x.field) * Math.cos(angle), scenario[y.field] + reach(y.field) * (isOne ? Math.cos(angle) : Math.sin(angle))];
+  });
+}
+
+// Tosses a hand's releases, slice by slice, and calls `told` with the share of heads so far; `after` as in a map.
+export async function countHeads(engine, { scenario, after, hand }, told, signal) {
+  const all = releases(scenario, hand, TOSSES), followed = after === null ? scenario : { ...scenario, "ending.max_impacts": after + 1 };
+  let met = 0, count = 0;
+  for (let from = 0, size = 20; from < TOSSES; ) {
+    const start = performance.now();
+    const part = Object.fromEntries(Object.entries(all).map(([field, values]) => [field, values.subarray(from, from + size)]));
+    const { outcome, impacts, lastFace } = engine.tossEach(followed, part);
+    outcome.forEach((one, i) => {
+      if (one < 0) return;
+      count += 1;
+      met += (after !== null && impacts[i] > after ? lastFace[i] : one) === 1;
+    });
+    from += size;
+    size = Math.max(1, Math.min(500, Math.round((size * SLICE) / Math.max(performance.now() - start, 1))));
+    await new Promise((kept) => setTimeout(kept));
+    if (signal.aborted) return;
+    if (count) told({ ...wilson(met, count), isWhole: from >= TOSSES });
+  }
+}
+
+// Numbers of a normal distribution by Box and Muller, from those of mulberry32.
+function normals(seed) {
+  let word = seed;
+  const uniform = () => {
+    word = (word + 0x6d2b79f5) | 0;
+    let mixed = Math.imul(word ^ (word >>> 15), 1 | word);
+    mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
+    return ((mixed ^ (mixed >>> 14)) >>> 0) / 2 ** 32;
+  };
+  return () => Math.sqrt(-2 * Math.log(1 - uniform())) * Math.cos(2 * Math.PI * uniform());
+}

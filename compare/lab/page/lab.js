@@ -1,0 +1,223 @@
+// The lab's page: joins coin, map, controls, tour and address, which all show one state.
+
+import { load, startWorkers } from "./engine.js";
+import { counted, shownAs } from "./words.js";
+import { makeControls, element } from "./controls.js";
+import { makeLiveMap } from "./live_map.js";
+import { makeStage } from "./stage.js";
+import { horizonText, markTouch, showSequences } from "./sequences.js";
+import { showEnergy } from "./energy.js";
+import { address, fromAddress, START } from "./state.js";
+import { makeTour } from "./tour.js";
+import { countHeads } from "./hand.js";
+import { measure } from "./measure.js";
+import { copyCommand, saveCsv, savePng, saveToml } from "./save.js";
+
+const SAMPLES = 800; // of the path that is played
+const PAUSE = 250; // milliseconds until the address follows, which browsers allow some times a second
+const LABELS = { analytic: "this pixel", before: "the pixel before" };
+const byId = (id) => document.getElementById(id);
+const data = JSON.parse(byId("data").textContent), { outcomes } = data;
+const bytes = Uint8Array.from(atob(data.wasm), (sign) => sign.charCodeAt(0));
+
+let engine, workers, fields, state, stage, map, controls, showStop, moveEnergy = () => {};
+let tosses = [null, null], wanted = null, isTossing = false, counting = null, pending = null;
+
+async function begin() {
+  engine = await load(bytes, data.version);
+  workers = await startWorkers(bytes);
+  fields = engine.about.fields;
+  stage = makeStage(byId("played"), {
+    without: "The map, the sequences and the energies work without it.", labels: LABELS, shown: "The coin that is tossed",
+    onTime(time) {
+      markTouch(byId("sequences"), [tosses[0]], time);
+      moveEnergy(time);
+    },
+  });
+  map = makeLiveMap({
+    canvas: byId("map"), workers, fields, outcomes,
+    told: {
+      place: (place) => (byId("readout").textContent = placeText(place)),
+      choose: ({ x, y }) => choose(x, y),
+      moved: (windows) => state && change(windows, { stays: true }),
+      end: (isEnd) => ends(isEnd),
+      problem: say,
+      progress: (part) => byId("map").setAttribute("aria-busy", String(part < 1)),
+    },
+  });
+  const box = (name) => byId(`of-${name}`);
+  controls = makeControls({ map: box("map"), release: box("release"), coin: box("coin"), floor: box("floor"), hand: box("hand") }, fields, change);
+  showStop = makeTour(byId("tour"), byId("stop"), (stop) => address(stop, fields));
+  listen();
+  legend();
+  restore();
+  document.body.dataset.ready = "true";
+}
+
+function listen() {
+  byId("zoom-in").addEventListener("click", () => map.zoom(0.5));
+  byId("zoom-out").addEventListener("click", () => map.zoom(2));
+  byId("whole").addEventListener("click", () => map.showWhole());
+  byId("both").addEventListener("click", () => {
+    byId("both").setAttribute("aria-pressed", String(!areBoth()));
+    showTosses(true);
+  });
+  byId("copy").addEventListener("click", async () => (byId("copied").textContent = await copyCommand(state, fields, map.grid(), byId("command"))));
+  byId("toml").addEventListener("click", () => saveToml(state, fields));
+  byId("png").addEventListener("click", () => savePng(byId("map")));
+  byId("csv").addEventListener("click", () => saveCsv(map.seen(), state.trust, outcomes));
+  byId("measure").addEventListener("click", measured);
+  addEventListener("hashchange", restore);
+}
+
+// The state of the address, or of the page where that names none.
+function restore() {
+  const own = { ...START, scenario: data.scenario };
+  let found = own;
+  say("");
+  if (location.hash.length > 1) {
+    try {
+      found = fromAddress(location.hash, fields, (scenario) => engine.fault(scenario));
+    } catch (problem) {
+      say(`The address is no state of the lab: ${problem.message}. Shown is what the page begins with.`);
+    }
+  }
+  state = { ...found, home: { x: found.x, y: found.y } };
+  show(true);
+}
+
+// Takes what is other in the state; what is no scenario is told, and nothing changes. A stop of the tour is left
+// where its sentences no longer speak of the map.
+function change(more, { fresh = false, stays = false } = {}) {
+  const wrong = more.scenario ? engine.fault(more.scenario) : null;
+  say(wrong ?? "");
+  if (wrong === null) state = { ...state, tour: stays ? state.tour : null, ...more };
+  if (wrong === null) show(fresh);
+  else controls.show(state);
+}
+
+function show(fresh) {
+  controls.show(state);
+  map.update(state);
+  showStop(state);
+  toss(fresh);
+  count();
+  clearTimeout(pending);
+  pending = setTimeout(() => history.replaceState(null, "", address(state, fields)), PAUSE);
+}
+
+function choose(x, y) {
+  const { scenario } = state, before = [scenario[state.x.field] ?? 0, scenario[state.y.field] ?? 0];
+  byId("readout").textContent = valuesText(x, y);
+  if (before[0] === x && before[1] === y) return toss(true);
+  change({ before, scenario: { ...scenario, [state.x.field]: x, [state.y.field]: y } }, { fresh: true, stays: true });
+}
+
+// Tosses what was chosen last; what came between is passed over. Nothing is tossed twice in a row.
+async function toss(fresh) {
+  const at = (place) => ({ ...state.scenario, [state.x.field]: place[0], [state.y.field]: place[1] });
+  const scenarios = [state.scenario, state.before && at(state.before)];
+  wanted = { scenarios, key: JSON.stringify(scenarios), fresh: fresh || (wanted?.fresh ?? false) };
+  if (isTossing) return;
+  isTossing = true;
+  while (wanted) {
+    const { scenarios, key, fresh } = wanted;
+    wanted = null;
+    try {
+      if (key !== toss.key) tosses = await Promise.all(scenarios.map((each) => each && workers.toss(each, SAMPLES)));
+      toss.key = key;
+      if (tosses[1]) tosses[1] = { ...tosses[1], engine: "before", label: "before" };
+      if (tosses[0]) tosses[0] = { ...tosses[0], label: "this pixel" };
+      showTosses(fresh);
+    } catch (problem) {
+      say(problem.message);
+    }
+  }
+  isTossing = false;
+}
+
+const areBoth = () => byId("both").getAttribute("aria-pressed") === "true";
+
+function showTosses(fresh) {
+  const [one, before] = tosses;
+  byId("both").disabled = !before;
+  const shown = areBoth() && before ? [one, before] : [one];
+  showSequences(byId("sequences"), [one], before, state.after);
+  byId("horizon").textContent = one.count ? horizonText([one, null], before, state.after) : "";
+  byId("sequences").hidden = one.count === 0;
+  moveEnergy = showEnergy(byId("energy"), shown);
+  byId("outcome").textContent = `${one.outcome} after ${counted(one.count, "impact")} in ${one.end_time.toFixed(4)} s. ${one.ending}`;
+  stage.show(shown, shown.map((each) => each.outcome), fresh);
+}
+
+// The share of heads of the hand, from its own tosses.
+async function count() {
+  counting?.abort();
+  byId("share").hidden = state.hand === null;
+  if (state.hand === null) return;
+  const controller = (counting = new AbortController()), percent = (part) => (100 * part).toFixed(1);
+  byId("share").textContent = "Tossing by the hand …";
+  try {
+    await countHeads(engine, state, ({ share, low, high, count, isWhole }) => {
+      const when = state.after === null ? "" : ` at touch ${state.after + 1}`;
+      byId("share").textContent = `Of ${counted(count, "toss", "tosses")} by this hand ${percent(share)} % are heads${when} ` +
+        `[${percent(low)}, ${percent(high)}; 99 % interval]. The ellipse: two standard deviations.`;
+      byId("share").dataset.whole = String(isWhole);
+    }, controller.signal);
+  } catch (problem) {
+    say(problem.message);
+  }
+}
+
+function valuesText(x, y) {
+  const part = (field, value) => `${fields[field].word} = ${shownAs(value)} ${fields[field].unit}`.trim().replaceAll(" ", "\u00a0");
+  return `${part(state.x.field, x)}, ${part(state.y.field, y)}`;
+}
+
+function placeText({ x, y, code, trusted }) {
+  const parts = [valuesText(x, y)];
+  if (code !== -1) parts.push(code === -2 ? "no scenario" : outcomes[code].label);
+  if (trusted === 0) parts.push("not trusted");
+  return parts.join("; ");
+}
+
+function ends(isEnd) {
+  byId("ends").hidden = !isEnd;
+  byId("ends").textContent = isEnd ? "Double precision ends here: neighbouring pixels differ in their last bit, and no toss lies between them." : "";
+}
+
+function legend() {
+  const entries = [1, 2, 3].map((code) => [outcomes[code].label, outcomes[code].color]);
+  entries.push(["not trusted", "repeating-linear-gradient(135deg, #fff 0 2px, var(--soft) 2px 6px)"]);
+  byId("legend").replaceChildren(...entries.map(([label, color]) => {
+    const item = element("li"), patch = element("i");
+    patch.style.background = color;
+    item.append(patch, label);
+    return item;
+  }));
+}
+
+async function measured() {
+  byId("measure").disabled = true;
+  byId("measurements").replaceChildren();
+  try {
+    await measure(bytes, workers, (what, value) => {
+      const row = element("tr");
+      row.append(element("td", "", what), element("td", "", value));
+      byId("measurements").append(row);
+    });
+  } catch (problem) {
+    say(problem.message);
+  }
+  byId("measure").disabled = false;
+}
+
+function say(message) {
+  byId("problem").textContent = message;
+  byId("problem").hidden = !message;
+}
+
+begin().catch((problem) => {
+  say(`The lab cannot toss: ${problem.message}.`);
+  document.body.dataset.ready = "true";
+});

@@ -1,0 +1,50 @@
+// What leaves the page: the command, and files of what is seen.
+
+import { valueAt } from "./axes.js";
+import { command, toml } from "./toml.js";
+
+export function saveToml(state, fields) {
+  save("coin.toml", new Blob([toml(state.scenario, fields)], { type: "text/plain" }));
+}
+
+export function savePng(canvas) {
+  canvas.toBlob((picture) => save("coin.png", picture), "image/png");
+}
+
+// A row for each pixel that was tossed: both values and the outcome, and with trust whether it can be trusted.
+export function saveCsv(job, trust, outcomes) {
+  save("coin.csv", new Blob([csv(job, trust, outcomes)], { type: "text/csv" }));
+}
+
+export function csv({ x, y, codes, trusted }, trust, outcomes) {
+  const rows = [[x.field, y.field, "outcome", ...(trust ? ["trusted"] : [])].join(",")];
+  for (let j = 0; j < y.count; j++) {
+    for (let i = 0; i < x.count; i++) {
+      const at = j * x.count + i, code = codes[at];
+      rows.push([valueAt(x, i), valueAt(y, j), outcomes[code]?.label ?? (code === -2 ? "no scenario" : "not tossed"), ...(trust ? [trusted[at]] : [])].join(","));
+    }
+  }
+  return `${rows.join("\n")}\n`;
+}
+
+// Copies the command; where the browser refuses, it is shown to be copied.
+export async function copyCommand(state, fields, grid, box) {
+  const text = command(state, fields, grid);
+  box.textContent = text;
+  box.hidden = false;
+  try {
+    await navigator.clipboard.writeText(text);
+    return "Copied.";
+  } catch {
+    getSelection().selectAllChildren(box);
+    return "The browser refuses the clipboard; the command is selected below.";
+  }
+}
+
+function save(name, blob) {
+  const link = document.createElement("a");
+  link.download = name;
+  link.href = URL.createObjectURL(blob);
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1e4);
+}
