@@ -27,9 +27,7 @@ def lab_page(scenario: Scenario) -> str:
     """
     content = engine_bytes()
     if content is None:
-        raise UnusableEngineError(
-            "the engine for a browser is not there, or of other sources; make docs builds it"
-        )
+        raise UnusableEngineError("engine.wasm: not built, or of other sources; make docs builds it")
     numbers_of(scenario)
     page = resources.files("cointoss.compare.lab") / "page"
     own = {entry.name: entry.read_bytes() for entry in page.iterdir()}

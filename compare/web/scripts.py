@@ -40,10 +40,9 @@ def one_file(files: Mapping[str, bytes], data: object, policy: str) -> str:
     for name, text in texts.items():
         page = page.replace(f'<link rel="stylesheet" href="{name}">', f"<style>\n{text}</style>")
     modules = {name: text for name, text in texts.items() if name.endswith(".js")}
-    parts = (
-        f"<!-- three.js:\n{texts['LICENSE']}-->\n{import_map(modules)}\n{data_element(data, id_='data')}\n"
-    )
-    return _SCRIPT.sub(lambda found: f'{parts}<script type="module">import "{found[1]}";</script>', page)
+    parts = [f"<!-- three.js:\n{texts['LICENSE']}-->", import_map(modules), data_element(data, id_="data")]
+    begun = '<script type="module">import "{}";</script>'
+    return _SCRIPT.sub(lambda found: "\n".join([*parts, begun.format(found[1])]), page)
 
 
 def import_map(modules: dict[str, str]) -> str:

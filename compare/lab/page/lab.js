@@ -21,10 +21,10 @@ const data = JSON.parse(byId("data").textContent), { outcomes } = data;
 const bytes = Uint8Array.from(atob(data.wasm), (sign) => sign.charCodeAt(0));
 
 let engine, workers, fields, state, stage, map, controls, showStop, moveEnergy = () => {};
-let tosses = [null, null], wanted = null, isTossing = false, counting = null, pending = null;
+let tosses = [null, null], tossed = null, wanted = null, isTossing = false, counting = null, pending = null;
 
 async function begin() {
-  engine = await load(bytes, data.version);
+  engine = await load(bytes);
   workers = await startWorkers(bytes);
   fields = engine.about.fields;
   stage = makeStage(byId("played"), {
@@ -89,11 +89,18 @@ function restore() {
 // Takes what is other in the state; what is no scenario is told, and nothing changes. A stop of the tour is left
 // where its sentences no longer speak of the map.
 function change(more, { fresh = false, stays = false } = {}) {
+  if (more.scenario) more.scenario = withOneAttitude(more.scenario);
   const wrong = more.scenario ? engine.fault(more.scenario) : null;
-  say(wrong ?? "");
+  if (more.scenario) say(wrong ?? "");
   if (wrong === null) state = { ...state, tour: stays ? state.tour : null, ...more };
   if (wrong === null) show(fresh);
   else controls.show(state);
+}
+
+// Angles that are set take the place of Euler parameters.
+function withOneAttitude(scenario) {
+  const hasAngles = Object.keys(scenario).some((field) => field.startsWith("release.angles."));
+  return Object.fromEntries(Object.entries(scenario).filter(([field]) => !hasAngles || !field.startsWith("release.quaternion.")));
 }
 
 function show(fresh) {
@@ -117,17 +124,20 @@ function choose(x, y) {
 async function toss(fresh) {
   const at = (place) => ({ ...state.scenario, [state.x.field]: place[0], [state.y.field]: place[1] });
   const scenarios = [state.scenario, state.before && at(state.before)];
-  wanted = { scenarios, key: JSON.stringify(scenarios), fresh: fresh || (wanted?.fresh ?? false) };
+  const key = JSON.stringify([scenarios, state.after]);
+  if (key === tossed && !fresh && !wanted) return;
+  wanted = { scenarios, key, fresh: fresh || (wanted?.fresh ?? false) };
   if (isTossing) return;
   isTossing = true;
   while (wanted) {
     const { scenarios, key, fresh } = wanted;
     wanted = null;
     try {
-      if (key !== toss.key) tosses = await Promise.all(scenarios.map((each) => each && workers.toss(each, SAMPLES)));
-      toss.key = key;
-      if (tosses[1]) tosses[1] = { ...tosses[1], engine: "before", label: "before" };
-      if (tosses[0]) tosses[0] = { ...tosses[0], label: "this pixel" };
+      if (key !== tossed) {
+        const [one, before] = await Promise.all(scenarios.map((each) => each && workers.toss(each, SAMPLES)));
+        tosses = [{ ...one, label: "this pixel" }, before && { ...before, engine: "before", label: "before" }];
+        tossed = key;
+      }
       showTosses(fresh);
     } catch (problem) {
       say(problem.message);
@@ -152,10 +162,14 @@ function showTosses(fresh) {
 
 // The share of heads of the hand, from its own tosses.
 async function count() {
-  counting?.abort();
+  const key = JSON.stringify([state.scenario, state.after, state.hand]);
+  if (counting?.key === key) return;
+  counting?.controller.abort();
+  const controller = new AbortController(), percent = (part) => (100 * part).toFixed(1);
+  counting = { key, controller };
   byId("share").hidden = state.hand === null;
+  byId("share").dataset.whole = "false";
   if (state.hand === null) return;
-  const controller = (counting = new AbortController()), percent = (part) => (100 * part).toFixed(1);
   byId("share").textContent = "Tossing by the hand …";
   try {
     await countHeads(engine, state, ({ share, low, high, count, isWhole }) => {
