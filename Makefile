@@ -63,6 +63,7 @@ $(MADE)/pages/explorer.html: $(READY) $(CODE) $(ENGINE) docs/conf.py $(wildcard 
 	$(BIN)/cointoss basin fig24a --x release.angular_velocity.eta=20:60:160 --y release.position.z=0.2:0.6:120 \
 	  --after 2 --out $(MADE)/map.zarr
 	$(BIN)/cointoss compare table --no-video --out $(@D)/report
+	$(BIN)/cointoss lab --out $(@D)/lab.html
 	$(BIN)/cointoss explore $(MADE)/map.zarr --static $@
 
 $(ENGINE): $(CODE) | $(VENV)/.ready-docs

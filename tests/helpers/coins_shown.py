@@ -11,6 +11,12 @@ UNNAMED = (
     ".filter((one) => !(one.ariaLabel || one.textContent.trim() || one.labels?.length)).length"
 )
 """How many controls, pictures and places of the keyboard have no name."""
+NO_WEBGL = """
+const own = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+  return kind.startsWith("webgl") ? null : own.call(this, kind, ...more);
+};
+"""
 GOLD, BLUE = (245, 171, 31), (13, 92, 168)
 
 

@@ -1,23 +1,23 @@
 // A scenario as a TOML file, and the command that makes the map that is seen.
 
+const BODY = ["xi", "eta", "zeta"];
 const COMPONENTS = {
-  "coin.center_of_mass": ["xi", "eta", "zeta"],
+  "coin.center_of_mass": BODY,
   "release.position": ["x", "y", "z"],
   "release.velocity": ["x", "y", "z"],
   "release.angles": ["psi", "theta", "phi"],
   "release.quaternion": ["e0", "e1", "e2", "e3"],
-  "release.angular_velocity": ["xi", "eta", "zeta"],
+  "release.angular_velocity": BODY,
 };
 const TABLES = ["coin", "air", "floor", "release", "ending"];
 
 export function toml(scenario, fields) {
-  const lines = { "": [] };
-  for (const table of TABLES) lines[table] = [];
-  const done = new Set();
+  const lines = Object.fromEntries(["", ...TABLES].map((table) => [table, []])), done = new Set();
+  const inertia = BODY.map((row) => BODY.map((each) => scenario[`coin.inertia.${row}.${each}`]));
   for (const field of Object.keys(scenario)) {
-    const [path, component] = [field.slice(0, field.lastIndexOf(".")), field.slice(field.lastIndexOf(".") + 1)];
+    const path = field.slice(0, field.lastIndexOf("."));
     const vector = COMPONENTS[path], name = vector ? path : field;
-    if (done.has(name)) continue;
+    if (done.has(name) || name.startsWith("coin.inertia.")) continue;
     done.add(name);
     const value = vector
       ? `[${vector.map((each) => text(scenario[`${path}.${each}`] ?? fields[`${path}.${each}`]?.default ?? 0)).join(", ")}]`
@@ -25,6 +25,7 @@ export function toml(scenario, fields) {
     const [table, key] = name.includes(".") ? name.split(".") : ["", name];
     lines[table].push(`${key} = ${value}`);
   }
+  if (inertia[0][0] !== undefined) lines.coin.push(`inertia = [${inertia.map((row) => `[${row.map(text).join(", ")}]`).join(", ")}]`);
   const blocks = Object.entries(lines).filter(([table, rows]) => rows.length || ["coin", "floor", "release"].includes(table));
   return blocks.map(([table, rows]) => [...(table ? [`[${table}]`] : []), ...rows].join("\n")).join("\n\n") + "\n";
 }

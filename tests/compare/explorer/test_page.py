@@ -12,7 +12,7 @@ from cointoss import analytic
 from cointoss.compare.explorer import static
 from cointoss.compare.sweep.reading import read_map
 from cointoss.models.reading import parse
-from tests.helpers.coins_shown import BLUE, GOLD, UNNAMED, box, faces, picture, set_time
+from tests.helpers.coins_shown import BLUE, GOLD, NO_WEBGL, UNNAMED, box, faces, picture, set_time
 from tests.helpers.command_line import cointoss
 from tests.helpers.explored import FIELDS, SCENARIO, serving, small_map
 
@@ -20,12 +20,6 @@ TOSSED = (
     "document.querySelectorAll('#outcome p').length === 2"
     " && !/tossing/i.test(document.getElementById('outcome').textContent)"
 )
-NO_WEBGL = """
-const own = HTMLCanvasElement.prototype.getContext;
-HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
-  return kind.startsWith("webgl") ? null : own.call(this, kind, ...more);
-};
-"""
 
 
 def place_of(page, u, v, count=(24, 18)):
