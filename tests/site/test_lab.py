@@ -2,7 +2,6 @@
 
 import csv
 import io
-import json
 import re
 from urllib.parse import parse_qs, quote
 
@@ -11,20 +10,14 @@ import pytest
 
 import cointoss
 from cointoss import analytic
-from cointoss.compare.lab import lab
-from cointoss.compare.reproduction.estimates import share
 from cointoss.models.reading import parse
-from cointoss.models.releases import Releases
 from tests.helpers.browser import Page
 from tests.helpers.coins_shown import BLUE, GOLD, NO_WEBGL, UNNAMED, box, faces, picture, set_time
 from tests.helpers.command_line import cointoss as command
+from tests.helpers.lab import COUNTED, HEIGHT, SPIN, TOSSED, WHOLE
 
-SPIN, HEIGHT = "release.angular_velocity.eta", "release.position.z"
-WHOLE = "document.getElementById('map').ariaBusy === 'false'"
-TOSSED = "document.getElementById('outcome').textContent.includes(' impacts in ')"
 ADDRESSED = "location.hash.length > 1"
 PAPER = "getComputedStyle(document.body).backgroundColor"
-COUNTED = "document.getElementById('share').dataset.whole === 'true'"
 WHOLE_COIN = (
     "#coin.mass=0.002&coin.radius=0.0125&coin.thickness=0.002&floor.contact=smooth&release.position.z=0.4"
 )
@@ -34,38 +27,9 @@ URL.createObjectURL = (blob) => { window.saved.push(blob); return "#saved"; };
 """
 
 
-@pytest.fixture(scope="module")
-def path(tmp_path_factory):
-    """The lab, as `cointoss lab` writes it."""
-    target = tmp_path_factory.mktemp("lab") / "lab.html"
-    answered = command("lab", "--out", target)
-    assert answered.exit_code == 0, answered.stderr
-    assert target.stat().st_size < lab.MOST_BYTES
-    return target
-
-
-@pytest.fixture(scope="module")
-def kept(chromium, path):
-    """A tab for tests that change its state by addresses."""
-    with Page(chromium) as page:
-        page.open(path.as_uri(), width=900)
-        page.wait_for(WHOLE)
-        yield page
-        assert page.complaints() == []
-
-
 def offline(page):
     nothing = {"latency": 0, "downloadThroughput": -1, "uploadThroughput": -1}
     page.call("Network.emulateNetworkConditions", offline=True, **nothing)
-
-
-def go(page, address):
-    """Show the state of an address, and wait until all of it is there."""
-    page.value(
-        f"document.getElementById('outcome').textContent = ''; location.hash = {json.dumps(address)}; 0"
-    )
-    page.wait_for(TOSSED)
-    page.wait_for(WHOLE)
 
 
 def place_of(page, u, v):
@@ -99,42 +63,11 @@ def saved(page, button):
     return page.value("window.saved.pop().text()")
 
 
-def scenario_of(stop):
-    """Return the scenario of a state of the lab."""
-    fields = {name: value for name, value in stop["scenario"].items() if "." in name}
-    plain = cointoss.load("fig24a").replace("air.normal", 0, "air.tangential", 0, "release.angles", [0, 0, 0])
-    return plain.replace(*(part for pair in fields.items() for part in pair))
-
-
-def row_of(scenario, field, values, after, **fixed):
-    """Return the faces along a row of a map."""
-    pairs = [part for name, value in fixed.items() for part in (name.replace("__", "."), value)]
-    held = scenario.replace(*pairs) if pairs else scenario
-    assert field == SPIN
-    count = len(values)
-    release = held.release
-    spins = np.tile(release.angular_velocity, (count, 1))
-    spins[:, 1] = values
-    releases = Releases(
-        position=np.tile(release.position, (count, 1)),
-        velocity=np.tile(release.velocity, (count, 1)),
-        quaternion=np.tile(release.attitude, (count, 1)),
-        angular_velocity=spins,
-    )
-    if after is None:
-        return analytic.toss_many(held, releases).outcome
-    return analytic.toss_many(held.replace("ending.max_impacts", after + 1), releases).after(after)
-
-
-def changes(faces_):
-    return int(np.sum(faces_[1:] != faces_[:-1]))
-
-
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("width", [1280, 420])
-def test_the_page_shows_a_coin_and_its_map_with_the_network_off(page, path, width, scheme):
+def test_the_page_shows_a_coin_and_its_map_with_the_network_off(page, lab_path, width, scheme):
     offline(page)
-    page.open(path.as_uri(), width=width, height=1900, scheme=scheme)
+    page.open(lab_path.as_uri(), width=width, height=1900, scheme=scheme)
     page.wait_for(f"{WHOLE} && {TOSSED}")
     shown = picture(page, "map")[10:-52, 74:-14].reshape(-1, 3)
     for color in (GOLD, BLUE):
@@ -149,9 +82,9 @@ def test_the_page_shows_a_coin_and_its_map_with_the_network_off(page, path, widt
     assert {address.partition(":")[0] for address in page.asked()} <= {"file", "data", "about", "blob"}
 
 
-def test_what_is_seen_is_what_the_package_tosses(page, path):
+def test_what_is_seen_is_what_the_package_tosses(page, lab_path):
     page.call("Page.addScriptToEvaluateOnNewDocument", source=SAVED)
-    page.open(path.as_uri(), width=420)
+    page.open(lab_path.as_uri(), width=420)
     page.wait_for(WHOLE)
     rows = list(csv.DictReader(io.StringIO(saved(page, "csv"))))
     text = saved(page, "toml")
@@ -169,16 +102,15 @@ def test_what_is_seen_is_what_the_package_tosses(page, path):
     assert "--after 2" in asked
     drawn = np.random.default_rng(0).choice(len(rows), 200, replace=False)
     for at in drawn:
-        case = scenario.replace(
-            *(part for field in (SPIN, HEIGHT) for part in (field, float(rows[at][field])))
-        )
+        place = {field: float(rows[at][field]) for field in (SPIN, HEIGHT)}
+        case = scenario.replace(SPIN, place[SPIN], HEIGHT, place[HEIGHT])
         toss = analytic.toss(case)
         if toss.trusted_impacts > 2:
             assert rows[at]["outcome"] == ("heads" if toss.impacts.face[2] == 1 else "tails")
 
 
-def test_a_click_tosses_a_pixel_and_arrows_step_to_the_next(page, path):
-    page.open(path.as_uri())
+def test_a_click_tosses_a_pixel_and_arrows_step_to_the_next(page, lab_path):
+    page.open(lab_path.as_uri())
     page.wait_for(TOSSED)
     page.click(*place_of(page, 0.3, 0.4))
     page.wait_for("document.getElementById('horizon').textContent.includes('The pixel before')")
@@ -209,8 +141,8 @@ def test_a_click_tosses_a_pixel_and_arrows_step_to_the_next(page, path):
     assert page.complaints() == []
 
 
-def test_the_map_follows_a_slider(page, path):
-    page.open(path.as_uri())
+def test_the_map_follows_a_slider(page, lab_path):
+    page.open(lab_path.as_uri())
     page.wait_for(WHOLE)
     before = picture(page, "map").copy()
     slide(page, "floor.restitution", 0.5)
@@ -226,8 +158,8 @@ def test_the_map_follows_a_slider(page, path):
     assert page.complaints() == []
 
 
-def test_a_link_opens_the_same_state_on_another_page(chromium, page, path, tmp_path):
-    page.open(path.as_uri())
+def test_a_link_opens_the_same_state_on_another_page(chromium, page, lab_path, tmp_path):
+    page.open(lab_path.as_uri())
     for id_ in ("hand", "trust"):
         page.value(f"document.getElementById('{id_}').click()")
     slide(page, "coin.thickness", 4.5)
@@ -267,8 +199,8 @@ def test_a_link_opens_the_same_state_on_another_page(chromium, page, path, tmp_p
         (f"#x={quote('<b>' * 90)}", "x: <b><b>"),
     ],
 )
-def test_an_address_that_is_no_state_is_told_in_a_line(kept, path, address, told):
-    kept.open(path.as_uri() + address, width=900)
+def test_an_address_that_is_no_state_is_told_in_a_line(kept, lab_path, address, told):
+    kept.open(lab_path.as_uri() + address, width=900)
     problem = kept.text("problem")
     assert problem.startswith(f"The address is no state of the lab: {told}")
     assert problem.endswith("Shown is what the page begins with.")
@@ -276,8 +208,8 @@ def test_an_address_that_is_no_state_is_told_in_a_line(kept, path, address, told
     kept.wait_for(f"{TOSSED} && {WHOLE}")
 
 
-def test_one_zooms_to_where_doubles_end(page, path):
-    page.open(path.as_uri(), width=420)
+def test_one_zooms_to_where_doubles_end(page, lab_path):
+    page.open(lab_path.as_uri(), width=420)
     page.value("document.getElementById('map').focus()")
     for _ in range(60):
         page.press("+")
@@ -292,8 +224,8 @@ def test_one_zooms_to_where_doubles_end(page, path):
     assert page.complaints() == []
 
 
-def test_two_fingers_zoom(page, path):
-    page.open(path.as_uri())
+def test_two_fingers_zoom(page, lab_path):
+    page.open(lab_path.as_uri())
     page.wait_for(WHOLE)
     x, y = place_of(page, 0.5, 0.5)
 
@@ -313,84 +245,6 @@ def test_two_fingers_zoom(page, path):
     assert float(high) - float(low) == pytest.approx(20, rel=0.1)
 
 
-def test_the_share_of_a_hand_is_that_of_the_package(kept):
-    go(kept, kept.value("document.querySelectorAll('#tour a')[5].hash"))
-    kept.wait_for(COUNTED)
-    told = re.findall(
-        r"Of 2,000 tosses .* ([\d.]+) % are heads at touch 1 \[([\d.]+), ([\d.]+); 99 %", kept.text("share")
-    )
-    stop = kept.value("import('tour.js').then(({ STOPS }) => STOPS[5].state)")
-    given = f"{json.dumps(stop['scenario'])}, {stop['hand']}, TOSSES"
-    listed = f"Object.entries(releases({given})).map(([field, all]) => [field, [...all]])"
-    fields = dict(kept.value(f"import('hand.js').then(({{ releases, TOSSES }}) => {listed})"))
-    assert set(fields) == {HEIGHT, SPIN}
-    for field, mean in ((HEIGHT, 0.4), (SPIN, 45)):
-        values = np.array(fields[field])
-        # Within four standard errors.
-        assert values.mean() == pytest.approx(mean, rel=4 * 0.02 / 2000**0.5)
-        assert values.std() == pytest.approx(0.02 * mean, rel=4 / (2 * 2000) ** 0.5)
-    count = 2000
-    nothing = np.zeros(count)
-    releases = Releases(
-        position=np.column_stack([nothing, nothing, fields[HEIGHT]]),
-        velocity=np.zeros((count, 3)),
-        quaternion=np.tile([1.0, 0, 0, 0], (count, 1)),
-        angular_velocity=np.column_stack([nothing, fields[SPIN], nothing]),
-    )
-    for after, least, most in ((0, 0.99, 1), (2, 0.4, 0.6)):
-        scenario = scenario_of(stop).replace("ending.max_impacts", after + 1)
-        expected = share(analytic.toss_many(scenario, releases).after(after) == 1)
-        assert least <= expected.value <= most
-        if after == 0:
-            shown = tuple(f"{100 * part:.1f}" for part in (expected.value, expected.low, expected.high))
-            assert told == [shown]
-
-
-def test_the_stops_of_the_tour_say_what_is_so(kept):
-    stops = kept.value("import('tour.js').then(({ STOPS }) => STOPS)")
-    links = kept.value("[...document.querySelectorAll('#tour a')].map((link) => link.hash)")
-    assert len(links) == len(stops) == 6
-    for stop, link in zip(stops, links, strict=True):
-        go(kept, link)
-        assert kept.text("stop") == stop["text"]
-        assert kept.text("problem") == ""
-    spins = np.linspace(20, 60, 1001)
-    scenarios = [scenario_of(stop["state"]) for stop in stops]
-
-    # From a sixth of a turn to 9.7, and heads within a quarter of whole turns.
-    x, y = stops[0]["state"]["x"], stops[0]["state"]["y"]
-    assert x["from"] * y["from"] / (np.pi * 9.81) == pytest.approx(1 / 6, abs=0.01)
-    assert x["to"] * y["to"] / (np.pi * 9.81) == pytest.approx(9.7, abs=0.05)
-    for speed in (1.0, 2.0):
-        spun = np.linspace(10, 50, 201) * (2 / speed)
-        turns = spun * speed / (np.pi * 9.81)
-        found = row_of(scenarios[0], SPIN, spun, None, release__velocity__z=speed)
-        assert np.array_equal(found == 1, np.abs(turns - np.round(turns)) < 1 / 4)
-
-    for height in (0.2, 0.4, 0.6):
-        assert 3 <= changes(row_of(scenarios[1], SPIN, spins, 0, release__position__z=height)) <= 5
-        assert changes(row_of(scenarios[1], SPIN, spins, 1, release__position__z=height)) > 100
-
-    assert changes(row_of(scenarios[2], SPIN, spins, None, floor__restitution=0.0)) == 11
-    assert changes(row_of(scenarios[2], SPIN, spins, None, floor__restitution=0.3)) > 100
-    assert changes(row_of(scenarios[2], SPIN, spins, None, floor__restitution=0.6)) > 300
-
-    heights = np.linspace(0.2, 0.6, 12)
-    spins = np.linspace(20, 60, 160)
-
-    def faces_of(scenario, after):
-        return np.array(
-            [row_of(scenario, SPIN, spins, after, release__position__z=height) for height in heights]
-        )
-
-    vacuum = scenarios[3].replace("air.normal", 0, "air.tangential", 0)
-    assert np.mean(faces_of(scenarios[3], 2) != faces_of(vacuum, 2)) == pytest.approx(1 / 3, abs=0.05)
-    perfect = scenarios[4].replace("coin.center_of_mass", [0, 0, 0])
-    assert np.hypot(*scenarios[4].coin.center_of_mass[:2]) == pytest.approx(1.4e-3, abs=5e-5)
-    assert np.mean(faces_of(scenarios[4], 0) != faces_of(perfect, 0)) == pytest.approx(1 / 30, abs=0.01)
-    assert np.mean(faces_of(scenarios[4], 2) != faces_of(perfect, 2)) == pytest.approx(0.31, abs=0.04)
-
-
 @pytest.mark.parametrize(
     ("script", "told"),
     [
@@ -400,16 +254,16 @@ def test_the_stops_of_the_tour_say_what_is_so(kept):
     ],
     ids=["no WebAssembly", "no workers", "no WebGL"],
 )
-def test_a_browser_that_lacks_something_is_told_and_the_page_goes_on(page, path, script, told):
+def test_a_browser_that_lacks_something_is_told_and_the_page_goes_on(page, lab_path, script, told):
     page.call("Page.addScriptToEvaluateOnNewDocument", source=script)
-    page.open(path.as_uri(), width=420)
+    page.open(lab_path.as_uri(), width=420)
     assert page.text("problem") == told
     if not told:
         page.wait_for(f"{WHOLE} && {TOSSED}")
 
 
-def test_the_browser_is_measured(page, path):
-    page.open(path.as_uri())
+def test_the_browser_is_measured(page, lab_path):
+    page.open(lab_path.as_uri())
     page.value("document.getElementById('measured').open = true; document.getElementById('measure').click()")
     page.wait_for("!document.getElementById('measure').disabled")
     rows = page.value(

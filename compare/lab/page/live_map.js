@@ -107,6 +107,7 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     const mine = { key, x, y, window: view.window(), codes: new Int8Array(size).fill(-1), trusted: new Int8Array(size).fill(1), coarseLeft: left,
       tossed: 0, isCoarse: false, isEnded: false, controller: new AbortController(), started: performance.now(), first: null, ...layers(x, y) };
     job = mine;
+    told.progress(0);
     const { scenario, after, trust } = state;
     try {
       await workers.map(scenario, x, y, { after, trust }, (part) => job === mine && take(mine, part), mine.controller.signal);
@@ -149,7 +150,7 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
       job.isCoarse = true;
       job.first = performance.now() - job.started;
     }
-    told.progress(job.tossed / (x.count * y.count), job);
+    told.progress(job.tossed / (x.count * y.count));
     view.redraw();
     if (job.isCoarse && next !== null) ask();
   }

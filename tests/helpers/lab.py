@@ -1,0 +1,17 @@
+"""The lab's page: what is true of it when it is ready, and how to go to a state."""
+
+import json
+
+SPIN, HEIGHT = "release.angular_velocity.eta", "release.position.z"
+WHOLE = "document.getElementById('map').ariaBusy === 'false'"
+TOSSED = "document.getElementById('outcome').textContent.includes(' impacts in ')"
+COUNTED = "document.getElementById('share').dataset.whole === 'true'"
+
+
+def go(page, address):
+    """Show the state of an address, and wait until all of it is there."""
+    page.value(
+        f"document.getElementById('outcome').textContent = ''; location.hash = {json.dumps(address)}; 0"
+    )
+    page.wait_for(TOSSED)
+    page.wait_for(WHOLE)

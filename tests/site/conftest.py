@@ -1,0 +1,28 @@
+"""The lab, for the tests of its page."""
+
+import pytest
+
+from cointoss.compare.lab import lab
+from tests.helpers.browser import Page
+from tests.helpers.command_line import cointoss as command
+from tests.helpers.lab import WHOLE
+
+
+@pytest.fixture(scope="session")
+def lab_path(tmp_path_factory):
+    """The lab, as `cointoss lab` writes it."""
+    target = tmp_path_factory.mktemp("lab") / "lab.html"
+    answered = command("lab", "--out", target)
+    assert answered.exit_code == 0, answered.stderr
+    assert target.stat().st_size < lab.MOST_BYTES
+    return target
+
+
+@pytest.fixture(scope="module")
+def kept(chromium, lab_path):
+    """A tab for tests that change its state by addresses."""
+    with Page(chromium) as page:
+        page.open(lab_path.as_uri(), width=900)
+        page.wait_for(WHOLE)
+        yield page
+        assert page.complaints() == []
