@@ -1,6 +1,7 @@
 // The controls of the lab: coin, floor, air, release, hand and map, from lists of what each changes.
 
 import { COINS, coinPicture } from "./coins.js";
+import { changed } from "./engine.js";
 
 const TURN = 180 / Math.PI;
 const TOUCHES = 12; // that are offered
@@ -28,7 +29,7 @@ const AIR = { "air.normal": 0.8, "air.tangential": 0.2 };
 export function makeControls(boxes, fields, change) {
   const shows = [];
   let state = null;
-  const scenario = (more) => change({ scenario: { ...state.scenario, ...more } });
+  const scenario = (more) => change({ scenario: changed(state.scenario, more) });
   const value = (field) => state.scenario[field] ?? fields[field]?.default ?? 0;
 
   function slider(box, name, unit, low, high, read, write) {

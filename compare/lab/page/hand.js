@@ -1,7 +1,7 @@
 // A hand: releases that scatter about one, and the share of heads among them with its interval.
 
 const Z = 2.5758293035489004; // of a normal, within which are 99 %
-const SLICE = 20; // milliseconds in which the page does nothing else
+const PART = 100; // tosses that are counted at a time
 export const TOSSES = 2000;
 
 // What a hand scatters, each relative to its size, by one normal number for each group.
@@ -37,24 +37,20 @@ export function ellipse({ x, y, scenario }, scatter, size = 2) {
   });
 }
 
-// Tosses a hand's releases, slice by slice, and calls `told` with the share of heads so far; `after` as in a map.
-export async function countHeads(engine, { scenario, after, hand }, told, signal) {
+// Tosses a hand's releases, part by part, and calls `told` with the share of heads so far; `after` as in a map.
+export async function countHeads(workers, { scenario, after, hand }, told, signal) {
   const all = releases(scenario, hand, TOSSES), followed = after === null ? scenario : { ...scenario, "ending.max_impacts": after + 1 };
   let met = 0, count = 0;
-  for (let from = 0, size = 20; from < TOSSES; ) {
-    const start = performance.now();
-    const part = Object.fromEntries(Object.entries(all).map(([field, values]) => [field, values.subarray(from, from + size)]));
-    const { outcome, impacts, lastFace } = engine.tossEach(followed, part);
+  for (let from = 0; from < TOSSES; from += PART) {
+    const part = Object.fromEntries(Object.entries(all).map(([field, values]) => [field, values.slice(from, from + PART)]));
+    const { outcome, impacts, lastFace } = await workers.tossEach(followed, part);
+    if (signal.aborted) return;
     outcome.forEach((one, i) => {
       if (one < 0) return;
       count += 1;
       met += (after !== null && impacts[i] > after ? lastFace[i] : one) === 1;
     });
-    from += size;
-    size = Math.max(1, Math.min(500, Math.round((size * SLICE) / Math.max(performance.now() - start, 1))));
-    await new Promise((kept) => setTimeout(kept));
-    if (signal.aborted) return;
-    if (count) told({ ...wilson(met, count), isWhole: from >= TOSSES });
+    if (count) told({ ...wilson(met, count), isWhole: from + PART >= TOSSES });
   }
 }
 

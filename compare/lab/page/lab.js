@@ -1,6 +1,7 @@
 // The lab's page: joins coin, map, controls, tour and address, which all show one state.
 
-import { load, startWorkers } from "./engine.js";
+import { changed } from "./engine.js";
+import { startWorkers } from "./workers.js";
 import { counted, shownAs } from "./words.js";
 import { makeControls, element } from "./controls.js";
 import { makeLiveMap } from "./live_map.js";
@@ -24,9 +25,9 @@ let engine, workers, fields, state, stage, map, controls, showStop, moveEnergy =
 let tosses = [null, null], tossed = null, wanted = null, isTossing = false, counting = null, pending = null;
 
 async function begin() {
-  engine = await load(bytes);
   workers = await startWorkers(bytes);
-  fields = engine.about.fields;
+  engine = workers.engine;
+  fields = Object.fromEntries(engine.about.fields.map((field) => [field.name, field]));
   stage = makeStage(byId("played"), {
     without: "The map, the sequences and the energies work without it.", labels: LABELS, shown: "The coin that is tossed",
     onTime(time) {
@@ -39,7 +40,7 @@ async function begin() {
     told: {
       place: (place) => (byId("readout").textContent = placeText(place)),
       choose: ({ x, y }) => choose(x, y),
-      moved: (windows) => state && change(windows, { stays: true }),
+      moved: (windows) => state && change(windows),
       end: (isEnd) => ends(isEnd),
       problem: say,
       progress: (part) => byId("map").setAttribute("aria-busy", String(part < 1)),
@@ -86,21 +87,13 @@ function restore() {
   show(true);
 }
 
-// Takes what is other in the state; what is no scenario is told, and nothing changes. A stop of the tour is left
-// where its sentences no longer speak of the map.
-function change(more, { fresh = false, stays = false } = {}) {
-  if (more.scenario) more.scenario = withOneAttitude(more.scenario);
+// Takes what is other in the state; what is no scenario is told, and nothing changes.
+function change(more, fresh = false) {
   const wrong = more.scenario ? engine.fault(more.scenario) : null;
   if (more.scenario) say(wrong ?? "");
-  if (wrong === null) state = { ...state, tour: stays ? state.tour : null, ...more };
+  if (wrong === null) state = { ...state, ...more };
   if (wrong === null) show(fresh);
   else controls.show(state);
-}
-
-// Angles that are set take the place of Euler parameters.
-function withOneAttitude(scenario) {
-  const hasAngles = Object.keys(scenario).some((field) => field.startsWith("release.angles."));
-  return Object.fromEntries(Object.entries(scenario).filter(([field]) => !hasAngles || !field.startsWith("release.quaternion.")));
 }
 
 function show(fresh) {
@@ -117,12 +110,12 @@ function choose(x, y) {
   const { scenario } = state, before = [scenario[state.x.field] ?? 0, scenario[state.y.field] ?? 0];
   byId("readout").textContent = valuesText(x, y);
   if (before[0] === x && before[1] === y) return toss(true);
-  change({ before, scenario: { ...scenario, [state.x.field]: x, [state.y.field]: y } }, { fresh: true, stays: true });
+  change({ before, scenario: changed(scenario, { [state.x.field]: x, [state.y.field]: y }) }, true);
 }
 
 // Tosses what was chosen last; what came between is passed over. Nothing is tossed twice in a row.
 async function toss(fresh) {
-  const at = (place) => ({ ...state.scenario, [state.x.field]: place[0], [state.y.field]: place[1] });
+  const at = ([x, y]) => changed(state.scenario, { [state.x.field]: x, [state.y.field]: y });
   const scenarios = [state.scenario, state.before && at(state.before)];
   const key = JSON.stringify([scenarios, state.after]);
   if (key === tossed && !fresh && !wanted) return;
@@ -172,7 +165,7 @@ async function count() {
   if (state.hand === null) return;
   byId("share").textContent = "Tossing by the hand …";
   try {
-    await countHeads(engine, state, ({ share, low, high, count, isWhole }) => {
+    await countHeads(workers, state, ({ share, low, high, count, isWhole }) => {
       const when = state.after === null ? "" : ` at touch ${state.after + 1}`;
       byId("share").textContent = `Of ${counted(count, "toss", "tosses")} by this hand ${percent(share)} % are heads${when} ` +
         `[${percent(low)}, ${percent(high)}; 99 % interval]. The ellipse: two standard deviations.`;

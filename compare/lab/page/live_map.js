@@ -6,8 +6,8 @@ import { colorsOf } from "./pixels.js";
 import { ellipse } from "./hand.js";
 
 const PIXEL = 2; // of the map, in those of the screen
-const COARSEST = 16;
 const ULP = 2 ** -52;
+const FAR = 2 ** 20; // the stride of a pixel that nothing stands for yet
 
 // `fields` has the word and the unit of each field, `outcomes` { color } by code. `told` has what is called: place
 // and choose, with { x, y, code, trusted }; moved, with both windows; end; progress, with a part of the whole; and
@@ -90,7 +90,7 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     ask();
   }
 
-  // Coarse pixels are always finished, so that stripes bend while a slider moves; what is finer is dropped.
+  // A picture of coarse pixels is always finished, so that stripes bend while a slider moves; what is finer is dropped.
   function ask() {
     if (!state) return;
     const at = grid(), key = keyOf(at);
@@ -103,15 +103,14 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     job?.controller.abort();
     if (job?.isCoarse) behind = job;
     next = null;
-    const size = x.count * y.count, left = Math.ceil(x.count / COARSEST) * Math.ceil(y.count / COARSEST);
-    const mine = { key, x, y, window: view.window(), codes: new Int8Array(size).fill(-1), trusted: new Int8Array(size).fill(1), coarseLeft: left,
-      tossed: 0, isCoarse: false, isEnded: false, controller: new AbortController(), started: performance.now(), first: null, ...layers(x, y) };
+    const size = x.count * y.count;
+    const mine = { key, x, y, window: view.window(), codes: new Int8Array(size).fill(-1), trusted: new Int8Array(size).fill(1),
+      strides: new Int32Array(size).fill(FAR), isTossed: new Uint8Array(size), covered: 0, tossed: 0, isCoarse: false, isEnded: false, controller: new AbortController(), ...layers(x, y) };
     job = mine;
     told.progress(0);
     const { scenario, after, trust } = state;
     try {
       await workers.map(scenario, x, y, { after, trust }, (part) => job === mine && take(mine, part), mine.controller.signal);
-      mine.whole = performance.now() - mine.started;
     } catch (error) {
       if (error.name !== "AbortError") told.problem(error.message);
     }
@@ -130,9 +129,13 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     rows.forEach((row, j) => columns.forEach((column, i) => {
       const code = codes[j * columns.length + i], trust = trusted ? trusted[j * columns.length + i] : 1;
       const [red, green, blue] = colors[code] ?? colors[-1];
+      job.isTossed[row * x.count + column] = 1;
       for (let b = row; b < Math.min(row + stride, y.count); b++) {
         for (let a = column; a < Math.min(column + stride, x.count); a++) {
           const at = 4 * ((y.count - 1 - b) * x.count + a), index = b * x.count + a;
+          if (job.strides[index] < stride) continue;
+          if (job.strides[index] === FAR) job.covered += 1;
+          job.strides[index] = stride;
           job.pixels.data[at] = red;
           job.pixels.data[at + 1] = green;
           job.pixels.data[at + 2] = blue;
@@ -145,11 +148,7 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     }));
     job.isDrawn = false;
     job.tossed += rows.length * columns.length;
-    if (stride === COARSEST) job.coarseLeft -= rows.length * columns.length;
-    if (job.coarseLeft <= 0 && !job.isCoarse) {
-      job.isCoarse = true;
-      job.first = performance.now() - job.started;
-    }
+    job.isCoarse = job.covered === x.count * y.count;
     told.progress(job.tossed / (x.count * y.count));
     view.redraw();
     if (job.isCoarse && next !== null) ask();
@@ -202,7 +201,7 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     update, grid,
     zoom: view.zoom,
     showWhole: view.showWhole,
-    // What is seen, once it is whole: codes row by row.
+    // What is seen: codes row by row, and of which pixels they are their own.
     seen: () => job,
   };
 }

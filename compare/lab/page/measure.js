@@ -1,6 +1,7 @@
 // Measurements of the browser: tosses per second, and how fast a map comes.
 
 import { load } from "./engine.js";
+import { counted } from "./words.js";
 
 const LONG = 700; // milliseconds of each kind of toss
 const SLICE = 50;
@@ -20,15 +21,16 @@ export async function measure(bytes, workers, told) {
   told("the engine compiled, and its first toss", `${(performance.now() - begun).toFixed(0)} ms`);
   told("planar tosses to their end, one core", `${await rate(engine, PLANE)} tosses/s`);
   told("tosses of an imperfect coin to their end, one core", `${await rate(engine, GENERAL)} tosses/s`);
-  const start = performance.now(), controller = new AbortController();
-  let first = null, coarse = 25 * 19;
+  const start = performance.now(), { signal } = new AbortController();
+  let first = null, coarse = null;
   await workers.map(PLANE, ...MAP, { after: 2, trust: false }, ({ stride, rows, columns }) => {
-    if (stride === 16) coarse -= rows.length * columns.length;
-    if (coarse <= 0) first ??= performance.now() - start;
-  }, controller.signal);
+    coarse ??= { stride, left: Math.ceil(400 / stride) * Math.ceil(300 / stride) };
+    if (stride === coarse.stride) coarse.left -= rows.length * columns.length;
+    if (coarse.left <= 0) first ??= performance.now() - start;
+  }, signal);
   const whole = performance.now() - start;
   told("400 by 300 map of Fig. 24(a), third touch: first seen", `${(first / 1000).toFixed(2)} s`);
-  told(`the same map, whole, on ${workers.count} workers`, `${(whole / 1000).toFixed(2)} s, ${Math.round((120000 / whole) * 1000)} tosses/s`);
+  told(`the same map, whole, on ${counted(workers.count, "worker")}`, `${(whole / 1000).toFixed(2)} s, ${Math.round((120000 / whole) * 1000)} tosses/s`);
   told("memory of the engine", `${(engine.memory / 1e6).toFixed(1)} MB`);
 }
 

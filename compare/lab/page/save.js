@@ -16,12 +16,12 @@ export function saveCsv(job, trust, outcomes) {
   save("coin.csv", new Blob([csv(job, trust, outcomes)], { type: "text/csv" }));
 }
 
-export function csv({ x, y, codes, trusted }, trust, outcomes) {
+export function csv({ x, y, codes, trusted, isTossed }, trust, outcomes) {
   const rows = [[x.field, y.field, "outcome", ...(trust ? ["trusted"] : [])].join(",")];
   for (let j = 0; j < y.count; j++) {
     for (let i = 0; i < x.count; i++) {
-      const at = j * x.count + i, code = codes[at];
-      rows.push([valueAt(x, i), valueAt(y, j), outcomes[code]?.label ?? (code === -2 ? "no scenario" : "not tossed"), ...(trust ? [trusted[at]] : [])].join(","));
+      const at = j * x.count + i, outcome = isTossed[at] ? (outcomes[codes[at]]?.label ?? "no scenario") : "not tossed";
+      rows.push([valueAt(x, i), valueAt(y, j), outcome, ...(trust ? [trusted[at]] : [])].join(","));
     }
   }
   return `${rows.join("\n")}\n`;

@@ -48,9 +48,24 @@ export function makeTour(list, box, link) {
     list.append(item);
     return to;
   });
-  return ({ tour }) => {
-    links.forEach((to, i) => (i + 1 === tour ? to.setAttribute("aria-current", "step") : to.removeAttribute("aria-current")));
-    box.hidden = tour === null;
-    box.textContent = tour === null ? "" : STOPS[tour - 1].text;
+  let stands = null;
+  return (state) => {
+    const stop = STOPS[state.tour - 1] ?? null, isOther = stop !== null && mapped(stop.state) !== mapped(state), now = `${state.tour} ${isOther}`;
+    if (now === stands) return;
+    stands = now;
+    links.forEach((to, i) => (STOPS[i] === stop ? to.setAttribute("aria-current", "step") : to.removeAttribute("aria-current")));
+    box.hidden = stop === null;
+    box.textContent = stop?.text ?? "";
+    if (!isOther) return;
+    const back = document.createElement("a");
+    back.href = link(stop.state);
+    back.textContent = "Back to this stop";
+    box.append(" You have changed the map. ", back, ".");
   };
+}
+
+// What the sentences of a stop speak of.
+function mapped({ scenario, x, y, after, hand }) {
+  const own = Object.entries(scenario).filter(([field]) => field !== x.field && field !== y.field);
+  return JSON.stringify([own.sort(), x, y, after, hand]);
 }
