@@ -19,7 +19,8 @@ from tests.helpers.lab import COUNTED, HEIGHT, SPIN, TOSSED, WHOLE
 ADDRESSED = "location.hash.length > 1"
 PAPER = "getComputedStyle(document.body).backgroundColor"
 WHOLE_COIN = (
-    "#coin.mass=0.002&coin.radius=0.0125&coin.thickness=0.002&floor.contact=smooth&release.position.z=0.4"
+    "#coin.mass=0.002&coin.radius=0.0125&coin.thickness=0.002&floor.contact=smooth"
+    "&release.position.x=0&release.position.y=0&release.position.z=0.4"
 )
 SAVED = """
 window.saved = [];

@@ -9,7 +9,7 @@ const SLICE = 50;
 // The coin of Fig. 24(a), which turns in one plane, and one that does not: with its mass centre aside, on a rough floor.
 const PLANE = {
   "coin.mass": 0.002, "coin.radius": 0.0125, "coin.thickness": 0.002, "air.normal": 0.8, "air.tangential": 0.2, "floor.restitution": 0.8,
-  "floor.contact": "smooth", "release.position.z": 0.40001, "release.angles.theta": (7 * Math.PI) / 180, "release.angular_velocity.eta": 40.15,
+  "floor.contact": "smooth", "release.position.x": 0, "release.position.y": 0, "release.position.z": 0.40001, "release.angles.theta": (7 * Math.PI) / 180, "release.angular_velocity.eta": 40.15,
 };
 const GENERAL = { ...PLANE, "coin.center_of_mass.xi": -0.001, "coin.center_of_mass.eta": -0.001, "coin.center_of_mass.zeta": -0.0002 };
 const MAP = [{ field: "release.angular_velocity.eta", start: 20, stop: 60, count: 400 }, { field: "release.position.z", start: 0.2, stop: 0.6, count: 300 }];

@@ -4,12 +4,13 @@ const COIN = { "coin.mass": 0.002, "coin.radius": 0.0125, "coin.thickness": 0.00
 const ASIDE = { "coin.center_of_mass.xi": -0.001, "coin.center_of_mass.eta": -0.001, "coin.center_of_mass.zeta": -0.0002 };
 const AIR = { "air.normal": 0.8, "air.tangential": 0.2 };
 const FLOOR = { "floor.restitution": 0.8, "floor.contact": "smooth" };
-const FALL = { "release.position.z": 0.4, "release.angular_velocity.eta": 45 };
+const PLACE = { "release.position.x": 0, "release.position.y": 0 };
+const FALL = { ...PLACE, "release.position.z": 0.4, "release.angular_velocity.eta": 45 };
 const SPIN = ["release.angular_velocity.eta", 20, 60], HEIGHT = ["release.position.z", 0.2, 0.6];
 
 const STATES = [
   [["release.angular_velocity.eta", 10, 100], ["release.velocity.z", 0.5, 3], null,
-    { ...COIN, "coin.thickness": 0, ...FLOOR, "release.position.z": 1, "release.velocity.z": 2, "release.angular_velocity.eta": 40, "ending.caught": 1 }],
+    { ...COIN, "coin.thickness": 0, ...FLOOR, ...PLACE, "release.position.z": 1, "release.velocity.z": 2, "release.angular_velocity.eta": 40, "ending.caught": 1 }],
   [SPIN, HEIGHT, 1, { ...COIN, ...FLOOR, ...FALL }],
   [SPIN, ["floor.restitution", 0, 0.9], null, { ...COIN, ...FLOOR, ...FALL, "floor.restitution": 0.3 }],
   [SPIN, HEIGHT, 2, { ...COIN, ...AIR, ...FLOOR, ...FALL }],
