@@ -6,7 +6,6 @@ import webbrowser
 
 import pytest
 
-import cointoss
 from cointoss.compare.lab import lab
 from cointoss.compare.web.wasm import carried
 from tests.helpers.command_line import cointoss as command
