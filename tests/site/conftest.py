@@ -22,7 +22,7 @@ def lab_path(tmp_path_factory):
 def kept(chromium, lab_path):
     """A tab for tests that change its state by addresses."""
     with Page(chromium) as page:
-        page.open(lab_path.as_uri(), width=900)
+        page.open(lab_path.as_uri(), width=420)
         page.wait_for(WHOLE)
         yield page
         assert page.complaints() == []

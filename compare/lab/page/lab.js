@@ -43,7 +43,10 @@ async function begin() {
       moved: (windows) => state && change(windows),
       end: (isEnd) => ends(isEnd),
       problem: say,
-      progress: (part) => byId("map").setAttribute("aria-busy", String(part < 1)),
+      progress(part, isCoarse) {
+        byId("map").setAttribute("aria-busy", String(part < 1));
+        byId("map").dataset.seen = String(isCoarse);
+      },
     },
   });
   const box = (name) => byId(`of-${name}`);

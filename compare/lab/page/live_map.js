@@ -10,7 +10,7 @@ const ULP = 2 ** -52;
 const FAR = 2 ** 20; // the stride of a pixel that nothing stands for yet
 
 // `fields` has the word and the unit of each field, `outcomes` { color } by code. `told` has what is called: place
-// and choose, with { x, y, code, trusted }; moved, with both windows; end; progress, with a part of the whole; and
+// and choose, with { x, y, code, trusted }; moved, with both windows; end; progress, with the part that is tossed and whether coarse pixels cover the map; and
 // problem, with a message.
 export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
   let state = null, behind = null, job = null, next = null;
@@ -107,7 +107,7 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     const mine = { key, x, y, window: view.window(), codes: new Int8Array(size).fill(-1), trusted: new Int8Array(size).fill(1),
       strides: new Int32Array(size).fill(FAR), isTossed: new Uint8Array(size), covered: 0, tossed: 0, isCoarse: false, isEnded: false, controller: new AbortController(), ...layers(x, y) };
     job = mine;
-    told.progress(0);
+    told.progress(0, false);
     const { scenario, after, trust } = state;
     try {
       await workers.map(scenario, x, y, { after, trust }, (part) => job === mine && take(mine, part), mine.controller.signal);
@@ -149,7 +149,7 @@ export function makeLiveMap({ canvas, workers, fields, outcomes, told }) {
     job.isDrawn = false;
     job.tossed += rows.length * columns.length;
     job.isCoarse = job.covered === x.count * y.count;
-    told.progress(job.tossed / (x.count * y.count));
+    told.progress(job.tossed / (x.count * y.count), job.isCoarse);
     view.redraw();
     if (job.isCoarse && next !== null) ask();
   }
