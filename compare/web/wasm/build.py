@@ -67,12 +67,16 @@ def build(out: Path) -> None:
 
 def _link(code: Path, linked: Path) -> None:
     """Link an object file with a C library, whose functions every browser then shares."""
+    from cointoss.compare.web.wasm.compiler import COMPLEX_POWER
+
+    power = code.with_name("power.c")
+    power.write_text(COMPLEX_POWER, encoding="utf-8")
     exported = [f"-Wl,--export={name}" for name in (*ENTRIES, "malloc", "free")]
     command = [
         *(sys.executable, "-m", "ziglang", "cc", "-target", "wasm32-wasi", "-mexec-model=reactor", "-O3"),
         *(
             str(code),
-            str(Path(__file__).with_name("cpow.c")),
+            str(power),
             *exported,
             "-Wl,--no-entry",
             "-Wl,--strip-all",

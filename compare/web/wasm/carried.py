@@ -31,8 +31,8 @@ def engine_bytes() -> bytes | None:
 
 
 def sources() -> str:
-    """Return the hash of what the engine is made of: of all that is compiled, and compiles it."""
-    return source_hash("cointoss.compare.web.wasm.build")
+    """Return the hashes of what the engine is made of: of all that is compiled, and of what compiles it."""
+    return " ".join(source_hash(f"cointoss.compare.web.wasm.{name}") for name in ("interface", "compiler"))
 
 
 def made_of(content: bytes) -> str:

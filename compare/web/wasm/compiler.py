@@ -25,7 +25,36 @@ C_LIBRARY = {
     *("malloc", "free", "memcpy", "memset", "hypot", "pow", "log", "log2", "log1p", "exp", "expm1"),
     *("sin", "cos", "tan", "asin", "acos", "atan2", "acosh", "lgamma", "numba_cpow"),
 }
-"""What the code may call of a C library that is linked to it, and of cpow.c."""
+"""What the code may call of a C library that is linked to it, and of `COMPLEX_POWER`."""
+COMPLEX_POWER = """
+#include <math.h>
+
+typedef struct { double real, imag; } Complex;
+
+void numba_cpow(const Complex *base, const Complex *exponent, Complex *power)
+{
+    const double size = hypot(base->real, base->imag);
+    double length, angle;
+    if (exponent->real == 0 && exponent->imag == 0) {
+        power->real = 1;
+        power->imag = 0;
+        return;
+    }
+    if (size == 0) {
+        power->real = power->imag = exponent->real > 0 && exponent->imag == 0 ? 0 : NAN;
+        return;
+    }
+    length = pow(size, exponent->real);
+    angle = atan2(base->imag, base->real) * exponent->real;
+    if (exponent->imag != 0) {
+        length *= exp(-atan2(base->imag, base->real) * exponent->imag);
+        angle += exponent->imag * log(size);
+    }
+    power->real = length * cos(angle);
+    power->imag = length * sin(angle);
+}
+"""
+"""What numba calls for a power of complex numbers, in C: Python's own, by moduli and angles."""
 COUNTING = """
 target triple = "wasm32-unknown-unknown"
 declare ptr @malloc(i32)
