@@ -155,9 +155,9 @@ class Page:
         assert "exceptionDetails" not in answer, answer["exceptionDetails"]
         return answer["result"].get("value")
 
-    def wait_for(self, expression: str) -> None:
-        """Wait until an expression is true."""
-        deadline = time.monotonic() + PATIENCE
+    def wait_for(self, expression: str, *, patience: float = PATIENCE) -> None:
+        """Wait until an expression is true, at most so long [s]."""
+        deadline = time.monotonic() + patience
         while not self.value(expression):
             assert time.monotonic() < deadline, f"never: {expression}; {self.complaints()}"
             time.sleep(0.05)

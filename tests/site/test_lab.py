@@ -11,7 +11,7 @@ import pytest
 import cointoss
 from cointoss import analytic
 from cointoss.models.reading import parse
-from tests.helpers.browser import Page
+from tests.helpers.browser import PATIENCE, Page
 from tests.helpers.coins_shown import BLUE, GOLD, NO_WEBGL, UNNAMED, box, faces, picture, set_time
 from tests.helpers.command_line import cointoss as command
 from tests.helpers.lab import COUNTED, HEIGHT, SPIN, TOSSED, WHOLE
@@ -267,7 +267,10 @@ def test_a_browser_that_lacks_something_is_told_and_the_page_goes_on(page, lab_p
 def test_the_browser_is_measured(page, lab_path):
     page.open(lab_path.as_uri())
     page.value("document.getElementById('measured').open = true; document.getElementById('measure').click()")
-    page.wait_for("!document.getElementById('measure').disabled")
+    # The map takes seconds, and minutes where other programs run.
+    for count in (1, 3, 4):
+        page.wait_for(f"document.querySelectorAll('#measurements tr').length >= {count}")
+    page.wait_for("!document.getElementById('measure').disabled", patience=4 * PATIENCE)
     rows = page.value(
         "[...document.querySelectorAll('#measurements tr')].map((row) => row.children[1].textContent)"
     )

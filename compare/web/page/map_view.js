@@ -71,6 +71,11 @@ export function makeView(about) {
     show({ left: u + (left - u) * size, right: u + (right - u) * size, bottom: v + (bottom - v) * size, top: v + (top - v) * size });
   }
 
+  function showWhole() {
+    about.end?.(false);
+    show(whole());
+  }
+
   // The window goes along where a point is outside of it.
   function reveal(u, v) {
     const { left, right, bottom, top } = window_;
@@ -108,6 +113,7 @@ export function makeView(about) {
   }, { passive: false });
   canvas.addEventListener("pointerdown", (event) => {
     if (event.pointerType === "touch") touches.set(event.pointerId, event);
+    if (touches.size === 2) pinched();
     if (event.button === 0) drag = { x: event.clientX, y: event.clientY, window: window_, moved: touches.size > 1 };
   });
   canvas.addEventListener("pointermove", (event) => {
@@ -137,7 +143,7 @@ export function makeView(about) {
     const by = event.shiftKey ? 10 : 1, { u, v } = about.about() ?? {};
     const actions = {
       ArrowLeft: () => about.step(-by, 0), ArrowRight: () => about.step(by, 0), ArrowUp: () => about.step(0, by), ArrowDown: () => about.step(0, -by),
-      "+": () => zoom(0.5, u, v), "=": () => zoom(0.5, u, v), "-": () => zoom(2, u, v), 0: () => show(whole()), Enter: () => about.step(0, 0),
+      "+": () => zoom(0.5, u, v), "=": () => zoom(0.5, u, v), "-": () => zoom(2, u, v), 0: showWhole, Enter: () => about.step(0, 0),
     };
     if (actions[event.key]) {
       event.preventDefault();
@@ -147,7 +153,7 @@ export function makeView(about) {
   new ResizeObserver(redraw).observe(canvas);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
   redraw();
-  return { redraw, show, reveal, frame, window: () => window_, zoom: (factor) => zoom(factor, about.about()?.u, about.about()?.v), showWhole: () => show(whole()) };
+  return { redraw, show, reveal, frame, window: () => window_, zoom: (factor) => zoom(factor, about.about()?.u, about.about()?.v), showWhole };
 }
 
 function drawAxes(pen, { box, window, across, down }, { x, y }) {

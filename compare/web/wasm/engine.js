@@ -327,7 +327,8 @@ function faultText([field, accepted], limit, scenario, fields) {
     const keys = [...new Set(found.map(({ name }) => name.split(".")[1]))].filter((key) => of(`${field}.${key}`).some((one) => (value(one) ?? null) !== null));
     return `{${keys.map((key) => `'${key}': ${of(`${field}.${key}`).length > 1 ? lists(`${field}.${key}`) : number(of(`${field}.${key}`)[0])}`).join(", ")}}`;
   };
-  const text = found.length === 1 ? number(found[0]) : field.includes(".") ? `[${found.map(number).join(", ")}]` : part();
+  const list = (some) => `[${some.map(number).join(", ")}]`, rows = [0, 3, 6].map((start) => list(found.slice(start, start + 3)));
+  const text = found.length === 1 ? number(found[0]) : found.length === 9 && field.includes(".") ? `[${rows.join(", ")}]` : field.includes(".") ? list(found) : part();
   const sentence = accepted.replace("{limit:.6g}", general(limit, 6)).replace("{limit:.3g}", general(limit, 3)).replace("{limit}", written(limit, true)).replace("{contact}", scenario["floor.contact"]);
   return `${field} = ${text.length <= 80 ? text : `${text.slice(0, 77)}...`}: accepted: ${sentence}`;
 }
