@@ -1,6 +1,7 @@
 """How records look in a notebook, by the macros of notebook.html.j2, and sequences for a person."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -10,6 +11,25 @@ from cointoss.models.palette import COLORS
 _OTHER = "#8a8f98"
 MOST_SHOWN = 60
 """Faces of a sequence, and impacts, in one line or picture."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A page that a notebook shows in a frame: its scripts reach neither the notebook nor other frames."""
+
+    title: str
+    page: str
+    """HTML that needs no other file."""
+    height: int
+    """[px]"""
+
+    def __repr__(self) -> str:
+        """Return what is shown, and where."""
+        return f"<Frame: {self.title}, {len(self.page) / 1e6:.1f} MB; a notebook shows it>"
+
+    def _repr_html_(self) -> str:
+        """Return the frame."""
+        return str(_macros().frame(self.title, self.page, self.height))
 
 
 def shortened(sequence: str, most: int = MOST_SHOWN) -> str:

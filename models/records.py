@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cointoss.models import notebook
-from cointoss.models.drawing import plots
+from cointoss.models.drawing import player, plots
 from cointoss.models.interruptible import interruptible
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.labelled import column, dataset, freeze, table
@@ -426,6 +426,20 @@ class Toss:
             The axes.
         """
         return plots().plot_toss(self, ax, **line)
+
+    def play(self, other: "Toss | None" = None) -> notebook.Frame:
+        """Return what a notebook shows as the coin in 3D with its clock, its sequence and its energy.
+
+        Args:
+            other: a toss that is played beside it, by either engine, of this or another scenario.
+
+        Returns:
+            A frame, whose `page` is the HTML of a page that needs no other file and no network.
+
+        Raises:
+            TypeError: for another that is no toss.
+        """
+        return player().play(self, other)
 
     def sample(self, times: ArrayLike) -> States:
         """Return the coin's states at `times`.

@@ -1,5 +1,7 @@
 """The explorer as one file: the page, its map, and the tosses of some pixels; it needs no server."""
 
+from dataclasses import replace
+from itertools import count
 from pathlib import Path
 
 import numpy as np
@@ -10,19 +12,25 @@ from cointoss.compare.explorer.page_map import page_map
 from cointoss.compare.explorer.tosses import MOST_IMPACTS, toss_pixel
 from cointoss.compare.output.files import write_text
 from cointoss.compare.sweep.grid import Sweep
+from cointoss.compare.sweep.outcome_map import OutcomeMap
 from cointoss.compare.sweep.reading import read_map
 from cointoss.compare.web.scripts import ENGINE_POLICY, POLICY, one_file
 from cointoss.compare.web.wasm.carried import engine_data
+from cointoss.models.notebook import Frame
 from cointoss.models.stages import counted
 
 MOST_BYTES = 10_000_000
 """Of the file."""
 MOST_PIXELS = 200_000
 """Of the map in it."""
-COLUMNS, ROWS = 12, 9
-"""Pixels that are tossed, at most."""
+TOSSED = 12, 9
+"""Columns and rows of the pixels that are tossed, at most."""
+TOSSED_IN_FRAME = 8, 6
+"""In a notebook one waits for them, and saves them with it."""
 SAMPLES = 300
 """Of the path of each toss."""
+HEIGHT = 860
+"""Of its frame in a notebook [px]."""
 
 
 def write_static(map_path: Path, out: Path) -> None:
@@ -38,9 +46,25 @@ def write_static(map_path: Path, out: Path) -> None:
         MapError, ScenarioError: for what is no map.
         UnwritableError: naming the file and why.
     """
-    found = read_map(map_path, most=MOST_PIXELS)
-    sweep = found.sweep
-    columns, rows = _spread(sweep.x.count, COLUMNS), _spread(sweep.y.count, ROWS)
+    write_text(out, _page(read_map(map_path, most=MOST_PIXELS), TOSSED))
+
+
+def explore(shown: OutcomeMap) -> Frame:
+    """Return a frame with that page of a map, for a notebook."""
+    return Frame(f"map of {shown.sweep.title}", _page(_thinned(shown), TOSSED_IN_FRAME), HEIGHT)
+
+
+def _thinned(whole: OutcomeMap) -> OutcomeMap:
+    """Return a map, or every second, third, ... of its pixels along both axes, for a page."""
+    step = next(step for step in count(1) if whole.outcome[::step, ::step].size <= MOST_PIXELS)
+    layers = {name: layer[::step, ::step] for name, layer in whole.layers.items()}
+    return replace(whole, **layers, stride=step * whole.stride)
+
+
+def _page(shown: OutcomeMap, tossed: tuple[int, int]) -> str:
+    """Return the page of a map, with at most so many columns and rows of its pixels tossed."""
+    sweep = shown.sweep
+    columns, rows = (_spread(axis.count, most) for axis, most in zip((sweep.x, sweep.y), tossed, strict=True))
     pixels = [(column, row) for row in rows for column in columns]
     x, y, tosses = sweep.x.values, sweep.y.values, {}
     for column, row in counted("tossing by both engines", "pixels", pixels):
@@ -50,7 +74,7 @@ def write_static(map_path: Path, out: Path) -> None:
         ]
     held = {"columns": columns, "rows": rows, "tosses": tosses, "engine": _engine(sweep)}
     policy = ENGINE_POLICY if held["engine"] else POLICY
-    write_text(out, one_file(page_files(), {"map": page_map(found), **held}, policy))
+    return one_file(page_files(), {"map": page_map(shown), **held}, policy)
 
 
 def _engine(sweep: Sweep) -> dict[str, object] | None:

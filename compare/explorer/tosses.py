@@ -9,13 +9,9 @@ from cointoss.compare.film.back_end import BackEndError, require_mujoco
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Sweep
 from cointoss.compare.sweep.pixels import pixel_scenario
-from cointoss.compare.web.playable import coin_of, path_of, rounded
+from cointoss.compare.web.playable import MOST_SYMBOLS, SAMPLES, playable
 from cointoss.models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
 
-SAMPLES = 1200
-"""Of the path that is played."""
-MOST_SYMBOLS = 200
-"""Of the sequence that is shown."""
 MOST_IMPACTS = {Engine.ANALYTIC: 20_000, Engine.MUJOCO: 500}
 """A toss is followed up to so many impacts: some seconds of work."""
 
@@ -51,24 +47,13 @@ def toss_pixel(
             if engine == Engine.MUJOCO:
                 require_mujoco()
             toss = engine.package.toss(followed, settings=_settings(sweep, engine))
-            path = path_of(toss, samples)
+            played = playable(toss, samples, most_symbols)
         except (UnsupportedError, UnusableEngineError, BackEndError, FloatingPointError) as error:
             return {"engine": engine.value, "problem": str(error)}
     notes = [str(one.message) for one in raised if issubclass(one.category, ApproximationWarning)]
     cut = len(toss.impacts) == most < scenario.rules.max_impacts
-    return {
-        "engine": engine.value,
-        "outcome": str(toss.outcome),
-        "ending": f"It is shown up to impact {most}." if cut else toss.ending.sentence,
-        "end_time": toss.end_time,
-        "count": len(toss.impacts),
-        "sequence": toss.sequence[:most_symbols],
-        "times": rounded(toss.impacts.time[:most_symbols], 7),
-        "trusted": toss.trusted_impacts,
-        "notes": notes,
-        "coin": coin_of(scenario),
-        "path": path,
-    }
+    ending = {"ending": f"It is shown up to impact {most}."} if cut else {}
+    return {**played, **ending, "notes": notes}
 
 
 def _settings(sweep: Sweep, engine: Engine) -> Any:

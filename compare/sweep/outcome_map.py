@@ -20,6 +20,7 @@ from cointoss.compare.sweep.layers import NOT_TOSSED, axis_attributes, layers_of
 from cointoss.compare.sweep.pixels import Pixels
 from cointoss.compare.sweep.untrusted import untrusted_pixels
 from cointoss.models import notebook
+from cointoss.models.drawing import explorer
 from cointoss.models.records import Array, Outcome
 
 if TYPE_CHECKING:
@@ -200,6 +201,17 @@ class OutcomeMap:
         style = PictureStyle(palette=Palette(palette), boundaries=boundaries)
         draw_layer(axes, drawn[layer], self.sweep, style, untrusted=self.untrusted)
         return axes
+
+    def explore(self) -> notebook.Frame:
+        """Return what a notebook shows as the page of `cointoss explore --static`: pixels can be clicked.
+
+        Both engines toss a grid of the pixels first. The analytic engine tosses any other pixel in the
+        page, where the package carries it for a browser; of a large map every second, third, ... is shown.
+
+        Returns:
+            A frame, whose `page` is the HTML of a page that needs no other file and no network.
+        """
+        return explorer().explore(self)
 
     def save(self, path: str | PathLike[str], *, overwrite: bool = False) -> Path:
         """Write the map as `cointoss basin` does: `read_map`, `cointoss explore` and `--resume` take it.

@@ -12,6 +12,11 @@ from cointoss.models.certificate import energies
 from cointoss.models.records import Array, Toss
 from cointoss.models.scenario import Scenario
 
+SAMPLES = 1200
+"""Of a path that is played."""
+MOST_SYMBOLS = 200
+"""Of a sequence that is shown."""
+
 
 def shown_outcomes() -> dict[int, dict[str, str]]:
     """Return the word and the colour of each outcome, by its integer."""
@@ -26,6 +31,29 @@ def coin_of(scenario: Scenario) -> dict[str, Any]:
         "thickness": shape_thickness(scenario),
         "center": list(scenario.coin.center_of_mass),
         "barrier": min(barrier(body, side) for side in (1.0, -1.0)),
+    }
+
+
+def playable(toss: Toss, samples: int = SAMPLES, most_symbols: int = MOST_SYMBOLS) -> dict[str, Any]:
+    """Return a toss as scripts show it: how it ended, its sequence with the horizon of trust, and its path.
+
+    Args:
+        toss: by either engine.
+        samples: of the path, roughly.
+        most_symbols: of the sequence, and times of its touches.
+    """
+    return {
+        "engine": toss.engine,
+        "outcome": str(toss.outcome),
+        "ending": toss.ending.sentence,
+        "end_time": toss.end_time,
+        "count": len(toss.impacts),
+        "sequence": toss.sequence[:most_symbols],
+        "times": rounded(toss.impacts.time[:most_symbols], 7),
+        "trusted": toss.trusted_impacts,
+        "notes": [],
+        "coin": coin_of(toss.scenario),
+        "path": path_of(toss, samples),
     }
 
 

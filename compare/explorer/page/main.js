@@ -5,6 +5,7 @@ import { indexOf, shown, valueAt } from "./axes.js";
 import { makeMap } from "./map.js";
 import { clamp } from "./map_view.js";
 import { LABELS } from "./motion.js";
+import { counted, outcomeLine } from "./outcome.js";
 import { makeStage } from "./stage.js";
 import { horizonText, markTouch, showSequences } from "./sequences.js";
 import { showEnergy } from "./energy.js";
@@ -92,14 +93,13 @@ function marginText(place) {
   return `; margin along ${along} ${margin > 0 ? "+" : "−"}${Number(Math.abs(margin).toPrecision(3))} ${unit}`;
 }
 
-const counted = (number, thing) => `${number} ${thing}${number === 1 ? "" : "s"}`;
-
 function choose(place) {
   byId("readout").textContent = placeText(place);
   if (chosen && place.x === chosen.x && place.y === chosen.y) return;
   before = tosses[0]?.path ? tosses[0] : null;
   chosen = place;
-  history.replaceState(null, "", `#x=${place.x}&y=${place.y}`);
+  // A page in the frame of a notebook has no address of its own.
+  if (location.protocol !== "about:") history.replaceState(null, "", `#x=${place.x}&y=${place.y}`);
   byId("pixel").textContent = place.code === null || place.code < 0 ? "The toss of this pixel" : `The toss of this pixel: ${map.outcomes[place.code].label} on the map`;
   byId("release").textContent = `${releaseText(place)}${marginText(place)}`;
   stage.clear();
@@ -138,18 +138,8 @@ function show(found, fresh) {
   showSequences(byId("sequences"), tosses, before, map.after);
   byId("horizon").textContent = horizonText(tosses, before, map.after);
   moveEnergy = showEnergy(byId("energy"), tosses);
-  byId("outcome").replaceChildren(...ENGINES.map((engine, i) => outcome(engine, tosses[i])));
+  byId("outcome").replaceChildren(...ENGINES.map((engine, i) => outcomeLine(tosses[i] ?? { engine })));
   stage.show(tosses, tosses.map((one) => one?.outcome ?? (one ? "no toss" : "…")), fresh);
-}
-
-function outcome(engine, one) {
-  const line = document.createElement("p"), name = document.createElement("b");
-  name.className = engine;
-  name.textContent = `${LABELS[engine]}: `;
-  const text = !one ? "tossing …" : one.problem ? one.problem
-    : [`${one.outcome} after ${counted(one.count, "impact")} in ${one.end_time.toFixed(4)} s. ${one.ending}`, ...one.notes].join(" ");
-  line.append(name, text);
-  return line;
 }
 
 // The pixel that the address names after its #.

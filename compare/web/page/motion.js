@@ -38,6 +38,7 @@ export function spinOf(tosses) {
 }
 
 export function energyOf(tosses) {
-  const levels = [{ value: 1e3 * tosses[0].coin.barrier, text: "least energy to turn over" }];
+  const text = "least energy to turn over", same = tosses.every(({ coin }) => coin.barrier === tosses[0].coin.barrier);
+  const levels = (same ? [tosses[0]] : tosses).map((toss) => ({ value: 1e3 * toss.coin.barrier, text: same ? text : `${text}: ${nameOf(toss)}` }));
   return { title: "energy", unit: "mJ", log: true, levels, lines: linesOf(tosses, (path) => path.energy.map((each) => 1e3 * each)) };
 }

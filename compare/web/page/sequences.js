@@ -2,6 +2,8 @@
 
 import { nameOf } from "./motion.js";
 
+const ROUNDED = 1e-6; // times of touches have seven digits
+
 export function commonPrefix(a, b) {
   let n = 0;
   while (n < Math.min(a.length, b.length) && a[n] === b[n]) n++;
@@ -40,7 +42,7 @@ export function markTouch(box, tosses, time) {
   for (const marked of box.querySelectorAll(".now")) marked.classList.remove("now");
   for (const toss of tosses) {
     if (!toss?.path) continue;
-    const touched = toss.times.filter((each) => each <= time).length;
+    const touched = toss.times.filter((each) => each <= time * (1 + ROUNDED)).length;
     box.querySelector(`[data-engine="${toss.engine}"][data-touch="${touched - 1}"]`)?.classList.add("now");
   }
 }
@@ -57,7 +59,7 @@ export function horizonText(tosses, before, after) {
   if (a && b) {
     const shared = commonPrefix(a.sequence, b.sequence);
     const all = shared === Math.max(a.sequence.length, b.sequence.length);
-    parts.push(all ? "Both engines give the same sequence." : `The engines agree up to touch ${shared}.`);
+    parts.push(all ? "Both sequences are the same." : `They agree up to touch ${shared}.`);
   }
   if (before && a) {
     const shared = commonPrefix(before.sequence, a.sequence);

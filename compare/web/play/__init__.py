@@ -1,0 +1,1 @@
+"""The page of one or two tosses, in the frame of a notebook; may import what pages share."""
