@@ -29,6 +29,8 @@ OPTIONS = (
 )
 # Chromium reads its orders from descriptor 3, and answers to 4.
 LAUNCH = "import os, sys; r, w, *c = sys.argv[1:]; os.dup2(int(r), 3); os.dup2(int(w), 4); os.execv(c[0], c)"
+READY = "document.body?.dataset.ready === 'true'"
+"""A page of the explorer says that it is ready."""
 PATIENCE = 60.0
 """For an answer, on a machine that other work keeps busy [s]."""
 
@@ -103,9 +105,12 @@ class Page:
 
     def __init__(self, browser: Browser) -> None:
         self._browser = browser
-        target = browser.call("Target.createTarget", url="about:blank")["targetId"]
-        self._target = target
-        self._session = browser.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        self._target = browser.call("Target.createTarget", url="about:blank")["targetId"]
+        attached = browser.call("Target.attachToTarget", targetId=self._target, flatten=True)
+        self._listen(attached["sessionId"])
+
+    def _listen(self, session: str) -> None:
+        self._session = session
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{domain}.enable")
 
@@ -127,7 +132,7 @@ class Page:
         height: int = 900,
         scheme: str = "light",
         moving: bool = False,
-        ready: str = "document.body?.dataset.ready === 'true'",
+        ready: str = READY,
     ) -> None:
         """Load an address in a window of a size, in light or dark, with motion or the least of it.
 
@@ -140,14 +145,45 @@ class Page:
             deviceScaleFactor=1,
             mobile=False,
         )
-        motion = "no-preference" if moving else "reduce"
-        media = {"prefers-color-scheme": scheme, "prefers-reduced-motion": motion}
-        features = [{"name": name, "value": value} for name, value in media.items()]
-        self.call("Emulation.setEmulatedMedia", features=features)
+        self._prefer(scheme, moving)
         # A new fragment alone would not load the page again.
         self.call("Page.navigate", url="about:blank")
         self.call("Page.navigate", url=url)
         self.wait_for(ready)
+
+    def _prefer(self, scheme: str, moving: bool) -> None:
+        motion = "no-preference" if moving else "reduce"
+        media = {"prefers-color-scheme": scheme, "prefers-reduced-motion": motion}
+        features = [{"name": name, "value": value} for name, value in media.items()]
+        self.call("Emulation.setEmulatedMedia", features=features)
+
+    def open_frames(
+        self, url: str, count: int, *, scheme: str = "light", moving: bool = False, **size: int
+    ) -> list["Page"]:
+        """Load an address; return the frames in it that have origins of their own, once they are ready."""
+        self.call("Target.setAutoAttach", autoAttach=True, waitForDebuggerOnStart=True, flatten=True)
+        loaded = "document.readyState !== 'loading' && location.protocol !== 'about:'"
+        self.open(url, ready=loaded, scheme=scheme, moving=moving, **size)
+        deadline = time.monotonic() + PATIENCE
+        while len(sessions := self._sessions_of_frames()) < count:
+            assert time.monotonic() < deadline, f"{len(sessions)} frames"
+            self.value("1")
+        frames = [Page.__new__(Page) for _ in sessions]
+        for frame, session in zip(frames, sessions, strict=True):
+            frame._browser = self._browser
+            frame._listen(session)
+            frame._prefer(scheme, moving)
+            frame.call("Runtime.runIfWaitingForDebugger")
+        for frame in frames:
+            frame.wait_for(READY)
+        return frames
+
+    def _sessions_of_frames(self) -> list[str]:
+        return [
+            event["params"]["sessionId"]
+            for event in self._browser.events
+            if event["method"] == "Target.attachedToTarget" and event.get("sessionId") == self._session
+        ]
 
     def value(self, expression: str) -> Any:
         """Return the value of an expression of JavaScript, a promise's when it is kept."""

@@ -402,8 +402,7 @@ def test_a_page_without_workers_tosses_itself(loaded):
 @pytest.mark.parametrize("most", [20_000, 5])
 def test_any_pixel_of_the_explorer_in_a_file_is_tossed_by_the_engine_in_it(page, tmp_path, monkeypatch, most):
     monkeypatch.setitem(static.MOST_IMPACTS, Engine.ANALYTIC, most)
-    monkeypatch.setattr(static, "COLUMNS", 2)
-    monkeypatch.setattr(static, "ROWS", 2)
+    monkeypatch.setattr(static, "TOSSED", (2, 2))
     target = tmp_path / "map.html"
     longer = SCENARIO.replace("max_impacts = 4", "max_impacts = 40")
     static.write_static(small_map(tmp_path, size=(24, 18), text=longer), target)
@@ -424,3 +423,19 @@ def test_any_pixel_of_the_explorer_in_a_file_is_tossed_by_the_engine_in_it(page,
     page.value("document.getElementById('map').focus()")
     page.press("ArrowRight")
     page.wait_for(f"location.hash.includes('x={float(sweep.x.values[4])}')")
+
+
+def test_any_pixel_is_tossed_in_the_frame_of_a_notebook(page, tmp_path, monkeypatch):
+    monkeypatch.setattr(static, "TOSSED_IN_FRAME", (1, 1))
+    found = read_map(small_map(tmp_path))
+    (tmp_path / "notebook.html").write_text(found.explore()._repr_html_(), encoding="utf-8")
+    (frame,) = page.open_frames((tmp_path / "notebook.html").as_uri(), 1)
+    x, y = found.x[11], found.y[9]
+    toss = analytic.toss(found.sweep.scenario.replace(found.sweep.x.field, x, found.sweep.y.field, y))
+    for key in ("Enter", "ArrowLeft"):
+        pressed = f"new KeyboardEvent('keydown', {{ key: '{key}' }})"
+        frame.value(f"document.getElementById('map').dispatchEvent({pressed})")
+    frame.wait_for("document.getElementById('outcome').textContent.includes('MuJoCo: tossed only')")
+    told = frame.text("outcome")
+    assert f"analytic: {toss.outcome} after {len(toss.impacts)} impacts in {toss.end_time:.4f} s." in told
+    assert page.complaints() == frame.complaints() == []

@@ -255,8 +255,7 @@ def test_a_law_that_mujoco_lacks_is_told(page, tmp_path):
 def test_the_static_page_works_from_a_file_with_the_network_off(page, map_path, tmp_path, monkeypatch):
     """Where the engine for a browser was not built; tests/site has the page with it."""
     monkeypatch.setattr(static, "engine_data", lambda *_: None)
-    monkeypatch.setattr(static, "COLUMNS", 2)
-    monkeypatch.setattr(static, "ROWS", 2)
+    monkeypatch.setattr(static, "TOSSED", (2, 2))
     target = tmp_path / "a map.html"
     answered = cointoss("explore", map_path, "--static", target)
     assert (answered.exit_code, answered.stdout) == (0, f"{target}\n"), answered.stderr

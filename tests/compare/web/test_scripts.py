@@ -149,6 +149,24 @@ def test_a_browser_runs_none_of_them(page, named, static_page):
     assert page.complaints() == []
 
 
+def test_a_frame_of_a_notebook_keeps_them_inside(page, named, tmp_path, monkeypatch):
+    monkeypatch.setattr(static, "toss_pixel", lambda *_, **__: {"engine": "analytic", "problem": HOSTILE[1]})
+    monkeypatch.setattr(static, "engine_data", lambda *_: None)
+    frame = read_map(named).explore()
+    found = Parsed(frame._repr_html_())
+    attributes = ("title", "sandbox", "loading", "style", "srcdoc")
+    assert found.elements == [("iframe", attributes), ("iframe", "end")]
+    (tmp_path / "notebook.html").write_text(f"<title>mine</title>{frame._repr_html_()}", encoding="utf-8")
+    (inside,) = page.open_frames((tmp_path / "notebook.html").as_uri(), 1)
+    assert page.value("document.title") == "mine"
+    assert page.value("document.querySelector('iframe').srcdoc") == frame.page
+    assert page.value("document.querySelector('iframe').title") == f"map of {NAME}: 2 g, 25 mm"
+    assert page.value("document.querySelectorAll('img, script').length") == 0
+    assert inside.text("name") == f"{NAME}: 2 g, 25 mm"
+    assert inside.value("document.querySelectorAll('img').length") == 0
+    assert page.complaints() == inside.complaints() == []
+
+
 def test_a_notebook_shows_the_name_of_a_map_as_it_is(named):
     found = read_map(named)
     page = Parsed(found._repr_html_())

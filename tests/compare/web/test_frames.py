@@ -1,0 +1,187 @@
+"""Tosses and maps in the frames of a notebook: they play, quiet and apart from each other."""
+
+import time
+
+import numpy as np
+import pytest
+
+from cointoss import analytic, coin_mj
+from cointoss.compare.explorer import static
+from cointoss.compare.sweep.reading import read_map
+from cointoss.models.reading import load
+from tests.helpers.browser import PATIENCE
+from tests.helpers.coins_shown import UNNAMED, faces, picture, set_time
+
+STAGE = 300
+"""Height of the coins in a frame of full height, at most [px]."""
+SEQUENCES = (
+    "[...document.querySelectorAll('#sequences .row[role=img]')].map((row) =>"
+    " [row.querySelector('b').textContent, row.querySelector('b').classList[0],"
+    "  [...row.querySelectorAll('span')].map((cell) => cell.textContent).join(''),"
+    "  row.querySelectorAll('.beyond').length])"
+)
+TOUCHES = "[...document.querySelectorAll('#sequences .now')].map((cell) => cell.dataset.touch)"
+TIME = "Number(document.getElementById('time').value)"
+
+
+@pytest.fixture(scope="module")
+def fig24a():
+    return analytic.toss("fig24a")
+
+
+@pytest.fixture(scope="module")
+def by_mujoco():
+    return coin_mj.toss("fig24a")
+
+
+@pytest.fixture
+def notebook(page, tmp_path):
+    """Return what shows frames below each other, as a notebook does, and returns their pages."""
+
+    def shown(*frames, **window):
+        cells = [f'<div id="cell-{i}">{frame._repr_html_()}</div>' for i, frame in enumerate(frames)]
+        target = tmp_path / "notebook.html"
+        target.write_text(f"<!DOCTYPE html><title>mine</title><body>{''.join(cells)}", encoding="utf-8")
+        return page.open_frames(target.as_uri(), len(frames), **window)
+
+    return shown
+
+
+def row(toss, label, kind):
+    beyond = len(toss.sequence) - min(toss.trusted_impacts, len(toss.sequence))
+    return [label, kind, toss.sequence, beyond]
+
+
+def painted(page, cell, coins=1):
+    """Return what the window shows of a cell once each of its coins is there, in its part of the stage."""
+    deadline = time.monotonic() + PATIENCE
+    while True:
+        shown = picture(page, cell)
+        if all(faces(part) > 500 for part in np.array_split(shown[:STAGE], coins, axis=1)):
+            return shown
+        assert time.monotonic() < deadline, "a coin is missing"
+
+
+def assert_quiet(page, *frames):
+    for one in (page, *frames):
+        assert one.complaints() == []
+        assert {address.partition(":")[0] for address in one.asked()} <= {"file", "data", "about", "blob"}
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [1280, 420])
+def test_a_frame_shows_the_coin_its_sequence_and_its_energy(page, notebook, fig24a, width, scheme):
+    (frame,) = notebook(fig24a.play(), width=width, scheme=scheme)
+    assert frame.value(SEQUENCES) == [row(fig24a, "analytic", "analytic")]
+    set_time(frame, fig24a.end_time)
+    assert frame.value(TOUCHES) == [str(len(fig24a.impacts) - 1)]
+    assert f"analytic: {fig24a.outcome} after {len(fig24a.impacts)} impacts" in frame.text("outcome")
+    assert frame.value("document.querySelectorAll('#energy polyline').length") == 1
+    assert frame.value("document.documentElement.scrollWidth <= innerWidth")
+    assert width == 420 or frame.value("document.documentElement.scrollHeight <= innerHeight")
+    assert frame.value(UNNAMED) == 0
+    background = np.median(painted(page, "cell-0")[:, 2], axis=0).mean()
+    assert background > 200 if scheme == "light" else background < 60
+    assert_quiet(page, frame)
+
+
+def test_a_frame_plays_until_it_is_paused(page, notebook, fig24a):
+    (frame,) = notebook(fig24a.play(), moving=True)
+    frame.wait_for(f"{TIME} > 0.01")
+    frame.value("document.getElementById('play').click()")
+    paused = frame.value(TIME)
+    assert 0.01 < paused < fig24a.end_time
+    assert frame.value(f"new Promise((kept) => setTimeout(() => kept({TIME}), 200))") == paused
+    assert_quiet(page, frame)
+
+
+def test_both_engines_play_together(page, notebook, fig24a, by_mujoco):
+    (frame,) = notebook(by_mujoco.play(fig24a))
+    expected = [row(by_mujoco, "MuJoCo", "mujoco"), row(fig24a, "analytic", "analytic")]
+    assert frame.value(SEQUENCES) == expected
+    panels = "[...document.querySelectorAll('.panel')].map((one) => [one.classList[1], one.textContent])"
+    assert frame.value(panels) == [
+        ["mujoco", f"MuJoCo {by_mujoco.outcome}"],
+        ["analytic", f"analytic {fig24a.outcome}"],
+    ]
+    assert float(frame.value("document.getElementById('time').max")) == fig24a.end_time
+    set_time(frame, fig24a.impacts.time[1] + 1e-3)
+    assert frame.value(TOUCHES) == ["1", "1"]
+    painted(page, "cell-0", coins=2)
+    assert_quiet(page, frame)
+
+
+@pytest.mark.parametrize("engine", ["analytic", "mujoco"])
+def test_two_tosses_by_one_engine_have_names_and_colours_of_their_own(notebook, fig24a, by_mujoco, engine):
+    toss = {"analytic": fig24a, "mujoco": by_mujoco}[engine]
+    thick = load("fig24a").replace("coin.thickness", "6 mm")
+    other = {"analytic": analytic, "mujoco": coin_mj}[engine].toss(thick)
+    (frame,) = notebook(toss.play(other))
+    second = "mujoco" if engine == "analytic" else "analytic"
+    assert frame.value(SEQUENCES) == [row(toss, "this toss", engine), row(other, "other toss", second)]
+    levels = "[...document.querySelectorAll('#energy svg svg text')].map((one) => one.textContent)"
+    assert frame.value(levels) == [f"least energy to turn over: {name} toss" for name in ("this", "other")]
+
+
+def test_frames_leave_each_other_and_the_notebook_alone(page, notebook, fig24a, by_mujoco):
+    first, second = notebook(fig24a.play(), by_mujoco.play(), height=2000)
+    set_time(second, 0.5)
+    set_time(first, 0.25)
+    first.value("document.title = 'changed'")
+    assert (first.value(TIME), second.value(TIME)) == (0.25, 0.5)
+    assert second.value(SEQUENCES) == [row(by_mujoco, "MuJoCo", "mujoco")]
+    assert page.value("document.title") == "mine"
+    for frame in (first, second):
+        assert frame.value("origin") == "null"
+        assert frame.value(
+            "(() => { try { return parent.document; } catch (error) { return error.name; } })()"
+        ) == ("SecurityError")
+    for cell in ("cell-0", "cell-1"):
+        painted(page, cell)
+    assert_quiet(page, first, second)
+
+
+@pytest.fixture
+def _few_tosses(monkeypatch):
+    """Let few pixels be tossed, where the engine for a browser was not built; tests/site has it."""
+    monkeypatch.setattr(static, "TOSSED_IN_FRAME", (2, 2))
+    monkeypatch.setattr(static, "engine_data", lambda *_: None)
+
+
+@pytest.mark.usefixtures("_few_tosses")
+@pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (420, "dark")])
+def test_a_map_is_explored_in_a_frame(page, notebook, map_path, width, scheme):
+    found = read_map(map_path)
+    (frame,) = notebook(found.explore(), width=width, scheme=scheme)
+    frame.value("document.getElementById('map').focus()")
+    frame.value(
+        "document.getElementById('map').dispatchEvent(new KeyboardEvent('keydown', { key: 'Enter' }))"
+    )
+    frame.wait_for("document.querySelectorAll('#sequences .row[role=img]').length === 2")
+    x, y = found.x[6], found.y[4]
+    case = found.sweep.scenario.replace(found.sweep.x.field, x, found.sweep.y.field, y)
+    assert frame.value(SEQUENCES)[0] == row(analytic.toss(case), "analytic", "analytic")
+    assert frame.value("document.documentElement.scrollWidth <= innerWidth")
+    assert frame.value("location.href") == "about:srcdoc"
+    assert_quiet(page, frame)
+
+
+@pytest.mark.usefixtures("_few_tosses")
+def test_a_large_map_is_thinned(map_path, monkeypatch):
+    monkeypatch.setattr(static, "MOST_PIXELS", 24 * 18 // 4)
+    found = read_map(map_path)
+    shown = []
+    monkeypatch.setattr(static, "page_map", lambda thinned: shown.append(thinned) or {})
+    found.explore()
+    assert shown[0].stride == 2
+    np.testing.assert_array_equal(shown[0].outcome, found.outcome[::2, ::2])
+    np.testing.assert_array_equal(shown[0].x, found.x[::2])
+
+
+def test_what_is_no_toss_is_not_played(fig24a):
+    with pytest.raises(TypeError, match=r"^other: 'fig24b', accepted: a toss$"):
+        fig24a.play("fig24b")
+
+
+def test_a_terminal_is_told_what_a_notebook_shows(fig24a):
+    assert repr(fig24a.play()).startswith("<Frame: toss of 2 g, 25 mm, from 40.001 cm, 1.")
