@@ -1,6 +1,7 @@
 """The MuJoCo engine: an MJCF cylinder, its drag and its stiff contact; imports models alone."""
 
-from cointoss.coin_mj.bounce import Bounce, solref
+from cointoss.coin_mj.bounces.inverse import Rebounds, solref_of
+from cointoss.coin_mj.bounces.recipe import Bounce, solref
 from cointoss.coin_mj.ensemble import toss_many
 from cointoss.coin_mj.model.settings import FINE, MANY, Friction, Realisation, Settings
 from cointoss.coin_mj.toss import impacts_of, require_supported, toss
@@ -11,10 +12,12 @@ __all__ = [
     "Bounce",
     "Friction",
     "Realisation",
+    "Rebounds",
     "Settings",
     "impacts_of",
     "require_supported",
     "solref",
+    "solref_of",
     "toss",
     "toss_many",
 ]

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from cointoss import analytic as analytic
     from cointoss import coin_mj as coin_mj
     from cointoss import models as models
-    from cointoss.coin_mj.bounce import solref as solref
+    from cointoss.coin_mj.bounces.recipe import solref as solref
     from cointoss.compare.engines import Engine as Engine
     from cointoss.compare.engines import toss as toss
     from cointoss.compare.film.back_end import BackEndError as BackEndError
@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 
 _PACKAGES = ("models", "analytic", "coin_mj", "compare")
 _NAMES = {
-    "cointoss.coin_mj.bounce": ("solref",),
+    "cointoss.coin_mj.bounces.recipe": ("solref",),
     "cointoss.compare.engines": ("Engine", "toss"),
     "cointoss.compare.film.back_end": ("BackEndError",),
     "cointoss.compare.report.comparison": ("Comparison",),

@@ -184,6 +184,11 @@ def restitution_of(zeta: float) -> float:
     return math.exp(-2 * zeta / q * math.atanh(q / zeta))
 
 
+def contact_duration(zeta: float) -> float:
+    """Return how long that contact lasts, in units of 1/√k: χ = exp(-ζ √k t)."""
+    return -math.log(restitution_of(zeta)) / zeta if zeta else math.pi
+
+
 def damping_ratio_of(restitution: float) -> float:
     """Return the damping ratio ζ of a contact that rebounds with `restitution`.
 

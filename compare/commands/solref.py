@@ -1,15 +1,25 @@
-"""`cointoss solref`: settings of MuJoCo for a bounce."""
+"""`cointoss solref`: settings of MuJoCo for a bounce, and the bounce of given settings."""
 
 import json
 from dataclasses import asdict
+from math import isfinite
+from typing import TYPE_CHECKING
 
 import click
 
 from cointoss.compare.commands.common import Count, Given, Quantity, naming_options, plain_errors
 
+if TYPE_CHECKING:
+    from cointoss.coin_mj.bounces.inverse import Rebounds
+    from cointoss.coin_mj.bounces.recipe import Bounce
+    from cointoss.coin_mj.bounces.rest import Rest
+
 
 @click.command()
-@click.option("--restitution", type=Quantity(""), required=True, metavar="E", help="From 0 to 1.")
+@click.option("--restitution", type=Quantity(""), metavar="E", help="From 0 to 1: print settings for it.")
+@click.option(
+    "--of", "given", metavar="SOLREF", help='Print the restitution of these settings, such as "0.01 0.37".'
+)
 @click.option(
     "--dt",
     type=Quantity("s"),
@@ -19,15 +29,51 @@ from cointoss.compare.commands.common import Count, Given, Quantity, naming_opti
 )
 @click.option("--spring", is_flag=True, help="By a spring that lasts several steps, instead of in one.")
 @click.option("--steps", type=Count(5, 500), help="Steps in the contact of a spring; by default 40.")
-@click.option("--model", is_flag=True, help="Print a whole model instead: a ball over a plane.")
+@click.option(
+    "--body",
+    metavar="BODY",
+    help='That is measured, as in a <geom>, such as "box 0.1 0.1 0.002" (half sizes).',
+)
+@click.option("--model", is_flag=True, help="Print a whole model instead: the body over a plane.")
+@click.option(
+    "--with",
+    "other",
+    metavar="SOLREF",
+    help="Of the other geom, mixed with that of --of; without it, that of --of has priority.",
+)
+@click.option(
+    "--integrator", help="Beside --of: Euler, MuJoCo's own, implicitfast, implicit, RK4 or discrete."
+)
+@click.option(
+    "--solimp", metavar="SOLIMP", help='Beside --of: of the same geom; by default "0.9 0.95 0.001".'
+)
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
 def solref(
-    restitution: Given, dt: Given, spring: bool, steps: int | None, model: bool, as_json: bool
+    restitution: Given | None,
+    given: str | None,
+    dt: Given,
+    spring: bool,
+    steps: int | None,
+    body: str | None,
+    model: bool,
+    other: str | None,
+    integrator: str | None,
+    solimp: str | None,
+    as_json: bool,
 ) -> None:
-    """Print the settings with which a body bounces in MuJoCo.
+    """Print the settings with which a body bounces in MuJoCo, or how it bounces with given settings.
 
-    The error is that of a ball, measured now, at 16 phases of its touch between two steps.
+    Everything is measured now, on a body that touches a plane at 16 phases of a step.
     """
+    forward = {"--spring": spring, "--steps": steps, "--body": body, "--model": model}
+    inverse = {"--with": other, "--integrator": integrator, "--solimp": solimp}
+    if (restitution is None) == (given is None):
+        raise click.UsageError("--restitution and --of: accepted: one of them")
+    for side, option in ((forward, "--restitution"), (inverse, "--of")):
+        beside = restitution if side is forward else given
+        for name, value in side.items():
+            if value and beside is None:
+                raise click.UsageError(f"{name}: accepted: only beside {option}")
     if steps is not None and not spring:
         raise click.UsageError(f"--steps {steps}: accepted: only beside --spring")
     if model and as_json:
@@ -37,23 +83,129 @@ def solref(
 
         require_mujoco()
         from cointoss import coin_mj
-        from cointoss.coin_mj.bounce import SPEED, SPRING_STEPS
+        from cointoss.coin_mj.bounces.recipe import SPRING_STEPS
 
-        with naming_options({"restitution": ("--restitution", restitution), "timestep": ("--dt", dt)}):
-            found = coin_mj.solref(
-                restitution.value, dt.value, spring=spring, steps=SPRING_STEPS if steps is None else steps
-            )
-    if as_json:
-        click.echo(json.dumps(asdict(found), indent=1))
-    elif model:
-        click.echo(found.model)
-    else:
-        others = "any but discrete, which errs more" if spring else "or Euler; not RK4, not discrete"
-        click.echo(
-            f"{found.option}\n<geom {found.geom}/>\n\n"
-            f"integrator  {found.integrator}, {others}\n"
-            f"error       {found.error:.0e} at worst, of a ball that touches at 16 phases of a step\n"
-            f"            {found.error_with_weight:.0e} with weight, at {SPEED:g} m/s; more if slower\n"
-            f"depth       up to {1000 * found.depth:.3g} mm into the floor for each m/s, whatever the mass\n"
-            f'friction    with condim="1"; MuJoCo\'s own friction lifts a body that slides (docs/MUJOCO.md)'
+        typed = {
+            "restitution": ("--restitution", restitution),
+            "timestep": ("--dt", dt),
+            "body": ("--body", body),
+            "solref": ("--of", given),
+            "other": ("--with", other),
+            "integrator": ("--integrator", integrator),
+            "solimp": ("--solimp", solimp),
+        }
+        with naming_options(typed):
+            if given is not None:
+                chosen = {"integrator": integrator, "solimp": solimp}
+                found = coin_mj.solref_of(
+                    _numbers(given),
+                    dt.value,
+                    other=None if other is None else _numbers(other),
+                    **{name: value for name, value in chosen.items() if value is not None},
+                )
+            else:
+                assert restitution is not None
+                found = coin_mj.solref(
+                    restitution.value,
+                    dt.value,
+                    spring=spring,
+                    steps=SPRING_STEPS if steps is None else steps,
+                    body=body,
+                )
+        if as_json:
+            click.echo(json.dumps(asdict(found), indent=1))
+        elif isinstance(found, coin_mj.Rebounds):
+            click.echo(_rebounds(found))
+        else:
+            click.echo(found.model if model else _settings(found))
+
+
+def _numbers(text: str) -> tuple[float, ...]:
+    """Return the numbers of a text; none where one of its words is no number."""
+    try:
+        return tuple(float(word) for word in text.split())
+    except ValueError:
+        return ()
+
+
+def _settings(found: "Bounce") -> str:
+    """Return the settings for a bounce, and what they do, line by line."""
+    from cointoss.coin_mj.bounces.contact import text_of
+    from cointoss.coin_mj.bounces.drops import SPEED
+    from cointoss.coin_mj.bounces.flight import energy_change
+    from cointoss.coin_mj.bounces.recipe import exact_of
+    from cointoss.coin_mj.bounces.rest import rest_of
+
+    spring = found.integrator == "RK4"
+    rest = [_rest(found.rest)]
+    flight = f"a brick at 10 turns a second {_change(found.flight)} of its energy in half a second"
+    if not spring:
+        exact = exact_of(found)
+        sinking = rest_of(exact).sinking
+        rest.append(
+            f'solref="{text_of(exact.solref)}" would be exact, and sink {1e6 * sinking:.3g} um/s at rest'
         )
+        flight += f"; by RK4 {energy_change('RK4', found.timestep):+.0e}: --spring"
+    return "\n".join(
+        [
+            found.option,
+            f"<geom {found.geom}/>",
+            "",
+            f"integrator  {found.integrator}, "
+            + ("any but discrete, which errs more" if spring else "or Euler; not RK4, not discrete"),
+            f"error       {found.error:.0e} at worst, of a {found.body} that touches at 16 phases of a step",
+            f"            {found.error_with_weight:.0e} with weight, at {SPEED:g} m/s; more if slower",
+            f"depth       up to {1e3 * found.depth:.3g} mm into the floor for each m/s, whatever the mass",
+            *_column("rest", rest),
+            f"flight      {flight}",
+            "friction    none; MuJoCo's own lifts a body that slides, docs/MUJOCO.md has a way out",
+        ]
+    )
+
+
+def _rebounds(found: "Rebounds") -> str:
+    """Return how a ball bounces with given settings, line by line."""
+    from cointoss.coin_mj.bounces.contact import text_of
+    from cointoss.coin_mj.bounces.drops import SPEED
+
+    theory = found.formula
+    by = ["", "", "", ""]
+    if theory is not None:
+        values = (
+            (theory.restitution, f"{theory.restitution:.4f}"),
+            (theory.duration, f"{1e3 * theory.duration:.3g} ms"),
+            (theory.depth, f"{1e3 * theory.depth:.3g} mm"),
+            (theory.rest, f"{1e6 * theory.rest:.3g} um deep"),
+        )
+        by = [f"; by formula {text}" if isfinite(value) else "" for value, text in values]
+    return "\n".join(
+        [
+            f'mixed       solref="{text_of(found.solref)}" solimp="{found.solimp}"',
+            f"restitution {found.restitution:.4f}, from {found.lowest:.4f} to {found.highest:.4f} "
+            f"over 16 phases of a step{by[0]}",
+            f"            {found.restitution_with_weight:.4f} with weight, at {SPEED:g} m/s",
+            f"duration    {1e3 * found.duration:.3g} ms{by[1]}",
+            f"depth       up to {1e3 * found.depth:.3g} mm for each m/s{by[2]}",
+            f"rest        {_rest(found.rest)}{by[3]}",
+        ]
+    )
+
+
+def _column(name: str, lines: list[str]) -> list[str]:
+    """Return lines beside a name, which stands once."""
+    return [f"{name if number == 0 else '':11} {line}" for number, line in enumerate(lines)]
+
+
+def _change(part: float) -> str:
+    """Return a change of energy in words."""
+    amount = f"{100 * abs(part):.2g} %" if abs(part) > 1e-4 else f"{abs(part):.0e}"
+    return f"{'loses' if part < 0 else 'gains'} {amount}"
+
+
+def _rest(rest: "Rest") -> str:
+    """Return what a body does at rest, in words."""
+    if rest.hop:
+        return f"never still: it hops on, by {1e6 * rest.hop:.3g} um"
+    if rest.sinking:
+        return f"sinks {1e6 * rest.sinking:.3g} um/s, n times as fast under n times its weight"
+    return f"lies still, {1e6 * rest.depth:.3g} um deep; n times as deep under n times its weight"

@@ -6,15 +6,9 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from cointoss.coin_mj.bounce import (
-    GRAVITY,
-    HARDEST,
-    PHASES,
-    SPEED,
-    SPRING_STEPS,
-    one_step_solref,
-    spring_solref,
-)
+from cointoss.coin_mj.bounces.contact import DEFAULT, HARDEST, one_step_solref, spring_solref
+from cointoss.coin_mj.bounces.drops import GRAVITY, PHASES, SPEED
+from cointoss.coin_mj.bounces.recipe import SPRING_STEPS
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.mujoco_bodies import (
@@ -25,7 +19,6 @@ from cointoss.compare.reproduction.setups.mujoco_bodies import (
     rebounds,
     resting_depth,
 )
-from cointoss.compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
 from cointoss.compare.reproduction.setups.study import study
 
 RESTITUTION = 0.8

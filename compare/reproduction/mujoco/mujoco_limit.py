@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from cointoss.coin_mj.bounce import HARDEST, one_step_solref, restitutions_of_a_ball, spring_solref
+from cointoss.coin_mj.bounces.contact import DEFAULT, HARDEST, one_step_solref, spring_solref
+from cointoss.coin_mj.bounces.drops import restitutions_of_a_ball
 from cointoss.compare.output.progress import Progress, stepping
 from cointoss.compare.output.tables import paragraphs, table
-from cointoss.compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
 from cointoss.compare.reproduction.setups.mujoco_impacts import draw_touches
 from cointoss.compare.reproduction.setups.mujoco_study import (
     FINE,

@@ -12,11 +12,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from cointoss import coin_mj
-from cointoss.coin_mj.bounce import HARDEST
+from cointoss.coin_mj.bounces.contact import DEFAULT, HARDEST
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
 from cointoss.compare.output.tables import paragraphs, table
-from cointoss.compare.reproduction.setups.mujoco_fixed_steps import DEFAULT
 from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.scenario import Scenario
 

@@ -9,7 +9,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from cointoss.coin_mj.bounce import GRAVITY, HARDEST, LONGEST, PHASES, SPEED
+from cointoss.coin_mj.bounces.contact import HARDEST
+from cointoss.coin_mj.bounces.drops import GRAVITY, LONGEST, PHASES, SPEED
 from cointoss.models.records import Array
 
 SIZE = 0.1

@@ -10,7 +10,7 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 
-from cointoss.coin_mj.bounce import LONGEST, PHASES
+from cointoss.coin_mj.bounces.drops import LONGEST, PHASES
 from cointoss.coin_mj.model.scene import build, shape_thickness
 from cointoss.coin_mj.model.settings import Realisation, Settings, rebound_of
 from cointoss.coin_mj.model.state import of_release, to_mass_center
@@ -18,9 +18,6 @@ from cointoss.models.attitude import rotation_matrix
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
-
-DEFAULT = "0.9 0.95 0.001 0.5 2"
-"""MuJoCo's own solimp."""
 
 
 def restitutions_of_coins(cases: Sequence[Scenario], settings: Settings, dt: float) -> Array:

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cointoss.coin_mj.bounce import SPEED
+from cointoss.coin_mj.bounces.drops import SPEED
 from cointoss.compare.reproduction.mujoco.mujoco_bodies import (
     FINE,
     RESTITUTION,

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from cointoss.coin_mj import Realisation, Settings
-from cointoss.coin_mj.bounce import one_step_solref, restitutions_of_a_ball, spring_solref
+from cointoss.coin_mj.bounces.contact import one_step_solref, spring_solref
+from cointoss.coin_mj.bounces.drops import restitutions_of_a_ball
 from cointoss.compare.reproduction import runner
 from cointoss.compare.reproduction.claim import unexpected
 from cointoss.compare.reproduction.mujoco import mujoco_laws

@@ -1,0 +1,82 @@
+"""Contact settings of MuJoCo with which a body bounces, and comes to rest."""
+
+import math
+from dataclasses import dataclass
+
+from cointoss.coin_mj.model.settings import Realisation, Settings, rebound_of
+
+HARDEST = "0.9999 0.9999 0.001 0.5 2"
+"""The largest impedance MuJoCo takes, as solimp."""
+DEFAULT = "0.9 0.95 0.001 0.5 2"
+"""MuJoCo's own solimp."""
+DEFAULT_SOLREF = (0.02, 1.0)
+"""MuJoCo's own solref: time constant [s] and damping ratio."""
+STIFFENED = 1e-3
+"""k dt² of the stiffness beside the damping of a contact of one step, which lifts what would sink."""
+CARRIED = 0.1 * math.pi
+"""(1 - d) n (1 - e) of a spring of n steps that lets a body come to rest, d its impedance; found by trial."""
+SOFTEST = 0.1
+"""The largest 1 - d of a spring."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Contact:
+    """Settings of a contact and of the simulation that steps it."""
+
+    solref: tuple[float, float]
+    """Positive: time constant [s] and damping ratio; else -stiffness [1/s²] and -damping [1/s]."""
+    timestep: float
+    """[s]."""
+    integrator: str
+    """By its name in a model."""
+    solimp: str = HARDEST
+
+    @property
+    def geom(self) -> str:
+        """The attributes of one of the two geoms that touch."""
+        return f'solref="{text_of(self.solref)}" solimp="{self.solimp}"'
+
+
+def text_of(solref: tuple[float, float]) -> str:
+    """Return a solref as it stands in a model."""
+    return " ".join(f"{number!r}" if number else "0" for number in solref)
+
+
+def one_step_solref(restitution: float, dt: float) -> tuple[float, float]:
+    """Return the solref that makes an impact within one step: "0 -(1 + e)/dt"."""
+    return _solref_of(restitution, Settings(contact=Realisation.ONE_STEP, step=dt))
+
+
+def resting_solref(restitution: float, dt: float) -> tuple[float, float]:
+    """Return that with a stiffness beside it: v' = -e v to half of `STIFFENED`, and a body at rest is held.
+
+    A touch x deep gives v' = (1 - b dt) v + k dt x. As x is anything from 0 to v dt, half of what k adds at
+    most is taken from b. What never loses energy never rests, so k vanishes with 1 - e.
+    """
+    part = min(STIFFENED, 1 - restitution)
+    return -_rounded(part / dt**2), -_rounded((1 + restitution - part / 2) / dt)
+
+
+def spring_solref(restitution: float, dt: float, steps: int) -> tuple[float, float]:
+    """Return the solref of a damped spring that is resolved by so many steps: k = (π/(n dt))², d = 2 ζ √k."""
+    return _solref_of(restitution, Settings(stiffness=(math.pi / (steps * dt)) ** 2))
+
+
+def spring_solimp(restitution: float, steps: int) -> str:
+    """Return the solimp with which a spring of so many steps carries a part of the weight.
+
+    With solimp 0.9999 the contact carries it all, and the spring pushes a body off that should lie still.
+    """
+    soft = CARRIED / (steps * (1 - restitution)) if restitution < 1 else SOFTEST
+    impedance = round(1 - min(max(soft, 1e-4), SOFTEST), 4)
+    return f"{impedance} {impedance} 0.001 0.5 2"
+
+
+def _solref_of(restitution: float, settings: Settings) -> tuple[float, float]:
+    rebound = rebound_of(restitution, settings)
+    return -rebound.stiffness, -rebound.damping
+
+
+def _rounded(number: float) -> float:
+    """Return a number as it is printed: 250 rather than 249.99999999999997."""
+    return float(f"{number:.12g}")

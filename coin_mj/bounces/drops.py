@@ -1,0 +1,88 @@
+"""Restitution, duration and depth of a body's touches on a plane, at all phases of a step."""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
+import math
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from cointoss.coin_mj.bounces.bodies import BALL, Body
+from cointoss.coin_mj.bounces.contact import HARDEST, Contact
+from cointoss.models.records import Array
+
+LONGEST = 2000
+"""A contact that goes on for more steps is no rebound."""
+MOST_STEPS = 20_000
+"""Of a contact that is measured."""
+SLOW, LYING = 1e-3, 100
+"""A body that is slower than this part of its speed for so many steps has come to lie."""
+PHASES = 16
+"""Heights of release, spread over the way of one step: a touch falls anywhere between two steps."""
+SPEED = 2.0
+"""Of the body [m/s]."""
+GRAVITY = 9.81
+"""[m/s²]."""
+
+
+@dataclass(frozen=True)
+class Drops:
+    """What a body did that came down on a plane, for each of the `PHASES` of its touch."""
+
+    restitutions: Array
+    """Speed after over that before, both where the body meets the plane; 0 where it does not leave, (n,)."""
+    durations: Array
+    """For which the contacts push [s], (n,)."""
+    depth: float
+    """The greatest [m]."""
+
+
+def drops_of(contact: Contact, body: Body = BALL, gravity: float = 0.0, speed: float = SPEED) -> Drops:
+    """Let a body come down flat on a plane with plain `mj_step`.
+
+    Args:
+        contact: the settings.
+        body: without spin.
+        gravity: downward [m/s²]; by default the contact alone acts.
+        speed: at the release, less than four steps above the plane [m/s].
+    """
+    found = [_drop(contact, body, gravity, speed, (number + 0.5) / PHASES) for number in range(PHASES)]
+    restitutions, durations, depths = (np.array(column) for column in zip(*found, strict=True))
+    return Drops(restitutions, durations, float(depths.max()))
+
+
+def restitutions_of_a_ball(
+    solref: tuple[float, float], dt: float, integrator: str, solimp: str = HARDEST, gravity: float = 0.0
+) -> Array:
+    """Return the restitutions of a ball at the `PHASES` of its touch, as `drops_of` does, (`PHASES`,)."""
+    contact = Contact(solref=solref, timestep=dt, integrator=integrator, solimp=solimp)
+    return drops_of(contact, gravity=gravity).restitutions
+
+
+def _drop(
+    contact: Contact, body: Body, gravity: float, speed: float, phase: float
+) -> tuple[float, float, float]:
+    """Return the restitution, the duration of the contact [s] and the depth [m] of one touch."""
+    model = body.compiled(contact, body.height + speed * contact.timestep * (2 + phase))
+    data = mujoco.MjData(model)
+    model.opt.gravity[2] = -gravity
+    data.qvel[2] = -speed
+
+    def speed_at_plane() -> float:
+        """Return the speed that the body in free flight has where it meets the plane."""
+        return math.sqrt(max(data.qvel[2] ** 2 + 2 * gravity * (data.qpos[2] - body.height), 0.0))
+
+    before, pushing, slow, depth = speed_at_plane(), 0, 0, 0.0
+    for _ in range(MOST_STEPS):
+        mujoco.mj_step(model, data)
+        pushed = data.nefc > 0 and data.efc_force.max() > 0
+        pushing += pushed
+        slow = slow + 1 if abs(data.qvel[2]) < SLOW * speed else 0
+        depth = max(depth, body.height - data.qpos[2])
+        if pushing and not pushed and data.qvel[2] > 0 and (data.ncon == 0 or gravity == 0):
+            return speed_at_plane() / before, pushing * contact.timestep, depth
+        if pushing and slow == LYING:
+            break
+    return 0.0, pushing * contact.timestep, depth

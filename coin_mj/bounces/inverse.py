@@ -1,0 +1,186 @@
+"""The restitution of given contact settings: as MuJoCo mixes those of two geoms, measured, and by formula."""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from numbers import Real
+
+import mujoco
+
+from cointoss.coin_mj.bounces.bodies import BALL
+from cointoss.coin_mj.bounces.contact import DEFAULT, Contact, text_of
+from cointoss.coin_mj.bounces.drops import GRAVITY, SPEED, drops_of
+from cointoss.coin_mj.bounces.recipe import require, require_numbers, require_timestep
+from cointoss.coin_mj.bounces.rest import Rest, rest_of
+from cointoss.coin_mj.model.settings import contact_duration, restitution_of
+
+INTEGRATORS = ("Euler", "implicit", "implicitfast", "RK4", "discrete")
+TWO = "two numbers as in a <geom>: both above 0, or both at most 0, such as 0.02 1 or -1000 -10"
+_PAIR = """<mujoco>
+  <worldbody>
+    <geom type="sphere" size="1" {one}/>
+    <body pos="0 0 1"><freejoint/><geom type="sphere" size="1" {two}/></body>
+  </worldbody>
+</mujoco>"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Formula:
+    """What a damped spring, or one step of it, does by theory."""
+
+    restitution: float
+    duration: float
+    """Of a contact [s]."""
+    depth: float
+    """At 1 m/s [m]."""
+    rest: float
+    """Depth at rest [m]; infinite where nothing holds a body there."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rebounds:
+    """What a ball does on a plane with given settings of MuJoCo."""
+
+    solref: tuple[float, float]
+    """As MuJoCo mixes it from those of both geoms."""
+    solimp: str
+    """Likewise."""
+    timestep: float
+    """[s]."""
+    integrator: str
+    restitution: float
+    """In the mean over `PHASES` touches at `SPEED` without weight, anywhere between two steps."""
+    lowest: float
+    """Of these touches."""
+    highest: float
+    restitution_with_weight: float
+    """In the mean, of a ball that touches at `SPEED` under `GRAVITY`."""
+    duration: float
+    """Of a contact without weight, in the mean [s]."""
+    depth: float
+    """At 1 m/s, at most, without weight [m]."""
+    rest: Rest
+    """What the ball does when its bounces have ended."""
+    formula: Formula | None
+    """None where none is known: of a contact of about a step by RK4 or discrete."""
+
+
+def solref_of(
+    solref: Sequence[float],
+    timestep: float,
+    *,
+    other: Sequence[float] | None = None,
+    integrator: str = "Euler",
+    solimp: str = DEFAULT,
+) -> Rebounds:
+    """Return the restitution of given settings: measured on a ball over a plane, and by formula.
+
+    Args:
+        solref: of one geom, two numbers.
+        timestep: dt of the simulation [s].
+        other: the solref of the other geom, of equal priority, with MuJoCo's own solimp; None where `solref`
+            and `solimp` hold alone, as those of a geom with priority="1" do.
+        integrator: of MuJoCo, by its name in a model; Euler is MuJoCo's own choice.
+        solimp: of the geom with `solref`; by default MuJoCo's own.
+
+    Raises:
+        ValueError: naming the argument, its value and what is accepted.
+    """
+    require_numbers(timestep=timestep)
+    require_timestep(timestep)
+    require("integrator", integrator, integrator in INTEGRATORS, ", ".join(INTEGRATORS))
+    given = Contact(
+        solref=_solref("solref", solref), timestep=timestep, integrator=integrator, solimp=_solimp(solimp)
+    )
+    contact = given if other is None else _mixed(given, _solref("other", other))
+    drops, weighing = drops_of(contact), drops_of(contact, gravity=GRAVITY)
+    return Rebounds(
+        solref=contact.solref,
+        solimp=contact.solimp,
+        timestep=timestep,
+        integrator=integrator,
+        restitution=float(drops.restitutions.mean()),
+        lowest=float(drops.restitutions.min()),
+        highest=float(drops.restitutions.max()),
+        restitution_with_weight=float(weighing.restitutions.mean()),
+        duration=float(drops.durations.mean()),
+        depth=drops.depth / SPEED,
+        rest=rest_of(contact, BALL),
+        formula=formula_of(contact),
+    )
+
+
+def _solref(name: str, numbers: Sequence[float]) -> tuple[float, float]:
+    """Return a solref of MuJoCo, or refuse what is none."""
+    pair = tuple(numbers) if isinstance(numbers, Sequence) and not isinstance(numbers, str) else ()
+    fits = len(pair) == 2 and all(isinstance(n, Real) and math.isfinite(n) for n in pair)
+    fits = fits and (min(pair) > 0 or max(pair) <= 0)
+    require(name, numbers, fits, TWO)
+    return float(pair[0]), float(pair[1])
+
+
+def _solimp(text: str) -> str:
+    """Return a solimp with all of its five numbers, or refuse what is none."""
+    accepted = "up to five numbers as in a <geom>, such as 0.9 0.95 0.001: dmin dmax width midpoint power"
+    words = text.split() if isinstance(text, str) else []
+    try:
+        numbers = [float(word) for word in words]
+    except ValueError:
+        numbers = []
+    fits = 1 <= len(numbers) <= 5 and all(math.isfinite(number) and number >= 0 for number in numbers)
+    require("solimp", text, fits, accepted)
+    return " ".join([*words, *DEFAULT.split()[len(words) :]])
+
+
+def _mixed(contact: Contact, other: tuple[float, float]) -> Contact:
+    """Return the settings that MuJoCo makes of those of two geoms of equal priority."""
+    xml = _PAIR.format(one=contact.geom, two=f'solref="{text_of(other)}"')
+    model = mujoco.MjModel.from_xml_string(xml)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    touch = data.contact[0]
+    return replace(
+        contact,
+        solref=(float(touch.solref[0]), float(touch.solref[1])),
+        solimp=" ".join(f"{number:.12g}" for number in touch.solimp),
+    )
+
+
+def formula_of(contact: Contact) -> Formula | None:
+    """Return what theory says of settings.
+
+    A contact pushes with the acceleration -d (b v + k x), d the impedance. Where b dt reaches 1 it ends
+    within one step of Euler: v' = (1 - b dt) v + k dt x, x anything from 0 to v dt. Otherwise it is a damped
+    spring that lets go when its force vanishes: its greatest depth is v √(e/k). At rest d k x = (1 - d) g,
+    with the impedance of a shallow contact.
+    """
+    stiffness, damping = _spring_of(contact)
+    shallow, deep = (float(number) for number in contact.solimp.split()[:2])
+    dt = contact.timestep
+    rest = (1 - shallow) * GRAVITY * (deep / shallow) ** 2 / stiffness if stiffness else math.inf
+    root = math.sqrt(stiffness)
+    if damping * dt >= 1 or not stiffness:
+        if contact.integrator in ("RK4", "discrete"):
+            return None
+        rebound = max(damping * dt - 1 + stiffness * dt**2 / 2, 0.0)
+        return Formula(restitution=rebound, duration=dt if rebound else math.inf, depth=dt, rest=rest)
+    zeta = damping / (2 * root)
+    e = restitution_of(zeta)
+    return Formula(
+        restitution=e, duration=contact_duration(zeta) / root, depth=math.sqrt(e) / root, rest=rest
+    )
+
+
+def _spring_of(contact: Contact) -> tuple[float, float]:
+    """Return the stiffness [1/s²] and the damping [1/s] with the impedance that a deep contact has.
+
+    MuJoCo raises a time constant below two steps to two steps (the flag refsafe).
+    """
+    first, second = contact.solref
+    if first <= 0:
+        return -first, -second
+    constant = max(first, 2 * contact.timestep)
+    return 1 / (constant * second) ** 2, 2 / constant

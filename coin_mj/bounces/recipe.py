@@ -1,0 +1,204 @@
+"""Settings of MuJoCo that give a restitution, with what they do to bodies that bounce, rest and tumble."""
+
+import math
+import warnings
+from dataclasses import dataclass
+from numbers import Integral, Real
+
+import numpy as np
+
+from cointoss.coin_mj.bounces.bodies import BALL, Body, body_of
+from cointoss.coin_mj.bounces.contact import (
+    HARDEST,
+    Contact,
+    one_step_solref,
+    resting_solref,
+    spring_solimp,
+    spring_solref,
+    text_of,
+)
+from cointoss.coin_mj.bounces.drops import GRAVITY, LONGEST, SPEED, drops_of
+from cointoss.coin_mj.bounces.flight import energy_change
+from cointoss.coin_mj.bounces.rest import Rest, rest_of
+from cointoss.models.errors import FieldError
+from cointoss.models.records import ApproximationWarning
+
+SPRING_STEPS = 40
+"""Steps in a contact by a spring, by default."""
+LEAST = 0.01
+"""Restitution by a spring."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bounce:
+    """Settings of MuJoCo that give a restitution, and what a body does with them."""
+
+    restitution: float
+    """That asked for, e."""
+    timestep: float
+    """[s]."""
+    integrator: str
+    solref: tuple[float, float]
+    """-stiffness and -damping."""
+    solimp: str
+    body: str
+    """That comes down flat on a plane: its type and size in a <geom>."""
+    error: float
+    """Largest |e' - e| over `PHASES` touches without weight, anywhere between two steps."""
+    error_with_weight: float
+    """That of a body which touches at `SPEED` under `GRAVITY`; as the contact's length over the speed."""
+    depth: float
+    """How deep a body goes into the floor at 1 m/s, at most, whatever its mass [m]."""
+    rest: Rest
+    """What the body does when its bounces have ended."""
+    flight: float
+    """Change of a tumbling brick's energy, over itself, in half a second at ten turns a second."""
+
+    @property
+    def option(self) -> str:
+        """The element <option>."""
+        flag = '<flag diagexact="enable"/>'
+        return f'<option timestep="{self.timestep!r}" integrator="{self.integrator}">{flag}</option>'
+
+    @property
+    def geom(self) -> str:
+        """The attributes of one of the two geoms that touch; by its priority they hold alone."""
+        return f'condim="1" solref="{text_of(self.solref)}" solimp="{self.solimp}" priority="1"'
+
+    @property
+    def model(self) -> str:
+        """A whole model: the body falls from half a metre."""
+        body = body_of(self.body)
+        return body.model(_contact_of(self), body.height + 0.5)
+
+
+def solref(
+    restitution: float,
+    timestep: float,
+    *,
+    spring: bool = False,
+    steps: int = SPRING_STEPS,
+    body: str | None = None,
+) -> Bounce:
+    """Return the settings with which MuJoCo's contacts have a restitution, and what they do, measured now.
+
+    By default a contact takes one step, v' = -e v, with a small stiffness that holds a body at rest; a spring
+    takes `steps`, in which its force can be seen, and can be stepped by RK4, which keeps the energy of a body
+    that tumbles. docs/MUJOCO.md derives both. They hold for every mass, and for every shape that hardly turns
+    in the contact, without MuJoCo's own friction.
+
+    Args:
+        restitution: e, from 0 to 1; for a spring from 0.01, below which its error is as large.
+        timestep: dt of the simulation [s].
+        spring: whether a contact is a spring, resolved in time.
+        steps: of the simulation in the contact of a spring.
+        body: that is measured, by its type and size in a <geom>, such as "box 0.1 0.1 0.002"; by default a
+            ball of 1 cm.
+
+    Raises:
+        ValueError: naming the argument, its value and what is accepted.
+
+    Warns:
+        ApproximationWarning: where a contact of `body` at `SPEED` is deeper than half of its thickness.
+    """
+    require_numbers(restitution=restitution, timestep=timestep, steps=steps)
+    require("restitution", restitution, 0 <= restitution <= 1, "a number from 0 to 1")
+    require(
+        "restitution",
+        restitution,
+        restitution >= LEAST or not spring,
+        f"a number from {LEAST} to 1 by a spring",
+    )
+    require_timestep(timestep)
+    whole = isinstance(steps, Integral) and 5 <= steps <= LONGEST // 4
+    require("steps", steps, whole, f"a whole number from 5 to {LONGEST // 4}")
+    contact = recipe_of(restitution, timestep, steps if spring else None)
+    chosen = BALL if body is None else body_of(body)
+    drops = drops_of(contact, chosen)
+    weighing = drops_of(contact, chosen, GRAVITY)
+    if body is not None:
+        _warn_if_deep(chosen, drops.depth / SPEED)
+    return Bounce(
+        restitution=restitution,
+        timestep=timestep,
+        integrator=contact.integrator,
+        solref=contact.solref,
+        solimp=contact.solimp,
+        body=str(chosen),
+        error=float(np.abs(drops.restitutions - restitution).max()),
+        error_with_weight=float(np.abs(weighing.restitutions - restitution).max()),
+        depth=drops.depth / SPEED,
+        rest=rest_of(contact, chosen),
+        flight=energy_change(contact.integrator, timestep),
+    )
+
+
+def recipe_of(restitution: float, timestep: float, steps: int | None = None) -> Contact:
+    """Return the settings for a restitution: of one step, or of a spring of so many."""
+    if steps is None:
+        return Contact(
+            solref=resting_solref(restitution, timestep), timestep=timestep, integrator="implicitfast"
+        )
+    return Contact(
+        solref=spring_solref(restitution, timestep, steps),
+        timestep=timestep,
+        integrator="RK4",
+        solimp=spring_solimp(restitution, steps),
+    )
+
+
+def exact_of(bounce: Bounce) -> Contact:
+    """Return the settings of one step without a stiffness: exact to rounding, and never at rest."""
+    return Contact(
+        solref=one_step_solref(bounce.restitution, bounce.timestep),
+        timestep=bounce.timestep,
+        integrator=bounce.integrator,
+        solimp=HARDEST,
+    )
+
+
+def require(name: str, value: object, holds: bool, accepted: str) -> None:
+    """Refuse an argument that does not hold.
+
+    Raises:
+        FieldError: naming the argument, its value and what is accepted.
+    """
+    if not holds:
+        raise FieldError(name, value, accepted)
+
+
+def require_numbers(**numbers: object) -> None:
+    """Refuse arguments that are no numbers."""
+    for name, value in numbers.items():
+        require(name, value, isinstance(value, Real) and not isinstance(value, bool), "a number")
+
+
+def require_timestep(timestep: float) -> None:
+    """Refuse a step that MuJoCo's own settings do not suit."""
+    require(
+        "timestep", timestep, 1e-7 <= timestep <= 0.1, "a number of seconds from 1e-7 to 0.1, such as 0.002"
+    )
+
+
+def _contact_of(bounce: Bounce) -> Contact:
+    return Contact(
+        solref=bounce.solref, timestep=bounce.timestep, integrator=bounce.integrator, solimp=bounce.solimp
+    )
+
+
+def _warn_if_deep(body: Body, depth: float) -> None:
+    """Warn where a body goes deeper into the floor than half its thickness: only a plane sends it back.
+
+    Args:
+        body: that touches.
+        depth: at 1 m/s [m].
+    """
+    fastest = body.thinnest / depth if depth else math.inf
+    if fastest < SPEED:
+        warnings.warn(
+            f"{body}: a contact at {SPEED:g} m/s is {1e3 * SPEED * depth:.3g} mm deep, and the body is "
+            f"{1e3 * 2 * body.thinnest:.3g} mm thick: above {fastest:.2g} m/s it may go through a floor that "
+            f"is no plane; accepted: slower touches, or a step at most {fastest / SPEED:.2g} times as long",
+            ApproximationWarning,
+            stacklevel=3,
+        )

@@ -1,0 +1,65 @@
+"""What a body does that lies on a plane: how deep it lies, whether it hops, and whether it sinks."""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from cointoss.coin_mj.bounces.bodies import BALL, Body
+from cointoss.coin_mj.bounces.contact import Contact
+from cointoss.coin_mj.bounces.drops import GRAVITY
+
+STEPS = 20_000
+"""After so many a body that can come to rest has done so."""
+LOOKED_AT = STEPS // 4
+"""The last of them."""
+FALL = 50.0
+"""Speed of the fall before, over g dt."""
+STILL = 1e-3
+"""A body that moves by less than this part of g dt² in the last quarter of the steps lies still."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rest:
+    """What a body does under its own weight; under n times its weight it lies or sinks n times as deep."""
+
+    depth: float
+    """In the plane, in the mean over the last quarter of the steps [m]."""
+    hop: float
+    """From its lowest to its highest position then, without what it sinks [m]; 0 where it is still."""
+    sinking: float
+    """Speed at which it sinks in the mean [m/s]; 0 where it lies still."""
+
+
+def rest_of(contact: Contact, body: Body = BALL, gravity: float = GRAVITY) -> Rest:
+    """Let a body fall on a plane, and measure what it does when its bounces have ended.
+
+    The fall is 50 steps' worth of gravity fast and 20,000 steps are made, whatever the step, so that what is
+    found scales with g dt².
+
+    Args:
+        contact: the settings.
+        body: it comes down flat.
+        gravity: downward [m/s²].
+    """
+    dt = contact.timestep
+    model = body.compiled(contact, body.height)
+    model.opt.gravity[2] = -gravity
+    data = mujoco.MjData(model)
+    data.qvel[2] = -FALL * gravity * dt
+    mujoco.mj_step(model, data, nstep=STEPS - LOOKED_AT)
+    last, times = np.empty(LOOKED_AT), dt * np.arange(LOOKED_AT)
+    for step in range(LOOKED_AT):
+        mujoco.mj_step(model, data)
+        last[step] = body.height - data.qpos[2]
+    sinking, start = np.polyfit(times, last, 1)
+    hop = float(np.ptp(last - sinking * times - start))
+    still = STILL * gravity * dt**2
+    return Rest(
+        depth=float(last.mean()),
+        hop=hop if hop > still else 0.0,
+        sinking=float(sinking) if abs(sinking) * times[-1] > still else 0.0,
+    )

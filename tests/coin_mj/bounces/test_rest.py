@@ -1,0 +1,85 @@
+"""A body at rest: what holds it lies still where the closed form says, what holds nothing sinks."""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
+import mujoco
+import numpy as np
+import pytest
+
+from cointoss.coin_mj.bounces.bodies import BALL, body_of
+from cointoss.coin_mj.bounces.contact import Contact, one_step_solref, spring_solref
+from cointoss.coin_mj.bounces.recipe import recipe_of
+from cointoss.coin_mj.bounces.rest import rest_of
+
+
+@pytest.mark.parametrize(("e", "dt"), [(0.0, 2e-3), (0.8, 1e-5)])
+def test_without_a_stiffness_a_body_sinks_for_ever(e, dt):
+    """A contact cancels all but 1 - d of the weight: v = (1 - d) g dt/(1 + e)."""
+    contact = Contact(solref=one_step_solref(e, dt), timestep=dt, integrator="implicitfast")
+    assert rest_of(contact).sinking == pytest.approx(1e-4 * 9.81 * dt / (1 + e), rel=1e-3)
+
+
+@pytest.mark.parametrize("body", ["sphere 0.01", "box 0.1 0.1 0.05"])
+@pytest.mark.parametrize("e", [0.0, 0.8])
+def test_the_recipe_of_one_step_rests_where_the_closed_form_says(e, body):
+    """(1 - d) g/k, k = 1e-3/dt²: 3.9 µm at 2 ms. More contacts than one share a body's weight."""
+    found = rest_of(recipe_of(e, 2e-3), body_of(body))
+    assert (found.hop, found.sinking) == (0, 0)
+    assert found.depth == pytest.approx(1e-4 * 9.81 / 250, rel=1e-3 if "sphere" in body else 1.0)
+
+
+@pytest.mark.parametrize(("e", "steps"), [(0.1, 40), (0.8, 10), (0.8, 40)])
+def test_the_recipe_of_a_spring_rests_where_the_closed_form_says(e, steps):
+    contact = recipe_of(e, 1e-3, steps)
+    soft = 1 - float(contact.solimp.split()[0])
+    found = rest_of(contact)
+    assert (found.hop, found.sinking) == (0, 0)
+    assert found.depth == pytest.approx(soft * 9.81 / -contact.solref[0], rel=1e-3)
+
+
+def test_the_hardest_spring_hops_for_ever():
+    """As was recommended before: the contact carries all of the weight, and the spring pushes on."""
+    contact = Contact(solref=spring_solref(0.8, 1e-3, 40), timestep=1e-3, integrator="RK4")
+    assert 2e-5 < rest_of(contact).hop < 1e-4
+
+
+@pytest.mark.parametrize("force", [0.0, 500.0])
+def test_a_body_that_is_pressed_lies_as_much_deeper(force):
+    """1 kg under 500 N: 0.2 mm, where it sank 68 µm/s."""
+    contact = recipe_of(0.5, 2e-3)
+    model = BALL.compiled(contact, BALL.height)
+    model.body_mass[1] = 1.0
+    mujoco.mj_setConst(model, mujoco.MjData(model))
+    data = mujoco.MjData(model)
+    data.xfrc_applied[1, 2] = -force
+    mujoco.mj_step(model, data, nstep=30_000)
+    assert BALL.height - data.qpos[2] == pytest.approx(1e-4 * (9.81 + force) / 250, rel=1e-3)
+
+
+def lowest_and_highest(contact, steps):
+    """Return the heights between which a ball is that has bounced out, over so many steps."""
+    model = BALL.compiled(contact, 2 * BALL.height)
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, nstep=40_000)
+    heights = []
+    for _ in range(steps // 1000):
+        mujoco.mj_step(model, data, nstep=1000)
+        heights.append(data.qpos[2])
+    return np.array([min(heights), max(heights)]) - BALL.height
+
+
+RESTING = [(0.0, None), (0.5, None), (0.8, None), (0.5, 40), (0.8, 40)]
+
+
+@pytest.mark.parametrize(("e", "steps"), RESTING)
+def test_a_minute_at_rest(e, steps):
+    low, high = lowest_and_highest(recipe_of(e, 2e-3, steps), 30_000)
+    assert low == pytest.approx(high, abs=1e-9)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("e", "steps"), RESTING)
+def test_an_hour_at_rest(e, steps):
+    low, high = lowest_and_highest(recipe_of(e, 2e-3, steps), 1_800_000)
+    assert low == pytest.approx(high, abs=1e-9)
