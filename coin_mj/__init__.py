@@ -1,6 +1,7 @@
 """The MuJoCo engine: an MJCF cylinder, its drag and its stiff contact; imports models alone."""
 
 from cointoss.coin_mj.bounces.inverse import Rebounds, solref_of
+from cointoss.coin_mj.bounces.pair import PairBounce, bounce
 from cointoss.coin_mj.bounces.recipe import Bounce, solref
 from cointoss.coin_mj.ensemble import toss_many
 from cointoss.coin_mj.model.settings import FINE, MANY, Friction, Realisation, Settings
@@ -11,9 +12,11 @@ __all__ = [
     "MANY",
     "Bounce",
     "Friction",
+    "PairBounce",
     "Realisation",
     "Rebounds",
     "Settings",
+    "bounce",
     "impacts_of",
     "require_supported",
     "solref",

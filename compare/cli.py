@@ -7,6 +7,7 @@ from typing import Any, NoReturn
 import click
 
 from cointoss.compare.commands.basin import basin
+from cointoss.compare.commands.bounce import bounce
 from cointoss.compare.commands.common import ARGUMENTS, refuse
 from cointoss.compare.commands.compare import compare
 from cointoss.compare.commands.explore import explore
@@ -61,7 +62,7 @@ class _Commands(click.Group):
 
 @click.group(
     cls=_Commands,
-    commands=[basin, compare, explore, hands, lab, reproduce, scenarios, solref, toss, video],
+    commands=[basin, bounce, compare, explore, hands, lab, reproduce, scenarios, solref, toss, video],
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     invoke_without_command=True,
 )

@@ -11,6 +11,8 @@ DEFAULT = "0.9 0.95 0.001 0.5 2"
 """MuJoCo's own solimp."""
 DEFAULT_SOLREF = (0.02, 1.0)
 """MuJoCo's own solref: time constant [s] and damping ratio."""
+INTEGRATORS = ("Euler", "RK4", "implicit", "implicitfast", "discrete")
+"""Of MuJoCo, by their names in a model and in the order of its numbers."""
 STIFFENED = 1e-3
 """k dt² of the stiffness beside the damping of a contact of one step, which lifts what would sink."""
 CARRIED = 0.1 * math.pi

@@ -11,6 +11,7 @@ import numpy as np
 
 from cointoss.coin_mj.bounces.bodies import BALL, Body
 from cointoss.coin_mj.bounces.contact import HARDEST, Contact
+from cointoss.coin_mj.bounces.unlogged import unlogged
 from cointoss.models.records import Array
 
 LONGEST = 2000
@@ -48,7 +49,8 @@ def drops_of(contact: Contact, body: Body = BALL, gravity: float = 0.0, speed: f
         gravity: downward [m/s²]; by default the contact alone acts.
         speed: at the release, less than four steps above the plane [m/s].
     """
-    found = [_drop(contact, body, gravity, speed, (number + 0.5) / PHASES) for number in range(PHASES)]
+    with unlogged():
+        found = [_drop(contact, body, gravity, speed, (number + 0.5) / PHASES) for number in range(PHASES)]
     restitutions, durations, depths = (np.array(column) for column in zip(*found, strict=True))
     return Drops(restitutions, durations, float(depths.max()))
 

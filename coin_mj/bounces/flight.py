@@ -8,6 +8,8 @@ import math
 import mujoco
 import numpy as np
 
+from cointoss.coin_mj.bounces.unlogged import unlogged
+
 SPIN = 2 * math.pi * 10
 """Of the body [rad/s]: ten turns a second."""
 DURATION = 0.5
@@ -38,6 +40,7 @@ def energy_change(integrator: str, timestep: float) -> float:
     data.qvel[3:] = SPIN / math.sqrt(3)
     mujoco.mj_forward(model, data)
     before = data.energy[1]
-    mujoco.mj_step(model, data, nstep=max(1, round(DURATION / timestep)))
+    with unlogged():
+        mujoco.mj_step(model, data, nstep=max(1, round(DURATION / timestep)))
     mujoco.mj_forward(model, data)
     return float(np.nan_to_num(data.energy[1] / before - 1, nan=math.inf))

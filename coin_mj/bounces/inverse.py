@@ -11,13 +11,12 @@ from numbers import Real
 import mujoco
 
 from cointoss.coin_mj.bounces.bodies import BALL
-from cointoss.coin_mj.bounces.contact import DEFAULT, Contact, text_of
+from cointoss.coin_mj.bounces.contact import DEFAULT, INTEGRATORS, Contact, text_of
 from cointoss.coin_mj.bounces.drops import GRAVITY, SPEED, drops_of
 from cointoss.coin_mj.bounces.recipe import require, require_numbers, require_timestep
 from cointoss.coin_mj.bounces.rest import Rest, rest_of
 from cointoss.coin_mj.model.settings import contact_duration, restitution_of
 
-INTEGRATORS = ("Euler", "implicit", "implicitfast", "RK4", "discrete")
 TWO = "two numbers as in a <geom>: both above 0, or both at most 0, such as 0.02 1 or -1000 -10"
 _PAIR = """<mujoco>
   <worldbody>
@@ -115,7 +114,9 @@ def solref_of(
 
 def _solref(name: str, numbers: Sequence[float]) -> tuple[float, float]:
     """Return a solref of MuJoCo, or refuse what is none."""
-    pair = tuple(numbers) if isinstance(numbers, Sequence) and not isinstance(numbers, str) else ()
+    pair: tuple[float, ...] = (
+        tuple(numbers) if isinstance(numbers, Sequence) and not isinstance(numbers, str) else ()
+    )
     fits = len(pair) == 2 and all(isinstance(n, Real) and math.isfinite(n) for n in pair)
     fits = fits and (min(pair) > 0 or max(pair) <= 0)
     require(name, numbers, fits, TWO)

@@ -11,6 +11,7 @@ import numpy as np
 from cointoss.coin_mj.bounces.bodies import BALL, Body
 from cointoss.coin_mj.bounces.contact import Contact
 from cointoss.coin_mj.bounces.drops import GRAVITY
+from cointoss.coin_mj.bounces.unlogged import unlogged
 
 STEPS = 20_000
 """After so many a body that can come to rest has done so."""
@@ -50,11 +51,12 @@ def rest_of(contact: Contact, body: Body = BALL, gravity: float = GRAVITY) -> Re
     model.opt.gravity[2] = -gravity
     data = mujoco.MjData(model)
     data.qvel[2] = -FALL * gravity * dt
-    mujoco.mj_step(model, data, nstep=STEPS - LOOKED_AT)
     last, times = np.empty(LOOKED_AT), dt * np.arange(LOOKED_AT)
-    for step in range(LOOKED_AT):
-        mujoco.mj_step(model, data)
-        last[step] = body.height - data.qpos[2]
+    with unlogged():
+        mujoco.mj_step(model, data, nstep=STEPS - LOOKED_AT)
+        for step in range(LOOKED_AT):
+            mujoco.mj_step(model, data)
+            last[step] = body.height - data.qpos[2]
     sinking, start = np.polyfit(times, last, 1)
     hop = float(np.ptp(last - sinking * times - start))
     still = STILL * gravity * dt**2

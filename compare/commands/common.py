@@ -18,6 +18,8 @@ SCENARIO_HELP = (
 
 ARGUMENTS = {
     "SCENARIO": "a TOML file, or a name that cointoss scenarios lists, such as fig24a",
+    "MODEL.xml": "an XML file of MuJoCo",
+    "GEOM": "the name or the number of a geom, twice",
     "MAP.zarr": "a map that cointoss basin made",
 }
 """What the arguments of commands take."""

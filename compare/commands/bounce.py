@@ -1,0 +1,65 @@
+"""`cointoss bounce`: how two geoms of a user's own MuJoCo model bounce off each other."""
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+import click
+import numpy as np
+
+from cointoss.compare.commands.common import Place, plain_errors, refuse
+
+
+@click.command()
+@click.argument("model", metavar="MODEL.xml", type=Place())
+@click.argument("one", metavar="GEOM")
+@click.argument("two", metavar="GEOM")
+@click.option("--png", type=Place(), help="Draw the restitution over the speed.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
+def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> None:
+    """Print how two geoms of your own MuJoCo model bounce off each other.
+
+    GEOM is the name or the number of a geom. They come together at six speeds and eight phases of a step,
+    stepped by plain mj_step with the options of the model, without gravity and with it. Other geoms touch
+    nothing meanwhile. The model is read by MuJoCo's own loader and is not changed.
+    """
+    with plain_errors(str(model)):
+        from cointoss.compare.film.back_end import require_mujoco
+        from cointoss.compare.output.files import require_file, written_whole
+
+        require_mujoco()
+        if png is not None:
+            require_file(png, ".png", str(model))
+        from cointoss import coin_mj
+        from cointoss.models.errors import FieldError
+
+        try:
+            found = coin_mj.bounce(model, one, two)
+        except FieldError as error:
+            field = "" if error.field == "model" else f" {error.field} {error.value}:"
+            refuse(f"{model}:{field} accepted: {error.accepted}")
+        from cointoss.compare.output.bounce_plot import bounce_table, draw_bounce
+
+        if png is not None:
+            with written_whole(png) as aside:
+                draw_bounce(found).savefig(aside, dpi=150, format="png")
+        if as_json:
+            click.echo(json.dumps({name: _plain(value) for name, value in asdict(found).items()}, indent=1))
+            return
+        solref = " ".join(f"{number:g}" for number in found.solref)
+        friction = f' friction="{found.friction:g}"' if found.condim > 1 else ""
+        click.echo(
+            f'mixed       solref="{solref}" solimp="{found.solimp}" condim="{found.condim}"{friction}\n'
+            f"integrator  {found.integrator}, {1e3 * found.timestep:g} ms\n\n{bounce_table(found)}"
+        )
+        if png is not None:
+            click.echo(f"\npicture     {png}")
+
+
+def _plain(value: object) -> object:
+    """Return an array as lists, with null where there is no number."""
+    if not isinstance(value, np.ndarray):
+        return value
+    plain = value.astype(object)
+    plain[np.isnan(value)] = None
+    return plain.tolist()
