@@ -12,9 +12,7 @@ from cointoss.coin_mj.bounces.contact import Contact
 from cointoss.models.errors import FieldError
 
 MODEL = """<mujoco>
-  <option timestep="{timestep!r}" integrator="{integrator}">
-    <flag diagexact="enable"/>
-  </option>
+  {option}
   <worldbody>
     <geom type="plane" size="0 0 1" condim="1"/>
     <body pos="0 0 {height!r}">
@@ -54,8 +52,7 @@ class Body:
     def model(self, contact: Contact, height: float) -> str:
         """Return the model of the body that starts at a height over a plane [m]."""
         return MODEL.format(
-            timestep=contact.timestep,
-            integrator=contact.integrator,
+            option=contact.option,
             height=height,
             kind=self.kind,
             size=" ".join(f"{number!r}" for number in self.size),

@@ -32,6 +32,14 @@ class Contact:
     integrator: str
     """By its name in a model."""
     solimp: str = HARDEST
+    exact: bool = True
+    """Whether the flag diagexact is set."""
+
+    @property
+    def option(self) -> str:
+        """The element <option>."""
+        opening = f'option timestep="{self.timestep!r}" integrator="{self.integrator}"'
+        return f'<{opening}><flag diagexact="enable"/></option>' if self.exact else f"<{opening}/>"
 
     @property
     def geom(self) -> str:

@@ -114,13 +114,11 @@ def solref_of(
 
 def _solref(name: str, numbers: Sequence[float]) -> tuple[float, float]:
     """Return a solref of MuJoCo, or refuse what is none."""
-    pair: tuple[float, ...] = (
-        tuple(numbers) if isinstance(numbers, Sequence) and not isinstance(numbers, str) else ()
-    )
-    fits = len(pair) == 2 and all(isinstance(n, Real) and math.isfinite(n) for n in pair)
-    fits = fits and (min(pair) > 0 or max(pair) <= 0)
-    require(name, numbers, fits, TWO)
-    return float(pair[0]), float(pair[1])
+    given = list(numbers) if isinstance(numbers, Sequence) and not isinstance(numbers, str) else []
+    fits = len(given) == 2 and all(isinstance(n, Real) and math.isfinite(n) for n in given)
+    require(name, numbers, fits and (min(given) > 0 or max(given) <= 0), TWO)
+    first, second = given
+    return float(first), float(second)
 
 
 def _solimp(text: str) -> str:

@@ -2,11 +2,12 @@
 
 import math
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from numbers import Integral, Real
 
 import numpy as np
 
+from cointoss.coin_mj.bounces.backends import Backend
 from cointoss.coin_mj.bounces.bodies import BALL, Body, body_of
 from cointoss.coin_mj.bounces.contact import (
     HARDEST,
@@ -15,7 +16,6 @@ from cointoss.coin_mj.bounces.contact import (
     resting_solref,
     spring_solimp,
     spring_solref,
-    text_of,
 )
 from cointoss.coin_mj.bounces.drops import GRAVITY, LONGEST, SPEED, drops_of
 from cointoss.coin_mj.bounces.flight import energy_change
@@ -41,6 +41,8 @@ class Bounce:
     solref: tuple[float, float]
     """-stiffness and -damping."""
     solimp: str
+    backend: Backend
+    """What steps the model; what follows was measured by MuJoCo itself."""
     body: str
     """That comes down flat on a plane: its type and size in a <geom>."""
     error: float
@@ -57,19 +59,29 @@ class Bounce:
     @property
     def option(self) -> str:
         """The element <option>."""
-        flag = '<flag diagexact="enable"/>'
-        return f'<option timestep="{self.timestep!r}" integrator="{self.integrator}">{flag}</option>'
+        return self.contact.option
 
     @property
     def geom(self) -> str:
         """The attributes of one of the two geoms that touch; by its priority they hold alone."""
-        return f'condim="1" solref="{text_of(self.solref)}" solimp="{self.solimp}" priority="1"'
+        return f'condim="1" {self.contact.geom} priority="1"'
 
     @property
     def model(self) -> str:
         """A whole model: the body falls from half a metre."""
         body = body_of(self.body)
-        return body.model(_contact_of(self), body.height + 0.5)
+        return body.model(self.contact, body.height + 0.5)
+
+    @property
+    def contact(self) -> Contact:
+        """The settings alone."""
+        return Contact(
+            solref=self.solref,
+            timestep=self.timestep,
+            integrator=self.integrator,
+            solimp=self.solimp,
+            exact=self.backend.takes_diagexact,
+        )
 
 
 def solref(
@@ -79,6 +91,7 @@ def solref(
     spring: bool = False,
     steps: int = SPRING_STEPS,
     body: str | None = None,
+    backend: Backend | str = Backend.MUJOCO,
 ) -> Bounce:
     """Return the settings with which MuJoCo's contacts have a restitution, and what they do, measured now.
 
@@ -94,6 +107,7 @@ def solref(
         steps: of the simulation in the contact of a spring.
         body: that is measured, by its type and size in a <geom>, such as "box 0.1 0.1 0.002"; by default a
             ball of 1 cm.
+        backend: what steps the model: mujoco, mjx or warp. The last two refuse the flag diagexact.
 
     Raises:
         ValueError: naming the argument, its value and what is accepted.
@@ -112,7 +126,11 @@ def solref(
     require_timestep(timestep)
     whole = isinstance(steps, Integral) and 5 <= steps <= LONGEST // 4
     require("steps", steps, whole, f"a whole number from 5 to {LONGEST // 4}")
-    contact = recipe_of(restitution, timestep, steps if spring else None)
+    known = [item.value for item in Backend]
+    require("backend", backend, backend in known, ", ".join(known))
+    contact = replace(
+        recipe_of(restitution, timestep, steps if spring else None), exact=Backend(backend).takes_diagexact
+    )
     chosen = BALL if body is None else body_of(body)
     drops = drops_of(contact, chosen)
     weighing = drops_of(contact, chosen, GRAVITY)
@@ -124,6 +142,7 @@ def solref(
         integrator=contact.integrator,
         solref=contact.solref,
         solimp=contact.solimp,
+        backend=Backend(backend),
         body=str(chosen),
         error=float(np.abs(drops.restitutions - restitution).max()),
         error_with_weight=float(np.abs(weighing.restitutions - restitution).max()),
@@ -177,12 +196,6 @@ def require_timestep(timestep: float) -> None:
     """Refuse a step that MuJoCo's own settings do not suit."""
     require(
         "timestep", timestep, 1e-7 <= timestep <= 0.1, "a number of seconds from 1e-7 to 0.1, such as 0.002"
-    )
-
-
-def _contact_of(bounce: Bounce) -> Contact:
-    return Contact(
-        solref=bounce.solref, timestep=bounce.timestep, integrator=bounce.integrator, solimp=bounce.solimp
     )
 
 

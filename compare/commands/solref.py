@@ -34,6 +34,11 @@ if TYPE_CHECKING:
     metavar="BODY",
     help='That is measured, as in a <geom>, such as "box 0.1 0.1 0.002" (half sizes).',
 )
+@click.option(
+    "--backend",
+    type=click.Choice(["mujoco", "mjx", "warp"]),
+    help="What steps the model; by default MuJoCo itself. Prints settings that it takes.",
+)
 @click.option("--model", is_flag=True, help="Print a whole model instead: the body over a plane.")
 @click.option(
     "--with",
@@ -55,6 +60,7 @@ def solref(
     spring: bool,
     steps: int | None,
     body: str | None,
+    backend: str | None,
     model: bool,
     other: str | None,
     integrator: str | None,
@@ -65,7 +71,7 @@ def solref(
 
     Everything is measured now, on a body that touches a plane at 16 phases of a step.
     """
-    forward = {"--spring": spring, "--steps": steps, "--body": body, "--model": model}
+    forward = {"--spring": spring, "--steps": steps, "--body": body, "--backend": backend, "--model": model}
     inverse = {"--with": other, "--integrator": integrator, "--solimp": solimp}
     if (restitution is None) == (given is None):
         raise click.UsageError("--restitution and --of: accepted: one of them")
@@ -111,6 +117,7 @@ def solref(
                     spring=spring,
                     steps=SPRING_STEPS if steps is None else steps,
                     body=body,
+                    backend=backend or "mujoco",
                 )
         if as_json:
             click.echo(json.dumps(asdict(found), indent=1))
@@ -153,6 +160,7 @@ def _settings(found: "Bounce") -> str:
             "",
             f"integrator  {found.integrator}, "
             + ("any but discrete, which errs more" if spring else "or Euler; not RK4, not discrete"),
+            f"backend     {found.backend}: {found.backend.remark}",
             f"error       {found.error:.0e} at worst, of a {found.body} that touches at 16 phases of a step",
             f"            {found.error_with_weight:.0e} with weight, at {SPEED:g} m/s; more if slower",
             f"depth       up to {1e3 * found.depth:.3g} mm into the floor for each m/s, whatever the mass",
