@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from cointoss.coin_mj.bounces.contact import DEFAULT, HARDEST, one_step_solref, spring_solref
 from cointoss.coin_mj.bounces.drops import GRAVITY, PHASES, SPEED
-from cointoss.coin_mj.bounces.recipe import SPRING_STEPS
+from cointoss.coin_mj.bounces.recipe import SPRING_STEPS, recipe_of
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.mujoco_bodies import (
@@ -26,8 +26,6 @@ STEP, FINE = 1e-3, 1e-4
 """Of the simulation [s]."""
 MASSES = (0.01, 1.0, 100.0)
 """[kg]."""
-SOFT = (-1e4, -50.0)
-"""The solref of a ball that lies still: it sinks a thousandth of a millimetre and more."""
 WAYS = (0.1, 0.5, 1.5, 3.0)
 """Of a ball in one step, over its radius; speculative contacts act where it goes further than its size."""
 FLAT = ("ball", "box flat", "box flat, C off its middle")
@@ -65,8 +63,8 @@ class Bodies:
     """By settings and shape."""
     mixed: dict[str, float]
     """Mean e' of a ball, by the priorities."""
-    resting: list[float]
-    """Depth of a ball that lies still over (1 - d) g/k, for each of `MASSES`."""
+    resting: dict[str, list[float]]
+    """Depth over (1 - d) g/k of a ball at rest, by the recommended settings, for each of `MASSES`."""
     speculative: dict[str, list[tuple[float, float]]]
     """Least and largest e' of a ball with speculative contacts, by contact, for each of `WAYS`."""
 
@@ -124,7 +122,10 @@ def compute(progress: Progress) -> Bodies:
         }
         for label, (contact, solimp, exact) in FLATS.items()
     }
-    resting = [_resting(mass) for mass in MASSES]
+    resting = {
+        contact: [_resting(mass, steps) for mass in MASSES]
+        for contact, steps in (("one step", None), ("spring", SPRING_STEPS))
+    }
     return Bodies(shapes, by_mass, flat, _mixed(), resting, _speculative())
 
 
@@ -150,11 +151,14 @@ def _speculative() -> dict[str, list[tuple[float, float]]]:
     return found
 
 
-def _resting(mass: float) -> float:
-    k, impedance = -SOFT[0], 0.9
-    solimp = f"{impedance} {impedance} 0.001 0.5 2"
-    touch = Touch(solref=SOFT, dt=STEP, integrator="implicitfast", solimp=solimp, mass=mass)
-    return resting_depth(touch) / ((1 - impedance) * GRAVITY / k)
+def _resting(mass: float, steps: int | None) -> float:
+    """Return the depth at rest with the recommended settings, over (1 - d) g/k."""
+    contact = recipe_of(RESTITUTION, STEP, steps)
+    touch = Touch(
+        solref=contact.solref, dt=STEP, integrator=contact.integrator, solimp=contact.solimp, mass=mass
+    )
+    soft = 1 - float(contact.solimp.split()[0])
+    return resting_depth(touch) / (soft * GRAVITY / -contact.solref[0])
 
 
 def measures(found: Bodies) -> dict[str, Any]:
@@ -182,7 +186,7 @@ def measures(found: Bodies) -> dict[str, Any]:
         "plane": plane - np.exp(-2),
         "one_step": max(abs(e - RESTITUTION) for pair in found.speculative["one step"] for e in pair),
         "spring": min(RESTITUTION - most for _, most in found.speculative["spring"][-2:]),
-        "resting": max(abs(part - 1) for part in found.resting),
+        "resting": max(abs(part - 1) for parts in found.resting.values() for part in parts),
     }
 
 
@@ -204,16 +208,19 @@ def tables(found: Bodies) -> str:
         [f"{contact}: e' from, to", *(f"{least:.3f}, {most:.3f}" for least, most in each)]
         for contact, each in found.speculative.items()
     ]
-    resting = ", ".join(f"{part:.5f}" for part in found.resting)
+    resting = "; ".join(
+        f"{contact} {', '.join(f'{part:.5f}' for part in parts)}" for contact, parts in found.resting.items()
+    )
     masses = ", ".join(f"{mass:g}" for mass in MASSES)
     depths = "depth, one step [v dt]", f"depth, spring [v × {SPRING_STEPS} dt]"
     return paragraphs(
         f"Bodies of about {1e2 * SIZE:g} cm that come down at {SPEED:g} m/s without spin and weight, "
-        f"{PHASES} touches anywhere between two steps; a spring has {SPRING_STEPS} steps:",
+        f"{PHASES} touches anywhere between two steps; one step without its stiffness, a spring of "
+        f"{SPRING_STEPS} steps with solimp 0.9999:",
         table(["error of e = 0.8", *CONTACTS, *depths], shapes),
         f"Largest change of e' and of the depth, over itself, with masses of {masses} kg: "
         + ", ".join(f"{contact} {change:.0e}" for contact, change in found.by_mass.items())
-        + f". At rest these balls lie {resting} (1 - d) g/k deep.",
+        + f". At rest, with the recommended settings, these balls lie this many (1 - d) g/k deep: {resting}.",
         f"Several contacts at once, {1e3 * STEP:g} ms:",
         table(["error of e = 0.8, unevenness", *FLAT], flat),
         table("a ball, one step, e = 0.8 | e'", [[name, f"{e:.4f}"] for name, e in found.mixed.items()]),

@@ -54,7 +54,7 @@ def test_a_thousand_bounces_of_what_is_printed(name):
 
 
 def test_a_thousand_bounces_in_a_row_lose_no_energy():
-    """At e = 1 one step sends back what comes, and semi-implicit Euler's flights err by no more than g dt v."""
+    """At e = 1 one step sends back what comes; flights of semi-implicit Euler err by no more than g dt v."""
     model = mujoco.MjModel.from_xml_string(solref(1.0, 2e-3).model)
     model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_ENERGY)
     data = mujoco.MjData(model)

@@ -12,8 +12,8 @@ from tests.helpers.command_line import cointoss
 def test_settings_for_a_bounce_are_printed_with_their_error():
     shown = cointoss("solref", "--restitution", 0.8, "--dt", 0.002).stdout
     assert '<option timestep="0.002" integrator="implicitfast"><flag diagexact="enable"/></option>' in shown
-    assert 'solref="0 -900.0" solimp="0.9999 0.9999 0.001 0.5 2" priority="1"' in shown
-    assert re.search(r"^error +\de-1\d at worst.*\n +\de-0\d with weight, at 2 m/s", shown, re.MULTILINE)
+    assert 'condim="1" solref="-250.0 -899.75" solimp="0.9999 0.9999 0.001 0.5 2" priority="1"' in shown
+    assert re.search(r"^error +5e-04 at worst.*\n +\de-0\d with weight, at 2 m/s", shown, re.MULTILINE)
     spring = cointoss("solref", "--restitution", 0.8, "--dt", 0.002, "--spring", "--json")
     found = json.loads(spring.stdout)
     assert (found["integrator"], found["solref"][0]) == ("RK4", pytest.approx(-((math.pi / 0.08) ** 2)))
@@ -21,3 +21,27 @@ def test_settings_for_a_bounce_are_printed_with_their_error():
     whole = cointoss("solref", "--restitution", 0.5, "--dt", 0.001, "--model").stdout
     assert whole.startswith("<mujoco>")
     assert whole.endswith("</mujoco>\n")
+
+
+def test_what_a_body_does_at_rest_and_in_flight_is_printed():
+    shown = cointoss("solref", "--restitution", 0.8, "--dt", 0.002).stdout
+    assert "rest        lies still, 3.92 um deep; n times as deep under n times its weight\n" in shown
+    assert 'solref="0 -900.0" would be exact, and sink 1.09 um/s at rest\n' in shown
+    assert re.search(r"^flight +a brick at 10 turns a second loses 10 % of its energy", shown, re.MULTILINE)
+    warp = cointoss("solref", "--restitution", 0.8, "--dt", 0.002, "--backend", "warp").stdout
+    assert warp.startswith('<option timestep="0.002" integrator="implicitfast"/>\n')
+
+
+def test_a_thin_body_is_warned_of():
+    thin = cointoss("solref", "--restitution", 0.8, "--dt", 0.002, "--spring", "--body", "box 0.1 0.1 0.002")
+    assert "box 0.1 0.1 0.002: a contact at 2 m/s is 46.5 mm deep, and the body is 4 mm thick" in thin.stderr
+
+
+def test_given_settings_are_turned_round():
+    asked = ("solref", "--of", "0.01 0.37", "--with", "0.02 1", "--dt", 0.002)
+    shown = cointoss(*asked).stdout
+    assert 'mixed       solref="0.015 0.685" solimp="0.9 0.95 0.001 0.5 2"\n' in shown
+    assert "by formula 0.2155" in shown
+    found = json.loads(cointoss(*asked, "--integrator", "RK4", "--solimp", "0.9999 0.9999", "--json").stdout)
+    assert found["integrator"] == "RK4"
+    assert found["formula"]["restitution"] == pytest.approx(0.2155, abs=1e-4)
