@@ -1,11 +1,8 @@
 """`cointoss bounce`: how two geoms of a user's own MuJoCo model bounce off each other."""
 
-import json
-from dataclasses import asdict
 from pathlib import Path
 
 import click
-import numpy as np
 
 from cointoss.compare.commands.common import Place, plain_errors, refuse
 
@@ -38,13 +35,13 @@ def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> 
         except FieldError as error:
             field = "" if error.field == "model" else f" {error.field} {error.value}:"
             refuse(f"{model}:{field} accepted: {error.accepted}")
-        from cointoss.compare.output.bounce_plot import bounce_table, draw_bounce
+        from cointoss.compare.output.bounce_plot import bounce_json, bounce_table, draw_bounce
 
         if png is not None:
             with written_whole(png) as aside:
                 draw_bounce(found).savefig(aside, dpi=150, format="png")
         if as_json:
-            click.echo(json.dumps({name: _plain(value) for name, value in asdict(found).items()}, indent=1))
+            click.echo(bounce_json(found))
             return
         solref = " ".join(f"{number:g}" for number in found.solref)
         friction = f' friction="{found.friction:g}"' if found.condim > 1 else ""
@@ -54,12 +51,3 @@ def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> 
         )
         if png is not None:
             click.echo(f"\npicture     {png}")
-
-
-def _plain(value: object) -> object:
-    """Return an array as lists, with null where there is no number."""
-    if not isinstance(value, np.ndarray):
-        return value
-    plain = value.astype(object)
-    plain[np.isnan(value)] = None
-    return plain.tolist()

@@ -21,7 +21,7 @@ ANSWERS = {
     "bounce gone.xml a b": "gone.xml: accepted: an XML file of MuJoCo that exists",
     "bounce file a b": "file: accepted: an XML file that MuJoCo loads (",
     "bounce file a b --png e.gif": "e.gif: another kind of file; accepted: a name that ends in .png",
-    "solref --of '0.01 -1' --dt 0.002": "--of 0.01 -1: accepted: two numbers as in a <geom>: both above 0, or ",
+    "solref --of '0.01 -1' --dt 0.002": "--of 0.01 -1: accepted: two numbers as in a <geom>: both ",
     "solref --of '0.01 x' --dt 0.002": "--of 0.01 x: accepted: two numbers as in a <geom>",
     "solref --of '0.01 1' --with '1' --dt 0.002": "--with 1: accepted: two numbers as in a <geom>",
     "solref --of '0.01 1' --dt 0.002 --integrator RK5": "--integrator RK5: accepted: Euler, RK4, ",
@@ -34,7 +34,7 @@ ANSWERS = {
     "reproduce all": "--out: missing; accepted: main reproduce all --out DIR (see ",
     "reproduce --out out": "NAME: missing; accepted: all, or one of: accuracy-and-stripes, ",
     # names and choices
-    "throw": "throw: no such command; accepted: basin, compare, ",
+    "throw": "throw: no such command; accepted: basin, bounce, compare, ",
     "toss nofile": "nofile: no such file; accepted: a TOML file, or one of: contact_coulomb, ",
     "toss tabel": " (did you mean table?)",
     "toss ''": "(no name): no such file; accepted: a TOML file, or one of: ",
