@@ -21,9 +21,12 @@ PRINTED = {
         "backend": backend,
         "spring": spring,
     }
-    for e in (0.3, 0.8)
-    for backend in ("mujoco", "warp")
-    for spring in (False, True)
+    for e, backend, spring in (
+        (0.3, "mujoco", False),
+        (0.8, "mujoco", False),
+        (0.8, "mjx", False),
+        (0.8, "warp", True),
+    )
 }
 
 
