@@ -132,6 +132,7 @@ def test_other_geoms_are_kept_out_of_it():
     assert bounce(model(text), "b", "a").restitutions == pytest.approx(0.8, abs=6e-4)
 
 
+@pytest.mark.slow
 def test_a_thin_body_that_goes_through_is_no_number():
     soft = 'condim="1" priority="1" solref="-1542 -5.84" solimp="0.9 0.9 0.001 0.5 2"'
     text = (

@@ -9,8 +9,10 @@ import mujoco
 import pytest
 
 from cointoss.coin_mj import solref
-from cointoss.coin_mj.bounces.bodies import BALL
-from cointoss.coin_mj.bounces.recipe import exact_of
+from cointoss.coin_mj.bounces.bodies import BALL, body_of
+from cointoss.coin_mj.bounces.contact import Contact, one_step_solref
+from cointoss.coin_mj.bounces.drops import SPEED, drops_of
+from cointoss.coin_mj.bounces.recipe import recipe_of
 from cointoss.models.records import ApproximationWarning
 
 
@@ -56,7 +58,7 @@ def test_the_model_bounces_as_it_says(restitution, spring):
 @pytest.mark.parametrize("speed", [0.3, 3.0, 3.1])
 def test_without_weight_a_contact_of_one_step_rebounds_by_the_closed_form(restitution, speed):
     """v' = -e v: the constraint's reference takes (1 + e) v away within the step."""
-    exact = exact_of(solref(restitution, 5e-4))
+    exact = Contact(solref=one_step_solref(restitution, 5e-4), timestep=5e-4, integrator="implicitfast")
     model = BALL.compiled(exact, 0.51)
     assert rebound(model, 0.01, weight=False, speed=speed) == pytest.approx(restitution, abs=1e-11)
 
@@ -74,14 +76,15 @@ def test_the_stiffness_beside_it_costs_half_of_its_part(restitution):
 
 
 def test_weight_takes_from_a_rebound_out_of_a_long_contact():
-    long = solref(0.1, 1e-3, spring=True)
-    assert long.error < 0.01
-    assert long.error_with_weight > 0.05  # hardly leaves the floor
-    for restitution, spring, step in ((0.1, True, 1e-5), (0.8, False, 2e-3)):
-        taken = [
-            found.error_with_weight - found.error
-            for found in (solref(restitution, step / part, spring=spring) for part in (1, 2))
-        ]
+    def errors(restitution, dt, steps):
+        contact = recipe_of(restitution, dt, steps)
+        return [abs(drops_of(contact, gravity=g).restitutions - restitution).max() for g in (0.0, 9.81)]
+
+    alone, weighing = errors(0.1, 1e-3, 40)
+    assert alone < 0.01
+    assert weighing > 0.05  # hardly leaves the floor
+    for restitution, steps, step in ((0.1, 40, 1e-5), (0.8, None, 2e-3)):
+        taken = [b - a for a, b in (errors(restitution, step / part, steps) for part in (1, 2))]
         assert taken[1] > 1e-4
         assert taken[0] / taken[1] == pytest.approx(2, rel=0.1)  # first order in a contact's length
 
@@ -102,31 +105,26 @@ def test_what_is_pasted_elsewhere_holds_for_another_body(body, mass):
 
 
 def test_the_depth_is_that_of_a_spring_or_of_a_step():
-    assert solref(0.5, 1e-3).depth == pytest.approx(1e-3, rel=0.1)
-    stiff, soft = (solref(1.0, 1e-3, spring=True, steps=n).depth for n in (20, 40))
+    one, stiff, soft = (
+        drops_of(recipe_of(e, 1e-3, n)).depth / SPEED for e, n in ((0.5, None), (1.0, 20), (1.0, 40))
+    )
+    assert one == pytest.approx(1e-3, rel=0.1)
     assert soft == pytest.approx(40 * 1e-3 / 3.141593, rel=0.05)
     assert soft / stiff == pytest.approx(2, rel=0.05)
 
 
-def thinnest_that_warns(spring, body):
-    with pytest.warns(ApproximationWarning, match="deep, and the body is"):
-        return solref(0.8, 2e-3, spring=spring, body=body)
-
-
 def test_a_body_thinner_than_its_contact_is_deep_is_warned_of():
-    thin = thinnest_that_warns(True, "box 0.1 0.1 0.002")
+    with pytest.warns(ApproximationWarning, match="deep, and the body is"):
+        thin = solref(0.8, 2e-3, spring=True, body="box 0.1 0.1 0.002")
     # v √(e/k) by theory, with k = (π/(40 dt))²
     assert thin.depth == pytest.approx(0.8**0.5 * 40 * 2e-3 / math.pi, rel=0.03)
-    thinnest_that_warns(False, "cylinder 0.05 0.001")
     solref(0.8, 2e-3, body="box 0.1 0.1 0.005")  # 3.9 mm deep at 2 m/s
 
 
 @pytest.mark.parametrize("speed", [0.05, 3.0])
 def test_what_is_warned_of_goes_through_a_floor_that_is_a_box(speed):
-    found = thinnest_that_warns(True, "box 0.1 0.1 0.002")
-    text = found.model.replace(
-        'type="plane" size="0 0 1"', 'type="box" size="1 1 0.05" pos="0 0 -0.05"'
-    ).replace("0.502", "0.01")
+    text = body_of("box 0.1 0.1 0.002").model(recipe_of(0.8, 2e-3, 40), 0.01)
+    text = text.replace('type="plane" size="0 0 1"', 'type="box" size="1 1 0.05" pos="0 0 -0.05"')
     model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)
     data.qvel[2] = -speed
