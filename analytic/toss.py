@@ -20,7 +20,7 @@ from cointoss.analytic.settings import FINE, Settings
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.barriers import barrier, energy
 from cointoss.models.body import Body, in_vacuum, is_ideal
-from cointoss.models.certificate import energies, measurements
+from cointoss.models.certificate import InContact, energies, gaps, measurements
 from cointoss.models.errors import require_type
 from cointoss.models.interruptible import interruptible
 from cointoss.models.parts import Release
@@ -159,9 +159,7 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
             Setting(name="safety factor of the horizon", value=SAFETY),
             Setting(name="energy at the end", value=_energy(body, end), unit="J"),
             Setting(name="energy of the lowest pass to the other face", value=_barrier(body, end), unit="J"),
-            *measurements(
-                scenario, impacts, contacts, _contact_energies(body, answer), path, force_and_moment
-            ),
+            *measurements(scenario, impacts, contacts, _in_contact(body, answer), path, force_and_moment),
         ),
         path=path,
     )
@@ -175,11 +173,14 @@ def _flight(body: Body) -> str:
     return f"power series without spin about the normal, else {_INTEGRATED}"
 
 
-def _contact_energies(body: Body, log: EventLog) -> Array:
-    """Return the energies at start and end of each stretch of contact in one mode, (n, 2) [J]."""
-    at_starts = energies(body, _states(log.start_times, log.start_states))
-    pairs = np.stack([at_starts[:-1], at_starts[1:]], axis=1)
-    return pairs[log.modes[:-1] != Mode.FLIGHT]
+def _in_contact(body: Body, log: EventLog) -> InContact:
+    """Return energies and gaps at start and end of each stretch of contact in one mode."""
+    states, stays = _states(log.start_times, log.start_states), log.modes[:-1] != Mode.FLIGHT
+
+    def at_both_ends(values: Array) -> Array:
+        return np.stack([values[:-1], values[1:]], axis=1)[stays]
+
+    return InContact(at_both_ends(energies(body, states)), at_both_ends(gaps(body, states)).ravel())
 
 
 def _states(times: Array, rows: Array) -> States:

@@ -9,10 +9,13 @@ import numpy as np
 
 from cointoss.coin_mj.model.air_callback import air_of
 from cointoss.coin_mj.model.machine import Machine
-from cointoss.coin_mj.model.state import set_motion, state_of
+from cointoss.coin_mj.model.state import motion_of, set_motion, to_mass_center
 from cointoss.coin_mj.steps.free_step import free_step
 from cointoss.coin_mj.steps.knots import Step
+from cointoss.coin_mj.steps.runge_kutta import normalise, write_rate
 from cointoss.coin_mj.steps.sustained_contact import floor_force
+from cointoss.models.body import Body
+from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import Array, States
 
 TIME, STEP, MOTION = 0, 1, slice(2, 15)
@@ -25,7 +28,7 @@ class Knots:
 
     In flight they are stepped again by MuJoCo to the times asked for; in contact they are interpolated:
     those of an impact are less than a hundredth of a microsecond apart, those of a sustained contact less
-    than a small turn of the coin.
+    than a small turn of the coin. There the position and the attitude are cubic between two knots.
     """
 
     machine: Machine
@@ -37,22 +40,29 @@ class Knots:
     def sample(self, times: Array) -> States:
         """Return the states at `times` [s], in the order of `times`; at an impact, that at first touch."""
         coin = self.machine.coin
-        rows = np.empty((len(times), 13))
+        motions = np.empty((len(times), 13))
         before = np.searchsorted(self.knots[:, TIME], times, side="right") - 1
         with air_of(self.machine.model):
-            for row, time, number in zip(rows, times, before, strict=True):
+            for motion, time, number in zip(motions, times, before, strict=True):
                 knot = self.knots[number]
-                set_motion(coin, knot[MOTION])
-                if time > knot[TIME] and knot[STEP] != Step.FLIGHT:
-                    after = self.knots[number + 1]
-                    part = (time - knot[TIME]) / (after[TIME] - knot[TIME])
-                    between = knot + part * (after - knot)
-                    between[5:9] /= np.linalg.norm(between[5:9])
-                    set_motion(coin, between[MOTION])
-                elif time > knot[TIME]:
+                if time > knot[TIME] and knot[STEP] == Step.FLIGHT:
+                    set_motion(coin, knot[MOTION])
                     free_step(coin, time - knot[TIME])
-                row[:] = np.concatenate(state_of(coin)[:4])
-        x, v, e, w = (part.copy() for part in np.split(rows, (3, 6, 10), axis=1))
+                    motion[:] = motion_of(coin)
+                elif time > knot[TIME]:
+                    write_between(knot, self.knots[number + 1], time, motion)
+                else:
+                    motion[:] = knot[MOTION]
+        return self._states(times, motions)
+
+    def contact_states(self) -> States:
+        """Return the states at the knots of the sustained contacts, midway to the next ones, and at the ends."""
+        return self._states(*_in_contact(self.knots))
+
+    def _states(self, times: Array, motions: Array) -> States:
+        """Return states from qpos and qvel, (n, 13)."""
+        parts = np.split(_of_mass_center(self.machine.coin.body, motions), (3, 6, 10), axis=1)
+        x, v, e, w = (part.copy() for part in parts)
         return States(time=times.copy(), position=x, velocity=v, quaternion=e, angular_velocity=w)
 
     def floor_force(self, times: Array) -> Array:
@@ -78,3 +88,58 @@ class Knots:
         coin = self.machine.coin
         set_motion(coin, self.knots[number, MOTION])
         return floor_force(coin, self.restitution, self.knots[number + 1, TIME] - self.knots[number, TIME])
+
+
+@compiled
+def write_between(knot: Array, after: Array, time: float, motion: Array) -> None:
+    """Write qpos and qvel at a time between two knots of a contact.
+
+    In a sustained contact qpos is Hermite's cubic: the chord of an arc on which the coin tilts is below it.
+
+    Args:
+        knot: the one before, (15,).
+        after: the next one, (15,).
+        time: between them [s].
+        motion: where they go, (13,).
+    """
+    start, end, length = knot[2:], after[2:], after[0] - knot[0]
+    part = (time - knot[0]) / length
+    for i in range(13):
+        motion[i] = start[i] + part * (end[i] - start[i])
+    if knot[1] == Step.CONTACT.value:
+        rates, still = np.empty((2, 13)), np.zeros(6)
+        write_rate(start, still, rates[0])
+        write_rate(end, still, rates[1])
+        for i in range(7):
+            rise = end[i] - start[i]
+            bend = (1 - part) * (length * rates[0, i] - rise) - part * (length * rates[1, i] - rise)
+            motion[i] += part * (1 - part) * bend
+    normalise(motion)
+
+
+@compiled
+def _in_contact(knots: Array) -> tuple[Array, Array]:
+    """Return times, (n,), and qpos and qvel then, (n, 13), at and between the knots of sustained contacts."""
+    times, motions = np.empty(3 * len(knots)), np.empty((3 * len(knots), 13))
+    n = 0
+    for i in range(len(knots) - 1):
+        if knots[i, 1] != Step.CONTACT.value:
+            continue
+        times[n], times[n + 1], times[n + 2] = knots[i, 0], (knots[i, 0] + knots[i + 1, 0]) / 2, knots[i + 1, 0]
+        motions[n], motions[n + 2] = knots[i, 2:], knots[i + 1, 2:]
+        write_between(knots[i], knots[i + 1], times[n + 1], motions[n + 1])
+        n += 3
+    return times[:n], motions[:n]
+
+
+@compiled
+def _of_mass_center(body: Body, motions: Array) -> Array:
+    """Return the state vectors of C, (n, 13), from qpos and qvel, (n, 13)."""
+    states = np.empty((len(motions), 13))
+    for i in range(len(motions)):
+        x, v, e, w, _ = to_mass_center(body, motions[i, :7], motions[i, 7:])
+        for j in range(3):
+            states[i, j], states[i, 3 + j], states[i, 10 + j] = x[j], v[j], w[j]
+        for j in range(4):
+            states[i, 6 + j] = e[j]
+    return states

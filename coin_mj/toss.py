@@ -19,7 +19,7 @@ from cointoss.coin_mj.model.settings import FINE, ROUGH, Friction, Realisation, 
 from cointoss.coin_mj.path import Knots
 from cointoss.coin_mj.trust import lawful_impacts, shared_impacts
 from cointoss.models.body import Body, Rules
-from cointoss.models.certificate import energies, measurements
+from cointoss.models.certificate import InContact, energies, gaps, measurements
 from cointoss.models.errors import require_type
 from cointoss.models.impact_row import FIRST_ROOM
 from cointoss.models.interruptible import interruptible
@@ -166,7 +166,10 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
                 scenario,
                 impacts,
                 answer.contacts,
-                _contact_energies(scenario.body, answer.contacts, path),
+                InContact(
+                    _contact_energies(scenario.body, answer.contacts, path),
+                    gaps(scenario.body, path.contact_states()),
+                ),
                 path,
                 _force_and_moment,
             ),

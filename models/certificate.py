@@ -1,12 +1,13 @@
 """What a toss measures of itself: the residuals of its impacts, the energy of its flights and contacts.
 
 Both engines measure by the same functions, from the record and the path alone; none of them solves an impact
-or integrates a motion. Of sustained contacts only the energy that they gain is measured, none on a passive
-floor, and not the work of friction in them.
+or integrates a motion. Of sustained contacts the gap is measured and the energy that they gain, none on a
+passive floor, and not the work of friction in them.
 """
 
 from collections.abc import Callable
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,7 +23,7 @@ IMPACT_ENERGY = "impacts: largest difference of energy change and work"
 FLIGHT_ENERGY = "flights: largest difference of energy change and work of the air"
 CONTACT_ENERGY = "sustained contacts: largest gain of energy"
 NORM = "largest deviation of the norm of the Euler parameters from 1"
-GAP = "smallest gap, at impacts and sampled in flight"
+GAP = "smallest gap, at impacts, sampled in flight and in sustained contacts"
 OF_ENERGY = (IMPACT_ENERGY, FLIGHT_ENERGY, CONTACT_ENERGY)
 NAMES = (LAW, MOMENTUM, *OF_ENERGY, NORM, GAP)
 """The lines of a certificate that are measured."""
@@ -39,8 +40,17 @@ Air = Callable[[Body, Vector, Vector], tuple[Vector, Vector]]
 """An engine's own force of the air and its moment about C, from v_C and ω, all in the body frame."""
 
 
+class InContact(NamedTuple):
+    """What an engine finds of the sustained contacts of a toss."""
+
+    energies: Array
+    """At start and end of stretches of them, (n, 2) [J]."""
+    gaps: Array
+    """In them, see `gaps`, (k,) [m]."""
+
+
 def measurements(
-    scenario: Scenario, impacts: Impacts, contacts: Array, contact_energies: Array, path: Path, air: Air
+    scenario: Scenario, impacts: Impacts, contacts: Array, in_contact: InContact, path: Path, air: Air
 ) -> tuple[Setting, ...]:
     """Return what is measured of a toss, one line each; what did not happen has none.
 
@@ -48,13 +58,13 @@ def measurements(
         scenario: what was tossed.
         impacts: its impacts.
         contacts: start and end of every sustained contact, (n, 2) [s].
-        contact_energies: at start and end of stretches of sustained contact, (n, 2) [J].
+        in_contact: energies and gaps there.
         path: its path.
         air: of the engine; measured where b > 0.
     """
     body = scenario.body
     weight = body.mass * body.gravity * body.radius
-    lines = []
+    lines, lowest = [], in_contact.gaps.min(initial=np.inf)
     if len(impacts):
         states, drift = _flights(scenario, impacts, contacts, path, air)
         touches = States(
@@ -65,7 +75,7 @@ def measurements(
             angular_velocity=impacts.angular_velocity_before,
         )
         norms = [np.linalg.norm(each.quaternion, axis=1) - 1 for each in (states, touches)]
-        lowest = min(gaps(body, each).min(initial=np.inf) for each in (states, touches))
+        lowest = min(lowest, *(gaps(body, each).min(initial=np.inf) for each in (states, touches)))
         of_flights = Setting(name=FLIGHT_ENERGY, value=_largest(drift) / weight, unit="m g r")
         lines += [
             Setting(name=LAW, value=_largest(law_residuals(body, scenario.rules, impacts))),
@@ -73,10 +83,11 @@ def measurements(
             Setting(name=IMPACT_ENERGY, value=_largest(energy_residuals(impacts)) / weight, unit="m g r"),
             *([of_flights] if len(drift) else []),
             Setting(name=NORM, value=_largest(np.concatenate(norms))),
-            Setting(name=GAP, value=float(lowest) / body.radius, unit="r"),
         ]
-    if len(contact_energies):
-        gained = np.diff(contact_energies, axis=1).max() / weight
+    if lowest < np.inf:
+        lines.append(Setting(name=GAP, value=float(lowest) / body.radius, unit="r"))
+    if len(in_contact.energies):
+        gained = np.diff(in_contact.energies, axis=1).max() / weight
         lines.append(Setting(name=CONTACT_ENERGY, value=max(float(gained), 0.0), unit="m g r"))
     return tuple(lines)
 

@@ -90,7 +90,13 @@ def stage_motion(start: Motion, rates: Array, weights: Array, stage: int, dt: fl
 def end_motion(start: Motion, rates: Array, weights: Array, dt: float, motion: Array) -> Array:
     """Write the state at the end of the step, its Euler parameters of norm 1, and give it; see above."""
     stage_motion(start, rates, weights, len(weights) - 1, dt, motion)
+    normalise(motion)
+    return motion
+
+
+@compiled
+def normalise(motion: Array) -> None:
+    """Make the norm of the Euler parameters of a motion, (13,), exactly 1."""
     size = math.sqrt(motion[3] ** 2 + motion[4] ** 2 + motion[5] ** 2 + motion[6] ** 2)
     for i in range(3, 7):
         motion[i] /= size
-    return motion

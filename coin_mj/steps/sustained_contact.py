@@ -4,7 +4,7 @@ import math
 from enum import IntEnum
 
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
-from cointoss.coin_mj.model.state import state_of
+from cointoss.coin_mj.model.state import motion_of, set_motion, state_of
 from cointoss.coin_mj.steps.constrained_step import Constraint, constrained_forward, contact_step
 from cointoss.coin_mj.steps.free_step import free_step
 from cointoss.coin_mj.steps.friction import apply_friction, friction_step
@@ -36,6 +36,10 @@ NEAR = 1e-5
 """A rim point lands when the sine of the coin's angle to its edge, or to its face, is down to this."""
 FACE = 1e-7
 """Below this sine of the tilt the rim turns under the coin too fast to follow."""
+DEEPEST = 4e-4
+"""Depth in the floor to which a step may lower the lowest point, in radii."""
+HALVINGS = 30
+"""Most times that a step is halved."""
 APPROACH = 0.99
 """Part of the time to a landing that a step goes."""
 UPRIGHT = 1e-4
@@ -113,7 +117,7 @@ def follow_contact(
             return ContactExit.RIM_LANDS, time + dt, steps_left, Outcome.UNDECIDED, Ending.NONE
         dt = min(dt, shortest_stop(coin, w), rules.max_time - time)
         add_knot(coin, time, Step.CONTACT, knots)
-        force = sustained_step(coin, rules.restitution, w, dt)
+        force, dt = shallow_step(coin, rules.restitution, w, dt)
         time += dt
         steps_left -= 1
         on_edge = body.thickness > 0 and abs(up[2]) < UPRIGHT and abs(up_rate[2]) < UPRIGHT * rate
@@ -124,6 +128,36 @@ def follow_contact(
             return ContactExit.LIFT_OFF, time, steps_left, Outcome.UNDECIDED, Ending.NONE
     outcome, ending = out_of_budget(coin, upright > 0, Outcome.UNDECIDED, Ending.MAX_TIME)
     return ContactExit.DECIDED, time, steps_left, outcome, ending
+
+
+@compiled
+def shallow_step(coin: MujocoCoin, chi: float, w: Vector, dt: float) -> tuple[float, float]:
+    """Advance a coin in sustained contact by dt [s], or by less where it would sink, or another rim lands.
+
+    The lowest point sinks no deeper than `DEEPEST`, unless it is as deep already, and no point is in the
+    floor that moves down faster than `slow_speed`, unless one does already.
+
+    Args:
+        coin: MuJoCo's.
+        chi: restitution χ.
+        w: angular velocity, body frame, (3,) [rad/s].
+        dt: the longest step [s].
+
+    Returns:
+        The floor's force as of `sustained_step`, and the length of the step [s].
+    """
+    start, before = motion_of(coin), evaluate_gap(coin)
+    lowest = min(before.gap, -DEEPEST * coin.body.radius)
+    fastest = min(before.speed, -slow_speed(coin, chi, w))
+    force = sustained_step(coin, chi, w, dt)
+    for _ in range(HALVINGS):
+        now = evaluate_gap(coin)
+        if not (now.gap < lowest or (now.gap < 0 and now.speed < fastest)):
+            break
+        set_motion(coin, start)
+        dt /= 2
+        force = sustained_step(coin, chi, w, dt)
+    return force, dt
 
 
 @compiled

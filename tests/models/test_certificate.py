@@ -9,7 +9,7 @@ import pytest
 from cointoss import analytic, coin_mj
 from cointoss.analytic.air.force import force_and_moment
 from cointoss.models import certificate
-from cointoss.models.certificate import linear_air_power, measurements
+from cointoss.models.certificate import InContact, linear_air_power, measurements
 from cointoss.models.laws import ContactLaw
 from cointoss.models.reading import load
 from cointoss.models.records import Array, Impacts, States, Toss
@@ -42,7 +42,7 @@ def again(toss: Toss, impacts: Impacts | None = None, **parts: Any) -> dict[str,
         toss.scenario,
         impacts or toss.impacts,
         toss.contacts,
-        parts.get("contact_energies", np.empty((0, 2))),
+        parts.get("in_contact", InContact(np.empty((0, 2)), np.empty(0))),
         parts.get("path", toss.path),
         force_and_moment,
     )
@@ -145,8 +145,9 @@ def test_contacts_are_measured_where_there_are_any():
     toss = analytic.toss(load("contact_coulomb"))
     assert len(toss.contacts)
     assert 0 <= measured(toss)[certificate.CONTACT_ENERGY] < 1e-9
-    found = again(toss, contact_energies=np.array([[2e-5, 1e-5], [1e-5, 1.1e-5]]))
-    body = toss.scenario.body
+    body, energies = toss.scenario.body, np.array([[2e-5, 1e-5], [1e-5, 1.1e-5]])
+    found = again(toss, in_contact=InContact(energies, np.array([0.0, -0.03 * body.radius, 0.1])))
+    assert found[certificate.GAP] == pytest.approx(-0.03)
     assert found[certificate.CONTACT_ENERGY] == pytest.approx(1e-6 / (body.mass * body.gravity * body.radius))
     assert certificate.CONTACT_ENERGY not in measured(analytic.toss(draw(2)))
 

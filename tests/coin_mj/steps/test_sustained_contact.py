@@ -15,6 +15,7 @@ from cointoss.coin_mj.toss import run
 from cointoss.compare.reproduction.estimates import chance_alike
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import energy
+from cointoss.models.certificate import GAP
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import AIR, LONG_TRANSIENT, PAPER_OFFSET, THIN, ZLOTY, scenario
@@ -215,3 +216,53 @@ def test_steps_that_are_spent_leave_a_long_transient_or_an_undecided_toss():
         tossed = coin_mj.toss(scenario(**LONG_TRANSIENT), settings=settings)
         assert tossed.ending == ending
         assert tossed.outcome == (Outcome.TRANSIENT if ending == Ending.TRANSIENT else Outcome.UNDECIDED)
+
+
+def lowest_of(motion, radius, thickness):
+    """Height of the coin's lowest point from qpos, by plain numpy: over both rims' circles."""
+    e = motion[3:7] / np.linalg.norm(motion[3:7])
+    up = np.array([2 * (e[1] * e[3] - e[0] * e[2]), 2 * (e[2] * e[3] + e[0] * e[1])])
+    n_z = 1 - 2 * (e[1] ** 2 + e[2] ** 2)
+    return motion[2] - radius * np.linalg.norm(up) - thickness / 2 * abs(n_z)
+
+
+def near_the_edge(seed):
+    """A thick coin that drops from near its edge."""
+    rng = np.random.default_rng(seed)
+    thickness = R * rng.uniform(0.5, 2)
+    law = str(rng.choice(["smooth", "coulomb"]))
+    return scenario(
+        coin={"mass": 1e-2, "thickness": thickness},
+        air=AIR if rng.integers(2) else {},
+        floor={"contact": law, "restitution": rng.uniform(0.2, 0.7), "friction": 0.3},
+        release={
+            "position": [0, 0, 1.5 * R + thickness / 2],
+            "angles": [0, np.pi / 2 + rng.uniform(-0.3, 0.3), rng.uniform(0, 6)],
+            "angular_velocity": rng.uniform(-20, 20, 3).tolist(),
+        },
+        ending={"max_time": 1.0, "test": "lying"},
+    )
+
+
+@pytest.mark.parametrize("settings", [coin_mj.FINE, coin_mj.MANY])
+def test_a_thick_coin_near_its_edge_does_not_sink_and_its_certificate_sees_it(settings):
+    crossed = 0
+    for seed in range(6):
+        case = near_the_edge(seed)
+        toss = coin_mj.toss(case, settings=settings)
+        path = toss.path
+        rows = path.knots[path.knots[:, STEP] == 2]
+        depths = [lowest_of(row[MOTION], R, case.coin.thickness) / R for row in rows]
+        normals = [rotation_matrix(row[MOTION][3:7])[2][2] for row in rows]
+        crossed += np.sum(np.diff(np.sign(normals)) != 0)
+        between = toss.sample(np.concatenate([np.linspace(*pair, 200) for pair in toss.contacts]))
+        states = np.hstack([between.position, between.quaternion])
+        sampled = [lowest_of(state, R, case.coin.thickness) / R for state in states]
+        assert min(depths) > -1e-3
+        assert min(sampled) > -1e-3
+        told = next(line.value for line in toss.certificate if line.name == GAP)
+        # It looks between the knots, too.
+        assert -1e-3 < told <= min(depths) + 1e-12
+        assert told == pytest.approx(min(*depths, *sampled), rel=0.2, abs=1e-5)
+    # Each crossing lands the other rim.
+    assert crossed > 5
