@@ -5,8 +5,6 @@ import threading
 import numpy as np
 
 from cointoss.coin_mj.events import toss_coin
-from cointoss.coin_mj.model.air_callback import air_of
-from cointoss.coin_mj.model.clock import clock_stopped
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.model.scene import shape_thickness
@@ -75,8 +73,7 @@ def toss_many(
     def toss_tile(tile: Tile) -> None:
         if not hasattr(of_thread, "machine"):
             of_thread.machine = machine_of(described, settings, thickness)
-        with air_of(of_thread.machine.model), clock_stopped():
-            _toss_each(of_thread.machine.coin, of_thread.machine.plastic, rules, settings.budgets, tile)
+        _toss_each(of_thread.machine.coin, of_thread.machine.plastic, rules, settings.budgets, tile)
 
     with stage("tossing by MuJoCo", "tosses") as progress:
         return toss_in_tiles(releases, TILE, toss_tile, progress)

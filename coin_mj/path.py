@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from cointoss.coin_mj.model.air_callback import air_of
 from cointoss.coin_mj.model.machine import Machine
 from cointoss.coin_mj.model.state import motion_of, set_motion, to_mass_center
 from cointoss.coin_mj.steps.free_step import free_step
@@ -42,21 +41,20 @@ class Knots:
         coin = self.machine.coin
         motions = np.empty((len(times), 13))
         before = np.searchsorted(self.knots[:, TIME], times, side="right") - 1
-        with air_of(self.machine.model):
-            for motion, time, number in zip(motions, times, before, strict=True):
-                knot = self.knots[number]
-                if time > knot[TIME] and knot[STEP] == Step.FLIGHT:
-                    set_motion(coin, knot[MOTION])
-                    free_step(coin, time - knot[TIME])
-                    motion[:] = motion_of(coin)
-                elif time > knot[TIME]:
-                    write_between(knot, self.knots[number + 1], time, motion)
-                else:
-                    motion[:] = knot[MOTION]
+        for motion, time, number in zip(motions, times, before, strict=True):
+            knot = self.knots[number]
+            if time > knot[TIME] and knot[STEP] == Step.FLIGHT:
+                set_motion(coin, knot[MOTION])
+                free_step(coin, time - knot[TIME])
+                motion[:] = motion_of(coin)
+            elif time > knot[TIME]:
+                write_between(knot, self.knots[number + 1], time, motion)
+            else:
+                motion[:] = knot[MOTION]
         return self._states(times, motions)
 
     def contact_states(self) -> States:
-        """Return the states at the knots of the sustained contacts, midway to the next ones, and at the ends."""
+        """Return the states at the knots of the sustained contacts, midway between, and at their ends."""
         return self._states(*_in_contact(self.knots))
 
     def _states(self, times: Array, motions: Array) -> States:
@@ -75,8 +73,7 @@ class Knots:
         # At its very end a contact still holds the coin.
         first = np.where(steps[first] == Step.CONTACT, first, first - 1)
         second = np.where(steps[first + 1] == Step.CONTACT, first + 1, first)
-        with air_of(self.machine.model):
-            at = {number: self._knot_force(number) for number in np.union1d(first, second)}
+        at = {number: self._knot_force(number) for number in np.union1d(first, second)}
         start, end = self.knots[first, TIME], self.knots[first + 1, TIME]
         part = ((times - start) / (end - start))[:, None]
         return (1 - part) * np.array([at[k] for k in first]) + part * np.array([at[k] for k in second])
@@ -125,7 +122,8 @@ def _in_contact(knots: Array) -> tuple[Array, Array]:
     for i in range(len(knots) - 1):
         if knots[i, 1] != Step.CONTACT.value:
             continue
-        times[n], times[n + 1], times[n + 2] = knots[i, 0], (knots[i, 0] + knots[i + 1, 0]) / 2, knots[i + 1, 0]
+        start, end = knots[i, 0], knots[i + 1, 0]
+        times[n], times[n + 1], times[n + 2] = start, (start + end) / 2, end
         motions[n], motions[n + 2] = knots[i, 2:], knots[i + 1, 2:]
         write_between(knots[i], knots[i + 1], times[n + 1], motions[n + 1])
         n += 3

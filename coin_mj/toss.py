@@ -11,8 +11,6 @@ import numpy as np
 
 from cointoss.coin_mj.events import toss_coin
 from cointoss.coin_mj.model.air import PowerLaw, air_force
-from cointoss.coin_mj.model.air_callback import air_of
-from cointoss.coin_mj.model.clock import clock_stopped
 from cointoss.coin_mj.model.machine import Machine, machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import FINE, ROUGH, Friction, Realisation, Settings
@@ -68,7 +66,7 @@ def run(machine: Machine, rules: Rules) -> MujocoRun:
     """Toss the coin from its present state until the toss is decided."""
     room = np.zeros(FIRST_ROOM, IMPACT_ROW)
     so_far = stage("a toss", detail=lambda: f"{machine.data.time:.3g} s of the coin's time")
-    with so_far, air_of(machine.model), clock_stopped():
+    with so_far:
         n, rows, knots, contacts, outcome, ending, end_time = toss_coin(
             machine.coin, machine.plastic, rules, machine.settings.budgets, room, True
         )

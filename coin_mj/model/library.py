@@ -8,6 +8,7 @@ from typing import Any
 
 import llvmlite.binding
 import mujoco
+from llvmlite import ir
 from numba import config, types
 from numba.extending import intrinsic
 
@@ -30,17 +31,16 @@ mj_collision: Any = types.ExternalFunction("mj_collision", types.void(*_model_an
 mj_make_constraint: Any = types.ExternalFunction("mj_makeConstraint", types.void(*_model_and_data))
 mj_project_constraint: Any = types.ExternalFunction("mj_projectConstraint", types.void(*_model_and_data))
 mj_center_velocity: Any = types.ExternalFunction("mj_comVel", types.void(*_model_and_data))
-mj_passive: Any = types.ExternalFunction("mj_passive", types.void(*_model_and_data))
 mj_reference_constraint: Any = types.ExternalFunction("mj_referenceConstraint", types.void(*_model_and_data))
 mj_acceleration: Any = types.ExternalFunction("mj_fwdAcceleration", types.void(*_model_and_data))
 mj_constraint: Any = types.ExternalFunction("mj_fwdConstraint", types.void(*_model_and_data))
 """The parts of `mj_forward` that a lone free body needs; each takes addresses as `mj_forward` does."""
-_numbers = types.CPointer(types.float64)
-mj_bias: Any = types.ExternalFunction("mj_rne", types.void(*_model_and_data, types.intc, _numbers))
+_numbers_type = types.CPointer(types.float64)
+mj_bias: Any = types.ExternalFunction("mj_rne", types.void(*_model_and_data, types.intc, _numbers_type))
 """Newton-Euler's forces; takes the addresses of an mjModel and an mjData, whether with accelerations, and
 where the forces go, (nv,)."""
 mj_solve_mass: Any = types.ExternalFunction(
-    "mj_solveM", types.void(*_model_and_data, _numbers, _numbers, types.intc)
+    "mj_solveM", types.void(*_model_and_data, _numbers_type, _numbers_type, types.intc)
 )
 """Solves M x = y for several y; takes the addresses of an mjModel and an mjData, x, y, and their number."""
 
@@ -57,6 +57,20 @@ def _pointer_to(_context, _address, kind):
 
 pointer_to: Any = _pointer_to
 """Takes an address and a type, in compiled code: gives the address as a pointer to values of the type."""
+
+
+@intrinsic
+def _call_at(_context, _address, _numbers):
+    def code(context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+        kind = ir.FunctionType(ir.VoidType(), [arguments[1].type])
+        builder.call(builder.inttoptr(arguments[0], kind.as_pointer()), [arguments[1]])
+        return context.get_dummy_value()
+
+    return types.void(types.int64, _numbers_type), code
+
+
+call_at: Any = _call_at
+"""Takes the address of a compiled function, in compiled code, and calls it with an address of numbers."""
 
 
 def require_compiled_code() -> None:

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 
+from cointoss.coin_mj.model.compiled_air import air_address
 from cointoss.coin_mj.model.library import require_compiled_code
 from cointoss.coin_mj.model.memory import joint_arrays, offset_of, require_layout
 from cointoss.coin_mj.model.mujoco_coin import ADDRESSES, MujocoCoin
@@ -70,7 +71,7 @@ def machine_of(scenario: Scenario, settings: Settings, thickness: float) -> Mach
     require_layout(model, data)
     data.qpos[:], data.qvel[:] = of_release(body, scenario.release)
     coin = MujocoCoin(
-        address=_addresses(model, data, has_pair=native > 0),
+        address=_addresses(model, data, has_pair=native > 0, air=air_address(scenario.body)),
         joint=joint_arrays(data),
         body=body,
         shape_thickness=thickness,
@@ -94,7 +95,7 @@ def _with_air_of_any_kind(body: Body) -> Body:
     return body._replace(air=body.air._replace(exponent=body.air.exponent or 0.0))
 
 
-def _addresses(model: mujoco.MjModel, data: mujoco.MjData, *, has_pair: bool) -> Any:
+def _addresses(model: mujoco.MjModel, data: mujoco.MjData, *, has_pair: bool, air: int) -> Any:
     """Return a record of `ADDRESSES`; a contact with friction has its settings from a pair of geoms."""
     geom = model.geom("coin")
     settings = (
@@ -111,5 +112,6 @@ def _addresses(model: mujoco.MjModel, data: mujoco.MjData, *, has_pair: bool) ->
         *(0 if array is None else array.ctypes.data for array in settings),
         data.body("coin").xmat.ctypes.data,
         *(data._address + offset for offset in rows),
+        air,
     )
     return np.array([addresses], ADDRESSES)[0]

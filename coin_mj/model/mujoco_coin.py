@@ -25,6 +25,7 @@ ADDRESSES = np.dtype(
             "efc_D",
             "efc_R",
             "efc_aref",
+            "air",  # the compiled force of the air with b > 0, see `compiled_air`; 0 of other air
         )
     ]
 )

@@ -1,26 +1,28 @@
 """The forces on MuJoCo's coin that know no floor: those of its own motion, weight and air."""
 
-from cointoss.coin_mj.model.library import mj_bias, mj_center_velocity, mj_passive
+from cointoss.coin_mj.model.compiled_air import air_force_at
+from cointoss.coin_mj.model.library import mj_bias, mj_center_velocity
 from cointoss.coin_mj.model.memory import numbers_at
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import is_linear
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import dot
+from cointoss.models.kernel.vectors import apply, apply_transposed, dot
 
 
 @compiled
 def write_smooth_forces(coin: MujocoCoin) -> None:
     """Write qfrc_bias, qfrc_passive and qfrc_actuator of a placed coin, as `mj_forward` does.
 
-    Of linear air MuJoCo's own stages take the most time of a step: they look for springs, tendons, fluids and
-    every kind of actuator. `_write_linear_drag` writes what they find.
+    MuJoCo's own stages for passive forces and actuators take the most time of a step: they look for springs,
+    tendons, fluids and every kind of actuator. `_write_linear_drag` writes what they find of linear air.
     """
     mj_center_velocity(coin.address.model, coin.address.data)
     mj_bias(coin.address.model, coin.address.data, 0, coin.joint.qfrc_bias.ctypes)
     if is_linear(coin.body.air):
         _write_linear_drag(coin)
     else:
-        mj_passive(coin.address.model, coin.address.data)
+        _write_air(coin)
 
 
 @compiled
@@ -36,3 +38,15 @@ def _write_linear_drag(coin: MujocoCoin) -> None:
     joint.qfrc_passive[3] = -drag.moment_tangential * v[3]
     joint.qfrc_passive[4] = -drag.moment_tangential * v[4]
     joint.qfrc_passive[5] = -drag.moment_normal * v[5]
+
+
+@compiled
+def _write_air(coin: MujocoCoin) -> None:
+    """Write the force and the moment of air with b > 0, which MuJoCo lacks."""
+    qpos, v, passive = coin.joint.qpos, coin.joint.qvel, coin.joint.qfrc_passive
+    R = rotation_matrix((qpos[3], qpos[4], qpos[5], qpos[6]))
+    of_B, w = apply_transposed(R, (v[0], v[1], v[2])), (v[3], v[4], v[5])
+    f, m = air_force_at(coin.address.air, coin.body, of_B, w)
+    f = apply(R, f)
+    for i in range(3):
+        passive[i], passive[3 + i] = f[i], m[i]

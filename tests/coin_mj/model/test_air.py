@@ -1,18 +1,13 @@
-"""MuJoCo's air with b > 0: its force against the paper's mechanics, and the one callback of all models."""
-
-# The MuJoCo wheel describes no types.
-# pyright: reportAttributeAccessIssue=false
+"""MuJoCo's air with b > 0: its force against the paper's mechanics, and that each coin feels its own."""
 
 import math
 from concurrent.futures import ThreadPoolExecutor
 
-import mujoco
 import numpy as np
 import pytest
 
 import cointoss.analytic.air.force
 from cointoss.coin_mj.model.air import PowerLaw, air_force
-from cointoss.coin_mj.model.air_callback import air_of
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import Settings
@@ -103,10 +98,9 @@ def coin_in_air(b, normal=LN, tangential=LT):
 
 
 @pytest.mark.parametrize("b", [0.5, 1.0])
-def test_the_callback_gives_the_force_at_B_in_mujocos_frames(b):
+def test_a_coin_feels_the_force_at_B_in_mujocos_frames(b):
     machine = coin_in_air(b)
-    with air_of(machine.model):
-        forward(machine.coin)
+    forward(machine.coin)
     data = machine.data
     rotation = data.body("coin").xmat.reshape(3, 3)
     f, m = air_force(R, H, PowerLaw(LN, LT, b), vector(rotation.T @ data.qvel[:3]), vector(data.qvel[3:]))
@@ -116,11 +110,10 @@ def test_the_callback_gives_the_force_at_B_in_mujocos_frames(b):
 
 
 @pytest.mark.parametrize("air", [{"b": 0.5, "normal": 0.0, "tangential": 0.0}, {"b": 0.0}])
-def test_vacuum_and_linear_air_need_no_callback(air):
+def test_vacuum_and_linear_air_need_no_function_of_their_own(air):
     machine = coin_in_air(**air)
-    with air_of(machine.model):
-        assert mujoco.get_mjcb_passive() is None
-        forward(machine.coin)
+    assert machine.coin.address["air"] == 0
+    forward(machine.coin)
     vacuum = air.get("normal") == 0
     assert np.all(machine.data.qfrc_passive == 0) == vacuum
 
@@ -131,8 +124,7 @@ def flown(machine, steps=20):
 
 
 def fly_a_step(machine):
-    with air_of(machine.model):
-        free_step(machine.coin, 1e-3)
+    free_step(machine.coin, 1e-3)
     return np.concatenate([machine.data.qpos, machine.data.qvel])
 
 
@@ -143,9 +135,6 @@ def test_interleaved_coins_each_feel_their_own_air():
     rows = [[fly_a_step(machine) for machine in machines] for _ in range(20)]
     together = np.array(rows).transpose(1, 0, 2)
     assert np.array_equal(together, np.array(alone))
-    # Within the air of another coin too.
-    with air_of(machines[0].model):
-        assert np.array_equal([flown(coin_in_air(**case)) for case in cases], alone)
     ends = np.array(alone)[:, -1, 7:]
     assert all(np.abs(ends[i] - ends[j]).max() > 1e-3 for i in range(4) for j in range(i))
 
@@ -156,42 +145,3 @@ def test_coins_on_several_threads_each_feel_their_own_air():
     with ThreadPoolExecutor(4) as pool:
         together = list(pool.map(lambda b: flown(coin_in_air(b), 100), exponents))
     assert np.array_equal(together, alone)
-    assert mujoco.get_mjcb_passive() is None
-
-
-class InterruptionError(Exception):
-    """What a step may raise."""
-
-
-def interrupted(model):
-    with air_of(model), air_of(model):
-        raise InterruptionError
-
-
-def test_an_exception_leaves_the_callback_that_was_there():
-    def users(_model, data):
-        data.qfrc_passive[0] = 1.0
-
-    machine, before = coin_in_air(0.5), flown(coin_in_air(0.5))
-    mujoco.set_mjcb_passive(users)
-    try:
-        with air_of(machine.model):
-            assert mujoco.get_mjcb_passive() is not users
-        with pytest.raises(InterruptionError):
-            interrupted(machine.model)
-        assert mujoco.get_mjcb_passive() is users
-        assert np.array_equal(flown(machine), before), "the user's own should not act on the coin"
-        assert mujoco.get_mjcb_passive() is users
-    finally:
-        mujoco.set_mjcb_passive(None)
-
-
-def test_a_model_without_air_is_left_alone():
-    model = mujoco.MjModel.from_xml_string(
-        '<mujoco><worldbody><body><freejoint/><geom size="1"/></body></worldbody></mujoco>'
-    )
-    data = mujoco.MjData(model)
-    data.qvel[:] = 1
-    with air_of(coin_in_air(0.5).model):
-        mujoco.mj_forward(model, data)
-    assert np.all(data.qfrc_passive == 0)

@@ -9,15 +9,25 @@ import numpy as np
 import pytest
 
 from cointoss.coin_mj import MANY
-from cointoss.coin_mj.model.air_callback import air_of
+from cointoss.coin_mj.model.air import PowerLaw, air_force
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.state import set_motion
 from cointoss.coin_mj.steps.free_step import free_rate
+from cointoss.models.attitude import rotation_matrix
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.tuples import quaternion, vector
 
 AIRS = {"vacuum": {}, "linear": AIR, "b = 0.5": {**AIR, "exponent": 0.5}}
 FORCES = ("qfrc_bias", "qfrc_passive", "qfrc_actuator", "qfrc_smooth", "qacc_smooth")
+
+
+def force_of_the_air(case, data):
+    """Force and moment of the air with b > 0, as MuJoCo's generalized forces, (6,)."""
+    coin, air, R = case.coin, case.air, np.array(rotation_matrix(quaternion(data.qpos[3:])))
+    law = PowerLaw(air.normal, air.tangential, air.exponent)
+    f, m = air_force(coin.radius, coin.thickness, law, vector(R.T @ data.qvel[:3]), vector(data.qvel[3:]))
+    return np.array([*(R @ f), *m])
 
 
 @pytest.mark.parametrize("center", [[0, 0, 0], PAPER_OFFSET], ids=["balanced", "imperfect"])
@@ -34,9 +44,11 @@ def test_forces_and_accelerations_of_flight_are_those_of_mj_forward(center, air)
         motion = np.array([0, 0, 1, *e, *rng.uniform(-2, 2, 3), *rng.uniform(-40, 40, 3)])
         set_motion(machine.coin, motion)
         reference.qpos[:], reference.qvel[:] = motion[:7], motion[7:]
-        with air_of(machine.model):
-            free_rate(machine.coin, np.empty(13))
-            mujoco.mj_forward(machine.model, reference)
+        free_rate(machine.coin, np.empty(13))
+        if case.body.air.exponent is not None:
+            reference.qfrc_applied[:] = force_of_the_air(case, reference)
+        mujoco.mj_forward(machine.model, reference)
+        reference.qfrc_passive[:] += reference.qfrc_applied
         for name in FORCES:
             found, known = getattr(machine.data, name), getattr(reference, name)
             assert found == pytest.approx(known, rel=1e-13, abs=1e-14 * np.abs(known).max()), name
@@ -45,7 +57,7 @@ def test_forces_and_accelerations_of_flight_are_those_of_mj_forward(center, air)
 
 
 def test_one_code_is_for_all_air():
-    """The air with b > 0 is MuJoCo's callback: else the whole engine would be compiled once more for it."""
+    """Air with b > 0 is called by its address: else the whole engine would be compiled once more for it."""
     cases = [scenario(coin=ZLOTY, air=air) for air in AIRS.values()]
     kinds = {numba.typeof(machine_of(case, MANY, shape_thickness(case)).coin) for case in cases}
     assert len(kinds) == 1

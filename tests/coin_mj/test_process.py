@@ -1,0 +1,141 @@
+"""What MuJoCo keeps for a whole process is its user's: tosses read none of it and change none of it."""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
+import ctypes
+import sys
+import threading
+
+import mujoco
+import numpy as np
+import pytest
+
+from cointoss.coin_mj import MANY
+from cointoss.coin_mj.model.library import PATH
+from cointoss.coin_mj.model.machine import machine_of
+from cointoss.coin_mj.model.scene import shape_thickness
+from cointoss.coin_mj.toss import impacts_of, run
+from cointoss.models.stages import stages
+from tests.helpers.draws import AIR, IMPERFECT, draw_release, scenario
+
+FOREIGN = """<mujoco><custom><numeric name="air" data="1 2 3 4 5"/></custom><worldbody>
+<body pos="0 0 5"><freejoint/><geom size="0.1 0.2 0.3" type="box"/></body>
+<body pos="3 0 5"><joint axis="0 1 0"/><geom pos="0.4 0 0" size="0.1"/></body></worldbody></mujoco>"""
+HELD = [ctypes.c_void_p.in_dll(ctypes.CDLL(PATH), name) for name in ("mjcb_passive", "mjcb_time")]
+
+
+@pytest.fixture
+def restored():
+    """Put MuJoCo's passive callback back after a test."""
+    yield
+    mujoco.set_mjcb_passive(None)
+
+
+def in_air():
+    """A coin in air with b > 0."""
+    return scenario(
+        coin=IMPERFECT,
+        air={**AIR, "exponent": 0.5},
+        release=draw_release(np.random.default_rng(1)),
+        ending={"max_impacts": 3},
+    )
+
+
+class Foreign(threading.Thread):
+    """A thread that steps a model of somebody else's, with five custom numbers, until it is told to stop."""
+
+    def __init__(self):
+        super().__init__()
+        self.model = mujoco.MjModel.from_xml_string(FOREIGN)
+        self.data = mujoco.MjData(self.model)
+        self.data.qvel[:] = 1.0
+        self.steps, self.most, self.stopped, self.held = 0, None, False, set()
+
+    def run(self):
+        while not self.stopped and self.steps != self.most:
+            mujoco.mj_step(self.model, self.data)
+            self.held.add(tuple(pointer.value for pointer in HELD))
+            self.steps += 1
+
+    def state(self):
+        return np.concatenate([self.data.qpos, self.data.qvel])
+
+
+def tossed_beside(beside, tosses=20):
+    """The impacts of a coin in air, tossed while another thread steps a foreign model."""
+    beside.start()
+    try:
+        found = [impacts_of(in_air(), settings=MANY) for _ in range(tosses)]
+    finally:
+        beside.stopped = True
+        beside.join()
+    assert beside.steps > 100
+    return found
+
+
+def test_a_model_that_another_thread_steps_meanwhile_is_left_alone():
+    held = tuple(pointer.value for pointer in HELD)
+    beside, alone = Foreign(), Foreign()
+    tossed_beside(beside)
+    alone.most = beside.steps
+    alone.run()
+    assert np.array_equal(beside.state(), alone.state())
+    assert np.abs(alone.state()).max() > 5
+    assert beside.held == alone.held == {held}
+    # MuJoCo's timers run on.
+    assert beside.data.timer[mujoco.mjtTimer.mjTIMER_STEP].duration > 0
+
+
+@pytest.mark.usefixtures("restored")
+def test_a_callback_of_the_users_acts_on_their_model_and_not_on_the_coin():
+    expected = impacts_of(in_air(), settings=MANY)
+    seen = set()
+
+    def users(model, data):
+        seen.add(model.nbody)
+        data.qfrc_passive[0] = 7.0
+
+    beside, alone = Foreign(), Foreign()
+    mujoco.set_mjcb_passive(users)
+    found = tossed_beside(beside)
+    assert mujoco.get_mjcb_passive() is users
+    assert seen == {beside.model.nbody}
+    alone.most = beside.steps
+    alone.run()
+    assert beside.data.qfrc_passive[0] == 7
+    assert np.array_equal(beside.state(), alone.state())
+    assert all(np.array_equal(one.impulse, expected.impulse) for one in found)
+
+
+@pytest.mark.usefixtures("restored")
+def test_a_callback_that_is_set_during_a_toss_stays_set(monkeypatch):
+    def users(_model, _data):
+        pass
+
+    toss_coin = sys.modules["cointoss.coin_mj.toss"].toss_coin
+
+    def set_after(*arguments):
+        result = toss_coin(*arguments)
+        mujoco.set_mjcb_passive(users)
+        return result
+
+    monkeypatch.setattr(sys.modules["cointoss.coin_mj.toss"], "toss_coin", set_after)
+    impacts_of(in_air(), settings=MANY)
+    assert mujoco.get_mjcb_passive() is users
+
+
+def test_a_toss_sets_the_time_of_mujoco_and_says_it_to_those_who_wait(monkeypatch):
+    described, told = scenario(ending={"max_impacts": 3}), []
+    machine = machine_of(described, MANY, shape_thickness(described))
+    toss_coin = sys.modules["cointoss.coin_mj.toss"].toss_coin
+
+    def told_after(*arguments):
+        result = toss_coin(*arguments)
+        told.append(stages.open[-1].detail())
+        return result
+
+    monkeypatch.setattr(sys.modules["cointoss.coin_mj.toss"], "toss_coin", told_after)
+    end_time = run(machine, described.rules).end_time
+    assert machine.data.time == end_time > 0
+    assert told == [f"{end_time:.3g} s of the coin's time"]
