@@ -76,7 +76,8 @@ class Knots:
         at = {number: self._knot_force(number) for number in np.union1d(first, second)}
         start, end = self.knots[first, TIME], self.knots[first + 1, TIME]
         part = ((times - start) / (end - start))[:, None]
-        return (1 - part) * np.array([at[k] for k in first]) + part * np.array([at[k] for k in second])
+        forces = (1 - part) * np.array([at[k] for k in first]) + part * np.array([at[k] for k in second])
+        return forces * self.machine.mass_unit
 
     def _knot_force(self, number: int) -> tuple[float, float, float]:
         """Return the floor's force in the step that starts at a knot; 0 where that is none of a contact."""

@@ -70,7 +70,10 @@ def run(machine: Machine, rules: Rules) -> MujocoRun:
         n, rows, knots, contacts, outcome, ending, end_time = toss_coin(
             machine.coin, machine.plastic, rules, machine.settings.budgets, room, True
         )
-    return MujocoRun(rows[:n].copy(), knots, contacts, Outcome(outcome), Ending(ending), end_time)
+    rows = rows[:n].copy()
+    for told in ("impulse", "energy", "energy_change"):
+        rows[told] *= machine.mass_unit
+    return MujocoRun(rows, knots, contacts, Outcome(outcome), Ending(ending), end_time)
 
 
 def require_supported(scenario: Scenario, *, settings: Settings) -> None:
@@ -96,11 +99,6 @@ def require_supported(scenario: Scenario, *, settings: Settings) -> None:
                 f"floor.{name} = {getattr(floor, name):g}: accepted by the MuJoCo engine with its native "
                 "friction: 0; a length with explicit friction"
             )
-    if floor.restitution == 0 and settings.contact == Realisation.SPRING:
-        raise UnsupportedError(
-            "floor.restitution = 0: accepted by the MuJoCo engine: a number > 0 (a damped spring rebounds), "
-            "or one-step contacts"
-        )
 
 
 def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
@@ -123,7 +121,7 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     Raises:
         ScenarioError: for a file or a name that can't be used.
         UnsupportedError: for contact laws other than "smooth", "coulomb" and "perfectly_rough"; energetic
-            restitution; resistance to rolling or pivoting beside native friction; restitution 0 of a spring.
+            restitution; resistance to rolling or pivoting beside native friction.
 
     Warns:
         ApproximationWarning: for a perfectly rough floor, which is one of friction `ROUGH`.
@@ -158,7 +156,7 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
             Setting(name="MuJoCo", value=mujoco.__version__),
             *_contact_certificate(machine),
             Setting(name="largest turn in a step of flight", value=machine.coin.flight_angle, unit="rad"),
-            Setting(name="thickness of the shape", value=machine.coin.shape_thickness, unit="m"),
+            Setting(name="thickness of the shape", value=machine.coin.shape.thickness, unit="m"),
             Setting(name="steps", value=len(answer.knots) - 1),
             *measurements(
                 scenario,
@@ -186,15 +184,18 @@ def warn_of_approximation(scenario: Scenario) -> None:
         )
 
 
-def impacts_of(scenario: Scenario, *, settings: Settings = FINE, thickness: float | None = None) -> Impacts:
+def impacts_of(
+    scenario: Scenario, *, settings: Settings = FINE, thickness: float | None = None, softer: float = 1.0
+) -> Impacts:
     """Toss a coin for its impacts alone: no path, no certificate, no horizon of trust.
 
     Args:
         scenario: what to toss.
         settings: how MuJoCo realises the floor.
         thickness: of the coin's shape, by default `shape_thickness` [m].
+        softer: by which the contacts are softened, see `Settings.softened`.
     """
-    machine = machine_of(scenario, settings, thickness or shape_thickness(scenario))
+    machine = machine_of(scenario, settings, thickness or shape_thickness(scenario), softer)
     return Impacts.from_rows(interruptible(lambda: run(machine, scenario.rules)).rows)
 
 
@@ -258,7 +259,7 @@ def _trust(scenario: Scenario, settings: Settings, impacts: Impacts, contacts: A
         if trusted == 0:
             break
         shorter = scenario.replace("ending.max_impacts", trusted)
-        softer = impacts_of(shorter, settings=settings.softened(part), thickness=thickness)
+        softer = impacts_of(shorter, settings=settings, thickness=thickness, softer=part)
         shared = shared_impacts(impacts, softer, trusted)
         if shared < trusted:
             trusted, end = shared, TrustEnd.ERRORS

@@ -3,6 +3,7 @@
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
 
+import math
 from typing import Any, NamedTuple
 
 import mujoco
@@ -20,6 +21,7 @@ from cointoss.coin_mj.model.settings import (
     friction_of,
     plastic_rebound,
     rebound_of,
+    resolved,
 )
 from cointoss.coin_mj.model.state import of_release
 from cointoss.models.body import Body, is_ideal, resists
@@ -38,6 +40,10 @@ _UNUSED = (
 UNSYMMETRIC = 0.65
 """Largest turn in a step of flight of a coin that is no balanced symmetric top [rad]: it keeps less nearly to
 the frame of its step, see `cointoss.coin_mj.steps.turning_frame`."""
+LONG = 4.0
+"""Ratio of the moments of inertia above which a coin is a rod: it turns end over end as about one moment."""
+SMALLEST_INERTIA = 1e-12
+"""Below it MuJoCo's compiler, which accepts 1e-15, is given another unit of mass [kg m²]."""
 
 
 class Machine(NamedTuple):
@@ -46,23 +52,36 @@ class Machine(NamedTuple):
     model: mujoco.MjModel
     data: mujoco.MjData
     settings: Settings
+    """As `resolved`."""
+    mass_unit: float
+    """In which MuJoCo tells masses, forces and energies: a power of 2, so that no digit changes [kg]."""
     coin: MujocoCoin
     plastic: MujocoCoin
     """The same coin where a touch is plastic: one step with χ = 0, which no spring has."""
 
 
-def machine_of(scenario: Scenario, settings: Settings, thickness: float) -> Machine:
-    """Return the MuJoCo coin of a scenario, with the thickness of its shape [m], at its release.
+def machine_of(scenario: Scenario, settings: Settings, thickness: float, softer: float = 1.0) -> Machine:
+    """Return the MuJoCo coin of a scenario at its release.
+
+    Args:
+        scenario: what to toss.
+        settings: how MuJoCo realises the floor, made `resolved`.
+        thickness: of the coin's shape [m].
+        softer: then softened by this part, see `Settings.softened`.
 
     Raises:
         UnusableEngineError: if nothing is compiled.
         LayoutError: if MuJoCo's memory is not laid out as it describes.
     """
     require_compiled_code()
+    floor, unit = scenario.floor, _mass_unit(scenario.body)
+    rate = math.sqrt(scenario.gravity / scenario.coin.radius)
+    settings = resolved(settings, floor.restitution, rate).softened(softer)
+    scenario = scenario if unit == 1 else _in_mass_unit(scenario, unit)
     rebound, body, mu = (
-        rebound_of(scenario.floor.restitution, settings),
+        rebound_of(floor.restitution, settings),
         _with_air_of_any_kind(scenario.body),
-        friction_of(scenario.floor),
+        friction_of(floor),
     )
     native = mu if settings.friction == Friction.NATIVE else 0.0
     model = build(scenario, rebound, native, thickness)
@@ -74,12 +93,12 @@ def machine_of(scenario: Scenario, settings: Settings, thickness: float) -> Mach
         address=_addresses(model, data, has_pair=native > 0, air=air_address(scenario.body)),
         joint=joint_arrays(data),
         body=body,
-        shape_thickness=thickness,
+        shape=shape_of(body, thickness),
         floor_height=floor_height(scenario, thickness),
         rebound=rebound,
         friction=mu,
-        rolling_friction=scenario.floor.rolling_friction,
-        pivoting_friction=scenario.floor.pivoting_friction,
+        rolling_friction=floor.rolling_friction,
+        pivoting_friction=floor.pivoting_friction,
         is_balanced=not any(scenario.coin.center_of_mass),
         has_explicit_friction=settings.friction == Friction.EXPLICIT and mu > 0,
         resists=resists(scenario.rules),
@@ -87,7 +106,34 @@ def machine_of(scenario: Scenario, settings: Settings, thickness: float) -> Mach
         flight_angle=settings.flight_angle if is_ideal(body) else min(settings.flight_angle, UNSYMMETRIC),
     )
     plastic = coin._replace(rebound=plastic_rebound(rebound, settings), has_one_step=True)
-    return Machine(model, data, settings, coin, plastic)
+    return Machine(model, data, settings, unit, coin, plastic)
+
+
+def shape_of(body: Body, thickness: float) -> Body:
+    """Return the body with the thickness of its shape [m], for the search of its touches.
+
+    How a rod turns about its own axis hardly moves its ends. Its small moment of inertia about that axis
+    would make all bounds on their motion useless: they get the largest moment alone.
+    """
+    largest = body.inertia_largest
+    smallest = largest if largest > LONG * body.inertia_smallest else body.inertia_smallest
+    return body._replace(thickness=thickness, inertia_smallest=smallest)
+
+
+def _mass_unit(body: Body) -> float:
+    """Return a power of 2 in which no moment of inertia is too small for MuJoCo; 1 where none is [kg]."""
+    smallest = body.inertia_smallest
+    return 1.0 if smallest > SMALLEST_INERTIA else 2.0 ** math.floor(math.log2(smallest / SMALLEST_INERTIA))
+
+
+def _in_mass_unit(scenario: Scenario, unit: float) -> Scenario:
+    """Return a scenario with masses and coefficients of the air in another unit of mass [kg]."""
+    coin, air = scenario.coin, scenario.air
+    inertia = coin.inertia and [[moment / unit for moment in row] for row in coin.inertia]
+    return scenario.replace(
+        *("coin.mass", coin.mass / unit, "coin.inertia", inertia),
+        *("air.normal", air.normal / unit, "air.tangential", air.tangential / unit),
+    )
 
 
 def _with_air_of_any_kind(body: Body) -> Body:

@@ -40,8 +40,8 @@ class MujocoCoin(NamedTuple):
     joint: Any
     """See `joint_arrays`."""
     body: Body
-    shape_thickness: float
-    """Thickness of the coin's shape [m]."""
+    shape: Body
+    """The body with the thickness of its shape, and bounds of its inertia for its flight, see `shape_of`."""
     floor_height: float
     """Of MuJoCo's floor [m]."""
     rebound: Rebound

@@ -175,7 +175,7 @@ def _rising(coin: MujocoCoin, R: Matrix, J: Array) -> float:
     p = (across[0] + below * up[0], across[1] + below * up[1], across[2] + below * up[2])
     if -(p[0] * up[0] + p[1] * up[1]) < _LOWEST * sine * math.hypot(p[0], p[1]):
         return 0.0
-    half = math.copysign(coin.shape_thickness / 2, p[2])
+    half = math.copysign(coin.shape.thickness / 2, p[2])
     rate = cross(up, w)
     turning = cross(rate, w)
     sine_rate = (up[0] * rate[0] + up[1] * rate[1]) / sine

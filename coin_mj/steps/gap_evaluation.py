@@ -17,7 +17,7 @@ DAMPED = 0.5
 @compiled
 def evaluate_gap(coin: MujocoCoin) -> GapEvaluation:
     """Return the `GapEvaluation` of the coin's shape in the present state."""
-    return geometry.evaluate_gap(shape_of(coin), state_above_floor(coin))
+    return geometry.evaluate_gap(coin.shape, state_above_floor(coin))
 
 
 @compiled
@@ -33,34 +33,14 @@ def longest_step(coin: MujocoCoin) -> float:
     state = state_of(coin)
     v, w = state.velocity, state.spin
     longest = coin.flight_angle / turning_rate(coin.body, w)
-    return min(longest, DAMPED / damping_rate(coin.body, v, w, longest))
+    return min(longest, DAMPED / damping_rate(coin.shape, v, w, longest))
 
 
 @compiled
 def clear_flight(coin: MujocoCoin, window: float) -> float:
     """Return a time in which the coin surely does not touch, at most `window` [s]."""
     x, v, _, w, R = state_above_floor(coin)
-    return clear_time(shape_of(coin), x[2], v, R[2], w, window)
-
-
-@compiled
-def shape_of(coin: MujocoCoin) -> Body:
-    """Return the body with the thickness of its shape."""
-    body = coin.body
-    return Body(
-        body.mass,
-        body.radius,
-        coin.shape_thickness,
-        body.center,
-        body.inertia,
-        body.inertia_inverse,
-        body.inertia_smallest,
-        body.inertia_largest,
-        body.air,
-        body.drag,
-        body.sliding_share,
-        body.gravity,
-    )
+    return clear_time(coin.shape, x[2], v, R[2], w, window)
 
 
 @compiled

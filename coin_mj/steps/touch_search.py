@@ -7,7 +7,6 @@ import numpy as np
 
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.model.state import Motion
-from cointoss.coin_mj.steps.gap_evaluation import shape_of
 from cointoss.coin_mj.steps.turning_frame import (
     TurningFrame,
     about_axis,
@@ -124,7 +123,7 @@ def first_touch(coin: MujocoCoin, arc: Arc, shortest: float) -> float:
         arc: of the step.
         shortest: a time in which no touch is looked for [s].
     """
-    shape, c, table = shape_of(coin), coin.body.center, arc.coefficients
+    shape, c, table = coin.shape, coin.body.center, arc.coefficients
     time, shortest = 0.0, max(shortest, _FINEST * arc.duration)
     while time < arc.duration:
         part, turn = time / arc.duration, turn_after(arc.frame, time)
