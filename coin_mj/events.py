@@ -14,7 +14,7 @@ from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
 from cointoss.coin_mj.steps.impact import TouchResult, resolve_impact
 from cointoss.coin_mj.steps.knots import Knot, Step, add_knot, knot_of
 from cointoss.coin_mj.steps.sustained_contact import NO_LOSS, ContactExit, follow_contact, slow_speed
-from cointoss.models.body import Body, Rules
+from cointoss.models.body import Body, Rules, is_linear
 from cointoss.models.ending import classify_ending, face_outcome, unless_caught
 from cointoss.models.geometry import lowest_point
 from cointoss.models.impact_row import ImpactRow, with_room, write_impact
@@ -27,6 +27,9 @@ from cointoss.models.state import State
 
 ROUNDED_FLAT = 1e-13
 """A flat coin's tilt, and its turn in √(r/g), by MuJoCo's rounding alone; measured: 3e-15 in five bounces."""
+
+AIR_STEPS = 100
+"""A step in air with b > 0 counts as so many: its quadratures take up to 1 ms for each force."""
 
 
 @compiled
@@ -49,7 +52,8 @@ def toss_coin(
         every sustained contact, (c, 2) [s]; outcome; ending; and the time of the end [s].
     """
     time, n, history = 0.0, 0, energy_history(NO_LOSS)
-    steps_left, flight_steps_left = budgets.contact_steps, budgets.flight_steps
+    weight = 1 if is_linear(coin.body.air) else AIR_STEPS
+    steps_left, flight_steps_left = budgets.contact_steps // weight, budgets.flight_steps // weight
     knots, contacts = [knot_of(coin, time, Step.FLIGHT)], [(time, time)]
     contacts.clear()
     if not keep_all:

@@ -11,7 +11,7 @@ import numpy as np
 
 from cointoss.coin_mj.model.compiled_air import air_address
 from cointoss.coin_mj.model.library import require_compiled_code
-from cointoss.coin_mj.model.memory import joint_arrays, offset_of, require_layout
+from cointoss.coin_mj.model.memory import OF_ROWS, in_contact, joint_arrays, offset_of, require_layout
 from cointoss.coin_mj.model.mujoco_coin import ADDRESSES, MujocoCoin
 from cointoss.coin_mj.model.scene import build, floor_height
 from cointoss.coin_mj.model.settings import (
@@ -74,6 +74,7 @@ def machine_of(scenario: Scenario, settings: Settings, thickness: float, softer:
         LayoutError: if MuJoCo's memory is not laid out as it describes.
     """
     require_compiled_code()
+    require_layout(*in_contact())
     floor, unit = scenario.floor, _mass_unit(scenario.body)
     rate = math.sqrt(scenario.gravity / scenario.coin.radius)
     settings = resolved(settings, floor.restitution, rate).softened(softer)
@@ -87,7 +88,6 @@ def machine_of(scenario: Scenario, settings: Settings, thickness: float, softer:
     model = build(scenario, rebound, native, thickness)
     model.opt.disableflags |= _UNUSED
     data = mujoco.MjData(model)
-    require_layout(model, data)
     data.qpos[:], data.qvel[:] = of_release(body, scenario.release)
     coin = MujocoCoin(
         address=_addresses(model, data, has_pair=native > 0, air=air_address(scenario.body)),
@@ -149,7 +149,7 @@ def _addresses(model: mujoco.MjModel, data: mujoco.MjData, *, has_pair: bool, ai
         if has_pair
         else (geom.solref, None, geom.margin)
     )
-    rows = (offset_of("mjData", name) for name in ("nefc", "efc_J", "efc_pos", "efc_D", "efc_R", "efc_aref"))
+    rows = (offset_of("mjData", name) for name in ("nefc", *OF_ROWS))
     addresses = (
         model._address,
         data._address,

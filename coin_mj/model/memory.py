@@ -4,6 +4,7 @@
 # pyright: reportAttributeAccessIssue=false
 
 import ctypes
+import warnings
 from functools import cache
 from typing import Any
 
@@ -29,6 +30,14 @@ _SCALARS: dict[str, Any] = {
     "size_t": ctypes.c_size_t,
     "uintptr_t": ctypes.c_size_t,
 }
+PROVED = "4.0.0"
+"""The MuJoCo in which a search of its memory found each field where it describes it."""
+OF_ROWS = ("efc_J", "efc_pos", "efc_D", "efc_R", "efc_aref")
+"""Arrays of the rows of constraints, which move from step to step. Other arrays are seen through views."""
+# A callback in Python refuses the step that MuJoCo's compiler makes, see `scene`.
+_BALL = """<mujoco><option><flag spring="disable" damper="disable" actuation="disable"/></option>
+<worldbody><geom type="plane" size="0 0 1"/><body pos="0 0 0.9"><freejoint/><geom size="1"/></body>
+</worldbody></mujoco>"""
 _OF_JOINT = (
     "qpos",
     "qvel",
@@ -44,6 +53,20 @@ _OF_JOINT = (
 
 class LayoutError(UnusableEngineError):
     """MuJoCo's memory is not laid out as MuJoCo describes it."""
+
+
+def warn_of_version(version: str) -> None:
+    """Warn of a MuJoCo for which the places of its fields were not proved."""
+    if version != PROVED:
+        warnings.warn(
+            f"MuJoCo {version}: where its fields lie was proved for {PROVED}; "
+            "each is compared with MuJoCo's own description before a toss",
+            RuntimeWarning,
+            stacklevel=2,
+        )
+
+
+warn_of_version(mujoco.__version__)
 
 
 def _misplaced(struct: str, field: str) -> LayoutError:
@@ -75,20 +98,42 @@ def offset_of(struct: str, field: str) -> int:
 def require_layout(model: mujoco.MjModel, data: mujoco.MjData) -> None:
     """Compare what lies where MuJoCo describes its fields with what its Python binding shows.
 
-    The last field of either struct is its signature, so the size of all before it counts.
+    All that are used are compared. The last field of either struct is its signature, so the size of all
+    before it counts.
+
+    Args:
+        model: MuJoCo's.
+        data: in contact, so that the rows of constraints have places.
 
     Raises:
         LayoutError: naming a field that lies elsewhere.
     """
-    for struct, name, field, shown in (
+    numbers = [
         (model, "mjModel", "opt.timestep", ctypes.c_double(model.opt.timestep)),
         (model, "mjModel", "signature", ctypes.c_uint64(model.signature)),
-        (data, "mjData", "qpos", ctypes.c_size_t(data.qpos.ctypes.data)),
+        (data, "mjData", "time", ctypes.c_double(data.time)),
+        (data, "mjData", "nefc", ctypes.c_int32(data.nefc)),
         (data, "mjData", "signature", ctypes.c_uint64(data.signature)),
-    ):
+    ]
+    arrays = [
+        (data, "mjData", name, ctypes.c_size_t(getattr(data, name).ctypes.data))
+        for name in ("qpos", *OF_ROWS)
+    ]
+    for struct, name, field, shown in arrays + numbers:
         there = ctypes.string_at(struct._address + offset_of(name, field), ctypes.sizeof(shown))
         if there != bytes(shown):
             raise _misplaced(name, field)
+
+
+@cache
+def in_contact() -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """Return the model and the data of a ball in the floor: each field that is used has a value."""
+    model = mujoco.MjModel.from_xml_string(_BALL)
+    model.opt.timestep = 0.123456789
+    data = mujoco.MjData(model)
+    data.time = 0.987654321
+    mujoco.mj_fwdPosition(model, data)
+    return model, data
 
 
 @cache

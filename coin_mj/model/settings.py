@@ -65,9 +65,9 @@ class Settings:
     """Largest turn of the coin in a step of free flight [rad]; of a coin that is no balanced symmetric top at
     most `cointoss.coin_mj.model.machine.UNSYMMETRIC`."""
     contact_steps: int = 1_000_000
-    """The most steps in the sustained contacts of a toss."""
+    """The most steps in the sustained contacts of a toss, a hundredth of it in air with b > 0."""
     flight_steps: int = 1_000_000
-    """The most steps in the flights of a toss."""
+    """The most steps in the flights of a toss, a hundredth of it in air with b > 0."""
 
     def __post_init__(self) -> None:
         """Check each setting; `contact` and `friction` may be given by their values.

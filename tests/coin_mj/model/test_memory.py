@@ -14,17 +14,11 @@ from cointoss.coin_mj.model import memory
 from cointoss.coin_mj.model.memory import LayoutError, joint_arrays, offset_of, require_layout
 from tests.helpers.command_line import refused
 
-ON_FLOOR = """<mujoco><option timestep="0.123456789"/><worldbody><geom type="plane" size="0 0 1" condim="1"/>
-<body pos="0 0 0.9"><freejoint/><geom size="1" condim="1"/></body></worldbody></mujoco>"""
-
 
 @pytest.fixture
 def machine():
     """A ball in contact with the floor: MuJoCo's model and data."""
-    model = mujoco.MjModel.from_xml_string(ON_FLOOR)
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    return model, data
+    return memory.in_contact()
 
 
 @pytest.fixture
@@ -61,8 +55,9 @@ def test_numbers_lie_where_their_values_are_found(machine):
     model, data = machine
     step = ctypes.c_double(model.opt.timestep)
     assert places(model, "mjModel", step) == [offset_of("mjModel", "opt.timestep")]
-    assert data.nefc == 1
-    assert offset_of("mjData", "nefc") in places(data, "mjData", ctypes.c_int32(1))
+    assert data.nefc > 0
+    assert offset_of("mjData", "nefc") in places(data, "mjData", ctypes.c_int32(data.nefc))
+    assert places(data, "mjData", ctypes.c_double(data.time)) == [offset_of("mjData", "time")]
 
 
 def test_the_arrays_of_the_joint_are_views(machine):
@@ -88,6 +83,26 @@ def test_a_field_more_than_described_is_noticed(machine, described, struct, plac
     expected = rf"^MuJoCo {mujoco.__version__}: {struct}\.{named} does not lie where .*; accepted: "
     with pytest.raises(LayoutError, match=expected):
         require_layout(*machine)
+
+
+@pytest.mark.parametrize("field", ["time", "nefc", "qpos", *memory.OF_ROWS])
+def test_each_field_that_is_used_is_compared(machine, described, field):
+    """Two fields of one size change places: all others, and the size, stay as they were."""
+    fields, layout = described["mjData"].fields, memory.layout_of("mjData")
+    names = [one.name for one in fields]
+    sizes = {name: getattr(layout, name).size for name in names}
+    at = names.index(field)
+    other = next(i for i, name in enumerate(names) if i != at and sizes[name] == sizes[field])
+    fields[at], fields[other] = fields[other], fields[at]
+    memory.layout_of.cache_clear()
+    with pytest.raises(LayoutError, match=r"mjData\.[a-zA-Z_]+ does not lie"):
+        require_layout(*machine)
+
+
+def test_another_mujoco_is_told_in_one_line_and_the_proved_one_is_not():
+    with pytest.warns(RuntimeWarning, match=r"^MuJoCo 4\.0\.9: .* proved for 4\.0\.0; [^\n]*$"):
+        memory.warn_of_version("4.0.9")
+    memory.warn_of_version(memory.PROVED)
 
 
 def test_a_field_that_is_gone_or_of_an_unknown_type_is_named(described):
