@@ -6,6 +6,7 @@ from typing import Any
 import numba
 import numpy as np
 from numba import types
+from numba.np.numpy_support import carray
 
 from cointoss.coin_mj.model.air import PowerLaw, air_force
 from cointoss.coin_mj.model.library import call_at
@@ -45,7 +46,7 @@ def air_address(body: Body) -> int:
 @cache
 def _compiled_air() -> Any:
     def air(numbers):
-        n = numba.carray(numbers, _NUMBERS)
+        n = carray(numbers, _NUMBERS)
         law = PowerLaw(n[2], n[3], n[4])
         f, m = air_force(n[0], n[1], law, (n[5], n[6], n[7]), (n[8], n[9], n[10]))
         for i in range(3):

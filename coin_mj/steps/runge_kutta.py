@@ -44,7 +44,7 @@ TSITOURAS_NODES = TSITOURAS.sum(axis=1)
 
 
 @compiled
-def write_rate(motion: Motion, acceleration: Array, rate: Array) -> None:
+def write_rate(motion: Motion | Array, acceleration: Array, rate: Array) -> None:
     """Write the rate of change of a state.
 
     Args:

@@ -10,7 +10,7 @@ from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import Settings
 from cointoss.coin_mj.model.state import to_mass_center
-from cointoss.coin_mj.path import MOTION, STEP, TIME
+from cointoss.coin_mj.path import MOTION, STEP, TIME, Knots
 from cointoss.coin_mj.toss import run
 from cointoss.compare.reproduction.estimates import chance_alike
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
@@ -251,16 +251,17 @@ def test_a_thick_coin_near_its_edge_does_not_sink_and_its_certificate_sees_it(se
         case = near_the_edge(seed)
         toss = coin_mj.toss(case, settings=settings)
         path = toss.path
+        assert isinstance(path, Knots)
         rows = path.knots[path.knots[:, STEP] == 2]
         depths = [lowest_of(row[MOTION], R, case.coin.thickness) / R for row in rows]
         normals = [rotation_matrix(row[MOTION][3:7])[2][2] for row in rows]
         crossed += np.sum(np.diff(np.sign(normals)) != 0)
-        between = toss.sample(np.concatenate([np.linspace(*pair, 200) for pair in toss.contacts]))
+        between = toss.sample(np.linspace(toss.contacts[:, 0], toss.contacts[:, 1], 200).ravel())
         states = np.hstack([between.position, between.quaternion])
         sampled = [lowest_of(state, R, case.coin.thickness) / R for state in states]
         assert min(depths) > -1e-3
         assert min(sampled) > -1e-3
-        told = next(line.value for line in toss.certificate if line.name == GAP)
+        told = next(float(line.value) for line in toss.certificate if line.name == GAP)
         # It looks between the knots, too.
         assert -1e-3 < told <= min(depths) + 1e-12
         assert told == pytest.approx(min(*depths, *sampled), rel=0.2, abs=1e-5)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from cointoss import analytic, coin_mj
-from cointoss.coin_mj import Realisation, Settings
+from cointoss.coin_mj import Friction, Realisation, Settings
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.grid import Tile
@@ -107,12 +107,11 @@ def test_euler_parameters_off_norm_are_refused_inside_an_axis():
 
 
 def test_what_mujoco_cannot_toss_is_refused_at_either_end_of_an_axis():
-    axes = ("floor.restitution=0.5:0:4", "release.position.z=0.2:1:3")
-    check(sweep_of(*axes, TUMBLING))
-    with pytest.raises(UnsupportedError, match=r"floor\.restitution = 0"):
-        check(sweep_of(*axes, TUMBLING, engine=Engine.MUJOCO))
-    one_step = replace(coin_mj.MANY, contact=Realisation.ONE_STEP)
-    check(sweep_of(*axes, TUMBLING, engine=Engine.MUJOCO, settings=one_step))
+    axes = ("floor.rolling_friction=0:1e-4:4", "floor.restitution=0.5:0:3")
+    check(sweep_of(*axes, TUMBLING, engine=Engine.MUJOCO))
+    native = replace(coin_mj.MANY, friction=Friction.NATIVE)
+    with pytest.raises(UnsupportedError, match=r"floor\.rolling_friction = 0\.0001"):
+        check(sweep_of(*axes, TUMBLING, engine=Engine.MUJOCO, settings=native))
 
 
 def test_a_field_that_a_map_varies_is_one_that_is_used():
