@@ -45,12 +45,14 @@ class Constraint(NamedTuple):
     """How the floor holds the coin in a sustained contact."""
 
     frequency: float
-    """√k of the critically damped spring [1/s]; 0 in an impact, which has a spring of its own."""
+    """Half the damping of the spring [1/s]; 0 in an impact, which has a spring of its own."""
+    lift: float
+    """Its stiffness over `frequency` [1/s]: as large where the spring is critically damped, else smaller."""
     level: float
     """Height above the lowest point up to which others, that land slowly, are held too [m]."""
 
 
-IMPACT = Constraint(0.0, 0.0)
+IMPACT = Constraint(0.0, 0.0, 0.0)
 """In an impact the contact's own spring acts alone."""
 
 
@@ -134,7 +136,7 @@ def _set_rows(coin: MujocoCoin, constraint: Constraint) -> None:
         speed = 0.0
         for j in range(6):
             speed += J[i, j] * coin.joint.qvel[j]
-        spring = frequency * (frequency * position[i] + 2 * speed)
+        spring = frequency * (constraint.lift * position[i] + 2 * speed)
         reference[i] = -spring - _rising(coin, turned, J[i])
 
 

@@ -29,8 +29,8 @@ ANGLE = 0.12
 SOFTNESS = 0.5
 """√k times the step: RK4 follows a critically damped spring up to twice as much."""
 RISE = 2e-3
-"""The spring of a short step is no stiffer than that of the longest one where it would lift a point that sank
-faster than this part of √(g r): that would give the coin energy."""
+"""The spring of a short step, with the damping of a stiff one, is no stiffer than that of the longest step
+where it would lift a point that sank faster than this part of √(g r): that would give the coin energy."""
 LEVEL = 0.3
 """A point is held from this part of the way on that the slowest landing makes in a step."""
 REACH = 0.1
@@ -238,10 +238,11 @@ def constrain(coin: MujocoCoin, chi: float, w: Vector, dt: float) -> Constraint:
     set_margin(coin, REACH * body.radius)
     set_spring(coin, 0.0, 0.0, (body.gravity / body.radius) ** 0.5)
     frequency, sunk = frequency_of(dt), -evaluate_gap(coin).gap
+    lift = frequency
     if sunk > 0:
         gentle = RISE * (body.gravity * body.radius) ** 0.5 / sunk
-        frequency = min(frequency, max(gentle, frequency_of(ANGLE / turning_rate(body, w))))
-    return Constraint(frequency, LEVEL * slow_speed(coin, chi, w) * dt)
+        lift = min(frequency, max(gentle, frequency_of(ANGLE / turning_rate(body, w))))
+    return Constraint(frequency, lift, LEVEL * slow_speed(coin, chi, w) * dt)
 
 
 @compiled
