@@ -123,13 +123,14 @@ MANY = Settings(stiffness=1e11, steps=3, flight_angle=0.8)
 """Of many tosses: a softer spring, fewer and larger steps."""
 
 
-TURN = 4.4e-4
-"""Largest turn at the rate √(g/r) in half a period of the spring [rad]: in it the coin's effective mass, and
-with it the energy of the spring, changes by about that part."""
+LARGE = 44.0
+"""Rate √(g/r) up to which a coin is large: the stiffness of its spring is as asked for [1/s]."""
 LOSS = 0.08
 """An impact that takes 1 - χ² of the normal motion's energy hides errors of a few hundredths of that. One
-that takes less than `LOSS` gets a harder spring and smaller steps, down to the least of `LEAST_LOSS`."""
+that takes less than `LOSS` gets a harder spring, up to `HARDEST`, and smaller steps, down to the least of
+`LEAST_LOSS`."""
 LEAST_LOSS = 2.5e-3
+HARDEST = FINE.stiffness
 STEPS_OF_LOSS = 3
 """So many steps in half a period change the energy by 7e-4, a hundredth of `LOSS`: an error of order 5."""
 
@@ -137,8 +138,9 @@ STEPS_OF_LOSS = 3
 def resolved(settings: Settings, restitution: float, rate: float) -> Settings:
     """Return settings with which a coin gains no energy in its contacts, whatever its size and restitution.
 
-    The spring is at least so hard that the coin turns little in a contact, and nearly elastic impacts take
-    more steps. No spring has χ = 0: that is one step, as long as one of the spring's.
+    While a coin turns in a contact its effective mass changes, and with it the energy of the spring. So the
+    contacts of a small coin are shorter as its own time √(r/g) is, and those that lose little energy shorter
+    still; they take more steps, too. No spring has χ = 0: that is one step, as long as one of the spring's.
 
     Args:
         settings: as asked for.
@@ -148,7 +150,8 @@ def resolved(settings: Settings, restitution: float, rate: float) -> Settings:
     if settings.contact == Realisation.ONE_STEP:
         return settings
     part = min(max(1 - restitution * restitution, LEAST_LOSS) / LOSS, 1.0)
-    stiffness = max(settings.stiffness, (math.pi * rate / (TURN * part)) ** 2)
+    asked = settings.stiffness
+    stiffness = max(asked, min(asked / part**2, HARDEST)) * max(rate / LARGE, 1.0) ** 2
     if restitution == 0:
         step = math.pi / math.sqrt(stiffness) / settings.steps
         return replace(settings, contact=Realisation.ONE_STEP, step=step)

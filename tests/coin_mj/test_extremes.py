@@ -118,7 +118,7 @@ def test_an_elastic_coin_keeps_its_energy_at_every_size(radius, settings):
 def test_a_rod_lands_in_few_steps():
     case = scenario(
         coin={"thickness": 2.5},
-        release={"position": [0, 0, 2], "quaternion": [0.8, 0.1, 0.5, 0.3], "angular_velocity": [2, 4, -6]},
+        release={"position": [0, 0, 2], "quaternion": [0.8, 0.1, 0.5, 0.316], "angular_velocity": [2, 4, -6]},
         ending={"max_impacts": 2},
     )
     answer, _, _ = logged(case, MANY)
@@ -136,12 +136,12 @@ def test_the_mass_cancels_however_small_it_is():
                 ending={"max_impacts": 5},
                 release={"position": [0, 0, 0.01], "angles": [0, 0.4, 0], "angular_velocity": [5, 9, 3]},
             )
-            for mass in (2.0**-30, 2.0**-4)
+            for mass in (2.0**-29, 2.0**-4)
         )
     )
     assert np.array_equal(light.rows["velocity_after"], heavy.rows["velocity_after"])
     for name in ("impulse", "energy", "energy_change"):
-        assert np.array_equal(2.0**26 * light.rows[name], heavy.rows[name]), name
+        assert np.array_equal(2.0**25 * light.rows[name], heavy.rows[name]), name
     assert np.all(heavy.rows["impulse"][:, 2] > 0)
 
 

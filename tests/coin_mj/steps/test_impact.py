@@ -126,7 +126,6 @@ def test_the_impulse_is_the_integral_of_the_contact_force():
             {"floor": {"contact": "coulomb", "restitution_kind": "energetic"}},
             ['floor.restitution_kind = "energetic"', '"kinematic"'],
         ),
-        ({"floor": {"restitution": 0.0}}, ["floor.restitution = 0", "> 0"]),
     ],
 )
 def test_what_is_not_realised_is_refused_by_name(parts, words):
