@@ -40,8 +40,8 @@ test-all: $(READY) opengl chromium lint compiled
 	$(PYTEST) -m "slow or not slow"
 
 # The tests there run the same tosses once; only here are they timed.
-bench: $(READY)
-	$(BIN)/pytest tests/benchmarks --benchmark-enable --benchmark-columns=min,median,rounds
+bench: $(READY) $(ENGINE) chromium
+	$(BIN)/pytest tests/benchmarks tests/site/test_speed.py --benchmark-enable --benchmark-columns=min,median,rounds
 
 # The pages of docs/ as a site, out/site/index.html; its links and its pages in the browser are tested.
 docs: $(VENV)/.ready-docs chromium compiled $(MADE)/pages/explorer.html

@@ -1,10 +1,11 @@
-"""The lab, for the tests of its page."""
+"""The lab and the engine, each in a page."""
 
 import pytest
 
 from cointoss.compare.lab import lab
 from tests.helpers.browser import Page
 from tests.helpers.command_line import cointoss as command
+from tests.helpers.engine_page import engine_page
 from tests.helpers.lab import WHOLE
 
 
@@ -24,5 +25,16 @@ def kept(chromium, lab_path):
     with Page(chromium) as page:
         page.open(lab_path.as_uri(), width=420)
         page.wait_for(WHOLE)
+        yield page
+        assert page.complaints() == []
+
+
+@pytest.fixture(scope="module")
+def loaded(chromium, tmp_path_factory):
+    """A page of one file that has loaded the engine."""
+    file = tmp_path_factory.mktemp("engine") / "page.html"
+    file.write_text(engine_page())
+    with Page(chromium) as page:
+        page.open(file.as_uri())
         yield page
         assert page.complaints() == []

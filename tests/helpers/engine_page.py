@@ -1,0 +1,48 @@
+"""A page that has loaded the engine for a browser, and scenarios and releases as it takes them."""
+
+import json
+from base64 import b64encode
+from pathlib import Path
+
+from cointoss.compare.web import wasm
+from cointoss.compare.web.scripts import ENGINE_POLICY, import_map
+from cointoss.compare.web.wasm.carried import engine_scripts
+from cointoss.compare.web.wasm.fields import fields_of
+from cointoss.models.fields import COMPONENTS
+
+ENGINE = Path(wasm.__file__).parent / "engine.wasm"
+PARTS = ("position", "velocity", "quaternion", "angular_velocity")
+
+
+def engine_page() -> str:
+    """Return a page of one file whose window has the engine, its workers, and how to start others."""
+    engine = b64encode(ENGINE.read_bytes()).decode()
+    scripts = import_map({name: text.decode() for name, text in engine_scripts().items()})
+    return f"""<!doctype html><meta charset="utf-8">
+        <meta http-equiv="Content-Security-Policy" content="{ENGINE_POLICY}"><title>engine</title><body>
+        {scripts}<script type="module">
+        import {{ load }} from "engine.js";
+        import {{ startWorkers }} from "workers.js";
+        const bytes = Uint8Array.from(atob("{engine}"), (c) => c.charCodeAt(0));
+        const message = async (ask) => {{
+          try {{ await ask(); }} catch (error) {{ return error.message; }}
+        }};
+        const workers = await startWorkers(bytes);
+        const {{ engine }} = workers;
+        Object.assign(window, {{ load, bytes, message, startWorkers, workers, engine }});
+        document.body.dataset.ready = "true";
+        </script>"""
+
+
+def written(case):
+    """Return a scenario as the page takes it, as JavaScript."""
+    return json.dumps(fields_of(case))
+
+
+def changes(releases):
+    """Return releases as values of fields, as JavaScript."""
+    found = {}
+    for part in PARTS:
+        names, columns = COMPONENTS[f"release.{part}"], getattr(releases, part).T.tolist()
+        found |= {f"release.{part}.{name}": column for name, column in zip(names, columns, strict=True)}
+    return json.dumps(found)

@@ -1,0 +1,109 @@
+"""Tosses by the engine in a browser and natively, on one core each, and a map on workers.
+
+`make bench` prints how many each makes in a second; else a few are made, to see that they are the same.
+"""
+
+import time
+
+import numpy as np
+import pytest
+from numba import config
+
+import cointoss
+from cointoss import analytic
+from cointoss.compare.reproduction.setups.general_coins import CLASSES
+from cointoss.models.releases import Releases
+from tests.helpers.draws import AIR, THIN, scenario
+from tests.helpers.engine_page import changes, written
+
+FEW = 8
+PLANAR = scenario(coin=THIN, air=AIR, floor={"restitution": 0.6}, release={"position": [0, 0, 0.4]})
+GENERAL = {kind.name: kind for kind in CLASSES}
+
+
+def planar(n):
+    ends = {"height": np.linspace(0.2, 0.6, n), "angular_velocity_eta": np.linspace(20, 60, n)[::-1]}
+    return Releases.of(PLANAR, n, **ends)
+
+
+KINDS = {
+    "planar, in air": (PLANAR, planar, 8192),
+    **{
+        name: (GENERAL[name].scenario, GENERAL[name].releases, 256)
+        for name in ("thick, imperfect, air, smooth", "thick, ideal, air, coulomb")
+    },
+}
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_tosses(loaded, benchmark, capsys, monkeypatch, name):
+    monkeypatch.setitem(config.__dict__, "NUMBA_NUM_THREADS", 1)
+    case, releases_of, many = KINDS[name]
+    releases = releases_of(FEW if benchmark.disabled else many)
+    script = f"""(() => {{
+      const given = {changes(releases)}, begun = performance.now();
+      const {{ impacts }} = engine.tossEach({written(case)}, given);
+      return [performance.now() - begun, [...impacts]];
+    }})()"""
+    native = analytic.toss_many(case, releases, certain=True)
+    sure = native.outcome_certain
+    assert sure is not None
+    assert sure.sum() >= FEW / 2
+    elapsed, impacts = loaded.value(script)
+    assert np.array_equal(np.array(impacts)[sure], native.impacts[sure])
+    benchmark(lambda: analytic.toss_many(case, releases))
+    if not benchmark.stats:
+        return
+    in_page = min(elapsed, *(loaded.value(script)[0] for _ in range(4))) / 1000
+    here = benchmark.stats.stats.min
+    with capsys.disabled():
+        rates = f"{len(releases) / in_page:.0f} tosses/s in the page, {len(releases) / here:.0f} natively"
+        print(f"\n{name}, one core: {rates}: {here / in_page:.2f}", end="")
+
+
+def test_a_map(loaded, benchmark, capsys):
+    """The map of fig24a, the face at the third touch: when it is first seen, and when it is whole."""
+    case = cointoss.load("fig24a")
+    nx, ny = (40, 30) if benchmark.disabled else (400, 300)
+    axes = (
+        f"{{ field: 'release.angular_velocity.eta', start: 20, stop: 60, count: {nx} }},"
+        f"{{ field: 'release.position.z', start: 0.2, stop: 0.6, count: {ny} }}"
+    )
+    script = f"""(async () => {{
+      const begun = performance.now();
+      let first = null, largest = 0, seen = 0;
+      await workers.map({written(case)}, {axes}, {{ after: 2 }}, ({{ stride, codes }}) => {{
+        largest ||= stride;
+        seen += stride === largest ? codes.length * stride ** 2 : 0;
+        if (seen >= {nx * ny}) first ??= performance.now() - begun;
+      }});
+      return [first, performance.now() - begun];
+    }})()"""
+    first, whole = benchmark(lambda: loaded.value(script))
+    assert 0 < first <= whole
+    if not benchmark.stats:
+        return
+    releases = Releases.of(
+        case,
+        nx * ny,
+        angular_velocity_eta=np.tile(np.linspace(20, 60, nx), ny),
+        height=np.repeat(np.linspace(0.2, 0.6, ny), nx),
+    )
+    short = case.replace("ending.max_impacts", 3)
+    begun = time.perf_counter()
+    analytic.toss_many(short, releases)
+    here = time.perf_counter() - begun
+    with capsys.disabled():
+        seen = f"seen after {first / 1000:.2f} s, whole after {whole / 1000:.2f} s"
+        print(f"\nmap of fig24a, {nx} x {ny}: {seen}; natively {here:.2f} s", end="")
+
+
+def test_the_start(loaded, benchmark):
+    case = written(cointoss.load("fig24a"))
+    script = f"""(async () => {{
+      const begun = performance.now(), started = await load(bytes);
+      return [performance.now() - begun, started.toss({case}).outcome, performance.now() - begun];
+    }})()"""
+    compiled, outcome, tossed = benchmark(lambda: loaded.value(script))
+    assert outcome == str(analytic.toss("fig24a").outcome)
+    assert 0 < compiled < tossed
