@@ -93,8 +93,8 @@ def test_no_releases_give_no_outcomes():
 
 def test_what_toss_refuses_is_refused_and_what_it_warns_of_is_warned_of():
     _, releases = draw_releases(np.random.default_rng(0), 1)
-    with pytest.raises(UnsupportedError, match=r"floor\.restitution = 0"):
-        coin_mj.toss_many(scenario(floor={"restitution": 0.0}), releases)
+    with pytest.raises(UnsupportedError, match=r"floor\.contact = "):
+        coin_mj.toss_many(scenario(floor={"contact": "knurled"}), releases)
     with pytest.raises(UnsupportedError, match="horizon = True: accepted"):
         coin_mj.toss_many(scenario(), releases, horizon=True)
     with pytest.raises(UnsupportedError, match="certain = True: accepted"):
