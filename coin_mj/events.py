@@ -28,7 +28,7 @@ from cointoss.models.state import State
 ROUNDED_FLAT = 1e-13
 """A flat coin's tilt, and its turn in √(r/g), by MuJoCo's rounding alone; measured: 3e-15 in five bounces."""
 
-AIR_STEPS = 100
+AIR_STEPS = 50
 """A step in air with b > 0 counts as so many: its quadratures take up to 1 ms for each force."""
 
 

@@ -64,10 +64,10 @@ class Settings:
     flight_angle: float = 0.05
     """Largest turn of the coin in a step of free flight [rad]; of a coin that is no balanced symmetric top at
     most `cointoss.coin_mj.model.machine.UNSYMMETRIC`."""
-    contact_steps: int = 1_000_000
-    """The most steps in the sustained contacts of a toss, a hundredth of it in air with b > 0."""
-    flight_steps: int = 1_000_000
-    """The most steps in the flights of a toss, a hundredth of it in air with b > 0."""
+    contact_steps: int = 250_000
+    """The most steps in the sustained contacts of a toss, a fiftieth of it in air with b > 0."""
+    flight_steps: int = 250_000
+    """The most steps in the flights of a toss, a fiftieth of it in air with b > 0."""
 
     def __post_init__(self) -> None:
         """Check each setting; `contact` and `friction` may be given by their values.

@@ -28,7 +28,7 @@ ANGLE = 0.12
 """Largest turn of the coin, and of its lowest point round the rim, in a step [rad]."""
 SOFTNESS = 0.5
 """√k times the step: RK4 follows a critically damped spring up to twice as much."""
-RISE = 2e-3
+RISE = 1e-2
 """The spring of a short step, with the damping of a stiff one, is no stiffer than that of the longest step
 where it would lift a point that sank faster than this part of √(g r): that would give the coin energy."""
 LEVEL = 0.3

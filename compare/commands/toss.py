@@ -30,7 +30,7 @@ from cointoss.compare.commands.names import scenario_argument
 @click.option(
     "--flight-steps",
     type=Count(1, 1_000_000_000),
-    help="Stop after this number of steps of flight, in MuJoCo; by default 1,000,000.",
+    help="Stop after this number of steps of flight, in MuJoCo; by default 250,000.",
 )
 @click.option("--all", "whole", is_flag=True, help="Print every impact and contact, not only the first.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")

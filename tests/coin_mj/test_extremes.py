@@ -32,7 +32,9 @@ def extreme(seed: int) -> Scenario:
     size, law = np.hypot(r, h / 2), LAWS[rng.integers(3)]
     air, b = {}, rng.choice([0.0, rng.uniform(0.2, 1)])
     if rng.integers(3):
-        drag = m * (g / r) ** 0.5 / (r * (r + h)) * (g * r) ** (-b / 2) * 10 ** rng.uniform(-4, -1)
+        drag = (
+            m * (g / r) ** 0.5 / (r + h) ** 2 / (1 + h / r) * (g * r) ** (-b / 2) * 10 ** rng.uniform(-4, -1)
+        )
         air = {"normal": drag, "tangential": drag / 4, "exponent": b}
     floor = {
         "contact": law,

@@ -212,8 +212,11 @@ def test_outcomes_are_as_frequent_as_those_of_the_other_engine(law):
 
 def test_steps_that_are_spent_leave_a_long_transient_or_an_undecided_toss():
     for steps, ending in ((5000, Ending.CONTACT_STEPS), (20_000, Ending.TRANSIENT)):
-        settings = replace(coin_mj.FINE, contact_steps=steps)
-        tossed = coin_mj.toss(scenario(**LONG_TRANSIENT), settings=settings)
+        settings = replace(coin_mj.MANY, contact_steps=steps)
+        case = scenario(**LONG_TRANSIENT)
+        # This engine loses little for longer from 20 μm below.
+        lower = case.replace("release.position.z", case.release.position[2] - 2e-5)
+        tossed = coin_mj.toss(lower, settings=settings)
         assert tossed.ending == ending
         assert tossed.outcome == (Outcome.TRANSIENT if ending == Ending.TRANSIENT else Outcome.UNDECIDED)
 
