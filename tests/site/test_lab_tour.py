@@ -55,7 +55,7 @@ def test_the_share_of_a_hand_is_that_of_the_package(kept):
     listed = f"Object.entries(releases({given})).map(([field, all]) => [field, [...all]])"
     fields = dict(kept.value(f"import('hand.js').then(({{ releases, TOSSES }}) => {listed})"))
     assert set(fields) == {HEIGHT, SPIN}
-    for field, mean in ((HEIGHT, 0.4), (SPIN, 45)):
+    for field, mean in ((HEIGHT, 0.4), (SPIN, 27)):
         values = np.array(fields[field])
         # Within four standard errors.
         assert values.mean() == pytest.approx(mean, rel=4 * 0.02 / 2000**0.5)
@@ -102,7 +102,10 @@ def test_the_stops_of_the_tour_say_what_is_so(kept):
         assert 3 <= changes(row_of(scenarios[1], SPIN, spins, 0, release__position__z=height)) <= 5
         assert changes(row_of(scenarios[1], SPIN, spins, 1, release__position__z=height)) > 100
 
-    assert changes(row_of(scenarios[2], SPIN, spins, None, floor__restitution=0.0)) == 11
+    # The finer one looks, the more thin stripes are seen.
+    for count in (641, 8001):
+        fine = np.linspace(20, 60, count)
+        assert 11 <= changes(row_of(scenarios[2], SPIN, fine, None, floor__restitution=0.0)) <= 16
     assert changes(row_of(scenarios[2], SPIN, spins, None, floor__restitution=0.3)) > 100
     assert changes(row_of(scenarios[2], SPIN, spins, None, floor__restitution=0.6)) > 300
 

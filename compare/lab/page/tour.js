@@ -15,7 +15,7 @@ const STATES = [
   [SPIN, ["floor.restitution", 0, 0.9], null, { ...COIN, ...FLOOR, ...FALL, "floor.restitution": 0.3 }],
   [SPIN, HEIGHT, 2, { ...COIN, ...AIR, ...FLOOR, ...FALL }],
   [SPIN, HEIGHT, 2, { ...COIN, ...ASIDE, ...AIR, ...FLOOR, ...FALL }],
-  [SPIN, HEIGHT, 0, { ...COIN, ...AIR, ...FLOOR, ...FALL }, 0.02],
+  [SPIN, HEIGHT, 0, { ...COIN, ...AIR, ...FLOOR, ...FALL, "release.angular_velocity.eta": 27 }, 0.02],
 ];
 
 const TEXTS = [
@@ -24,14 +24,14 @@ const TEXTS = [
     "Twice the speed with half the spin gives the same face."],
   ["Bounces", "The same fall onto a floor. At the first touch the face changes 3 to 5 times along a row of the map; choose it under Map. " +
     "At the second touch, shown here, it changes more than a hundred times: a bounce amplifies small differences. Zoom in to see the stripes apart."],
-  ["Restitution", "The final face, over the floor's restitution from 0 to 0.9. On a floor that gives nothing back the face changes 11 times along the row. " +
+  ["Restitution", "The final face, over the floor's restitution from 0 to 0.9. On a floor that gives nothing back the face changes a dozen times or so along the row. " +
     "At 0.3 it changes more than a hundred times, and at 0.6 more often than the map has columns."],
   ["Air", "The face at the third touch, in air. Air slows the coin by little, and still a third of the pixels have another face than in vacuum. " +
     "Untick the air under Floor, and see the stripes move."],
   ["The imperfect coin", "The mass centre of this coin lies 1.4 mm aside: the pink pin. At the first touch one pixel in thirty has another face " +
     "than that of the perfect coin, at the third touch, shown here, nearly a third of them."],
   ["The hand", "A hand repeats height and spin within 2 %: the ellipse. At the first touch the stripes are wider than that, and nearly all of its tosses are heads. " +
-    "Choose touch 3 under Map: the ellipse covers many stripes, and heads come in about half. This is what makes a toss a gamble."],
+    "Choose touch 3 under Map: the ellipse reaches over stripes of both faces, and heads come in about half. This is what makes a toss a gamble."],
 ];
 
 export const STOPS = STATES.map(([x, y, after, scenario, hand = null], i) => {
