@@ -42,15 +42,15 @@ def test_tosses(loaded, benchmark, capsys, monkeypatch, name):
     releases = releases_of(FEW if benchmark.disabled else many)
     script = f"""(() => {{
       const given = {changes(releases)}, begun = performance.now();
-      const {{ impacts }} = engine.tossEach({written(case)}, given);
-      return [performance.now() - begun, [...impacts]];
+      const {{ outcome }} = engine.tossEach({written(case)}, given);
+      return [performance.now() - begun, [...outcome]];
     }})()"""
     native = analytic.toss_many(case, releases, certain=True)
     sure = native.outcome_certain
     assert sure is not None
     assert sure.sum() >= FEW / 2
-    elapsed, impacts = loaded.value(script)
-    assert np.array_equal(np.array(impacts)[sure], native.impacts[sure])
+    elapsed, outcome = loaded.value(script)
+    assert np.array_equal(np.array(outcome)[sure], native.outcome[sure])
     benchmark(lambda: analytic.toss_many(case, releases))
     if not benchmark.stats:
         return
