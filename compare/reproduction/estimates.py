@@ -132,28 +132,6 @@ def ratio_of_medians(
     return Estimate(value, float(low), float(high), count, counted)
 
 
-def ratio_of_shares(
-    first: NDArray[np.bool_], second: NDArray[np.bool_], factor: float, counted: str = "tosses"
-) -> Estimate:
-    """Return a factor times the share of one flag over that of another of the same sample, by logarithms.
-
-    Args:
-        first: flags of the sample, (n,).
-        second: other flags of it, (n,).
-        factor: multiplies the ratio.
-        counted: what the sample is of.
-    """
-    a, b, both = int(first.sum()), int(second.sum()), int((first & second).sum())
-    if not a or not b:
-        return Estimate(np.nan, 0.0, np.inf, len(first), counted)
-    # Of the logarithm: the variances of both, less twice what they share.
-    variance = max(1 / a + 1 / b - 2 * both / (a * b), 0.0)
-    value, half = factor * a / b, norm.ppf((1 + LEVEL) / 2) * variance**0.5
-    return Estimate(
-        float(value), float(value * np.exp(-half)), float(value * np.exp(half)), len(first), counted
-    )
-
-
 def scatter_of_shares(shares: Array, counts: ArrayLike) -> float:
     """Return the root of the mean square of p - 1/2 over groups, less what counting adds.
 

@@ -22,15 +22,18 @@ from cointoss.compare.reproduction.setups.general_coins import CoinClass
 from cointoss.compare.reproduction.threads import all_cores
 from cointoss.models.body import Body, Rules, in_vacuum
 from cointoss.models.kernel.sources import source_hash
-from cointoss.models.records import Array, Outcome
+from cointoss.models.laws import EndingTest
+from cointoss.models.records import Array, Ending, Outcome
 
-TESTS = {"E < m g r": BLUE, "eq. (20)": VERMILION}
-COUNT, PART = 100_000, 2000
+TESTS = {EndingTest.PAPER: Ending.PAPER, EndingTest.PAPER_SMOOTH: Ending.PAPER_SMOOTH}
+"""The paper's stop tests, each with the ending by which it names a face."""
+LABELS = {"E < m g r": BLUE, "eq. (20)": VERMILION}
+COUNT, PART = 40_000, 2000
 """Tosses of each class, and of a part that is kept."""
 SETTINGS = {True: Settings(contact_steps=5000), False: Settings(contact_steps=500)}
 """In air and in vacuum, where coins that never rest are not followed for ever."""
-NAMED, LEFT, OPEN, TOSSES = range(4)
-"""Of a count: tosses whose face a test names, which leave it, of which that is not known; and all tosses."""
+NAMED, LEFT, EDGE, OPEN, TOSSES = range(5)
+"""Of a count: faces that a test names, that are left, left for the edge, or maybe left; and all tosses."""
 CLASSES = tuple(
     CoinClass(thick=thick, imperfect=imperfect, air=air, coulomb=coulomb)
     for imperfect, coulomb, air, thick in product((False, True), repeat=4)
@@ -44,7 +47,7 @@ def make(progress: Progress, parts: Path, count: int = COUNT) -> Findings:
     done = 0
     found: dict[str, NDArray[np.int64]] = {}
     for kind in CLASSES:
-        counts = np.zeros((len(TESTS), 3), dtype=np.int64)
+        counts = np.zeros((len(TESTS), TOSSES), dtype=np.int64)
         states = kind.starts(count)
         for first in range(0, count, size):
             name = f"{source_hash('cointoss.analytic.events')}-{kind.name.replace(', ', '-')}-{count}-{first}"
@@ -65,7 +68,7 @@ def make(progress: Progress, parts: Path, count: int = COUNT) -> Findings:
 
 
 def _part(kind: CoinClass, states: Array) -> Part:
-    """Count the named faces of some tosses of a class, and those left, (tests, 3)."""
+    """Count the named faces of some tosses of a class, and those left, (tests, 4)."""
     body, rules = kind.scenario.body, kind.scenario.rules
     with all_cores() as pool:
         tossed = list(pool.map(partial(stops, body, rules), states))
@@ -73,24 +76,24 @@ def _part(kind: CoinClass, states: Array) -> Part:
 
 
 def stops(body: Body, rules: Rules, start: Array) -> NDArray[np.int64]:
-    """Return for each of `TESTS` whether it names a face, which is left, or that is not known, (tests, 3).
+    """Return for each of `TESTS` the counts of one toss up to `OPEN`, each 0 or 1, (tests, 4).
 
-    The tests look at the coin after each impact. A face is left where a later touch shows the other one, or
-    the toss ends on that or on the edge; it is not known where the toss ends nowhere.
+    The tests look at the coin after each impact and each step of a sustained contact, and stop the toss. It
+    is tossed again, until its face is proved to stay. The named face is left where a touch after the stop
+    shows the other one, or the toss ends on that or on the edge; it is not known where the toss ends nowhere.
     """
-    tossed = run(body, rules, start, SETTINGS[not in_vacuum(body)])
-    rows, mgr = tossed.rows, body.mass * body.gravity * body.radius
-    v, w = rows["velocity_after"], rows["angular_velocity_after"]
-    of_spin = body.mass * (v[:, 0] ** 2 + v[:, 1] ** 2) / 2 + body.inertia[2][2] * w[:, 2] ** 2 / 2
-    counts = np.zeros((len(TESTS), 3), dtype=np.int64)
-    for count, energy in zip(counts, (rows["energy"], rows["energy"] - of_spin), strict=True):
-        below = np.flatnonzero(energy < mgr)
-        if len(below):
-            face = rows["face"][below[0]]
-            others = {*rows["face"][below[0] + 1 :].tolist(), int(tossed.outcome)} - {int(face)}
+    settings = SETTINGS[not in_vacuum(body)]
+    whole = run(body, rules, start, settings)
+    counts = np.zeros((len(TESTS), TOSSES), dtype=np.int64)
+    for count, (test, named) in zip(counts, TESTS.items(), strict=True):
+        stopped = run(body, rules._replace(test=test), start, settings)
+        if stopped.ending == named:
+            later = whole.rows["face"][whole.rows["time"] > stopped.end_time]
+            others = {*later.tolist(), int(whole.outcome)} - {int(stopped.outcome)}
             open_ends = {int(Outcome.PERPETUAL), int(Outcome.TRANSIENT), int(Outcome.UNDECIDED)}
             count[NAMED] = 1
             count[LEFT] = bool(others - open_ends)
+            count[EDGE] = Outcome.EDGE in others
             count[OPEN] = bool(others) and not count[LEFT]
     return counts
 
@@ -99,10 +102,15 @@ def _left_by(found: Mapping[str, NDArray[np.int64]], kinds: list[CoinClass], tes
     """Return how often the coins of some classes leave the face that a test names."""
     counts = {kind.name: found[kind.name][test] for kind in kinds}
     named = {name: count[NAMED] / count[TOSSES] for name, count in counts.items()}
+    of_named = {name: count[LEFT] / max(count[NAMED], 1) for name, count in counts.items()}
     return {
         "named": listed(named, ".0%"),
+        "of_named": listed(of_named, ".2%"),
+        "edges": sum(int(count[EDGE]) for count in counts.values()),
+        "left": sum(int(count[LEFT]) for count in counts.values()),
         "unknown": sum(int(count[OPEN]) for count in counts.values()),
         "share": {name: _left(count) for name, count in counts.items()},
+        "together": _left(np.sum([*counts.values()], axis=0)),
     }
 
 
@@ -114,7 +122,7 @@ def _draw(data: Data) -> Figure:
     picture = Figure(figsize=(9, 5))
     axes = picture.subplots()
     names = list(data)
-    for test, (label, color) in enumerate(TESTS.items()):
+    for test, (label, color) in enumerate(LABELS.items()):
         at = np.arange(len(names)) + 0.34 * (test - 0.5)
         for y, one in zip(at, (_left(data[name][test]) for name in names), strict=True):
             axes.plot([max(one.low, FLOOR), one.high], [y, y], color=color, linewidth=1)

@@ -15,7 +15,7 @@ from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY, INK, PALE, VERMILION
 from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import ratio_of_shares, share, share_of
+from cointoss.compare.reproduction.estimates import share, share_of
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHT,
     HEIGHTS,
@@ -36,12 +36,15 @@ from cointoss.models.scenario import Scenario
 SHOWN = (0, 2, 5, 9)
 TOUCHES = 10
 """Faces are compared after 0 to so many impacts, less one."""
-RESOLUTIONS = 10.0 ** -np.arange(2, 11)
+RESOLUTIONS = 10.0 ** -np.arange(2, 12)
 """ε, distances of nearby tosses [m]."""
-PARTS, PARTS_BEYOND = {0: 1 / 8, 1: 1 / 2, 2: 1.0}, 1 / 8
-"""Of the tosses that are made, by the number of impacts; two are the most at which all are counted."""
-FEWEST = 150
+PARTS, PARTS_BEYOND = {0: 1 / 8, 1: 1 / 2, 2: 1.0, 3: 8.0, 4: 60.0}, 1 / 8
+"""Most twins at one ε over the tosses of the maps, by the number of impacts; four are the most at which all
+boundaries are counted."""
+FEWEST = 200
 """Twins that must differ for a number of boundaries to be taken."""
+BLOCK = 1 << 15
+"""Twins that are tossed together."""
 CONVERGED = 0.5
 """Part by which ten times finer twins may count more boundaries where all of them are counted."""
 FEW_TWINS = "too few twins differ to count boundaries at two resolutions"
@@ -85,24 +88,24 @@ def make(
     heights, spins = rng.uniform(*HEIGHTS, tosses), rng.uniform(*SPINS, tosses)
     data: Data = {"resolution": RESOLUTIONS}
     media: dict[str, dict[str, Any]] = {}
-    done, whole = 0, len(MEDIA) * (TOUCHES + 1) + 2
+    most = [round(PARTS.get(n, PARTS_BEYOND) * tosses) for n in range(TOUCHES)]
+    done, whole = 0, len(MEDIA) * (sum(most) + tosses) + 2 * tosses
     same = _same_by_mujoco(case(air=True), heights[:tosses_mujoco], spins[:tosses_mujoco])
-    progress(done := done + 1, whole)
+    progress(done := done + tosses, whole)
     for medium in MEDIA:
         scenario = case(air=medium == "air")
         for n in SHOWN:
             data[f"{medium}, map {n}"] = faces_after(scenario, grid.releases, n).reshape(grid.shape)
-        progress(done := done + 1, whole)
-        differ = []
-        for n in range(TOUCHES):
-            few = slice(round(PARTS.get(n, PARTS_BEYOND) * tosses))
-            differ.append(_differing(scenario, heights[few], spins[few], n))
-            progress(done := done + 1, whole)
-        counted = [_boundaries(one) for one in differ]
+        progress(done := done + tosses, whole)
+        twins = []
+        for n, limit in enumerate(most):
+            twins.append(_differing(scenario, np.random.default_rng([SEED, n]), limit, n))
+            progress(done := done + limit, whole)
+        counted = [_boundaries(one) for one in twins]
         media[medium] = _growth(counted) | {"mujoco": same if medium == "air" else "-"}
         data |= {
             f"{medium}, boundaries": (LENGTH / RESOLUTIONS)[:, None]
-            * np.array([one.mean(axis=1) for one in differ]).T,
+            * np.array([differ / made for differ, made in twins]).T,
             f"{medium}, counted": np.array([one.count.ends for one in counted]),
             f"{medium}, converged": np.array([one.is_converged for one in counted]),
         }
@@ -136,33 +139,44 @@ def _inverse(estimate: Estimate, factor: float) -> Estimate:
     return replace(estimate, value=float(value), low=float(high), high=float(low))
 
 
-def _differing(scenario: Scenario, heights: Array, spins: Array, n: int) -> NDArray[np.bool_]:
-    """Return which twins differ after n impacts at each of `RESOLUTIONS`, (ε, tosses).
+def _differing(scenario: Scenario, rng: np.random.Generator, most: int, n: int) -> NDArray[np.int64]:
+    """Return how many twins differ after n impacts at each of `RESOLUTIONS`, and of how many, (2, ε).
 
-    Where fewer than `FEWEST` do, finer twins are not made: none of them is taken to differ.
+    At each they are tossed until `FEWEST` differ. Where fewer of the most do, finer twins are not made: none
+    is taken to differ.
+
+    Args:
+        scenario: of the tosses.
+        rng: the source of chance.
+        most: twins at one ε.
+        n: impacts.
     """
-    faces = faces_after(scenario, releases(heights, spins), n)
-    differ = np.zeros((len(RESOLUTIONS), len(heights)), dtype=np.bool_)
-    for row, step in zip(differ, RESOLUTIONS, strict=True):
-        row[:] = faces_after(scenario, releases(heights + step, spins), n) != faces
-        if row.sum() < FEWEST:
+    differ, made = np.zeros((2, len(RESOLUTIONS)), dtype=np.int64)
+    made[:] = most
+    for i, step in enumerate(RESOLUTIONS):
+        made[i] = 0
+        while differ[i] < FEWEST and made[i] < most:
+            block = min(BLOCK, most - made[i])
+            z, spin = rng.uniform(*HEIGHTS, block), rng.uniform(*SPINS, block)
+            faces = [faces_after(scenario, releases(at, spin), n) for at in (z, z + step)]
+            differ[i] += np.sum(faces[0] != faces[1])
+            made[i] += block
+        if differ[i] < FEWEST:
             break
-    return differ
+    return np.stack([differ, made])
 
 
-def _boundaries(differ: NDArray[np.bool_]) -> Boundaries:
-    """Return the number of boundaries from which twins differ at each of `RESOLUTIONS`, (ε, n).
+def _boundaries(twins: NDArray[np.int64]) -> Boundaries:
+    """Return the number of boundaries from the twins that differ at each of `RESOLUTIONS`, and all, (2, ε).
 
     Between twins lies one boundary at most where ε is small: of N on a length L a part N ε/L does.
     """
-    enough = np.flatnonzero(differ.sum(axis=1) >= FEWEST)
-    finest = int(enough.max(initial=1))
-    part, scale = share(differ[finest], "twins"), LENGTH / RESOLUTIONS[finest]
-    return Boundaries(
-        count=part * scale,
-        resolution=float(RESOLUTIONS[finest]),
-        growth=ratio_of_shares(differ[finest], differ[finest - 1], 10.0, "twins"),
+    finest = int(np.flatnonzero(twins[0] >= FEWEST).max(initial=1))
+    finer, coarser = (
+        share_of(*map(int, twins[:, i]), "twins") * (LENGTH / float(RESOLUTIONS[i]))
+        for i in (finest, finest - 1)
     )
+    return Boundaries(count=finer, resolution=float(RESOLUTIONS[finest]), growth=_over(finer, coarser))
 
 
 def _growth(found: Sequence[Boundaries]) -> dict[str, Any]:
@@ -189,7 +203,9 @@ def _growth(found: Sequence[Boundaries]) -> dict[str, Any]:
 
 
 def _over(first: Estimate, second: Estimate) -> Estimate:
-    """Return one positive quantity over another, with the interval that both of theirs allow."""
+    """Return one quantity over another, with the interval that both of theirs allow; any where one is 0."""
+    if not (first.value and second.value):
+        return Estimate(np.nan, 0.0, np.inf, first.count, first.counted)
     value = first.value / second.value
     errors = [np.log(np.array([one.low, one.high]) / one.value) for one in (first, second)]
     below, above = np.hypot(errors[0][0], errors[1][1]), np.hypot(errors[0][1], errors[1][0])

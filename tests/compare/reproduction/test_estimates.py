@@ -9,7 +9,6 @@ from cointoss.compare.reproduction.estimates import (
     jackknife,
     mean,
     ratio_of_medians,
-    ratio_of_shares,
     share,
 )
 
@@ -19,13 +18,8 @@ KINDS = {
     "mean": (2.0, lambda rng: mean(rng.exponential(2.0, 400))),
     "difference": (1.0, lambda rng: difference(rng.normal(3, 1, 60), rng.normal(2, 3, 200))),
     "jackknife": (2.0, lambda rng: _spread(rng.normal(0, 2, 400))),
-    "ratio of shares": (4.0, lambda rng: _nested(rng.random(3000))),
     "ratio": (2.0, lambda rng: ratio_of_medians(rng.exponential(2, 150), rng.exponential(1, 150), rng)),
 }
-
-
-def _nested(drawn):
-    return ratio_of_shares(drawn < 0.08, (drawn > 0.03) & (drawn < 0.23), 10.0)
 
 
 def _spread(drawn):

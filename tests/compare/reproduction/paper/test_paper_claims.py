@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from cointoss.analytic.events import run
 from cointoss.analytic.toss import toss
 from cointoss.compare.reproduction.claims import (
     accuracy_and_stripes,
@@ -25,9 +26,9 @@ from cointoss.compare.reproduction.setups.planar_maps import case, faces_after, 
 from cointoss.compare.reproduction.setups.standing import standing
 from cointoss.compare.reproduction.setups.uncertain_shares import ACCURACIES, slope
 from cointoss.models.attitude import rotation_matrix
-from cointoss.models.laws import ContactLaw
+from cointoss.models.laws import ContactLaw, EndingTest
 from cointoss.models.parts import Release
-from cointoss.models.records import IMPACT_ROW, Outcome
+from cointoss.models.records import IMPACT_ROW, Ending, Outcome
 
 
 def test_turns_back_are_counted_rounding_is_not():
@@ -145,20 +146,25 @@ def test_impacts_are_marked_where_a_flight_is_seen():
     assert fig24_readings.marked(np.array([0.3, 0.7, 0.71, 1.1]), faces) == "H∘HT∘T"
 
 
-def test_stripes_are_counted_by_twins_as_far_as_they_are_wide():
-    z = np.random.default_rng(5).uniform(size=40_000)
-    steps = fig31.RESOLUTIONS / fig31.LENGTH
+@pytest.mark.parametrize("stripes", [3001, 300_007])
+def test_stripes_are_counted_by_twins_as_far_as_they_are_wide(monkeypatch, stripes):
+    def alternating(_scenario, released, _impacts):
+        return np.floor(stripes * (released.position[:, 2] - fig31.HEIGHTS[0]) / fig31.LENGTH) % 2
 
-    def differing(stripes):
-        return np.array([np.floor(stripes * (z + step)) != np.floor(stripes * z) for step in steps])
-
-    found = fig31._boundaries(differing(3000))
-    assert found.count.low < 3000 < found.count.high
+    monkeypatch.setattr(fig31, "faces_after", alternating)
+    twins = fig31._differing(case(air=True), np.random.default_rng(5), 400_000, 2)
+    found = fig31._boundaries(twins)
+    assert twins[0][fig31.RESOLUTIONS == found.resolution] >= fig31.FEWEST
+    assert found.count.low < stripes < found.count.high
     assert found.is_converged
-    # Of stripes narrower than any step a step shows all that it can.
-    hidden = fig31._boundaries(np.random.default_rng(6).uniform(size=(len(steps), 40_000)) < 0.5)
+
+
+def test_where_every_step_is_wider_than_the_stripes_no_number_is_taken_as_counted():
+    made = np.full(len(fig31.RESOLUTIONS), 40_000)
+    hidden = fig31._boundaries(np.stack([np.random.default_rng(6).binomial(made, 0.5), made]))
     assert hidden.growth.low > 9
     assert not hidden.is_converged
+    assert not fig31._boundaries(np.stack([0 * made, made])).is_converged
 
 
 def test_the_slope_of_a_curve_that_jumps_once_falls_with_the_steps_fitted():
@@ -179,27 +185,42 @@ def test_neighbours_on_a_circle_have_near_images_where_there_is_a_map():
 
 
 @pytest.mark.parametrize(
-    ("energies", "faces", "outcome", "counted"),
+    ("faces", "outcome", "ending", "counted"),
     [
-        ([2.0, 0.9, 0.5], [1, 1, 1], Outcome.HEADS, [1, 0, 0]),
-        ([2.0, 0.9, 0.5], [1, 1, 2], Outcome.HEADS, [1, 1, 0]),
-        ([2.0, 2.0, 0.5], [2, 1, 1], Outcome.HEADS, [1, 0, 0]),
-        ([2.0, 0.9, 0.5], [1, 1, 1], Outcome.EDGE, [1, 1, 0]),
-        ([2.0, 0.9, 0.5], [1, 1, 1], Outcome.PERPETUAL, [1, 0, 1]),
-        ([2.0, 2.0, 1.1], [1, 2, 1], Outcome.TAILS, [0, 0, 0]),
+        ([1, 1, 1], Outcome.HEADS, Ending.PAPER, [1, 0, 0, 0]),
+        ([1, 1, 2], Outcome.HEADS, Ending.PAPER, [1, 1, 0, 0]),
+        ([2, 2, 1], Outcome.HEADS, Ending.PAPER, [1, 0, 0, 0]),
+        ([1, 1, 1], Outcome.TAILS, Ending.PAPER, [1, 1, 0, 0]),
+        ([1, 1, 1], Outcome.EDGE, Ending.PAPER, [1, 1, 1, 0]),
+        ([1, 1, 1], Outcome.PERPETUAL, Ending.PAPER, [1, 0, 0, 1]),
+        ([1, 2, 1], Outcome.TAILS, Ending.LYING, [0, 0, 0, 0]),
     ],
 )
-def test_a_named_face_is_left_where_another_comes_up_later(monkeypatch, energies, faces, outcome, counted):
+def test_a_named_face_is_left_where_another_comes_up_later(monkeypatch, faces, outcome, ending, counted):
     kind = stop_test.CLASSES[0]
-    body = kind.scenario.body
     rows = np.zeros(3, IMPACT_ROW)
-    rows["energy"], rows["face"] = np.array(energies) * body.mass * body.gravity * body.radius, faces
-    # Only eq. (20) leaves out the spin about the normal.
-    rows["angular_velocity_after"][:, 2] = np.sqrt(20 * body.gravity / body.radius)
-    monkeypatch.setattr(stop_test, "run", lambda *_: SimpleNamespace(rows=rows, outcome=outcome))
-    found = stop_test.stops(body, kind.scenario.rules, np.zeros(13))
+    rows["time"], rows["face"] = [0.1, 0.2, 0.3], faces
+    whole = SimpleNamespace(rows=rows, outcome=outcome, ending=Ending.SETTLED)
+    stopped = SimpleNamespace(outcome=Outcome.HEADS, ending=ending, end_time=0.2)
+
+    def tossed(_body, rules, *_):
+        return whole if rules.test == EndingTest.RIGOROUS else stopped
+
+    monkeypatch.setattr(stop_test, "run", tossed)
+    found = stop_test.stops(kind.scenario.body, kind.scenario.rules, np.zeros(13))
     assert found[0].tolist() == counted
-    assert found[1, stop_test.NAMED] == 1
+
+
+def test_a_face_named_in_sustained_contact_is_left_there():
+    """E falls below m g r while this coin slides; it then turns over without another impact."""
+    kind = CoinClass(thick=False, imperfect=True, air=True, coulomb=True)
+    body, rules, start = kind.scenario.body, kind.scenario.rules, kind.starts(100)[10]
+    stopped = run(body, rules._replace(test=EndingTest.PAPER), start)
+    whole = run(body, rules, start)
+    assert any(first < stopped.end_time < last for first, last in whole.contacts)
+    assert whole.rows["time"][-1] < stopped.end_time
+    assert {stopped.outcome, whole.outcome} == {Outcome.HEADS, Outcome.TAILS}
+    assert stop_test.stops(body, rules, start)[0].tolist() == [1, 1, 0, 0]
 
 
 def general_coin(*, thick):
