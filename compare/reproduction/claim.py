@@ -154,6 +154,8 @@ class Claim:
     """What was found, in a sentence for the opening of the page; empty for most."""
     expected: bool | None = True
     """The known verdict, as `holds` has it."""
+    beside: bool = False
+    """Whether neither the paper nor one that it cites claims it: it is measured beside their claims."""
 
     def __post_init__(self) -> None:
         """Keep the criteria as a tuple; refuse a claim that nothing decides."""

@@ -147,7 +147,7 @@ def _claim(claim: Mapping[str, Any], names: ChainMap[str, Any]) -> Claim:
     if isinstance(expected, str):
         expected = None if expected == OPEN else value_of(expected, names)
     criteria = [one for row in claim.get("criteria", ()) for one in _criteria(row, names)]
-    return Claim(criteria=criteria, expected=expected, **words)
+    return Claim(criteria=criteria, expected=expected, beside=claim.get("beside", False), **words)
 
 
 def _criteria(row: Sequence[Any], names: ChainMap[str, Any]) -> Iterator[Criterion]:

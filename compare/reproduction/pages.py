@@ -68,14 +68,18 @@ def write_blocks(out: Path, name: str, result: Result) -> None:
 
 def claims_of(claims: Sequence[Claim]) -> str:
     """Return the claims and their verdicts, each unfolding to what decides it."""
-    return "\n\n".join([f"**Claims:** {verdicts_of(claims)}.", *map(_unfolding, claims)])
+    made, beside = ([claim for claim in claims if claim.beside is flag] for flag in (False, True))
+    counted = [f"**Claims:** {verdicts_of(made)}."] if made else []
+    measured = ["**Beside the claims:** what nobody claims, measured here."] if beside else []
+    return "\n\n".join([*counted, *map(_unfolding, made), *measured, *map(_unfolding, beside)])
 
 
 def verdicts_of(claims: Iterable[Claim]) -> str:
-    """Return how many of the claims have each of the verdicts, in words."""
-    counted = Counter(claim.holds for claim in claims)
+    """Return how many of the claims have each of the verdicts, in words; those measured beside are none."""
+    counted = Counter(claim.holds for claim in claims if not claim.beside)
     words = {kind: VERDICTS[kind] if counted[kind] == 1 else plural for kind, plural in _PLURAL.items()}
-    *most, last = (f"{counted[kind]} {word}" for kind, word in words.items() if counted[kind])
+    counts = [f"{counted[kind]} {word}" for kind, word in words.items() if counted[kind]]
+    *most, last = counts or ["none"]
     return " and ".join(filter(None, [", ".join(most), last]))
 
 

@@ -4,10 +4,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.reproduction.claim import Estimate
-from cointoss.compare.reproduction.declared import Findings, declared, result
+from cointoss.compare.reproduction.declared import Findings, declared, listed, result
 from cointoss.compare.reproduction.estimates import difference, share_of
 from cointoss.compare.reproduction.result import Result
 from cointoss.compare.reproduction.saving import read_numbers
@@ -15,6 +16,7 @@ from cointoss.compare.reproduction.setups.edge_classes import (
     DIAMETRAL,
     HANDS,
     WOBBLING,
+    edge_of_die,
 )
 from cointoss.compare.reproduction.setups.edge_pages import (
     PUBLISHED,
@@ -39,6 +41,8 @@ from cointoss.compare.reproduction.setups.edge_record import (
 from cointoss.compare.reproduction.setups.ends import Ends, ended_as, together, tosses
 from cointoss.models.records import Outcome
 
+DIE = float(brentq(lambda aspect: edge_of_die(aspect) - 1 / 3, 0.1, 2))
+"""h/D at which Pender and Uhrin's die is on edge in a third of its throws."""
 LEAST_PROBABLE = 1e-3
 """Below this p-value the engines differ."""
 
@@ -69,11 +73,23 @@ def findings(record: EdgeRecord) -> Findings:
     chis = list(record.curves[DIAMETRAL])
     middle = chis[len(chis) // 2]
     fairest = {wobble: fair(record, wobble, middle) for wobble in HANDS}
+    by_share = sorted(
+        (on_edge(ends).value, f"{percent(on_edge(ends))} ({wobble}, {factor})", on_edge(ends))
+        for wobble, by_factor in record.nickel.items()
+        for factor, ends in by_factor.items()
+    )
+    agreeing = [words for _, words, edge in by_share if edge.low <= PUBLISHED <= edge.high]
     return Findings(
         data=record,
         tables=tables(record),
         one_in=[_one_in(ends) for ends in nickels.values()],
         over={wobble: on_edge(ends) / PUBLISHED for wobble, ends in nickels.items()},
+        rarest=by_share[0][1],
+        commonest=by_share[-1][1],
+        agreeing=" and of ".join(agreeing) or "none",
+        curves=len(chis),
+        agreeing_die=_agreeing_die(record),
+        die_less=fairest[DIAMETRAL] - DIE,
         more=difference(_flags(people), _flags(plain)),
         rolling=share_of(free.get("edge, standing", 0), edges, "tosses on edge"),
         touched={turned: touch.touched - 1 / 3 for turned, touch in record.touches.items()},
@@ -99,6 +115,18 @@ def findings(record: EdgeRecord) -> Findings:
         least=min(map(alike, record.engines.values())),
         runs=1 / (1 - (1 - LEAST_PROBABLE) ** len(record.engines)),
     )
+
+
+def _agreeing_die(found: EdgeRecord) -> str:
+    """Return at how many h/D the share on edge of a die is within the interval found, by χ, in words."""
+    held = {
+        f"χ = {chi}": sum(
+            on_edge(ends).low <= edge_of_die(float(aspect)) <= on_edge(ends).high
+            for aspect, ends in curve.items()
+        )
+        for chi, curve in found.curves[DIAMETRAL].items()
+    }
+    return listed(held, "d")
 
 
 def _heads(found: EdgeRecord) -> Estimate:

@@ -16,6 +16,8 @@ DROPS = {
     "imperfect, flat": "fig3_flat_imperfect",
     "imperfect, at 45°": "fig3_tilted_imperfect",
 }
+UNKNOWN = {"missing": "the paper does not say where the mass centre of the dropped coin is", "expected": None}
+"""Of an imperfect coin."""
 
 
 def make(progress: Progress) -> Findings:
@@ -27,8 +29,8 @@ def make(progress: Progress) -> Findings:
         t = np.linspace(0, min(toss.impacts.time[0] for toss in tosses), 200)
         turned = [np.degrees(attitude_angle(toss.sample(t), toss.sample(0 * t))) for toss in tosses]
         data |= {f"{name}, time": t, f"{name}, analytic": turned[0], f"{name}, MuJoCo": turned[1]}
-        ideal, most = name.startswith("ideal"), np.max(turned)
-        found.drops[name] = {"turned": turned, "most": most, "time": t, "ideal": ideal}
+        known = {"missing": "", "expected": True} if name.startswith("ideal") else UNKNOWN
+        found.drops[name] = {"turned": turned, "most": np.max(turned), "time": t, **known}
         progress(done, len(DROPS))
     return found
 

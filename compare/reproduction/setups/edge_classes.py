@@ -137,6 +137,16 @@ def edge_by_solid_angle(aspect: float | Array) -> Any:
     return np.sin(corner(aspect))
 
 
+def edge_of_die(aspect: float | Array) -> Any:
+    """Return the share on edge of a planar die with sides h and D (Pender and Uhrin 2014, arXiv 1407.6307).
+
+    It lands on h over on D as (c - D)/(c - h) atan(h/D)/atan(D/h), c its diagonal.
+    """
+    c = np.hypot(1, aspect)
+    edge_over_face = (c - 1) / (c - aspect) * np.arctan(aspect) / np.arctan(1 / aspect)
+    return edge_over_face / (1 + edge_over_face)
+
+
 def three_way(
     aspects: NDArray[Any], edges: NDArray[Any], counts: NDArray[Any], rng: np.random.Generator, draws: int
 ) -> tuple[float, Array]:

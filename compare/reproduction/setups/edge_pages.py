@@ -18,6 +18,7 @@ from cointoss.compare.reproduction.setups.edge_classes import (
     corner,
     edge_by_angle,
     edge_by_solid_angle,
+    edge_of_die,
     three_way,
 )
 from cointoss.compare.reproduction.setups.edge_record import ANGLE, LAWS, SOLID_ANGLE, EdgeRecord
@@ -125,10 +126,15 @@ def _ways(found: EdgeRecord) -> str:
 
 def _curves(found: EdgeRecord, wobble: str) -> str:
     by_chi = found.curves[wobble]
+    die = wobble == DIAMETRAL
     return table(
-        [f"tossed {wobble}: h/D", *(f"χ = {chi}" for chi in by_chi)],
+        [f"tossed {wobble}: h/D", *(["die in a plane"] if die else []), *(f"χ = {chi}" for chi in by_chi)],
         [
-            [f"{float(aspect):.3g}", *(percent(on_edge(curve[aspect])) for curve in by_chi.values())]
+            [
+                f"{float(aspect):.3g}",
+                *([f"{edge_of_die(float(aspect)):.2%}".replace("%", " %")] if die else []),
+                *(percent(on_edge(curve[aspect])) for curve in by_chi.values()),
+            ]
             for aspect in next(iter(by_chi.values()))
         ],
     )
@@ -183,6 +189,8 @@ def _draw_curves(axes: Axes, found: EdgeRecord, wobble: str) -> None:
     x = np.geomspace(0.05, 4, 100)
     axes.plot(x, edge_by_angle(x), "--", color=GREY, linewidth=0.9, label="by angle")
     axes.plot(x, edge_by_solid_angle(x), ":", color=GREY, linewidth=0.9, label="by solid angle")
+    if wobble == DIAMETRAL:
+        axes.plot(x, edge_of_die(x), "-.", color=GREY, linewidth=0.9, label="die in a plane")
     axes.axhline(1 / 3, color=GREY, linewidth=0.6)
     axes.set(
         title=f"tossed {wobble}",

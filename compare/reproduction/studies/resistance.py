@@ -28,8 +28,8 @@ SIZES = (0.0, 1e-4, 1e-3)
 """δ = p on a nickel's floor [m]."""
 SPEED, ROLLING = 0.3, 1e-3
 """Of the disc and the hoop that roll upright [m/s], and their δ [m]."""
-SPIN, PIVOTING = 80.0, 1e-3
-"""Of the disc that pivots upright [rad/s], and its p [m]."""
+SPIN, PIVOTING, SLIDING = 80.0, 1e-3, 0.3
+"""Of the coins that pivot upright [rad/s], their p [m], and the μ of the thick one."""
 TILT, SAMPLES, SMALL = 0.3, 300, (2e-4, 1e-2)
 """Euler's disk starts from this tilt [rad]; its fall is sampled so often, and fitted between these tilts."""
 DISKS = {"rolling": (2e-5, 17.8), "pivoting": (1e-4, 3.0)}
@@ -39,6 +39,7 @@ LONGEST = 60.0
 PUBLISHED = 1 / 6000
 """Murray and Teare's share of a nickel's tosses on edge."""
 _DISC = {"mass": 2e-3, "radius": 1.25e-2, "thickness": 0.0}
+_THICK = {**_DISC, "thickness": 2e-3}
 _NICKEL = {"mass": 5e-3, "radius": 10.605e-3, "thickness": 1.95e-3}
 _UPRIGHT = [0.0, np.pi / 2, 0.0]
 
@@ -98,17 +99,20 @@ def rolling_stop(share_of_inertia: float) -> Stop:
     return Stop(end_time, SPEED / slowing, float(end[0]), SPEED**2 / (2 * slowing))
 
 
-def pivoting_stop() -> Stop:
-    """Return how a disc that pivots upright stops."""
-    case, end_time, _ = _stopped(_DISC, {"angular_velocity": [0, SPIN, 0]}, PIVOTING)
-    slowing = PIVOTING * case.body.mass * case.gravity / case.body.inertia[1][1]
+def pivoting_stop(coin: dict) -> Stop:
+    """Return how a coin that pivots upright stops: both rims of a thick one slip, h/2 from the axis."""
+    case, end_time, _ = _stopped(coin, {"angular_velocity": [0, SPIN, 0]}, PIVOTING)
+    lever = PIVOTING + SLIDING * case.body.thickness / 2
+    slowing = lever * case.body.mass * case.gravity / case.body.inertia[1][1]
     return Stop(end_time, SPIN / slowing, 0.0, 0.0)
 
 
 def _stopped(coin: dict, motion: dict, size: float) -> tuple[Scenario, float, Array]:
     """Return the toss of an upright coin that stops, when it does [s], and where its C is then."""
     release = {"position": [0, 0, _DISC["radius"]], "angles": _UPRIGHT, **motion}
-    case = on_floor(coin, release, {"rolling_friction": size, "pivoting_friction": size})
+    slips = {"contact": "coulomb", "friction": SLIDING} if coin["thickness"] else {}
+    floor = {"rolling_friction": size, "pivoting_friction": size, **slips}
+    case = on_floor(coin, release, floor, {"test": "lying"})
     tossed = analytic.toss(case)
     if tossed.ending != Ending.AT_REST:
         raise RuntimeError(f"a coin that is upright ended {tossed.ending}; expected: at_rest")
@@ -182,7 +186,12 @@ def nickel_ends(size: float, count: int, seed: int) -> Ends:
 
 def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> ResistanceRecord:
     """Roll, pivot, and toss `count` nickels for each of `SIZES`."""
-    stops = {"disc rolls": rolling_stop(0.5), "hoop rolls": rolling_stop(1.0), "disc pivots": pivoting_stop()}
+    stops = {
+        "disc rolls": rolling_stop(0.5),
+        "hoop rolls": rolling_stop(1.0),
+        "disc pivots": pivoting_stop(_DISC),
+        "thick coin pivots": pivoting_stop(_THICK),
+    }
     disks = {resistance: eulers_disk(resistance) for resistance in DISKS}
     nickel = {}
     for done, size in enumerate(SIZES, start=1):

@@ -1,5 +1,6 @@
 """The pages over all reproduced figures: their order, what they show, and that docs/ has the saved one."""
 
+import csv
 import re
 
 import numpy as np
@@ -71,7 +72,8 @@ def result(progress, holds):
         missing=missing,
         expected=holds,
     )
-    return Result(claims=(claim,), data={"one": np.ones(1)})
+    beside = Claim(claim="0 < 1", criteria=[Criterion("nought", 0, "<", 1, "so")], beside=True)
+    return Result(claims=(beside, claim), data={"one": np.ones(1)})
 
 
 def test_all_makes_a_table_of_verdicts_and_a_gallery(made):
@@ -87,7 +89,11 @@ def test_all_makes_a_table_of_verdicts_and_a_gallery(made):
     assert "- **two is more** So it is.\n\n![two is more](reproduction/first/figure.png)" in page
     assert "cointoss reproduce all --quick --out docs" in page
     assert "definition: Fig. 1, Keller's coin" in page
-    assert len((made / "claims.csv").read_text(encoding="utf-8").splitlines()) == 4
+    head, *rows = csv.reader((made / "claims.csv").read_text(encoding="utf-8").splitlines())
+    assert [row[head.index("claimed")] for row in rows] == 3 * ["no", "yes"]
+    first = (made / "reproduction" / "first" / "index.md").read_text(encoding="utf-8")
+    parts = ("**Claims:** 1 holds.", "1 &lt; 2", "**Beside the claims:**", "0 &lt; 1")
+    assert sorted(map(first.index, parts)) == [first.index(part) for part in parts]
     for name in ("first", "second", "third"):
         assert "cointoss reproduce" in (made / "reproduction" / name / "index.md").read_text(encoding="utf-8")
     shown = (made / "gallery.html").read_text(encoding="utf-8")
