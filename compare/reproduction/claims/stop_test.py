@@ -28,8 +28,8 @@ from cointoss.models.records import Array, Ending, Outcome
 TESTS = {EndingTest.PAPER: Ending.PAPER, EndingTest.PAPER_SMOOTH: Ending.PAPER_SMOOTH}
 """The paper's stop tests, each with the ending by which it names a face."""
 LABELS = {"E < m g r": BLUE, "eq. (20)": VERMILION}
-COUNT, PART = 40_000, 2000
-"""Tosses of each class, and of a part that is kept."""
+COUNT, FEWER, PART = 40_000, 16_000, 2000
+"""Tosses of each class of ideal coins and of imperfect ones, and of a part that is kept."""
 SETTINGS = {True: Settings(contact_steps=5000), False: Settings(contact_steps=500)}
 """In air and in vacuum, where coins that never rest are not followed for ever."""
 NAMED, LEFT, EDGE, OPEN, TOSSES = range(5)
@@ -40,13 +40,13 @@ CLASSES = tuple(
 )
 
 
-def make(progress: Progress, parts: Path, count: int = COUNT) -> Findings:
+def make(progress: Progress, parts: Path, ideal: int = COUNT, imperfect: int = FEWER) -> Findings:
     """Toss coins of every class until their face is proved, and look where the tests would have stopped."""
-    size = min(PART, count)
-    whole = len(CLASSES) * count
-    done = 0
+    counted = {kind: imperfect if kind.imperfect else ideal for kind in CLASSES}
+    done, whole = 0, sum(counted.values())
     found: dict[str, NDArray[np.int64]] = {}
-    for kind in CLASSES:
+    for kind, count in counted.items():
+        size = min(PART, count)
         counts = np.zeros((len(TESTS), TOSSES), dtype=np.int64)
         states = kind.starts(count)
         for first in range(0, count, size):
@@ -54,16 +54,18 @@ def make(progress: Progress, parts: Path, count: int = COUNT) -> Findings:
             counts += kept(parts, name, partial(_part, kind, states[first : first + size]))["counts"]
             progress(done := done + min(size, count - first), whole)
         found[kind.name] = np.column_stack([counts, np.full(len(TESTS), count)])
-    ideal, imperfect = ([kind for kind in CLASSES if kind.imperfect is flag] for flag in (False, True))
-    smooth, rough = ([kind for kind in ideal if kind.coulomb is flag] for flag in (False, True))
+    real = [kind for kind in CLASSES if kind.imperfect]
+    smooth, rough = (
+        [kind for kind in CLASSES if not kind.imperfect and kind.coulomb is flag] for flag in (False, True)
+    )
     return Findings(
         data=found,
         smooth=_left_by(found, smooth, 0),
         rough=_left_by(found, rough, 0),
-        imperfect=_left_by(found, imperfect, 0),
+        imperfect=_left_by(found, real, 0),
         vacuum=_left_by(found, [kind for kind in smooth if not kind.air], 1),
         in_air=_left_by(found, [kind for kind in smooth if kind.air], 1),
-        real=_left_by(found, imperfect, 1),
+        real=_left_by(found, real, 1),
     )
 
 
