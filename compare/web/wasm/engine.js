@@ -343,11 +343,11 @@ if (typeof WorkerGlobalScope !== "undefined" && self.name === NAME) {
     each: (scenario, changes, wanted) => engine.tossEach(scenario, changes, wanted),
     played: (scenario, samples) => played(engine.toss(scenario), samples),
   };
-  self.onmessage = async ({ data: { id, method, given } }) => {
+  self.onmessage = async ({ data: { method, given } }) => {
     try {
-      self.postMessage({ id, answer: await answers[method](...given) });
+      self.postMessage({ answer: await answers[method](...given) });
     } catch (problem) {
-      self.postMessage({ id, problem: problem instanceof EngineError ? problem.message : `the engine failed: ${problem.message}` });
+      self.postMessage({ problem: problem instanceof EngineError ? problem.message : `the engine failed: ${problem.message}` });
     }
   };
 }
