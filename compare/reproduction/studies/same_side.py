@@ -18,16 +18,19 @@ from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.estimates import in_words, jackknife, share, share_of
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
 from cointoss.compare.reproduction.setups.same_side_fit import (
-    NODES,
+    EXPONENTIAL,
+    NORMAL,
+    WOBBLING,
+    Fit,
     Flips,
-    by_wobble,
     chance_of_spread,
-    fit_freely,
-    fit_wobble,
-    freely,
+    fit,
     interval,
-    log_likelihood,
+    log_likelihoods,
+    quantiles,
     read_flips,
+    spread_of,
+    without,
 )
 from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.hand import Hand
@@ -45,6 +48,8 @@ CHI, PEOPLE = 0.5, "as of people"
 SMOOTH, ROUGH = FLOORS = ("smooth", "rough, μ = 0.2")
 CLOSE, SMALL = 0.01, 0.05
 """A share that is another within a per cent, or nearly."""
+FAMILIES = {"wobble, |90° - ψ| half-normal": WOBBLING, "p normal": NORMAL, "p - 1/2 exponential": EXPONENTIAL}
+"""How p may be distributed over people."""
 
 
 @dataclass(frozen=True)
@@ -68,6 +73,27 @@ class Bounced:
 
 
 @dataclass(frozen=True)
+class Model:
+    """A distribution of p over people, beside that which wobble makes."""
+
+    name: str
+    parameters: int
+    """How many are fitted."""
+    first: Estimate
+    """The first: the spread of 90° - ψ [rad], or of p."""
+    spread: float
+    """Standard deviation of p over people."""
+    behind: float
+    """Logarithm of the likelihood of wobble, less that of this."""
+    behind_without: list[float]
+    """The same, each person left out in turn, (n,)."""
+    behind_in_prediction: float
+    """The same, of each person's counts by what was fitted to the others', summed."""
+    chance: float
+    """That people as modelled differ among each other as much as those who flipped."""
+
+
+@dataclass(frozen=True)
 class SameSide:
     """What the flips say, and what the engines add."""
 
@@ -77,14 +103,8 @@ class SameSide:
     """That of flips that started heads up, less that of the others."""
     rms_angle: Estimate
     """Root of the mean square of 90° - ψ over people [deg]."""
-    spread_by_wobble: float
-    """Standard deviation of p over people that it makes."""
-    spread: Estimate
-    """That of people whose p is normal, whatever makes it."""
-    gain: float
-    """Logarithm of the likelihood of the first, less that of the second."""
-    chance: float
-    """That people as modelled differ among each other as much as those who flipped."""
+    models: list[Model]
+    """Of `FAMILIES`, wobble first."""
     people: list[Estimate]
     """p of each person."""
     bounced: list[Bounced]
@@ -93,14 +113,9 @@ class SameSide:
 def compute(progress: Progress, count: int = 3000, people: int = 8000, mujoco: int = 400) -> SameSide:
     """Fit ψ to the flips, then let hands toss onto floors."""
     flips, rng = read_flips(), np.random.default_rng(SEED)
-    wobble, free = fit_wobble(flips), fit_freely(flips)
-    rms, (mean, spread) = float(wobble.parameters[0]), free.parameters
-    bounds = np.degrees(interval(lambda x: log_likelihood(flips, by_wobble(x)), rms, rms / 4, rms * 4))
-    free_bounds = interval(
-        lambda x: log_likelihood(flips, freely(mean, x)), float(spread), spread / 4, spread * 4
-    )
+    fits = [fit(flips, people_as) for people_as in FAMILIES.values()]
     wobbling = {height: Hand(height=height, psi=np.radians(PSI)) for height in HEIGHTS}
-    everybody = Hand(psi=np.pi / 2, psi_scatter=rms)
+    everybody = Hand(psi=np.pi / 2, psi_scatter=float(fits[0].parameters[0]))
     jobs = [
         (floor, chi, hand, MUCH, count, Engine.ANALYTIC)
         for floor, chi, hand in product(FLOORS, CHIS, wobbling.values())
@@ -111,6 +126,9 @@ def compute(progress: Progress, count: int = 3000, people: int = 8000, mujoco: i
     for job in jobs:
         bounced.append(_bounced(*job, rng))
         progress(len(bounced), len(jobs))
+
+    models = _models(flips, fits, rng)
+    rms = models[0].first
 
     def of_people(share_of_kept: Callable[[NDArray[np.bool_]], float]) -> Estimate:
         return jackknife(share_of_kept, len(flips.flips), "people")
@@ -123,11 +141,14 @@ def compute(progress: Progress, count: int = 3000, people: int = 8000, mujoco: i
                 - flips.tails_same[kept].sum() / flips.tails[kept].sum()
             )
         ),
-        rms_angle=_of_people(flips, np.degrees(rms), bounds),
-        spread_by_wobble=float(wobble.probabilities.std()),
-        spread=_of_people(flips, spread, free_bounds),
-        gain=wobble.log_likelihood - free.log_likelihood,
-        chance=chance_of_spread(flips, wobble.probabilities, rng),
+        rms_angle=Estimate(
+            float(np.degrees(rms.value)),
+            float(np.degrees(rms.low)),
+            float(np.degrees(rms.high)),
+            rms.count,
+            rms.counted,
+        ),
+        models=models,
         people=[
             share_of(int(same), int(flipped), "flips")
             for same, flipped in zip(flips.same, flips.flips, strict=True)
@@ -136,8 +157,33 @@ def compute(progress: Progress, count: int = 3000, people: int = 8000, mujoco: i
     )
 
 
-def _of_people(flips: Flips, value: float, bounds: Array) -> Estimate:
-    return Estimate(float(value), float(bounds[0]), float(bounds[1]), len(flips.flips), "people")
+def _models(flips: Flips, fits: list[Fit], rng: np.random.Generator) -> list[Model]:
+    """Compare distributions of p with the first: by all people, without each, and by prediction of each."""
+    others = [without(flips, person) for person in range(len(flips.flips))]
+    refitted = [[fit(counts, found.people) for counts in others] for found in fits]
+    left: Array = np.array([[one.log_likelihood for one in each] for each in refitted])
+    predicted = [
+        sum(log_likelihoods(flips, found.people, one.parameters)[person] for person, one in enumerate(each))
+        for found, each in zip(fits, refitted, strict=True)
+    ]
+    return [
+        Model(
+            name=name,
+            parameters=len(found.parameters),
+            first=_first_parameter(flips, found),
+            spread=spread_of(found),
+            behind=fits[0].log_likelihood - found.log_likelihood,
+            behind_without=(left[0] - left[i]).tolist(),
+            behind_in_prediction=float(predicted[0] - predicted[i]),
+            chance=chance_of_spread(flips, found, rng),
+        )
+        for i, (name, found) in enumerate(zip(FAMILIES, fits, strict=True))
+    ]
+
+
+def _first_parameter(flips: Flips, found: Fit) -> Estimate:
+    low, high = interval(flips, found)
+    return Estimate(float(found.parameters[0]), float(low), float(high), len(flips.flips), "people")
 
 
 def _bounced(
@@ -167,6 +213,7 @@ def of(found: SameSide, engine: Engine, psi: str, floor: str) -> list[Bounced]:
 def measures(found: SameSide) -> dict[str, Any]:
     """Return what the claims name."""
     (people,) = of(found, Engine.ANALYTIC, PEOPLE, SMOOTH)
+    wobble, normal, exponential = found.models
     rough = of(found, Engine.ANALYTIC, MUCH, ROUGH)
     bouncy, dull = ([one for one in rough if one.chi == chi] for chi in (CHIS[-1], CHIS[0]))
     by_mujoco = of(found, Engine.MUJOCO, MUCH, ROUGH)
@@ -174,10 +221,14 @@ def measures(found: SameSide) -> dict[str, Any]:
         "same": found.same,
         "off_51": found.same - 0.51,
         "rms": in_words(found.rms_angle, ".1f").replace(" ", "° ", 1),
-        "by_wobble": found.spread_by_wobble,
-        "spread": in_words(found.spread, ".4f"),
-        "gain": found.gain,
-        "chance": found.chance,
+        "wobble": wobble,
+        "normal": normal,
+        "spread": in_words(normal.first, ".4f"),
+        "exponential": exponential,
+        "chance": wobble.chance,
+        "gain": normal.behind,
+        "gain_without": min(normal.behind_without),
+        "exponential_without": min(exponential.behind_without),
         "heads_more": found.heads_more,
         "smooth": {one.name: one.end for one in of(found, Engine.ANALYTIC, MUCH, SMOOTH)},
         "smooth_mujoco": "; ".join(_percent(one.end) for one in of(found, Engine.MUJOCO, MUCH, SMOOTH)),
@@ -201,7 +252,25 @@ def _at_rest(tossed: list[Bounced]) -> str:
 def tables(found: SameSide) -> str:
     """Return the tables, in Markdown."""
     rows = [[f"{one.engine}, {one.name}", *map(_percent, [*one.touches, one.end])] for one in found.bounced]
+    models = [
+        [
+            one.name,
+            str(one.parameters),
+            f"{one.spread:.4f}",
+            f"{0 - one.behind:.1f}",
+            f"{0 - min(one.behind_without):.1f}",
+            f"{0 - one.behind_in_prediction:.1f}",
+            f"{one.chance:.2f}",
+        ]
+        for one in found.models
+    ]
     return paragraphs(
+        "How p may be distributed over people, by the logarithm of the likelihood less that of wobble:",
+        table(
+            "over people | parameters | standard deviation of p | all 48 | "
+            "nearest, one person left out | each predicted from the others | chance of people as different",
+            models,
+        ),
         "How often the side up at the release is up, with 99 % intervals:",
         table(["engine, floor, restitution, height, ψ", *TOUCH_NAMES, "at rest"], rows),
     )
@@ -220,10 +289,12 @@ def draw(found: SameSide) -> Figure:
     for x, one in zip(at, ranked, strict=True):
         people.plot([x, x], [one.low, one.high], color=GREY, linewidth=1)
     people.plot(at, [one.value for one in ranked], "o", color=INK, markersize=3, label="a person, 99 %")
-    x = (np.arange(NODES) + 0.5) / NODES
+    x = (np.arange(1000) + 0.5) / 1000
     for end, style in ((found.rms_angle.low, ":"), (found.rms_angle.value, "-"), (found.rms_angle.high, ":")):
         label = f"ψ = 90° ± {end:.0f}° over people" if style == "-" else None
-        people.plot(x, by_wobble(float(np.radians(end))), style, color=VERMILION, label=label)
+        people.plot(x, quantiles(WOBBLING, np.radians([end]), x), style, color=VERMILION, label=label)
+    exponential = np.array([found.models[-1].first.value])
+    people.plot(x, quantiles(EXPONENTIAL, exponential, x), "--", color=BLUE, label="p - 1/2 exponential")
     people.axhline(0.5, color=GREY, linewidth=0.8)
     people.set_title("48 people, 350,757 flips")
     people.set(

@@ -1,32 +1,41 @@
 """The side a coin started from: the fit to people's flips, what bounces leave, and the command."""
 
 import json
+from itertools import pairwise
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
+from scipy.special import betaln
+from scipy.stats import uniform
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.metrics.first_side import caught_side, first_side
 from cointoss.compare.reproduction.setups.same_side_fit import (
+    EXPONENTIAL,
+    NORMAL,
+    WOBBLING,
+    Fit,
     Flips,
-    by_wobble,
+    People,
     chance_of_spread,
-    fit_freely,
-    fit_wobble,
-    freely,
+    fit,
     interval,
-    log_likelihood,
+    log_likelihoods,
+    quantiles,
     read_flips,
+    spread_of,
+    without,
 )
 from cointoss.models.hand import Hand, same_side_probability
 from cointoss.models.reading import load
 from tests.helpers.command_line import cointoss
 
 
-def drawn(probabilities, people=200, flips=7000, seed=3):
+def drawn(family, parameters, people=200, flips=7000, seed=3):
     rng = np.random.default_rng(seed)
     count = np.full(people, flips // 2)
-    p = rng.choice(probabilities, people)
+    p = quantiles(family, np.array(parameters), rng.random(people))
     return Flips(rng.binomial(count, p), count, rng.binomial(count, p), count)
 
 
@@ -37,31 +46,104 @@ def test_the_counts_are_those_published():
 
 def test_the_spread_of_psi_is_the_root_of_its_mean_square():
     """p = 1/2 + asin(tan² φ)/π, solved for φ = 90° - ψ."""
-    off = np.arctan(np.sqrt(np.sin(np.pi * (by_wobble(0.1) - 0.5))))
+    p = quantiles(WOBBLING, np.array([0.1]), (np.arange(4000) + 0.5) / 4000)
+    off = np.arctan(np.sqrt(np.sin(np.pi * (p - 0.5))))
     assert np.sqrt(np.mean(off**2)) == pytest.approx(0.1, rel=1e-3)
+
+
+def log_integral(family, parameters, same, count):
+    """Return the logarithm of a person's likelihood by an adaptive quadrature, cut where it is not small."""
+
+    def log_integrand(latent):
+        p = np.clip(family.probability(np.array(parameters), latent), 1e-12, 1 - 1e-12)
+        return same * np.log(p) + (count - same) * np.log1p(-p) + family.latent.logpdf(latent)
+
+    grid = np.linspace(*family.ends, 20_001)
+    values = log_integrand(grid)
+    top, within = values.max(), grid[values > values.max() - 60]
+    edges = np.linspace(within[0] - 1e-3, within[-1] + 1e-3, 30).clip(*family.ends)
+    total = sum(
+        quad(lambda x: np.exp(log_integrand(x) - top), *ends, epsabs=0, epsrel=1e-10)[0]
+        for ends in pairwise(edges)
+        if ends[0] < ends[1]
+    )
+    return top + np.log(total)
+
+
+@pytest.mark.parametrize(
+    ("family", "parameters"),
+    [
+        (WOBBLING, (0.17,)),
+        (WOBBLING, (0.04,)),
+        (WOBBLING, (0.7,)),
+        (NORMAL, (0.0156, 0.51)),
+        (NORMAL, (0.004, 0.5)),
+        (NORMAL, (0.07, 0.52)),
+        (EXPONENTIAL, (0.011,)),
+        (EXPONENTIAL, (0.003,)),
+    ],
+)
+def test_the_likelihood_of_each_person_is_its_integral(family, parameters):
+    """By an adaptive quadrature in p about where each lies; one person lies 5.8 standard deviations away."""
+    flips = read_flips()
+    found = log_likelihoods(flips, family, np.array(parameters))
+    # The last of them is the one who lies farthest out.
+    for person in range(2, len(found), 3):
+        expected = log_integral(family, parameters, flips.same[person], flips.flips[person])
+        assert found[person] == pytest.approx(expected, abs=1e-6)
+
+
+def test_the_likelihood_of_uniform_people_is_in_closed_form():
+    """The integral of p^k (1 - p)^(n - k) is a beta function."""
+    family = People(uniform(), (0.0, 1.0), lambda _, latent: latent, start=(0.5,))
+    flips = Flips(*(np.array([number]) for number in (30, 50, 25, 50)))
+    found = log_likelihoods(flips, family, np.array([0.5]))
+    assert found[0] == pytest.approx(betaln(56, 46), abs=1e-9)
 
 
 def test_a_spread_of_psi_is_found_again_within_its_interval():
     truth = np.radians(12)
-    flips = drawn(by_wobble(truth))
-    found = fit_wobble(flips)
-    low, high = interval(lambda x: log_likelihood(flips, by_wobble(x)), found.parameters[0], 0.05, 0.8)
+    flips = drawn(WOBBLING, [truth])
+    found = fit(flips, WOBBLING)
+    low, high = interval(flips, found)
     assert low < truth < high
     assert 0.1 < (high - low) / truth < 0.6
-    assert found.log_likelihood > fit_freely(flips).log_likelihood
+    assert found.log_likelihood > fit(flips, EXPONENTIAL).log_likelihood
+    assert found.log_likelihood > fit(flips, NORMAL).log_likelihood
 
 
-def test_a_free_spread_is_found_again():
-    flips = drawn(freely(0.49, 0.02))
-    mean, spread = fit_freely(flips).parameters
+def test_a_normal_spread_is_found_again_within_its_interval():
+    flips = drawn(NORMAL, [0.02, 0.49])
+    found = fit(flips, NORMAL)
+    spread, mean = found.parameters
+    low, high = interval(flips, found)
     assert mean == pytest.approx(0.49, abs=0.004)
-    assert spread == pytest.approx(0.02, rel=0.2)
+    assert low < 0.02 < high
+    assert 0.1 < (high - low) / spread < 0.4
+    assert spread_of(found) == pytest.approx(spread, rel=1e-6)
+
+
+def test_an_exponential_spread_is_found_again():
+    flips = drawn(EXPONENTIAL, [0.012])
+    found = fit(flips, EXPONENTIAL)
+    assert found.parameters[0] == pytest.approx(0.012, rel=0.25)
+    assert spread_of(found) == pytest.approx(found.parameters[0], rel=1e-6)
+    assert found.log_likelihood > fit(flips, WOBBLING).log_likelihood
+
+
+def test_one_person_left_out_leaves_the_others():
+    flips = read_flips()
+    left = without(flips, 46)
+    assert left.same.tolist() == np.delete(flips.same, 46).tolist()
+    assert (left.flips == np.delete(flips.flips, 46)).all()
 
 
 def test_people_who_differ_too_much_have_no_chance():
-    flips, rng = drawn(by_wobble(0.2)), np.random.default_rng(4)
-    assert 0.05 < chance_of_spread(flips, by_wobble(0.2), rng) < 0.95
-    assert chance_of_spread(flips, by_wobble(0.1), rng) < 0.01
+    flips, rng = drawn(WOBBLING, [0.2]), np.random.default_rng(4)
+    found = fit(flips, WOBBLING)
+    assert 0.05 < chance_of_spread(flips, found, rng) < 0.95
+    halved = Fit(WOBBLING, found.parameters / 2, found.log_likelihoods)
+    assert chance_of_spread(flips, halved, rng) < 0.01
 
 
 @pytest.mark.parametrize("engine", list(Engine))
