@@ -73,6 +73,24 @@ class Bounce:
         return body.model(self.contact, body.height + 0.5)
 
     @property
+    def thickest_passed(self) -> float:
+        """Thickness of the floor, no plane, that the body just goes through at `SPEED` [m]; below 0: none.
+
+        A contact deeper than half of both thicknesses sends the body out on the other side.
+        """
+        return 2 * (SPEED * self.depth - body_of(self.body).thinnest)
+
+    @property
+    def creep(self) -> float:
+        """Speed at which a body slips that MuJoCo's friction holds against its weight, about [m/s].
+
+        Friction is a damping, too: it carries the fraction d of the weight, and the slip b v = (1 - d) g the
+        rest.
+        """
+        damping = -self.solref[1]
+        return (1 - float(self.solimp.split()[0])) * GRAVITY / damping if damping else math.inf
+
+    @property
     def contact(self) -> Contact:
         """The settings alone."""
         return Contact(
@@ -211,7 +229,9 @@ def _warn_if_deep(body: Body, depth: float) -> None:
         warnings.warn(
             f"{body}: a contact at {SPEED:g} m/s is {1e3 * SPEED * depth:.3g} mm deep, and the body is "
             f"{1e3 * 2 * body.thinnest:.3g} mm thick: above {fastest:.2g} m/s it may go through a floor that "
-            f"is no plane; accepted: slower touches, or a step at most {fastest / SPEED:.2g} times as long",
+            "is no plane; accepted: slower touches, a floor thicker than "
+            f"{2e3 * (SPEED * depth - body.thinnest):.3g} mm, or a step at most {fastest / SPEED:.2g} times "
+            "as long",
             ApproximationWarning,
             stacklevel=3,
         )

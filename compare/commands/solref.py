@@ -2,7 +2,7 @@
 
 import json
 from dataclasses import asdict
-from math import isfinite
+from math import floor, isfinite, log10
 from typing import TYPE_CHECKING
 
 import click
@@ -161,12 +161,16 @@ def _settings(found: "Bounce") -> str:
             f"integrator  {found.integrator}, "
             + ("any but discrete, which errs more" if spring else "or Euler; not RK4, not discrete"),
             f"backend     {found.backend}: {found.backend.remark}",
-            f"error       {found.error:.0e} at worst, of a {found.body} that touches at 16 phases of a step",
-            f"            {found.error_with_weight:.0e} with weight, at {SPEED:g} m/s; more if slower",
+            f"error       {_at_most(found.error)} at worst, of a {found.body} that touches at 16 phases",
+            f"            {_at_most(found.error_with_weight)} with weight, at {SPEED:g} m/s; more if slower",
+            "            more if the impact turns it, in proportion to its speed and DT: cointoss bounce",
             f"depth       up to {1e3 * found.depth:.3g} mm into the floor for each m/s, whatever the mass",
+            f"floor       {_floor(found)}",
             *_column("rest", rest),
             f"flight      {flight}",
-            "friction    none; MuJoCo's own lifts a body that slides, docs/MUJOCO.md has a way out",
+            "friction    none; MuJoCo's own lifts a body that slides, and what it holds "
+            + (f"slips at some {1e6 * found.creep:.2g} um/s:" if found.creep < 1e-3 else "slips out:"),
+            "            docs/MUJOCO.md has a way out of both",
         ]
     )
 
@@ -199,9 +203,28 @@ def _rebounds(found: "Rebounds") -> str:
     )
 
 
+def _floor(found: "Bounce") -> str:
+    """Return which floors the body goes through, in words."""
+    from cointoss.coin_mj.bounces.drops import SPEED
+
+    thickness = found.thickest_passed
+    if thickness <= 0:
+        return f"lets it through nowhere, at up to {SPEED:g} m/s"
+    return (
+        f"lets it through at {SPEED:g} m/s if up to {1e3 * thickness:.3g} mm thick and no plane: "
+        "a contact is deeper than half of both"
+    )
+
+
 def _column(name: str, lines: list[str]) -> list[str]:
     """Return lines beside a name, which stands once."""
     return [f"{name if number == 0 else '':11} {line}" for number, line in enumerate(lines)]
+
+
+def _at_most(error: float) -> str:
+    """Return an error with one digit, rounded up."""
+    shown = f"{error:.0e}"
+    return shown if float(shown) >= error else f"{error + 0.5 * 10 ** floor(log10(error)):.0e}"
 
 
 def _change(part: float) -> str:

@@ -121,15 +121,24 @@ def test_a_body_thinner_than_its_contact_is_deep_is_warned_of():
     solref(0.8, 2e-3, body="box 0.1 0.1 0.005")  # 3.9 mm deep at 2 m/s
 
 
-@pytest.mark.parametrize("speed", [0.05, 3.0])
-def test_what_is_warned_of_goes_through_a_floor_that_is_a_box(speed):
-    text = body_of("box 0.1 0.1 0.002").model(recipe_of(0.8, 2e-3, 40), 0.01)
-    text = text.replace('type="plane" size="0 0 1"', 'type="box" size="1 1 0.05" pos="0 0 -0.05"')
-    model = mujoco.MjModel.from_xml_string(text)
-    data = mujoco.MjData(model)
-    data.qvel[2] = -speed
-    mujoco.mj_step(model, data, nstep=500)
-    assert (data.qpos[2] < -0.2) == (speed == 3.0)
+@pytest.mark.parametrize("body", ["sphere 0.02", "box 0.1 0.1 0.005"])
+def test_a_floor_lets_a_body_through_whose_contact_is_deeper_than_half_of_both(body):
+    """By 40 steps of 2 ms at 2 m/s 46 mm: floors of up to 51 and 82 mm; and no plane."""
+    with pytest.warns(ApproximationWarning, match="a floor thicker than"):
+        found = solref(0.8, 2e-3, spring=True, body=body)
+    half = body_of(body).thinnest
+    assert found.thickest_passed == pytest.approx(2 * (2 * found.depth - half))
+    plane = 'type="plane" size="0 0 1"'
+    for part in (0.05, 0.97, 1.03, math.inf):
+        thick = part * found.thickest_passed / 2
+        box = f'type="box" size="1 1 {thick!r}" pos="0 0 {-thick!r}"'
+        text = body_of(body).model(found.contact, half + 0.01)
+        model = mujoco.MjModel.from_xml_string(text if part == math.inf else text.replace(plane, box))
+        model.opt.gravity[:] = 0
+        data = mujoco.MjData(model)
+        data.qvel[2] = -SPEED
+        mujoco.mj_step(model, data, nstep=100)
+        assert (data.qpos[2] < 0) == (part < 1), part
 
 
 @pytest.mark.parametrize(
