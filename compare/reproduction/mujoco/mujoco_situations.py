@@ -7,12 +7,22 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from cointoss.coin_mj.bounces.contact import HARDEST, INTEGRATORS, Contact, one_step_solref, spring_solref
-from cointoss.coin_mj.bounces.drops import GRAVITY, drops_of
+from cointoss.coin_mj.bounces.drops import GRAVITY, SPEED, drops_of
 from cointoss.coin_mj.bounces.flight import energy_change
+from cointoss.coin_mj.bounces.pair import SPEEDS, PairBounce
 from cointoss.coin_mj.bounces.recipe import SPRING_STEPS, recipe_of
 from cointoss.coin_mj.bounces.rest import Rest, rest_of
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.tables import paragraphs, table
+from cointoss.compare.reproduction.setups.mujoco_failures import (
+    BALL,
+    FALLS,
+    creep,
+    cylinder,
+    falls_through,
+    leg,
+)
+from cointoss.compare.reproduction.setups.mujoco_failures import SPEED as FALLING
 from cointoss.compare.reproduction.setups.mujoco_situations import (
     RADIUS,
     RECIPE,
@@ -35,8 +45,9 @@ PRESSED = 500.0
 """Force on a body of 1 kg [N]."""
 STEPS = (2e-3, 1e-3, 1e-4)
 """Of the flights [s]."""
-FALLS = (1e-2, 1e-3)
+STEPS_OF_FALLS = (1e-2, 1e-3)
 """Of the falling balls [s]."""
+RECOMMENDED = ("one step", "spring")
 FRICTION = ((0.1, 0.5), (0.1, 5.0), (0.3, 0.5), (0.3, 5.0), (1.0, 5.0))
 """μ and slip [m/s]."""
 OPTIONS = {"MuJoCo's elliptic cone": 'cone="elliptic"', "the recipe": RECIPE}
@@ -46,6 +57,19 @@ EXPECTED = {
     "three in a row": (0.091, 0.099, 0.81),
 }
 """Velocities by Newton's law, impact after impact; of a rod only the ball's [m/s]."""
+FLOORS = (None, 3e-3, 30e-3, 96e-3, 98e-3)
+"""Thicknesses of floors that are boxes [m]; None: a plane."""
+TURNING = ((None, 2e-3), (None, 2e-4), (SPRING_STEPS, 2e-3), (SPRING_STEPS, 2e-4), (SPRING_STEPS, 2e-5))
+"""Steps in the contact of a spring, None by one step, and the step [s], of bodies that turn."""
+BESIDE = 0.03
+"""How far the axis of a cylinder passes beside the middle of a ball of 10 cm [m]."""
+HELD = {
+    "pyramidal cone": ("", False),
+    "elliptic": ('cone="elliptic"', False),
+    "elliptic, impratio 100": ('cone="elliptic" impratio="100"', False),
+    "the same, by pairs": ('cone="elliptic" impratio="100"', True),
+}
+"""Options, and whether pairs with a damping of the slip hold what is pinched."""
 CONTACTS = {
     "one step": recipe_of(E, STEP),
     "one step, no stiffness": Contact(
@@ -78,6 +102,16 @@ class Situations:
     """Largest errors of e and of the slip over the normal speed, by option, for each of `FRICTION`."""
     falling: dict[str, float]
     """Change of energy over itself in 10 s of balls with e = 1, by step."""
+    floors: dict[str, list[int]]
+    """Balls of `FALLS` that go through each of `FLOORS`, by contact."""
+    depths: dict[str, float]
+    """Of a ball's contact at 1 m/s [m], by contact."""
+    legs: dict[str, list[float]]
+    """Restitution of a hopper's leg at each of `SPEEDS`, in the mean over phases, by contact and step."""
+    cylinders: dict[str, list[list[float]]]
+    """Likewise of a cylinder on a ball: on its middle, and `BESIDE` it."""
+    creeping: dict[str, list[float | None]]
+    """Speed at which a pinched box creeps [m/s] for each of `HELD`; None where it falls; by contact."""
 
 
 def compute(progress: Progress) -> Situations:
@@ -106,13 +140,31 @@ def compute(progress: Progress) -> Situations:
             name: [sliding(contact, mu, slip, option) for mu, slip in FRICTION]
             for name, option in OPTIONS.items()
         },
-        falling={f"{1e3 * dt:g} ms": falling_balls(recipe_of(1.0, dt)) for dt in FALLS},
+        falling={f"{1e3 * dt:g} ms": falling_balls(recipe_of(1.0, dt)) for dt in STEPS_OF_FALLS},
+        floors={name: [falls_through(CONTACTS[name], thick) for thick in FLOORS] for name in RECOMMENDED},
+        depths={name: drops_of(CONTACTS[name]).depth / SPEED for name in RECOMMENDED},
+        legs={_turning(*kind): _means(leg(recipe_of(E, kind[1], kind[0]))) for kind in TURNING},
+        cylinders={
+            _turning(*kind): [_means(cylinder(recipe_of(E, kind[1], kind[0]), side)) for side in (0, BESIDE)]
+            for kind in TURNING
+        },
+        creeping={
+            name: [creep(contact, option, pair) for option, pair in HELD.values()]
+            for name, contact in CONTACTS.items()
+        },
     )
+
+
+def _turning(steps: int | None, dt: float) -> str:
+    return f"{'one step' if steps is None else 'spring'}, {1e3 * dt:g} ms"
+
+
+def _means(found: PairBounce) -> list[float]:
+    return [float(mean) for mean in found.restitutions.mean(axis=1)]
 
 
 def measures(found: Situations) -> dict[str, Any]:
     """Return what the claims name."""
-    recommended = ("one step", "spring")
     exact = found.rest["one step, no stiffness"]
     hit = [
         abs(velocity - expected)
@@ -122,7 +174,7 @@ def measures(found: Situations) -> dict[str, Any]:
     native, recipe = found.friction.values()
     return {
         "error": found.errors["one step"],
-        "moving": max(max(found.rest[name].hop, abs(found.rest[name].sinking)) for name in recommended),
+        "moving": max(max(found.rest[name].hop, abs(found.rest[name].sinking)) for name in RECOMMENDED),
         "depth": _depth_of(found.rest["one step"], "one step", GRAVITY),
         "spring_depth": _depth_of(found.rest["spring"], "spring", GRAVITY),
         "pressed": _depth_of(found.pressed["one step"], "one step", GRAVITY + PRESSED),
@@ -136,6 +188,23 @@ def measures(found: Situations) -> dict[str, Any]:
         "native": max(e for e, _ in native),
         "recipe": max(max(pair) for pair in recipe),
         "falling": max(abs(change) for change in found.falling.values()),
+        "wrong_floors": sum(
+            went != (FALLS if thick is not None and found.depths[name] * FALLING > BALL + thick / 2 else 0)
+            for name in RECOMMENDED
+            for thick, went in zip(FLOORS, found.floors[name], strict=True)
+        ),
+        "went": sum(found.floors["spring"]),
+        "middle": max(abs(e - E) for on_middle, _ in found.cylinders.values() for e in on_middle),
+        "turned": max(e for _, beside in found.cylinders.values() for e in beside),
+        "jumping": max(found.legs["spring, 2 ms"]),
+        "turning": max(
+            abs(e - E)
+            for values in (found.legs["spring, 0.02 ms"], found.cylinders["spring, 0.02 ms"][1])
+            for e in values[:5]
+        ),
+        "creep": found.creeping["one step"][2],
+        "creep_pair": found.creeping["spring"][3],
+        "fallen": sum(speed is None for speed in found.creeping["spring"]),
     }
 
 
@@ -167,6 +236,20 @@ def tables(found: Situations) -> str:
         ]
         for name in EXPECTED
     ]
+    floors = [[name, *map(str, found.floors[name])] for name in RECOMMENDED]
+    turning = [
+        [f"{body}: {kind}", *(f"{e:.3f}" for e in values)]
+        for body, kinds in (
+            ("leg", found.legs),
+            ("cylinder", {kind: values[1] for kind, values in found.cylinders.items()}),
+        )
+        for kind, values in kinds.items()
+    ]
+    on_middle = [e for values, _ in found.cylinders.values() for e in values]
+    creeping = [
+        [name, *("falls out" if v is None else f"{1e6 * v:.2g} µm/s" for v in found.creeping[name])]
+        for name in CONTACTS
+    ]
     friction = [[name, *(f"{e:.0e}, {slip:.0e}" for e, slip in found.friction[name])] for name in OPTIONS]
     return paragraphs(
         f"e = {E:g}, steps of {1e3 * STEP:g} ms; the stack: boxes of 0.1, 0.1, 0.1, 0.1, 10 kg, after 40 s:",
@@ -177,6 +260,14 @@ def tables(found: Situations) -> str:
         table("situation | velocities after [m/s] | by Newton's law", hit),
         "A ball that slides, in one step: errors of e, and of the slip over the normal speed:",
         table(["cone", *(f"μ = {mu:g}, {slip:g} m/s" for mu, slip in FRICTION)], friction),
+        f"Of {FALLS} balls of {1e3 * BALL:g} mm at {FALLING:g} m/s, as many go through a floor that is",
+        table(["contact", *("a plane" if t is None else f"a box of {1e3 * t:g} mm" for t in FLOORS)], floors),
+        "Bodies that turn in a contact, in the mean over phases of a step: a hopper's leg on a plane, and a "
+        f"cylinder that lands flat on a ball of 10 cm, {1e3 * BESIDE:g} mm beside its middle (on its middle: "
+        f"{min(on_middle):.3f} to {max(on_middle):.3f}):",
+        table(["e'", *(f"{speed:g} m/s" for speed in SPEEDS)], turning),
+        "A box of 0.1 kg, pinched with 20 N by two plates (μ = 1), creeps down:",
+        table(["contact", *HELD], creeping),
         "SimBenchmark's bouncing test, 49 balls of 10 kg with e = 1: change of energy in 10 s, over itself: "
         + ", ".join(f"{change:+.0e} in steps of {name}" for name, change in found.falling.items())
         + ".",
