@@ -38,7 +38,7 @@ TOUCHES = 10
 """Faces are compared after 0 to so many impacts, less one."""
 RESOLUTIONS = 10.0 ** -np.arange(2, 12)
 """ε, distances of nearby tosses [m]."""
-PARTS, PARTS_BEYOND = {0: 1 / 8, 1: 1 / 2, 2: 1.0, 3: 8.0, 4: 60.0}, 1 / 8
+PARTS, PARTS_BEYOND = {0: 1 / 8, 1: 2.0, 2: 15.0, 3: 8.0, 4: 60.0}, 1 / 8
 """Most twins at one ε over the tosses of the maps, by the number of impacts; four are the most at which all
 boundaries are counted."""
 FEWEST = 200
