@@ -72,8 +72,8 @@ def hands(
 
         from cointoss.compare.engines import Engine
         from cointoss.compare.film.back_end import require_mujoco
+        from cointoss.compare.metrics.estimates import share
         from cointoss.compare.metrics.first_side import TOUCHES, caught_side, first_side
-        from cointoss.compare.reproduction.estimates import share
         from cointoss.models.errors import ScenarioError
         from cointoss.models.hand import Hand
         from cointoss.models.reading import load

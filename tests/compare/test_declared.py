@@ -6,7 +6,8 @@ from collections import ChainMap
 import numpy as np
 import pytest
 
-from cointoss.compare.reproduction.claim import Criterion, Estimate
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.reproduction.claim import Criterion
 from cointoss.compare.reproduction.declared import filled, value_of
 
 AIR = "air"

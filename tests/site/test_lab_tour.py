@@ -8,7 +8,7 @@ import pytest
 
 import cointoss
 from cointoss import analytic
-from cointoss.compare.reproduction.estimates import share
+from cointoss.compare.metrics.estimates import share
 from cointoss.models.releases import Releases
 from tests.helpers.lab import COUNTED, HEIGHT, SPIN, go
 

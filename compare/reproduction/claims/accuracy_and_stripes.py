@@ -9,11 +9,11 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss import analytic
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import mean_share, ratio_of_medians
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY
-from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import mean_share, ratio_of_medians
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHTS,
     LANDINGS,

@@ -9,11 +9,11 @@ from cointoss import analytic, coin_mj
 from cointoss.analytic.events import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.coin_mj.toss import impacts_of
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import share
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, VERMILION
-from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import share
 from cointoss.compare.reproduction.setups.planar_maps import SPINS, case, releases
 from cointoss.models.parts import EndingCriteria, Release
 from cointoss.models.reading import load

@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 from cointoss import analytic
 from cointoss.compare.basins.picture import MapAxis, draw_panel
 from cointoss.compare.basins.stripes import crossings
+from cointoss.compare.metrics.estimates import share
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared, listed
-from cointoss.compare.reproduction.estimates import share
 from cointoss.compare.reproduction.setups.kellers_map import FASTEST, HIGHEST, middles, thrown
 from cointoss.compare.reproduction.setups.planar_maps import case, toss_many_by_mujoco
 from cointoss.models.records import Array, Face

@@ -6,10 +6,10 @@ from matplotlib.figure import Figure
 from cointoss import analytic
 from cointoss.analytic.events import run
 from cointoss.coin_mj.toss import impacts_of
+from cointoss.compare.metrics.estimates import share
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import share
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHTS,
     SPINS,

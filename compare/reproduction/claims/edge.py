@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import difference, share_of
 from cointoss.compare.output.progress import Progress
-from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Findings, declared, listed, result
-from cointoss.compare.reproduction.estimates import difference, share_of
 from cointoss.compare.reproduction.result import Result
 from cointoss.compare.reproduction.saving import read_numbers
 from cointoss.compare.reproduction.setups.edge_classes import (

@@ -7,11 +7,11 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss import analytic
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import jackknife, mean, scatter_of_shares
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, INK, VERMILION
-from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import jackknife, mean, scatter_of_shares
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
 from cointoss.compare.reproduction.setups.kellers_map import caught
 from cointoss.compare.reproduction.setups.planar_maps import faces_after, toss_many_by_mujoco

@@ -6,11 +6,11 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.random import Generator
 
+from cointoss.compare.metrics.estimates import share
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import INK, PALE
 from cointoss.compare.output.tables import table
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import share
 from cointoss.compare.reproduction.setups.fig24_readings import (
     APART,
     MARK,

@@ -6,11 +6,11 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from cointoss import analytic
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import jackknife, mean_share, share
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, VERMILION
-from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import jackknife, mean_share, share
 from cointoss.compare.reproduction.setups.halving import halved
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHTS,

@@ -12,10 +12,10 @@ from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.events import run
 from cointoss.analytic.settings import Settings
 from cointoss.analytic.toss import Pieces
+from cointoss.compare.metrics.estimates import mean, share
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import mean, share
 from cointoss.compare.reproduction.precision.double_double import pair_of
 from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
 from cointoss.compare.reproduction.precision.planar_state import HEIGHT, release

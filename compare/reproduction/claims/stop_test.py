@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from cointoss.analytic.events import run
 from cointoss.analytic.settings import Settings
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import share_of
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, VERMILION
-from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared, listed
-from cointoss.compare.reproduction.estimates import share_of
 from cointoss.compare.reproduction.parts import Part, kept
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
 from cointoss.compare.reproduction.threads import all_cores

@@ -7,11 +7,11 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss import analytic
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import jackknife, scatter_of_shares
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY, SHARE_OF_HEADS
-from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import jackknife, scatter_of_shares
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHTS,
     LANDINGS,

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from cointoss import analytic, coin_mj
+from cointoss.compare.metrics.estimates import mean, share
 from cointoss.compare.metrics.sequences import common_prefix
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import (
@@ -20,7 +21,6 @@ from cointoss.compare.output.style import (
     VERMILION,
 )
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import mean, share
 from cointoss.compare.reproduction.setups.fig24_readings import (
     APART,
     CLUSTER,

@@ -8,11 +8,11 @@ from matplotlib.figure import Figure
 from cointoss.analytic.events import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.coin_mj.toss import impacts_of
+from cointoss.compare.metrics.estimates import mean, share
 from cointoss.compare.metrics.lyapunov import divergence, growth_by_tangent
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import mean, share
 from cointoss.compare.reproduction.setups.planar_maps import MEDIA
 from cointoss.models.parts import Air
 from cointoss.models.reading import load

@@ -13,11 +13,11 @@ from cointoss import analytic
 from cointoss.analytic.events import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.coin_mj.toss import impacts_of
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import ratio_of_medians
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, HEADS, INK, TAILS, VERMILION
-from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import ratio_of_medians
 from cointoss.compare.reproduction.setups.face_changes import changes, share_after_row
 from cointoss.compare.reproduction.setups.fig24_readings import (
     READINGS,

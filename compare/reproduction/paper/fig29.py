@@ -9,9 +9,9 @@ from cointoss.compare.basins.fractions import fractions
 from cointoss.compare.basins.maps import OutcomeCodes
 from cointoss.compare.basins.picture import draw_panel
 from cointoss.compare.basins.stripes import crossings
+from cointoss.compare.metrics.estimates import share
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import share
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHT,
     HEIGHTS,

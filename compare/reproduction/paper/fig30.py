@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from cointoss import analytic
 from cointoss.compare.basins.picture import MapAxis, draw_panel
+from cointoss.compare.metrics.estimates import share
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import share
 from cointoss.compare.reproduction.precision.magnified import MAGNIFICATION, Magnified, magnify
 from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
 from cointoss.compare.reproduction.precision.planar_state import HEIGHT, release

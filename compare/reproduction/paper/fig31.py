@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from cointoss import analytic
 from cointoss.compare.basins.picture import draw_panel
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import share, share_of
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY, INK, PALE, VERMILION
-from cointoss.compare.reproduction.claim import Estimate
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import share, share_of
 from cointoss.compare.reproduction.setups.planar_maps import (
     HEIGHT,
     HEIGHTS,

@@ -8,11 +8,11 @@ from scipy.spatial.transform import Rotation
 
 from cointoss import analytic, coin_mj
 from cointoss.compare.film.stills import stills
+from cointoss.compare.metrics.estimates import share
 from cointoss.compare.metrics.sequences import common_prefix
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import ANALYTIC, GREY, MUJOCO
 from cointoss.compare.reproduction.declared import Data, Findings, declared
-from cointoss.compare.reproduction.estimates import share
 from cointoss.models.reading import load
 from cointoss.models.records import Array, Face, Toss
 from cointoss.models.releases import Releases

@@ -4,10 +4,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import LEVEL, chance_alike, in_words
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
 from cointoss.compare.output.tables import paragraphs, table
-from cointoss.compare.reproduction.claim import Estimate
-from cointoss.compare.reproduction.estimates import LEVEL, chance_alike, in_words
 from cointoss.compare.reproduction.setups.edge_classes import (
     DIAMETER,
     DIAMETRAL,

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from cointoss.compare.engines import Engine
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import share
 from cointoss.compare.output.progress import Progress, stepping
-from cointoss.compare.reproduction.claim import Estimate
-from cointoss.compare.reproduction.estimates import share
 from cointoss.compare.reproduction.parts import kept
 from cointoss.compare.reproduction.setups.edge_classes import (
     DIAMETRAL,

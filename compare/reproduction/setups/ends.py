@@ -3,8 +3,8 @@
 from collections import Counter
 from collections.abc import Iterable
 
-from cointoss.compare.reproduction.claim import Estimate
-from cointoss.compare.reproduction.estimates import share_of
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import share_of
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.records import Ending, Outcome
 

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.reproduction.claim import Estimate
-from cointoss.compare.reproduction.estimates import PARTS, jackknife
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import PARTS, jackknife
 
 
 def changes(faces: NDArray[np.int8]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -13,7 +13,7 @@ from scipy.optimize import brentq, minimize
 from scipy.special import logsumexp
 from scipy.stats import chi2, expon, halfnorm, norm
 
-from cointoss.compare.reproduction.estimates import LEVEL
+from cointoss.compare.metrics.estimates import LEVEL
 from cointoss.models.hand import same_side_probability
 from cointoss.models.records import Array
 

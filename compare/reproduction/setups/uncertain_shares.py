@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from cointoss.compare.reproduction.claim import Estimate
-from cointoss.compare.reproduction.estimates import jackknife
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import jackknife
 from cointoss.compare.reproduction.parts import Part, kept
 from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
 from cointoss.compare.reproduction.precision.planar_state import HEIGHT, SPIN, TILT, release

@@ -10,10 +10,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from cointoss import analytic, coin_mj
+from cointoss.compare.metrics.estimates import chance_alike
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY, OUTCOMES
 from cointoss.compare.output.tables import paragraphs, table
-from cointoss.compare.reproduction.estimates import chance_alike
 from cointoss.compare.reproduction.setups.ends import Ends, counted, ended_as, together, tosses
 from cointoss.compare.reproduction.setups.general_coins import AIR, paper_coin
 from cointoss.compare.reproduction.setups.study import study

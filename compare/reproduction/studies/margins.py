@@ -10,12 +10,12 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss import analytic
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import in_words, quantile, share
 from cointoss.compare.metrics.margin import MANY, QUANTITIES, Codes, Quantity, smallest_changes
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
 from cointoss.compare.output.tables import paragraphs, table
-from cointoss.compare.reproduction.claim import Estimate
-from cointoss.compare.reproduction.estimates import in_words, quantile, share
 from cointoss.compare.reproduction.parts import Part, kept
 from cointoss.compare.reproduction.precision.proved_change import proved_change
 from cointoss.compare.reproduction.setups.general_coins import CoinClass

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from cointoss import analytic
+from cointoss.compare.metrics.estimates import difference, in_words, share
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.tables import paragraphs, table
-from cointoss.compare.reproduction.estimates import difference, in_words, share
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
 from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.reading import load

@@ -11,11 +11,11 @@ from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 from scipy.constants import hbar
 
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import in_words
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, PURPLE
 from cointoss.compare.output.tables import paragraphs, table
-from cointoss.compare.reproduction.claim import Estimate
-from cointoss.compare.reproduction.estimates import in_words
 from cointoss.compare.reproduction.precision.planar_state import HEIGHT, SPIN, TILT
 from cointoss.compare.reproduction.precision.splitting import Replica
 from cointoss.compare.reproduction.setups.planar_maps import case

@@ -10,10 +10,10 @@ from cointoss import analytic
 from cointoss.analytic.contact.automaton import Mode, contact_at
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.sampling import sample_contact
+from cointoss.compare.metrics.estimates import in_words
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, ORANGE
 from cointoss.compare.output.tables import paragraphs, table
-from cointoss.compare.reproduction.estimates import in_words
 from cointoss.compare.reproduction.setups.ends import Ends, counted, ended_as, on_edge
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
 from cointoss.compare.reproduction.setups.study import study

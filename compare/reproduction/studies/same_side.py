@@ -10,12 +10,12 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import in_words, jackknife, share, share_of
 from cointoss.compare.metrics.first_side import TOUCHES, first_side
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
 from cointoss.compare.output.tables import paragraphs, table
-from cointoss.compare.reproduction.claim import Estimate
-from cointoss.compare.reproduction.estimates import in_words, jackknife, share, share_of
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
 from cointoss.compare.reproduction.setups.same_side_fit import (
     EXPONENTIAL,

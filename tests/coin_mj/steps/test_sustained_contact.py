@@ -12,7 +12,7 @@ from cointoss.coin_mj.model.settings import Settings
 from cointoss.coin_mj.model.state import to_mass_center
 from cointoss.coin_mj.path import MOTION, STEP, TIME, Knots
 from cointoss.coin_mj.toss import run
-from cointoss.compare.reproduction.estimates import chance_alike
+from cointoss.compare.metrics.estimates import chance_alike
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import energy
 from cointoss.models.certificate import GAP

@@ -4,9 +4,10 @@ from pathlib import Path
 
 import pytest
 
+from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.output.tables import table
 from cointoss.compare.output.terminal import laid_out
-from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.claim import Claim, Criterion
 from cointoss.compare.reproduction.printing import page
 from cointoss.compare.reproduction.result import Result
 from cointoss.compare.reproduction.runner import kept

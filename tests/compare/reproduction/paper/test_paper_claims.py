@@ -8,6 +8,7 @@ import pytest
 
 from cointoss.analytic.events import run
 from cointoss.analytic.toss import toss
+from cointoss.compare.metrics.estimates import scatter_of_shares
 from cointoss.compare.reproduction.claims import (
     accuracy_and_stripes,
     air_in_a_fall,
@@ -17,7 +18,6 @@ from cointoss.compare.reproduction.claims import (
     stop_test,
     uniform_starts,
 )
-from cointoss.compare.reproduction.estimates import scatter_of_shares
 from cointoss.compare.reproduction.paper import fig27, fig31
 from cointoss.compare.reproduction.setups import fig24_readings
 from cointoss.compare.reproduction.setups.general_coins import CoinClass

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.compare.reproduction.estimates import chance_alike
+from cointoss.compare.metrics.estimates import chance_alike
 from cointoss.compare.reproduction.saving import read_numbers
 from cointoss.compare.reproduction.setups.ends import ended_as, tosses
 from cointoss.compare.reproduction.studies.endings import (

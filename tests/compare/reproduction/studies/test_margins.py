@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cointoss.compare.reproduction.estimates import quantile
+from cointoss.compare.metrics.estimates import quantile
 from cointoss.compare.reproduction.saving import read_numbers
 from cointoss.compare.reproduction.studies import margins
 from cointoss.compare.reproduction.studies.margins import Margins, below, compute

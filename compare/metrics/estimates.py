@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.stats import binom, binomtest, chi2_contingency, norm, t
 
-from cointoss.compare.reproduction.claim import Estimate
+from cointoss.compare.metrics.estimate import Estimate
 from cointoss.models.records import Array
 
 LEVEL = 0.99

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cointoss.compare.reproduction.estimates import (
+from cointoss.compare.metrics.estimates import (
     LEVEL,
     difference,
     jackknife,
