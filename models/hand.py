@@ -1,23 +1,47 @@
 """A hand: the distribution of its releases."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from numbers import Real
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
 
+from cointoss.models.attitude import quaternion_from_angles
 from cointoss.models.body import Body
-from cointoss.models.errors import FieldError
+from cointoss.models.errors import FieldError, ScenarioError
+from cointoss.models.reading import plain_text, tables_of
 from cointoss.models.records import Array
 from cointoss.models.releases import Releases
+from cointoss.models.scenario import Scenario
+from cointoss.models.units import in_si
+
+QUANTITIES = {
+    "height": ("height of the release", "m"),
+    "speed": ("speed upwards", "m/s"),
+    "spin": ("spin", "rad/s"),
+    "psi": ("angle ψ", "rad"),
+    "scatter": ("scatter", ""),
+    "psi_scatter": ("scatter of ψ", "rad"),
+}
+"""What a person calls the numbers of a hand that may vary, and their SI units in pint's spelling."""
+UPWARDS = ("heads", "either")
+"""Sides that may be up at the release."""
+OF_A_TOSS = ("height", "speed", "caught")
+"""What a coin that is spun on its edge has no use for."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Hand:
-    """How a hand releases a coin: flat, the first side up, and roughly alike each time.
+    """How a hand releases a coin: flat and tossed, or spun on its edge; roughly alike each time.
 
-    The coin's normal keeps the angle ψ to the angular momentum L in flight: at 90° it turns over as Keller's
-    coin does, at less it wobbles (P. Diaconis, S. Holmes, R. Montgomery, SIAM Review 49 (2007) 211).
+    The normal of a tossed coin keeps the angle ψ to the angular momentum L in flight: at 90° it turns over as
+    Keller's coin does, at less it wobbles (P. Diaconis, S. Holmes, R. Montgomery, SIAM Review 49 (2007) 211).
+    A spun coin touches the floor with its rim and turns about the vertical, to which its normal has the
+    angle ψ.
     """
 
     height: float = 1.0
@@ -25,13 +49,19 @@ class Hand:
     speed: float = 2.0
     """Of C, upwards [m/s]."""
     spin: float = 120.0
-    """L/J_ξ, the rate at which the normal goes round L [rad/s]."""
+    """L/J_ξ, the rate at which the normal goes round L; of a spun coin its angular velocity [rad/s]."""
     psi: float = math.pi / 2
     """ψ [rad]."""
     scatter: float = 0.1
     """Standard deviation of height, speed and spin, relative to each."""
     psi_scatter: float = 0.0
     """Standard deviation of ψ [rad]."""
+    up: Literal["heads", "either"] = "heads"
+    """The side that is up at the release; "either": both are as likely."""
+    spun: bool = False
+    """Whether the coin is spun on its edge, not tossed."""
+    caught: float | None = None
+    """Height at which the hand catches the coin [m]; by default as the scenario says."""
 
     def __post_init__(self) -> None:
         """Refuse what no hand does.
@@ -39,7 +69,8 @@ class Hand:
         Raises:
             ValueError: naming the field, its value and what is accepted.
         """
-        for name, value in vars(self).items():
+        for name in (*QUANTITIES, *(["caught"] if self.caught is not None else [])):
+            value = getattr(self, name)
             if not isinstance(value, Real) or isinstance(value, bool):
                 raise FieldError(name, value, "a number")
         accepted = {
@@ -53,29 +84,111 @@ class Hand:
         for name, (is_so, what) in accepted.items():
             if not is_so or not math.isfinite(getattr(self, name)):
                 raise FieldError(name, getattr(self, name), what)
+        if self.up not in UPWARDS:
+            raise FieldError("up", self.up, " or ".join(UPWARDS))
+        if not isinstance(self.spun, bool):
+            raise FieldError("spun", self.spun, "true or false")
+        if self.spun and self.caught is not None:
+            raise FieldError("caught", self.caught, "none where the coin is spun on its edge")
 
     def releases(self, body: Body, rng: np.random.Generator, count: int) -> Releases:
-        """Draw releases; L is as likely to point to any side.
+        """Draw releases; L is as likely to point to any side, and any point of the rim to be the lowest.
 
         Args:
             body: the coin.
             rng: draws them.
             count: how many.
         """
+        if self.spun:
+            return self._spun(body, rng, count)
         height, speed, spin = (
-            mean * np.maximum(rng.normal(1.0, self.scatter, count), 0.0)
-            for mean in (self.height, self.speed, self.spin)
+            self._scattered(mean, rng, count) for mean in (self.height, self.speed, self.spin)
         )
         psi, aside = rng.normal(self.psi, self.psi_scatter, count), rng.uniform(0, 2 * np.pi, count)
         inertia = np.array(body.inertia)
         direction = np.column_stack([np.sin(psi) * np.cos(aside), np.sin(psi) * np.sin(aside), np.cos(psi)])
         momentum = (inertia[0, 0] * spin)[:, None] * direction
+        turned = self._turned(rng, count)
+        # The other side comes up by a half turn about ξ; the angular velocity in space stays.
         return Releases(
             position=_along_z(height),
             velocity=_along_z(speed),
-            quaternion=np.tile((1.0, 0.0, 0.0, 0.0), (count, 1)),
-            angular_velocity=np.linalg.solve(inertia, momentum.T).T,
+            quaternion=np.where(turned, (0.0, 1.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)),
+            angular_velocity=np.where(turned, (1, -1, -1), 1) * np.linalg.solve(inertia, momentum.T).T,
         )
+
+    def _spun(self, body: Body, rng: np.random.Generator, count: int) -> Releases:
+        """Draw releases of a coin whose rim touches the floor, C at rest, turning about the vertical."""
+        spin = self._scattered(self.spin, rng, count)
+        psi, phi = rng.normal(self.psi, self.psi_scatter, count), rng.uniform(0, 2 * np.pi, count)
+        psi = np.where(self._turned(rng, count)[:, 0], np.pi - psi, psi)
+        # The vertical in the body's frame, for angles 0, ψ, φ.
+        vertical = np.column_stack([np.sin(psi) * np.sin(phi), np.sin(psi) * np.cos(phi), np.cos(psi)])
+        lowest = body.radius * np.hypot(vertical[:, 0], vertical[:, 1])
+        lowest += body.thickness / 2 * np.abs(vertical[:, 2])
+        return Releases(
+            position=_along_z(lowest + vertical @ np.array(body.center)),
+            velocity=np.zeros((count, 3)),
+            quaternion=np.array([quaternion_from_angles((0.0, *row)) for row in zip(psi, phi, strict=True)]),
+            angular_velocity=spin[:, None] * vertical,
+        )
+
+    def _scattered(self, mean: float, rng: np.random.Generator, count: int) -> Array:
+        return mean * np.maximum(rng.normal(1.0, self.scatter, count), 0.0)
+
+    def _turned(self, rng: np.random.Generator, count: int) -> Any:
+        """Draw which coins are released with the other side up, (count, 1)."""
+        return (rng.random(count) < 1 / 2 if self.up == "either" else np.zeros(count, dtype=bool))[:, None]
+
+    def scenario(self, described: Scenario) -> Scenario:
+        """Return a scenario whose coin this hand catches, where it catches any.
+
+        Raises:
+            ScenarioError: for a catch below the coin.
+        """
+        return described if self.caught is None else described.replace("ending.caught", self.caught)
+
+
+def load_hand(path: str | PathLike[str]) -> Hand:
+    """Return the hand of a TOML file with the fields of a `Hand`, in SI or with a unit.
+
+        spin = "25 rad/s"
+        psi_scatter = "10 deg"
+
+    Raises:
+        ScenarioError: naming file, field, value and what is accepted.
+    """
+    source = str(path)
+    try:
+        text = plain_text(Path(path), source)
+    except OSError as error:
+        raise ScenarioError(
+            f"{source}: can't be read ({error.strerror}); accepted: a TOML file with {_known()}"
+        ) from None
+    try:
+        return Hand(**_fields(tables_of(text, source)))
+    except FieldError as error:
+        raise ScenarioError(f"{source}: {error}") from None
+
+
+def _fields(tables: Mapping[str, Any]) -> dict[str, Any]:
+    if tables.get("spun") is True and (unused := [name for name in OF_A_TOSS if name in tables]):
+        raise FieldError(unused[0], tables[unused[0]], "none where the coin is spun on its edge")
+    units = {**{name: unit for name, (_, unit) in QUANTITIES.items()}, "caught": "m"}
+    found = dict(tables)
+    for name, value in tables.items():
+        if name not in Hand.__dataclass_fields__:
+            raise FieldError(name, value, f"one of {_known()}")
+        if name in units and isinstance(value, str):
+            try:
+                found[name] = in_si(value, units[name])
+            except ValueError as error:
+                raise FieldError(name, value, str(error)) from None
+    return found
+
+
+def _known() -> str:
+    return ", ".join(Hand.__dataclass_fields__)
 
 
 def same_side_probability(psi: Array | float) -> Array:

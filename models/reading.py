@@ -5,6 +5,7 @@ import tomllib
 from importlib import resources
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -61,14 +62,7 @@ def scenario_text(source: str | PathLike[str]) -> str:
             return (resources.files("cointoss.models") / "scenarios" / f"{source}.toml").read_text(
                 encoding="utf-8"
             )
-        text = read_bounded(path, MOST_BYTES).decode("utf-8-sig")
-        return text.replace("\r\n", "\n").replace("\r", "\n")
-    except TooLargeError as error:
-        raise ScenarioError(f"{source}: {error}; accepted: at most {MOST_BYTES} bytes of text") from None
-    except UnicodeDecodeError as error:
-        raise ScenarioError(
-            f"{source}: {error.reason} at byte {error.start}; accepted: a text file in UTF-8"
-        ) from None
+        return plain_text(path, source)
     except OSError as error:
         wrong = (
             "no such file" if isinstance(error, FileNotFoundError) else f"can't be read ({error.strerror})"
@@ -78,6 +72,24 @@ def scenario_text(source: str | PathLike[str]) -> str:
         raise ScenarioError(
             f"{source or '(no name)'}: {wrong}; accepted: a TOML file, or one of: {', '.join(names)}{hint}"
         ) from None
+
+
+def plain_text(path: Path, source: str) -> str:
+    """Return the text of a small file in UTF-8, each line ended by a newline.
+
+    Raises:
+        ScenarioError: if it is too large or no text.
+        OSError: if it can't be read.
+    """
+    try:
+        text = read_bounded(path, MOST_BYTES).decode("utf-8-sig")
+    except TooLargeError as error:
+        raise ScenarioError(f"{source}: {error}; accepted: at most {MOST_BYTES} bytes of text") from None
+    except UnicodeDecodeError as error:
+        raise ScenarioError(
+            f"{source}: {error.reason} at byte {error.start}; accepted: a text file in UTF-8"
+        ) from None
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def scenario_of(source: ScenarioSource) -> Scenario:
@@ -118,14 +130,24 @@ def parse(text: str, source: str) -> Scenario:
         TypeError: for what is no text.
     """
     require_type("text", text, str, "TOML as text, such as scenario.to_toml() returns")
+    try:
+        return Scenario.model_validate(tables_of(text, source))
+    except ValidationError as error:
+        raise ScenarioError(f"{source}: {describe(error, Scenario)}") from None
+
+
+def tables_of(text: str, source: str) -> dict[str, Any]:
+    """Return what TOML says, of lines that are not too long.
+
+    Raises:
+        ScenarioError: naming the source and what is accepted.
+    """
     for number, line in enumerate(text.split("\n"), start=1):
         if len(line) > LONGEST_LINE:
             few = f"accepted: at most {LONGEST_LINE}"
             raise ScenarioError(f"{source}: line {number} has {len(line)} characters; {few}")
     try:
-        return Scenario.model_validate(tomllib.loads(text))
-    except ValidationError as error:
-        raise ScenarioError(f"{source}: {describe(error, Scenario)}") from None
+        return tomllib.loads(text)
     except RecursionError:
         raise ScenarioError(f"{source}: nested too deeply; accepted: tables of numbers and lists") from None
     except tomllib.TOMLDecodeError as error:

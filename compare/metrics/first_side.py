@@ -26,7 +26,7 @@ class FirstSide:
 
 
 def first_side(scenario: Scenario, start: Releases, engine: Engine) -> FirstSide:
-    """Toss coins released heads up, and see where heads are up.
+    """Toss coins, and see where the side is up that was at the release.
 
     Args:
         scenario: coin, air and floor.
@@ -40,12 +40,12 @@ def first_side(scenario: Scenario, start: Releases, engine: Engine) -> FirstSide
             faces.append(toss_many(scenario.replace("ending.max_impacts", impacts + 1), start).after(impacts))
             progress(len(faces), len(TOUCHES) + 1)
         outcome = toss_many(scenario, start).outcome
-    ended = outcome[(outcome == Outcome.HEADS) | (outcome == Outcome.TAILS)]
-    return FirstSide(tuple(face == Outcome.HEADS for face in faces), ended == Outcome.HEADS)
+    first, on_a_face = first_faces(start), (outcome == Outcome.HEADS) | (outcome == Outcome.TAILS)
+    return FirstSide(tuple(face == first for face in faces), (outcome == first)[on_a_face])
 
 
 def caught_side(scenario: Scenario, start: Releases, engine: Engine) -> NDArray[np.bool_]:
-    """Toss coins released heads up to a hand, and see where heads are up in it.
+    """Toss coins to a hand, and see where the side is up in it that was at the release.
 
     Args:
         scenario: coin, air, floor, and the height at which a hand catches the coin.
@@ -56,4 +56,10 @@ def caught_side(scenario: Scenario, start: Releases, engine: Engine) -> NDArray[
         Of those that are caught, (m,).
     """
     ended = engine.package.toss_many(scenario, start)
-    return ended.outcome[ended.ending == Ending.CAUGHT] == Outcome.HEADS
+    return (ended.outcome == first_faces(start))[ended.ending == Ending.CAUGHT]
+
+
+def first_faces(start: Releases) -> NDArray[np.int8]:
+    """Return the face that is up at each release, as an `Outcome`, (n,)."""
+    e0, e1, e2, e3 = start.quaternion.T
+    return np.where(e0**2 + e3**2 > e1**2 + e2**2, Outcome.HEADS, Outcome.TAILS).astype(np.int8)

@@ -5,7 +5,8 @@ import pytest
 
 from cointoss import analytic
 from cointoss.models.attitude import rotation_matrix
-from cointoss.models.hand import Hand, same_side_probability
+from cointoss.models.errors import ScenarioError
+from cointoss.models.hand import Hand, load_hand, same_side_probability
 from cointoss.models.reading import load
 
 COINS = [load("fig29"), load("zloty")]
@@ -62,3 +63,74 @@ def test_a_coin_in_flight_has_its_first_side_up_for_that_part_of_the_time(psi):
 def test_what_is_no_number_is_refused_as_such(value):
     with pytest.raises(ValueError, match=r"^height = .*: accepted: a number$"):
         Hand(height=value)
+
+
+def rotations(releases):
+    return np.array([rotation_matrix(tuple(e)) for e in releases.quaternion])
+
+
+@pytest.mark.parametrize("scenario", COINS, ids=["ideal", "imperfect"])
+def test_half_of_the_coins_start_on_the_other_side_and_turn_alike_in_space(scenario):
+    plain, either = (
+        Hand(psi_scatter=0.2, up=up).releases(scenario.body, np.random.default_rng(1), 400)
+        for up in ("heads", "either")
+    )
+    R = rotations(either)
+    assert 150 < np.sum(R[:, 2, 2] < -0.999) < 250
+    assert np.einsum("nij,nj->ni", R, either.angular_velocity) == pytest.approx(plain.angular_velocity)
+
+
+@pytest.mark.parametrize("scenario", COINS, ids=["ideal", "imperfect"])
+def test_a_spun_coin_touches_the_floor_and_turns_about_the_vertical(scenario):
+    hand = Hand(spun=True, spin=90.0, psi_scatter=0.2, up="either")
+    made, body = hand.releases(scenario.body, np.random.default_rng(3), 500), scenario.body
+    R = rotations(made)
+    in_space = np.einsum("nij,nj->ni", R, made.angular_velocity)
+    assert in_space[:, :2] == pytest.approx(0, abs=1e-12)
+    assert (in_space[:, 2].mean(), in_space[:, 2].std()) == (
+        pytest.approx(90, rel=0.02),
+        pytest.approx(9, rel=0.2),
+    )
+    assert (made.velocity == 0).all()
+    assert np.arccos(R[:, 2, 2]).std() == pytest.approx(0.2, rel=0.15)
+    # The lowest of many points of both rims, from the mass centre.
+    angles = np.linspace(0, 2 * np.pi, 2000, endpoint=False)
+    rim = body.radius * np.column_stack([np.cos(angles), np.sin(angles), 0 * angles])
+    points = (
+        np.concatenate([rim + np.array([0, 0, z]) for z in np.array([-1, 1]) * body.thickness / 2])
+        - body.center
+    )
+    lowest = made.position[:, 2] + (points @ R[:, 2].T).min(axis=0)
+    assert lowest == pytest.approx(0, abs=1e-5 * body.radius)
+    around = np.arctan2(R[:, 2, 0], R[:, 2, 1])
+    assert np.histogram(around, 4, (-np.pi, np.pi))[0].min() > 90
+
+
+def test_a_hand_is_read_from_a_file(tmp_path):
+    file = tmp_path / "hand.toml"
+    file.write_text('spin = "25 rad/s"\npsi_scatter = "10 deg"\nspun = true\nscatter = 0.05\nup = "either"\n')
+    expected = Hand(spin=25.0, psi_scatter=np.radians(10), spun=True, scatter=0.05, up="either")
+    assert load_hand(file) == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ('spin = "25 m"', 'spin = "25 m": accepted: a number in rad/s'),
+        ("spin = -1", "spin = -1: accepted: a spin of 0 or more"),
+        ("sping = 3", "sping = 3: accepted: one of height, speed, spin, "),
+        ("spin = true", "spin = True: accepted: a number"),
+        ('up = "tails"', 'up = "tails": accepted: heads or either'),
+        ("spun = 1", "spun = 1: accepted: true or false"),
+        ('spun = true\nheight = "1 m"', 'height = "1 m": accepted: none where the coin is spun'),
+        ("spin = ", "not TOML"),
+        (None, "can't be read (No such file or directory); accepted: a TOML file with height, speed"),
+    ],
+)
+def test_a_hand_that_cannot_be_read_is_one_line_that_names_its_file(tmp_path, text, told):
+    file = tmp_path / "hand.toml"
+    if text is not None:
+        file.write_text(text)
+    with pytest.raises(ScenarioError) as refused:
+        load_hand(file)
+    assert str(refused.value).startswith(f"{file}: {told}")

@@ -2,7 +2,7 @@
 
 import zlib
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from cointoss.compare.engines import Engine
 from cointoss.compare.reproduction.parts import Part, kept
 from cointoss.compare.reproduction.setups.ends import Ends, counted, together
-from cointoss.models.attitude import quaternion_product
 from cointoss.models.hand import Hand
 from cointoss.models.kernel.sources import source_hash
 from cointoss.models.records import Array
@@ -41,7 +40,6 @@ AIR = {"normal": 0.8, "tangential": 0.2}
 LONGEST = 60.0
 """Of a toss [s]."""
 _ENTRIES = {Engine.ANALYTIC: "cointoss.analytic.events", Engine.MUJOCO: "cointoss.coin_mj.events"}
-_HALF_TURN = (0.0, 1.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,23 +77,12 @@ class EdgeClass:
             count: how many.
         """
         rng = np.random.default_rng([SEED, zlib.crc32(self.name.encode()), number])
-        return on_either_side(self.hand.releases(self.scenario.body, rng, count), rng)
+        return self.hand.releases(self.scenario.body, rng, count)
 
 
 def hand_of(wobble: str, **other: float) -> Hand:
-    """Return the hand of one of `HANDS`."""
-    return Hand(psi_scatter=PEOPLE if wobble == WOBBLING else 0.0, **other)
-
-
-def on_either_side(drawn: Releases, rng: np.random.Generator) -> Releases:
-    """Turn half of the coins by a half turn about ξ; their angular velocity in space stays."""
-    turned = rng.random(len(drawn)) < 1 / 2
-    other = np.array([quaternion_product(tuple(e), _HALF_TURN) for e in drawn.quaternion])
-    return replace(
-        drawn,
-        quaternion=np.where(turned[:, None], other, drawn.quaternion),
-        angular_velocity=np.where(turned[:, None], [1, -1, -1], 1) * drawn.angular_velocity,
-    )
+    """Return the hand of one of `HANDS`, with either side up."""
+    return Hand(psi_scatter=PEOPLE if wobble == WOBBLING else 0.0, up="either", **other)
 
 
 def ends_of(kind: EdgeClass, count: int, size: int, parts: Path, engine: Engine = Engine.ANALYTIC) -> Ends:

@@ -9,7 +9,6 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.reproduction.claims import edge
 from cointoss.compare.reproduction.declared import result
 from cointoss.compare.reproduction.saving import read_numbers
-from cointoss.compare.reproduction.setups import edge_classes
 from cointoss.compare.reproduction.setups.edge_classes import (
     DIAMETRAL,
     NICKEL,
@@ -32,7 +31,6 @@ from cointoss.compare.reproduction.setups.edge_touches import (
     way_to_rest,
 )
 from cointoss.compare.reproduction.setups.ends import ended_as, tosses
-from cointoss.models.attitude import rotation_matrix
 from cointoss.models.records import Outcome
 from tests.helpers.pages import saved
 
@@ -65,15 +63,6 @@ def test_a_coin_let_go_at_rest_and_one_that_touches_are_on_the_laws_side(turned,
     touched = first_touches(kind, tossed(kind, turned, rng, count))
     assert abs(touched["on_edge"].mean() - law) < spread
     assert np.median(touched["energy"]) > 3, "a tossed coin keeps what tips it"
-
-
-def test_half_of_the_coins_start_on_the_other_side_and_turn_alike_in_space():
-    kind = kind_of()
-    plain = kind.hand.releases(kind.scenario.body, np.random.default_rng(1), 400)
-    either = edge_classes.on_either_side(plain, np.random.default_rng(2))
-    up = np.array([np.array(rotation_matrix(tuple(e))) for e in either.quaternion])
-    assert 150 < np.sum(up[:, 2, 2] < -0.999) < 250
-    assert np.einsum("nij,nj->ni", up, either.angular_velocity) == pytest.approx(plain.angular_velocity)
 
 
 def test_ends_are_counted_once_and_kept(tmp_path, monkeypatch):
