@@ -2,12 +2,13 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss import analytic
+from cointoss.compare.metrics.release_arrays import chosen
 from cointoss.models.records import Array
 from cointoss.models.releases import Releases, changed_releases, check_releases
 from cointoss.models.scenario import Scenario
@@ -185,11 +186,11 @@ def smallest_changes(
 
     def differ(rows: NDArray[np.intp], by: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Return which changes, (rows, rungs), change the outcome, and which the scenario accepts."""
-        changed = quantity.change(_rows(start, np.repeat(rows, by.shape[1])), by.ravel())
+        changed = quantity.change(chosen(start, np.repeat(rows, by.shape[1])), by.ravel())
         kept = accepted(scenario, changed)
         codes = np.repeat(own[rows], by.shape[1])
         if kept.any():
-            codes[kept] = outcomes(_rows(changed, np.flatnonzero(kept)))
+            codes[kept] = outcomes(chosen(changed, np.flatnonzero(kept)))
         return (codes != np.repeat(own[rows], by.shape[1])).reshape(by.shape), kept.reshape(by.shape)
 
     n = len(start)
@@ -233,9 +234,5 @@ def accepted(scenario: Scenario, releases: Releases) -> NDArray[np.bool_]:
         if len(releases) == 1:
             return np.zeros(1, dtype=bool)
         halves = np.array_split(np.arange(len(releases)), 2)
-        return np.concatenate([accepted(scenario, _rows(releases, half)) for half in halves])
+        return np.concatenate([accepted(scenario, chosen(releases, half)) for half in halves])
     return np.ones(len(releases), dtype=bool)
-
-
-def _rows(releases: Releases, which: NDArray[np.intp]) -> Releases:
-    return Releases(**{item.name: getattr(releases, item.name)[which] for item in fields(Releases)})

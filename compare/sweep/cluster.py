@@ -1,34 +1,44 @@
-"""Toss tiles on the workers of a Dask cluster."""
+"""Toss on the workers of a Dask cluster."""
 
 import asyncio
 import logging
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from itertools import islice
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
+from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.compare.sweep.grid import Sweep, Tile
-from cointoss.compare.sweep.pixels import Pixels, toss_pixels
-from cointoss.compare.sweep.run import Tosser
 from cointoss.models.distribution import DISTRIBUTION
 
+Part, Tossed = TypeVar("Part"), TypeVar("Tossed")
 AHEAD = 2
-"""Tiles given out for each thread of a worker: one that it tosses, and one that waits."""
+"""Parts given out for each thread of a worker: one that it tosses, and one that waits."""
 PATIENCE, PATIENCE_FOR_WORKERS = 10, 60
 """How long to wait for the scheduler, and for a first worker [s]."""
 
 
-@contextmanager
-def cluster(address: str, say: Callable[[str], None]) -> Iterator[Tosser]:
-    """Give a tosser that has the workers of a cluster toss the tiles.
+class Workers(Protocol):
+    """Has the workers of a cluster toss parts of a job."""
 
-    The workers keep nothing: a tile lost with its worker is tossed again by another. A worker tosses on all
+    def __call__(
+        self, toss: Callable[[Part], Tossed], parts: Iterable[Part], engine: Engine
+    ) -> Iterator[tuple[Part, Tossed]]:
+        """Yield the parts, in any order, with what `toss` by this engine returns of each."""
+        ...
+
+
+@contextmanager
+def cluster(address: str, say: Callable[[str], None], way_on: str) -> Iterator[Workers]:
+    """Give what has the workers of a cluster toss.
+
+    The workers keep nothing: a part lost with its worker is tossed again by another. A worker tosses on all
     its cores, so one thread for each is enough.
 
     Args:
         address: of the Dask scheduler, such as tcp://10.0.0.1:8786.
         say: called with what is waited for.
+        way_on: what to do where the cluster is lost.
 
     Raises:
         SweepError: if dask.distributed is not installed, or the cluster can't be reached or has no worker;
@@ -59,29 +69,31 @@ def cluster(address: str, say: Callable[[str], None]) -> Iterator[Tosser]:
         except TimeoutError:
             raise SweepError(f"--scheduler {address}: accepted: a cluster with a worker") from None
 
-        def toss(sweep: Sweep, tiles: Iterable[Tile]) -> Iterator[tuple[Tile, Pixels]]:
-            here, waiting = sweep.engine.versions, iter(tiles)
+        def toss_there(
+            toss: Callable[[Part], Tossed], parts: Iterable[Part], engine: Engine
+        ) -> Iterator[tuple[Part, Tossed]]:
+            here, waiting = engine.versions, iter(parts)
             running = distributed.as_completed(loop=client.loop)
 
             def give_out(count: int) -> None:
-                for tile in islice(waiting, count):
-                    running.add(client.submit(_toss_there, sweep, tile, here, pure=False))
+                for part in islice(waiting, count):
+                    running.add(client.submit(_toss_there, toss, part, engine, here, pure=False))
 
-            with naming_loss(address):
+            with naming_loss(address, way_on):
                 give_out(_room(client))
             for future in running:
-                with naming_loss(address):
+                with naming_loss(address, way_on):
                     # Workers may have come since.
                     give_out(max(1, _room(client) - running.count()))
                     tossed = future.result()
                 yield tossed
 
-        yield toss
+        yield toss_there
 
 
 @contextmanager
-def naming_loss(address: str) -> Iterator[None]:
-    """Name the cluster in what is raised where it is lost, or what it was asked for."""
+def naming_loss(address: str, way_on: str) -> Iterator[None]:
+    """Name the cluster in what is raised where it is lost, or what it was asked for, and the way on."""
     from distributed import CancelledError, KilledWorker
 
     try:
@@ -89,7 +101,7 @@ def naming_loss(address: str) -> Iterator[None]:
     except (CancelledError, KilledWorker, OSError) as error:
         why = str(error) or type(error).__name__
         raise SweepError(
-            f"--scheduler {address}: the cluster was lost, or a tile there ({why}); --resume goes on"
+            f"--scheduler {address}: the cluster was lost, or a part there ({why}); {way_on}"
         ) from None
 
 
@@ -109,12 +121,14 @@ async def _reach(address: str) -> None:
 
 
 def _room(client: Any) -> int:
-    """Give how many tiles may be out at a time."""
+    """Give how many parts may be out at a time."""
     return max(1, AHEAD * sum(client.nthreads().values()))
 
 
-def _toss_there(sweep: Sweep, tile: Tile, expected: dict[str, str]) -> tuple[Tile, Pixels]:
-    there = sweep.engine.versions
+def _toss_there(
+    toss: Callable[[Part], Tossed], part: Part, engine: Engine, expected: dict[str, str]
+) -> tuple[Part, Tossed]:
+    there = engine.versions
     if there != expected:
         raise SweepError(f"--scheduler: a worker has {there}; accepted: {expected}, as here")
-    return tile, toss_pixels(sweep, tile)
+    return part, toss(part)

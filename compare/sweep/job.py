@@ -3,8 +3,9 @@
 import os
 import shlex
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 from cointoss.compare.basins.picture_style import PictureStyle
@@ -14,9 +15,9 @@ from cointoss.compare.output.files import UnwritableError, require_file, written
 from cointoss.compare.report.contents import NOT_ASKED, require_folder
 from cointoss.compare.sweep import describe, run, store
 from cointoss.compare.sweep.axes import Axis, parse_axis
-from cointoss.compare.sweep.grid import Sweep
+from cointoss.compare.sweep.grid import Sweep, Tile
 from cointoss.compare.sweep.layers import trust_layer
-from cointoss.compare.sweep.pixels import check
+from cointoss.compare.sweep.pixels import Pixels, check, toss_pixels
 from cointoss.compare.sweep.untrusted import untrusted_pixels
 from cointoss.models.reading import parse
 from cointoss.models.scenario import Scenario
@@ -186,9 +187,16 @@ def _command(job: Job) -> str:
     return shlex.join(map(str, words))
 
 
-def _tosser(scheduler: str | None, say: Say) -> AbstractContextManager[run.Tosser]:
+@contextmanager
+def _tosser(scheduler: str | None, say: Say) -> Iterator[run.Tosser]:
     if scheduler is None:
-        return nullcontext(run.toss_here)
+        yield run.toss_here
+        return
     from cointoss.compare.sweep.cluster import cluster
 
-    return cluster(scheduler, say)
+    with cluster(scheduler, say, "--resume goes on") as workers:
+
+        def toss_there(sweep: Sweep, tiles: Iterable[Tile]) -> Iterator[tuple[Tile, Pixels]]:
+            return workers(partial(toss_pixels, sweep), tiles, sweep.engine)
+
+        yield toss_there

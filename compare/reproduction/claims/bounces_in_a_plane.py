@@ -7,6 +7,7 @@ from cointoss import analytic
 from cointoss.analytic.events import run
 from cointoss.coin_mj.toss import impacts_of
 from cointoss.compare.metrics.estimates import share
+from cointoss.compare.metrics.release_arrays import chosen, moved
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
@@ -18,7 +19,6 @@ from cointoss.compare.reproduction.setups.planar_maps import (
     releases,
     toss_many_by_mujoco,
 )
-from cointoss.compare.reproduction.setups.release_arrays import chosen, moved
 from cointoss.models.parts import Release
 from cointoss.models.records import Outcome
 from cointoss.models.releases import Releases, states_of

@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 from cointoss import analytic
 from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import jackknife, mean, scatter_of_shares
+from cointoss.compare.metrics.release_arrays import chosen
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, INK, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
 from cointoss.compare.reproduction.setups.kellers_map import caught
 from cointoss.compare.reproduction.setups.planar_maps import faces_after, toss_many_by_mujoco
-from cointoss.compare.reproduction.setups.release_arrays import chosen
 from cointoss.models.laws import ContactLaw
 from cointoss.models.parts import Floor
 from cointoss.models.reading import load

@@ -11,13 +11,13 @@ from cointoss import analytic
 from cointoss.analytic.events import run
 from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import difference, jackknife, share
+from cointoss.compare.metrics.release_arrays import chosen, moved
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, INK, SKY, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.setups.face_changes import changes, share_after_row
 from cointoss.compare.reproduction.setups.hands import releases_of_hands
 from cointoss.compare.reproduction.setups.planar_maps import faces_after, toss_many_by_mujoco
-from cointoss.compare.reproduction.setups.release_arrays import chosen, moved
 from cointoss.models.laws import ContactLaw
 from cointoss.models.parts import Coin, Floor
 from cointoss.models.reading import load

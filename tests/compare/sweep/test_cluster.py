@@ -114,10 +114,10 @@ def test_without_dask_the_extra_is_named(tmp_path, monkeypatch):
 )
 def test_a_connection_that_is_lost_is_named_with_the_way_on(lost):
     why = str(lost) or "TimeoutError"
-    with pytest.raises(SweepError) as raised, naming_loss("tcp://h:1"):
+    with pytest.raises(SweepError) as raised, naming_loss("tcp://h:1", "--resume goes on"):
         raise lost
     assert str(raised.value) == (
-        f"--scheduler tcp://h:1: the cluster was lost, or a tile there ({why}); --resume goes on"
+        f"--scheduler tcp://h:1: the cluster was lost, or a part there ({why}); --resume goes on"
     )
 
 
@@ -131,7 +131,7 @@ def test_a_scheduler_lost_on_the_way_is_one_line_and_the_map_is_gone_on_with(clu
         scheduler.kill()
         _, said = process.communicate(timeout=200)
     assert process.returncode == 2, said
-    assert f"cointoss: {coin}: --scheduler {address}: the cluster was lost, or a tile there (" in said
+    assert f"cointoss: {coin}: --scheduler {address}: the cluster was lost, or a part there (" in said
     assert said.endswith("); --resume goes on\n")
     assert len(said.splitlines()) == 2
     assert 4 <= whole_tiles(out) < TILES

@@ -1,5 +1,6 @@
-"""Many releases picked and changed."""
+"""Many releases picked, put together and changed."""
 
+from collections.abc import Sequence
 from dataclasses import fields, replace
 
 import numpy as np
@@ -12,6 +13,13 @@ from cointoss.models.releases import Releases
 def chosen(releases: Releases, which: slice | NDArray[np.intp]) -> Releases:
     """Return some of many releases."""
     return Releases(**{item.name: getattr(releases, item.name)[which] for item in fields(Releases)})
+
+
+def joined(parts: Sequence[Releases]) -> Releases:
+    """Return the releases of several, one after the other."""
+    return Releases(
+        **{item.name: np.concatenate([getattr(one, item.name) for one in parts]) for item in fields(Releases)}
+    )
 
 
 def moved(
