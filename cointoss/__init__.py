@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from cointoss.compare.film.back_end import BackEndError as BackEndError
     from cointoss.compare.report.comparison import Comparison as Comparison
     from cointoss.compare.report.comparison import compare as compare
+    from cointoss.compare.shares.along import shares as shares
+    from cointoss.compare.shares.record import Shares as Shares
     from cointoss.compare.sweep.errors import MapError as MapError
     from cointoss.compare.sweep.errors import SweepError as SweepError
     from cointoss.compare.sweep.in_memory import basin as basin
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
     from cointoss.compare.sweep.reading import read_map as read_map
     from cointoss.models.errors import ScenarioError as ScenarioError
     from cointoss.models.hand import Hand as Hand
+    from cointoss.models.hand import load_hand as load_hand
     from cointoss.models.laws import ContactLaw as ContactLaw
     from cointoss.models.laws import EndingTest as EndingTest
     from cointoss.models.laws import RestitutionKind as RestitutionKind
@@ -57,12 +60,14 @@ _NAMES = {
     "cointoss.compare.engines": ("Engine", "toss"),
     "cointoss.compare.film.back_end": ("BackEndError",),
     "cointoss.compare.report.comparison": ("Comparison",),
+    "cointoss.compare.shares.along": ("shares",),
+    "cointoss.compare.shares.record": ("Shares",),
     "cointoss.compare.sweep.errors": ("MapError", "SweepError"),
     "cointoss.compare.sweep.in_memory": ("basin",),
     "cointoss.compare.sweep.outcome_map": ("OutcomeMap",),
     "cointoss.compare.sweep.reading": ("read_map",),
     "cointoss.models.errors": ("ScenarioError",),
-    "cointoss.models.hand": ("Hand",),
+    "cointoss.models.hand": ("Hand", "load_hand"),
     "cointoss.models.laws": ("ContactLaw", "EndingTest", "RestitutionKind"),
     "cointoss.models.outcomes": ("Outcomes",),
     "cointoss.models.reading": ("load", "named_scenarios", "parse"),

@@ -15,6 +15,7 @@ from cointoss.compare.commands.hands import hands
 from cointoss.compare.commands.lab import lab
 from cointoss.compare.commands.reproduce import reproduce
 from cointoss.compare.commands.scenarios import scenarios
+from cointoss.compare.commands.shares import shares
 from cointoss.compare.commands.solref import solref
 from cointoss.compare.commands.toss import toss
 from cointoss.compare.commands.video import video
@@ -62,7 +63,7 @@ class _Commands(click.Group):
 
 @click.group(
     cls=_Commands,
-    commands=[basin, bounce, compare, explore, hands, lab, reproduce, scenarios, solref, toss, video],
+    commands=[basin, bounce, compare, explore, hands, lab, reproduce, scenarios, shares, solref, toss, video],
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     invoke_without_command=True,
 )

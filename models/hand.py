@@ -91,6 +91,19 @@ class Hand:
         if self.spun and self.caught is not None:
             raise FieldError("caught", self.caught, "none where the coin is spun on its edge")
 
+    @property
+    def in_words(self) -> str:
+        """What the hand does, for a person."""
+        side = "heads up" if self.up == "heads" else "either side up"
+        psi = f"ψ = {math.degrees(self.psi):.6g}° ± {math.degrees(self.psi_scatter):.6g}°"
+        if self.spun:
+            return f"spun on the edge, {side}, at {self.spin:.6g} rad/s ± {100 * self.scatter:.3g} %, {psi}"
+        caught = "" if self.caught is None else f", caught at {self.caught:.6g} m"
+        return (
+            f"flat, {side}, from {self.height:.6g} m, upwards at {self.speed:.6g} m/s, with "
+            f"{self.spin:.6g} rad/s, each ± {100 * self.scatter:.3g} %, {psi}{caught}"
+        )
+
     def releases(self, body: Body, rng: np.random.Generator, count: int) -> Releases:
         """Draw releases; L is as likely to point to any side, and any point of the rim to be the lowest.
 

@@ -16,6 +16,11 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
+def tally(outcomes: NDArray[np.integer]) -> NDArray[np.int64]:
+    """Return how many of some outcomes there are of each, by the code of `Outcome`, (6,)."""
+    return np.bincount(outcomes.ravel(), minlength=len(Outcome))
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Outcomes:
     """How many tosses of one coin ended, one row each; arrays are read-only."""
@@ -64,7 +69,7 @@ class Outcomes:
     @property
     def counts(self) -> dict[str, int]:
         """How many tosses had each outcome that there was."""
-        numbers = np.bincount(self.outcome, minlength=len(Outcome)).tolist()
+        numbers = tally(self.outcome).tolist()
         return {str(outcome): numbers[outcome] for outcome in Outcome if numbers[outcome]}
 
     def __repr__(self) -> str:

@@ -1,9 +1,9 @@
 """How much of a map each outcome fills."""
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from cointoss.compare.basins.maps import outcome_codes
+from cointoss.models.outcomes import tally
 from cointoss.models.records import Outcome
 
 
@@ -17,5 +17,5 @@ def fractions(outcomes: ArrayLike) -> dict[Outcome, float]:
         outcomes: of a map or of a line.
     """
     codes = outcome_codes(outcomes)
-    counts = np.bincount(codes.ravel(), minlength=len(Outcome))
+    counts = tally(codes)
     return {outcome: float(counts[outcome] / codes.size) for outcome in Outcome}

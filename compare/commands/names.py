@@ -30,6 +30,12 @@ def _axes() -> list[str]:
     return [f"{field}=" for field in UNITS]
 
 
+def _along() -> list[str]:
+    from cointoss.compare.shares.plan import FIELDS
+
+    return [f"{field}=" for field in FIELDS]
+
+
 def _reproductions() -> list[str]:
     from cointoss.compare.reproduction.runner import names
 
@@ -47,3 +53,12 @@ reproductions_argument = click.argument(
 def axis_option(name: str, about: str) -> Callable[..., Any]:
     """Return the option of an axis of a map."""
     return click.option(name, required=True, metavar="FIELD=START:STOP:N", help=about, **_completing(_axes))
+
+
+along_option = click.option(
+    "--along",
+    multiple=True,
+    metavar="FIELD=START:STOP:N",
+    help="The field that varies, and its N values; a second one: both.",
+    **_completing(_along),
+)

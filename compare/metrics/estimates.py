@@ -160,5 +160,12 @@ def in_words(found: Estimate, spec: str, factor: float = 1.0) -> str:
     return f"{value} [{low}, {high}]"
 
 
+def percent(part: Estimate) -> str:
+    """Return a share in per cent, with its interval."""
+    digits = 3 if part.high < 0.01 else 2 if part.high < 0.1 else 1
+    value, low, high = (f"{100 * one:.{digits}f}" for one in (part.value, part.low, part.high))
+    return f"{value} % [{low}, {high}]"
+
+
 def _about(value: float, half: float, count: int, counted: str) -> Estimate:
     return Estimate(value, value - float(half), value + float(half), count, counted)

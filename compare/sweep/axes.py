@@ -2,18 +2,23 @@
 
 import difflib
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.fields import UNITS, WORDS, lambda_unit, printed_unit
+from cointoss.models.hand import QUANTITIES
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 from cointoss.models.units import in_si
 
 MOST_VALUES = 1_000_000
 """On one axis: a map of more than 1e12 pixels fits no disk."""
+HAND = {f"hand.{name}": unit for name, (_, unit) in QUANTITIES.items()}
+"""The SI units of a hand's numbers, by field."""
+_WORDS = {**WORDS, **{f"hand.{name}": word for name, (word, _) in QUANTITIES.items()}}
 FORM = "FIELD=START:STOP:N, such as release.position.z=0.2:0.6:400"
 
 
@@ -36,7 +41,7 @@ class Axis:
     @property
     def word(self) -> str:
         """What a person calls its field."""
-        return WORDS[self.field]
+        return _WORDS[self.field]
 
     @property
     def printed_unit(self) -> str:
@@ -49,39 +54,59 @@ class Axis:
         return np.linspace(self.start, self.stop, self.count)
 
 
-def parse_axis(text: str, scenario: Scenario) -> Axis:
+def parse_axis(text: str, scenario: Scenario, units: Mapping[str, str] = UNITS) -> Axis:
     """Read an axis from FIELD=START:STOP:N; numbers are SI, or carry a unit: "coin.mass=2 g:5 g:100".
+
+    Args:
+        text: the axis.
+        scenario: whose field it is.
+        units: of the fields that are accepted, SI in pint's spelling.
 
     Raises:
         SweepError: naming what is wrong and what is accepted.
     """
-    field, equals, span = text.partition("=")
-    field = field.strip()
-    parts = span.split(":")
-    if not equals or len(parts) != 3:
-        raise SweepError(f"{text}: accepted: {FORM}")
-    unit = _unit_of(field, scenario)
-    start, stop = (_number(field, part, unit) for part in parts[:2])
-    if start == stop:
-        raise SweepError(f"{text}: START = STOP; accepted: two numbers that differ")
+    field, unit, start, stop, *rest = parse_range(text, scenario, units, FORM)
     try:
-        count = int(parts[2])
+        count = int(*rest)
     except ValueError:
         count = 0
     if not 2 <= count <= MOST_VALUES:
-        raise SweepError(f"{text}: N = {parts[2]}; accepted: a whole number from 2 to {MOST_VALUES}")
+        raise SweepError(f"{text}: N = {rest[0]}; accepted: a whole number from 2 to {MOST_VALUES}")
     axis = Axis(field=field, unit=unit, start=start, stop=stop, count=count)
     if field == "ending.max_impacts" and not np.all(np.mod(axis.values, 1) == 0):
         raise SweepError(f"{text}: accepted: START, STOP and N that give whole numbers only, such as 1:9:9")
     return axis
 
 
-def _unit_of(field: str, scenario: Scenario) -> str:
-    if field not in UNITS:
-        near = difflib.get_close_matches(field, UNITS, n=1)
+def parse_range(
+    text: str, scenario: Scenario, units: Mapping[str, str], form: str
+) -> tuple[str, str, float, float, *tuple[str, ...]]:
+    """Read FIELD=START:STOP and what follows, in parts that colons divide, as many as a form has.
+
+    Returns:
+        The field, its unit, START and STOP in it, and what follows.
+
+    Raises:
+        SweepError: naming what is wrong and what is accepted.
+    """
+    field, equals, span = text.partition("=")
+    field, parts = field.strip(), span.split(":")
+    if not equals or span.count(":") != form.partition(",")[0].count(":"):
+        raise SweepError(f"{text}: accepted: {form}")
+    unit = _unit_of(field, scenario, units)
+    start, stop = (_number(field, part, unit) for part in parts[:2])
+    if start == stop:
+        raise SweepError(f"{text}: START = STOP; accepted: two numbers that differ")
+    return field, unit, start, stop, *parts[2:]
+
+
+def _unit_of(field: str, scenario: Scenario, units: Mapping[str, str]) -> str:
+    if field not in units:
+        near = difflib.get_close_matches(field, units, n=1)
         hint = f" (did you mean {near[0]}?)" if near else ""
-        raise SweepError(f"{field}: no numeric field of a scenario; accepted: {', '.join(UNITS)}{hint}")
-    return lambda_unit(scenario.air.exponent) if field in ("air.normal", "air.tangential") else UNITS[field]
+        what = "numeric field of a scenario" if field not in UNITS else "field that may vary here"
+        raise SweepError(f"{field}: no {what}; accepted: {', '.join(units)}{hint}")
+    return lambda_unit(scenario.air.exponent) if field in ("air.normal", "air.tangential") else units[field]
 
 
 def _number(field: str, text: str, unit: str) -> float:

@@ -11,7 +11,8 @@ from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.distribution import DISTRIBUTION
 
-Part, Tossed = TypeVar("Part"), TypeVar("Tossed")
+Part = TypeVar("Part")
+Tossed = TypeVar("Tossed")
 AHEAD = 2
 """Parts given out for each thread of a worker: one that it tosses, and one that waits."""
 PATIENCE, PATIENCE_FOR_WORKERS = 10, 60

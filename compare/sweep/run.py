@@ -17,6 +17,7 @@ from cointoss.compare.sweep.layers import bytes_per_pixel, trust_layer
 from cointoss.compare.sweep.pixels import Pixels, toss_pixels
 from cointoss.compare.sweep.store import Map
 from cointoss.models.kernel.compiling import compiling
+from cointoss.models.outcomes import tally
 from cointoss.models.records import Outcome
 from cointoss.models.stages import stage
 
@@ -81,7 +82,7 @@ def fractions_of(map_: Map) -> dict[Outcome, float]:
     """Give the share of a map's pixels that each outcome fills, without the whole map in memory."""
     counts = np.zeros(len(Outcome), dtype=np.int64)
     for tile in map_.tiles:
-        counts += np.bincount(map_.read(tile).ravel(), minlength=len(Outcome))
+        counts += tally(map_.read(tile))
     return {outcome: float(counts[outcome] / counts.sum()) for outcome in Outcome}
 
 

@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cointoss.compare.metrics.estimate import Estimate
-from cointoss.compare.metrics.estimates import LEVEL, chance_alike, in_words
+from cointoss.compare.metrics.estimates import LEVEL, chance_alike, in_words, percent
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
 from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.edge_classes import (
@@ -51,13 +51,6 @@ def fair(found: EdgeRecord, wobble: str, chi: str) -> Estimate:
 def alike(counts: dict[str, Ends]) -> float:
     """Return the probability by chance of ends that differ so much between the engines, by a χ² test."""
     return chance_alike([[ended_as(ends, outcome) for outcome in Outcome] for ends in counts.values()])
-
-
-def percent(part: Estimate) -> str:
-    """Return a share in per cent, with its interval."""
-    digits = 3 if part.high < 0.01 else 2 if part.high < 0.1 else 1
-    value, low, high = (f"{100 * one:.{digits}f}" for one in (part.value, part.low, part.high))
-    return f"{value} % [{low}, {high}]"
 
 
 def tables(found: EdgeRecord) -> str:

@@ -1,0 +1,212 @@
+"""`cointoss shares`: how often a coin ends how, along fields of the scenario."""
+
+import json
+import shutil
+import threading
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from cointoss.compare.commands.common import (
+    SCENARIO_HELP,
+    Count,
+    Given,
+    Place,
+    Quantity,
+    engine_option,
+    plain_errors,
+    say,
+)
+from cointoss.compare.commands.hand_options import chosen_hand, hand_options
+from cointoss.compare.commands.names import along_option, scenario_argument
+
+if TYPE_CHECKING:
+    from cointoss.compare.shares.counting import Counts, Part, Tossed, Tosser
+    from cointoss.compare.shares.plan import Plan
+    from cointoss.compare.shares.record import Shares
+
+PICTURES = (".png", ".svg", ".pdf")
+
+
+@click.command(epilog=SCENARIO_HELP)
+@scenario_argument
+@along_option
+@hand_options
+@click.option(
+    "--tosses",
+    type=Count(1, 10_000_000),
+    help="Of each setting; by default 1000, with --to at most ten million.",
+)
+@click.option(
+    "--to",
+    type=Quantity(""),
+    metavar="PART",
+    help="Toss each setting until its widest interval is at most this to either side, such as 0.5%.",
+)
+@engine_option
+@click.option("--compare", "both", is_flag=True, help="Count by both engines, and test how far they agree.")
+@click.option("--scheduler", metavar="ADDRESS", help="Address of a Dask scheduler on whose workers to toss.")
+@click.option(
+    "--out",
+    type=Place(),
+    multiple=True,
+    metavar="FILE",
+    help="Write the table (.csv) or the picture (.png, .svg, .pdf); may be given again.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
+@click.pass_context
+def shares(
+    ctx: click.Context,
+    scenario: str,
+    along: tuple[str, ...],
+    seed: int,
+    tosses: int | None,
+    to: Given | None,
+    engine: str,
+    both: bool,
+    scheduler: str | None,
+    out: tuple[Path, ...],
+    as_json: bool,
+    **given: Any,
+) -> None:
+    """Count how often a coin tossed by hand shows heads, tails or its edge, along a field.
+
+    FIELD is a dotted path into the scenario, such as floor.restitution, coin.thickness or
+    coin.center_of_mass.zeta, or a number of the hand, such as hand.height; START and STOP are in SI or carry
+    a unit, both are included. A second --along gives a table of both, and a picture with a panel for each
+    of its values. The hand releases the coin, heads up and flat by default, as in `cointoss hands`; the
+    scenario's own release is not used.
+
+    \b
+        cointoss shares zloty --along floor.restitution=0.2:0.8:4 --tosses 500
+        cointoss shares zloty --along "coin.thickness=1 mm:15 mm:8" --up either --to 1% --out edge.png
+
+    Intervals are of 99 %. With --compare both engines toss, each its own releases; the last column is the
+    probability that counts of one distribution differ as much by chance (a chi-square test). Ctrl-C prints
+    what is counted until then. Numbers depend on the seed, not on how many cores toss.
+    """
+    explicit = ctx.get_parameter_source("engine") == click.core.ParameterSource.COMMANDLINE
+    if both and explicit:
+        raise click.UsageError("--engine and --compare: accepted: one of them")
+    with plain_errors(scenario):
+        from cointoss.models.stages import stage
+
+        with stage("getting ready"):
+            from cointoss.compare.engines import Engine
+            from cointoss.compare.film.back_end import require_mujoco
+            from cointoss.compare.output.files import require_file
+            from cointoss.compare.shares import plan as plans
+            from cointoss.models.reading import load
+
+        hand, _ = chosen_hand(given, described := load(scenario))
+        engines = tuple(Engine) if both else (Engine(engine),)
+        plan = plans.plan_of(
+            along,
+            described,
+            name=Path(scenario).stem,
+            hand=hand,
+            engines=engines,
+            seed=seed,
+            tosses=plans.most_tosses(to and to.value) if tosses is None else tosses,
+            to=to and to.value,
+        )
+        for path in out:
+            require_file(path, (".csv", *PICTURES), scenario)
+        if any(path.suffix.lower() in PICTURES for path in out):
+            from cointoss.compare.shares.picture import require_drawable
+
+            require_drawable(plan.shape)
+        if Engine.MUJOCO in engines:
+            require_mujoco()
+        plans.check(plan)
+        _count(plan, scenario, scheduler, out, as_json)
+
+
+def _count(plan: "Plan", scenario: str, scheduler: str | None, out: Sequence[Path], as_json: bool) -> None:
+    """Count, print the result and write it; where a signal or a lost cluster ends it, what there is."""
+    import numpy as np
+
+    from cointoss.compare.output.interruption import Interruption, undoing
+    from cointoss.compare.shares.counting import counting
+    from cointoss.compare.shares.record import Shares
+    from cointoss.models.records import Outcome
+
+    counts: Counts = np.zeros((len(plan.engines), *plan.shape, len(Outcome)), dtype=np.int64)
+    answering, answered = threading.Lock(), False
+
+    def answer() -> None:
+        """Print what is counted, and write its table, once."""
+        nonlocal answered
+        with answering:
+            if not answered and counts.any():
+                answered = True
+                found = Shares(plan=plan, counts=counts)
+                _print(found, scenario, as_json)
+                _write(found, [path for path in out if path.suffix.lower() not in PICTURES])
+
+    try:
+        with undoing(answer), _tosser(scheduler) as tosser:
+            for so_far in counting(plan, tosser):
+                counts = so_far
+    except Interruption as interruption:
+        interruption.message += f": {int(counts.sum()):,d} tosses are counted"
+        raise
+    _write(Shares(plan=plan, counts=counts), [path for path in out if path.suffix.lower() in PICTURES])
+
+
+@contextmanager
+def _tosser(scheduler: str | None) -> "Iterator[Tosser]":
+    from cointoss.compare.shares.counting import toss_here, toss_part
+
+    if scheduler is None:
+        yield toss_here
+        return
+    from cointoss.compare.sweep.cluster import cluster
+
+    with cluster(scheduler, say, "what was counted is printed") as workers:
+
+        def toss_there(plan: "Plan", parts: "list[Part]") -> "Iterator[tuple[Part, Tossed]]":
+            for engine in plan.engines:
+                own = [part for part in parts if part.engine == engine]
+                yield from workers(partial(toss_part, plan), own, engine)
+
+        yield toss_there
+
+
+def _print(found: "Shares", scenario: str, as_json: bool) -> None:
+    """Print the shares."""
+    if as_json:
+        click.echo(json.dumps({"scenario": scenario, **found.as_json()}, indent=1))
+        return
+    import numpy as np
+
+    from cointoss.compare.output.terminal import laid_out
+
+    plan = found.plan
+    click.echo(laid_out(found.table(), shutil.get_terminal_size((110, 24)).columns))
+    click.echo(f"\nhand       {plan.hand.in_words}")
+    click.echo(f"engine     {' and '.join(plan.engines)}, seed {plan.seed}; in brackets 99 % intervals")
+    if found.alike:
+        least, settings = np.nanmin(found.alike), len(found.alike)
+        of = f", the least of {settings}; by chance it is so small in {found.least_alike:.2g} of all runs"
+        click.echo(f"alike      with probability {least:.2g}{of if settings > 1 else ''}")
+
+
+def _write(found: "Shares", out: Sequence[Path]) -> None:
+    """Write the table and the pictures."""
+    from cointoss.compare.output.files import write_text, written_whole
+
+    for path in out:
+        suffix = path.suffix.lower()
+        if suffix == ".csv":
+            write_text(path, found.to_csv())
+        else:
+            from cointoss.compare.shares.picture import picture_of
+
+            drawn = picture_of(found, suffix)
+            with written_whole(path) as aside:
+                aside.write_bytes(drawn)

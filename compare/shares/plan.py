@@ -1,0 +1,172 @@
+"""What is counted: a scenario tossed by a hand, along some fields, by one engine or both."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+
+from cointoss.compare.engines import Engine
+from cointoss.compare.sweep.axes import HAND, Axis, parse_axis
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.errors import FieldError, ScenarioError
+from cointoss.models.fields import UNITS
+from cointoss.models.hand import OF_A_TOSS, Hand
+from cointoss.models.releases import check_releases
+from cointoss.models.scenario import Scenario
+from cointoss.models.stages import counted
+from cointoss.models.unused import warn_of_unused_fields
+
+MOST_AXES = 2
+MOST_SETTINGS = 10_000
+MOST_TOSSES = 10_000_000
+"""Of a setting."""
+USUAL_TOSSES = 1000
+"""Of a setting, where neither their number nor the width of an interval is asked for."""
+FIELDS = {
+    **HAND,
+    **{name: unit for name, unit in UNITS.items() if not name.startswith("release.")},
+}
+"""What may vary, and its unit: the hand releases the coin, so the scenario's release is of no use."""
+
+
+def most_tosses(to: float | None) -> int:
+    """Return the tosses of a setting, at most, where their number is not asked for."""
+    return USUAL_TOSSES if to is None else MOST_TOSSES
+
+
+class Setting(NamedTuple):
+    """A point of the grid."""
+
+    values: tuple[float, ...]
+    """Of the fields that vary, in SI."""
+    scenario: Scenario
+    hand: Hand
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """What is counted, and until when."""
+
+    scenario: Scenario
+    name: str
+    """What the scenario is called; empty for one without a name."""
+    hand: Hand
+    along: tuple[Axis, ...] = ()
+    engines: tuple[Engine, ...] = (Engine.ANALYTIC,)
+    seed: int = 0
+    tosses: int = USUAL_TOSSES
+    """Of each setting, at most."""
+    to: float | None = None
+    """Half the width of a setting's widest interval at which its counting stops; None: it does not."""
+
+    def __post_init__(self) -> None:
+        """Check the numbers, and that the axes go together.
+
+        Raises:
+            SweepError: naming what is wrong and what is accepted.
+        """
+        whole = {"seed": (0, 2**32), "tosses": (1, MOST_TOSSES)}
+        for name, (least, most) in whole.items():
+            value = getattr(self, name)
+            if (
+                isinstance(value, bool)
+                or not isinstance(value, int | np.integer)
+                or not least <= value <= most
+            ):
+                raise SweepError(f"{name}: {value!r}, accepted: a whole number from {least} to {most}")
+        if self.to is not None and not (isinstance(self.to, float) and 1e-4 <= self.to <= 0.5):
+            raise SweepError(f"to: {self.to!r}, accepted: a part from 0.01 % to 50 %")
+        names = [axis.field for axis in self.along]
+        if len(names) > MOST_AXES:
+            raise SweepError(f"along: {len(names)} fields, accepted: at most {MOST_AXES}")
+        if len(set(names)) < len(names):
+            raise SweepError(f"{names[0]}: on both axes; accepted: two fields")
+        for name in names:
+            if self.hand.spun and name.removeprefix("hand.") in OF_A_TOSS:
+                raise SweepError(f"{name}: of no use where the coin is spun on its edge; accepted: others")
+        if math.prod(self.shape) > MOST_SETTINGS:
+            grid = " by ".join(map(str, self.shape))
+            raise SweepError(f"along: {grid} settings, accepted: at most {MOST_SETTINGS}")
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Values of each field."""
+        return tuple(axis.count for axis in self.along)
+
+    def settings(self) -> Iterator[Setting]:
+        """Yield the points of the grid, the last field varying fastest.
+
+        Raises:
+            SweepError: for values that make no valid scenario or hand.
+        """
+        for values in product(*(axis.values.tolist() for axis in self.along)):
+            yield self._setting(values)
+
+    def setting(self, number: int) -> Setting:
+        """Return a point of the grid by its number."""
+        at = np.unravel_index(number, self.shape) if self.along else ()
+        return self._setting(tuple(float(axis.values[i]) for axis, i in zip(self.along, at, strict=True)))
+
+    def _setting(self, values: tuple[float, ...]) -> Setting:
+        pairs = dict(zip((axis.field for axis in self.along), values, strict=True))
+        of_hand = {name.removeprefix("hand."): pairs.pop(name) for name in list(pairs) if name in HAND}
+        numbers = {name: int(one) if name == "ending.max_impacts" else one for name, one in pairs.items()}
+        try:
+            hand = replace(self.hand, **of_hand)
+            scenario = hand.scenario(self.scenario)
+            for name, number in numbers.items():
+                scenario = scenario.replace(name, number)
+        except FieldError as error:
+            raise SweepError(f"hand.{error}") from None
+        except ScenarioError as error:
+            at = ", ".join(f"{axis.field} = {one:g}" for axis, one in zip(self.along, values, strict=True))
+            raise SweepError(f"{error} (at {at})" if at else str(error)) from None
+        return Setting(values, scenario, hand)
+
+
+def plan_of(along: tuple[str, ...], scenario: Scenario, **others: object) -> Plan:
+    """Return the plan whose fields vary so.
+
+    Args:
+        along: FIELD=START:STOP:N each.
+        scenario: whose coin is tossed.
+        others: fields of the plan.
+
+    Raises:
+        SweepError: naming what is wrong and what is accepted.
+    """
+    for text in along:
+        if not isinstance(text, str):
+            raise SweepError(f"along: {text!r}, accepted: FIELD=START:STOP:N")
+        if text.strip().startswith("release."):
+            field = text.partition("=")[0]
+            raise SweepError(f"{field}: the hand releases the coin; accepted: {', '.join(HAND)}, and others")
+    axes = tuple(parse_axis(text, scenario, FIELDS) for text in along)
+    known = {item.name for item in fields(Plan)}
+    assert known.issuperset(others)
+    return Plan(scenario=scenario, along=axes, **others)  # pyright: ignore[reportArgumentType]
+
+
+def check(plan: Plan) -> None:
+    """Refuse a plan with a setting that can't be tossed.
+
+    Raises:
+        SweepError: naming field, value and what is accepted.
+        UnsupportedError: for a scenario that an engine can't toss.
+
+    Warns:
+        UnusedFieldWarning: for a field that nothing uses.
+    """
+    setting = plan.setting(0)
+    for setting in counted("checking the grid", "settings", list(plan.settings())):
+        for engine in plan.engines:
+            engine.package.require_supported(setting.scenario, settings=engine.package.MANY)
+        few = setting.hand.releases(setting.scenario.body, np.random.default_rng(plan.seed), 1)
+        try:
+            check_releases(setting.scenario, few)
+        except ValueError as error:
+            raise SweepError(str(error)) from None
+    warn_of_unused_fields(setting.scenario.floor, setting.scenario.air)

@@ -1,0 +1,110 @@
+"""`cointoss shares`: what it prints and writes, the hand's options, and Ctrl-C."""
+
+import csv
+import io
+import json
+import signal
+import subprocess
+import time
+
+import pytest
+
+from cointoss.models.hand import Hand
+from tests.helpers.basin_runs import SCENARIO
+from tests.helpers.command_line import cointoss, refused
+from tests.helpers.processes import started
+
+ALONG = ("--along", "floor.restitution=0.3:0.6:2", "--tosses", 300, "--seed", 5)
+
+
+@pytest.fixture
+def coin(tmp_path):
+    (tmp_path / "coin.toml").write_text(SCENARIO)
+    return tmp_path / "coin.toml"
+
+
+def test_the_table_the_json_and_the_files_hold_the_same_counts(coin, tmp_path):
+    table, picture = tmp_path / "shares.csv", tmp_path / "shares.svg"
+    printed = cointoss("shares", coin, *ALONG, "--out", table, "--out", picture)
+    assert printed.exit_code == 0, printed.stderr
+    told = json.loads(cointoss("shares", coin, *ALONG, "--json").stdout)
+    rows = list(csv.DictReader(io.StringIO(table.read_text())))
+    for row, setting in zip(rows, told["settings"], strict=True):
+        assert float(row["floor.restitution"]) == setting["floor.restitution"]
+        assert float(row["heads"]) == setting["shares"]["heads"]["value"]
+        assert f"{100 * float(row['heads']):.1f} % [{100 * float(row['heads low']):.1f}" in printed.stdout
+    assert (told["seed"], told["settings"][0]["tosses"]) == (5, 300)
+    assert "engine     analytic, seed 5; in brackets 99 % intervals" in printed.stdout
+    assert picture.read_text().startswith("<?xml")
+
+
+def test_an_option_takes_the_place_of_what_the_hands_file_says(coin, tmp_path):
+    file = tmp_path / "hand.toml"
+    file.write_text('spin = "30 rad/s"\nup = "either"\npsi_scatter = 0.1\n')
+    words = ("--hand", file, "--spin", "50 rad/s", "--tosses", 20, "--json")
+    for command in ("shares", "hands"):
+        told = json.loads(cointoss(command, coin, *words).stdout)
+        assert Hand(**told["hand"]) == Hand(spin=50.0, up="either", psi_scatter=0.1)
+
+
+def test_hands_and_shares_toss_a_spun_coin_to_the_same_shares(coin):
+    words = (coin, "--spun", "--psi-scatter", "10 deg", "--tosses", 500, "--json")
+    one = json.loads(cointoss("hands", *words).stdout)["ended"]
+    other = json.loads(cointoss("shares", *words).stdout)["settings"][0]["shares"]
+    assert one["heads"]["low"] < other["heads"]["value"] < one["heads"]["high"]
+    assert 0 < one["heads"]["value"] < 1
+
+
+def test_the_side_that_was_up_is_counted_whichever_it_was(coin):
+    words = ("hands", coin, "--psi", "50 deg", "--caught", "1 m", "--tosses", 4000, "--json")
+    heads, either = (
+        json.loads(cointoss(*words, "--up", up).stdout)["same_side"]["caught"] for up in ("heads", "either")
+    )
+    assert heads["low"] < either["value"] < heads["high"]
+    assert heads["low"] > 0.6
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--to", "60%"], "to: 0.6, accepted: a part from 0.01 % to 50 %"),
+        (["--out", "a.txt"], "a.txt: another kind of file; accepted: a name that ends in .csv or .png"),
+        (["--compare", "--engine", "analytic"], "--engine and --compare: accepted: one of them"),
+        (["--spun", "--caught", "1 m"], "--caught 1 m: accepted: only without --spun"),
+        (["--hand", "no.toml"], "no.toml: can't be read (No such file or directory); accepted: a TOML file"),
+        (["--along", "hand.psi=0:1"], "hand.psi=0:1: accepted: FIELD=START:STOP:N"),
+        (["--up", "tails"], "'--up': 'tails' is not one of 'heads', 'either'"),
+    ],
+)
+def test_bad_options_are_one_line(coin, words, told):
+    assert told in refused("shares", coin, *words)
+
+
+def test_ctrl_c_prints_and_writes_what_is_counted(coin, tmp_path):
+    script = """
+import itertools, sys, time
+from pathlib import Path
+from cointoss.compare.shares import counting
+whole = counting.counting
+def slow(*given):
+    yield from itertools.islice(whole(*given), 2)
+    Path("begun").touch()
+    time.sleep(1000)
+counting.counting = slow
+from cointoss.compare.cli import main
+main()
+"""
+    words = ("shares", coin, "--along", "floor.restitution=0.3:0.6:3", "--out", "a.csv", "--out", "a.png")
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "cwd": tmp_path}
+    with started("-c", script, *words, **pipes) as process:
+        deadline = time.monotonic() + 200
+        while not (tmp_path / "begun").exists() and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        printed, said = process.communicate(timeout=60)
+    assert process.returncode == 130, said
+    assert said.endswith("cointoss: interrupted by SIGINT: 500 tosses are counted\n")
+    rows = list(csv.DictReader(io.StringIO((tmp_path / "a.csv").read_text())))
+    assert [row["tosses"] for row in rows] == ["250", "250", "0"]
+    assert printed.count("250") >= 2
+    assert not (tmp_path / "a.png").exists()

@@ -1,0 +1,188 @@
+"""Shares of a hand's tosses: those of other programs and of a theorem, whoever tosses, in whatever parts."""
+
+import itertools
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.stats import chi2, chi2_contingency
+
+from cointoss import analytic
+from cointoss.compare.engines import Engine
+from cointoss.compare.shares import along, counting
+from cointoss.compare.shares.along import shares
+from cointoss.compare.shares.counting import BLOCK, Tossed, toss_here, toss_part
+from cointoss.compare.shares.plan import plan_of
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.hand import Hand, same_side_probability
+from cointoss.models.reading import load
+from cointoss.models.records import Outcome
+from tests.helpers.draws import AIR, scenario
+
+DISC = scenario(
+    coin={"thickness": 5e-3},
+    air=AIR,
+    floor={"contact": "coulomb", "friction": 0.3, "rolling_friction": 1e-4, "pivoting_friction": 1e-4},
+    ending={"max_time": 60.0},
+)
+
+
+def last(plan, tosser=toss_here):
+    return list(counting.counting(plan, tosser))[-1]
+
+
+def test_a_caught_coin_shows_heads_as_often_as_the_theorem_says():
+    """Diaconis, Holmes and Montgomery 2007, theorem 2, over ψ; the seed is one of many."""
+    vacuum = load("fig29").replace("air", {})
+    found = shares(vacuum, "hand.psi=40 deg:90 deg:6", hand=Hand(caught=1.0), tosses=4000, seed=2)
+    caught = found.counts[0][:, [Outcome.HEADS, Outcome.TAILS]]
+    expected = same_side_probability(found.plan.along[0].values)
+    deviation = np.abs(caught[:, 0] / caught.sum(axis=1) - expected)
+    spread = np.sqrt(expected * (1 - expected) / caught.sum(axis=1))
+    assert caught.sum() > 20_000
+    # Turns are not many: the hand's spins leave a part in 250.
+    assert (deviation < 3.5 * spread + 0.004).all()
+
+
+def drawn_otherwise(case, rng, count):
+    """Return outcomes of tosses one by one, of releases that are drawn and written down by hand."""
+    ended = []
+    for z, v, w, angle in zip(
+        *(rng.normal(mean, 0.1 * mean, count) for mean in (1.0, 2.0, 120.0)),
+        rng.uniform(0, 2 * np.pi, count),
+        strict=True,
+    ):
+        spin = [float(w * np.cos(angle)), float(w * np.sin(angle)), 0.0]
+        release = {"position": [0, 0, float(z)], "velocity": [0, 0, float(v)], "angular_velocity": spin}
+        ended.append(analytic.toss(case.replace("release", release), settings=analytic.MANY).outcome)
+    return ended
+
+
+@pytest.mark.slow
+def test_twenty_settings_agree_with_tosses_one_by_one_of_other_draws():
+    axes = "floor.restitution=0.1:0.7:4", "coin.thickness=2 mm:14 mm:5"
+    found, rng, count = shares(DISC, *axes, tosses=1000, seed=8), np.random.default_rng(77), 150
+    statistic, freedom = 0.0, 0
+    for (i, chi), (j, h) in itertools.product(*(enumerate(axis.values) for axis in found.plan.along)):
+        case = DISC.replace("floor.restitution", float(chi), "coin.thickness", float(h))
+        other = np.bincount(drawn_otherwise(case, rng, count), minlength=len(Outcome))
+        both = np.array([found.counts[0, i, j], other])
+        test: Any = chi2_contingency(both[:, both.any(axis=0)], correction=False)
+        statistic, freedom = statistic + test.statistic, freedom + test.dof
+    assert freedom >= 20
+    assert found.counts[..., Outcome.EDGE].sum() > 1000
+    assert 1e-3 < chi2.sf(statistic, freedom)
+
+
+def plan(**others):
+    given = {"name": "", "hand": Hand(), "tosses": 3 * BLOCK[Engine.ANALYTIC] + 10, "seed": 4, **others}
+    return plan_of(("floor.restitution=0.3:0.7:3",), DISC, **given)
+
+
+def test_the_counts_depend_on_no_order_and_on_no_size_of_parts(monkeypatch):
+    def scattered(plan, parts):
+        return ((part, toss_part(plan, part)) for part in sorted(parts, reverse=True))
+
+    for given in (plan(), plan(to=0.04, tosses=5000)):
+        expected = last(given)
+        for blocks in (1, 3):
+            monkeypatch.setattr(counting, "next_pixels", lambda *_, n=blocks: n)
+            assert np.array_equal(last(given, scattered), expected)
+        monkeypatch.undo()
+    assert last(plan()).sum(axis=-1).tolist() == [[760, 760, 760]]
+
+
+def test_settings_blocks_and_engines_have_draws_of_their_own():
+    given = plan(engines=tuple(Engine))
+    parts = [
+        counting.Part(engine, setting, block, 1)
+        for engine in Engine
+        for setting in range(3)
+        for block in range(2)
+    ]
+    first = [float(counting._draws(given, part, part.first).random()) for part in parts]
+    assert len(set(first)) == len(parts)
+    other = counting._draws(plan(seed=5), parts[0], 0).random()
+    assert other not in first
+
+
+def test_counting_stops_at_the_first_block_that_makes_the_interval_narrow_enough():
+    for to in (0.06, 0.04):
+        found = shares(DISC, "floor.restitution=0.3:0.7:2", to=to, seed=1)
+        for row in found.rows:
+            widest = max((one.high - one.low) / 2 for one in row.shares.values())
+            assert 0.6 * to < widest <= to
+            assert row.tosses % BLOCK[Engine.ANALYTIC] == 0
+
+
+def test_a_share_that_is_known_at_once_takes_a_block():
+    """All coins that are caught at their release's height and turn little are as they were."""
+    found = shares("fig29", hand=Hand(psi=0.1, caught=1.0, scatter=0.01), to=0.02)
+    assert found.counts.tolist() == [[0, BLOCK[Engine.ANALYTIC], 0, 0, 0, 0]]
+
+
+def test_an_interrupt_returns_what_is_counted(monkeypatch):
+    def interrupted(given):
+        for number, counts in enumerate(whole(given)):
+            if number == 2:
+                raise KeyboardInterrupt
+            yield counts
+
+    whole = along.counting
+    monkeypatch.setattr(along, "counting", interrupted)
+    found = shares(DISC, "floor.restitution=0.3:0.7:3", tosses=500)
+    assert found.counts.sum(axis=-1).tolist() == [[250, 250, 0]]
+    assert not found.is_complete
+    assert [row.tosses for row in found.rows] == [250, 250, 0]
+    assert "| - |" in found.table()
+    assert np.isnan(found.to_xarray().share.values[0, 2]).all()
+    monkeypatch.setattr(along, "counting", lambda _: (_ for _ in ()).throw(KeyboardInterrupt()))
+    with pytest.raises(KeyboardInterrupt):
+        shares(DISC)
+
+
+def test_blocks_beyond_what_is_needed_are_left_out():
+    one = counting.Count(plan(tosses=500), Engine.ANALYTIC)
+    block = np.array([0, 100, 150, 0, 0, 0])
+    one.add(Tossed(np.array([block] * 5), 1.0))
+    assert one.counts.tolist() == [0, 200, 300, 0, 0, 0]
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"tosses": 0}, r"^tosses: 0, accepted: a whole number from 1 to 10000000$"),
+        ({"tosses": True}, "^tosses: True, accepted: "),
+        ({"seed": -1}, "^seed: -1, accepted: "),
+        ({"to": 0.0}, r"^to: 0.0, accepted: a part from 0.01 % to 50 %$"),
+        ({"engine": "bullet"}, "^engine: 'bullet', accepted: analytic, mujoco$"),
+        ({"compare": 1}, "^compare: 1, accepted: True or False$"),
+        ({"hand": 3}, "^hand: 3, accepted: a Hand, or the path of its file$"),
+    ],
+)
+def test_what_no_shares_can_be_made_of_is_refused(given, told):
+    with pytest.raises(ValueError, match=told):
+        shares(DISC, **given)
+
+
+@pytest.mark.parametrize(
+    ("axes", "told"),
+    [
+        (["release.position.z=0.2:1:3"], "the hand releases the coin; accepted: hand.height, "),
+        (["floor.contact=0:1:3"], "floor.contact: no numeric field"),
+        (["hand.psi=0:2:3"], "hand.psi = 2.0: accepted: an angle from 0 to 90 deg"),
+        (["coin.thickness=-1:1:3"], r"coin.thickness = -1.0: .* \(at coin.thickness = -1\)"),
+        (["floor.restitution=0:1:3"] * 2, "on both axes"),
+        (["floor.restitution=0:1:3", "gravity=1:2:3", "coin.mass=1:2:3"], "3 fields, accepted: at most 2"),
+        (["floor.restitution=0:1:300", "gravity=1:2:300"], "300 by 300 settings, accepted: at most 10000"),
+        ([3], "along: 3, accepted: FIELD=START:STOP:N"),
+    ],
+)
+def test_axes_that_do_not_go_are_refused(axes, told):
+    with pytest.raises(SweepError, match=told):
+        shares(DISC, *axes)
+
+
+def test_a_spun_coin_has_no_height():
+    with pytest.raises(SweepError, match=r"^hand\.height: of no use where the coin is spun"):
+        shares(DISC, "hand.height=0.2:1:3", hand=Hand(spun=True))
