@@ -21,7 +21,7 @@ told = echo "$(1)"; \
   while sleep 10 >/dev/null 2>&1 && kill -0 $$$$; do s=$$(($$s + 10)); echo "$(1): $$s s"; done & \
   trap "kill $$!" EXIT; $(2)
 
-.PHONY: report test check test-all bench docs pages lock lint opengl chromium compiled clean
+.PHONY: report test check test-all bench docs pages paper lock lint opengl chromium compiled clean
 
 report: $(READY) opengl compiled
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
@@ -52,6 +52,10 @@ docs: $(VENV)/.ready-docs chromium compiled $(MADE)/pages/explorer.html
 # What docs/ has that is made of other files there: nothing is computed.
 pages: $(VENV)/.ready-docs
 	$(BIN)/python docs/extensions/written.py
+
+# The article and the JOSS paper, with the numbers that docs/reproduction/ has now: out/paper/article.pdf, joss.pdf.
+paper: $(VENV)/.ready-docs
+	@$(BIN)/python docs/extensions/papers.py
 
 # The exact versions installed here, with which the numbers of the pages can be made again.
 lock: $(VENV)/.ready-docs
