@@ -192,7 +192,6 @@ def test_beside_foreign_packages_of_such_names_it_works(tmp_path):
 def test_the_version_is_that_of_pyproject_wherever_it_is_written():
     written = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
     assert version(DISTRIBUTION) == written
-    assert f"\nversion: {written}\n" in (TOP / "CITATION.cff").read_text(encoding="utf-8")
     headings = re.findall(
         r"^## (\S+?),? ", (TOP / "docs/CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE
     )
