@@ -21,7 +21,7 @@ told = echo "$(1)"; \
   while sleep 10 >/dev/null 2>&1 && kill -0 $$$$; do s=$$(($$s + 10)); echo "$(1): $$s s"; done & \
   trap "kill $$!" EXIT; $(2)
 
-.PHONY: report test check test-all bench docs pages paper lock lint opengl chromium compiled clean
+.PHONY: report test check test-all bench docs pages paper releasable release lock lint opengl chromium compiled clean
 
 report: $(READY) opengl compiled
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
@@ -56,6 +56,29 @@ pages: $(VENV)/.ready-docs
 # The article and the JOSS paper, with the numbers that docs/reproduction/ has now: out/paper/article.pdf, joss.pdf.
 paper: $(VENV)/.ready-docs
 	@$(BIN)/python docs/extensions/papers.py
+
+VERSION = $(shell sed -n 's/^version = "\(.*\)"$$/\1/p' pyproject.toml)
+
+# A release is of what is committed, has a section in CHANGELOG with its date, and is new.
+releasable:
+	@test -z "$$(git status --porcelain)" || { echo "make release: commit first, or put aside:"; git status --short; exit 1; } >&2
+	@grep -Eq '^## $(VERSION), [0-9]{4}-[0-9]{2}-[0-9]{2}$$' docs/CHANGELOG.md \
+	  || { echo "make release: docs/CHANGELOG.md needs a heading \"## $(VERSION), YYYY-MM-DD\""; exit 1; } >&2
+	@! git rev-parse -q --verify refs/tags/v$(VERSION) >/dev/null \
+	  || { echo "make release: v$(VERSION) is tagged; pyproject.toml needs another version"; exit 1; } >&2
+
+# The wheel is made of the archive, as pip makes one, and tested as it is.
+release: releasable
+	$(MAKE) test-all
+	$(MAKE) docs
+	$(MAKE) paper
+	rm -rf dist
+	$(BIN)/python -m hatchling build -t sdist -d dist
+	$(BIN)/python -m pip wheel --no-deps --no-build-isolation --wheel-dir dist dist/*.tar.gz
+	WHEEL=$$(echo dist/*.whl) $(BIN)/pytest tests/test_wheel.py -m "slow or not slow"
+	$(MAKE) releasable
+	git tag --annotate v$(VERSION) --message "cointoss $(VERSION)"
+	@echo "v$(VERSION) is tagged; now: git push origin v$(VERSION), upload dist/ to the index, archive it"
 
 # The exact versions installed here, with which the numbers of the pages can be made again.
 lock: $(VENV)/.ready-docs
@@ -112,4 +135,4 @@ compiled: $(READY) | opengl
 	@$(BIN)/cointoss toss fig24a --engine mujoco >/dev/null & $(BIN)/cointoss toss fig24a >/dev/null && wait
 
 clean:
-	rm -rf $(VENV) out $(ENGINE) .pytest_cache .ruff_cache .hypothesis .import_linter_cache
+	rm -rf $(VENV) out dist $(ENGINE) .pytest_cache .ruff_cache .hypothesis .import_linter_cache

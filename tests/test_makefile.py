@@ -1,8 +1,10 @@
-"""A long step of make says what it does and that it still runs, and fails as its command does."""
+"""A long step of make says that it runs, and fails as its command does; what is not ready is not released."""
 
 import os
 import subprocess
 from pathlib import Path
+
+import pytest
 
 MAKEFILE = Path(__file__).parents[1] / "Makefile"
 SLEEP = """#!/bin/sh
@@ -25,6 +27,54 @@ def test_a_long_step_says_that_it_runs_and_ends_as_its_command_does(tmp_path):
     )
     assert done.stdout.splitlines() == ["doing it", "doing it: 10 s"]
     assert "Error 3" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("changed", "heading", "tagged", "says"),
+    [
+        ("", "## 0.3.1, 2027-01-31", "", ""),
+        (
+            " M README.md",
+            "## 0.3.1, 2027-01-31",
+            "",
+            "make release: commit first, or put aside:\n M README.md",
+        ),
+        (
+            "",
+            "## 0.3.1, not yet released",
+            "",
+            'make release: docs/CHANGELOG.md needs a heading "## 0.3.1, YYYY-MM-DD"\n',
+        ),
+        ("", "## 0.3.10, 2027-01-31", "", 'docs/CHANGELOG.md needs a heading "## 0.3.1, YYYY-MM-DD"\n'),
+        (
+            "",
+            "## 0.3.1, 2027-01-31",
+            "refs/tags/v0.3.1",
+            "make release: v0.3.1 is tagged; pyproject.toml needs another version\n",
+        ),
+    ],
+)
+def test_what_is_not_ready_is_not_released(tmp_path, changed, heading, tagged, says):
+    git = f"""#!/bin/sh
+case $1 in
+  status) printf %s '{changed}' ;;
+  rev-parse) test "$4" = '{tagged}' ;;
+esac
+"""
+    (tmp_path / "git").write_text(git)
+    (tmp_path / "git").chmod(0o755)
+    (tmp_path / "docs").mkdir()
+    (tmp_path / "docs" / "CHANGELOG.md").write_text(f"# Changelog\n\n{heading}\n\n## 0.3.0, 2026-12-24\n")
+    (tmp_path / "pyproject.toml").write_text('[project]\nname = "a"\nversion = "0.3.1"\n')
+    done = subprocess.run(
+        ["make", "--no-print-directory", "-f", str(MAKEFILE), "releasable"],
+        cwd=tmp_path,
+        env={**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}", "MAKEFLAGS": ""},
+        capture_output=True,
+        text=True,
+    )
+    assert (done.returncode != 0) == bool(says)
+    assert says in done.stderr
 
 
 def test_what_is_told_to_be_quiet_is_told_of():

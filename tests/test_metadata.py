@@ -9,6 +9,8 @@ from typing import Any
 import pytest
 from yaml import safe_load
 
+from cointoss.compare.sweep.form import FORMAT
+
 TOP = Path(__file__).parents[1]
 PROJECT = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 PAPER = "10.1016/j.physrep.2008.08.003"
@@ -52,3 +54,8 @@ def test_the_name_of_the_index_and_the_python_are_in_codemeta():
     assert told["identifier"] == PROJECT["name"]
     assert told["runtimePlatform"] == f"Python {PROJECT['requires-python']}"
     assert said_by("CITATION.cff")["title"].startswith("cointoss: ")
+
+
+def test_support_has_the_number_of_the_form_of_a_map():
+    page = (TOP / "docs" / "SUPPORT.md").read_text(encoding="utf-8")
+    assert f"the attribute `cointoss_map`, now {FORMAT} |" in page
