@@ -1,12 +1,11 @@
 """A map on disk: a Zarr store that is filled tile by tile, by one process at a time."""
 
-import fcntl
 import json
 import math
 import os
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from importlib.metadata import version
@@ -16,6 +15,7 @@ from typing import Any, Literal
 
 import numpy as np
 import zarr
+from filelock import FileLock, Timeout
 from numpy.typing import NDArray
 from zarr.codecs import ZstdCodec
 from zarr.errors import ZarrUserWarning
@@ -24,7 +24,6 @@ from cointoss.compare.output.files import UnwritableError, beside, naming, remov
 from cointoss.compare.output.interruption import undoing
 from cointoss.compare.sweep.axes import Axis
 from cointoss.compare.sweep.form import (
-    DESCRIPTION,
     FORMAT,
     MARGIN_ALONG,
     TRUST,
@@ -308,16 +307,26 @@ def _readable(path: Path) -> Iterator[None]:
 
 @contextmanager
 def _locked(path: Path, target: Path) -> Iterator[None]:
-    """Keep a map for this process; the system lets go of it when the process ends, however it ends."""
-    with (target / DESCRIPTION).open("r+b") as description:
+    """Keep a map for this process; the system lets go of it when the process ends, however it ends.
+
+    The lock is a file beside the map: within, it would be no part of it, and Windows renames no open folder.
+    """
+    lock = target.with_name(f".{target.name}.lock")
+    with ExitStack() as held:
         try:
-            fcntl.flock(description, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            still_there = os.path.samestat(os.fstat(description.fileno()), (target / DESCRIPTION).stat())
-        except (BlockingIOError, FileNotFoundError):
-            still_there = False
-        if not still_there:
-            raise UnwritableError(f"{path}: another process is at this map; accepted: wait for its end")
+            held.enter_context(FileLock(lock, blocking=False))
+        except Timeout:
+            raise UnwritableError(
+                f"{path}: another process is at this map; accepted: wait for its end"
+            ) from None
+        held.enter_context(undoing(lambda: _unlink(lock)))
         yield
+
+
+def _unlink(lock: Path) -> None:
+    """Remove a lock's file while it is held; on Windows it goes when it is let go of."""
+    with suppress(OSError):
+        lock.unlink()
 
 
 def _remove(target: Path) -> None:

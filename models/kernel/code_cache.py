@@ -1,6 +1,5 @@
 """The folders of compiled code, one for exactly the sources that it was made of, and who may compile."""
 
-import fcntl
 import hashlib
 import os
 import re
@@ -10,12 +9,15 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from cointoss.models.kernel.base_folder import base_folder
 from cointoss.models.kernel.compiling import compiling
 from cointoss.models.kernel.fork import numba_version
 from cointoss.models.kernel.sources import is_as_imported, part_of, source_hash
+
+if TYPE_CHECKING:
+    from filelock import FileLock
 
 UNUSED = 3 * 24 * 3600.0
 """Folders not used for so long are removed when another is made [s]."""
@@ -48,12 +50,6 @@ def cache_folder(module: str) -> Path:
     return folder
 
 
-@cache
-def _turns() -> int:
-    """Return the file whose bytes stand for functions that are compiled; closed, it would lose all locks."""
-    return os.open(base_folder() / "compiling.lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
-
-
 @contextmanager
 def turn(name: str) -> Iterator[bool]:
     """Wait while another process is within this for the same name; return whether one was.
@@ -61,25 +57,33 @@ def turn(name: str) -> Iterator[bool]:
     Where nothing can be locked, or the other takes longer than `PATIENCE`, nothing more is waited for. The
     system lets go of the lock of a process that ends, however it ends.
     """
-    place = int(hashlib.sha256(name.encode()).hexdigest()[:15], 16)
-    is_busy = not _locked(place)
+    from filelock import FileLock  # nothing is compiled by most processes
+
+    file = base_folder() / f"{hashlib.sha256(name.encode()).hexdigest()[:16]}.lock"
+    lock = FileLock(file, blocking=False)
+    is_busy = not _locked(lock)
     if is_busy:
         deadline = time.monotonic() + PATIENCE
         with compiling.waiting():
-            while not _locked(place) and time.monotonic() < deadline:
+            while not _locked(lock) and time.monotonic() < deadline:
                 time.sleep(0.05)
     try:
         yield is_busy
     finally:
         with suppress(OSError):
-            fcntl.lockf(_turns(), fcntl.LOCK_UN, 1, place)
+            if lock.is_locked:
+                file.unlink()  # while it is held: on Windows it goes when it is let go of
+        with suppress(OSError):
+            lock.release()
 
 
-def _locked(place: int) -> bool:
-    """Lock a byte; return whether no other process has it."""
+def _locked(lock: "FileLock") -> bool:
+    """Lock a file; return whether no other process has it."""
+    from filelock import Timeout
+
     try:
-        fcntl.lockf(_turns(), fcntl.LOCK_EX | fcntl.LOCK_NB, 1, place)
-    except (BlockingIOError, PermissionError):
+        lock.acquire()
+    except Timeout:
         return False
     except OSError:  # a file system without locks
         return True

@@ -26,6 +26,8 @@ def _say_once() -> None:
     """Say why it takes so long."""
     if os.environ.get("COINTOSS_COMPILER"):
         why = "as COINTOSS_COMPILER=plain asks; it takes longer"
+    elif sys.platform == "win32":
+        why = "as always on Windows; it takes longer"
     else:
         why = f"with numba {numba.__version__}; it takes longer than with numba {' or '.join(TESTED)}"
     print(f"cointoss: compiling in plain mode, {why}", file=sys.stderr)

@@ -137,6 +137,7 @@ def test_a_killed_map_is_resumed_to_the_same_pixels(undisturbed, coin, tmp_path,
     assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == left
     assert_same(out, undisturbed)
     assert not list(out.rglob("*.partial"))
+    assert not list(tmp_path.glob(".*.lock"))
     assert tosses_of(monkeypatch, lambda: basin(coin, *AXES, "--out", out, "--resume")) == 0
 
 

@@ -116,9 +116,7 @@ with turn("some function") as waited:
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     monkeypatch.setattr(code_cache, "base_folder", lambda: tmp_path)
-    code_cache._turns.cache_clear()
-    yield tmp_path
-    code_cache._turns.cache_clear()
+    return tmp_path
 
 
 def test_a_process_waits_for_another_that_compiles_the_same_until_that_ends(folder, monkeypatch):
@@ -145,6 +143,7 @@ def test_a_process_waits_for_another_that_compiles_the_same_until_that_ends(fold
         assert len(slept) == 1
         with turn("some function") as waited:
             assert not waited
+    assert not list(folder.iterdir())
 
 
 def test_where_nothing_can_be_locked_nothing_is_waited_for(folder):
