@@ -2,6 +2,7 @@
 
 import os
 import sys
+from io import TextIOWrapper
 from typing import Any, NoReturn
 
 import click
@@ -29,6 +30,9 @@ class _Commands(click.Group):
     """The commands, each of whose failures is one line."""
 
     def __call__(self, *args: Any, **extra: Any) -> NoReturn:
+        if isinstance(sys.stdout, TextIOWrapper) and sys.stdout.errors == "strict":
+            # Windows' code pages have few letters; what they lack is a question mark.
+            sys.stdout.reconfigure(errors="replace")
         run_to_exit(lambda: self.main(*args, **extra))
 
     def main(self, *args: Any, **extra: Any) -> NoReturn:

@@ -19,6 +19,8 @@ def read_bounded(path: Path, most: int) -> bytes:
     """
 
     def at_once(name: str, flags: int) -> int:
+        if not hasattr(os, "O_NONBLOCK"):  # Windows, which has no such pipes
+            return os.open(name, flags)
         number = os.open(name, flags | os.O_NONBLOCK)
         os.set_blocking(number, True)
         return number

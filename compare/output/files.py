@@ -205,4 +205,6 @@ def _move(aside: Path, target: Path) -> None:
         os.umask(mask)
         mode = (0o777 if aside.is_dir() else 0o666) & ~mask
     aside.chmod(mode)
+    if aside.is_dir() and target.is_dir():
+        target.rmdir()  # Windows replaces no folder, not even one that is empty
     aside.replace(target)

@@ -1,4 +1,4 @@
-"""How Ctrl-C, SIGTERM and SIGHUP end the command: within a second, with one line, nothing left half-made."""
+"""How Ctrl-C, SIGTERM and their like end the command: within a second, with one line, nothing half-made."""
 
 import os
 import signal
@@ -9,7 +9,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import NoReturn
 
-SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+_NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
+SIGNALS: tuple[signal.Signals, ...] = tuple(getattr(signal, name) for name in _NAMES if hasattr(signal, name))
+"""Those that this system has; Ctrl-Break is Windows' own."""
 SOON = 0.1
 """How long after a child process stopped the signal that stopped it may be heeded here [s]."""
 PATIENCE = 0.3
@@ -80,7 +82,8 @@ def run_to_exit(command: Callable[[], object]) -> NoReturn:
             for number in heeded:
                 signal.signal(number, ending.interrupt)
             reading, writing = os.pipe()
-            os.set_blocking(writing, False)
+            if sys.platform != "win32":  # there a pipe that blocks will do
+                os.set_blocking(writing, False)
             signal.set_wakeup_fd(writing, warn_on_full_buffer=False)
             threading.Thread(target=ending.watch, args=(reading,), daemon=True).start()
             command()

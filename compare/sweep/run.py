@@ -1,5 +1,6 @@
 """Fill a map with the tosses that it lacks."""
 
+import math
 import os
 import shutil
 from collections import deque
@@ -125,7 +126,7 @@ def require_room(sweep: Sweep, folder: Path, *, maps: int, drawn: bool) -> None:
         )
     pictures = 1 if sweep.margin is None else 2
     needed = pictures * pixels * DRAWING_BYTES_PER_PIXEL
-    there = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    there = _memory()
     if drawn and needed > there:
         raise SweepError(
             f"{grid}: to draw or compare them needs up to {_gigabytes(needed)} of memory; accepted: "
@@ -133,5 +134,13 @@ def require_room(sweep: Sweep, folder: Path, *, maps: int, drawn: bool) -> None:
         )
 
 
-def _gigabytes(count: int) -> str:
+def _memory() -> float:
+    """Return the memory of this machine [bytes]; infinite where the system does not say, as Windows."""
+    try:
+        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (AttributeError, ValueError):
+        return math.inf
+
+
+def _gigabytes(count: float) -> str:
     return f"{count / 1e9:,.2f} GB"

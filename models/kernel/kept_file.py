@@ -7,6 +7,8 @@ import uuid
 from pathlib import Path
 from typing import Any
 
+from cointoss.models.kernel.base_folder import can_others_write, is_own
+
 _DIGEST = hashlib.sha256().digest_size
 
 
@@ -37,7 +39,7 @@ def read_kept(path: Path, about: str) -> bytes | None:
             kept, described = file.read(), os.fstat(file.fileno())
     except OSError:
         return None
-    if described.st_uid != os.geteuid() or described.st_mode & 0o022:
+    if not is_own(described) or can_others_write(described):
         return None
     digest, data = kept[:_DIGEST], kept[_DIGEST:]
     return data if digest == _digest(about, data) else None
@@ -52,8 +54,8 @@ def write_kept(path: Path, about: str, data: bytes) -> None:
     beside = path.with_name(f"{path.name}.{uuid.uuid4().hex}")
     try:
         with os.fdopen(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
-            os.fchmod(file.fileno(), 0o600)
             file.write(_digest(about, data) + data)
+        beside.chmod(0o600)
         beside.replace(path)
     except BaseException:
         beside.unlink(missing_ok=True)
