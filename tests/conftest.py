@@ -3,6 +3,7 @@
 import gc
 import os
 import signal
+import sys
 from importlib import import_module
 
 import pytest
@@ -14,13 +15,15 @@ from cointoss.models.records import Outcome
 from tests.helpers.browser import Page, browser
 from tests.helpers.explored import serving, small_map
 
-os.environ.setdefault("MUJOCO_GL", "egl")
+if sys.platform == "linux":
+    os.environ.setdefault("MUJOCO_GL", "egl")
 # A busy machine is slow, and of what is slow the commands speak.
 os.environ["TQDM_DISABLE"] = "1"
 
 # Runs in the background ignore Ctrl-C, and what they start would too.
 signal.signal(signal.SIGINT, signal.default_int_handler)
-signal.signal(signal.SIGHUP, signal.SIG_DFL)
+if hasattr(signal, "SIGHUP"):
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 # On a busy machine examples may be slow to draw.
 settings.register_profile(

@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import stat
 import subprocess
 import sys
 import tarfile
@@ -81,6 +82,8 @@ def test_a_wheel_has_every_file_under_one_name_and_no_other(wheel):
     }
     files = {name for name in ZipFile(wheel).namelist() if ".dist-info/" not in name}
     assert files == expected
+    kinds = {entry.external_attr >> 28 for entry in ZipFile(wheel).infolist()}
+    assert kinds <= {0, stat.S_IFREG >> 12}, "Windows makes no links"
     assert {f"cointoss/{name}" for name in ("models/coin.xml", "compare/report/report.html.j2")} <= files
 
 

@@ -1,6 +1,5 @@
 """A headless Chromium, driven over its DevTools pipe."""
 
-import fcntl
 import json
 import os
 import select
@@ -45,6 +44,8 @@ def chromium() -> str:
 @contextmanager
 def browser(profile: Path) -> Iterator["Browser"]:
     """Start Chromium with a profile of its own."""
+    import fcntl  # other tests run on Windows too
+
     orders, ordered = os.pipe()
     answered, answers = os.pipe()
     theirs = [fcntl.fcntl(each, fcntl.F_DUPFD, 10) for each in (orders, answers)]
