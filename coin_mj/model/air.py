@@ -318,9 +318,10 @@ def _along_line(b: float, half: float, line: LineVelocity) -> tuple[float, float
     along, around, around_z = 0.0, 0.0, 0.0
     for number in range(pieces):
         for i in range(len(_FINE_X)):
-            x = low + piece * (number + (1 + _FINE_X[i]) / 2)
-            T, z = D * wide * math.sinh(x), middle + wide * math.sinh(x)
-            strip = _FINE_W[i] * piece / 2 * wide * math.cosh(x) * _power(B * B + T * T, b)
+            grown = wide / 2 * math.exp(low + piece * (number + (1 + _FINE_X[i]) / 2))
+            shrunk = wide * wide / (4 * grown)
+            T, z = D * (grown - shrunk), middle + (grown - shrunk)
+            strip = _FINE_W[i] * piece / 2 * (grown + shrunk) * _power(B * B + T * T, b)
             along, around, around_z = along + strip * B, around + strip * T, around_z + strip * T * z
     return along, around, around_z
 

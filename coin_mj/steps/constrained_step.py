@@ -50,10 +50,14 @@ class Constraint(NamedTuple):
     """Its stiffness over `frequency` [1/s]: as large where the spring is critically damped, else smaller."""
     level: float
     """Height above the lowest point up to which others, that land slowly, are held too [m]."""
+    feels_air: bool
+    """Whether each stage finds the force of air with b > 0 anew; it is what it was last otherwise."""
 
 
-IMPACT = Constraint(0.0, 0.0, 0.0)
+TOUCH = Constraint(0.0, 0.0, 0.0, True)
 """In an impact the contact's own spring acts alone."""
+IMPACT = Constraint(0.0, 0.0, 0.0, False)
+"""Likewise after the touch: the air, a quadrature of a millisecond, hardly changes its impulse meanwhile."""
 
 
 @compiled
@@ -76,7 +80,7 @@ def _constrained_force(coin: MujocoCoin, constraint: Constraint) -> float:
     mj_reference_constraint(coin.address.model, coin.address.data)
     if constraint.frequency > 0:
         _set_rows(coin, constraint)
-    write_smooth_forces(coin)
+    write_smooth_forces(coin, constraint.feels_air)
     mj_acceleration(coin.address.model, coin.address.data)
     mj_constraint(coin.address.model, coin.address.data)
     return coin.joint.qfrc_constraint[2]
@@ -84,8 +88,8 @@ def _constrained_force(coin: MujocoCoin, constraint: Constraint) -> float:
 
 @compiled
 def forward(coin: MujocoCoin) -> float:
-    """Return the floor's force along z in an impact [N], with all accelerations of the state computed."""
-    return constrained_forward(coin, IMPACT)
+    """Return the floor's force along z at a touch [N], with all accelerations of the state computed."""
+    return constrained_forward(coin, TOUCH)
 
 
 @compiled

@@ -92,7 +92,7 @@ def nudge(coin: MujocoCoin, dt: float) -> None:
 
 @compiled
 def _find_acceleration(coin: MujocoCoin) -> None:
-    write_smooth_forces(coin)
+    write_smooth_forces(coin, True)
     mj_acceleration(coin.address.model, coin.address.data)
 
 

@@ -5,7 +5,7 @@ from enum import IntEnum
 
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.model.state import Motion, momentum_of, motion_of, set_motion
-from cointoss.coin_mj.steps.constrained_step import IMPACT, contact_step, forward
+from cointoss.coin_mj.steps.constrained_step import IMPACT, constrained_forward, contact_step, forward
 from cointoss.coin_mj.steps.flight import TOUCH_STEP
 from cointoss.coin_mj.steps.friction import friction_step
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
@@ -131,7 +131,7 @@ def _resolve(
     start, momentum, other = time, momentum_of(coin), (0.0, 0.0, 0.0)
     acted, result = False, TouchResult.SUSTAINED
     while time - start <= SUSTAINED * coin.rebound.duration:
-        force = forward(coin)
+        force = forward(coin) if time == start else constrained_forward(coin, IMPACT)
         if force == 0:
             if acted:
                 result = TouchResult.IMPACT

@@ -11,8 +11,10 @@ from cointoss.models.kernel.vectors import apply, apply_transposed, dot
 
 
 @compiled
-def write_smooth_forces(coin: MujocoCoin) -> None:
+def write_smooth_forces(coin: MujocoCoin, feels_air: bool) -> None:
     """Write qfrc_bias, qfrc_passive and qfrc_actuator of a placed coin, as `mj_forward` does.
+
+    Without `feels_air` the force of air with b > 0 stays what it was.
 
     MuJoCo's own stages for passive forces and actuators take the most time of a step: they look for springs,
     tendons, fluids and every kind of actuator. `_write_linear_drag` writes what they find of linear air.
@@ -21,7 +23,7 @@ def write_smooth_forces(coin: MujocoCoin) -> None:
     mj_bias(coin.address.model, coin.address.data, 0, coin.joint.qfrc_bias.ctypes)
     if is_linear(coin.body.air):
         _write_linear_drag(coin)
-    else:
+    elif feels_air:
         _write_air(coin)
 
 

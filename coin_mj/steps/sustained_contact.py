@@ -242,7 +242,7 @@ def constrain(coin: MujocoCoin, chi: float, w: Vector, dt: float) -> Constraint:
     if sunk > 0:
         gentle = RISE * (body.gravity * body.radius) ** 0.5 / sunk
         lift = min(frequency, max(gentle, frequency_of(ANGLE / turning_rate(body, w))))
-    return Constraint(frequency, lift, LEVEL * slow_speed(coin, chi, w) * dt)
+    return Constraint(frequency, lift, LEVEL * slow_speed(coin, chi, w) * dt, True)
 
 
 @compiled

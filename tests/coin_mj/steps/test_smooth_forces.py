@@ -13,6 +13,7 @@ from cointoss.coin_mj.model.air import PowerLaw, air_force
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.state import set_motion
+from cointoss.coin_mj.steps.constrained_step import IMPACT, constrained_forward, forward
 from cointoss.coin_mj.steps.free_step import free_rate
 from cointoss.models.attitude import rotation_matrix
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
@@ -54,6 +55,21 @@ def test_forces_and_accelerations_of_flight_are_those_of_mj_forward(center, air)
             assert found == pytest.approx(known, rel=1e-13, abs=1e-14 * np.abs(known).max()), name
         assert np.any(reference.qfrc_passive != 0) == bool(air)
         assert np.any(reference.qfrc_actuator != 0) == (air == AIR), "the actuator is linear drag's"
+
+
+@pytest.mark.parametrize("air", AIRS.values(), ids=AIRS.keys())
+def test_after_the_touch_of_an_impact_air_with_b_above_0_acts_as_it_did(air):
+    """A contact of 1e-5 s knows of no change of the air; its quadrature would be most of the toss's time."""
+    case = scenario(coin=ZLOTY, air=air, release=draw_release(np.random.default_rng(8)))
+    machine = machine_of(case, MANY, shape_thickness(case))
+    drags = []
+    for find in (forward, lambda coin: constrained_forward(coin, IMPACT), forward):
+        machine.data.qvel[:] *= 1.5
+        find(machine.coin)
+        drags.append(machine.data.qfrc_passive + machine.data.qfrc_actuator)
+    touch, later, anew = drags
+    assert (later == touch).all() == (air != AIR)
+    assert (anew == later).all() == (not air)
 
 
 def test_one_code_is_for_all_air():
