@@ -4,10 +4,11 @@ import os
 import shutil
 import sys
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import click
 
-from cointoss.compare.commands.common import Place, plain_errors
+from cointoss.compare.commands.common import Place, plain_errors, refuse
 from cointoss.compare.commands.names import reproductions_argument
 
 
@@ -19,13 +20,23 @@ from cointoss.compare.commands.names import reproductions_argument
     help="Folder of the results, each in its reproduction/NAME/; made if missing.",
 )
 @click.option("--quick", is_flag=True, help="Compute the smaller version of each that has one.")
+@click.option(
+    "--check",
+    "kept",
+    is_flag=False,
+    flag_value="docs",
+    metavar="[DIR]",
+    help="Compare the numbers with those in DIR/reproduction/NAME, else in docs; after the names.",
+)
 @click.pass_context
-def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quick: bool) -> None:
+def reproduce(
+    ctx: click.Context, names: tuple[str, ...], out: Path | None, quick: bool, kept: str | None
+) -> None:
     """Compute the paper's figures and the studies anew.
 
     Each NAME writes its data, tables, pictures and page and checks its claims; `all` computes all figures of
     the paper and writes REPRODUCTION.md, claims.csv and gallery.html. Without NAME, list the names. Exit
-    status 1: a claim comes out otherwise than known.
+    status 1: a claim comes out otherwise than known; with --check, a verdict changes or a number is off.
     """
     from cointoss.compare.film.back_end import drawing_problem, require_mujoco
     from cointoss.compare.output.files import require_folder
@@ -45,6 +56,12 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
     for name in names:
         if name not in known:
             ctx.fail(f"{name}: no such name; accepted: {', '.join(known)}")
+    if kept is not None:
+        if not names:
+            ctx.fail("--check: comes after the names; accepted: NAME ... --check [DIR]")
+        if out is not None:
+            ctx.fail("--out: not with --check, which writes nothing; accepted: one of them")
+        sys.exit(0 if _agree(names, Path(kept), quick=quick) else 1)
     if not names and out is None:
         width = max(map(len, known)) + 2
         for name in known:
@@ -74,3 +91,30 @@ def reproduce(ctx: click.Context, names: tuple[str, ...], out: Path | None, quic
     for claim in failed:
         click.echo(f"cointoss: {claim}: another verdict than the known one", err=True)
     sys.exit(1 if failed else 0)
+
+
+def _agree(names: tuple[str, ...], kept: Path, *, quick: bool) -> bool:
+    """Compute results anew, print how they compare with those in a folder, and return whether all agree."""
+    from cointoss.compare.reproduction import checking, runner
+    from cointoss.compare.reproduction.provenance import read_provenance
+    from cointoss.models.stages import stage
+
+    for name in names:
+        folder = runner.folder_of(name, kept)
+        if not (folder / "claims.json").is_file():
+            refuse(f"{folder}: holds no claims.json; accepted: a folder that --out has written (see --help)")
+        made_of = read_provenance(folder)
+        if quick is not (made_of is not None and made_of["quick"]):
+            size, way = ("full", "without") if quick else ("quick", "with")
+            refuse(f"{folder}: of the {size} size; accepted: the same {way} --quick")
+    agree = True
+    for name in names:
+        timed = runner.find(name).timed
+        with plain_errors(name), TemporaryDirectory() as aside:
+            with stage(name, "parts") as progress:
+                runner.reproduce(name, Path(aside), progress, quick=quick)
+            folder = runner.folder_of(name, kept)
+            found = checking.check(folder, runner.folder_of(name, Path(aside)), timed=timed)
+        click.echo(checking.in_words(name, str(folder), found, timed=timed))
+        agree = agree and found.agrees
+    return agree

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cointoss.compare.reproduction.claim import Claim
+from cointoss.compare.reproduction.provenance import PROVENANCE
 
 if TYPE_CHECKING:  # names are listed without it
     from matplotlib.figure import Figure
@@ -51,6 +52,8 @@ class Reproduction:
     """Its place in the paper, as in "Fig. 3"; empty for a study of this project."""
     resumes: bool = False
     """Whether it keeps what it has done in its folder, so that an interrupted run goes on."""
+    timed: bool = False
+    """Whether its numbers are times, which no two runs share."""
     assumed: str = ""
     """What the paper leaves unsaid, and what is assumed instead."""
 
@@ -58,7 +61,7 @@ class Reproduction:
     def files(self) -> tuple[str, ...]:
         """Names of all files that it may write."""
         pictures = (f"{name}.png" for name in self.draw)
-        return ("claims.json", "data.npz", "numbers.json", PAGE, *SHEETS, *pictures)
+        return ("claims.json", "data.npz", "numbers.json", PROVENANCE, PAGE, *SHEETS, *pictures)
 
 
 def folder_of(name: str, out: Path) -> Path:

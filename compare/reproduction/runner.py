@@ -28,8 +28,13 @@ def _rooms() -> dict[str, str]:
 
 def find(name: str) -> Reproduction:
     """Return what has one of the `names`."""
+    return importlib.import_module(module_of(name)).REPRODUCTION
+
+
+def module_of(name: str) -> str:
+    """Return the module of one of the `names`, by its full name."""
     module = name.replace("-", "_")
-    return importlib.import_module(f"{_rooms()[module]}.{module}").REPRODUCTION
+    return f"{_rooms()[module]}.{module}"
 
 
 def require_writable(name: str, out: Path) -> None:
@@ -56,7 +61,7 @@ def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) 
         UnwritableError: naming the folder and why.
     """
     from cointoss.compare.reproduction.pages import write
-    from cointoss.compare.reproduction.saving import save
+    from cointoss.compare.reproduction.saving import keep_provenance, save
 
     found = find(name)
     require_writable(name, out)
@@ -68,6 +73,7 @@ def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) 
         result = make(progress)
         save(aside, result, found.draw)
         write(aside, name, found, result, quick=quick)
+        keep_provenance(aside, module_of(name), quick=quick)
     remove(folder / PARTS)
     return result
 

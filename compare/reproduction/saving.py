@@ -14,6 +14,7 @@ from pydantic import TypeAdapter
 
 from cointoss.compare.output.style import STYLE
 from cointoss.compare.reproduction.claim import to_json
+from cointoss.compare.reproduction.provenance import PROVENANCE, provenance
 from cointoss.compare.reproduction.result import Result
 
 _COLORS = 128
@@ -30,6 +31,12 @@ def save(folder: Path, result: Result, draw: Mapping[str, Callable[[Any], Figure
         numbers = json.dumps(asdict(data), indent=1, allow_nan=False, default=np.ndarray.tolist)
         (folder / "numbers.json").write_text(numbers, encoding="utf-8")
     draw_all(folder, result.data, draw)
+
+
+def keep_provenance(folder: Path, module: str, *, quick: bool) -> None:
+    """Write what a run was made of into its folder, after all else; see `provenance`."""
+    made_of = json.dumps(provenance(module, folder, quick=quick), indent=1)
+    (folder / PROVENANCE).write_text(made_of + "\n", encoding="utf-8")
 
 
 def draw_all(folder: Path, data: Any, draw: Mapping[str, Callable[[Any], Figure]]) -> None:

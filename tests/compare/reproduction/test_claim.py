@@ -139,11 +139,12 @@ def test_a_run_leaves_its_claims_its_data_and_its_pictures(tmp_path, monkeypatch
         paper="Fig. 0",
     )
     monkeypatch.setattr(runner, "find", lambda _: found)
+    monkeypatch.setattr(runner, "module_of", lambda _: __name__)
     answer = runner.reproduce("sum", tmp_path, unseen)
     assert (answer.claims, answer.tables) == ((KNOWN, REFUTED), "a table")
     folder = tmp_path / "reproduction" / "sum"
     written = sorted(path.name for path in folder.iterdir())
-    assert written == ["claims.json", "data.npz", "figure.png", "index.md"]
+    assert written == ["claims.json", "data.npz", "figure.png", "index.md", "provenance.json"]
     assert read_claims(folder / "claims.json") == (KNOWN, REFUTED)
     assert np.load(folder / "data.npz")["sum"] == [4.0]
     runner.reproduce("sum", tmp_path, unseen, quick=True)

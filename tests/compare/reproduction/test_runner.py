@@ -81,7 +81,12 @@ def test_files_are_written_and_the_results_printed(tmp_path):
     assert (answered.exit_code, answered.stderr) == (0, "")
     assert answered.stdout.startswith("as drawn\n\n✓ holds: two and two are five\n")
     assert answered.stdout.endswith(f"\n\nfake-good: 1 holds\n{old}\n")
-    assert sorted(path.name for path in old.iterdir()) == ["claims.json", "mine.txt", "numbers.json"]
+    assert sorted(path.name for path in old.iterdir()) == [
+        "claims.json",
+        "mine.txt",
+        "numbers.json",
+        "provenance.json",
+    ]
     assert json.loads((old / "numbers.json").read_text()) == {"sum": 5}
     assert (old / "mine.txt").read_text() == "old"
 

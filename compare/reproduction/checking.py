@@ -1,0 +1,199 @@
+"""Whether a run finds the numbers of an earlier one: each with what it may differ by, and why."""
+
+import json
+import math
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from cointoss.compare.reproduction.claim import VERDICTS
+from cointoss.compare.reproduction.provenance import read_provenance, unlike
+
+CONFIDENCE = 2.58
+"""Standard deviations to either side of 99 % of a normal distribution."""
+BITS = "equal to the bit: the same sources, versions and kind of machine"
+EQUAL = "equal to the bit"
+ESTIMATE = "each value within the other's 99 % interval"
+COUNT = f"within {CONFIDENCE} √n of a count n: tosses past their horizon of trust may end otherwise"
+PRINTED = "within one in the third digit, as they are printed"
+BESIDE = "within a thousandth of the largest number beside it"
+SMALL = "within a hundredth of the threshold: rounding"
+SAME = "equal"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Compared:
+    """A number of two runs."""
+
+    place: str
+    """Where it stands."""
+    there: Any
+    here: Any
+    reason: str
+    """What it may differ by, and why."""
+    agrees: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class Check:
+    """What two runs have in common."""
+
+    unlike: str
+    """By what their sources, versions and machines differ, in words; empty where by nothing."""
+    verdicts: int
+    """How many claims were compared."""
+    changed: tuple[str, ...]
+    """Claims whose verdict changes, in words."""
+    numbers: tuple[Compared, ...]
+
+    @property
+    def off(self) -> tuple[Compared, ...]:
+        """The numbers that do not agree."""
+        return tuple(number for number in self.numbers if not number.agrees)
+
+    @property
+    def agrees(self) -> bool:
+        """Whether no verdict changes and all numbers agree."""
+        return not self.changed and not self.off
+
+
+def check(there: Path, here: Path, *, timed: bool) -> Check:
+    """Compare the folders of two runs.
+
+    Args:
+        there: of the earlier run.
+        here: of the run of this machine.
+        timed: whether the numbers are times, which no two runs share.
+    """
+    ours = read_provenance(here)
+    assert ours is not None
+    other = unlike(read_provenance(there), ours)
+    claims, found = _claims(there), _claims(here)
+    changed = tuple(
+        f"{claim}: {_verdict(claims.get(claim))} there, {_verdict(found.get(claim))} here"
+        for claim in {**claims, **found}
+        if _verdict(claims.get(claim)) != _verdict(found.get(claim))
+    )
+    numbers: list[Compared] = []
+    if not timed:
+        for claim in claims.keys() & found.keys():
+            numbers += _criteria(claim, claims[claim]["criteria"], found[claim]["criteria"], exact=not other)
+        name = "numbers.json"
+        if (there / name).exists():
+            kept, made = (json.loads((folder / name).read_text(encoding="utf-8")) for folder in (there, here))
+            numbers += compared(name, kept, made, exact=not other)
+    return Check(unlike=other, verdicts=len({**claims, **found}), changed=changed, numbers=tuple(numbers))
+
+
+def _claims(folder: Path) -> dict[str, Any]:
+    """Return the claims of a run by their words, alike ones numbered."""
+    listed, seen = json.loads((folder / "claims.json").read_text(encoding="utf-8")), Counter[str]()
+    claims = {}
+    for one in listed:
+        seen[one["claim"]] += 1
+        number = seen[one["claim"]]
+        claims[one["claim"] if number == 1 else f"{one['claim']} ({number})"] = one
+    return claims
+
+
+def _verdict(claim: Mapping[str, Any] | None) -> str:
+    return "no such claim" if claim is None else VERDICTS[claim["holds"]]
+
+
+def _criteria(claim: str, there: list[Any], here: list[Any], *, exact: bool) -> Iterator[Compared]:
+    if len(there) != len(here):
+        yield _unequal(claim, f"{len(there)} criteria", f"{len(here)} criteria", PRINTED)
+    for one, other in zip(there, here, strict=False):
+        place = f"{claim}: {other['quantity']}"
+        threshold = abs(other["threshold"])
+        yield from compared(place, one["measured"], other["measured"], exact=exact, small=threshold / 100)
+
+
+def compared(
+    place: str, there: Any, here: Any, *, exact: bool, beside: float = 0.0, small: float = 0.0
+) -> Iterator[Compared]:
+    """Yield the numbers of two values as JSON has them, each with what it may differ by.
+
+    Args:
+        place: where the values stand.
+        there: of the earlier run.
+        here: of this one.
+        exact: whether the bits should be the same.
+        beside: the largest number in the list that holds them.
+        small: what rounding may change.
+    """
+    if isinstance(there, dict) and isinstance(here, dict):
+        if not exact and {"value", "low", "high"} <= there.keys() & here.keys():
+            agrees = all(
+                one["low"] <= other["value"] <= one["high"] for one, other in ((there, here), (here, there))
+            )
+            yield Compared(
+                place=place, there=there["value"], here=here["value"], reason=ESTIMATE, agrees=agrees
+            )
+            return
+        for key in {**there, **here}:
+            inner = f"{place} {key}"
+            if key in there and key in here:
+                yield from compared(inner, there[key], here[key], exact=exact, small=small)
+            else:
+                yield _unequal(inner, *("given" if key in one else "none" for one in (there, here)), SAME)
+    elif isinstance(there, list) and isinstance(here, list):
+        if len(there) != len(here):
+            yield _unequal(place, f"{len(there)} numbers", f"{len(here)} numbers", SAME)
+        largest = max((abs(one) for one in there if isinstance(one, float)), default=0.0)
+        for number, (one, other) in enumerate(zip(there, here, strict=False)):
+            yield from compared(f"{place}[{number}]", one, other, exact=exact, beside=largest, small=small)
+    elif _is_number(there) and _is_number(here):
+        allowed, reason = (0.0, BITS) if exact else _allowed(there, here, beside, small)
+        agrees = there == here or abs(there - here) <= allowed
+        yield Compared(place=place, there=there, here=here, reason=reason, agrees=agrees)
+    else:
+        yield Compared(place=place, there=there, here=here, reason=SAME, agrees=there == here)
+
+
+def _allowed(there: float, here: float, beside: float, small: float) -> tuple[float, str]:
+    """Return by how much two numbers may differ, and why."""
+    if isinstance(there, int) and isinstance(here, int):
+        return CONFIDENCE * math.sqrt(abs(there)), COUNT
+    size = max(abs(there), abs(here))
+    printed = 10.0 ** (math.floor(math.log10(size)) - 2) if 0 < size < math.inf else 0.0
+    return max((printed, PRINTED), (beside / 1000, BESIDE), (small, SMALL), key=lambda pair: pair[0])
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _unequal(place: str, there: str, here: str, reason: str) -> Compared:
+    return Compared(place=place, there=there, here=here, reason=reason, agrees=False)
+
+
+def in_words(name: str, where: str, found: Check, *, timed: bool) -> str:
+    """Return what a check found, in lines.
+
+    Args:
+        name: of what was reproduced.
+        where: the folder with which it was compared.
+        found: by the check.
+        timed: as `check` takes it.
+    """
+    lines = [
+        f"{name}: {len(found.changed)} of {found.verdicts} verdicts change, "
+        f"{len(found.off)} of {len(found.numbers)} numbers are off, against {where}"
+    ]
+    if timed:
+        lines.append("  its numbers are times: verdicts alone are compared")
+    elif found.unlike:
+        lines.append(f"  not to the bit: {found.unlike}")
+    agreeing = Counter(
+        EQUAL if number.there == number.here else number.reason for number in found.numbers if number.agrees
+    )
+    lines += [f"  {count} {reason}" for reason, count in agreeing.items()]
+    lines += [f"  changes: {words}" for words in found.changed]
+    lines += [
+        f"  off: {number.place}: {number.there} there, {number.here} here; accepted: {number.reason}"
+        for number in found.off
+    ]
+    return "\n".join(lines)

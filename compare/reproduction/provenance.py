@@ -1,0 +1,69 @@
+"""What a run was made of: its sources, the versions and the machine; and what it wrote, by hash."""
+
+import hashlib
+import json
+import os
+import platform
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from cointoss.models.distribution import versions_of
+from cointoss.models.kernel.sources import source_hash
+
+PROVENANCE = "provenance.json"
+"""Lies beside the claims of a run; earlier runs have none."""
+PACKAGES = ("llvmlite", "mujoco", "numba", "numpy", "scipy")
+"""Those whose numbers a result is made of."""
+_OUTPUTS = ("claims.json", "numbers.json")
+
+
+def provenance(module: str, folder: Path, *, quick: bool) -> dict[str, Any]:
+    """Return what a run was made of, and the hashes of what it wrote.
+
+    Args:
+        module: of what was reproduced, by its full name.
+        folder: that was written.
+        quick: whether it was the smaller size.
+    """
+    written = {name: folder / name for name in _OUTPUTS if (folder / name).exists()}
+    return {
+        "sources": source_hash(module),
+        "quick": quick,
+        "versions": {"python": platform.python_version(), **versions_of(PACKAGES)},
+        "machine": machine(),
+        "sha256": {name: hashlib.sha256(path.read_bytes()).hexdigest() for name, path in written.items()},
+    }
+
+
+def machine() -> dict[str, str]:
+    """Return the kind of this machine: what machine code is made for, and the C library's functions."""
+    from llvmlite import binding
+
+    compiled_for = os.environ.get("NUMBA_CPU_NAME") or binding.get_host_cpu_name()
+    return {
+        "system": platform.system(),
+        "architecture": platform.machine(),
+        "processor": compiled_for,
+        "libc": " ".join(filter(None, platform.libc_ver())),
+    }
+
+
+def read_provenance(folder: Path) -> dict[str, Any] | None:
+    """Return what a run in a folder was made of, None where it did not say."""
+    path = folder / PROVENANCE
+    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+
+
+def unlike(there: Mapping[str, Any] | None, here: Mapping[str, Any]) -> str:
+    """Return, in words, by what two runs differ that may change their bits; empty where by nothing."""
+    if there is None:
+        return f"no {PROVENANCE} there"
+    other = ["other sources"] if there["sources"] != here["sources"] else []
+    for kind in ("versions", "machine"):
+        other += [
+            f"{name} {there[kind].get(name)} there, {value} here"
+            for name, value in here[kind].items()
+            if there[kind].get(name) != value
+        ]
+    return "; ".join(other)

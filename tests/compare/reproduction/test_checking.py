@@ -1,0 +1,138 @@
+"""Numbers of two runs are compared each with its own tolerance, and a verdict that would change is named."""
+
+import json
+import sys
+
+import pytest
+
+from cointoss.compare.reproduction import checking, provenance, studies
+from cointoss.compare.reproduction.checking import BESIDE, COUNT, ESTIMATE, PRINTED, SMALL, compared
+from tests.helpers.command_line import cointoss, refused
+
+FAKE = """
+from dataclasses import dataclass
+from cointoss.compare.reproduction.claim import Claim, Criterion, Estimate
+from cointoss.compare.reproduction.result import Reproduction, Result
+
+@dataclass
+class Numbers:
+    length: float
+    faces: list
+
+def make(progress):
+    share = Estimate(0.5, 0.45, 0.55, 600)
+    criteria = [Criterion("length", LENGTH, "<", 1.0, "a metre"), Criterion("share", share, "<", 0.6, "so")]
+    return Result(claims=[Claim(claim="it is short", criteria=criteria)], data=Numbers(LENGTH, [40, 60]))
+
+LENGTH = 0.123456
+REPRODUCTION = Reproduction(title="a fake", seconds=0, make=make, draw={}, timed=TIMED)
+"""
+
+
+@pytest.fixture
+def fake(tmp_path, monkeypatch):
+    """Return the folder of a run of a fake study, and what changes its code."""
+    folder = tmp_path / "studies"
+    folder.mkdir()
+    monkeypatch.setattr(studies, "__path__", [*studies.__path__, str(folder)])
+
+    def write(before="", after="", *, timed="False"):
+        sys.modules.pop(f"{studies.__name__}.fake", None)
+        text = FAKE.replace("TIMED", timed).replace(before, after) if before else FAKE.replace("TIMED", timed)
+        (folder / "fake.py").write_text(text + f"# {len(list(folder.iterdir()))} {before} {after}\n")
+        for bytecode in folder.glob("__pycache__/*"):
+            bytecode.unlink()
+
+    write()
+    assert cointoss("reproduce", "fake", "--out", tmp_path / "kept").exit_code == 0
+    yield tmp_path / "kept", write
+    sys.modules.pop(f"{studies.__name__}.fake", None)
+
+
+def check(kept):
+    answered = cointoss("reproduce", "fake", "--check", kept)
+    return answered.exit_code, answered.stdout.splitlines()
+
+
+def test_the_same_run_agrees_to_the_bit(fake):
+    kept, _ = fake
+    status, lines = check(kept)
+    assert status == 0
+    assert lines[0].startswith("fake: 0 of 1 verdicts change, 0 of 9 numbers are off")
+    assert lines[1:] == ["  9 equal to the bit"]
+
+
+def test_a_last_bit_is_off_where_bits_are_the_same_and_not_elsewhere(fake):
+    kept, write = fake
+    write("LENGTH = 0.123456", "LENGTH = 0.12345600000000001")
+    status, lines = check(kept)
+    assert status == 1
+    assert len([line for line in lines if line.startswith("  off: ")]) == 2
+    (kept / "reproduction" / "fake" / "provenance.json").unlink()
+    status, lines = check(kept)
+    assert status == 0
+    assert lines[1] == "  not to the bit: no provenance.json there"
+
+
+def test_a_claim_that_would_change_and_a_number_that_is_off_are_named(fake):
+    kept, write = fake
+    write("LENGTH = 0.123456", "LENGTH = 1.5")
+    status, lines = check(kept)
+    assert status == 1
+    assert "  changes: it is short: holds there, does not hold here" in lines
+    assert any(line.startswith("  off: numbers.json length: 0.123456 there, 1.5 here") for line in lines)
+
+
+def test_of_times_the_verdicts_alone_are_compared(fake):
+    kept, write = fake
+    write("LENGTH = 0.123456", "LENGTH = 0.9", timed="True")
+    assert check(kept)[0] == 0
+    write("LENGTH = 0.123456", "LENGTH = 1.5", timed="True")
+    assert check(kept)[0] == 1
+
+
+def test_what_cannot_be_compared_is_refused_before_any_work(fake, tmp_path):
+    kept, write = fake
+    write("def make(progress):", "def make(progress):\n    raise KeyboardInterrupt")
+    assert "holds no claims.json" in refused("reproduce", "fake", "--check", tmp_path)
+    assert "accepted: the same without --quick" in refused("reproduce", "fake", "--quick", "--check", kept)
+    assert "not with --check" in refused("reproduce", "fake", "--out", tmp_path, "--check", kept)
+    assert "comes after the names" in refused("reproduce", "--check", "fake")
+
+
+def alike(there, here, **how):
+    (one,) = compared("here", there, here, exact=False, **how)
+    return one.agrees, one.reason
+
+
+def test_each_kind_of_number_has_its_own_tolerance():
+    estimate = {"value": 0.5, "low": 0.4, "high": 0.6, "count": 100}
+    assert alike(estimate, {**estimate, "value": 0.59}) == (True, ESTIMATE)
+    assert alike(estimate, {**estimate, "value": 0.61, "high": 0.7}) == (False, ESTIMATE)
+    assert alike(100, 125) == (True, COUNT)
+    assert alike(100, 126) == (False, COUNT)
+    assert alike(0, 1) == (False, COUNT)
+    assert alike(1.23, 1.2399) == (True, PRINTED)
+    assert alike(1.23, 1.2401) == (False, PRINTED)
+    assert alike(1e-15, 4e-15, small=1e-10) == (True, SMALL)
+    assert alike(1e-15, 2e-10, small=1e-10) == (False, SMALL)
+    assert [one.agrees for one in compared("", [100.0, 1e-9], [100.0, 0.09], exact=False)] == [True, True]
+    assert [one.reason for one in compared("", [100.0, 1e-9], [100.0, 0.2], exact=False)] == [PRINTED, BESIDE]
+    assert [one.agrees for one in compared("", [100.0, 1e-9], [100.0, 0.2], exact=False)] == [True, False]
+
+
+def test_what_is_missing_on_either_side_is_off():
+    assert [one.agrees for one in compared("", {"a": 1}, {"b": 1}, exact=False)] == [False, False]
+    assert [one.agrees for one in compared("", [1, 2], [1], exact=True)] == [False, True]
+    assert [one.agrees for one in compared("", None, 1.0, exact=False)] == [False]
+
+
+def test_other_versions_and_machines_are_told_in_words(monkeypatch, tmp_path):
+    module = checking.__name__
+    one = provenance.provenance(module, tmp_path, quick=False)
+    assert provenance.unlike(one, one) == ""
+    monkeypatch.setenv("NUMBA_CPU_NAME", "generic")
+    other = provenance.provenance(module, tmp_path, quick=False)
+    assert provenance.unlike(one, other).endswith("there, generic here")
+    assert provenance.unlike({**one, "sources": "0"}, one) == "other sources"
+    assert json.loads(json.dumps(one)) == one
