@@ -21,7 +21,7 @@ told = echo "$(1)"; \
   while sleep 10 >/dev/null 2>&1 && kill -0 $$$$; do s=$$(($$s + 10)); echo "$(1): $$s s"; done & \
   trap "kill $$!" EXIT; $(2)
 
-.PHONY: report test check test-all bench docs pages paper releasable release lock lint opengl chromium compiled clean
+.PHONY: report test check test-all bench docs pages paper results releasable release lock lint opengl chromium compiled clean
 
 report: $(READY) opengl compiled
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
@@ -79,6 +79,13 @@ release: releasable
 	$(MAKE) releasable
 	git tag --annotate v$(VERSION) --message "cointoss $(VERSION)"
 	@echo "v$(VERSION) is tagged; now: git push origin v$(VERSION), upload dist/ to the index, archive it"
+
+# All that docs/ holds of results, computed anew in several hours, and the pages of them. A claim that comes out
+# otherwise than known is printed, and is no reason to stop.
+results: $(VENV)/.ready-docs opengl compiled
+	-$(BIN)/cointoss reproduce all --out docs
+	-$(BIN)/cointoss reproduce $(notdir $(wildcard docs/reproduction/*)) --out docs
+	$(BIN)/python docs/extensions/written.py
 
 # The exact versions installed here, with which the numbers of the pages can be made again.
 lock: $(VENV)/.ready-docs

@@ -1,10 +1,14 @@
 """A long step of make says that it runs, and fails as its command does; what is not ready is not released."""
 
+import json
 import os
+import re
 import subprocess
 from pathlib import Path
 
 import pytest
+
+from cointoss.compare.reproduction import runner
 
 MAKEFILE = Path(__file__).parents[1] / "Makefile"
 SLEEP = """#!/bin/sh
@@ -82,3 +86,19 @@ def test_what_is_told_to_be_quiet_is_told_of():
     quiet = [line for line in recipes if " --quiet" in line or "sphinx-build -q" in line]
     assert len(quiet) == 4
     assert all("$(call told," in line for line in quiet)
+
+
+def test_the_container_makes_all_results_and_pages_by_targets_that_there_are():
+    container = (MAKEFILE.parent / "Containerfile").read_text(encoding="utf-8")
+    (asked,) = re.findall(r"^RUN make (.*)$", container, flags=re.MULTILINE)
+    (made,) = re.findall(r"^CMD (.*)$", container, flags=re.MULTILINE)
+    program, *targets = json.loads(made)
+    # Nothing is run; what is asked for must have rules.
+    command = [program, "--dry-run", "--always-make", "--no-print-directory", *asked.split(), *targets]
+    done = subprocess.run(
+        command, cwd=MAKEFILE.parent, env={**os.environ, "MAKEFLAGS": ""}, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    (listed,) = re.findall(r"cointoss reproduce (?!all)(.*) --out docs$", done.stdout, flags=re.MULTILINE)
+    assert set(listed.split()) == {path.name for path in (MAKEFILE.parent / "docs/reproduction").iterdir()}
+    assert set(listed.split()) <= set(runner.names())
