@@ -4,6 +4,7 @@ import hashlib
 import json
 import os
 import platform
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -42,7 +43,7 @@ def machine() -> dict[str, str]:
 
     compiled_for = os.environ.get("NUMBA_CPU_NAME") or binding.get_host_cpu_name()
     return {
-        "system": platform.system(),
+        "system": sys.platform,
         "architecture": platform.machine(),
         "processor": compiled_for,
         "libc": " ".join(filter(None, platform.libc_ver())),

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from cointoss.coin_mj import Friction, Settings
+from cointoss.coin_mj import Friction, Realisation, Settings
 from cointoss.coin_mj.model.settings import ROUGH
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, VERMILION
@@ -48,6 +48,18 @@ CONTACTS: dict[str, tuple[float, Settings]] = {
     ),
 }
 """Coefficient of friction and settings of MuJoCo's contacts, by name."""
+_IN_ONE = Realisation.ONE_STEP
+ONE_STEP: dict[str, tuple[float, Settings]] = {
+    "frictionless": (0.0, Settings(contact=_IN_ONE)),
+    "Coulomb's force": (FRICTION, Settings(contact=_IN_ONE)),
+    f"Coulomb's force, μ = {ROUGH:g}": (ROUGH, Settings(contact=_IN_ONE)),
+    "native cone": (FRICTION, Settings(contact=_IN_ONE, friction=Friction.NATIVE)),
+    f"native cone, μ = {ROUGH:g}, slip undamped": (
+        ROUGH,
+        Settings(contact=_IN_ONE, friction=Friction.NATIVE, slip_damping=0.0),
+    ),
+}
+"""As `CONTACTS`, each within one step."""
 NAMES = {law: f"({letter}) {law}" for letter, law in zip("abcdef", ContactLaw, strict=False)} | {
     ContactLaw.COULOMB: "coulomb"
 }
@@ -65,6 +77,8 @@ class LawFits:
     """Of MuJoCo's contacts, by name, (n, 3)."""
     fits: dict[str, dict[str, Spread]]
     """|S_law - S|/|S_law| of each law by each contact."""
+    one_step: dict[str, dict[str, Spread]]
+    """As `fits`, by the contacts of one step."""
     growing: dict[float, Spread]
     """Of the perfectly rough law by Coulomb's force, by its μ."""
 
@@ -75,7 +89,7 @@ class LawFits:
 
 def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> LawFits:
     """Return the impulses of `count` random impacts."""
-    parts = len(CONTACTS) + len(FRICTIONS) + 1
+    parts = len(CONTACTS) + len(ONE_STEP) + len(FRICTIONS) + 1
     cases = draw_touches(np.random.default_rng(seed), count, RESTITUTIONS)
     laws = {
         NAMES[law]: first(by_law(on_floor(case, law, FRICTION) for case in cases), "impulse")
@@ -88,16 +102,21 @@ def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> LawFits
             by_mujoco((on_floor(case, ContactLaw.COULOMB, mu) for case in cases), settings), "impulse"
         )
 
-    contacts = {}
-    for number, (name, (mu, settings)) in enumerate(CONTACTS.items(), start=2):
-        contacts[name] = of(mu, settings)
+    contacts, in_one = {}, {}
+    listed = [(contacts, CONTACTS), (in_one, ONE_STEP)]
+    each = [(made, name, *given) for made, kinds in listed for name, given in kinds.items()]
+    for number, (made, name, mu, settings) in enumerate(each, start=2):
+        made[name] = of(mu, settings)
         progress(number, parts)
     growing = {}
-    for number, mu in enumerate(FRICTIONS, start=len(CONTACTS) + 2):
+    for number, mu in enumerate(FRICTIONS, start=len(each) + 2):
         growing[mu] = _fit(laws[NAMES[ContactLaw.PERFECTLY_ROUGH]], of(mu, Settings()))
         progress(number, parts)
-    fits = {law: {contact: _fit(S_law, S) for contact, S in contacts.items()} for law, S_law in laws.items()}
-    return LawFits(laws=laws, contacts=contacts, fits=fits, growing=growing)
+    fits, one_step = (
+        {law: {contact: _fit(S_law, S) for contact, S in made.items()} for law, S_law in laws.items()}
+        for made in (contacts, in_one)
+    )
+    return LawFits(laws=laws, contacts=contacts, fits=fits, one_step=one_step, growing=growing)
 
 
 def _fit(S_law: Array, S: Array) -> Spread:
@@ -126,11 +145,17 @@ def tables(found: LawFits) -> str:
         [law, *(cell(law, name, fit) for name, fit in by_contact.items())]
         for law, by_contact in found.fits.items()
     ]
+    in_one = [
+        [law, *(f"{fit.median:.0e} ({fit.worst:.0e})" for fit in by_contact.values())]
+        for law, by_contact in found.one_step.items()
+    ]
     growing = [[f"{mu:g}", f"{fit.median:.0e}", f"{fit.worst:.0e}"] for mu, fit in found.growing.items()]
     return paragraphs(
         f"|S_law - S|/|S_law| of {len(next(iter(found.laws.values())))} random impacts, median (worst); "
         f"restitution {RESTITUTIONS[0]:g} to {RESTITUTIONS[1]:g}, friction {FRICTION:g} unless named",
         table(["law", *CONTACTS], fits),
+        "The same, each contact within one step:",
+        table(["law", *ONE_STEP], in_one),
         "Coulomb's force against the perfectly rough law:",
         table("μ | median | worst", growing),
     )
