@@ -83,7 +83,6 @@ release: releasable
 # All that docs/ holds of results, computed anew in several hours, and the pages of them. A claim that comes out
 # otherwise than known is printed, and is no reason to stop.
 results: $(VENV)/.ready-docs opengl compiled
-	-$(BIN)/cointoss reproduce all --out docs
 	-$(BIN)/cointoss reproduce $(notdir $(wildcard docs/reproduction/*)) --out docs
 	$(BIN)/python docs/extensions/written.py
 
