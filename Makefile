@@ -13,8 +13,8 @@ CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 # Tests start hundreds of processes, each of which would compile all modules to bytecode.
 unexport PYTHONDONTWRITEBYTECODE
-# What does not wait for each other is made side by side.
-MAKEFLAGS += --jobs=2
+# What does not wait for each other is made side by side; a make within a make is told so.
+MAKEFLAGS += $(if $(filter 0,$(MAKELEVEL)),--jobs=2)
 
 # A step that says nothing itself: what it does, and every ten seconds that its shell still runs.
 told = echo "$(1)"; \
