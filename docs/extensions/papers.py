@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from cointoss.compare.metrics.estimate import Estimate
+from cointoss.compare.metrics.estimates import in_words
 from cointoss.compare.reproduction import gallery
-from cointoss.compare.reproduction.claim import VERDICTS, Claim, Criterion, Estimate, read_claims
-from cointoss.compare.reproduction.estimates import in_words
+from cointoss.compare.reproduction.claim import VERDICTS, Claim, Criterion, read_claims
 from cointoss.compare.reproduction.pages import verdicts_of
 from cointoss.compare.reproduction.result import folder_of
 
@@ -64,7 +65,9 @@ def number(name: str, binding: Mapping[str, Any], docs: Path = DOCS) -> Number:
 def _found(binding: Mapping[str, Any], docs: Path) -> str | float | Estimate:
     if "count" in binding:
         named = [folder_of(name, docs) for name in gallery.of_paper()]
-        claims = [claim for folder in named for claim in read_claims(folder / "claims.json")]
+        claims = [
+            claim for folder in named for claim in read_claims(folder / "claims.json") if not claim.beside
+        ]
         return f"{len(claims):,d}" if binding["count"] == "claims" else verdicts_of(claims)
     folder = folder_of(binding["of"], docs)
     if "table" in binding:
