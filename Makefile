@@ -75,7 +75,7 @@ release: releasable
 	rm -rf dist
 	$(BIN)/python -m hatchling build -t sdist -d dist
 	$(BIN)/python -m pip wheel --no-deps --no-build-isolation --wheel-dir dist dist/*.tar.gz
-	WHEEL=$$(echo dist/*.whl) $(BIN)/pytest tests/test_wheel.py -m "slow or not slow"
+	COINTOSS_WHEEL=$$(echo dist/*.whl) $(BIN)/pytest tests/test_wheel.py -m "slow or not slow"
 	$(MAKE) releasable
 	git tag --annotate v$(VERSION) --message "cointoss $(VERSION)"
 	@echo "v$(VERSION) is tagged; now: git push origin v$(VERSION), upload dist/ to the index, archive it"

@@ -29,8 +29,8 @@ def build(target, source, folder):
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory):
     """A wheel made as pip makes one of an archive of the sources, without links, or the one to release."""
-    if "WHEEL" in os.environ:
-        return TOP / os.environ["WHEEL"]
+    if "COINTOSS_WHEEL" in os.environ:
+        return TOP / os.environ["COINTOSS_WHEEL"]
     archive = build("sdist", TOP, tmp_path_factory.mktemp("archive"))
     sources = tmp_path_factory.mktemp("sources")
     # Python 3.11.4 is the first that knows what to leave out.
