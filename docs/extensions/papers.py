@@ -3,6 +3,7 @@
 import csv
 import json
 import re
+import shutil
 import sys
 import tomllib
 from collections.abc import Iterable, Mapping
@@ -256,10 +257,11 @@ def set_pdf(name: str, source: str, out: Path) -> Path:
 
 
 def write(out: Path) -> list[Path]:
-    """Write both papers into a folder within the tree, and return the paths of their PDFs."""
+    """Write both papers, and what JOSS takes, into a folder within the tree; return the paths of the PDFs."""
     text = joss()
     pdfs = [set_pdf("article", article(), out), set_pdf("joss", joss_in_typst(text), out)]
     (out / "paper.md").write_text(text, encoding="utf-8")
+    shutil.copy(PAPER / "references.bib", out)
     return pdfs
 
 

@@ -16,6 +16,7 @@ papers = import_module("papers")
 def test_a_paper_is_set_on_its_pages(name, fewest, most):
     pdfs = {pdf.stem: pdf for pdf in papers.write(TOP / "out" / "paper")}
     assert pdfs[name].read_bytes().startswith(b"%PDF")
+    assert (pdfs[name].parent / "references.bib").is_file()
     pages = typst.compile(
         pdfs[name].with_suffix(".typ"), format="png", ppi=20, root=TOP, ignore_system_fonts=True
     )
