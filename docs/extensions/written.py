@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import engines
 import house
 import modes
 import nbformat
@@ -45,6 +46,7 @@ def write_notebooks(examples: Path) -> None:
 
 if __name__ == "__main__":
     write_results(DOCS)
+    engines.write(DOCS)
     write_notebooks(DOCS / "examples")
     (DOCS / "house.svg").write_text(house.house(DOCS.parent), encoding="utf-8")
     (DOCS / "automaton.svg").write_text(modes.automaton(), encoding="utf-8")

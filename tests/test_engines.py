@@ -1,0 +1,45 @@
+"""docs/ENGINES.md shows what the studies have found, as `make pages` writes it."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from cointoss.compare.reproduction.claim import unexpected
+
+DOCS = Path(__file__).parents[1] / "docs"
+sys.path.append(str(DOCS / "extensions"))
+import engines  # noqa: E402
+
+
+@pytest.mark.parametrize("name", ["laws", "ports"])
+def test_the_page_shows_what_was_found(name):
+    block = f"<!-- written by: make pages, {name} -->\n\n{engines.blocks(DOCS)[name]}\n\n<!-- end -->\n"
+    assert (DOCS / engines.PAGE).read_text(encoding="utf-8").count(block) == 1
+
+
+def test_the_engines_that_the_page_names_make_the_laws_that_it_says():
+    rows = [line.split(" | ") for line in engines.laws(DOCS).splitlines()[2:-1]]
+    made = {cells[0].strip("| "): [cell[:3].strip(": ") for cell in cells[1:]] for cells in rows}
+    assert made == {
+        "(a) sharp_edge": ["yes", "no", "no", "no", "no"],
+        "(b) knurled": ["yes", "no", "no", "no", "no"],
+        "(c) perfectly_rough": ["yes", "yes", "yes", "yes", "no"],
+        "(d) slip_preserving": ["yes", "no", "no", "yes", "yes"],
+        "(e) smooth": ["yes", "yes", "yes", "yes", "yes"],
+        "(f) sliding_friction": ["yes", "no", "no", "no", "no"],
+        "coulomb": ["yes", "yes", "yes", "no", "no"],
+    }
+
+
+def test_each_expectation_is_a_claim_with_the_known_verdict():
+    claims = [engines.claim_of(DOCS, *place) for place in engines.PORTED.values()]
+    assert unexpected(claims) == ()
+
+
+def test_the_tables_are_written_into_their_places_alone(tmp_path):
+    (tmp_path / "reproduction").symlink_to(DOCS / "reproduction")
+    place = "A\n\n<!-- written by: make pages, laws -->\n\nold\n\n<!-- end -->\n\nB\n"
+    (tmp_path / engines.PAGE).write_text(place)
+    engines.write(tmp_path)
+    assert (tmp_path / engines.PAGE).read_text() == place.replace("old", engines.laws(DOCS))
