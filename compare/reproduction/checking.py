@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeGuard
 
 from cointoss.compare.reproduction.claim import VERDICTS
 from cointoss.compare.reproduction.provenance import read_provenance, unlike
@@ -138,7 +138,9 @@ def compared(
             if key in there and key in here:
                 yield from compared(inner, there[key], here[key], exact=exact, small=small)
             else:
-                yield _unequal(inner, *("given" if key in one else "none" for one in (there, here)), SAME)
+                yield _unequal(
+                    inner, "given" if key in there else "none", "given" if key in here else "none", SAME
+                )
     elif isinstance(there, list) and isinstance(here, list):
         if len(there) != len(here):
             yield _unequal(place, f"{len(there)} numbers", f"{len(here)} numbers", SAME)
@@ -162,7 +164,7 @@ def _allowed(there: float, here: float, beside: float, small: float) -> tuple[fl
     return max((printed, PRINTED), (beside / 1000, BESIDE), (small, SMALL), key=lambda pair: pair[0])
 
 
-def _is_number(value: Any) -> bool:
+def _is_number(value: Any) -> TypeGuard[float]:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
