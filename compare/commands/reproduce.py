@@ -96,17 +96,13 @@ def reproduce(
 def _agree(names: tuple[str, ...], kept: Path, *, quick: bool) -> bool:
     """Compute results anew, print how they compare with those in a folder, and return whether all agree."""
     from cointoss.compare.reproduction import checking, runner
-    from cointoss.compare.reproduction.provenance import read_provenance
     from cointoss.models.stages import stage
 
     for name in names:
-        folder = runner.folder_of(name, kept)
-        if not (folder / "claims.json").is_file():
-            refuse(f"{folder}: holds no claims.json; accepted: a folder that --out has written (see --help)")
-        made_of = read_provenance(folder)
-        if quick is not (made_of is not None and made_of["quick"]):
-            size, way = ("full", "without") if quick else ("quick", "with")
-            refuse(f"{folder}: of the {size} size; accepted: the same {way} --quick")
+        try:
+            checking.require_run(runner.folder_of(name, kept), quick=quick)
+        except checking.RunError as error:
+            refuse(str(error))
     agree = True
     for name in names:
         timed = runner.find(name).timed

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeGuard
 
-from cointoss.compare.reproduction.claim import VERDICTS
-from cointoss.compare.reproduction.provenance import read_provenance, unlike
+from cointoss.compare.reproduction.claim import VERDICTS, read_claims
+from cointoss.compare.reproduction.provenance import PROVENANCE, read_provenance, unlike
 
 CONFIDENCE = 2.58
 """Standard deviations to either side of 99 % of a normal distribution."""
@@ -59,6 +59,38 @@ class Check:
         return not self.changed and not self.off
 
 
+class RunError(ValueError):
+    """A folder that is not as a run leaves it; the message names the file and why."""
+
+
+def require_run(folder: Path, *, quick: bool) -> None:
+    """Check that a folder holds what a run of this size has left.
+
+    Raises:
+        RunError: naming the file, why, and what is accepted.
+    """
+    if not (folder / "claims.json").is_file():
+        raise RunError(f"{folder}: holds no claims.json; accepted: a folder that --out has written")
+    made_of: Any = None
+    for name, read in (
+        ("claims.json", lambda: read_claims(folder / "claims.json")),
+        ("numbers.json", lambda: _numbers(folder)),
+        (PROVENANCE, lambda: read_provenance(folder)),
+    ):
+        try:
+            made_of = read()
+        except (ValueError, TypeError, LookupError, AttributeError, RecursionError) as error:
+            raise RunError(f"{folder / name}: {error}; accepted: the file as a run has written it") from None
+    if quick is not (made_of is not None and made_of["quick"]):
+        size, way = ("full", "without") if quick else ("quick", "with")
+        raise RunError(f"{folder}: of the {size} size; accepted: the same {way} --quick")
+
+
+def _numbers(folder: Path) -> Any:
+    path = folder / "numbers.json"
+    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+
+
 def check(there: Path, here: Path, *, timed: bool) -> Check:
     """Compare the folders of two runs.
 
@@ -80,10 +112,8 @@ def check(there: Path, here: Path, *, timed: bool) -> Check:
     if not timed:
         for claim in claims.keys() & found.keys():
             numbers += _criteria(claim, claims[claim]["criteria"], found[claim]["criteria"], exact=not other)
-        name = "numbers.json"
-        if (there / name).exists():
-            kept, made = (json.loads((folder / name).read_text(encoding="utf-8")) for folder in (there, here))
-            numbers += compared(name, kept, made, exact=not other)
+        if (kept := _numbers(there)) is not None:
+            numbers += compared("numbers.json", kept, _numbers(here), exact=not other)
     return Check(unlike=other, verdicts=len({**claims, **found}), changed=changed, numbers=tuple(numbers))
 
 

@@ -51,9 +51,19 @@ def machine() -> dict[str, str]:
 
 
 def read_provenance(folder: Path) -> dict[str, Any] | None:
-    """Return what a run in a folder was made of, None where it did not say."""
+    """Return what a run in a folder was made of, None where it did not say.
+
+    Raises:
+        ValueError: for a file that is not as `provenance` gives it.
+    """
     path = folder / PROVENANCE
-    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+    if not path.exists():
+        return None
+    made_of = json.loads(path.read_text(encoding="utf-8"))
+    kinds = {"sources": str, "quick": bool, "versions": dict, "machine": dict}
+    if not (isinstance(made_of, dict) and all(isinstance(made_of.get(key), kinds[key]) for key in kinds)):
+        raise ValueError(f"needs {', '.join(kinds)}")
+    return made_of
 
 
 def unlike(there: Mapping[str, Any] | None, here: Mapping[str, Any]) -> str:

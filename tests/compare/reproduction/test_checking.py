@@ -96,6 +96,10 @@ def test_what_cannot_be_compared_is_refused_before_any_work(fake, tmp_path):
     write("def make(progress):", "def make(progress):\n    raise KeyboardInterrupt")
     assert "holds no claims.json" in refused("reproduce", "fake", "--check", tmp_path)
     assert "accepted: the same without --quick" in refused("reproduce", "fake", "--quick", "--check", kept)
+    (kept / "reproduction" / "fake" / "provenance.json").write_text("[]")
+    assert "provenance.json: needs sources" in refused("reproduce", "fake", "--check", kept)
+    (kept / "reproduction" / "fake" / "claims.json").write_text('{"a": 1}')
+    assert "claims.json: " in refused("reproduce", "fake", "--check", kept)
     assert "not with --check" in refused("reproduce", "fake", "--out", tmp_path, "--check", kept)
     assert "comes after the names" in refused("reproduce", "--check", "fake")
 

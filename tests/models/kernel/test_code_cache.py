@@ -6,12 +6,15 @@ import subprocess
 import sys
 import time
 from contextlib import contextmanager
+from importlib import import_module
 from pathlib import Path
 from subprocess import PIPE
+from types import SimpleNamespace
 
 import pytest
 
 import cointoss.models.kernel.code_cache as code_cache
+from cointoss.models.kernel.base_folder import base_folder
 from cointoss.models.kernel.code_cache import UNUSED, cache_folder, remove_unused
 from cointoss.models.kernel.fork.code_files import CodeFiles
 from tests.helpers.modules import write
@@ -375,3 +378,17 @@ def test_code_that_cannot_be_written_is_not_kept(folder, run, run_caller, writte
     )
     assert run(folder, full_disk + "from cointoss.analytic.caller import whole\nprint(whole(10.0))") == [21]
     assert run_caller() == [21, 0, 0, 0]
+
+
+def test_on_windows_code_is_kept_in_the_folder_of_local_data(tmp_path, monkeypatch):
+    for name in ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("LOCALAPPDATA", str(tmp_path))
+    assert base_folder.__wrapped__() == tmp_path / "cointoss"
+
+
+def test_on_windows_functions_are_compiled_by_what_numba_makes_public(monkeypatch):
+    home = import_module("cointoss.models.kernel.compiled")
+    assert home._is_tested.__wrapped__()
+    monkeypatch.setattr(home, "sys", SimpleNamespace(platform="win32"))
+    assert not home._is_tested.__wrapped__()
