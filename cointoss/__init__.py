@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from cointoss.compare.engines import Engine as Engine
     from cointoss.compare.engines import toss as toss
     from cointoss.compare.film.back_end import BackEndError as BackEndError
+    from cointoss.compare.find.find import Found as Found
+    from cointoss.compare.find.find import find as find
     from cointoss.compare.report.comparison import Comparison as Comparison
     from cointoss.compare.report.comparison import compare as compare
     from cointoss.compare.shares.along import shares as shares
@@ -59,6 +61,7 @@ _NAMES = {
     "cointoss.coin_mj.bounces.recipe": ("solref",),
     "cointoss.compare.engines": ("Engine", "toss"),
     "cointoss.compare.film.back_end": ("BackEndError",),
+    "cointoss.compare.find.find": ("Found", "find"),
     "cointoss.compare.report.comparison": ("Comparison",),
     "cointoss.compare.shares.along": ("shares",),
     "cointoss.compare.shares.record": ("Shares",),

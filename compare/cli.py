@@ -12,6 +12,7 @@ from cointoss.compare.commands.bounce import bounce
 from cointoss.compare.commands.common import ARGUMENTS, refuse
 from cointoss.compare.commands.compare import compare
 from cointoss.compare.commands.explore import explore
+from cointoss.compare.commands.find import find
 from cointoss.compare.commands.hands import hands
 from cointoss.compare.commands.lab import lab
 from cointoss.compare.commands.reproduce import reproduce
@@ -67,7 +68,21 @@ class _Commands(click.Group):
 
 @click.group(
     cls=_Commands,
-    commands=[basin, bounce, compare, explore, hands, lab, reproduce, scenarios, shares, solref, toss, video],
+    commands=[
+        basin,
+        bounce,
+        compare,
+        explore,
+        find,
+        hands,
+        lab,
+        reproduce,
+        scenarios,
+        shares,
+        solref,
+        toss,
+        video,
+    ],
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     invoke_without_command=True,
 )

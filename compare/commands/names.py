@@ -36,6 +36,12 @@ def _along() -> list[str]:
     return [f"{field}=" for field in FIELDS]
 
 
+def _varying() -> list[str]:
+    from cointoss.compare.find.window import FIELDS
+
+    return [f"{field}=" for field in FIELDS]
+
+
 def _reproductions() -> list[str]:
     from cointoss.compare.reproduction.runner import names
 
@@ -61,4 +67,12 @@ along_option = click.option(
     metavar="FIELD=START:STOP:N",
     help="The field that varies, and its N values; a second one: both.",
     **_completing(_along),
+)
+vary_option = click.option(
+    "--vary",
+    multiple=True,
+    required=True,
+    metavar="FIELD=START:STOP",
+    help="A field that may have any value between two; may be given again.",
+    **_completing(_varying),
 )

@@ -80,6 +80,8 @@ class Margin:
         return f"margin    {self.quantity.name:18}  {found}{proved}"
 
 
+Differ = Callable[[NDArray[np.intp], Array], tuple[NDArray[np.bool_], NDArray[np.bool_]]]
+"""Returns which changes, (rows, rungs), of some rows make a difference, and which are accepted."""
 Proof = Callable[[Scenario, Quantity, float], float]
 """Returns how far a release may change with a proof that the outcome stays, given a change that changes it
 along a quantity, both in SI units; 0 where none is proved."""
@@ -182,10 +184,9 @@ def smallest_changes(
         outcomes: tosses the coin.
         search: how closely.
     """
-    own, signs, ladder = outcomes(start), np.array([1.0, -1.0]), search.ladder
+    own = outcomes(start)
 
     def differ(rows: NDArray[np.intp], by: Array) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Return which changes, (rows, rungs), change the outcome, and which the scenario accepts."""
         changed = quantity.change(chosen(start, np.repeat(rows, by.shape[1])), by.ravel())
         kept = accepted(scenario, changed)
         codes = np.repeat(own[rows], by.shape[1])
@@ -193,16 +194,32 @@ def smallest_changes(
             codes[kept] = outcomes(chosen(changed, np.flatnonzero(kept)))
         return (codes != np.repeat(own[rows], by.shape[1])).reshape(by.shape), kept.reshape(by.shape)
 
-    n = len(start)
+    up, down = changes_both_ways(len(start), differ, search, nearest=True)
+    return np.where(down < up, -down, up)
+
+
+def changes_both_ways(n: int, differ: Differ, search: Search, *, nearest: bool = False) -> Array:
+    """Return the smallest changes upwards, and downwards, that make a difference to each of many, (2, n).
+
+    They are infinite where none on the ladder does, or none before one that is not accepted.
+
+    Args:
+        n: how many.
+        differ: which of some changes make a difference.
+        search: how closely.
+        nearest: whether the smaller of both is enough; the other may then be infinite.
+    """
+    signs, ladder = np.array([1.0, -1.0]), search.ladder
     low, high, is_open = np.zeros((2, n)), np.full((2, n), np.inf), np.ones((2, n), dtype=bool)
     done = 0
     while done < len(ladder):
-        left = np.flatnonzero(np.isinf(high).all(axis=0))
+        unknown = np.isinf(high) & is_open
+        left = np.flatnonzero(np.isinf(high).all(axis=0) if nearest else unknown.any(axis=0))
         if not len(left):
             break
         rungs = ladder[done : done + max(1, TOGETHER // (2 * len(left)))]
         for side, sign in enumerate(signs):
-            rows = left[is_open[side, left]]
+            rows = left[unknown[side, left]]
             differs, kept = differ(rows, np.tile(sign * rungs, (len(rows), 1)))
             kept = np.logical_and.accumulate(kept, axis=1)  # all that a scenario would accept
             differs &= kept
@@ -223,7 +240,7 @@ def smallest_changes(
             each = np.arange(len(rows))
             ends = cuts[each, first], cuts[each, first + 1]
         high[side, rows] = ends[1]
-    return np.where(high[1] < high[0], -high[1], high[0])
+    return high
 
 
 def accepted(scenario: Scenario, releases: Releases) -> NDArray[np.bool_]:

@@ -1,0 +1,187 @@
+"""Find a toss that shows a sequence of faces or an outcome."""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from cointoss import analytic
+from cointoss.compare.find.search import search
+from cointoss.compare.find.window import Target, Window, window_of
+from cointoss.compare.metrics.estimates import share_of
+from cointoss.compare.sweep.axes import Axis
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.reading import ScenarioSource, scenario_of
+from cointoss.models.records import Outcome, Toss
+from cointoss.models.scenario import Scenario
+from cointoss.models.stages import stage
+from cointoss.models.writing import toml
+
+USUAL_TOSSES, MOST_TOSSES = 1 << 16, 1 << 30
+LONGEST = 1000
+"""Faces of a sequence."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Room:
+    """How far a field may change, alone, before the toss shows something else."""
+
+    axis: Axis
+    value: float
+    """Of the toss that was found [axis.unit]."""
+    down: float
+    up: float
+    """The smallest changes to either side that were found to do so [axis.unit]; infinite where none up to the
+    width of the window does."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Found:
+    """What a search for a toss found."""
+
+    target: Target
+    window: Window
+    tosses: int
+    """That were made over the window."""
+    scenario: Scenario | None
+    """Of the toss that shows what is wanted; None where none does."""
+    toss: Toss | None
+    """That toss, by the analytic engine."""
+    rooms: tuple[Room, ...]
+    """Of each field that varies."""
+    longest: int
+    """Steps of what is wanted, its faces and then its outcome, that some toss showed."""
+
+    def __bool__(self) -> bool:
+        """Return whether there is such a toss."""
+        return self.scenario is not None
+
+    @property
+    def trusted(self) -> int:
+        """How many of the wanted touches can be trusted, of the toss that was found."""
+        return min(self.toss.trusted_impacts, len(self.target.sequence)) if self.toss else 0
+
+    @property
+    def covering(self) -> str:
+        """The window in words."""
+        return ", ".join(
+            f"{one.field} from {one.start:.6g} to {one.stop:.6g} {one.printed_unit}".rstrip()
+            for one in self.window.spans
+        )
+
+    @property
+    def lines(self) -> list[str]:
+        """What was found, for a person."""
+        wanted, made = self.target.in_words, f"{self.tosses:,d} tosses, covering {self.covering}"
+        if self.toss is None:
+            most = share_of(0, self.tosses).high
+            shown = f"; the longest part shown is {self.target.sequence[: self.longest] or 'nothing'}"
+            return [
+                f"none in {made}{shown if self.target.sequence else ''}",
+                f"at most {100 * most:.2g} % of the window shows {wanted} (99 %)",
+            ]
+        lines = [f"{wanted}: found in {made}"]
+        for room in self.rooms:
+            unit = f" {room.axis.printed_unit}".rstrip()
+            ends = [f"{sign}{end:.3g}" for sign, end in (("-", room.down), ("+", room.up))]
+            lines.append(f"margin of {room.axis.field}: {' '.join(ends)}{unit}")
+        if self.target.sequence:
+            lines.append(f"trusted: {self.trusted} of {len(self.target.sequence)} touches")
+        if self.target.outcome is not None:
+            certain = "certain" if self.toss.outcome_certain else "not certain"
+            lines.append(f"outcome: {self.toss.outcome}, {certain}")
+        return lines
+
+    def as_json(self) -> dict[str, Any]:
+        """Return what `cointoss find --json` prints, but for the scenario's name and the seed."""
+        rooms = {
+            one.axis.field: {"value": one.value, "down": _finite(one.down), "up": _finite(one.up)}
+            for one in self.rooms
+        }
+        target, toss = self.target, self.toss
+        return {
+            "sequence": target.sequence,
+            "outcome": None if target.outcome is None else str(target.outcome),
+            "covering": {one.field: [one.start, one.stop] for one in self.window.spans},
+            "tosses": self.tosses,
+            "longest": target.sequence[: self.longest],
+            "found": None if self.scenario is None else self.scenario.as_tables(),
+            "margins": rooms,
+            "trusted": self.trusted,
+            "outcome_certain": None if toss is None else toss.outcome_certain,
+        }
+
+    def to_toml(self) -> str:
+        """Return the scenario file of the toss, what was found before it in comments.
+
+        Raises:
+            ValueError: where no toss was found.
+        """
+        if self.scenario is None:
+            raise ValueError("Found: no toss shows it; accepted: one that was found")
+        return "".join(f"# {line}\n" for line in self.lines) + "\n" + toml(self.scenario.as_tables())
+
+
+def _finite(number: float) -> float | None:
+    return number if math.isfinite(number) else None
+
+
+def find(
+    scenario: ScenarioSource,
+    *vary: str,
+    sequence: str = "",
+    outcome: str | None = None,
+    tosses: int = USUAL_TOSSES,
+    seed: int = 0,
+) -> Found:
+    """Search a window of a scenario for a toss that shows a sequence of faces, an outcome, or both.
+
+        found = find("fig24a", "release.position.z=0.2:0.6", "release.angular_velocity.eta=20:60",
+                     sequence="HTTH")
+        found.scenario, found.rooms
+
+    It is the toss that was found to be farthest from one that shows something else. What was found is
+    false, as in `if found`, where no toss shows it.
+
+    Args:
+        scenario: a `Scenario`, the path of its file, or the name of one that comes with the package.
+        vary: FIELD=START:STOP, one or more; those of the release are fastest.
+        sequence: faces up at the first touches, as in "HTTH".
+        outcome: such as "edge".
+        tosses: over the window, at most; where many show it, fewer are made.
+        seed: of the points of the window.
+
+    Raises:
+        ScenarioError: naming file, field, value and what is accepted.
+        ValueError: naming the argument, its value and what is accepted.
+    """
+    described = scenario_of(scenario)
+    for name, value, least, most in (("tosses", tosses, 1, MOST_TOSSES), ("seed", seed, 0, 2**32)):
+        is_whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
+        if not (is_whole and least <= value <= most):
+            raise SweepError(f"{name}: {value!r}, accepted: a whole number from {least} to {most}")
+    words = {str(one): one for one in Outcome}
+    if outcome is not None and outcome not in words:
+        raise SweepError(f"outcome: {outcome!r}, accepted: {', '.join(words)}")
+    target = Target(sequence=sequence, outcome=None if outcome is None else words[outcome])
+    if len(sequence) > (most := min(LONGEST, described.rules.max_impacts)):
+        raise SweepError(f"sequence: {len(sequence)} faces, accepted: at most {most}, as ending.max_impacts")
+    window = window_of(vary, described)
+    with stage("searching the window", "tosses", total=tosses) as progress:
+        searched = search(window, target, tosses, seed, progress)
+    found: dict[str, Any] = {"target": target, "window": window, "tosses": searched.tosses}
+    for hit in searched.hits:
+        own = window.scenario_at(hit.point)
+        toss = analytic.toss(own)
+        if toss.sequence.startswith(sequence) and target.outcome in (None, toss.outcome):
+            widths = [span.stop - span.start for span in window.spans]
+            rooms = []
+            for span, value, width, ends in zip(
+                window.spans, window.values(hit.point), widths, hit.margins, strict=True
+            ):
+                down, up = ends if width > 0 else ends[::-1]
+                room = {"down": abs(width) * float(down), "up": abs(width) * float(up)}
+                rooms.append(Room(axis=span, value=float(value), **room))
+            return Found(scenario=own, toss=toss, rooms=tuple(rooms), longest=target.steps, **found)
+    return Found(scenario=None, toss=None, rooms=(), longest=searched.longest, **found)

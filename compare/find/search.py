@@ -1,0 +1,182 @@
+"""Search a window for a toss that shows what is wanted, and for the one farthest from what shows it not.
+
+Low-discrepancy points (scrambled Sobol points) cover the window. Where none shows the whole of a sequence,
+the search goes on around those that show most of it, in ever smaller boxes, each as wide as what shows so
+much.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import qmc
+
+from cointoss.compare.find.window import Target, Window
+from cointoss.compare.metrics.margin import FINE, MANY, Search, changes_both_ways
+from cointoss.models.records import Array
+
+BLOCK = 1 << 12
+"""Points of the window that are tossed together."""
+IN_A_BOX = 1 << 8
+"""Points of a box that are tossed together."""
+ENOUGH = 64
+"""Hits among which the best is chosen."""
+BEST, BEAM = 2, 4
+"""Hits that are moved to where their margin is large, and boxes that are searched."""
+TRIES = 4
+"""How often boxes are searched, each time by twice as many points, before the search gives up."""
+ROUNDS = 6
+"""How often a hit is moved, at most."""
+SCANNED = 64
+"""Changes between a point and its margin that are tried."""
+STEPS = (1.0, 0.5, 0.2)
+"""Parts of the way to the middle."""
+
+
+@dataclass(frozen=True)
+class Hit:
+    """A point whose toss shows what is wanted."""
+
+    point: Array
+    """(fields,), each from 0 to 1."""
+    margins: Array
+    """The smallest changes downwards and upwards, as parts of the window, that show something else,
+    (fields, 2); infinite where none up to the whole window does."""
+
+    @property
+    def margin(self) -> float:
+        """The smallest of all, and of what is left to the window's ends."""
+        return float(np.min(np.minimum(self.margins, 1.0)))
+
+
+@dataclass(frozen=True)
+class Searched:
+    """What a search found."""
+
+    hits: tuple[Hit, ...]
+    """The best first; none where nothing shows it."""
+    tosses: int
+    """That were made over the window; those in boxes and of margins come on top."""
+    longest: int
+    """Steps of what is wanted that the best point showed."""
+
+
+def search(
+    window: Window, target: Target, tosses: int, seed: int, progress: Callable[[int, int], None]
+) -> Searched:
+    """Search a window.
+
+    Args:
+        window: where.
+        target: for what.
+        tosses: over the window, at most.
+        seed: of the points.
+        progress: called with how many tosses were made over the window.
+    """
+    sampler = qmc.Sobol(len(window.spans), rng=np.random.default_rng(seed))
+    points, shown, made = np.empty((0, len(window.spans))), np.empty(0, dtype=np.int64), 0
+    while made < tosses and np.sum(shown == target.steps) < ENOUGH:
+        block = sampler.random(BLOCK)[: tosses - made]
+        points = np.concatenate([points, block])
+        shown = np.concatenate([shown, target.shown(window, block)])
+        best = np.argsort(-shown, kind="stable")[:ENOUGH]
+        points, shown, made = points[best], shown[best], made + len(block)
+        progress(made, tosses)
+    longest = int(shown.max())
+    if 0 < longest < target.steps:
+        points, longest = _in_boxes(window, target, points[shown == longest], longest, seed)
+    elif longest == target.steps:
+        points = points[shown == longest]
+    if longest < target.steps:
+        return Searched((), made, longest)
+    wide = [Hit(*one) for one in zip(points, _margins(window, target, points, target.steps), strict=True)]
+    chosen = sorted(wide, key=lambda hit: -hit.margin)[:BEST]
+    hits = [_centred(window, target, hit) for hit in chosen]
+    return Searched(tuple(sorted(hits, key=lambda hit: -hit.margin)), made, longest)
+
+
+def _in_boxes(window: Window, target: Target, points: Array, shown: int, seed: int) -> tuple[Array, int]:
+    """Return points near others that show more of what is wanted, and how many steps they show.
+
+    Args:
+        window: where.
+        target: what is wanted.
+        points: that show the first steps of it, (n, fields).
+        shown: how many.
+        seed: of the points.
+    """
+    tries, number = 0, IN_A_BOX
+    points = points[:BEAM]
+    rng = np.random.default_rng([seed, 1])
+    while shown < target.steps and tries < TRIES:
+        margins = np.minimum(_margins(window, target, points, shown), 1.0)
+        found = []
+        for point, (down, up) in zip(points, margins.transpose(0, 2, 1), strict=True):
+            low, high = np.maximum(point - 2 * down, 0.0), np.minimum(point + 2 * up, 1.0)
+            drawn = low + (high - low) * qmc.Sobol(len(point), rng=rng).random(number)
+            found.append(drawn)
+        drawn = np.concatenate(found)
+        now = target.shown(window, drawn)
+        if now.max() > shown:
+            tries, number, shown = 0, IN_A_BOX, int(now.max())
+            # The first of each box, then others: from different parts of the window.
+            met = np.flatnonzero(now == shown)
+            points = drawn[met[np.linspace(0, len(met) - 1, min(BEAM, len(met))).astype(int)]]
+        else:
+            tries, number = tries + 1, 2 * number
+    return points, shown
+
+
+def _margins(window: Window, target: Target, points: Array, steps: int, how: Search = MANY) -> Array:
+    """Return how far each point is from one that shows fewer steps, (n, fields, 2), as in a `Hit`."""
+    found = np.empty((len(points), points.shape[1], 2))
+    for i in range(points.shape[1]):
+        along = np.eye(points.shape[1])[i]
+
+        def differ(
+            rows: NDArray[np.intp], by: Array, along: Array = along
+        ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+            moved = (points[rows][:, None, :] + by[:, :, None] * along).reshape(-1, points.shape[1])
+            shown = target.shown(window, moved, steps).reshape(by.shape)
+            return (shown < steps) & (shown >= 0), shown >= 0
+
+        up, down = changes_both_ways(len(points), differ, how)
+        found[:, i] = np.column_stack([down, up])
+    return found
+
+
+def _scanned(window: Window, target: Target, point: Array) -> Hit:
+    """Return the hit at a point, with margins between which evenly spread changes show what is wanted.
+
+    A ladder of changes misses what lies between two rungs.
+    """
+    margins = _margins(window, target, point[None], target.steps, FINE)[0]
+    for i, side in np.ndindex(margins.shape):
+        along = (2 * side - 1) * np.eye(len(point))[i]
+        while True:
+            changes = np.linspace(0, min(margins[i, side], 1.0), SCANNED + 2)[1:-1]
+            shown = target.shown(window, point + changes[:, None] * along)
+            differ = np.flatnonzero((shown < target.steps) & (shown >= 0))
+            if not len(differ):
+                break
+            margins[i, side] = changes[differ[0]]
+    return Hit(point, margins)
+
+
+def _centred(window: Window, target: Target, hit: Hit) -> Hit:
+    """Return a hit moved towards the middle of what shows the same, while its margin grows.
+
+    Where what shows the same is a slanted stripe, the whole way would leave it: a part of it is tried too.
+    """
+    best = _scanned(window, target, hit.point)
+    for _ in range(ROUNDS):
+        room = np.column_stack([best.point, 1 - best.point])
+        down, up = np.minimum(best.margins, room).T
+        tried = best.point + np.outer(STEPS, (up - down) / 2)
+        tried = tried[target.shown(window, tried) == target.steps]
+        moved = _scanned(window, target, tried[0]) if len(tried) else best
+        if moved.margin <= best.margin:
+            break
+        best = moved
+    return best

@@ -1,0 +1,158 @@
+"""A toss that shows what is wanted: brute force over a map, margins that hold, and what there is not."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+import cointoss
+from cointoss import analytic
+from cointoss.compare.find import search
+from cointoss.compare.find.find import find
+from cointoss.compare.find.window import Target, window_of
+from cointoss.models.errors import ScenarioError
+from cointoss.models.reading import load, parse
+from cointoss.models.records import Outcome
+from tests.helpers.basin_runs import SCENARIO
+
+COIN = parse(SCENARIO, "coin")
+WINDOW = "release.position.z=0.3:0.31", "release.angular_velocity.eta=20:21"
+ELASTIC = COIN.replace("floor.restitution", 1.0)
+
+
+def shown_by_map(case, touches, count):
+    """Return the sequences of faces at the first touches that the pixels of maps over the window show."""
+    y, x = (f"{axis}:{count}" for axis in WINDOW)
+    maps = [cointoss.basin(case, x=x, y=y, after=n) for n in range(touches)]
+    assert all((one.impacts == n + 1).all() for n, one in enumerate(maps))
+    codes = np.stack([one.outcome.ravel() for one in maps], axis=1)
+    return {"".join(" HT"[code] for code in row) for row in codes.tolist()}
+
+
+def test_what_a_map_shows_is_found_and_nothing_else():
+    """All sequences of three touches, by brute force over a map; what is found shows it when tossed."""
+    by_map, found = shown_by_map(COIN, 3, 60), {}
+    for word in map("".join, itertools.product("HT", repeat=3)):
+        one = find(COIN, *WINDOW, sequence=word, tosses=1024)
+        if one:
+            assert one.scenario is not None
+            assert analytic.toss(one.scenario).sequence.startswith(word)
+            found[word] = one
+        else:
+            assert one.lines[0].startswith(
+                "none in 1,024 tosses, covering release.position.z from 0.3 to 0.31 m"
+            )
+    assert set(found) >= by_map
+    assert 2 <= len(by_map) <= len(found) < 8, "some there are, some there are not"
+
+
+def found_of_three():
+    """Return a toss that shows HTH or HHT: one of them is in the window."""
+    return find(COIN, *WINDOW, sequence="HTH", tosses=1024) or find(
+        COIN, *WINDOW, sequence="HHT", tosses=1024
+    )
+
+
+def test_the_toss_shows_it_up_to_its_margins():
+    """At changes within the margin of each field; at the margin it shows something else."""
+    found = found_of_three()
+    assert found.scenario is not None
+    word, bounded = found.target.sequence, 0
+    for room in found.rooms:
+        for sign, end in ((-1, room.down), (1, room.up)):
+            if math.isinf(end):
+                continue
+            bounded += 1
+            for part, is_so in ((0.4, True), (0.9, True), (1.0, False)):
+                moved = found.scenario.replace(room.axis.field, room.value + sign * part * end)
+                assert analytic.toss(moved).sequence.startswith(word) is is_so
+    assert bounded >= 2
+
+
+def test_its_margin_is_larger_than_that_of_others_that_show_it():
+    found = found_of_three()
+    points = np.random.default_rng(6).random((300, 2))
+    others = points[found.target.shown(found.window, points) == 3]
+    assert len(others) > 10
+    margins = search._margins(found.window, found.target, others, 3).min(axis=(1, 2))
+    own = min(min(room.down, room.up) / (room.axis.stop - room.axis.start) for room in found.rooms)
+    assert own > np.quantile(margins, 0.9)
+
+
+def test_what_is_found_is_a_scenario_file():
+    found = find("fig24a", *WINDOW, sequence="T", tosses=1024)
+    if not found:
+        found = find("fig24a", *WINDOW, sequence="H", tosses=1024)
+    again = parse(found.to_toml(), "found")
+    assert again == found.scenario
+    assert found.to_toml().startswith(f"# {found.target.in_words}: found in ")
+    field = load("fig24a").release.position[2]
+    assert again.release.position[2] != field
+
+
+def test_an_outcome_is_found_and_all_fields_may_vary():
+    """A thick coin dropped near its edge: on it, and beside it."""
+    thick = COIN.replace("coin.thickness", 0.01, "floor.restitution", 0.3, "air.normal", 0.8)
+    found = find(
+        thick,
+        *("release.angles.theta=60 deg:90 deg", "coin.thickness=9 mm:11 mm"),
+        outcome="edge",
+        tosses=32,
+    )
+    assert found.toss is not None
+    assert found.toss.outcome == Outcome.EDGE
+    assert found.scenario is not None
+    assert 9e-3 <= found.scenario.coin.thickness <= 11e-3
+    assert found.lines[-1].startswith("outcome: edge, ")
+    none = find(thick, "release.angles.theta=0 deg:10 deg", outcome="edge", tosses=64)
+    assert (bool(none), none.scenario) == (False, None)
+    with pytest.raises(ValueError, match="no toss shows it"):
+        none.to_toml()
+
+
+@pytest.mark.slow
+def test_a_sequence_too_rare_for_the_window_is_found_in_ever_smaller_boxes():
+    """Elastic, the coin goes on, and each face halves what agrees: 64 tosses show no ten, which are found."""
+    word = "HTTHTHHTHT"
+    window = "release.position.z=0.3:0.5", "release.angular_velocity.xi=20:40"
+    found = find(ELASTIC, *window, sequence=word, tosses=1 << 6)
+    assert found.toss is not None
+    assert found.toss.sequence.startswith(word)
+    points = np.random.default_rng(5).random((1 << 6, 2))
+    assert Target(sequence=word).shown(window_of(window, ELASTIC), points).max() < 10
+    assert 4 <= found.trusted <= 10
+
+
+def test_the_same_seed_finds_the_same_toss():
+    first, second, other = (find(COIN, *WINDOW, sequence="HT", tosses=512, seed=seed) for seed in (1, 1, 2))
+    assert first.scenario == second.scenario
+    assert first.scenario != other.scenario
+
+
+def test_points_that_no_scenario_accepts_are_passed_over():
+    window = window_of(("release.position.z=-1:1",), COIN)
+    shown = Target(sequence="H").shown(window, np.array([[0.1], [0.9]]))
+    assert (shown[0], shown[1] >= 0) == (-1, True)
+    with pytest.raises(ScenarioError):
+        window.scenario_at(np.array([0.1]))
+
+
+@pytest.mark.parametrize(
+    ("vary", "given", "told"),
+    [
+        ((), {"sequence": "H"}, "vary: nothing, accepted: FIELD=START:STOP"),
+        ((3,), {"sequence": "H"}, "vary: 3, accepted: FIELD=START:STOP"),
+        (WINDOW, {}, "sequence, outcome: none; accepted: one of them, or both"),
+        (WINDOW, {"sequence": "HX"}, "sequence: 'HX', accepted: letters H and T"),
+        (WINDOW, {"sequence": "H" * 1001}, "sequence: 1001 faces, accepted: at most"),
+        (WINDOW, {"outcome": "side"}, "outcome: 'side', accepted: undecided, heads, tails, edge"),
+        (WINDOW, {"sequence": "H", "tosses": 0}, "tosses: 0, accepted: a whole number from 1"),
+        (WINDOW, {"sequence": "H", "seed": 1.5}, "seed: 1.5, accepted: a whole number from 0"),
+        ((WINDOW[0], WINDOW[0]), {"sequence": "H"}, r"release\.position\.z: twice; accepted"),
+        (("ending.max_impacts=1:9",), {"sequence": "H"}, r"ending\.max_impacts: no field that may vary here"),
+    ],
+)
+def test_what_cannot_be_searched_is_refused(vary, given, told):
+    with pytest.raises(ValueError, match=told):
+        find(COIN, *vary, **given)
