@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from cointoss import analytic
 from cointoss.compare.metrics.margin import accepted
 from cointoss.compare.metrics.release_arrays import chosen
-from cointoss.compare.sweep.axes import Axis, parse_range
+from cointoss.compare.sweep.axes import SPAN_FORM, Span, span_of, split_span, unit_of
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.errors import ScenarioError
 from cointoss.models.fields import UNITS
@@ -17,7 +17,6 @@ from cointoss.models.records import Array, Face, Outcome
 from cointoss.models.releases import changed_releases
 from cointoss.models.scenario import Scenario
 
-FORM = "FIELD=START:STOP, such as release.position.z=0.2:0.6"
 FIELDS = {
     name: unit
     for name, unit in UNITS.items()
@@ -41,8 +40,7 @@ class Window:
     """A scenario, and the spans of the fields that vary; a point has each between 0 and 1."""
 
     scenario: Scenario
-    spans: tuple[Axis, ...]
-    """Of which START and STOP count."""
+    spans: tuple[Span, ...]
 
     def values(self, points: Array) -> Array:
         """Return the fields' values at points, (n, fields)."""
@@ -158,13 +156,13 @@ def window_of(vary: tuple[str, ...], scenario: Scenario) -> Window:
         SweepError: naming what is wrong and what is accepted.
     """
     if not vary:
-        raise SweepError(f"vary: nothing, accepted: {FORM}, once or more")
+        raise SweepError(f"vary: nothing, accepted: {SPAN_FORM}, once or more")
     spans = []
     for text in vary:
         if not isinstance(text, str):
-            raise SweepError(f"vary: {text!r}, accepted: {FORM}")
-        field, unit, start, stop, *_ = parse_range(text, scenario, FIELDS, FORM)
+            raise SweepError(f"vary: {text!r}, accepted: {SPAN_FORM}")
+        field, (start, stop) = split_span(text, 2, SPAN_FORM)
         if field in [span.field for span in spans]:
             raise SweepError(f"{field}: twice; accepted: each field once")
-        spans.append(Axis(field=field, unit=unit, start=start, stop=stop, count=2))
+        spans.append(span_of(field, start, stop, unit_of(field, scenario, FIELDS)))
     return Window(scenario=scenario, spans=tuple(spans))

@@ -1,4 +1,4 @@
-"""An axis of a map: a field of the scenario and its values."""
+"""A span of a field of the scenario, and an axis of a map: such a span and its values."""
 
 import difflib
 import math
@@ -20,18 +20,18 @@ HAND = {f"hand.{name}": unit for name, (_, unit) in QUANTITIES.items()}
 """The SI units of a hand's numbers, by field."""
 _WORDS = {**WORDS, **{f"hand.{name}": word for name, (word, _) in QUANTITIES.items()}}
 FORM = "FIELD=START:STOP:N, such as release.position.z=0.2:0.6:400"
+SPAN_FORM = "FIELD=START:STOP, such as release.position.z=0.2:0.6"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Axis:
-    """A field that varies along one side of a map, evenly from `start` to `stop`, both included."""
+class Span:
+    """A field that may have any value from `start` to `stop`."""
 
     field: str
     unit: str
     """SI, in pint's spelling."""
     start: float
     stop: float
-    count: int
 
     @property
     def is_of_release(self) -> bool:
@@ -41,12 +41,19 @@ class Axis:
     @property
     def word(self) -> str:
         """What a person calls its field."""
-        return _WORDS[self.field]
+        return _WORDS.get(self.field, self.field)
 
     @property
     def printed_unit(self) -> str:
         """Its unit as a person writes it."""
         return printed_unit(self.unit)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Axis(Span):
+    """A field that varies along one side of a map, evenly from `start` to `stop`, both included."""
+
+    count: int
 
     @property
     def values(self) -> Array:
@@ -65,42 +72,51 @@ def parse_axis(text: str, scenario: Scenario, units: Mapping[str, str] = UNITS) 
     Raises:
         SweepError: naming what is wrong and what is accepted.
     """
-    field, unit, start, stop, *rest = parse_range(text, scenario, units, FORM)
+    field, parts = split_span(text, 3, FORM)
+    span = span_of(field, *parts[:2], unit_of(field, scenario, units))
     try:
-        count = int(*rest)
+        count = int(parts[2])
     except ValueError:
         count = 0
     if not 2 <= count <= MOST_VALUES:
-        raise SweepError(f"{text}: N = {rest[0]}; accepted: a whole number from 2 to {MOST_VALUES}")
-    axis = Axis(field=field, unit=unit, start=start, stop=stop, count=count)
+        raise SweepError(f"{text}: N = {parts[2]}; accepted: a whole number from 2 to {MOST_VALUES}")
+    axis = Axis(**vars(span), count=count)
     if field == "ending.max_impacts" and not np.all(np.mod(axis.values, 1) == 0):
         raise SweepError(f"{text}: accepted: START, STOP and N that give whole numbers only, such as 1:9:9")
     return axis
 
 
-def parse_range(
-    text: str, scenario: Scenario, units: Mapping[str, str], form: str
-) -> tuple[str, str, float, float, *tuple[str, ...]]:
-    """Read FIELD=START:STOP and what follows, in parts that colons divide, as many as a form has.
+def split_span(text: str, parts: int, form: str) -> tuple[str, list[str]]:
+    """Return the field of FIELD=START:STOP and what follows it, in `parts` parts.
 
-    Returns:
-        The field, its unit, START and STOP in it, and what follows.
+    Raises:
+        SweepError: for another form, naming `form`.
+    """
+    field, equals, span = text.partition("=")
+    found = span.split(":")
+    if not equals or len(found) != parts:
+        raise SweepError(f"{text}: accepted: {form}")
+    return field.strip(), found
+
+
+def span_of(field: str, start: str | float, stop: str | float, unit: str) -> Span:
+    """Return the span of a field; numbers are in `unit`, texts are such numbers or carry a unit of theirs.
 
     Raises:
         SweepError: naming what is wrong and what is accepted.
     """
-    field, equals, span = text.partition("=")
-    field, parts = field.strip(), span.split(":")
-    if not equals or span.count(":") != form.partition(",")[0].count(":"):
-        raise SweepError(f"{text}: accepted: {form}")
-    unit = _unit_of(field, scenario, units)
-    start, stop = (_number(field, part, unit) for part in parts[:2])
-    if start == stop:
-        raise SweepError(f"{text}: START = STOP; accepted: two numbers that differ")
-    return field, unit, start, stop, *parts[2:]
+    ends = [_number(field, end, unit) for end in (start, stop)]
+    if ends[0] == ends[1]:
+        raise SweepError(f"{field}={start}:{stop}: START = STOP; accepted: two numbers that differ")
+    return Span(field=field, unit=unit, start=ends[0], stop=ends[1])
 
 
-def _unit_of(field: str, scenario: Scenario, units: Mapping[str, str]) -> str:
+def unit_of(field: str, scenario: Scenario, units: Mapping[str, str] = UNITS) -> str:
+    """Return the SI unit of one of the fields that are accepted, in pint's spelling.
+
+    Raises:
+        SweepError: for another field.
+    """
     if field not in units:
         near = difflib.get_close_matches(field, units, n=1)
         hint = f" (did you mean {near[0]}?)" if near else ""
@@ -109,12 +125,12 @@ def _unit_of(field: str, scenario: Scenario, units: Mapping[str, str]) -> str:
     return lambda_unit(scenario.air.exponent) if field in ("air.normal", "air.tangential") else units[field]
 
 
-def _number(field: str, text: str, unit: str) -> float:
+def _number(field: str, text: str | float, unit: str) -> float:
     try:
         number = float(text)
     except ValueError:
         try:
-            number = in_si(text, unit)
+            number = in_si(str(text), unit)
         except ValueError as error:
             raise SweepError(f"{field} = {text}: accepted: {error}") from None
     if not math.isfinite(number):
