@@ -14,6 +14,11 @@ if TYPE_CHECKING:
     from cointoss.compare.film.back_end import BackEndError as BackEndError
     from cointoss.compare.find.find import Found as Found
     from cointoss.compare.find.find import find as find
+    from cointoss.compare.fitting.errors import ObservationError as ObservationError
+    from cointoss.compare.fitting.fit import Fit as Fit
+    from cointoss.compare.fitting.fit import Fitted as Fitted
+    from cointoss.compare.fitting.fit import fit as fit
+    from cointoss.compare.fitting.observed import Observed as Observed
     from cointoss.compare.report.comparison import Comparison as Comparison
     from cointoss.compare.report.comparison import compare as compare
     from cointoss.compare.shares.along import shares as shares
@@ -62,6 +67,9 @@ _NAMES = {
     "cointoss.compare.engines": ("Engine", "toss"),
     "cointoss.compare.film.back_end": ("BackEndError",),
     "cointoss.compare.find.find": ("Found", "find"),
+    "cointoss.compare.fitting.errors": ("ObservationError",),
+    "cointoss.compare.fitting.fit": ("Fit", "Fitted", "fit"),
+    "cointoss.compare.fitting.observed": ("Observed",),
     "cointoss.compare.report.comparison": ("Comparison",),
     "cointoss.compare.shares.along": ("shares",),
     "cointoss.compare.shares.record": ("Shares",),

@@ -13,6 +13,7 @@ from cointoss.compare.commands.common import ARGUMENTS, refuse
 from cointoss.compare.commands.compare import compare
 from cointoss.compare.commands.explore import explore
 from cointoss.compare.commands.find import find
+from cointoss.compare.commands.fit import fit
 from cointoss.compare.commands.hands import hands
 from cointoss.compare.commands.lab import lab
 from cointoss.compare.commands.reproduce import reproduce
@@ -74,6 +75,7 @@ class _Commands(click.Group):
         compare,
         explore,
         find,
+        fit,
         hands,
         lab,
         reproduce,

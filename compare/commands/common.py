@@ -21,6 +21,7 @@ ARGUMENTS = {
     "MODEL.xml": "an XML file of MuJoCo",
     "GEOM": "the name or the number of a geom, twice",
     "MAP.zarr": "a map that cointoss basin made",
+    "OBSERVED.csv": "a CSV file with the times of touches, or with frames of a film",
 }
 """What the arguments of commands take."""
 
@@ -109,6 +110,7 @@ def naming_options(options: Mapping[str, tuple[str, object]]) -> Iterator[None]:
 def plain_errors(source: str) -> Iterator[None]:
     """Turn the errors of bad input into one line and exit status 2, and warnings into one line each."""
     from cointoss.compare.film.back_end import BackEndError
+    from cointoss.compare.fitting.errors import ObservationError
     from cointoss.compare.output.files import UnwritableError
     from cointoss.compare.output.progress import progress_shown
     from cointoss.compare.sweep.errors import MapError, SweepError
@@ -132,7 +134,14 @@ def plain_errors(source: str) -> Iterator[None]:
         show, warnings.showwarning = warnings.showwarning, report
         try:
             yield
-        except (ScenarioError, MapError, UnwritableError, BackEndError, UnusableEngineError) as error:
+        except (
+            ScenarioError,
+            ObservationError,
+            MapError,
+            UnwritableError,
+            BackEndError,
+            UnusableEngineError,
+        ) as error:
             refuse(str(error))
         except (SweepError, UnsupportedError, FloatingPointError) as error:
             refuse(f"{source}: {error}")

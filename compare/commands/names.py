@@ -42,6 +42,10 @@ def _varying() -> list[str]:
     return [f"{field}=" for field in FIELDS]
 
 
+def _spans() -> list[str]:
+    return ["clock=", *(axis for axis in _axes() if not axis.startswith(("ending.", "release.quaternion.")))]
+
+
 def _reproductions() -> list[str]:
     from cointoss.compare.reproduction.runner import names
 
@@ -76,3 +80,10 @@ vary_option = click.option(
     help="A field that may have any value between two; may be given again.",
     **_completing(_varying),
 )
+
+
+def span_option(name: str, about: str) -> Callable[..., Any]:
+    """Return the option of the spans of fields that are to be found."""
+    return click.option(
+        name, required=True, multiple=True, metavar="FIELD=START:STOP", help=about, **_completing(_spans)
+    )

@@ -10,7 +10,7 @@ from cointoss import analytic
 from cointoss.compare.find.search import search
 from cointoss.compare.find.window import Target, Window, window_of
 from cointoss.compare.metrics.estimates import share_of
-from cointoss.compare.sweep.axes import Axis
+from cointoss.compare.sweep.axes import Span
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Outcome, Toss
@@ -27,12 +27,12 @@ LONGEST = 1000
 class Room:
     """How far a field may change, alone, before the toss shows something else."""
 
-    axis: Axis
+    span: Span
     value: float
-    """Of the toss that was found [axis.unit]."""
+    """Of the toss that was found [span.unit]."""
     down: float
     up: float
-    """The smallest changes to either side that were found to do so [axis.unit]; infinite where none up to the
+    """The smallest changes to either side that were found to do so [span.unit]; infinite where none up to the
     width of the window does."""
 
 
@@ -83,9 +83,9 @@ class Found:
             ]
         lines = [f"{wanted}: found in {made}"]
         for room in self.rooms:
-            unit = f" {room.axis.printed_unit}".rstrip()
+            unit = f" {room.span.printed_unit}".rstrip()
             ends = [f"{sign}{end:.3g}" for sign, end in (("-", room.down), ("+", room.up))]
-            lines.append(f"margin of {room.axis.field}: {' '.join(ends)}{unit}")
+            lines.append(f"margin of {room.span.field}: {' '.join(ends)}{unit}")
         if self.target.sequence:
             lines.append(f"trusted: {self.trusted} of {len(self.target.sequence)} touches")
         if self.target.outcome is not None:
@@ -96,7 +96,7 @@ class Found:
     def as_json(self) -> dict[str, Any]:
         """Return what `cointoss find --json` prints, but for the scenario's name and the seed."""
         rooms = {
-            one.axis.field: {"value": one.value, "down": _finite(one.down), "up": _finite(one.up)}
+            one.span.field: {"value": one.value, "down": _finite(one.down), "up": _finite(one.up)}
             for one in self.rooms
         }
         target, toss = self.target, self.toss
@@ -182,6 +182,6 @@ def find(
             ):
                 down, up = ends if width > 0 else ends[::-1]
                 room = {"down": abs(width) * float(down), "up": abs(width) * float(up)}
-                rooms.append(Room(axis=span, value=float(value), **room))
+                rooms.append(Room(span=span, value=float(value), **room))
             return Found(scenario=own, toss=toss, rooms=tuple(rooms), longest=target.steps, **found)
     return Found(scenario=None, toss=None, rooms=(), longest=searched.longest, **found)

@@ -73,7 +73,7 @@ def parse_axis(text: str, scenario: Scenario, units: Mapping[str, str] = UNITS) 
         SweepError: naming what is wrong and what is accepted.
     """
     field, parts = split_span(text, 3, FORM)
-    span = span_of(field, *parts[:2], unit_of(field, scenario, units))
+    span = span_of(field, parts[0], parts[1], unit_of(field, scenario, units))
     try:
         count = int(parts[2])
     except ValueError:

@@ -1,0 +1,94 @@
+"""`cointoss fit`: what was seen of a coin to the fields that explain it."""
+
+import json
+from pathlib import Path
+
+import click
+
+from cointoss.compare.commands.common import SCENARIO_HELP, Count, Given, Place, Quantity, plain_errors
+from cointoss.compare.commands.names import scenario_argument, span_option
+
+
+@click.command(
+    epilog="OBSERVED.csv has a column t (time) with a row for each touch, or t and z (height) or tilt with a "
+    "row for each frame; units in brackets, as in t (ms). Exports of phyphox and of Tracker are read, too. "
+    + SCENARIO_HELP
+)
+@click.argument("observed", metavar="OBSERVED.csv", type=Place())
+@scenario_argument
+@span_option("--free", "A field to be found, and where it is looked for; may be given several times.")
+@click.option(
+    "--sd-time",
+    type=Quantity("s"),
+    help="Standard deviation of the times of touches, such as '1 ms'; needed without a column sd_t.",
+)
+@click.option("--sd-height", type=Quantity("m"), help="Likewise of heights, such as '2 mm'.")
+@click.option("--sd-attitude", type=Quantity("rad"), help="Likewise of tilts and attitudes, such as '2 deg'.")
+@click.option(
+    "--starts",
+    type=Count(1, 1 << 20),
+    default=2048,
+    show_default=True,
+    help="Values that are tried first, spread evenly over the spans; more for more or wider ones.",
+)
+@click.option("--seed", type=Count(0, 2**32), default=0, show_default=True, help="Of the starts.")
+@click.option("--out", type=Place(), help="Also write the scenario with the values found to this .toml file.")
+@click.option("--png", type=Place(), help="Also draw the fit to this .png file.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON, in full precision.")
+def fit(
+    observed: Path,
+    scenario: str,
+    free: tuple[str, ...],
+    sd_time: Given | None,
+    sd_height: Given | None,
+    sd_attitude: Given | None,
+    starts: int,
+    seed: int,
+    out: Path | None,
+    png: Path | None,
+    as_json: bool,
+) -> None:
+    """Find the values of a scenario's fields that explain what was seen of a coin, or that none do.
+
+    Seen are the times of its touches, as a microphone hears them, faces up, or heights and attitudes, as a
+    film shows them. FIELD is a dotted path into the scenario, such as floor.restitution or
+    release.position.z; START and STOP are in SI or carry a unit. The FIELD clock is the time that your clock
+    shows at the release; without it your clock begins then. All other fields stay as the scenario has them.
+
+    Printed are the values with their standard deviations and 99 % intervals, whether this model can do what
+    was seen at all, other values that would explain it too, and each touch.
+    """
+    with plain_errors(scenario):
+        from cointoss.models.stages import stage
+
+        with stage("getting ready"):
+            from cointoss.compare.fitting.answer import as_lines
+            from cointoss.compare.fitting.fit import fit_spans, parse_span
+            from cointoss.compare.fitting.table import read_observed
+            from cointoss.compare.output.files import require_file, write_text, written_whole
+            from cointoss.models.reading import load
+
+        described = load(scenario)
+        for path, suffix in ((out, ".toml"), (png, ".png")):
+            if path is not None:
+                require_file(path, suffix, scenario)
+        given = {"time": sd_time, "height": sd_height, "attitude": sd_attitude}
+        seen = read_observed(observed, {name: sd.value for name, sd in given.items() if sd is not None})
+        spans = [parse_span(text, described) for text in free]
+        found = fit_spans(seen, described, spans, starts=starts, seed=seed)
+        if out is not None:
+            write_text(out, found.scenario.to_toml())
+        if png is not None:
+            from cointoss.compare.fitting.picture import draw_fit
+
+            with written_whole(png) as aside:
+                draw_fit(found).savefig(aside, dpi=150, format="png")
+        if as_json:
+            click.echo(
+                json.dumps({**found.as_dict(), "seed": seed, "starts": starts}, indent=1, allow_nan=False)
+            )
+            return
+        click.echo(as_lines(found))
+        for name, path in (("scenario", out), ("picture", png)):
+            if path is not None:
+                click.echo(f"\n{name:11} {path}")

@@ -1,0 +1,78 @@
+"""A fit as text for a person: the values, the verdict, and each touch."""
+
+import numpy as np
+
+from cointoss.compare.fitting.fit import Fit, Fitted
+from cointoss.compare.output.answer import counted
+from cointoss.models.records import Face
+
+MOST_OTHERS = 5
+"""Other values that are printed."""
+
+
+def as_lines(fit: Fit) -> str:
+    """Return a fit as text."""
+    lines = [_value(each) for each in fit.values]
+    lines += ["", f"verdict     {fit.verdict}", f"seen        {_seen(fit)}"]
+    if fit.untested_touches:
+        numbers = ", ".join(map(str, fit.untested_touches))
+        lines.append(f"untested    touches {numbers}: beyond the horizon of trust, so they test nothing")
+    for pair in _correlated(fit):
+        lines.append(f"correlated  {pair}")
+    for other in fit.others[:MOST_OTHERS]:
+        told = ", ".join(f"{each.span.field} = {each.value:.6g}" for each in other.values)
+        lines.append(f"or          {told}: chi-square {other.chi_square:.4g}")
+    if len(fit.others) > MOST_OTHERS:
+        lines.append(f"or          {len(fit.others) - MOST_OTHERS} more that explain it")
+    if len(fit.observed.touch_times):
+        lines += ["", "touch  up  seen [s]   fitted [s]  residual [sd]", *_touches(fit)]
+    return "\n".join(lines)
+
+
+def _value(each: Fitted) -> str:
+    unit = f" [{each.span.printed_unit}]" if each.span.unit else ""
+    name = f"{each.span.field}{unit}"
+    if not np.isfinite(each.sd):
+        return f"{name:34} not determined by what was seen"
+    low, high = each.interval
+    end = "  at the end of its span" if each.at_end else ""
+    return f"{name:34} {each.value:.7g} ± {each.sd:.2g}  99 % [{low:.7g}, {high:.7g}]{end}"
+
+
+def _seen(fit: Fit) -> str:
+    seen = fit.observed
+    parts = (
+        [counted(len(seen.touch_times), "touch").replace("touchs", "touches")]
+        if len(seen.touch_times)
+        else []
+    )
+    frames = {"heights": seen.heights, "tilts": seen.tilts, "attitudes": seen.quaternions[:, 0]}
+    parts += [f"{n} {name}" for name, values in frames.items() if (n := int(np.isfinite(values).sum()))]
+    return f"{', '.join(parts)}; {counted(len(fit.values), 'value')} fitted"
+
+
+def _correlated(fit: Fit) -> list[str]:
+    """Return the pairs of fields of which the data know a combination far better than either."""
+    with np.errstate(invalid="ignore"):
+        sd = np.sqrt(np.diag(fit.covariance))
+        correlation = fit.covariance / np.outer(sd, sd)
+    names = [each.span.field for each in fit.values]
+    pairs = [(i, j) for i in range(len(names)) for j in range(i) if abs(correlation[i, j]) > 0.95]
+    return [f"{names[j]} and {names[i]}, by {correlation[i, j]:.3f}" for i, j in pairs]
+
+
+def _touches(fit: Fit) -> list[str]:
+    seen, lines = fit.observed, []
+    for number, time, face, fitted, missed, tested in zip(
+        seen.touch_numbers,
+        seen.touch_times,
+        seen.faces,
+        fit.touch_times,
+        fit.residuals,
+        fit.tested,
+        strict=False,
+    ):
+        shown = f"{fitted:11.6f} {missed:+14.2f}" if np.isfinite(fitted) else f"{'none':>11} {missed:+14.2f}"
+        up = Face(face).symbol if face else "-"
+        lines.append(f"{number:5d}   {up} {time:9.6f}  {shown}{'' if tested else '  beyond the horizon'}")
+    return lines

@@ -1,0 +1,315 @@
+"""The fields of a scenario that explain what was seen of a coin, with their errors, or that none do."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from os import PathLike
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import chi2, norm
+
+from cointoss.analytic import toss
+from cointoss.compare.fitting.errors import ObservationError
+from cointoss.compare.fitting.misfit import CLOCK, Misfit
+from cointoss.compare.fitting.observed import Observed
+from cointoss.compare.fitting.search import Minimum, Search
+from cointoss.compare.fitting.table import read_observed
+from cointoss.compare.sweep.axes import SPAN_FORM, Span, span_of, split_span, unit_of
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.errors import ScenarioError
+from cointoss.models.interruptible import interruptible
+from cointoss.models.reading import ScenarioSource, scenario_of
+from cointoss.models.records import Array, Toss
+from cointoss.models.scenario import Scenario
+from cointoss.models.units import in_si
+
+LEVEL = 0.99
+"""Of the intervals; a model is rejected that chance makes miss by so much in fewer than one case in 100."""
+STARTS, MOST_STARTS = 2048, 1 << 20
+AT_END = 1e-6
+"""A value nearer to an end of its span than this part of it is at the end."""
+DEVIATIONS = {"time": "s", "height": "m", "attitude": "rad"}
+"""What has a standard deviation, and its unit."""
+MOST_FIELDS = 12
+"""That are free; more are not found from one toss."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fitted:
+    """A field, and the value that explains best what was seen."""
+
+    span: Span
+    value: float
+    sd: float
+    """Standard deviation; infinite where what was seen does not determine the value."""
+    at_end: bool
+    """Whether the value is at an end of its span, where the true one may be outside."""
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Where the true value is in 99 of 100 cases, if the model and no other values explain it."""
+        half = float(norm.ppf((1 + LEVEL) / 2)) * self.sd
+        return self.value - half, self.value + half
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Fit:
+    """What explains best what was seen of a coin, by the analytic engine; arrays are read-only."""
+
+    observed: Observed
+    scenario: Scenario
+    """With the values that were found in its fields."""
+    values: tuple[Fitted, ...]
+    """Of the free fields, in their order; the clock, if it was free, too."""
+    covariance: Array
+    """Of these, (k, k); infinite variances of what is not determined."""
+    residuals: Array
+    """What was seen less what this toss shows, in standard deviations, (n,): touches, faces, heights, tilts,
+    and three components of the rotation for each attitude."""
+    times: Array
+    """When each of them was seen, (n,) [s]."""
+    tested: NDArray[np.bool_]
+    """Which of them lie within the horizon of trust; others test nothing, (n,)."""
+    touch_times: Array
+    """Of the touches that were seen, by the observer's clock, NaN where this toss makes none, [s]."""
+    chi_square: float
+    """Sum of the squares of the tested residuals."""
+    degrees: int
+    """Tested numbers less fitted ones; no more than 0 where nothing is left to test the model."""
+    clock: float
+    """Of the observer, at the release [s]."""
+    others: "tuple[Fit, ...]"
+    """Other values in the spans that explain what was seen too, the best first; any may be the true ones."""
+
+    @property
+    def p_value(self) -> float:
+        """How likely chance makes the right model miss by as much; NaN where nothing is left to test it."""
+        return float(chi2.sf(self.chi_square, self.degrees)) if self.degrees > 0 else float("nan")
+
+    @property
+    def is_possible(self) -> bool:
+        """Whether this toss can have been what was seen."""
+        return not self.p_value < 1 - LEVEL
+
+    @property
+    def verdict(self) -> str:
+        """Whether the model can do what was seen, in words."""
+        if self.degrees <= 0:
+            return "nothing is left to test the model: as many numbers are fitted as were seen"
+        found = (
+            f"chi-square {self.chi_square:.4g} for {self.degrees} degrees of freedom, p = {self.p_value:.2g}"
+        )
+        can = (
+            "can do" if self.is_possible else "cannot do, with no values of its free fields that were found,"
+        )
+        return f"this model {can} what was seen: {found}"
+
+    @property
+    def untested_touches(self) -> tuple[int, ...]:
+        """The numbers of the touches that were seen beyond the horizon of trust, and so test nothing."""
+        seen = self.observed.touch_numbers
+        return tuple(seen[~self.tested[: len(seen)]].tolist())
+
+    @cached_property
+    def toss(self) -> Toss:
+        """The toss that explains it, followed until the coin lies."""
+        return toss(self.scenario.replace("ending.test", "lying"))
+
+    def __getitem__(self, field: str) -> Fitted:
+        """Return what was found for a free field.
+
+        Raises:
+            KeyError: for another field.
+        """
+        by_field = {each.span.field: each for each in self.values}
+        if field not in by_field:
+            raise KeyError(f"{field}: accepted: {', '.join(by_field)}")
+        return by_field[field]
+
+    def __repr__(self) -> str:
+        """Return the values and the verdict."""
+        told = ", ".join(f"{each.span.field} = {each.value:.6g} ± {each.sd:.1g}" for each in self.values)
+        return f"<Fit: {told}; {self.verdict}>"
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return it in the form of `cointoss fit --json`; None for what is infinite or NaN."""
+        return {
+            "values": {
+                each.span.field: {
+                    "value": each.value,
+                    "sd": _finite(each.sd),
+                    "interval": [_finite(end) for end in each.interval],
+                    "unit": each.span.unit,
+                    "at_end": each.at_end,
+                }
+                for each in self.values
+            },
+            "covariance": [[_finite(x) for x in row] for row in self.covariance.tolist()],
+            "chi_square": self.chi_square,
+            "degrees": self.degrees,
+            "p_value": _finite(self.p_value),
+            "possible": self.is_possible,
+            "verdict": self.verdict,
+            "residuals": self.residuals.tolist(),
+            "tested": self.tested.tolist(),
+            "untested_touches": list(self.untested_touches),
+            "touch_times": [_finite(time) for time in self.touch_times.tolist()],
+            "others": [{each.span.field: each.value for each in other.values} for other in self.others],
+            "scenario": self.scenario.as_tables(),
+        }
+
+    def plot(self, ax: Any = None) -> Any:
+        """Plot the height of the toss over the observer's time, with what was seen.
+
+        Args:
+            ax: matplotlib's Axes where to draw, by default in a new figure of pyplot.
+
+        Returns:
+            The axes.
+        """
+        from cointoss.compare.fitting.picture import plot_fit  # Matplotlib takes long to import
+
+        return plot_fit(self, ax)  # pyright: ignore[reportArgumentType]
+
+
+def fit(
+    observed: Observed | str | PathLike[str],
+    scenario: ScenarioSource,
+    free: Mapping[str, tuple[float | str, float | str]],
+    *,
+    sd: Mapping[str, float | str] | None = None,
+    starts: int = STARTS,
+    seed: int = 0,
+) -> Fit:
+    """Find the values of some fields of a scenario that explain what was seen of a coin.
+
+        cointoss.fit("heard.csv", "coin.toml", {"floor.restitution": (0.4, 0.9)}, sd={"time": "1 ms"})
+
+    The squares of the residuals of the analytic engine's toss are made least from many starts in the spans,
+    those of the first touches first. The standard deviations are those of linear propagation: of the errors
+    of what was seen alone, if the model is right. Faces are held against the toss; they determine no value.
+
+    Args:
+        observed: what was seen, or the path of a CSV file that has it.
+        scenario: what is held fixed; or a file's path, or a name such as "fig24a".
+        free: for each field its first and last value, in SI or as texts with a unit. The field "clock" is the
+            time that the observer's clock shows at the release; where it is not free, that is 0.
+        sd: of a file, standard deviations of "time", "height" and "attitude", in SI or as texts with a unit,
+            where it has none itself.
+        starts: how many, spread evenly.
+        seed: of their order.
+
+    Raises:
+        ObservationError: for a file or numbers that can't be used.
+        SweepError: for a field or a span that can't be used.
+        ScenarioError: for a scenario that can't be used, or where no value of the spans makes one.
+    """
+    described = scenario_of(scenario)
+    seen = observed if isinstance(observed, Observed) else read_observed(observed, _deviations(sd or {}))
+    spans = tuple(_span(field, *ends, described) for field, ends in free.items())
+    return fit_spans(seen, described, spans, starts=starts, seed=seed)
+
+
+def _deviations(given: Mapping[str, float | str]) -> dict[str, float]:
+    """Return standard deviations in SI."""
+    found = {}
+    for name, value in given.items():
+        if name not in DEVIATIONS:
+            raise ObservationError(f"sd: {name}: accepted: {', '.join(DEVIATIONS)}")
+        try:
+            found[name] = in_si(value, DEVIATIONS[name]) if isinstance(value, str) else float(value)
+        except ValueError as error:
+            raise ObservationError(f"sd: {name} = {value}: accepted: {error}") from None
+    return found
+
+
+def parse_span(text: str, scenario: Scenario) -> Span:
+    """Read FIELD=START:STOP, where the field may be "clock".
+
+    Raises:
+        SweepError: naming what is wrong and what is accepted.
+    """
+    field, (start, stop) = split_span(text, 2, SPAN_FORM)
+    return _span(field, start, stop, scenario)
+
+
+def fit_spans(
+    observed: Observed, scenario: Scenario, spans: Sequence[Span], *, starts: int, seed: int
+) -> Fit:
+    """Return what `fit` finds; the arguments are those of `fit`, read."""
+    if not 1 <= starts <= MOST_STARTS:
+        raise SweepError(f"starts = {starts}: accepted: a whole number from 1 to {MOST_STARTS}")
+    fields = [span.field for span in spans]
+    if not 1 <= len(set(fields)) == len(fields) <= MOST_FIELDS:
+        raise SweepError(
+            f"free fields {', '.join(fields) or 'none'}: accepted: from 1 to {MOST_FIELDS}, each once"
+        )
+    misfit = Misfit(scenario=scenario, spans=tuple(spans), observed=observed)
+    minima = interruptible(Search(misfit, starts=starts, seed=seed).minima)
+    if not minima:
+        middle = np.array([(span.start + span.stop) / 2 for span in spans])
+        misfit.scenario_of(middle)  # says why
+        raise ScenarioError(
+            "no start of the spans makes a scenario; accepted: spans in which the coin is free"
+        )
+    found = [_fit_of(misfit, minimum) for minimum in minima]
+    others = tuple(other for other in found[1:] if other.is_possible)
+    return replace(found[0], others=others)
+
+
+def _fit_of(misfit: Misfit, minimum: Minimum) -> Fit:
+    deviations, shown = np.sqrt(np.diag(minimum.covariance)), minimum.predicted
+    values = tuple(
+        Fitted(
+            span=span,
+            value=float(value),
+            sd=float(sd),
+            at_end=_is_at_end(float(value), span),
+        )
+        for span, value, sd in zip(misfit.spans, minimum.values, deviations, strict=True)
+    )
+    for array in (misfit.times, minimum.covariance, shown.residuals, shown.is_tested, shown.touch_times):
+        array.setflags(write=False)
+    return Fit(
+        observed=misfit.observed,
+        scenario=misfit.scenario_of(minimum.values),
+        values=values,
+        covariance=minimum.covariance,
+        residuals=shown.residuals,
+        times=misfit.times,
+        tested=shown.is_tested,
+        touch_times=shown.touch_times,
+        chi_square=minimum.chi_square,
+        degrees=int(np.sum(shown.is_tested & misfit.is_measured)) - len(values),
+        clock=dict(zip((span.field for span in misfit.spans), minimum.values.tolist(), strict=True)).get(
+            CLOCK, 0.0
+        ),
+        others=(),
+    )
+
+
+def _span(field: str, start: float | str, stop: float | str, scenario: Scenario) -> Span:
+    if field == CLOCK:
+        return span_of(field, start, stop, "s")
+    unit = unit_of(field, scenario)
+    if field.startswith(("ending.", "release.quaternion.")):
+        instead = (
+            "release.angles"
+            if "quaternion" in field
+            else "a field of the coin, the air, the floor, the release"
+        )
+        raise SweepError(f"{field}: can't be fitted; accepted: {instead}, or clock")
+    span = span_of(field, start, stop, unit)
+    if field.startswith("release.angles.") and scenario.release.angles is None:
+        raise SweepError(f"{field}: this scenario has a quaternion; accepted: release.angles in its place")
+    return span
+
+
+def _is_at_end(value: float, span: Span) -> bool:
+    return min(abs(value - span.start), abs(value - span.stop)) < AT_END * abs(span.stop - span.start)
+
+
+def _finite(number: float) -> float | None:
+    return number if np.isfinite(number) else None

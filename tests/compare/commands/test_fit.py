@@ -1,0 +1,73 @@
+"""`cointoss fit` prints what explains a table, writes it as a scenario, and draws it."""
+
+import json
+
+import pytest
+
+from cointoss import load
+from tests.helpers.command_line import cointoss, refused
+
+COIN = """[coin]\nmass = "5 g"\nradius = "12.5 mm"\nthickness = "2 mm"
+[floor]\nrestitution = 0.8\ncontact = "smooth"\n[release]\nposition = [0, 0, 0.3]\n"""
+HEARD = "t (s)\n1.200\n1.550\n1.812\n2.010\n"
+CALL = ("fit", "heard.csv", "coin.toml", "--free", "floor.restitution=0.4:0.95")
+FREE = ("--free", "release.position.z=0.1:1", "--free", "clock=0:1200 ms", "--starts", 64)
+
+
+@pytest.fixture(autouse=True)
+def _folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "coin.toml").write_text(COIN)
+    (tmp_path / "heard.csv").write_text(HEARD)
+
+
+def test_values_a_verdict_and_files(tmp_path):
+    answered = cointoss(*CALL, *FREE, "--sd-time", "1 ms", "--out", "found.toml", "--png", "fit.png")
+    lines = answered.stdout.splitlines()
+    assert lines[0].startswith("floor.restitution                  0.75")
+    assert "99 % [" in lines[1]
+    assert lines[4].startswith("verdict     this model can do what was seen: chi-square ")
+    assert lines[5] == "seen        4 touches; 3 values fitted"
+    assert (tmp_path / "fit.png").read_bytes().startswith(b"\x89PNG")
+    found = json.loads(cointoss(*CALL, *FREE, "--sd-time", "1 ms", "--json").stdout)
+    assert load("found.toml").floor.restitution == found["values"]["floor.restitution"]["value"]
+    assert found["scenario"] == load("found.toml").as_tables()
+    assert found["possible"]
+    assert len(found["residuals"]) == len(found["touch_times"]) == 4
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "coin.toml",
+        "fit.png",
+        "found.toml",
+        "heard.csv",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("more", "named"),
+    [
+        ((), "heard.csv: no standard deviation of time; accepted: a column sd_t, or --sd-time"),
+        (("--sd-time", "1 mm"), "'--sd-time': 1 mm; accepted: a number in s"),
+        (("--sd-time", "0"), "Observed.touch_sd: row 0 is 0.0"),
+        (("--sd-time", "1 ms", "--free", "floor.bounce=0:1"), "floor.bounce: no numeric field"),
+        (("--sd-time", "1 ms", "--free", "clock=1"), "clock=1: accepted: FIELD=START:STOP, such as "),
+        (("--sd-time", "1 ms", "--free", "floor.restitution=0:1"), "accepted: from 1 to 12, each once"),
+        (("--sd-time", "1 ms", "--free", "ending.max_time=1:2"), "ending.max_time: can't be fitted"),
+        (("--sd-time", "1 ms", "--out", "found.json"), "found.json: another kind of file"),
+        (("--sd-time", "1 ms", "--out", "coin.toml"), "coin.toml: is the scenario; accepted: another file"),
+        (("--sd-time", "1 ms", "--starts", "0"), "'--starts': 0; accepted: an integer >= 1"),
+    ],
+)
+def test_bad_input_is_answered_in_one_line(tmp_path, more, named):
+    assert named in refused(*CALL, *more)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["coin.toml", "heard.csv"]
+    assert (tmp_path / "coin.toml").read_text() == COIN
+
+
+def test_what_is_missing_is_named():
+    assert "OBSERVED.csv: missing; accepted: a CSV file with the times of touches" in refused("fit")
+    assert "--free: missing; accepted: --free FIELD=START:STOP, a field" in refused(
+        "fit", "heard.csv", "coin.toml"
+    )
+    assert "gone.csv: no such file; accepted: a CSV file" in refused(
+        "fit", "gone.csv", "coin.toml", *CALL[3:]
+    )

@@ -1,0 +1,269 @@
+"""A fit: closed forms, intervals that cover the truth, and coins that no values of the model explain."""
+
+import numpy as np
+import pytest
+
+from cointoss import Observed, analytic, fit
+from cointoss.compare.fitting.errors import ObservationError
+from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.errors import ScenarioError
+from cointoss.models.scenario import Scenario
+
+MS = 1e-3
+FLAT = Scenario(
+    coin={"mass": 0.005, "radius": 0.0125, "thickness": 0.002},
+    floor={"restitution": 0.8, "contact": "smooth"},
+    release={"position": [0, 0, 0.3]},
+)
+TUMBLING = FLAT.replace("release.angles", [0, 0.5, 0], "release.angular_velocity", [12, 3, 5])
+ANY = {"floor.restitution": (0.3, 1.0), "release.position.z": (0.02, 0.6), "clock": (0.5, 1.5)}
+
+
+def touches(scenario: Scenario, count: int) -> np.ndarray:
+    """Return the times of the first touches, which are that many."""
+    followed = scenario.replace("ending.test", "lying", "ending.max_impacts", count)
+    times = analytic.toss(followed).impacts.time
+    assert len(times) == count
+    return times
+
+
+def seen(scenario: Scenario, count: int, rng: np.random.Generator, clock: float = 1.0) -> Observed:
+    """Return touches as a microphone hears them."""
+    return Observed(touch_times=clock + touches(scenario, count) + rng.normal(0, MS, count), touch_sd=MS)
+
+
+def test_the_restitution_of_a_flat_coin_is_the_ratio_of_the_times_between_its_touches():
+    """With three touches and three values t3 - t2 = χ (t2 - t1); the error of χ is that of the ratio."""
+    t = np.array([1.0, 1.35, 1.35 + 0.35 * 0.72])
+    found = fit(Observed(touch_times=t, touch_sd=MS), FLAT, ANY, starts=256)
+    chi, between = found["floor.restitution"], t[1] - t[0]
+    assert chi.value == pytest.approx(0.72, abs=1e-7)
+    assert chi.sd == pytest.approx(MS / between * np.sqrt(1 + 1.72**2 + 0.72**2), rel=1e-4)
+    # The height is that from which the coin hits the floor at g (t2 - t1) / 2 χ.
+    fall = between / (2 * 0.72)
+    assert found["release.position.z"].value == pytest.approx(FLAT.coin.thickness / 2 + 9.81 * fall**2 / 2)
+    assert found["clock"].value == pytest.approx(t[0] - fall)
+    assert found.degrees == 0
+    assert "nothing is left" in found.verdict
+
+
+def test_touches_that_come_ever_later_are_those_of_no_coin():
+    t = np.array([1.0, 1.2, 1.45, 1.75])
+    found = fit(Observed(touch_times=t, touch_sd=MS), FLAT, ANY, starts=256)
+    assert not found.is_possible
+    assert found["floor.restitution"].at_end
+    assert found.p_value < 1e-10
+    assert "cannot do" in found.verdict
+
+
+def flat_misses(count: int, seed: int) -> tuple[np.ndarray, int]:
+    """Return by how many deviations fits of random flat coins miss the truth, and how many are rejected."""
+    rng, misses, rejected = np.random.default_rng(seed), [], 0
+    for _ in range(count):
+        truth = (rng.uniform(0.5, 0.9), rng.uniform(0.15, 0.5))
+        coin = FLAT.replace(
+            "floor.restitution", truth[0], "release.position.z", truth[1],
+            "release.angular_velocity.zeta", rng.uniform(-20, 20),
+        )  # fmt: skip
+        found = fit(seen(coin, 6, rng), coin, ANY, starts=64)
+        values = zip(found.values, (*truth, 1.0), strict=True)
+        misses.append([(each.value - true) / each.sd for each, true in values])
+        rejected += not found.is_possible
+    return np.abs(misses), rejected
+
+
+def filmed(scenario: Scenario, rng: np.random.Generator) -> Observed:
+    """Return three touches, and heights and tilts of a film of 60 frames a second until after the second."""
+    times = touches(scenario, 3)
+    toss = analytic.toss(scenario.replace("ending.test", "lying"))
+    at = np.arange(0, min(times[1] + 0.1, toss.end_time), 1 / 60)
+    states = toss.sample(at)
+    tilts = np.arccos(states.normal[:, 2]) + rng.normal(0, 0.05, len(at))
+    return Observed(
+        touch_times=times + rng.normal(0, MS, 3),
+        touch_sd=MS,
+        times=at,
+        heights=states.position[:, 2] + rng.normal(0, 2 * MS, len(at)),
+        height_sd=2 * MS,
+        tilts=np.clip(tilts, 0, np.pi),
+        tilt_sd=0.05,
+    )
+
+
+FILMED = {
+    "floor.restitution": (0.4, 1.0),
+    "release.position.z": (0.15, 0.5),
+    "release.angular_velocity.xi": (-25.0, 25.0),
+}
+
+
+def filmed_misses(count: int, seed: int) -> tuple[np.ndarray, int]:
+    """Return the same of coins that tumble before a film camera."""
+    rng, misses, rejected = np.random.default_rng(seed), [], 0
+    while len(misses) < count:
+        truth = (rng.uniform(0.5, 0.9), rng.uniform(0.2, 0.4), rng.uniform(-20, 20))
+        spin = [truth[2], *rng.uniform(-10, 10, 2)]
+        coin = TUMBLING.replace("floor.restitution", truth[0], "release.position.z", truth[1])
+        coin = coin.replace("release.angles.theta", rng.uniform(0.3, 1.0), "release.angular_velocity", spin)
+        if np.diff(touches(coin, 3)).min() < 5 * MS:
+            continue  # a microphone hears one
+        found = fit(filmed(coin, rng), coin, FILMED, starts=256)
+        misses.append([(one.value - true) / one.sd for one, true in zip(found.values, truth, strict=True)])
+        rejected += not found.is_possible
+    return np.abs(misses), rejected
+
+
+def assert_covers(misses: np.ndarray, rejected: int) -> None:
+    """Intervals of 99 % and of 68 % hold the truth as often as they say, within 3.3 binomial deviations."""
+    n = len(misses)
+    for level, half in ((0.99, 2.576), (0.683, 1.0)):
+        share = np.mean(misses < half, axis=0)
+        assert np.all(np.abs(share - level) < 3.3 * np.sqrt(level * (1 - level) / n) + 1 / n), (level, share)
+    assert rejected <= 0.01 * n + 3.3 * np.sqrt(0.0099 * n)
+
+
+def test_intervals_of_a_few_coins_cover_the_truth():
+    assert_covers(*flat_misses(3, seed=1))
+
+
+@pytest.mark.slow
+def test_intervals_of_200_flat_coins_cover_the_truth():
+    assert_covers(*flat_misses(200, seed=2))
+
+
+@pytest.mark.slow
+def test_intervals_of_200_coins_that_were_filmed_cover_the_truth():
+    assert_covers(*filmed_misses(200, seed=3))
+
+
+def test_a_coin_of_another_law_is_rejected():
+    rng, rough = np.random.default_rng(4), TUMBLING.replace("floor.contact", "perfectly_rough")
+    shown = filmed(rough, rng)
+    assert fit(shown, rough, FILMED, starts=256).is_possible
+    found = fit(shown, TUMBLING, FILMED, starts=256)
+    assert not found.is_possible
+    assert found.degrees == 3 + 2 * len(shown.times) - 3
+
+
+def test_touches_of_mujocos_coin_are_explained_by_the_analytic_engine():
+    """MuJoCo's impacts take time, some 1e-5 s here: less than what a microphone errs."""
+    from cointoss import coin_mj
+
+    times = coin_mj.toss(TUMBLING.replace("ending.test", "lying", "ending.max_impacts", 4)).impacts.time[:3]
+    heard = Observed(touch_times=times, touch_sd=0.2 * MS)
+    found = fit(
+        heard, TUMBLING, {"floor.restitution": (0.6, 0.95), "release.position.z": (0.28, 0.32)}, starts=256
+    )
+    assert found.is_possible
+    close = [
+        each
+        for each in (found, *found.others)
+        if abs(each["floor.restitution"].value - 0.8) < 3 * each["floor.restitution"].sd + 1e-4
+    ]
+    assert close
+
+
+def test_touches_beyond_the_horizon_test_nothing():
+    toss = analytic.toss(TUMBLING.replace("ending.test", "lying"))
+    trusted = toss.trusted_impacts
+    assert 3 < trusted < len(toss.impacts) - 4
+    times = toss.impacts.time[: trusted + 4].copy()
+    times[trusted:] += 0.02  # whatever they are
+    heard = Observed(touch_times=times, touch_sd=MS)
+    found = fit(heard, TUMBLING, {"floor.restitution": (0.8 - 1e-8, 0.8 + 1e-8)}, starts=4)
+    assert found.untested_touches == tuple(range(trusted + 1, trusted + 5))
+    assert found.is_possible
+    assert found.degrees == trusted - 1
+
+
+def test_what_was_not_seen_is_not_determined():
+    rng = np.random.default_rng(5)
+    spans = {"floor.restitution": (0.5, 0.95), "release.position.x": (-1.0, 1.0)}
+    found = fit(seen(FLAT, 5, rng, clock=0), FLAT, spans, starts=64)
+    assert found["release.position.x"].sd == np.inf
+    assert found["floor.restitution"].sd < 0.01
+    assert np.isinf(found.covariance[1, 1])
+    assert found.as_dict()["values"]["release.position.x"]["sd"] is None
+
+
+def test_values_that_explain_it_too_are_among_the_others():
+    """A coin that leans to the other side touches at the same times: no microphone hears where it leans."""
+    leaning = FLAT.replace("release.angles", [0, 0.3, 0])
+    heard = Observed(touch_times=touches(leaning, 3), touch_sd=MS)
+    found = fit(heard, leaning, {"release.angles.theta": (-0.6, 0.6)}, starts=64)
+    sides = [each["release.angles.theta"].value for each in (found, *found.others)]
+    assert min(abs(side - 0.3) for side in sides) < 0.01
+    assert min(abs(side + 0.3) for side in sides) < 0.01
+
+
+def test_a_face_rejects_the_toss_that_shows_the_other():
+    heads = fit(
+        Observed(touch_times=touches(FLAT, 3), touch_sd=MS, faces="HH?"),
+        FLAT,
+        {"floor.restitution": (0.5, 0.95)},
+        starts=16,
+    )
+    tails = fit(
+        Observed(touch_times=touches(FLAT, 3), touch_sd=MS, faces="HT?"),
+        FLAT,
+        {"floor.restitution": (0.5, 0.95)},
+        starts=16,
+    )
+    assert heads.is_possible
+    assert not tails.is_possible
+
+
+def test_an_attitude_fixes_the_side_and_the_spin_about_the_normal():
+    coin = FLAT.replace("release.angular_velocity.zeta", 7.0)
+    at = np.array([0.05, 0.1, 0.15])
+    shown = Observed(times=at, quaternions=-analytic.toss(coin).sample(at).quaternion, quaternion_sd=0.01)
+    found = fit(shown, coin, {"release.angular_velocity.zeta": (-10.0, 10.0)}, starts=32)
+    spin = found["release.angular_velocity.zeta"]
+    assert spin.value == pytest.approx(7.0, abs=1e-6)
+    assert spin.sd == pytest.approx(0.01 / np.sqrt(np.sum(at**2)), rel=1e-3)
+
+
+def test_the_same_seed_finds_the_same():
+    shown = seen(FLAT, 5, np.random.default_rng(8))
+    one, two = (fit(shown, FLAT, ANY, starts=64, seed=3) for _ in range(2))
+    assert one.as_dict() == two.as_dict()
+
+
+@pytest.mark.parametrize(
+    ("free", "named"),
+    [
+        ({}, "free fields none: accepted: from 1 to 12"),
+        ({"floor.bounce": (0, 1)}, "floor.bounce: no numeric field"),
+        ({"floor.restitution": (0.5, 0.5)}, "START = STOP"),
+        ({"ending.max_time": (1, 2)}, "ending.max_time: can't be fitted"),
+        ({"release.quaternion.e0": (0.1, 1)}, "accepted: release.angles"),
+        ({"clock": ("1 m", 2)}, "clock = 1 m: accepted: a number in s"),
+    ],
+)
+def test_what_can_not_be_free_is_named(free, named):
+    with pytest.raises(SweepError, match=named):
+        fit(Observed(touch_times=[0.3], touch_sd=MS), FLAT, free)
+
+
+def test_spans_without_a_scenario_are_refused():
+    with pytest.raises(ScenarioError, match=r"release\.position\.z"):
+        fit(Observed(touch_times=[0.3], touch_sd=MS), FLAT, {"release.position.z": (-2.0, -1.0)}, starts=4)
+
+
+@pytest.mark.parametrize(
+    ("given", "named"),
+    [
+        ({}, "nothing was seen"),
+        ({"touch_times": [0.1, 0.2], "touch_sd": [0.1]}, "touch_sd: shape"),
+        ({"touch_times": [0.1], "touch_sd": 0.0}, "touch_sd: row 0 is 0.0"),
+        ({"touch_times": [0.1]}, "touch_sd: row 0 is nan"),
+        ({"touch_times": [0.2, 0.1], "touch_sd": MS}, "touch_times: row 1"),
+        ({"touch_times": [0.2], "touch_sd": MS, "faces": "X"}, "faces: 'X'"),
+        ({"touch_times": [0.2], "touch_sd": MS, "touch_numbers": [0]}, "touch_numbers: row 0"),
+        ({"times": [0.2], "tilts": [4.0], "tilt_sd": MS}, "tilts: row 0"),
+        ({"times": [0.2], "quaternions": [[2.0, 0, 0, 0]], "quaternion_sd": MS}, "quaternions: row 0"),
+    ],
+)
+def test_what_was_not_seen_so_is_named(given, named):
+    with pytest.raises(ObservationError, match=named):
+        Observed(**given)

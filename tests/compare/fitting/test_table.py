@@ -1,0 +1,110 @@
+"""Tables as phyphox, Tracker and a person write them, and what is wrong with others."""
+
+import numpy as np
+import pytest
+
+from cointoss import analytic, load
+from cointoss.compare.fitting.errors import ObservationError
+from cointoss.compare.fitting.table import read_observed
+from cointoss.compare.output.answer import path_csv
+from cointoss.models.unused import UnusedFieldWarning
+
+SD = {"time": 0.001, "height": 0.002, "attitude": 0.03}
+
+
+@pytest.fixture
+def read(tmp_path):
+    def read_text(text: str, sd=SD):
+        path = tmp_path / "seen.csv"
+        path.write_text(text, encoding="utf-8")
+        return read_observed(path, sd)
+
+    return read_text
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "t\n1.2\n1.55\n1.8\n",
+        "# heard\nTime (s)\n1.2\n1.55\n1.8\n",
+        '"Time (ms)"\n1200\n1550\n1800\n',
+        "t [s]; sd_t [ms]\n1,2;1\n1,55;1\n1,8;1\n",
+        '"Start (s)","Stop 1 (s)","Stop 2 (s)","Stop 3 (s)"\n1.2,1.55,1.8,0\n',
+        '"Bounce 0 (s)"\t"Height 0 (m)"\t"Bounce 1 (s)"\t"Bounce 2 (s)"\n1,2\t0,3\t1,55\t1,8\n',
+    ],
+)
+def test_touches_as_phyphox_exports_them(read, text):
+    found = read(text)
+    assert found.touch_times.tolist() == pytest.approx([1.2, 1.55, 1.8])
+    assert found.touch_sd.tolist() == pytest.approx([0.001] * 3)
+    assert found.touch_numbers.tolist() == [1, 2, 3]
+    assert not len(found.times)
+
+
+def test_heights_as_tracker_exports_them(read):
+    with pytest.warns(UnusedFieldWarning, match="columns x: not used"):
+        found = read(
+            "#multi:\ncoin\t\t\t\nt\tx\ty\t\n0.000E0\t1.2E-1\t3.0E-1\t\n8.3E-3\t1.2E-1\t\t\n1.67E-2\t0\t2.9E-1\t\n"
+        )
+    assert found.times.tolist() == [0.0, 8.3e-3, 1.67e-2]
+    np.testing.assert_array_equal(found.heights, [0.3, np.nan, 0.29])
+    assert found.count == 2
+
+
+def test_touches_and_frames_in_one_file(read):
+    found = read(
+        "t,touch,face,z (mm),tilt (deg),sd_t\n"
+        "0.1,,,300,90,\n0.2,1,H,,,0.002\n0.5,3,?,,,0.002\n0.6,,,nan,45,\n"
+    )
+    assert found.touch_numbers.tolist() == [1, 3]
+    assert found.faces.tolist() == [1, 0]
+    assert found.touch_sd.tolist() == [0.002, 0.002]
+    assert found.tilts.tolist() == pytest.approx([np.pi / 2, np.pi / 4])
+    np.testing.assert_allclose(found.heights, [0.3, np.nan])
+
+
+def test_a_path_that_this_program_wrote(read):
+    states = analytic.toss(load("fig24a")).sample([0.1, 0.2])
+    with pytest.warns(UnusedFieldWarning, match="x, y, v_x"):
+        found = read(path_csv(states))
+    np.testing.assert_array_equal(found.heights, states.position[:, 2])
+    np.testing.assert_allclose(found.quaternions, states.quaternion)
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("", "no column of times; accepted: t or time;"),
+        ("a,b\n1,2\n", "no column of times"),
+        ("t\n0.1\nx\n", "column t: row 2 is 'x', accepted: a number"),
+        ("t (kg)\n0.1\n", r"column t: row 1 is '0.1', accepted: a number \[kg\]"),
+        ("t,time\n0,0\n", "columns t and time; accepted: one of them"),
+        ("t,y,y\n0,0,0\n", "column y twice"),
+        ("t,z\n0\n", "row 1 has 1 cells"),
+        ("t,z\n,1\n", "column t: row 1 has no time"),
+        ("t,e0\n0,1\n", "accepted: all of e0, e1, e2 and e3"),
+        ("Start (s),Stop (s)\n1,2\n3,4\n", "2 rows of touches"),
+        ("t,face\n0.1,X\n", "faces: 'X'"),
+        ("t\n", "nothing was seen"),
+    ],
+)
+def test_what_is_wrong_is_named_with_its_file(read, text, named):
+    with pytest.raises(ObservationError, match=rf"seen\.csv: .*{named}"):
+        read(text)
+
+
+def test_a_number_without_its_deviation_is_refused(read):
+    with pytest.raises(
+        ObservationError, match=r"no standard deviation of time; accepted: a column sd_t, or --sd-time"
+    ):
+        read("t\n0.1\n", {})
+
+
+def test_what_is_no_file_of_text_is_refused(tmp_path):
+    for name, content in (("gone", None), ("bytes", b"\xff\xfe\x00"), ("large", b"t\n" * 6_000_000)):
+        if content is not None:
+            (tmp_path / name).write_bytes(content)
+        with pytest.raises(ObservationError, match=f"{name}: .*accepted: a CSV file"):
+            read_observed(tmp_path / name, SD)
+    with pytest.raises(ObservationError, match="no such file"):
+        read_observed("/dev/zero", SD)
