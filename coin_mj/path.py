@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from cointoss.coin_mj.model.machine import Machine
-from cointoss.coin_mj.model.state import motion_of, set_motion, to_mass_center
+from cointoss.coin_mj.model.state import motion_of, set_motion
 from cointoss.coin_mj.steps.free_step import free_step
 from cointoss.coin_mj.steps.knots import Step
 from cointoss.coin_mj.steps.runge_kutta import normalise, write_rate
 from cointoss.coin_mj.steps.sustained_contact import floor_force
-from cointoss.models.body import Body
+from cointoss.models.free_joint import states_of_joint
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import Array, States
 
@@ -59,7 +59,7 @@ class Knots:
 
     def _states(self, times: Array, motions: Array) -> States:
         """Return states from qpos and qvel, (n, 13)."""
-        parts = np.split(_of_mass_center(self.machine.coin.body, motions), (3, 6, 10), axis=1)
+        parts = np.split(states_of_joint(self.machine.coin.body, motions), (3, 6, 10), axis=1)
         x, v, e, w = (part.copy() for part in parts)
         return States(time=times.copy(), position=x, velocity=v, quaternion=e, angular_velocity=w)
 
@@ -129,16 +129,3 @@ def _in_contact(knots: Array) -> tuple[Array, Array]:
         write_between(knots[i], knots[i + 1], times[n + 1], motions[n + 1])
         n += 3
     return times[:n], motions[:n]
-
-
-@compiled
-def _of_mass_center(body: Body, motions: Array) -> Array:
-    """Return the state vectors of C, (n, 13), from qpos and qvel, (n, 13)."""
-    states = np.empty((len(motions), 13))
-    for i in range(len(motions)):
-        x, v, e, w, _ = to_mass_center(body, motions[i, :7], motions[i, 7:])
-        for j in range(3):
-            states[i, j], states[i, 3 + j], states[i, 10 + j] = x[j], v[j], w[j]
-        for j in range(4):
-            states[i, 6 + j] = e[j]
-    return states

@@ -10,9 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from cointoss.models import notebook
 from cointoss.models.drawing import player, plots
+from cointoss.models.free_joint import joint_of_states
 from cointoss.models.interruptible import interruptible
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.labelled import column, dataset, freeze, table
+from cointoss.models.lowest_points import lowest_points
 from cointoss.models.scenario import Scenario
 from cointoss.models.words import Word
 
@@ -219,6 +221,29 @@ class States:
     def to_dataframe(self) -> "pd.DataFrame":
         """Return the states as a table of pandas, a row for each time."""
         return table(self, "time")
+
+    def to_mujoco(self, scenario: Scenario) -> tuple[Array, Array]:
+        """Return qpos and qvel of MuJoCo's free joint of the coin, (n, 7) and (n, 6).
+
+        qpos has B in space, not C, and the Euler parameters, scalar first; qvel has the velocity of B in
+        space and ω in the body frame.
+
+        Args:
+            scenario: of the coin, whose mass centre may lie off B.
+        """
+        rows = np.hstack([self.position, self.velocity, self.quaternion, self.angular_velocity])
+        motions = joint_of_states(scenario.body, rows)
+        return motions[:, :7], motions[:, 7:]
+
+    def lowest_points(self, scenario: Scenario) -> Array:
+        """Return the coin's lowest point A, space frame, (n, 3) [m]: the point of contact where it touches.
+
+        Of a coin that lies flat it is the point of the face under C.
+
+        Args:
+            scenario: of the coin.
+        """
+        return lowest_points(scenario.body, self.position, self.quaternion, self.angular_velocity)
 
     @property
     def normal(self) -> Array:

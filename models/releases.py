@@ -12,6 +12,7 @@ from cointoss.models.body import Body
 from cointoss.models.errors import require_type, shown
 from cointoss.models.faults import ACCEPTED, NORM_ERROR, Fault, Found, fault_of_release
 from cointoss.models.fields import UNITS, split
+from cointoss.models.free_joint import states_of_joint
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.parts import LARGEST, Release
 from cointoss.models.reading import ScenarioSource, scenario_of
@@ -97,6 +98,38 @@ class Releases:
                 raise ValueError(f"Releases.of: {name}: sets {twice[0]} again; accepted: each number once")
             changed |= new
         releases = changed_releases(described.release, int(n), changed)
+        check_releases(described, releases)
+        return releases
+
+    @classmethod
+    def from_mujoco(cls, qpos: ArrayLike, qvel: ArrayLike, scenario: ScenarioSource) -> "Releases":
+        """Return releases from states of MuJoCo's free joint of the coin.
+
+            Releases.from_mujoco(data.qpos, data.qvel, "fig24a")
+
+        Args:
+            qpos: B in space and Euler parameters, scalar first, (7,) or (n, 7).
+            qvel: velocity of B in space and ω in the body frame, (6,) or (n, 6).
+            scenario: of the coin, whose mass centre may lie off B.
+
+        Raises:
+            ValueError: for other shapes, and for a release that this coin can't have.
+        """
+        described = scenario_of(scenario)
+        joint, motion = (np.atleast_2d(np.array(given, dtype=float)) for given in (qpos, qvel))
+        for name, part, size in (("qpos", joint, 7), ("qvel", motion, 6)):
+            if part.shape != (len(joint), size):
+                raise ValueError(
+                    f"Releases.from_mujoco: {name}: shape {part.shape}, accepted: ({len(joint)}, {size})"
+                )
+        quaternions = joint[:, 3:].copy()
+        wrong = np.arange(len(joint)) == _normalize(quaternions)
+        _refuse("quaternion", joint[:, 3:], wrong, f"four numbers of norm 1 within {NORM_ERROR:g}")
+        motions = np.hstack([joint[:, :3], quaternions, motion])
+        position, velocity, quaternion, spin = np.split(
+            states_of_joint(described.body, motions), (3, 6, 10), axis=1
+        )
+        releases = cls(position=position, velocity=velocity, quaternion=quaternion, angular_velocity=spin)
         check_releases(described, releases)
         return releases
 

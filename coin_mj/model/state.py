@@ -1,54 +1,19 @@
-"""Between MuJoCo's state and the records': the free joint carries B, the records carry C.
-
-Both have velocities in space, the angular velocity in the body, and Euler parameters with the scalar first.
-"""
+"""MuJoCo's coin put into a state, and its state read."""
 
 import numpy as np
 
 from cointoss.coin_mj.model.library import mj_reset
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
-from cointoss.models.attitude import Quaternion, rotation_matrix
 from cointoss.models.body import Body
+from cointoss.models.free_joint import of_mass_center, to_mass_center
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import Vector, add, apply, cross, scale, subtract
+from cointoss.models.kernel.vectors import Vector, scale
 from cointoss.models.parts import Release
 from cointoss.models.records import Array
 from cointoss.models.state import State
 
 Motion = tuple[float, float, float, float, float, float, float, float, float, float, float, float, float]
 """qpos and qvel of the free joint."""
-
-
-@compiled
-def to_mass_center(body: Body, qpos: Array, qvel: Array) -> State:
-    """Return the `State` of a free joint.
-
-    Args:
-        body: the coin.
-        qpos: of the free joint, (7,).
-        qvel: of the free joint, (6,).
-    """
-    e = (qpos[3], qpos[4], qpos[5], qpos[6])
-    w = (qvel[3], qvel[4], qvel[5])
-    R = rotation_matrix(e)
-    x = add((qpos[0], qpos[1], qpos[2]), apply(R, body.center))
-    v = add((qvel[0], qvel[1], qvel[2]), apply(R, cross(w, body.center)))
-    return State(x, v, e, w, R)
-
-
-@compiled
-def of_mass_center(body: Body, x: Vector, v: Vector, e: Quaternion, w: Vector) -> tuple[Vector, Vector]:
-    """Return position and velocity of B, space frame, of a state in which C is at x with the velocity v.
-
-    Args:
-        body: the coin.
-        x: position of C, (3,) [m].
-        v: velocity of C, (3,) [m/s].
-        e: Euler parameters, (4,).
-        w: angular velocity, body frame, (3,) [rad/s].
-    """
-    R = rotation_matrix(e)
-    return subtract(x, apply(R, body.center)), subtract(v, apply(R, cross(w, body.center)))
 
 
 def of_release(body: Body, release: Release) -> tuple[Array, Array]:

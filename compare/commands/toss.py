@@ -81,7 +81,7 @@ def toss(
         result = package.toss(described, settings=settings)
         if trajectory is not None:
             times = answer.path_times(result)
-            write_text(trajectory, answer.path_csv(result.sample(times)))
+            write_text(trajectory, answer.path_csv(result.sample(times), described))
         extra = []
         if margin:
             from cointoss.compare.metrics.margin import is_planar, margins

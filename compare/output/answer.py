@@ -18,6 +18,7 @@ from cointoss.models.records import (
     Toss,
     UnsupportedError,
 )
+from cointoss.models.scenario import Scenario
 
 _JSON_FIELDS = [item.name for item in fields(Impacts) if item.name not in ("time", "face", "energy_change")]
 PATH_COLUMNS = {
@@ -28,6 +29,8 @@ PATH_COLUMNS = {
     "angular_velocity": ("w_xi [rad/s]", "w_eta [rad/s]", "w_zeta [rad/s]"),
 }
 """Columns of a path's CSV file, by the fields of `States`."""
+POINT_COLUMNS = ("A_x [m]", "A_y [m]", "A_z [m]")
+"""Its columns of the coin's lowest point."""
 MOST_LINES = 20
 """Impacts that are printed for a person who did not ask for all; a coin may bounce thousands of times."""
 ROWS_PER_SECOND = 1000
@@ -79,12 +82,17 @@ def path_times(toss: Toss) -> np.ndarray:
     return np.unique(np.concatenate([even, toss.impacts.time, [toss.end_time]]))
 
 
-def path_csv(states: States) -> str:
-    """Return a path as CSV, one row for each time, columns named with their units."""
+def path_csv(states: States, scenario: Scenario) -> str:
+    """Return a path as CSV, one row for each time, columns named with their units.
+
+    The last three columns are the coin's lowest point A in space: the point of contact where it touches.
+    """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([name for names in PATH_COLUMNS.values() for name in names])
-    rows = np.column_stack([getattr(states, field) for field in PATH_COLUMNS])
+    writer.writerow([*(name for names in PATH_COLUMNS.values() for name in names), *POINT_COLUMNS])
+    rows = np.column_stack(
+        [*(getattr(states, field) for field in PATH_COLUMNS), states.lowest_points(scenario)]
+    )
     writer.writerows([[repr(float(number)) for number in row] for row in rows])
     return text.getvalue()
 

@@ -53,7 +53,9 @@ def write_report(
         (aside / "numbers.json").write_text(json.dumps(numbers, indent=1, allow_nan=False), encoding="utf-8")
         for toss in comparison.tosses:
             states = toss.sample(answer.path_times(toss))
-            (aside / f"path-{toss.engine}.csv").write_text(answer.path_csv(states), encoding="utf-8")
+            (aside / f"path-{toss.engine}.csv").write_text(
+                answer.path_csv(states, toss.scenario), encoding="utf-8"
+            )
 
         being_drawn = BEING_DRAWN.format(engines="both" if comparison.mujoco else "analytic")
         page = render(comparison, no_video=no_video or being_drawn, maps=maps)

@@ -13,8 +13,9 @@ import numpy as np
 from cointoss.coin_mj.bounces.drops import LONGEST, PHASES
 from cointoss.coin_mj.model.scene import build, shape_thickness
 from cointoss.coin_mj.model.settings import Realisation, Settings, rebound_of
-from cointoss.coin_mj.model.state import of_release, to_mass_center
+from cointoss.coin_mj.model.state import of_release
 from cointoss.models.attitude import rotation_matrix
+from cointoss.models.free_joint import to_mass_center
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario

@@ -9,7 +9,8 @@ import pytest
 
 from cointoss.coin_mj.model.scene import build, shape_thickness
 from cointoss.coin_mj.model.settings import Settings, rebound_of
-from cointoss.coin_mj.model.state import of_release, to_mass_center
+from cointoss.coin_mj.model.state import of_release
+from cointoss.models.free_joint import to_mass_center
 from tests.helpers.draws import AIR, IMPERFECT, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 

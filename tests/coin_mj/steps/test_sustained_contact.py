@@ -9,13 +9,13 @@ from cointoss import coin_mj
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import Settings
-from cointoss.coin_mj.model.state import to_mass_center
 from cointoss.coin_mj.path import MOTION, STEP, TIME, Knots
 from cointoss.coin_mj.toss import run
 from cointoss.compare.metrics.estimates import chance_alike
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import energy
 from cointoss.models.certificate import GAP
+from cointoss.models.free_joint import to_mass_center
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.draws import AIR, LONG_TRANSIENT, PAPER_OFFSET, THIN, ZLOTY, scenario

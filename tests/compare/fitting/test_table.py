@@ -66,7 +66,7 @@ def test_touches_and_frames_in_one_file(read):
 def test_a_path_that_this_program_wrote(read):
     states = analytic.toss(load("fig24a")).sample([0.1, 0.2])
     with pytest.warns(UnusedFieldWarning, match="x, y, v_x"):
-        found = read(path_csv(states))
+        found = read(path_csv(states, load("fig24a")))
     np.testing.assert_array_equal(found.heights, states.position[:, 2])
     np.testing.assert_allclose(found.quaternions, states.quaternion)
 

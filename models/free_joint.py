@@ -1,0 +1,73 @@
+"""Between MuJoCo's free joint and the records: the joint carries B, the records carry C.
+
+Both have velocities in space, the angular velocity in the body, and Euler parameters with the scalar first.
+"""
+
+import numpy as np
+
+from cointoss.models.attitude import Quaternion, rotation_matrix
+from cointoss.models.body import Body
+from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Vector, add, apply, cross, subtract
+from cointoss.models.state import State
+
+
+@compiled
+def to_mass_center(body: Body, qpos: Array, qvel: Array) -> State:
+    """Return the `State` of a free joint.
+
+    Args:
+        body: the coin.
+        qpos: of the free joint, (7,).
+        qvel: of the free joint, (6,).
+    """
+    e = (qpos[3], qpos[4], qpos[5], qpos[6])
+    w = (qvel[3], qvel[4], qvel[5])
+    R = rotation_matrix(e)
+    x = add((qpos[0], qpos[1], qpos[2]), apply(R, body.center))
+    v = add((qvel[0], qvel[1], qvel[2]), apply(R, cross(w, body.center)))
+    return State(x, v, e, w, R)
+
+
+@compiled
+def of_mass_center(body: Body, x: Vector, v: Vector, e: Quaternion, w: Vector) -> tuple[Vector, Vector]:
+    """Return position and velocity of B, space frame, of a state in which C is at x with the velocity v.
+
+    Args:
+        body: the coin.
+        x: position of C, (3,) [m].
+        v: velocity of C, (3,) [m/s].
+        e: Euler parameters, (4,).
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    R = rotation_matrix(e)
+    return subtract(x, apply(R, body.center)), subtract(v, apply(R, cross(w, body.center)))
+
+
+@compiled
+def states_of_joint(body: Body, motions: Array) -> Array:
+    """Return the state vectors of C, (n, 13), from qpos and qvel, (n, 13)."""
+    states = np.empty((len(motions), 13))
+    for i in range(len(motions)):
+        x, v, e, w, _ = to_mass_center(body, motions[i, :7], motions[i, 7:])
+        for j in range(3):
+            states[i, j], states[i, 3 + j], states[i, 10 + j] = x[j], v[j], w[j]
+        for j in range(4):
+            states[i, 6 + j] = e[j]
+    return states
+
+
+@compiled
+def joint_of_states(body: Body, states: Array) -> Array:
+    """Return qpos and qvel, (n, 13), from the state vectors of C, (n, 13)."""
+    motions = np.empty((len(states), 13))
+    for i in range(len(states)):
+        y = states[i]
+        e, w = (y[6], y[7], y[8], y[9]), (y[10], y[11], y[12])
+        x, v = of_mass_center(body, (y[0], y[1], y[2]), (y[3], y[4], y[5]), e, w)
+        for j in range(3):
+            motions[i, j], motions[i, 7 + j], motions[i, 10 + j] = x[j], v[j], w[j]
+        for j in range(4):
+            motions[i, 3 + j] = e[j]
+    return motions
