@@ -28,6 +28,7 @@ def toss_many(
     settings: Settings = MANY,
     horizon: bool = False,
     certain: bool = False,
+    progress: bool | None = None,
 ) -> Outcomes:
     """Toss the coin once from each release, by the event loop of `toss`: each toss is the same to the bit.
 
@@ -39,6 +40,9 @@ def toss_many(
             two to three times as long.
         certain: whether to find that, and whether the outcome of each toss is certain, as `toss` does; tosses
             take two to seven times as long.
+        progress: True shows how far it is on standard error wherever that leads, and lets Ctrl-C return the
+            tosses that were made by then, with a warning: the others are undecided, with the ending none (see
+            `Outcomes.is_done`). False shows nothing; None shows it in a terminal or a notebook.
 
     Returns:
         How each toss ended, in the order of `releases`. The paths are not kept.
@@ -54,17 +58,20 @@ def toss_many(
     body, rules = described.body, described.rules
     limits = contact_limits(settings)
     most = TILE if body.air.exponent is None else SLOW_TILE
-    with stage("tossing by the analytic engine", "tosses") as progress:
+    with stage("tossing by the analytic engine", "tosses", shown=progress) as tell:
         if horizon or certain:
             made = ErrorsMade()
             return toss_in_tiles(
                 releases,
                 most,
                 lambda tile: _trust_each(body, rules, limits, made, certain, tile),
-                progress,
+                tell,
+                partial=progress is True,
                 also=["trusted_impacts", *["outcome_certain"] * certain],
             )
-        return toss_in_tiles(releases, most, lambda tile: _toss_each(body, rules, limits, tile), progress)
+        return toss_in_tiles(
+            releases, most, lambda tile: _toss_each(body, rules, limits, tile), tell, partial=progress is True
+        )
 
 
 @compiled

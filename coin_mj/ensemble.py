@@ -32,6 +32,7 @@ def toss_many(
     settings: Settings = MANY,
     horizon: bool = False,
     certain: bool = False,
+    progress: bool | None = None,
 ) -> Outcomes:
     """Toss the coin once from each release, by the event loop of `toss`.
 
@@ -44,6 +45,9 @@ def toss_many(
         settings: how MuJoCo realises the floor, and how finely it steps.
         horizon: whether to find how many impacts can be trusted; this engine does so for `toss` alone.
         certain: whether to find which outcomes are certain; this engine does not.
+        progress: True shows how far it is on standard error wherever that leads, and lets Ctrl-C return the
+            tosses that were made by then, with a warning: the others are undecided, with the ending none (see
+            `Outcomes.is_done`). False shows nothing; None shows it in a terminal or a notebook.
 
     Returns:
         How each toss ended, in the order of `releases`. The paths are not kept.
@@ -75,8 +79,8 @@ def toss_many(
             of_thread.machine = machine_of(described, settings, thickness)
         _toss_each(of_thread.machine.coin, of_thread.machine.plastic, rules, settings.budgets, tile)
 
-    with stage("tossing by MuJoCo", "tosses") as progress:
-        return toss_in_tiles(releases, TILE, toss_tile, progress)
+    with stage("tossing by MuJoCo", "tosses", shown=progress) as tell:
+        return toss_in_tiles(releases, TILE, toss_tile, tell, partial=progress is True)
 
 
 @compiled

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from cointoss.compare.sweep.errors import MapError as MapError
     from cointoss.compare.sweep.errors import SweepError as SweepError
     from cointoss.compare.sweep.in_memory import basin as basin
+    from cointoss.compare.sweep.many_outcomes import toss_to_zarr as toss_to_zarr
     from cointoss.compare.sweep.outcome_map import OutcomeMap as OutcomeMap
     from cointoss.compare.sweep.reading import read_map as read_map
     from cointoss.models.errors import ScenarioError as ScenarioError
@@ -75,6 +76,7 @@ _NAMES = {
     "cointoss.compare.shares.record": ("Shares",),
     "cointoss.compare.sweep.errors": ("MapError", "SweepError"),
     "cointoss.compare.sweep.in_memory": ("basin",),
+    "cointoss.compare.sweep.many_outcomes": ("toss_to_zarr",),
     "cointoss.compare.sweep.outcome_map": ("OutcomeMap",),
     "cointoss.compare.sweep.reading": ("read_map",),
     "cointoss.models.errors": ("ScenarioError",),

@@ -48,6 +48,11 @@ class Outcomes:
         """Return the number of tosses."""
         return len(self.outcome)
 
+    @property
+    def is_done(self) -> NDArray[np.bool_]:
+        """Which tosses were made, (n,): all, unless they were interrupted."""
+        return self.ending != Ending.NONE
+
     def after(self, impacts: int) -> NDArray[np.int8]:
         """Return the face at the touch after so many impacts, the outcome where the toss ended before, (n,).
 

@@ -59,8 +59,8 @@ class Stages:
     def __init__(self) -> None:
         """Begin with none."""
         self.open: list[Stage] = []
-        self.shown: Callable[[], AbstractContextManager[None]] = nullcontext
-        """Shows the stages while the outermost is open; set by what can."""
+        self.shown: Callable[[bool | None], AbstractContextManager[None]] = lambda _: nullcontext()
+        """Shows the stages while the outermost is open, if it is asked to; set by what can."""
         self.ended: list[Callable[[Stage], None]] = []
         """Called with each stage that ends."""
 
@@ -77,16 +77,18 @@ def stage(
     total: int | None = None,
     done: int = 0,
     detail: Callable[[], str] = str,
+    shown: bool | None = None,
 ) -> Iterator[Callable[[int, int], None]]:
     """Return a function to be called with how many are done, of how many; the stage ends with the `with`.
 
-    The arguments are those of a `Stage`.
+    The arguments are those of a `Stage`, and whether it is shown: True everywhere, None where someone is
+    likely to look.
     """
     own = Stage(name, unit, total=total, done=done, detail=detail)
     is_outermost = not stages.open
     stages.open.append(own)
     try:
-        with stages.shown() if is_outermost else nullcontext():
+        with stages.shown(shown) if is_outermost else nullcontext():
             yield own.progress
             for ended in stages.ended:
                 ended(own)

@@ -1,6 +1,7 @@
 """Many tosses cut into tiles, made on all cores."""
 
 import threading
+import warnings
 from collections import deque
 from collections.abc import Callable, Collection
 from concurrent.futures import wait
@@ -40,6 +41,7 @@ def toss_in_tiles(
     progress: Callable[[int, int], None],
     *,
     also: Collection[str] = (),
+    partial: bool = False,
 ) -> Outcomes:
     """Make tosses, tile by tile, on the cores that this process may use or `NUMBA_NUM_THREADS` sets.
 
@@ -49,13 +51,14 @@ def toss_in_tiles(
         toss_tile: makes some tosses, and writes how they end. It should not hold Python's lock.
         progress: called after each tile with the number of tosses so far and of all, on any thread.
         also: the optional columns of `Outcomes` that it writes.
+        partial: whether Ctrl-C returns what is done, with a warning, instead of raising KeyboardInterrupt.
 
     Returns:
         How each toss ended, in the order of `releases`.
     """
     n = len(releases)
     found: dict[str, NDArray[Any]] = {
-        item.name: np.empty(n, item.metadata["kind"]) for item in fields(Outcomes)
+        item.name: np.zeros(n, item.metadata["kind"]) for item in fields(Outcomes)
     }
     columns = Tile(states_of(releases), **found)
 
@@ -84,6 +87,14 @@ def toss_in_tiles(
     tossing = [begun(toss_what_is_left) for _ in range(min(len(left), cores))]
     try:
         wait(tossing)
+    except KeyboardInterrupt:
+        if not partial:
+            raise
+        left.clear()
+        wait(tossing)  # for the tiles under way, unless Ctrl-C comes again
+        warnings.warn(
+            f"interrupted: {done:,} of {n:,} tosses were made; the others have the ending none", stacklevel=3
+        )
     finally:
         left.clear()  # a signal's handler may have raised
     for each in tossing:

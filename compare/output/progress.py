@@ -5,7 +5,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from functools import partial
 from itertools import count
 from typing import Any
@@ -254,5 +254,9 @@ def _rewrites(stream: Any) -> bool:
     return stream.isatty() or type(stream).__module__.startswith("ipykernel.")
 
 
-# In Python what takes long is shown in a terminal or a notebook alone.
-stages.shown = partial(progress_shown, in_logs=False)
+def shown_in_python(asked: bool | None) -> AbstractContextManager[None]:
+    """Show what takes long: everywhere, nowhere, or by default in a terminal or a notebook alone."""
+    return nullcontext() if asked is False else progress_shown(in_logs=asked is True)
+
+
+stages.shown = shown_in_python

@@ -1,0 +1,91 @@
+"""Outcomes in a Zarr store are those of `toss_many`, and what was finished is kept."""
+
+import numpy as np
+import pytest
+import xarray
+
+from cointoss import Hand, analytic, load, toss_to_zarr
+from cointoss.compare.output.files import UnwritableError
+from cointoss.models.outcomes import Outcomes
+from cointoss.models.reading import parse
+
+COIN = load("fig24a").replace("ending.max_impacts", 2)
+
+
+def chunks(count, size=50):
+    rng = np.random.default_rng(0)
+    for _ in range(count):
+        yield Hand().releases(COIN.body, rng, size)
+
+
+def test_the_store_has_what_toss_many_returns(tmp_path):
+    made = [analytic.toss_many(COIN, chunk, horizon=True) for chunk in chunks(3)]
+    assert toss_to_zarr(tmp_path / "a.zarr", COIN, chunks(3), horizon=True) == 150
+    with xarray.open_zarr(tmp_path / "a.zarr", consolidated=False) as found:
+        for name in ("outcome", "ending", "impacts", "last_face", "end_time", "trusted_impacts"):
+            np.testing.assert_array_equal(found[name], np.concatenate([getattr(one, name) for one in made]))
+        assert "outcome_certain" not in found
+        assert found.outcome.attrs["flag_meanings"].split()[:3] == ["undecided", "heads", "tails"]
+        assert parse(found.attrs["scenario"], "store") == COIN
+
+
+def test_what_was_finished_is_kept_where_it_is_interrupted(tmp_path):
+    def interrupted():
+        yield from chunks(2)
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        toss_to_zarr(tmp_path / "a.zarr", COIN, interrupted())
+    with xarray.open_zarr(tmp_path / "a.zarr", consolidated=False) as found:
+        assert len(found.toss) == 100
+        assert np.all(found.ending > 0)
+
+
+def test_a_place_that_exists_and_what_is_no_release_are_refused(tmp_path):
+    (tmp_path / "a.zarr").mkdir()
+    for name, named in (("a.zarr", "exists"), ("a.map", "ends in .zarr"), ("no/a.zarr", "no folder")):
+        with pytest.raises(UnwritableError, match=named):
+            toss_to_zarr(tmp_path / name, COIN, chunks(1))
+    with pytest.raises(TypeError, match="chunks: of type"):
+        toss_to_zarr(tmp_path / "b.zarr", COIN, [1])
+    assert not (tmp_path / "b.zarr").exists()
+
+
+def test_an_interrupt_returns_the_tosses_that_were_made(monkeypatch):
+    """Ctrl-C comes after the first tiles; `progress=True` asks for what is done."""
+    from cointoss.models import tiles
+
+    waited, wait = [], tiles.wait
+
+    def interrupted(tossing):
+        if not waited:
+            waited.append(1)
+            raise KeyboardInterrupt
+        wait(tossing)
+
+    releases = next(chunks(1, 4000))
+    whole = analytic.toss_many(COIN, releases)
+    assert whole.is_done.all()
+    monkeypatch.setattr(tiles, "wait", interrupted)
+    with pytest.warns(UserWarning, match="of 4,000 tosses were made; the others have the ending none"):
+        part = analytic.toss_many(COIN, releases, progress=True)
+    assert isinstance(part, Outcomes)
+    assert len(part) == 4000
+    assert not part.is_done.all()
+    np.testing.assert_array_equal(part.outcome[part.is_done], whole.outcome[part.is_done])
+    assert np.all(part.outcome[~part.is_done] == 0)
+    waited.clear()
+    with pytest.raises(KeyboardInterrupt):
+        analytic.toss_many(COIN, releases)
+
+
+def test_progress_is_shown_where_it_is_asked_for(monkeypatch):
+    from contextlib import nullcontext
+
+    from cointoss.models.stages import stages
+
+    asked = []
+    monkeypatch.setattr(stages, "shown", lambda want: asked.append(want) or nullcontext())
+    for progress in (None, True, False):
+        analytic.toss_many(COIN, next(chunks(1, 2)), progress=progress)
+    assert asked == [None, True, False]
