@@ -215,3 +215,28 @@ def test_one_of_many_tosses_is_that_of_toss_to_the_bit(engine, name):
         assert outcomes.impacts[i] == len(tossed.impacts) > 0
         assert outcomes.last_face[i] == tossed.impacts.face[-1]
         assert outcomes.end_time[i] == tossed.end_time
+
+
+@pytest.mark.parametrize("engine", list(Engine))
+@pytest.mark.parametrize(("law", "friction"), [("smooth", 0.0), ("coulomb", 0.3)])
+@pytest.mark.parametrize("restitution", [0.0, 0.8])
+def test_a_release_in_contact_begins_in_contact(engine, law, friction, restitution):
+    """On its rim, at rest, the coin tips at once: nothing bounces, and the floor holds it from the start."""
+    up = scenario(release={"angles": [0, 0.3, 0]}).release.state.R[2]
+    height = H / 2 * up[2] + R * np.hypot(up[0], up[1])
+    case = scenario(
+        coin=BALANCED,
+        floor={"restitution": restitution, "contact": law, "friction": friction},
+        release={"position": [0, 0, height], "angles": [0, 0.3, 0]},
+        ending={"test": "lying", "max_time": 0.02},
+    )
+    tossed = engines.toss(engine, case)
+    assert len(tossed.impacts) == 0
+    assert tossed.contacts.shape == (1, 2)
+    assert tossed.contacts[0] == pytest.approx([0.0, 0.02], abs=1e-6)
+    held = tossed.floor_force([1e-4, 0.01])[:, 2]
+    assert np.all((held > 0) & (held < 2 * case.coin.mass * case.gravity))
+    states = tossed.sample([0.0, 0.01])
+    points = states.lowest_points(case)
+    assert np.abs(points[:, 2]).max() < 4e-4 * R
+    assert states.normal[1, 2] > states.normal[0, 2] + 1e-5

@@ -110,6 +110,8 @@ def test_the_trajectory_is_written_as_csv(tmp_path):
     assert cointoss("toss", "fig24a", "--max-impacts", 1, "--trajectory", target).exit_code == 0
     rows = list(csv.reader(target.read_text().splitlines()))
     assert rows[0][:4] == ["t [s]", "x [m]", "y [m]", "z [m]"]
+    assert rows[0][-3:] == ["A_x [m]", "A_y [m]", "A_z [m]"]
+    assert all(abs(float(number)) < 1e-15 for number in rows[-1][-1:])  # at the touch A is on the floor
     assert [float(number) for number in rows[1][:4]] == [0, 0, 0, 0.40001]
     assert float(rows[-1][0]) == pytest.approx(0.283275791, abs=1e-8)
     assert [path.name for path in tmp_path.iterdir()] == ["path.csv"]
