@@ -65,7 +65,7 @@ def test_the_toss_shows_it_up_to_its_margins():
                 continue
             bounded += 1
             for part, is_so in ((0.4, True), (0.9, True), (1.0, False)):
-                moved = found.scenario.replace(room.axis.field, room.value + sign * part * end)
+                moved = found.scenario.replace(room.span.field, room.value + sign * part * end)
                 assert analytic.toss(moved).sequence.startswith(word) is is_so
     assert bounded >= 2
 
@@ -76,7 +76,7 @@ def test_its_margin_is_larger_than_that_of_others_that_show_it():
     others = points[found.target.shown(found.window, points) == 3]
     assert len(others) > 10
     margins = search._margins(found.window, found.target, others, 3).min(axis=(1, 2))
-    own = min(min(room.down, room.up) / (room.axis.stop - room.axis.start) for room in found.rooms)
+    own = min(min(room.down, room.up) / (room.span.stop - room.span.start) for room in found.rooms)
     assert own > np.quantile(margins, 0.9)
 
 
