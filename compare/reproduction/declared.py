@@ -67,6 +67,7 @@ def declared(
         sizes.apply_defaults()
         return result(module, make(*sizes.args, **sizes.kwargs), sizes.arguments)
 
+    run.__module__ = module  # whose sources are its own
     return Reproduction(make=run, quick=partial(run, **quick) if quick else None, draw=draw, **said, **others)
 
 

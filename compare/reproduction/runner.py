@@ -28,13 +28,8 @@ def _rooms() -> dict[str, str]:
 
 def find(name: str) -> Reproduction:
     """Return what has one of the `names`."""
-    return importlib.import_module(module_of(name)).REPRODUCTION
-
-
-def module_of(name: str) -> str:
-    """Return the module of one of the `names`, by its full name."""
     module = name.replace("-", "_")
-    return f"{_rooms()[module]}.{module}"
+    return importlib.import_module(f"{_rooms()[module]}.{module}").REPRODUCTION
 
 
 def require_writable(name: str, out: Path) -> None:
@@ -73,7 +68,7 @@ def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) 
         result = make(progress)
         save(aside, result, found.draw)
         write(aside, name, found, result, quick=quick)
-        keep_provenance(aside, module_of(name), quick=quick)
+        keep_provenance(aside, found.make.__module__, quick=quick)
     remove(folder / PARTS)
     return result
 

@@ -139,7 +139,6 @@ def test_a_run_leaves_its_claims_its_data_and_its_pictures(tmp_path, monkeypatch
         paper="Fig. 0",
     )
     monkeypatch.setattr(runner, "find", lambda _: found)
-    monkeypatch.setattr(runner, "module_of", lambda _: __name__)
     answer = runner.reproduce("sum", tmp_path, unseen)
     assert (answer.claims, answer.tables) == ((KNOWN, REFUTED), "a table")
     folder = tmp_path / "reproduction" / "sum"

@@ -56,7 +56,6 @@ def test_an_interrupted_run_goes_on_and_a_finished_one_leaves_no_parts(tmp_path,
         title="two parts", seconds=1, make=make, resumes=True, draw={"figure": lambda _: Figure()}
     )
     monkeypatch.setattr(runner, "find", lambda _: found)
-    monkeypatch.setattr(runner, "module_of", lambda _: __name__)
     folder = tmp_path / "reproduction" / "long"
     with pytest.raises(KeyboardInterrupt):
         runner.reproduce("long", tmp_path, unseen)
