@@ -53,6 +53,18 @@ def test_what_only_unix_has_is_missing_there(elsewhere):
     assert elsewhere("-c", script) == "None False False cp1252\n"
 
 
+def test_every_module_is_imported(elsewhere):
+    script = (
+        "import importlib, pkgutil\n"
+        "names = ['cointoss']\n"
+        "for part in ('models', 'analytic', 'coin_mj', 'compare'):\n"
+        "    package = importlib.import_module(f'cointoss.{part}')\n"
+        "    names += [m.name for m in pkgutil.walk_packages(package.__path__, f'cointoss.{part}.')]\n"
+        "print(len([importlib.import_module(name) for name in names if not name.endswith('__main__')]))"
+    )
+    assert int(elsewhere("-c", script)) > 300
+
+
 @pytest.mark.parametrize("engine", ["analytic", "mujoco"])
 def test_both_engines_toss(elsewhere, engine):
     tossed = json.loads(elsewhere("-m", "cointoss", "toss", "fig24a", "--engine", engine, "--json"))
