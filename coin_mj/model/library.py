@@ -80,3 +80,12 @@ def require_compiled_code() -> None:
             "NUMBA_DISABLE_JIT is set, but MuJoCo's functions are called by compiled code alone; "
             "unset it, or toss by --engine analytic"
         )
+
+
+def require_no_contact_filter() -> None:
+    """Raise UnusableEngineError where MuJoCo's user filters contacts: the coin's would be, too."""
+    if mujoco.get_mjcb_contactfilter() is not None:
+        raise UnusableEngineError(
+            "mjcb_contactfilter is set, and MuJoCo asks it about the coin's contacts as well; "
+            "accepted: mujoco.set_mjcb_contactfilter(None) before a toss, or --engine analytic"
+        )

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 
 from cointoss.coin_mj.model.compiled_air import air_address
-from cointoss.coin_mj.model.library import require_compiled_code
+from cointoss.coin_mj.model.library import require_compiled_code, require_no_contact_filter
 from cointoss.coin_mj.model.memory import OF_ROWS, in_contact, joint_arrays, offset_of, require_layout
 from cointoss.coin_mj.model.mujoco_coin import ADDRESSES, MujocoCoin
 from cointoss.coin_mj.model.scene import build, floor_height
@@ -70,10 +70,11 @@ def machine_of(scenario: Scenario, settings: Settings, thickness: float, softer:
         softer: then softened by this part, see `Settings.softened`.
 
     Raises:
-        UnusableEngineError: if nothing is compiled.
+        UnusableEngineError: if nothing is compiled, or MuJoCo's user filters contacts.
         LayoutError: if MuJoCo's memory is not laid out as it describes.
     """
     require_compiled_code()
+    require_no_contact_filter()
     require_layout(*in_contact())
     floor, unit = scenario.floor, _mass_unit(scenario.body)
     rate = math.sqrt(scenario.gravity / scenario.coin.radius)

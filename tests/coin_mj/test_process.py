@@ -11,15 +11,19 @@ import mujoco
 import numpy as np
 import pytest
 
+from cointoss import coin_mj
 from cointoss.coin_mj import MANY
 from cointoss.coin_mj.model.library import PATH
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.toss import impacts_of, run
+from cointoss.models.records import UnusableEngineError
+from cointoss.models.releases import Releases
 from cointoss.models.stages import stages
 from tests.helpers.draws import AIR, IMPERFECT, draw_release, scenario
 
-FOREIGN = """<mujoco><custom><numeric name="air" data="1 2 3 4 5"/></custom><worldbody>
+FOREIGN = """<mujoco><option gravity="0 0 0"/>
+<custom><numeric name="air" data="1 2 3 4 5"/></custom><worldbody>
 <body pos="0 0 5"><freejoint/><geom size="0.1 0.2 0.3" type="box"/></body>
 <body pos="3 0 5"><joint axis="0 1 0"/><geom pos="0.4 0 0" size="0.1"/></body></worldbody></mujoco>"""
 HELD = [ctypes.c_void_p.in_dll(ctypes.CDLL(PATH), name) for name in ("mjcb_passive", "mjcb_time")]
@@ -27,9 +31,10 @@ HELD = [ctypes.c_void_p.in_dll(ctypes.CDLL(PATH), name) for name in ("mjcb_passi
 
 @pytest.fixture
 def restored():
-    """Put MuJoCo's passive callback back after a test."""
+    """Put MuJoCo's callbacks back after a test."""
     yield
     mujoco.set_mjcb_passive(None)
+    mujoco.set_mjcb_contactfilter(None)
 
 
 def in_air():
@@ -62,7 +67,7 @@ class Foreign(threading.Thread):
         return np.concatenate([self.data.qpos, self.data.qvel])
 
 
-def tossed_beside(beside, tosses=20):
+def tossed_beside(beside, tosses=5):
     """The impacts of a coin in air, tossed while another thread steps a foreign model."""
     beside.start()
     try:
@@ -123,6 +128,24 @@ def test_a_callback_that_is_set_during_a_toss_stays_set(monkeypatch):
     monkeypatch.setattr(sys.modules["cointoss.coin_mj.toss"], "toss_coin", set_after)
     impacts_of(in_air(), settings=MANY)
     assert mujoco.get_mjcb_passive() is users
+
+
+@pytest.mark.usefixtures("restored")
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda case: impacts_of(case, settings=MANY),
+        lambda case: coin_mj.toss_many(case, Releases.of(case, 2)),
+    ],
+)
+def test_where_the_user_filters_contacts_no_coin_is_tossed(make):
+    """MuJoCo asks the filter about the coin's contacts, too: one that leaves them out drops it for ever."""
+    described = scenario(ending={"max_impacts": 1})
+    mujoco.set_mjcb_contactfilter(lambda _model, _data, _one, _two: 1)
+    with pytest.raises(UnusableEngineError, match="mjcb_contactfilter is set"):
+        make(described)
+    mujoco.set_mjcb_contactfilter(None)
+    make(described)
 
 
 def test_a_toss_sets_the_time_of_mujoco_and_says_it_to_those_who_wait(monkeypatch):
