@@ -146,9 +146,9 @@ SETTINGS: dict[str, tuple[Callable[[], Path], Callable[[Array], list[float]]]] =
 
 
 def _speculative() -> Path:
-    model, *others = drop(ONE_STEP)
-    model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
-    return model, *others
+    path = drop(ONE_STEP)
+    path[0].opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
+    return path
 
 
 def measured(step: Stepped, name: str) -> Cell:
