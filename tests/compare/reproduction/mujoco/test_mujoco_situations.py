@@ -51,7 +51,7 @@ def test_a_ball_goes_through_boxes_up_to_its_contacts_depth_and_through_no_plane
 
 
 def test_a_cylinder_on_a_ball_has_e_on_its_middle_and_beside_it_in_proportion_to_the_step():
-    on_middle = cylinder(recipe_of(0.8, 2e-3, 20), 0.0).restitutions.mean(axis=1)
+    on_middle = cylinder(recipe_of(0.8, 2e-3), 0.0).restitutions.mean(axis=1)
     assert on_middle == pytest.approx(0.8, abs=1e-3)
     coarse, fine = (cylinder(recipe_of(0.8, dt), 0.03).restitutions.mean(axis=1) for dt in (1e-3, 1e-4))
     assert (coarse - 0.8)[:4] / (fine - 0.8)[:4] == pytest.approx(10, rel=0.2)
