@@ -28,8 +28,11 @@ TRIES = 4
 """How often boxes are searched, each time by twice as many points, before the search gives up."""
 ROUNDS = 6
 """How often a hit is moved, at most."""
-SCANNED = 64
-"""Changes between a point and its margin that are tried."""
+SCANNED, SCANS = 64, 8
+"""Changes between a point and its margin that are tried, and how often, each time up to the first that shows
+something else."""
+LEAST = 1e-12
+"""A margin below it, as a part of the window, is not made larger: rounding errors decide it."""
 STEPS = (1.0, 0.5, 0.2)
 """Parts of the way to the middle."""
 
@@ -92,7 +95,7 @@ def search(
         return Searched((), made, longest)
     wide = [Hit(*one) for one in zip(points, _margins(window, target, points, target.steps), strict=True)]
     chosen = sorted(wide, key=lambda hit: -hit.margin)[:BEST]
-    hits = [_centred(window, target, hit) for hit in chosen]
+    hits = [_centred(window, target, hit) for hit in chosen[: BEST if chosen[0].margin > LEAST else 1]]
     return Searched(tuple(sorted(hits, key=lambda hit: -hit.margin)), made, longest)
 
 
@@ -154,7 +157,7 @@ def _scanned(window: Window, target: Target, point: Array) -> Hit:
     margins = _margins(window, target, point[None], target.steps, FINE)[0]
     for i, side in np.ndindex(margins.shape):
         along = (2 * side - 1) * np.eye(len(point))[i]
-        while True:
+        for _ in range(SCANS):
             changes = np.linspace(0, min(margins[i, side], 1.0), SCANNED + 2)[1:-1]
             shown = target.shown(window, point + changes[:, None] * along)
             differ = np.flatnonzero((shown < target.steps) & (shown >= 0))
@@ -170,7 +173,7 @@ def _centred(window: Window, target: Target, hit: Hit) -> Hit:
     Where what shows the same is a slanted stripe, the whole way would leave it: a part of it is tried too.
     """
     best = _scanned(window, target, hit.point)
-    for _ in range(ROUNDS):
+    for _ in range(ROUNDS if best.margin > LEAST else 0):
         room = np.column_stack([best.point, 1 - best.point])
         down, up = np.minimum(best.margins, room).T
         tried = best.point + np.outer(STEPS, (up - down) / 2)
