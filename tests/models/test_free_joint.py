@@ -1,5 +1,7 @@
 """MuJoCo's free joint and the records: MuJoCo itself says where C is and how it moves, and back again."""
 
+from typing import Any
+
 import mujoco
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import FINE
 
+MJ: Any = mujoco
 COIN = load("fig24b").replace("coin.center_of_mass", [0.001, -0.002, 0.0003])
 
 
@@ -27,10 +30,10 @@ def test_the_mass_centre_is_where_mujoco_has_it_and_moves_so():
     body = model.body(model.jnt_bodyid[0]).id
     for i in range(5):
         data.qpos[:], data.qvel[:] = qpos[i], qvel[i]
-        mujoco.mj_forward(model, data)
+        MJ.mj_forward(model, data)
         np.testing.assert_allclose(releases.position[i], data.xipos[body], atol=1e-15)
         jacobian = np.zeros((3, model.nv))
-        mujoco.mj_jacBodyCom(model, data, jacobian, None, body)
+        MJ.mj_jacBodyCom(model, data, jacobian, None, body)
         np.testing.assert_allclose(releases.velocity[i], jacobian @ qvel[i], atol=1e-14)
 
 

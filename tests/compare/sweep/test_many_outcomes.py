@@ -47,7 +47,7 @@ def test_a_place_that_exists_and_what_is_no_release_are_refused(tmp_path):
         with pytest.raises(UnwritableError, match=named):
             toss_to_zarr(tmp_path / name, COIN, chunks(1))
     with pytest.raises(TypeError, match="chunks: of type"):
-        toss_to_zarr(tmp_path / "b.zarr", COIN, [1])
+        toss_to_zarr(tmp_path / "b.zarr", COIN, [1])  # pyright: ignore[reportArgumentType]
     assert not (tmp_path / "b.zarr").exists()
 
 
