@@ -18,9 +18,8 @@ from cointoss.compare.output.style import BLUE, GREY, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.precision.double_double import pair_of
 from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
-from cointoss.compare.reproduction.precision.planar_state import HEIGHT, release
+from cointoss.compare.reproduction.precision.planar_state import HEIGHT, release, spread
 from cointoss.compare.reproduction.precision.planar_toss import toss_many
-from cointoss.compare.reproduction.precision.splitting import spread
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
 from cointoss.compare.reproduction.setups.halving import halved
 from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case

@@ -84,7 +84,7 @@ def make(
 
     with all_cores() as pool:
         for (medium, _), shares in zip(jobs, pool.map(run, jobs), strict=True):
-            made[medium].append(shares)
+            made[medium].extend(shares)
             progress(done := done + 1, whole)
     for medium in MEDIA:
         scenario = case(air=medium == "air")

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from cointoss.compare.reproduction.precision.double_double import exact, pair_of
 from cointoss.compare.reproduction.precision.planar_coin import PlanarCoin
+from cointoss.compare.reproduction.precision.planar_state import spread
 from cointoss.compare.reproduction.precision.planar_toss import toss_many
-from cointoss.compare.reproduction.precision.splitting import spread
 from cointoss.models.records import Array
 
 MAGNIFICATION = 10

@@ -132,3 +132,23 @@ def flat(state: Array, fall: Pair, corner: float) -> None:
     state[HEIGHT], state[TILT] = 0.0, 0.0
     put(state, FALL, fall)
     put(state, SPIN, scale(negative(fall), corner))
+
+
+def spread(starts: Array, row: int, step: tuple[float, float], points: int) -> NDArray[np.float64]:
+    """Return releases in steps from each of `starts`, (n points, 5, 2).
+
+    Args:
+        starts: releases, (n, 5, 2).
+        row: what varies.
+        step: by which it grows, a pair.
+        points: releases from each.
+    """
+    spread_out = np.repeat(starts, points, axis=0)
+    _spread(spread_out, row, step, points)
+    return spread_out
+
+
+@compiled
+def _spread(states: Array, row: int, step: Pair, points: int) -> None:
+    for i in range(len(states)):
+        put(states[i], row, add(part(states[i], row), scale(step, float(i % points))))

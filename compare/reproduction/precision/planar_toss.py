@@ -24,6 +24,7 @@ from cointoss.compare.reproduction.precision.planar_state import (
     HEIGHT,
     SIZE,
     SPIN,
+    TILT,
     copy_state,
     energy,
     is_settled,
@@ -63,9 +64,11 @@ class PlanarOutcomes(NamedTuple):
     from_upright: Array
     """How near it came to standing in its last contact [m g r]; see `planar_state.from_upright`. NaN where
     none lasted before it was settled."""
+    flattest: Array
+    """The smallest tilt of a touch before it was settled [rad]."""
     left: Array
     """The larger energy of this toss and the one before it in the row after the first impact at which they
-    have diverged, or after their last where they have not [m g r]; see `toss_many`."""
+    have diverged, 0 where they have not [m g r]; see `toss_many`."""
 
 
 def toss_many(
@@ -87,6 +90,7 @@ def toss_many(
         contacts=np.empty(n, dtype=np.int64),
         energy=np.empty(n),
         from_upright=np.empty(n),
+        flattest=np.empty(n),
         left=np.zeros(n),
     )
     _toss_all(coin, np.ascontiguousarray(starts), most_impacts, to_contact, outcomes)
@@ -97,11 +101,11 @@ def toss_many(
 def _toss_all(
     coin: PlanarCoin, starts: Array, most_impacts: int, to_contact: bool, outcomes: PlanarOutcomes
 ) -> None:
-    outcome, impacts, itinerary, contacts, last_energy, nearest, left = outcomes
+    outcome, impacts, itinerary, contacts, last_energy, nearest, flattest, left = outcomes
     series, state, touches = room_for_series(), np.empty((SIZE, 2)), np.empty((2, COMPARED, 5))
     for i in range(len(starts)):
         copy_state(state, starts[i])
-        outcome[i], impacts[i], itinerary[i], contacts[i], last_energy[i], nearest[i] = toss(
+        outcome[i], impacts[i], itinerary[i], contacts[i], last_energy[i], nearest[i], flattest[i] = toss(
             coin, state, most_impacts, to_contact, series, touches[i % 2]
         )
         if i > 0:
@@ -113,7 +117,7 @@ def _energy_left(touches: Array, compared: int) -> float:
     for n in range(compared):
         a, b = touches[0, n], touches[1, n]
         apart = abs(a[0] - b[0]) + abs(a[1] - b[1]) + abs(a[2] - b[2]) > APART
-        if apart or a[3] != b[3] or n == compared - 1:
+        if apart or a[3] != b[3]:
             return max(a[4], b[4])
     return 0.0
 
@@ -121,7 +125,7 @@ def _energy_left(touches: Array, compared: int) -> float:
 @compiled
 def toss(
     coin: PlanarCoin, state: Array, most_impacts: int, to_contact: bool, series: Series, touches: Array
-) -> tuple[int, int, int, int, float, float]:
+) -> tuple[int, int, int, int, float, float, float]:
     """Toss a coin; the state becomes the last.
 
     Args:
@@ -133,25 +137,28 @@ def toss(
         touches: room for states after the first impacts, (n, 5): height, fall, spin, face, energy.
 
     Returns:
-        Outcome, impacts, itinerary, contacts, energy and nearness to standing; see `PlanarOutcomes`.
+        Outcome, impacts, itinerary, contacts, energy, nearness to standing and flattest touch; see
+        `PlanarOutcomes`.
     """
     heads, corner, start, before = True, 0, 0.0, state.copy()
-    itinerary, contacts, last, nearest = 0, 0, np.nan, np.nan
+    itinerary, contacts, last, nearest, flattest = 0, 0, np.nan, np.nan, np.inf
     for n in range(most_impacts):
         corner = fly(coin, state, corner, start, series)
         start = 0.0
         if corner == 0:
-            return _UNDECIDED, n, itinerary, contacts, last, nearest
+            return _UNDECIDED, n, itinerary, contacts, last, nearest, flattest
         if turned_within(state):
             heads, corner = not heads, -corner
         itinerary = itinerary * 31 + (3 if heads else 5) + corner
+        if not is_settled(coin, state):
+            flattest = min(flattest, abs(state[TILT, 0]))
         hit(coin, state, float(corner), coin.restitution)
         if n < len(touches):
             touches[n, 0], touches[n, 1], touches[n, 2] = state[HEIGHT, 0], state[FALL, 0], state[SPIN, 0]
             touches[n, 3], touches[n, 4] = (1.0 if heads else 0.0), energy(coin, state)[0]
         if is_settled(coin, state) and not to_contact:
             last = energy(coin, state)[0]
-            return _HEADS if heads else _TAILS, n + 1, itinerary, contacts, last, nearest
+            return _HEADS if heads else _TAILS, n + 1, itinerary, contacts, last, nearest, flattest
         ending = _bounces(coin, state, corner)
         if ending == _LIFTING:
             start = lift_off(state)
@@ -161,7 +168,7 @@ def toss(
             if coin.in_air:
                 lifts, passes, side, ended, nearest = slide(coin, state, float(corner))
                 if not ended:
-                    return _UNDECIDED, n + 1, itinerary, contacts, last, nearest
+                    return _UNDECIDED, n + 1, itinerary, contacts, last, nearest, flattest
                 ends = LIFTS if lifts else LIES
                 start = state[FALL, 0] / state[SPIN, 0] ** 2 if lifts else 0.0
             else:
@@ -172,9 +179,9 @@ def toss(
             corner, heads = int(side), heads != passes
             if ends == LIES:
                 if not slap(coin, state):
-                    return _HEADS if heads else _TAILS, n + 1, itinerary, contacts, last, nearest
+                    return _HEADS if heads else _TAILS, n + 1, itinerary, contacts, last, nearest, flattest
                 corner = 2
-    return _UNDECIDED, most_impacts, itinerary, contacts, last, nearest
+    return _UNDECIDED, most_impacts, itinerary, contacts, last, nearest, flattest
 
 
 @compiled

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from cointoss.compare.metrics.estimate import Estimate
-from cointoss.compare.metrics.estimates import jackknife
+from cointoss.compare.metrics.estimates import PARTS, jackknife
 from cointoss.compare.reproduction.parts import Part, kept
+from cointoss.compare.reproduction.precision.branching import EARLY, Branches, branch
 from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
 from cointoss.compare.reproduction.precision.planar_state import HEIGHT, SPIN, TILT, release
-from cointoss.compare.reproduction.precision.splitting import Replica, replica
 from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS
 from cointoss.models.kernel.sources import source_hash
 from cointoss.models.records import Array
@@ -24,13 +24,19 @@ LARGEST = Fraction(1, 1000)
 ACCURACIES = 10.0 ** -np.arange(3, 25)
 """ε, of the height of the release [m]; the same number is that of another quantity in its own unit."""
 LEAST = 1e-300
-"""In the place of a share that no run met."""
+"""In the place of a share that no ancestor met."""
 
 
 def uncertain_shares(
-    scenario: Scenario, rng: np.random.Generator, *, row: int = HEIGHT, levels: int, population: int
-) -> Replica:
-    """Run the splitting once: releases uniform in height and spin, flat, at rest but for the spin.
+    scenario: Scenario,
+    rng: np.random.Generator,
+    *,
+    row: int = HEIGHT,
+    levels: int,
+    population: int,
+    followed: int = 0,
+) -> Branches:
+    """Run the branching once: releases uniform in height and spin, flat, at rest but for the spin.
 
     Args:
         scenario: coin, air and floor.
@@ -38,6 +44,7 @@ def uncertain_shares(
         row: of a state: what varies by ε, `HEIGHT`, `SPIN` or `TILT`.
         levels: how many ε.
         population: intervals at each level, about.
+        followed: boundaries that are followed at each level.
     """
     own = units(scenario)
     # One SI unit of what varies, in the state's.
@@ -46,8 +53,9 @@ def uncertain_shares(
         SPIN: Fraction(sqrt(scenario.coin.radius / scenario.gravity)),
         TILT: Fraction(1),
     }[row]
-    heights, spins = rng.uniform(*HEIGHTS, population), rng.uniform(*SPINS, population)
-    return replica(
+    ancestors = EARLY[0] * population
+    heights, spins = rng.uniform(*HEIGHTS, ancestors), rng.uniform(*SPINS, ancestors)
+    return branch(
         planar_coin(scenario),
         np.array([release(own, height=z, spin=w) for z, w in zip(heights, spins, strict=True)]),
         row=row,
@@ -55,6 +63,7 @@ def uncertain_shares(
         levels=levels,
         population=population,
         rng=rng,
+        followed=followed,
     )
 
 
@@ -67,7 +76,8 @@ def kept_run(
     row: int = HEIGHT,
     levels: int = len(ACCURACIES),
     population: int,
-) -> Replica:
+    followed: int = 0,
+) -> Branches:
     """Return a run that an earlier computation kept, or make it and keep it.
 
     Args:
@@ -78,42 +88,61 @@ def kept_run(
         row: what varies, as of `uncertain_shares`.
         levels: how many ε.
         population: intervals at each level, about.
+        followed: boundaries that are followed at each level.
     """
 
     def compute() -> Part:
         rng = np.random.default_rng(seed)
-        made = uncertain_shares(scenario, rng, row=row, levels=levels, population=population)
+        made = uncertain_shares(
+            scenario, rng, row=row, levels=levels, population=population, followed=followed
+        )
         return {field: np.array(value) for field, value in asdict(made).items()}
 
     made_by = source_hash("cointoss.compare.reproduction.setups.uncertain_shares")
-    label = f"{made_by}, {name}, {'-'.join(map(str, seed))}, {population} x {levels}"
+    label = f"{made_by}, {name}, {'-'.join(map(str, seed))}, {population} x {levels}, {followed}"
     run = kept(parts, label, compute)
-    return Replica(
+    return Branches(
         shares=run["shares"],
-        hidden=run["hidden"],
+        whole=run["whole"],
+        parted=run["parted"],
+        energy=run["energy"],
+        boundaries=run["boundaries"],
+        flat=run["flat"],
         tosses=int(run["tosses"]),
         undecided=int(run["undecided"]),
     )
 
 
-def of_runs(shares: Array, statistic: Callable[[Array], float]) -> Estimate:
-    """Return a statistic of the runs' mean of f, with a jackknife's interval over the runs.
+def of_groups(numbers: Array, statistic: Callable[[Array], float]) -> Estimate:
+    """Return a statistic of the means over groups of ancestors, with a jackknife's interval over these.
 
     Args:
-        shares: f, by run and accuracy, (n, m).
-        statistic: of f at each accuracy, (m,).
+        numbers: by group, (n, m).
+        statistic: of their means, (m,).
     """
+    count = len(numbers)
     return jackknife(
-        lambda kept: statistic(shares[kept].mean(axis=0)), len(shares), "runs", parts=len(shares)
+        lambda kept: statistic(numbers[kept].mean(axis=0)), count, "groups of ancestors", min(count, PARTS)
     )
+
+
+def exponent(shares: Array, first: int, decades: int) -> float:
+    """Return α over some decades of `ACCURACIES`.
+
+    Args:
+        shares: f at each accuracy, (m,).
+        first: where it starts.
+        decades: how many.
+    """
+    return log10(max(shares[first], LEAST) / max(shares[first + decades], LEAST)) / decades
 
 
 def slope(shares: Array, first: int, decades: int) -> Estimate:
     """Return α over some decades of `ACCURACIES`, with its interval.
 
     Args:
-        shares: f, by run and accuracy, (n, m).
+        shares: f, by group and accuracy, (n, m).
         first: where it starts.
         decades: how many.
     """
-    return of_runs(shares, lambda f: log10(max(f[first], LEAST) / max(f[first + decades], LEAST)) / decades)
+    return of_groups(shares, lambda f: exponent(f, first, decades))
