@@ -70,8 +70,8 @@ def test_twenty_settings_agree_with_a_count_of_other_draws():
         test: Any = chi2_contingency(both[:, both.any(axis=0)], correction=False)
         statistic, freedom = statistic + test.statistic, freedom + test.dof
     assert freedom >= 20
-    assert found.counts[..., Outcome.EDGE].sum() > 500
-    assert 1e-3 < chi2.sf(statistic, freedom)
+    assert found.counts[..., Outcome.EDGE].sum() > 200
+    assert chi2.sf(statistic, freedom) > 1e-3
 
 
 def plan(**others):
