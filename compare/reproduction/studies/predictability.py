@@ -31,7 +31,7 @@ from cointoss.compare.reproduction.threads import all_cores
 from cointoss.models.records import Array
 
 SEED = 2014
-POPULATION = 100
+POPULATION = 400
 """Intervals of a run at each level but the first."""
 FOLLOWED = 8
 """Boundaries of a run that are followed at each ε, on a smooth floor in vacuum."""
@@ -42,9 +42,9 @@ CHIS = {
     ROUGH: (0.3, 0.6),
 }
 """By floor and medium. A rough floor adds energy above χ = √5/3, and a face is then never settled."""
-RUNS = {SMOOTH: 2, AIR: 1, ROUGH: 2}
+RUNS = {SMOOTH: 6, AIR: 3, ROUGH: 8}
 """Independent runs of each case; in air a toss takes longest."""
-MORE = 2
+MORE = 1
 """So many times more runs with the height varied at the paper's restitution, of which the claims are."""
 FEW = 4
 """Above `NONE`, where nearly all tosses are uncertain and each takes long, so many times fewer intervals."""
