@@ -97,22 +97,6 @@ FILMED = {
 }
 
 
-def filmed_misses(count: int, seed: int) -> tuple[np.ndarray, int]:
-    """Return the same of coins that tumble before a film camera."""
-    rng, misses, rejected = np.random.default_rng(seed), [], 0
-    while len(misses) < count:
-        truth = (rng.uniform(0.5, 0.9), rng.uniform(0.2, 0.4), rng.uniform(-20, 20))
-        spin = [truth[2], *rng.uniform(-10, 10, 2)]
-        coin = TUMBLING.replace("floor.restitution", truth[0], "release.position.z", truth[1])
-        coin = coin.replace("release.angles.theta", rng.uniform(0.3, 1.0), "release.angular_velocity", spin)
-        if np.diff(touches(coin, 3)).min() < 5 * MS:
-            continue  # a microphone hears one
-        found = fit(filmed(coin, rng), coin, FILMED, starts=256)
-        misses.append([(one.value - true) / one.sd for one, true in zip(found.values, truth, strict=True)])
-        rejected += not found.is_possible
-    return np.abs(misses), rejected
-
-
 def assert_covers(misses: np.ndarray, rejected: int) -> None:
     """Intervals of 99 % and of 68 % hold the truth as often as they say, within 3.3 binomial deviations."""
     n = len(misses)
@@ -129,11 +113,6 @@ def test_intervals_of_a_few_coins_cover_the_truth():
 @pytest.mark.slow
 def test_intervals_of_200_flat_coins_cover_the_truth():
     assert_covers(*flat_misses(200, seed=2))
-
-
-@pytest.mark.slow
-def test_intervals_of_200_coins_that_were_filmed_cover_the_truth():
-    assert_covers(*filmed_misses(200, seed=3))
 
 
 def test_a_coin_of_another_law_is_rejected():
