@@ -72,8 +72,10 @@ def asked_of(
     n: int, *, restitution: ArrayLike, friction: ArrayLike, max_time: ArrayLike, times: Array
 ) -> Asked:
     """Return what is asked of n tosses, of all alike where a number is given."""
-    each = (np.ascontiguousarray(np.broadcast_to(x, n), float) for x in (restitution, friction, max_time))
-    return Asked(*each, np.ascontiguousarray(times, float))
+    chi, mu, longest = (
+        np.ascontiguousarray(np.broadcast_to(x, n), float) for x in (restitution, friction, max_time)
+    )
+    return Asked(chi, mu, longest, np.ascontiguousarray(times, float))
 
 
 @compiled

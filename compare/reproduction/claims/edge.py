@@ -41,7 +41,8 @@ from cointoss.compare.reproduction.setups.edge_record import (
 from cointoss.compare.reproduction.setups.ends import Ends, ended_as, together, tosses
 from cointoss.models.records import Outcome
 
-DIE = float(brentq(lambda aspect: edge_of_die(aspect) - 1 / 3, 0.1, 2))
+_ROOT: Any = brentq(lambda aspect: edge_of_die(aspect) - 1 / 3, 0.1, 2)
+DIE = float(_ROOT)
 """h/D at which Pender and Uhrin's die is on edge in a third of its throws."""
 LEAST_PROBABLE = 1e-3
 """Below this p-value the engines differ."""

@@ -173,7 +173,7 @@ def _boundaries(twins: NDArray[np.int64]) -> Boundaries:
     """
     finest = int(np.flatnonzero(twins[0] >= FEWEST).max(initial=1))
     finer, coarser = (
-        share_of(*map(int, twins[:, i]), "twins") * (LENGTH / float(RESOLUTIONS[i]))
+        share_of(int(twins[0, i]), int(twins[1, i]), "twins") * (LENGTH / float(RESOLUTIONS[i]))
         for i in (finest, finest - 1)
     )
     return Boundaries(count=finer, resolution=float(RESOLUTIONS[finest]), growth=_over(finer, coarser))

@@ -80,7 +80,7 @@ class EdgeClass:
         return self.hand.releases(self.scenario.body, rng, count)
 
 
-def hand_of(wobble: str, **other: float) -> Hand:
+def hand_of(wobble: str, **other: Any) -> Hand:
     """Return the hand of one of `HANDS`, with either side up."""
     return Hand(psi_scatter=PEOPLE if wobble == WOBBLING else 0.0, up="either", **other)
 

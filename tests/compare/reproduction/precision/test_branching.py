@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 from itertools import product
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,6 +18,8 @@ from cointoss.compare.reproduction.setups.uncertain_shares import uncertain_shar
 
 LAST = 24
 """Digits of a release of the map."""
+NO_COIN: Any = None
+"""What is tossed by the map."""
 
 
 def coin_of(chi, law="smooth"):
@@ -88,7 +91,7 @@ def test_a_map_whose_share_is_known(monkeypatch):
         starts[:, HEIGHT, 0] %= 1
         found.append(
             branch(
-                None, starts, row=HEIGHT, largest=Fraction(1, 100), levels=16, population=40, rng=rng
+                NO_COIN, starts, row=HEIGHT, largest=Fraction(1, 100), levels=16, population=40, rng=rng
             ).shares.mean(axis=0)
         )
     shares, errors = np.mean(found, axis=0), np.std(found, axis=0, ddof=1) / len(found) ** 0.5

@@ -58,7 +58,8 @@ def log_integral(family, parameters, same, count):
         p = np.clip(family.probability(np.array(parameters), latent), 1e-12, 1 - 1e-12)
         return same * np.log(p) + (count - same) * np.log1p(-p) + family.latent.logpdf(latent)
 
-    grid = np.linspace(*family.ends, 20_001)
+    low, high = family.ends
+    grid = np.linspace(low, high, 20_001)
     values = log_integrand(grid)
     top, within = values.max(), grid[values > values.max() - 60]
     edges = np.linspace(within[0] - 1e-3, within[-1] + 1e-3, 30).clip(*family.ends)
