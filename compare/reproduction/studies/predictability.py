@@ -42,7 +42,7 @@ CHIS = {
     ROUGH: (0.3, 0.6),
 }
 """By floor and medium. A rough floor adds energy above χ = √5/3, and a face is then never settled."""
-RUNS = {SMOOTH: 6, AIR: 3, ROUGH: 8}
+RUNS = {SMOOTH: 3, AIR: 2, ROUGH: 4}
 """Independent runs of each case; in air a toss takes longest."""
 MORE = 1
 """So many times more runs with the height varied at the paper's restitution, of which the claims are."""
