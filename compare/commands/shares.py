@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import sys
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -30,6 +31,10 @@ if TYPE_CHECKING:
     from cointoss.compare.shares.record import Shares
 
 PICTURES = (".png", ".svg", ".pdf")
+
+
+WHOLE = 1000
+"""Columns in which every table has room."""
 
 
 @click.command(epilog=SCENARIO_HELP)
@@ -187,13 +192,18 @@ def _print(found: "Shares", scenario: str, as_json: bool) -> None:
     from cointoss.compare.output.terminal import laid_out
 
     plan = found.plan
-    click.echo(laid_out(found.table(), shutil.get_terminal_size((110, 24)).columns))
+    click.echo(laid_out(found.table(), _width()))
     click.echo(f"\nhand       {plan.hand.in_words}")
     click.echo(f"engine     {' and '.join(plan.engines)}, seed {plan.seed}; in brackets 99 % intervals")
     if found.alike:
         least, settings = np.nanmin(found.alike), len(found.alike)
         of = f", the least of {settings}; by chance it is so small in {found.least_alike:.2g} of all runs"
         click.echo(f"alike      with probability {least:.2g}{of if settings > 1 else ''}")
+
+
+def _width() -> int:
+    """Return the width of the terminal; what goes into a file or a pipe keeps its lines whole."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else WHOLE
 
 
 def _write(found: "Shares", out: Sequence[Path]) -> None:

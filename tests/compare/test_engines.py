@@ -18,7 +18,7 @@ def test_both_engines_have_the_same_verbs_with_the_same_arguments(verb):
         for engine in Engine
     )
     assert ours == theirs
-    assert ours[-1][0] == ("certain" if verb == "toss_many" else "settings")
+    assert ours[-1][0] == ("progress" if verb == "toss_many" else "settings")
 
 
 def test_settings_of_a_contact_are_those_on_which_it_depends():

@@ -23,6 +23,7 @@ from cointoss.compare.reproduction.setups.edge_pages import (
     alike,
     draw,
     fair,
+    holds,
     on_edge,
     percent,
     tables,
@@ -79,7 +80,7 @@ def findings(record: EdgeRecord) -> Findings:
         for wobble, by_factor in record.nickel.items()
         for factor, ends in by_factor.items()
     )
-    agreeing = [words for _, words, edge in by_share if edge.low <= PUBLISHED <= edge.high]
+    agreeing = [words for _, words, edge in by_share if holds(edge, PUBLISHED)]
     return Findings(
         data=record,
         tables=tables(record),
@@ -121,10 +122,7 @@ def findings(record: EdgeRecord) -> Findings:
 def _agreeing_die(found: EdgeRecord) -> str:
     """Return at how many h/D the share on edge of a die is within the interval found, by χ, in words."""
     held = {
-        f"χ = {chi}": sum(
-            on_edge(ends).low <= edge_of_die(float(aspect)) <= on_edge(ends).high
-            for aspect, ends in curve.items()
-        )
+        f"χ = {chi}": sum(holds(on_edge(ends), edge_of_die(float(aspect))) for aspect, ends in curve.items())
         for chi, curve in found.curves[DIAMETRAL].items()
     }
     return listed(held, "d")

@@ -38,7 +38,7 @@ TOUCHES = 10
 """Faces are compared after 0 to so many impacts, less one."""
 RESOLUTIONS = 10.0 ** -np.arange(2, 12)
 """ε, distances of nearby tosses [m]."""
-PARTS, PARTS_BEYOND = {0: 1 / 8, 1: 2.0, 2: 15.0, 3: 8.0, 4: 60.0}, 1 / 8
+PARTS, PARTS_BEYOND = {0: 1 / 8, 1: 2.0, 2: 12.0, 3: 12.0, 4: 60.0}, 1 / 8
 """Most twins at one ε over the tosses of the maps, by the number of impacts; four are the most at which all
 boundaries are counted."""
 FEWEST = 200
@@ -142,8 +142,8 @@ def _inverse(estimate: Estimate, factor: float) -> Estimate:
 def _differing(scenario: Scenario, rng: np.random.Generator, most: int, n: int) -> NDArray[np.int64]:
     """Return how many twins differ after n impacts at each of `RESOLUTIONS`, and of how many, (2, ε).
 
-    At each they are tossed until `FEWEST` differ. Where fewer of the most do, finer twins are not made: none
-    is taken to differ.
+    At each they are tossed until `FEWEST` differ. Where fewer of the most do, or where the number of
+    boundaries is counted, finer twins are not made: none is taken to differ.
 
     Args:
         scenario: of the tosses.
@@ -161,7 +161,7 @@ def _differing(scenario: Scenario, rng: np.random.Generator, most: int, n: int) 
             faces = [faces_after(scenario, releases(at, spin), n) for at in (z, z + step)]
             differ[i] += np.sum(faces[0] != faces[1])
             made[i] += block
-        if differ[i] < FEWEST:
+        if differ[i] < FEWEST or (i and _boundaries(np.stack([differ, made])).is_converged):
             break
     return np.stack([differ, made])
 

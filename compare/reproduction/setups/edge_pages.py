@@ -88,7 +88,9 @@ def tables(found: EdgeRecord) -> str:
         _tipping(),
         _ways(found),
         table(f"at the first touch, turned | {touched}", touches),
-        *(_curves(found, wobble) for wobble in HANDS),
+        _curves(found, DIAMETRAL),
+        _die(found),
+        _curves(found, WOBBLING),
         table(["h/D of the coin that is fair three ways", *HANDS], fairest),
         table(f"by both engines | {by_both}", engines),
     )
@@ -119,18 +121,29 @@ def _ways(found: EdgeRecord) -> str:
 
 def _curves(found: EdgeRecord, wobble: str) -> str:
     by_chi = found.curves[wobble]
-    die = wobble == DIAMETRAL
     return table(
-        [f"tossed {wobble}: h/D", *(["die in a plane"] if die else []), *(f"χ = {chi}" for chi in by_chi)],
+        [f"tossed {wobble}: h/D", *(f"χ = {chi}" for chi in by_chi)],
         [
-            [
-                f"{float(aspect):.3g}",
-                *([f"{edge_of_die(float(aspect)):.2%}".replace("%", " %")] if die else []),
-                *(percent(on_edge(curve[aspect])) for curve in by_chi.values()),
-            ]
+            [f"{float(aspect):.3g}", *(percent(on_edge(curve[aspect])) for curve in by_chi.values())]
             for aspect in next(iter(by_chi.values()))
         ],
     )
+
+
+def _die(found: EdgeRecord) -> str:
+    """Return the share on edge of a planar die, and where it is within the interval of the coin's."""
+    by_chi = found.curves[DIAMETRAL]
+    rows = []
+    for aspect in next(iter(by_chi.values())):
+        share = edge_of_die(float(aspect))
+        held = [chi for chi, curve in by_chi.items() if holds(on_edge(curve[aspect]), share)]
+        rows.append([f"{float(aspect):.3g}", f"{100 * share:.3g} %", ", ".join(held) or "none"])
+    return table("a planar die: h/D | on edge | within the coin's interval at χ =", rows)
+
+
+def holds(estimate: Estimate, value: float) -> bool:
+    """Return whether a value is within the interval of an estimate."""
+    return estimate.low <= value <= estimate.high
 
 
 def _fair(found: EdgeRecord, wobble: str, chi: str) -> str:

@@ -109,8 +109,11 @@ def test_coins_that_end_on_their_edge_are_followed_to_their_rest():
 def test_a_nickel_as_rare_on_its_edge_as_published_would_be_seen():
     rare = {"heads, paper": 300_000 - 50, "edge, paper": 50}
     nickel = {hand: {**by_factor, "as said": rare} for hand, by_factor in SAVED.nickel.items()}
-    assert claims(replace(SAVED, nickel=nickel))[0].holds
-    assert not claims(SAVED)[0].holds
+    # Their coins, floor and drop are not known, so that no number decides the claim.
+    for record, is_met in ((replace(SAVED, nickel=nickel), True), (SAVED, False)):
+        claim = claims(record)[0]
+        assert [criterion.is_met for criterion in claim.criteria] == 2 * [is_met]
+        assert claim.holds is None
     assert on_edge(rare).value == pytest.approx(1 / 6000)
     assert fair(SAVED, DIAMETRAL, "0.4").low < fair(SAVED, DIAMETRAL, "0.4").value
     assert SEED == 1993
