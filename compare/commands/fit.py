@@ -71,7 +71,7 @@ def fit(
         described = load(scenario)
         for path, suffix in ((out, ".toml"), (png, ".png")):
             if path is not None:
-                require_file(path, suffix, scenario)
+                require_file(path, suffix, scenario, observed)
         given = {"time": sd_time, "height": sd_height, "attitude": sd_attitude}
         seen = read_observed(observed, {name: sd.value for name, sd in given.items() if sd is not None})
         spans = [parse_span(text, described) for text in free]

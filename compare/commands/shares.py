@@ -107,6 +107,7 @@ def shares(
             from cointoss.compare.shares import plan as plans
             from cointoss.models.reading import load
 
+        read = [given["hand_file"]] if given["hand_file"] is not None else []
         hand, _ = chosen_hand(given, described := load(scenario))
         engines = tuple(Engine) if both else (Engine(engine),)
         plan = plans.plan_of(
@@ -120,7 +121,7 @@ def shares(
             to=to and to.value,
         )
         for path in out:
-            require_file(path, (".csv", *PICTURES), scenario)
+            require_file(path, (".csv", *PICTURES), scenario, *read)
         if any(path.suffix.lower() in PICTURES for path in out):
             from cointoss.compare.shares.picture import require_drawable
 

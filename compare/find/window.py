@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 from cointoss import analytic
 from cointoss.compare.metrics.margin import accepted
 from cointoss.compare.metrics.release_arrays import chosen
-from cointoss.compare.sweep.axes import SPAN_FORM, Span, span_of, split_span, unit_of
+from cointoss.compare.sweep.axes import SPAN_FORM, Span, require_ends, span_of, split_span, unit_of
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.errors import ScenarioError
 from cointoss.models.fields import UNITS
+from cointoss.models.parts import LARGEST
 from cointoss.models.records import Array, Face, Outcome
 from cointoss.models.releases import changed_releases
 from cointoss.models.scenario import Scenario
@@ -43,9 +44,9 @@ class Window:
     spans: tuple[Span, ...]
 
     def values(self, points: Array) -> Array:
-        """Return the fields' values at points, (n, fields)."""
+        """Return the fields' values at points, (n, fields); none beyond what a scenario can have."""
         starts, stops = (np.array([getattr(one, end) for one in self.spans]) for end in ("start", "stop"))
-        return starts + points * (stops - starts)
+        return np.clip(starts + points * (stops - starts), -LARGEST, LARGEST)
 
     def scenario_at(self, point: Array) -> Scenario:
         """Return the scenario at a point, (fields,).
@@ -164,5 +165,7 @@ def window_of(vary: tuple[str, ...], scenario: Scenario) -> Window:
         field, (start, stop) = split_span(text, 2, SPAN_FORM)
         if field in [span.field for span in spans]:
             raise SweepError(f"{field}: twice; accepted: each field once")
-        spans.append(span_of(field, start, stop, unit_of(field, scenario, FIELDS)))
+        span = span_of(field, start, stop, unit_of(field, scenario, FIELDS))
+        require_ends(span, scenario)
+        spans.append(span)
     return Window(scenario=scenario, spans=tuple(spans))

@@ -16,7 +16,7 @@ from cointoss.compare.fitting.misfit import CLOCK, Misfit
 from cointoss.compare.fitting.observed import Observed
 from cointoss.compare.fitting.search import Minimum, Search
 from cointoss.compare.fitting.table import read_observed
-from cointoss.compare.sweep.axes import SPAN_FORM, Span, span_of, split_span, unit_of
+from cointoss.compare.sweep.axes import SPAN_FORM, Span, require_ends, span_of, split_span, unit_of
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.errors import ScenarioError
 from cointoss.models.interruptible import interruptible
@@ -302,6 +302,7 @@ def _span(field: str, start: float | str, stop: float | str, scenario: Scenario)
         )
         raise SweepError(f"{field}: can't be fitted; accepted: {instead}, or clock")
     span = span_of(field, start, stop, unit)
+    require_ends(span, scenario)
     if field.startswith("release.angles.") and scenario.release.angles is None:
         raise SweepError(f"{field}: this scenario has a quaternion; accepted: release.angles in its place")
     return span

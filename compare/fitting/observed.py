@@ -8,10 +8,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.models.attitude import norm_of
+from cointoss.models.parts import LARGEST
 from cointoss.models.records import Array, Face
 
 MOST = 20_000
 """Touches, and frames, that are fitted."""
+LEAST_SD = 1e-12
+"""In SI; nothing is measured better."""
 NORM_ERROR = 0.05
 """Of Euler parameters that were measured; they are brought to norm 1."""
 
@@ -110,8 +113,10 @@ class Observed:
 
     def _check(self) -> None:
         finite = np.isfinite
-        _refuse("touch_times", self.touch_times, ~finite(self.touch_times), "finite numbers [s]")
-        _refuse("times", self.times, ~finite(self.times), "finite numbers [s]")
+        for name in ("touch_times", "times"):
+            times = getattr(self, name)
+            _refuse(name, times, ~(np.abs(times) <= LARGEST), f"numbers within {LARGEST:g} [s]")
+        _refuse("heights", self.heights, np.abs(self.heights) > LARGEST, f"numbers within {LARGEST:g} [m]")
         earlier = np.diff(self.touch_numbers, prepend=0) <= 0
         _refuse("touch_numbers", self.touch_numbers, earlier, "rising whole numbers from 1")
         back = np.diff(self.touch_times, prepend=-np.inf) < 0
@@ -128,7 +133,8 @@ class Observed:
             ("quaternion_sd", self.quaternions[:, 0]),
         ):
             sd = getattr(self, name)
-            _refuse(name, sd, finite(values) & ~((sd > 0) & finite(sd)), "a standard deviation above 0")
+            bounds = f"a standard deviation from {LEAST_SD:g} to {LARGEST:g}"
+            _refuse(name, sd, finite(values) & ~((sd >= LEAST_SD) & (sd <= LARGEST)), bounds)
         if self.count == 0:
             raise ObservationError("Observed: nothing was seen; accepted: touches, heights or attitudes")
 

@@ -114,8 +114,17 @@ def _observed(rows: list[list[str]], sd: Mapping[str, float]) -> Observed:
         if any(_IN_ONE_ROW.fullmatch(heading.name) for heading in headings):
             return _of_one_row(headings, rows[at + 1 :], sd)
         if any(heading.key == "time" for heading in headings):
+            _require_whole(rows[at + 1 :], len(headings))
             return _of_columns(_columns(headings), rows[at + 1 :], sd)
     raise ObservationError(f"no column of times; accepted: {ACCEPTED}")
+
+
+def _require_whole(rows: list[list[str]], width: int) -> None:
+    """Refuse rows with more cells than headings: a decimal comma between commas would be lost."""
+    for n, row in enumerate(rows, start=1):
+        if any(row[width:]):
+            cells = f"row {n} has {len(row)} cells; accepted: {width}, one for each column"
+            raise ObservationError(f"{cells}; decimal commas need semicolons or tabs between the cells")
 
 
 def _of_one_row(headings: Sequence[Heading], rows: list[list[str]], sd: Mapping[str, float]) -> Observed:

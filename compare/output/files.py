@@ -17,13 +17,14 @@ class UnwritableError(OSError):
     """A place that can't be written; the message names it and says why."""
 
 
-def require_file(path: Path, suffix: str | tuple[str, ...], source: str) -> None:
+def require_file(path: Path, suffix: str | tuple[str, ...], source: str, *read: str | Path) -> None:
     """Check that a file can be written at `path`, in a folder that exists, and that nothing else is lost.
 
     Args:
         path: where to write; a link stands for what it points to.
         suffix: what its name must end in, or several of which it must be one.
         source: the scenario, which must be another file.
+        read: what else is read, which must be others, too.
 
     Raises:
         UnwritableError: naming the file and why.
@@ -40,7 +41,7 @@ def require_file(path: Path, suffix: str | tuple[str, ...], source: str) -> None
             )
         target = _target(path)
         if target.exists():
-            require_replaceable(target, source)
+            require_replaceable(target, source, *read)
         with tempfile.TemporaryFile(dir=target.parent):
             pass
 
@@ -71,12 +72,13 @@ def require_folder(folder: Path, names: tuple[str, ...], source: str | None = No
     return in_the_way
 
 
-def require_replaceable(path: Path, source: str | None = None) -> None:
+def require_replaceable(path: Path, source: str | None = None, *read: str | Path) -> None:
     """Check that what is at `path` is a file that may be replaced.
 
     Args:
         path: of what exists.
         source: the scenario, if there is one, which must be another file.
+        read: what else is read, which must be others, too.
 
     Raises:
         UnwritableError: naming the file and why.
@@ -89,6 +91,8 @@ def require_replaceable(path: Path, source: str | None = None) -> None:
         raise UnwritableError(f"{path}: is read-only; accepted: a new name or a file that can be written")
     if source is not None and Path(source).exists() and path.samefile(source):
         raise UnwritableError(f"{path}: is the scenario; accepted: another file")
+    if any(Path(other).exists() and path.samefile(other) for other in read):
+        raise UnwritableError(f"{path}: is what is read; accepted: another file")
 
 
 def is_stream(path: Path) -> bool:

@@ -73,7 +73,7 @@ def require_run(folder: Path, *, quick: bool) -> None:
         raise RunError(f"{folder}: holds no claims.json; accepted: a folder that --out has written")
     made_of: Any = None
     for name, read in (
-        ("claims.json", lambda: read_claims(folder / "claims.json")),
+        ("claims.json", lambda: _require_claims(folder)),
         ("numbers.json", lambda: _numbers(folder)),
         (PROVENANCE, lambda: read_provenance(folder)),
     ):
@@ -84,6 +84,23 @@ def require_run(folder: Path, *, quick: bool) -> None:
     if quick is not (made_of is not None and made_of["quick"]):
         size, way = ("full", "without") if quick else ("quick", "with")
         raise RunError(f"{folder}: of the {size} size; accepted: the same {way} --quick")
+
+
+def _require_claims(folder: Path) -> None:
+    """Check that the claims of a run are claims, with verdicts.
+
+    Raises:
+        ValueError, TypeError, LookupError, AttributeError: where they are not.
+    """
+    listed = json.loads((folder / "claims.json").read_text(encoding="utf-8"))
+    if not isinstance(listed, list):
+        raise ValueError("no list of claims")
+    for number, one in enumerate(listed, start=1):
+        if not (isinstance(one["claim"], str) and "\n" not in one["claim"]):
+            raise ValueError(f"claim {number}: no line of text")
+        if not (one["holds"] is None or isinstance(one["holds"], bool)):
+            raise ValueError(f"claim {number}: holds is {one['holds']!r}")
+    read_claims(folder / "claims.json")
 
 
 def _numbers(folder: Path) -> Any:

@@ -59,11 +59,11 @@ def toss_part(plan: Plan, part: Part) -> Tossed:
     """
     start, setting, size = compiling.working_time, plan.setting(part.setting), BLOCK[part.engine]
     sizes = [min(size, plan.tosses - n * size) for n in range(part.first, part.first + part.blocks)]
-    drawn = [
-        setting.hand.releases(setting.scenario.body, _draws(plan, part, part.first + n), count)
-        for n, count in enumerate(sizes)
-    ]
     try:
+        drawn = [
+            setting.hand.releases(setting.scenario.body, _draws(plan, part, part.first + n), count)
+            for n, count in enumerate(sizes)
+        ]
         outcome = part.engine.package.toss_many(setting.scenario, joined(drawn)).outcome
     except ValueError as error:
         raise SweepError(str(error)) from None

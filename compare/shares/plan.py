@@ -164,8 +164,8 @@ def check(plan: Plan) -> None:
     for setting in counted("checking the grid", "settings", list(plan.settings())):
         for engine in plan.engines:
             engine.package.require_supported(setting.scenario, settings=engine.package.MANY)
-        few = setting.hand.releases(setting.scenario.body, np.random.default_rng(plan.seed), 1)
         try:
+            few = setting.hand.releases(setting.scenario.body, np.random.default_rng(plan.seed), 1)
             check_releases(setting.scenario, few)
         except ValueError as error:
             raise SweepError(str(error)) from None

@@ -1,15 +1,16 @@
 """A span of a field of the scenario, and an axis of a map: such a span and its values."""
 
 import difflib
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from cointoss.compare.sweep.errors import SweepError
+from cointoss.models.errors import ScenarioError
 from cointoss.models.fields import UNITS, WORDS, lambda_unit, printed_unit
 from cointoss.models.hand import QUANTITIES
+from cointoss.models.parts import LARGEST
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 from cointoss.models.units import in_si
@@ -111,6 +112,21 @@ def span_of(field: str, start: str | float, stop: str | float, unit: str) -> Spa
     return Span(field=field, unit=unit, start=ends[0], stop=ends[1])
 
 
+def require_ends(span: Span, scenario: Scenario) -> None:
+    """Check that a scenario accepts both ends of a span of its coin, air or floor.
+
+    A release may be possible only with other values of other fields, and is not asked for.
+
+    Raises:
+        SweepError: naming the span, and what the scenario accepts.
+    """
+    for end in (span.start, span.stop) if not span.is_of_release else ():
+        try:
+            scenario.replace(span.field, end)
+        except ScenarioError as error:
+            raise SweepError(f"{span.field}={span.start:g}:{span.stop:g}: {error}") from None
+
+
 def unit_of(field: str, scenario: Scenario, units: Mapping[str, str] = UNITS) -> str:
     """Return the SI unit of one of the fields that are accepted, in pint's spelling.
 
@@ -133,6 +149,6 @@ def _number(field: str, text: str | float, unit: str) -> float:
             number = in_si(str(text), unit)
         except ValueError as error:
             raise SweepError(f"{field} = {text}: accepted: {error}") from None
-    if not math.isfinite(number):
-        raise SweepError(f"{field} = {text}: accepted: a finite number")
+    if not abs(number) <= LARGEST:
+        raise SweepError(f"{field} = {text}: accepted: a finite number within {LARGEST:g}")
     return number

@@ -33,9 +33,18 @@ def test_none_is_said_and_has_a_status_of_its_own(tmp_path):
     assert json.loads(cointoss(*words, "--json").stdout)["found"] is None
 
 
+def test_margins_are_looked_for_in_numbers_that_a_release_can_have():
+    wide = ("--vary", "release.position.z=-1e9:1e9", "--tosses", 16)
+    assert cointoss("find", "fig24a", "--outcome", "heads", *wide).exit_code in (0, 1)
+
+
 def test_bad_options_are_one_line(tmp_path):
     assert "--sequence, --outcome: none; accepted: one of them" in refused("find", "fig24a", *VARY)
     assert "--vary: missing; accepted: --vary FIELD=START:STOP, a field" in refused("find", "fig24a")
+    far = refused("find", "fig24a", "--sequence", "H", "--vary", "release.position.z=0.2:1e300")
+    assert "release.position.z = 1e300: accepted: a finite number within 1e+09" in far
+    none = refused("find", "fig24a", "--sequence", "H", "--vary", "coin.radius=-2:-1")
+    assert "coin.radius=-2:-1: coin.radius = -2.0: accepted: a number >= 1e-09" in none
     assert "sequence: 'ht', accepted: letters H and T" in refused("find", "fig24a", "--sequence", "ht", *VARY)
     other = refused("find", "fig24a", "--sequence", "H", *VARY, "--out", tmp_path / "a.json")
     assert "accepted: a name that ends in .toml" in other

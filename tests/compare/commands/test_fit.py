@@ -48,6 +48,12 @@ def test_values_a_verdict_and_files(tmp_path):
         ((), "heard.csv: no standard deviation of time; accepted: a column sd_t, or --sd-time"),
         (("--sd-time", "1 mm"), "'--sd-time': 1 mm; accepted: a number in s"),
         (("--sd-time", "0"), "Observed.touch_sd: row 0 is 0.0"),
+        (("--sd-time", "1e-300"), "accepted: a standard deviation from 1e-12 to 1e+09"),
+        (("--sd-time", "1 ms", "--free", "clock=1e300:2e300"), "clock = 1e300: accepted: a finite number within"),
+        (
+            ("--sd-time", "1 ms", "--free", "floor.friction=-2:-1"),
+            "floor.friction=-2:-1: floor.friction = -2.0",
+        ),
         (("--sd-time", "1 ms", "--free", "floor.bounce=0:1"), "floor.bounce: no numeric field"),
         (("--sd-time", "1 ms", "--free", "clock=1"), "clock=1: accepted: FIELD=START:STOP, such as "),
         (("--sd-time", "1 ms", "--free", "floor.restitution=0:1"), "accepted: from 1 to 12, each once"),
@@ -61,6 +67,20 @@ def test_bad_input_is_answered_in_one_line(tmp_path, more, named):
     assert named in refused(*CALL, *more)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["coin.toml", "heard.csv"]
     assert (tmp_path / "coin.toml").read_text() == COIN
+
+
+def test_what_was_seen_is_not_written_over(tmp_path):
+    link = tmp_path / "found.toml"
+    link.symlink_to(tmp_path / "heard.csv")
+    told = refused(*CALL, "--sd-time", "1 ms", "--out", "found.toml")
+    assert "heard.csv: is what is read; accepted: another file" in told
+    assert (tmp_path / "heard.csv").read_text() == HEARD
+
+
+def test_a_decimal_comma_between_commas_is_no_cell_of_its_own(tmp_path):
+    (tmp_path / "heard.csv").write_text("t (s)\n0,2257\n0,5821\n0,8629\n")
+    told = refused(*CALL, "--sd-time", "1 ms")
+    assert "heard.csv: row 1 has 2 cells; accepted: 1, one for each column" in told
 
 
 def test_what_is_missing_is_named():

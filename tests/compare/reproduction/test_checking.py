@@ -100,6 +100,13 @@ def test_what_cannot_be_compared_is_refused_before_any_work(fake, tmp_path):
     assert "provenance.json: needs sources" in refused("reproduce", "fake", "--check", kept)
     (kept / "reproduction" / "fake" / "claims.json").write_text('{"a": 1}')
     assert "claims.json: " in refused("reproduce", "fake", "--check", kept)
+    for odd in (
+        '{"claim": [5], "holds": true}',
+        '{"claim": "a", "holds": "yes"}',
+        '{"claim": "a\\nb", "holds": null}',
+    ):
+        (kept / "reproduction" / "fake" / "claims.json").write_text(f"[{odd}]")
+        assert "claims.json: claim 1: " in refused("reproduce", "fake", "--check", kept)
     assert "not with --check" in refused("reproduce", "fake", "--out", tmp_path, "--check", kept)
     assert "comes after the names" in refused("reproduce", "--check", "fake")
 
