@@ -49,7 +49,10 @@ def test_values_a_verdict_and_files(tmp_path):
         (("--sd-time", "1 mm"), "'--sd-time': 1 mm; accepted: a number in s"),
         (("--sd-time", "0"), "Observed.touch_sd: row 0 is 0.0"),
         (("--sd-time", "1e-300"), "accepted: a standard deviation from 1e-12 to 1e+09"),
-        (("--sd-time", "1 ms", "--free", "clock=1e300:2e300"), "clock = 1e300: accepted: a finite number within"),
+        (
+            ("--sd-time", "1 ms", "--free", "clock=1e300:2e300"),
+            "clock = 1e300: accepted: a finite number within",
+        ),
         (
             ("--sd-time", "1 ms", "--free", "floor.friction=-2:-1"),
             "floor.friction=-2:-1: floor.friction = -2.0",

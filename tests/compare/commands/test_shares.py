@@ -75,7 +75,10 @@ def test_the_side_that_was_up_is_counted_whichever_it_was(coin):
         (["--along", "hand.psi=0:1"], "hand.psi=0:1: accepted: FIELD=START:STOP:N"),
         (["--up", "tails"], "'--up': 'tails' is not one of 'heads', 'either'"),
         (["--height", "2e9"], "accepted: numbers within 1e+09"),
-        (["--along", "hand.height=1e300:1e308:2"], "hand.height = 1e300: accepted: a finite number within 1e+09"),
+        (
+            ["--along", "hand.height=1e300:1e308:2"],
+            "hand.height = 1e300: accepted: a finite number within 1e+09",
+        ),
     ],
 )
 def test_bad_options_are_one_line(coin, words, told):
