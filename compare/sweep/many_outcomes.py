@@ -53,7 +53,7 @@ def toss_to_zarr(
         The number of tosses.
 
     Raises:
-        UnwritableError: for a path that can't be written or exists.
+        OSError: for a path that can't be written or exists.
         TypeError: for a chunk that is no `Releases`.
     """
     place, described, tosses = Path(path), scenario_of(scenario), 0
