@@ -44,8 +44,6 @@ CHIS = {
 """By floor and medium. A rough floor adds energy above χ = √5/3, and a face is then never settled."""
 RUNS = {SMOOTH: 3, AIR: 2, ROUGH: 4}
 """Independent runs of each case; in air a toss takes longest."""
-MORE = 1
-"""So many times more runs with the height varied at the paper's restitution, of which the claims are."""
 FEW = 4
 """Above `NONE`, where nearly all tosses are uncertain and each takes long, so many times fewer intervals."""
 NONE = 0.85
@@ -132,9 +130,9 @@ def compute(
     asked += [(SMOOTH, CHI, quantity) for quantity in OTHERS]
     jobs = [
         (one, number)
-        for number in range(MORE * max(runs.values()))
+        for number in range(max(runs.values()))
         for one in asked
-        if number < _runs(runs, one)
+        if number < runs[one[0]]
     ]
     found: dict[tuple[str, float, str], list[Branches]] = {one: [] for one in asked}
     with all_cores() as pool:
@@ -148,11 +146,6 @@ def compute(
         cases=[_case(*one, found[one]) for one in asked],
         quantum_width=sqrt(hbar * fall / scenario.coin.mass),
     )
-
-
-def _runs(runs: Mapping[str, int], one: tuple[str, float, str]) -> int:
-    floor, chi, quantity = one
-    return runs[floor] * (MORE if chi == CHI and quantity == "height" else 1)
 
 
 def _case(floor: str, chi: float, quantity: str, runs: list[Branches]) -> Case:
