@@ -128,12 +128,7 @@ def compute(
     """
     asked = [(floor, chi, "height") for floor in chis for chi in chis[floor]]
     asked += [(SMOOTH, CHI, quantity) for quantity in OTHERS]
-    jobs = [
-        (one, number)
-        for number in range(max(runs.values()))
-        for one in asked
-        if number < runs[one[0]]
-    ]
+    jobs = [(one, number) for number in range(max(runs.values())) for one in asked if number < runs[one[0]]]
     found: dict[tuple[str, float, str], list[Branches]] = {one: [] for one in asked}
     with all_cores() as pool:
         made = pool.map(lambda job: run_once(parts, *job, population=population, levels=levels), jobs)

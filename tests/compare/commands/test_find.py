@@ -2,6 +2,10 @@
 
 import json
 
+import numpy as np
+
+from cointoss.compare.find.window import window_of
+from cointoss.models.parts import LARGEST
 from cointoss.models.reading import load, parse
 from tests.helpers.command_line import cointoss, refused
 
@@ -34,8 +38,10 @@ def test_none_is_said_and_has_a_status_of_its_own(tmp_path):
 
 
 def test_margins_are_looked_for_in_numbers_that_a_release_can_have():
-    wide = ("--vary", "release.position.z=-1e9:1e9", "--tosses", 16)
-    assert cointoss("find", "fig24a", "--outcome", "heads", *wide).exit_code in (0, 1)
+    window = window_of(("release.position.z=-1e9:1e9",), load("fig24a"))
+    # A margin may be as wide as the window, to either side.
+    assert window.values(np.array([[-1.0], [0.75], [2.0]])).ravel().tolist() == [-LARGEST, 5e8, LARGEST]
+    window.toss(np.array([[-1.0], [2.0]]), 1)
 
 
 def test_bad_options_are_one_line(tmp_path):

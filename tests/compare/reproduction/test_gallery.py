@@ -85,6 +85,7 @@ def test_all_makes_a_table_of_verdicts_and_a_gallery(made):
         "| Fig. 11 | [a <sum> of Fig. 11](reproduction/third/index.md) | 1 cannot be tested |",
     ]
     assert sorted(rows, key=page.index) == rows
+    assert "Of 3 claims of the paper" in page
     assert "it cites, 1 holds, 1 does not hold and 1 cannot be tested." in " ".join(page.split())
     assert "- **two is more** So it is.\n\n![two is more](reproduction/first/figure.png)" in page
     assert "cointoss reproduce all --quick --out docs" in page

@@ -17,6 +17,7 @@ from cointoss.compare.reproduction.setups.edge_classes import (
     EdgeClass,
     edge_by_angle,
     edge_by_solid_angle,
+    edge_of_die,
     ends_of,
     hand_of,
     three_way,
@@ -44,6 +45,15 @@ def claims(record):
 
 def kind_of(aspect: float = NICKEL, **floor: float) -> EdgeClass:
     return EdgeClass(name="a test", aspect=aspect, hand=hand_of(DIAMETRAL), floor=floor)
+
+
+def test_a_planar_die_is_as_likely_on_a_side_as_the_same_die_turned():
+    """Its sides change their names; Pender and Uhrin's is fair three ways at h/D = 0.8285."""
+    for aspect in (0.1, 0.5, 0.8):
+        assert edge_of_die(aspect) + edge_of_die(1 / aspect) == pytest.approx(1, abs=1e-14)
+    assert edge_of_die(0.8285) == pytest.approx(1 / 3, abs=2e-5)
+    # Of a thin one c - D is h²/(2 D), c - h is D, and atan(D/h) is π/2.
+    assert edge_of_die(1e-3) == pytest.approx(1e-9 / np.pi, rel=2e-3)
 
 
 def test_the_laws_give_a_third_where_they_are_known_to():

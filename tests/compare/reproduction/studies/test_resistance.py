@@ -1,11 +1,21 @@
 """The study of resistance to rolling and pivoting: its page shows what it saved, and what it claims."""
 
+import pytest
+
 from cointoss.compare.reproduction.saving import read_numbers
 from cointoss.compare.reproduction.setups.ends import on_edge
-from cointoss.compare.reproduction.studies.resistance import ResistanceRecord, power_law
+from cointoss.compare.reproduction.studies import resistance
+from cointoss.compare.reproduction.studies.resistance import ResistanceRecord, pivoting_stop, power_law
 from tests.helpers.pages import saved
 
 SAVED = read_numbers(saved("resistance"), ResistanceRecord)
+
+
+@pytest.mark.parametrize("coin", [resistance._DISC, resistance._THICK], ids=["disc", "thick"])
+def test_a_coin_that_pivots_upright_stops_as_the_closed_form_says(coin):
+    found = pivoting_stop(coin)
+    # Rest is found at 1e-3 √(g/r), 3e-4 of the spin; slow slip is regularised likewise.
+    assert found.time == pytest.approx(found.expected_time, rel=1e-3)
 
 
 def test_a_fall_by_another_power_law_is_seen():
