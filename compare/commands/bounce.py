@@ -1,10 +1,11 @@
 """`cointoss bounce`: how two geoms of a user's own MuJoCo model bounce off each other."""
 
+from dataclasses import asdict
 from pathlib import Path
 
 import click
 
-from cointoss.compare.commands.common import Place, plain_errors, refuse
+from cointoss.compare.commands.common import Place, plain_errors, print_json, refuse
 
 
 @click.command()
@@ -35,13 +36,13 @@ def bounce(model: Path, one: str, two: str, png: Path | None, as_json: bool) -> 
         except FieldError as error:
             field = "" if error.field == "model" else f" {error.field} {error.value}:"
             refuse(f"{model}:{field} accepted: {error.accepted}")
-        from cointoss.compare.output.bounce_plot import bounce_json, bounce_table, draw_bounce
+        from cointoss.compare.output.bounce_plot import bounce_table, draw_bounce
 
         if png is not None:
             with written_whole(png) as aside:
                 draw_bounce(found).savefig(aside, dpi=150, format="png")
         if as_json:
-            click.echo(bounce_json(found))
+            print_json(asdict(found), "mujoco")
             return
         solref = " ".join(f"{number:g}" for number in found.solref)
         friction = f' friction="{found.friction:g}"' if found.condim > 1 else ""

@@ -1,5 +1,6 @@
 """What several commands share: options, kinds of values, and failures of one line."""
 
+import math
 import sys
 import warnings
 from collections.abc import Iterator, Mapping
@@ -145,6 +146,34 @@ def plain_errors(source: str) -> Iterator[None]:
             refuse(str(error))
         except (SweepError, UnsupportedError, FloatingPointError) as error:
             refuse(f"{source}: {error}")
+
+
+def print_json(found: Mapping[str, Any], *engines: str) -> None:
+    """Print an answer as JSON in full precision, with the versions of what made it.
+
+    Args:
+        found: the answer; null stands for what is infinite or NaN, which JSON has not.
+        engines: by which it was made.
+    """
+    import json
+
+    from cointoss.compare.engines import Engine
+
+    versions: dict[str, str] = {}
+    for engine in engines:
+        versions |= Engine(engine).versions
+    click.echo(json.dumps(_plain({**found, "versions": versions}), indent=1, allow_nan=False))
+
+
+def _plain(value: Any) -> Any:
+    """Return tables, lists and arrays of numbers as JSON has them."""
+    if hasattr(value, "tolist"):  # an array, or a number of numpy
+        value = value.tolist()
+    if isinstance(value, dict):
+        return {name: _plain(each) for name, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(each) for each in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def refuse(message: str, status: int = 2) -> NoReturn:

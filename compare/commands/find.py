@@ -1,12 +1,11 @@
 """`cointoss find`: a toss that shows a sequence of faces or an outcome."""
 
-import json
 import sys
 from pathlib import Path
 
 import click
 
-from cointoss.compare.commands.common import SCENARIO_HELP, Count, Place, plain_errors
+from cointoss.compare.commands.common import SCENARIO_HELP, Count, Place, plain_errors, print_json
 from cointoss.compare.commands.names import scenario_argument, vary_option
 
 
@@ -72,7 +71,7 @@ def find(
         if out is not None and found:
             write_text(out, found.to_toml())
         if as_json:
-            click.echo(json.dumps({"scenario": scenario, "seed": seed, **found.as_json()}, indent=1))
+            print_json({"scenario": scenario, "seed": seed, **found.as_json()}, "analytic")
         elif found and out is None:
             click.echo(found.to_toml(), nl=False)
         else:

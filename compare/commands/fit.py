@@ -1,11 +1,18 @@
 """`cointoss fit`: what was seen of a coin to the fields that explain it."""
 
-import json
 from pathlib import Path
 
 import click
 
-from cointoss.compare.commands.common import SCENARIO_HELP, Count, Given, Place, Quantity, plain_errors
+from cointoss.compare.commands.common import (
+    SCENARIO_HELP,
+    Count,
+    Given,
+    Place,
+    Quantity,
+    plain_errors,
+    print_json,
+)
 from cointoss.compare.commands.names import scenario_argument, span_option
 
 
@@ -84,9 +91,7 @@ def fit(
             with written_whole(png) as aside:
                 draw_fit(found).savefig(aside, dpi=150, format="png")
         if as_json:
-            click.echo(
-                json.dumps({**found.as_dict(), "seed": seed, "starts": starts}, indent=1, allow_nan=False)
-            )
+            print_json({**found.as_dict(), "seed": seed, "starts": starts}, "analytic")
             return
         click.echo(as_lines(found))
         for name, path in (("scenario", out), ("picture", png)):

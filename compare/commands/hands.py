@@ -1,12 +1,18 @@
 """`cointoss hands`: a coin tossed many times as a hand does."""
 
-import json
 from dataclasses import asdict
 from typing import Any
 
 import click
 
-from cointoss.compare.commands.common import SCENARIO_HELP, Count, engine_option, plain_errors, refuse
+from cointoss.compare.commands.common import (
+    SCENARIO_HELP,
+    Count,
+    engine_option,
+    plain_errors,
+    print_json,
+    refuse,
+)
 from cointoss.compare.commands.hand_options import chosen_hand, hand_options
 from cointoss.compare.commands.names import scenario_argument
 
@@ -57,7 +63,7 @@ def hands(scenario: str, tosses: int, seed: int, engine: str, as_json: bool, **g
             told = {"hand": asdict(hand), "caught": described.ending.caught}
             told |= {"tosses": tosses, "seed": seed, "engine": engine}
             kind = "ended" if hand.spun else "same_side"
-            click.echo(json.dumps({**told, kind: {k: asdict(v) for k, v in shares.items()}}, indent=1))
+            print_json({**told, kind: {k: asdict(v) for k, v in shares.items()}}, engine)
             return
         for name, one in shares.items():
             click.echo(f"{name:9} {one.value:7.2%} [{one.low:.2%}, {one.high:.2%}] of {one.count:,d} tosses")

@@ -1,6 +1,5 @@
 """`cointoss shares`: how often a coin ends how, along fields of the scenario."""
 
-import json
 import shutil
 import sys
 import threading
@@ -20,6 +19,7 @@ from cointoss.compare.commands.common import (
     Quantity,
     engine_option,
     plain_errors,
+    print_json,
     say,
 )
 from cointoss.compare.commands.hand_options import chosen_hand, hand_options
@@ -186,7 +186,7 @@ def _tosser(scheduler: str | None) -> "Iterator[Tosser]":
 def _print(found: "Shares", scenario: str, as_json: bool) -> None:
     """Print the shares."""
     if as_json:
-        click.echo(json.dumps({"scenario": scenario, **found.as_json()}, indent=1))
+        print_json({"scenario": scenario, **found.as_json()}, *found.plan.engines)
         return
     import numpy as np
 

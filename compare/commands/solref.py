@@ -1,13 +1,12 @@
 """`cointoss solref`: settings of MuJoCo for a bounce, and the bounce of given settings."""
 
-import json
 from dataclasses import asdict
 from math import floor, isfinite, log10
 from typing import TYPE_CHECKING
 
 import click
 
-from cointoss.compare.commands.common import Count, Given, Quantity, naming_options, plain_errors
+from cointoss.compare.commands.common import Count, Given, Quantity, naming_options, plain_errors, print_json
 
 if TYPE_CHECKING:
     from cointoss.coin_mj.bounces.inverse import Rebounds
@@ -120,7 +119,7 @@ def solref(
                     backend=backend or "mujoco",
                 )
         if as_json:
-            click.echo(json.dumps(asdict(found), indent=1))
+            print_json(asdict(found), "mujoco")
         elif isinstance(found, coin_mj.Rebounds):
             click.echo(_rebounds(found))
         else:

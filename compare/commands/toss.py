@@ -1,6 +1,5 @@
 """`cointoss toss`: one toss, printed."""
 
-import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from cointoss.compare.commands.common import (
     contact_option,
     engine_option,
     plain_errors,
+    print_json,
 )
 from cointoss.compare.commands.names import scenario_argument
 
@@ -98,9 +98,7 @@ def toss(
             made = {
                 "scenario": described.as_tables(),
                 "settings": settings.as_dict(),
-                "versions": Engine(engine).versions,
             }
-            fields = {**answer.as_json(result), **made, **({"margin": told} if margin else {})}
-            click.echo(json.dumps(fields, indent=1, allow_nan=False))
+            print_json({**answer.as_json(result), **made, **({"margin": told} if margin else {})}, engine)
         else:
             click.echo("\n".join([answer.as_lines(result, whole=whole), *(item.line for item in extra)]))

@@ -1,7 +1,4 @@
-"""The restitution between two geoms over their speed, as a picture, a table and JSON."""
-
-import json
-from dataclasses import asdict
+"""The restitution between two geoms over their speed, as a picture and a table."""
 
 import numpy as np
 from matplotlib import rc_context
@@ -43,19 +40,6 @@ def bounce_table(found: PairBounce) -> str:
         )
     ]
     return "\n".join([head, *lines])
-
-
-def bounce_json(found: PairBounce) -> str:
-    """Return what was found as JSON, with null where there is no number."""
-    return json.dumps({name: _plain(value) for name, value in asdict(found).items()}, indent=1)
-
-
-def _plain(value: object) -> object:
-    if not isinstance(value, np.ndarray):
-        return value
-    plain = value.astype(object)
-    plain[np.isnan(value)] = None
-    return plain.tolist()
 
 
 def _range(values: Array) -> str:

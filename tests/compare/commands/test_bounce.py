@@ -18,6 +18,7 @@ def test_a_table_a_picture_and_numbers(tmp_path, monkeypatch):
     assert len(shown.splitlines()) == 3 + 7 + 2
     assert (tmp_path / "e.png").read_bytes().startswith(b"\x89PNG")
     found = json.loads(cointoss("bounce", "model.xml", "0", "ball", "--json").stdout)
+    assert "mujoco" in found["versions"]
     assert len(found["restitutions"]) == len(found["speeds"]) == 6
     (tmp_path / "bad.xml").write_text("<mujoco><a/></mujoco>")
     assert "bad.xml: accepted: an XML file that MuJoCo loads (" in refused("bounce", "bad.xml", "a", "b")

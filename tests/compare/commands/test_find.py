@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 
+from cointoss import __version__
 from cointoss.compare.find.window import window_of
 from cointoss.models.parts import LARGEST
 from cointoss.models.reading import load, parse
@@ -22,6 +23,7 @@ def test_what_is_printed_or_written_is_the_scenario_of_the_toss(tmp_path):
     tossed = json.loads(cointoss("toss", out, "--json").stdout)
     assert tossed["sequence"].startswith("HT")
     told = json.loads(cointoss("find", "fig24a", "--sequence", "HT", *VARY, "--json").stdout)
+    assert told["versions"]["cointoss"] == __version__
     assert told["found"]["release"]["position"] == list(load(out).release.position)
     assert told["margins"]["release.position.z"]["down"] > 0
     assert told["trusted"] == 2

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from cointoss import load
+from cointoss import __version__, load
 from tests.helpers.command_line import cointoss, refused
 
 COIN = """[coin]\nmass = "5 g"\nradius = "12.5 mm"\nthickness = "2 mm"
@@ -30,6 +30,7 @@ def test_values_a_verdict_and_files(tmp_path):
     assert lines[5] == "seen        4 touches; 3 values fitted"
     assert (tmp_path / "fit.png").read_bytes().startswith(b"\x89PNG")
     found = json.loads(cointoss(*CALL, *FREE, "--sd-time", "1 ms", "--json").stdout)
+    assert found["versions"]["cointoss"] == __version__
     assert load("found.toml").floor.restitution == found["values"]["floor.restitution"]["value"]
     assert found["scenario"] == load("found.toml").as_tables()
     assert found["possible"]

@@ -43,5 +43,6 @@ def test_given_settings_are_turned_round():
     assert 'mixed       solref="0.015 0.685" solimp="0.9 0.95 0.001 0.5 2"\n' in shown
     assert "by formula 0.2155" in shown
     found = json.loads(cointoss(*asked, "--integrator", "RK4", "--solimp", "0.9999 0.9999", "--json").stdout)
+    assert "mujoco" in found["versions"]
     assert found["integrator"] == "RK4"
     assert found["formula"]["restitution"] == pytest.approx(0.2155, abs=1e-4)

@@ -199,4 +199,5 @@ def test_the_command_counts_what_a_hand_tosses():
     assert answered.stdout.splitlines()[-1] == "at rest   100.00% [90.04%, 100.00%] of 60 tosses"
     told = json.loads(cointoss(*arguments, "--json").stdout)
     assert told["hand"]["psi"] == pytest.approx(np.pi / 3)
+    assert "cointoss" in told["versions"]
     assert told["same_side"]["at rest"]["value"] == 1
