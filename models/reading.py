@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from cointoss.models.bounded import TooLargeError, read_bounded
-from cointoss.models.errors import ScenarioError, describe, require_type
+from cointoss.models.errors import FieldError, ScenarioError, describe, require_type
 from cointoss.models.scenario import Scenario
 from cointoss.models.unused import warn_of_unused_fields
 
@@ -18,6 +18,8 @@ MOST_BYTES = 1 << 16
 """Of a scenario's file."""
 LONGEST_LINE = 2000
 """Characters: what takes one line, as a key, could be nested too deeply for the memory."""
+FORMAT = 1
+"""Of the file of a scenario or a hand, its field `format`; a file without one is of format 1."""
 
 ScenarioSource = Scenario | str | PathLike[str]
 """A scenario, the path of its file, or the name of one that comes with the package."""
@@ -137,7 +139,7 @@ def parse(text: str, source: str) -> Scenario:
 
 
 def tables_of(text: str, source: str) -> dict[str, Any]:
-    """Return what TOML says, of lines that are not too long.
+    """Return what TOML of this format says, of lines that are not too long.
 
     Raises:
         ScenarioError: naming the source and what is accepted.
@@ -147,8 +149,14 @@ def tables_of(text: str, source: str) -> dict[str, Any]:
             few = f"accepted: at most {LONGEST_LINE}"
             raise ScenarioError(f"{source}: line {number} has {len(line)} characters; {few}")
     try:
-        return tomllib.loads(text)
+        tables = tomllib.loads(text)
     except RecursionError:
         raise ScenarioError(f"{source}: nested too deeply; accepted: tables of numbers and lists") from None
     except tomllib.TOMLDecodeError as error:
         raise ScenarioError(f"{source}: not TOML: {error}; accepted: TOML") from None
+    number = tables.pop("format", FORMAT)
+    # True == 1.
+    if type(number) is not int or number != FORMAT:
+        wrong = FieldError("format", number, f"{FORMAT}, or no such field; a newer cointoss may read others")
+        raise ScenarioError(f"{source}: {wrong}")
+    return tables

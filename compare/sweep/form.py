@@ -142,8 +142,10 @@ def _description(folder: Path) -> dict[str, Any]:
 def _form(folder: Path) -> Form:
     described = _description(folder)
     attributes = described.get("attributes")
-    if not isinstance(attributes, dict) or attributes.get("cointoss_map") != FORMAT:
-        raise FormError(f"attribute cointoss_map is not {FORMAT}")
+    if not isinstance(attributes, dict) or "cointoss_map" not in attributes:
+        raise FormError("attribute cointoss_map missing")
+    if (number := attributes["cointoss_map"]) != FORMAT:
+        raise FormError(f"attribute cointoss_map = {shown(number)}, not {FORMAT}")
     for name, kind in _ATTRIBUTES.items():
         if name not in attributes:
             raise FormError(f"attribute {name} missing")

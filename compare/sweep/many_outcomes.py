@@ -19,6 +19,8 @@ from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.releases import Releases
 from cointoss.models.stages import stage
 
+FORMAT = 1
+"""Of a store, under the attribute `cointoss_tosses`."""
 STORED = 1 << 20
 """Tosses in a file of an array."""
 
@@ -67,6 +69,7 @@ def toss_to_zarr(
             outcomes = package.toss_many(described, chunk, **asked)
             if store is None:
                 about = {
+                    "cointoss_tosses": FORMAT,
                     "scenario": described.to_toml(),
                     "engine": str(engine),
                     "engine_settings": settings.as_dict(),

@@ -108,7 +108,8 @@ def test_a_spun_coin_touches_the_floor_and_turns_about_the_vertical(scenario):
 
 def test_a_hand_is_read_from_a_file(tmp_path):
     file = tmp_path / "hand.toml"
-    file.write_text('spin = "25 rad/s"\npsi_scatter = "10 deg"\nspun = true\nscatter = 0.05\nup = "either"\n')
+    text = 'spin = "25 rad/s"\npsi_scatter = "10 deg"\nspun = true\nscatter = 0.05\nup = "either"\n'
+    file.write_text(f"format = 1\n{text}")
     expected = Hand(spin=25.0, psi_scatter=np.radians(10), spun=True, scatter=0.05, up="either")
     assert load_hand(file) == expected
 
@@ -118,6 +119,7 @@ def test_a_hand_is_read_from_a_file(tmp_path):
     [
         ('spin = "25 m"', 'spin = "25 m": accepted: a number in rad/s'),
         ("spin = -1", "spin = -1: accepted: a spin of 0 or more"),
+        ("format = 2\nspun = 1", "format = 2: accepted: 1, or no such field"),
         ("sping = 3", "sping = 3: accepted: one of height, speed, spin, "),
         ("spin = true", "spin = True: accepted: a number"),
         ('up = "tails"', 'up = "tails": accepted: heads or either'),

@@ -314,6 +314,20 @@ def test_of_many_wrong_fields_the_first_are_named():
     assert message.endswith(" (also wrong: key1, key2, key3, key4, key5, key6, key7, key8, and 491 more)")
 
 
+def test_a_file_may_say_its_format():
+    assert parse(f"format = 1\n{GOOD}", "mine.toml") == parse(GOOD, "mine.toml")
+    assert "format" not in parse(GOOD, "mine.toml").as_tables()
+
+
+@pytest.mark.parametrize("number", ["2", "0", "1.0", "true", '"1"', "[1]"])
+def test_a_file_of_another_format_is_refused_by_its_number_alone(number):
+    """What it says is not looked at: its fields may mean something else."""
+    with pytest.raises(ScenarioError) as raised:
+        parse(f"format = {number}\nmade_of = 'gold'\n{GOOD}", "new.toml")
+    told = "1, or no such field; a newer cointoss may read others"
+    assert str(raised.value) == f"new.toml: format = {number.title()}: accepted: {told}"
+
+
 def test_a_scenario_made_in_python_is_refused_as_its_file_is():
     tables = tomllib.loads(scenario_text("fig24a"))
     assert Scenario(**tables) == load("fig24a")

@@ -311,7 +311,7 @@ ATTRIBUTES = {
     "attribute trust = 1": {"trust": 1},
     "array outcome_certain missing": {"trust": True},
     "array trusted_impacts missing": {"trust": True, "after": 3},
-    "(attribute cointoss_map is not 1)": {"cointoss_map": 2},
+    "(attribute cointoss_map = 2, not 1)": {"cointoss_map": 2},
     "attribute versions missing": {"versions": GONE},
     'attribute versions = "1"': {"versions": "1"},
 }

@@ -6,6 +6,7 @@ import xarray
 
 from cointoss import Hand, analytic, load, toss_to_zarr
 from cointoss.compare.output.files import UnwritableError
+from cointoss.compare.sweep.many_outcomes import FORMAT
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.reading import parse
 
@@ -27,6 +28,7 @@ def test_the_store_has_what_toss_many_returns(tmp_path):
         assert "outcome_certain" not in found
         assert found.outcome.attrs["flag_meanings"].split()[:3] == ["undecided", "heads", "tails"]
         assert parse(found.attrs["scenario"], "store") == COIN
+        assert found.attrs["cointoss_tosses"] == FORMAT
 
 
 def test_what_was_finished_is_kept_where_it_is_interrupted(tmp_path):
