@@ -59,11 +59,13 @@ paper: $(VENV)/.ready-docs
 
 VERSION = $(shell sed -n 's/^version = "\(.*\)"$$/\1/p' pyproject.toml)
 
-# A release is of what is committed, has a section in CHANGELOG with its date, and is new.
+# A release is of what is committed, has a section in CHANGELOG with its date, and files for later ones to read; it is new.
 releasable:
 	@test -z "$$(git status --porcelain)" || { echo "make release: commit first, or put aside:"; git status --short; exit 1; } >&2
 	@grep -Eq '^## $(VERSION), [0-9]{4}-[0-9]{2}-[0-9]{2}$$' docs/CHANGELOG.md \
 	  || { echo "make release: docs/CHANGELOG.md needs a heading \"## $(VERSION), YYYY-MM-DD\""; exit 1; } >&2
+	@test -d tests/releases/$(VERSION)/made \
+	  || { echo "make release: tests/releases/$(VERSION)/ needs files of this release; docs/CONTRIBUTING.md says how"; exit 1; } >&2
 	@! git rev-parse -q --verify refs/tags/v$(VERSION) >/dev/null \
 	  || { echo "make release: v$(VERSION) is tagged; pyproject.toml needs another version"; exit 1; } >&2
 

@@ -53,6 +53,12 @@ def test_a_long_step_says_that_it_runs_and_ends_as_its_command_does(tmp_path):
         (
             "",
             "## 0.3.1, 2027-01-31",
+            "",
+            "make release: tests/releases/0.3.1/ needs files of this release; docs/CONTRIBUTING.md says",
+        ),
+        (
+            "",
+            "## 0.3.1, 2027-01-31",
             "refs/tags/v0.3.1",
             "make release: v0.3.1 is tagged; pyproject.toml needs another version\n",
         ),
@@ -67,6 +73,8 @@ esac
 """
     (tmp_path / "git").write_text(git)
     (tmp_path / "git").chmod(0o755)
+    if "tests/releases" not in says:
+        (tmp_path / "tests" / "releases" / "0.3.1" / "made").mkdir(parents=True)
     (tmp_path / "docs").mkdir()
     (tmp_path / "docs" / "CHANGELOG.md").write_text(f"# Changelog\n\n{heading}\n\n## 0.3.0, 2026-12-24\n")
     (tmp_path / "pyproject.toml").write_text('[project]\nname = "a"\nversion = "0.3.1"\n')

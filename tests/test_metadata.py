@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 from yaml import safe_load
 
-from cointoss.compare.sweep.form import FORMAT
+from cointoss.compare.sweep import form, many_outcomes
+from cointoss.models import reading
 
 TOP = Path(__file__).parents[1]
 PROJECT = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -56,6 +57,8 @@ def test_the_name_of_the_index_and_the_python_are_in_codemeta():
     assert said_by("CITATION.cff")["title"].startswith("cointoss: ")
 
 
-def test_support_has_the_number_of_the_form_of_a_map():
+def test_support_has_the_numbers_of_the_files_that_are_kept():
     page = (TOP / "docs" / "SUPPORT.md").read_text(encoding="utf-8")
-    assert f"the attribute `cointoss_map`, now {FORMAT} |" in page
+    assert f"the attribute `cointoss_map`, now {form.FORMAT} |" in page
+    assert f"the attribute `cointoss_tosses`, now {many_outcomes.FORMAT} |" in page
+    assert f"the field `format`, now {reading.FORMAT}; without it, 1 |" in page
