@@ -5,7 +5,6 @@ import inspect
 import pydoc
 import re
 import shutil
-import subprocess
 import sys
 import tomllib
 from importlib import import_module
@@ -17,7 +16,7 @@ import pytest
 import cointoss
 from cointoss.compare.report.comparison import compare
 from cointoss.models.distribution import DISTRIBUTION
-from tests.helpers.command_line import HERE
+from tests.helpers.command_line import python
 
 TOP = Path(__file__).parents[1]
 PACKAGES = ("models", "analytic", "coin_mj", "compare")
@@ -51,7 +50,7 @@ def test_a_star_brings_the_public_names():
     script = (
         "from cointoss import *\nimport cointoss\nprint(*(n for n in dir(cointoss) if n not in globals()))"
     )
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env=HERE)
+    done = python("-c", script)
     assert (done.stdout, done.stderr) == ("__version__\n", "")
 
 
@@ -67,7 +66,7 @@ def test_a_bare_name_in_a_checkout_gives_the_same_objects():
         "bare = ('models', 'analytic', 'coin_mj', 'compare')\n"
         "assert not [m for m in sys.modules.values() if m.__name__.partition('.')[0] in bare]\n"
     )
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=TOP)
+    done = python("-c", script, folder=TOP)
     assert (done.returncode, done.stderr) == (0, "")
 
 
@@ -80,7 +79,7 @@ def test_a_bare_name_in_a_checkout_gives_the_same_objects():
     ],
 )
 def test_a_bare_name_that_is_run_is_answered_in_one_line(name, line):
-    done = subprocess.run([sys.executable, "-m", name], capture_output=True, text=True, cwd=TOP)
+    done = python("-m", name, folder=TOP)
     assert (done.returncode, done.stdout) == (1, "")
     assert done.stderr.count("\n") == 1
     assert done.stderr.endswith(f"{line}\n")
@@ -96,10 +95,7 @@ def test_without_links_the_folders_are_found_beside_or_one_line_says_what_to_do(
         if beside:
             shutil.copytree(TOP / name, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__"))
     script = "import cointoss; print(cointoss.load('fig24a').coin.radius, cointoss.Scenario.__module__)"
-    env = {**HERE, "PYTHONPATH": str(tmp_path)}
-    done = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, cwd=tmp_path, env=env
-    )
+    done = python("-c", script, folder=tmp_path, PYTHONPATH=str(tmp_path))
     if beside:
         assert (done.returncode, done.stdout) == (0, "0.0125 cointoss.models.scenario\n")
     else:
@@ -117,7 +113,7 @@ def test_each_public_name_says_what_it_is():
 
 def test_an_unknown_name_is_answered_with_the_names_there_are():
     script = "import cointoss; cointoss.Coins"
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env=HERE)
+    done = python("-c", script)
     accepted, meant = r"accepted: Air, .* Coin, .*, toss_to_zarr\.", r"Did you mean: 'Coin'\?"
     said = rf"AttributeError: cointoss has no Coins; {accepted} {meant}"
     assert re.fullmatch(said, done.stderr.splitlines()[-1])
@@ -150,27 +146,19 @@ def test_the_package_compare_is_described_as_the_function_once_it_is_asked():
     assert f"compare{inspect.signature(compare)}\n" in described
     assert "mujoco: MuJoCo's settings" in described
     script = "import sys, cointoss.compare; assert 'numpy' not in sys.modules"
-    subprocess.run([sys.executable, "-c", script], check=True, env=HERE)
+    assert python("-c", script).returncode == 0
 
 
 def test_import_cointoss_imports_next_to_nothing():
     script = "import sys; before = set(sys.modules); import cointoss; print(*set(sys.modules) - before)"
-    done = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True, env=HERE
-    )
-    imported = set(done.stdout.split())
+    imported = set(python("-c", script).stdout.split())
     assert {name.partition(".")[0] for name in imported} - sys.stdlib_module_names == {"cointoss"}
     assert "importlib.metadata" not in imported
 
 
-def run(folder, *words, module="cointoss"):
-    command = [sys.executable, "-m", module, *words]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, env=HERE)
-
-
 def test_the_package_runs_the_command(tmp_path):
     for module in ("cointoss", "cointoss.compare.cli"):
-        done = run(tmp_path, "--version", module=module)
+        done = python("-m", module, "--version", folder=tmp_path)
         assert (done.returncode, done.stdout) == (0, f"cointoss, version {version(DISTRIBUTION)}\n")
 
 
@@ -179,14 +167,14 @@ def test_a_public_name_brings_what_shows_progress(name):
     script = (
         f"import sys, cointoss; cointoss.{name}; print('cointoss.compare.output.progress' in sys.modules)"
     )
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env=HERE)
+    done = python("-c", script)
     assert (done.stdout, done.stderr) == ("True\n", "")
 
 
 def test_beside_foreign_packages_of_such_names_it_works(tmp_path):
     for name in PACKAGES:
         (tmp_path / f"{name}.py").write_text("raise RuntimeError('foreign')\n")
-    done = run(tmp_path, "--version")
+    done = python("-m", "cointoss", "--version", folder=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
 
 

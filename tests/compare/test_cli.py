@@ -9,7 +9,7 @@ from click.testing import CliRunner
 
 from cointoss.compare.cli import main
 from cointoss.models.reading import named_scenarios, scenario_text
-from tests.helpers.command_line import HERE, cointoss, in_a_shell, refused
+from tests.helpers.command_line import HERE, cointoss, in_a_shell, python, refused
 
 WRONG = {
     "syntax": "gravity = = 3",
@@ -166,7 +166,8 @@ def test_a_command_imports_no_more_than_it_needs(words, needed, tmp_path):
             f"assert CliRunner().invoke(main, {words.format(tmp_path / folder).split()}).exit_code == 0\n"
             "print(*sys.modules)"
         )
-        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+        done = python("-c", script)
+        assert done.returncode == 0, done.stderr
         imported = set(done.stdout.split())
     assert HEAVY & imported <= needed
     assert not {"scipy.integrate", "scipy.optimize", "scipy.special", "scipy.stats"} & imported

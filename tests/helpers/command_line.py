@@ -26,6 +26,19 @@ def refused(*arguments: object) -> str:
     return answered.stderr
 
 
+def python(
+    *words: object, folder: Path | None = None, **environment: str
+) -> "subprocess.CompletedProcess[str]":
+    """Run Python, which finds this checkout, with more in its environment, and return what it answers."""
+    return subprocess.run(
+        [sys.executable, *map(str, words)],
+        cwd=folder,
+        env={**HERE, **environment},
+        capture_output=True,
+        text=True,
+    )
+
+
 def in_a_shell(command, folder):
     """Run a shell's line in a folder, `cointoss` being the command."""
     line = f'cointoss() {{ "{sys.executable}" -m cointoss "$@"; }}; {command}'

@@ -1,14 +1,12 @@
 """Plain mode: compiled by what numba makes public, to the same bits; and nothing compiled at all."""
 
 import json
-import subprocess
-import sys
 
 import pytest
 
 from cointoss.models.kernel.fork import TESTED
 from cointoss.models.kernel.vectors import solve
-from tests.helpers.command_line import HERE
+from tests.helpers.command_line import python
 
 SOLVED = """
 import sys
@@ -22,12 +20,7 @@ MATRIX, VECTOR = ((2.0, 0.1, 1.0), (0.3, 3.0, 0.0), (0.5, 0.0, 4.0)), (1.0, 2.0,
 
 def run(cache, *words, **environment):
     """Run Python with a cache of its own."""
-    done = subprocess.run(
-        [sys.executable, *words],
-        env={**HERE, "NUMBA_CACHE_DIR": str(cache), **environment},
-        capture_output=True,
-        text=True,
-    )
+    done = python(*words, NUMBA_CACHE_DIR=str(cache), **environment)
     assert done.returncode == 0, done.stderr
     return done
 
@@ -60,12 +53,7 @@ def test_plain_mode_gives_the_same_bits_and_says_once_why(tmp_path, first, asked
     ],
 )
 def test_another_compiler_is_refused_in_one_line(words, status, begins):
-    done = subprocess.run(
-        [sys.executable, *words],
-        env={**HERE, "COINTOSS_COMPILER": "nonsense"},
-        capture_output=True,
-        text=True,
-    )
+    done = python(*words, COINTOSS_COMPILER="nonsense")
     *above, line = done.stderr.splitlines()
     assert (done.returncode, done.stdout) == (status, "")
     assert line == f"{begins}COINTOSS_COMPILER = 'nonsense': accepted: plain, or unset"
@@ -82,9 +70,7 @@ def test_a_toss_in_plain_mode_is_the_same_to_the_bit(tmp_path, engine):
 
 def test_without_a_compiler_mujoco_is_refused_in_one_line():
     words = ("-m", "cointoss", "toss", "fig24a", "--engine", "mujoco")
-    done = subprocess.run(
-        [sys.executable, *words], env={**HERE, "NUMBA_DISABLE_JIT": "1"}, capture_output=True, text=True
-    )
+    done = python(*words, NUMBA_DISABLE_JIT="1")
     (line,) = done.stderr.splitlines()
     assert (done.returncode, done.stdout) == (2, "")
     assert "NUMBA_DISABLE_JIT" in line

@@ -1,13 +1,10 @@
 """Quantities in SI: units written often are read without pint, to the same bit."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 
 from cointoss.models import units
-from tests.helpers.command_line import HERE
+from tests.helpers.command_line import python
 
 
 @pytest.mark.parametrize(
@@ -71,4 +68,4 @@ def test_pint_is_imported_for_other_units_alone():
         "assert in_si('2 g', 'kg') == 0.002 and 'pint' not in sys.modules\n"
         "assert in_si('1 inch', 'm') == 0.0254 and 'pint' in sys.modules"
     )
-    subprocess.run([sys.executable, "-c", script], env=HERE, check=True)
+    assert python("-c", script).returncode == 0

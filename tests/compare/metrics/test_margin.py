@@ -1,8 +1,6 @@
 """The margin of a toss: its change changes the outcome, and a smaller one does not."""
 
 import json
-import subprocess
-import sys
 from dataclasses import fields
 
 import numpy as np
@@ -25,7 +23,7 @@ from cointoss.compare.reproduction.setups.planar_maps import releases
 from cointoss.compare.sweep import grid
 from cointoss.models.reading import load
 from cointoss.models.releases import Releases
-from tests.helpers.command_line import cointoss
+from tests.helpers.command_line import cointoss, python
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
@@ -106,9 +104,7 @@ def test_long_arithmetic_is_imported_only_where_a_margin_is_proved(tmp_path, is_
         "print([name for name in sys.modules if 'reproduction' in name or 'flint' in name])); "
         f"main.main(['toss', {scenario!r}, '--margin'])"
     )
-    ran = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=True
-    )
+    ran = python("-c", code)
     *lines, imported = ran.stdout.splitlines()
     assert sum(line.startswith("margin") for line in lines) == len(QUANTITIES)
     assert ("proved to be above" in ran.stdout) == is_planar

@@ -5,8 +5,6 @@ import io
 import json
 import re
 import shlex
-import subprocess
-import sys
 from html import unescape
 
 import numpy as np
@@ -29,7 +27,7 @@ from cointoss.compare.sweep.store import opened
 from cointoss.models.reading import parse
 from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import SCENARIO, basin, sweep_of
-from tests.helpers.command_line import HERE, cointoss
+from tests.helpers.command_line import cointoss, python
 from tests.helpers.made_maps import halves
 
 COIN = f"{SCENARIO}[ending]\nmax_impacts = 2\n"
@@ -188,8 +186,5 @@ def test_a_back_end_for_drawing_is_chosen_before_mujoco_is_imported(coin, tmp_pa
         "main()"
     )
     asked = ("--x", X, "--y", Y, "--compare", "--resume", "--out", "map.zarr", "--report", "report")
-    done = subprocess.run(
-        [sys.executable, "-c", script, "basin", coin, *asked],
-        **{"env": HERE, "cwd": tmp_path, "capture_output": True, "text": True, "check": False},
-    )
+    done = python("-c", script, "basin", coin, *asked, folder=tmp_path)
     assert done.stderr == "imported: False\n"
