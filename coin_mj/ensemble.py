@@ -7,7 +7,6 @@ import numpy as np
 from cointoss.coin_mj.events import toss_coin
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
-from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import MANY, Budgets, Settings
 from cointoss.coin_mj.model.state import put_at
 from cointoss.coin_mj.toss import require_supported, warn_of_approximation
@@ -70,13 +69,11 @@ def toss_many(
         raise UnsupportedError("certain = True: accepted by the MuJoCo engine: False")
     warn_of_approximation(described)
     check_releases(described, releases)
-    thickness, rules = shape_thickness(described), described.rules
-
-    of_thread = threading.local()
+    of_thread, rules = threading.local(), described.rules
 
     def toss_tile(tile: Tile) -> None:
         if not hasattr(of_thread, "machine"):
-            of_thread.machine = machine_of(described, settings, thickness)
+            of_thread.machine = machine_of(described, settings)
         _toss_each(of_thread.machine.coin, of_thread.machine.plastic, rules, settings.budgets, tile)
 
     with stage("tossing by MuJoCo", "tosses", shown=progress) as tell:

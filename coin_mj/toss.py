@@ -135,7 +135,7 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
 
 
 def _toss(scenario: Scenario, settings: Settings) -> Toss:
-    machine = machine_of(scenario, settings, shape_thickness(scenario))
+    machine = machine_of(scenario, settings)
     answer = run(machine, scenario.rules)
     impacts = Impacts.from_rows(answer.rows)
     path = Knots(machine=machine, knots=answer.knots, restitution=scenario.floor.restitution)
@@ -195,7 +195,7 @@ def impacts_of(
         thickness: of the coin's shape, by default `shape_thickness` [m].
         softer: by which the contacts are softened, see `Settings.softened`.
     """
-    machine = machine_of(scenario, settings, thickness or shape_thickness(scenario), softer)
+    machine = machine_of(scenario, settings, thickness, softer)
     return Impacts.from_rows(interruptible(lambda: run(machine, scenario.rules)).rows)
 
 

@@ -13,7 +13,7 @@ from cointoss.coin_mj.model.compiled_air import air_address
 from cointoss.coin_mj.model.library import require_compiled_code, require_no_contact_filter
 from cointoss.coin_mj.model.memory import OF_ROWS, in_contact, joint_arrays, offset_of, require_layout
 from cointoss.coin_mj.model.mujoco_coin import ADDRESSES, MujocoCoin
-from cointoss.coin_mj.model.scene import build, floor_height
+from cointoss.coin_mj.model.scene import build, floor_height, shape_thickness
 from cointoss.coin_mj.model.settings import (
     Friction,
     Realisation,
@@ -60,13 +60,15 @@ class Machine(NamedTuple):
     """The same coin where a touch is plastic: one step with χ = 0, which no spring has."""
 
 
-def machine_of(scenario: Scenario, settings: Settings, thickness: float, softer: float = 1.0) -> Machine:
+def machine_of(
+    scenario: Scenario, settings: Settings, thickness: float | None = None, softer: float = 1.0
+) -> Machine:
     """Return the MuJoCo coin of a scenario at its release.
 
     Args:
         scenario: what to toss.
         settings: how MuJoCo realises the floor, made `resolved`.
-        thickness: of the coin's shape [m].
+        thickness: of the coin's shape, by default `shape_thickness` [m].
         softer: then softened by this part, see `Settings.softened`.
 
     Raises:
@@ -76,6 +78,7 @@ def machine_of(scenario: Scenario, settings: Settings, thickness: float, softer:
     require_compiled_code()
     require_no_contact_filter()
     require_layout(*in_contact())
+    thickness = thickness or shape_thickness(scenario)
     floor, unit = scenario.floor, _mass_unit(scenario.body)
     rate = math.sqrt(scenario.gravity / scenario.coin.radius)
     settings = resolved(settings, floor.restitution, rate).softened(softer)

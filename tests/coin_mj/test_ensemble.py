@@ -12,7 +12,6 @@ from cointoss import coin_mj
 from cointoss.coin_mj import MANY, Friction, Realisation, Settings
 from cointoss.coin_mj.ensemble import TILE
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.toss import run
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.records import ApproximationWarning, Ending, UnsupportedError
@@ -32,7 +31,7 @@ def assert_each_is_a_toss(
     for i, release in enumerate(drawn):
         one = case.replace("release", release)
         # What `toss` makes its record of; it also tosses softer coins, for its horizon of trust.
-        assert_same_toss(outcomes, i, run(machine_of(one, settings, shape_thickness(one)), one.rules))
+        assert_same_toss(outcomes, i, run(machine_of(one, settings), one.rules))
 
 
 @pytest.mark.parametrize("law", ["smooth", "coulomb", "perfectly_rough"])

@@ -11,7 +11,6 @@ import pytest
 
 from cointoss.coin_mj import FINE, MANY
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import resolved
 from cointoss.coin_mj.path import MOTION, STEP
 from cointoss.coin_mj.steps.knots import Step
@@ -56,7 +55,7 @@ def extreme(seed: int) -> Scenario:
 
 def logged(case: Scenario, settings: Any) -> tuple[Any, np.ndarray, np.ndarray]:
     """A toss, its energies before all steps but those of impacts, and its depths in sustained contact [r]."""
-    machine = machine_of(case, settings, shape_thickness(case))
+    machine = machine_of(case, settings)
     answer = run(machine, case.rules)
     q, v = answer.knots[:, MOTION][:, :7], answer.knots[:, MOTION][:, 7:]
     e0, e1, e2, e3 = q[:, 3:].T
@@ -139,7 +138,7 @@ def test_a_rod_lands_in_few_steps():
 def test_the_mass_cancels_however_small_it_is():
     """Without air a coin's motion does not know its mass; impulses are in proportion to it."""
     light, heavy = (
-        run(machine_of(case, MANY, shape_thickness(case)), case.rules)
+        run(machine_of(case, MANY), case.rules)
         for case in (
             scenario(
                 coin={"mass": mass, "radius": 1e-3, "thickness": 1e-4},
@@ -169,7 +168,7 @@ def test_a_plastic_touch_takes_all_normal_motion_and_the_coin_comes_to_rest(law)
         release={"angles": [0, 0.4, 0], "angular_velocity": [3, 9, 2]},
     )
     for settings in (FINE, MANY):
-        answer = run(machine_of(case, settings, shape_thickness(case)), case.rules)
+        answer = run(machine_of(case, settings), case.rules)
         before, after = answer.rows["contact_velocity_before"], answer.rows["contact_velocity_after"]
         assert len(answer.rows) >= 1
         assert np.abs(after[:, 2]).max() < 1e-3 * np.abs(before[0, 2])
@@ -186,7 +185,7 @@ def test_a_coin_that_bounces_comes_to_lie_flat_on_the_floor(law, chi):
         release={"position": [0, 0, 0.05], "angles": [0, 0.4, 0], "angular_velocity": [3, 9, 2]},
         ending={"test": "lying"},
     )
-    answer = run(machine_of(case, MANY, shape_thickness(case)), case.rules)
+    answer = run(machine_of(case, MANY), case.rules)
     z, e1, e2 = (answer.knots[-1, MOTION][i] for i in (2, 4, 5))
     sine = np.hypot(e1, e2)
     tilt = 2 * (np.arcsin(sine) if answer.outcome == Outcome.HEADS else np.arccos(min(sine, 1)))

@@ -15,7 +15,6 @@ from cointoss import coin_mj
 from cointoss.coin_mj import MANY
 from cointoss.coin_mj.model.library import PATH
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.toss import impacts_of, run
 from cointoss.models.records import UnusableEngineError
 from cointoss.models.releases import Releases
@@ -150,7 +149,7 @@ def test_where_the_user_filters_contacts_no_coin_is_tossed(make):
 
 def test_a_toss_sets_the_time_of_mujoco_and_says_it_to_those_who_wait(monkeypatch):
     described, told = scenario(ending={"max_impacts": 3}), []
-    machine = machine_of(described, MANY, shape_thickness(described))
+    machine = machine_of(described, MANY)
     toss_coin = sys.modules["cointoss.coin_mj.toss"].toss_coin
 
     def told_after(*arguments):

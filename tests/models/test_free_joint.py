@@ -8,7 +8,6 @@ import pytest
 
 from cointoss import Releases, analytic, load
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import FINE
 
 MJ: Any = mujoco
@@ -25,7 +24,7 @@ def random_joint(n, seed=0):
 def test_the_mass_centre_is_where_mujoco_has_it_and_moves_so():
     qpos, qvel = random_joint(5)
     releases = Releases.from_mujoco(qpos, qvel, COIN)
-    machine = machine_of(COIN, FINE, shape_thickness(COIN))
+    machine = machine_of(COIN, FINE)
     model, data = machine.model, machine.data
     body = model.body(model.jnt_bodyid[0]).id
     for i in range(5):

@@ -9,7 +9,6 @@ import pytest
 import cointoss.analytic.air.force
 from cointoss.coin_mj.model.air import PowerLaw, air_force
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import Settings
 from cointoss.coin_mj.steps.constrained_step import forward
 from cointoss.coin_mj.steps.free_step import free_step
@@ -94,7 +93,7 @@ def coin_in_air(b, normal=LN, tangential=LT):
         air={"normal": normal, "tangential": tangential, "exponent": b},
         release=draw_release(np.random.default_rng(1)),
     )
-    return machine_of(case, Settings(), shape_thickness(case))
+    return machine_of(case, Settings())
 
 
 @pytest.mark.parametrize("b", [0.5, 1.0])

@@ -10,7 +10,6 @@ from scipy.optimize import brentq
 from cointoss import analytic, coin_mj
 from cointoss.coin_mj import MANY
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.state import motion_of, set_motion, state_of
 from cointoss.coin_mj.steps.flight import TOUCH_STEP, FlightExit, fly
 from cointoss.coin_mj.steps.free_step import free_rate, free_step, free_step_from, nudge, rates_of_step
@@ -32,7 +31,7 @@ def flying(coin, seed=0, height=0.0, **settings):
     release = draw_release(np.random.default_rng(seed))
     release["position"][2] += height
     case = scenario(coin=coin, air=AIR, release=release, ending={"max_impacts": 1})
-    return case, machine_of(case, replace(MANY, **settings), shape_thickness(case))
+    return case, machine_of(case, replace(MANY, **settings))
 
 
 @compiled
@@ -87,7 +86,7 @@ def test_a_symmetric_top_without_air_turns_exactly_in_a_step_of_any_length(thick
     case = scenario(coin={**ZLOTY, "thickness": thickness}, release=draw_release(np.random.default_rng(4)))
     case = case.replace("release.position", [0.0, 0.0, 5.0])
     turn = 3 / math.hypot(*case.release.angular_velocity)
-    machine = machine_of(case, MANY, shape_thickness(case))
+    machine = machine_of(case, MANY)
     free_step(machine.coin, turn)
     x, v, e, w = map(np.array, state_of(machine.coin)[:4])
     exact = analytic.toss(case).sample([turn])
@@ -165,7 +164,7 @@ def test_the_first_touch_in_a_step_is_that_of_bisection(coin):
 def test_no_touch_is_found_where_a_step_ends():
     """A coin of Fig. 24(a) that has just been released, and moves down again at the end of the step."""
     case = load("fig24a")
-    machine = machine_of(case, MANY, shape_thickness(case))
+    machine = machine_of(case, MANY)
     start = (-0.237, 0.421, 3.1657158e-3, 0.98839466, 0.070338652, -0.052213038, -0.124105907)
     start += (-0.126, 0.226, 0.605490072, -29.154056082, 36.380102787, 17.126660991)
     for duration in np.linspace(0.0151, 0.0153, 300):

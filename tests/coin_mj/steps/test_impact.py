@@ -5,7 +5,6 @@ import pytest
 
 from cointoss import analytic
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import Settings
 from cointoss.coin_mj.model.state import set_motion
 from cointoss.coin_mj.path import MOTION, STEP, TIME
@@ -105,7 +104,7 @@ def force_at(coin, knot):
 
 def test_the_impulse_is_the_integral_of_the_contact_force():
     case, _ = draw_single_impact(np.random.default_rng(43), least=0.2)
-    machine = machine_of(case, Settings(steps=160), shape_thickness(case))
+    machine = machine_of(case, Settings(steps=160))
     answer = run(machine, case.rules)
     assert len(answer.rows) == 1
     pressed = answer.knots[answer.knots[:, STEP] > 0]

@@ -8,7 +8,6 @@ import pytest
 
 from cointoss import coin_mj
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import Friction, Settings
 from cointoss.coin_mj.model.state import state_of
 from cointoss.coin_mj.steps.resistance import PointMotion, resisted_force, shortest_stop
@@ -163,7 +162,7 @@ def eulers_disk(**floor):
             "angular_velocity": [0, rate, 0],
         },
     )
-    machine = machine_of(case, Settings(), shape_thickness(case))
+    machine = machine_of(case, Settings())
     coin, J, time, rows = machine.coin, np.array(case.body.inertia), 0.0, []
     while time < 1.6:
         x, v, e, w, _ = state_of(coin)

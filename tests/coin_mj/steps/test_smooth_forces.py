@@ -11,7 +11,6 @@ import pytest
 from cointoss.coin_mj import MANY
 from cointoss.coin_mj.model.air import PowerLaw, air_force
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.state import set_motion
 from cointoss.coin_mj.steps.constrained_step import IMPACT, constrained_forward, forward
 from cointoss.coin_mj.steps.free_step import free_rate
@@ -36,7 +35,7 @@ def force_of_the_air(case, data):
 def test_forces_and_accelerations_of_flight_are_those_of_mj_forward(center, air):
     rng = np.random.default_rng(8)
     case = scenario(coin={**ZLOTY, "center_of_mass": center}, air=air, release=draw_release(rng))
-    machine = machine_of(case, MANY, shape_thickness(case))
+    machine = machine_of(case, MANY)
     reference = mujoco.MjData(machine.model)
     for _ in range(20):
         # The stages of a step have Euler parameters whose norm is not quite 1.
@@ -61,7 +60,7 @@ def test_forces_and_accelerations_of_flight_are_those_of_mj_forward(center, air)
 def test_after_the_touch_of_an_impact_air_with_b_above_0_acts_as_it_did(air):
     """A contact of 1e-5 s knows of no change of the air; its quadrature would be most of the toss's time."""
     case = scenario(coin=ZLOTY, air=air, release=draw_release(np.random.default_rng(8)))
-    machine = machine_of(case, MANY, shape_thickness(case))
+    machine = machine_of(case, MANY)
     drags = []
     for find in (forward, lambda coin: constrained_forward(coin, IMPACT), forward):
         machine.data.qvel[:] *= 1.5
@@ -75,5 +74,5 @@ def test_after_the_touch_of_an_impact_air_with_b_above_0_acts_as_it_did(air):
 def test_one_code_is_for_all_air():
     """Air with b > 0 is called by its address: else the whole engine would be compiled once more for it."""
     cases = [scenario(coin=ZLOTY, air=air) for air in AIRS.values()]
-    kinds = {numba.typeof(machine_of(case, MANY, shape_thickness(case)).coin) for case in cases}
+    kinds = {numba.typeof(machine_of(case, MANY).coin) for case in cases}
     assert len(kinds) == 1
