@@ -1,9 +1,7 @@
 """The lab as one file: a page with the engine in it, which needs no server and no network."""
 
-from importlib import resources
-
 from cointoss.compare.web.playable import shown_outcomes
-from cointoss.compare.web.scripts import ENGINE_POLICY, one_file, shared_files
+from cointoss.compare.web.scripts import ENGINE_POLICY, files_of, one_file
 from cointoss.compare.web.wasm.carried import engine_data, engine_scripts
 from cointoss.models.records import UnusableEngineError
 from cointoss.models.scenario import Scenario
@@ -21,7 +19,5 @@ def lab_page(scenario: Scenario) -> str:
     data = engine_data(scenario)
     if data is None:
         raise UnusableEngineError("engine.wasm: not built, or of other sources; make docs builds it")
-    page = resources.files("cointoss.compare.lab") / "page"
-    own = {entry.name: entry.read_bytes() for entry in page.iterdir()}
-    files = {**shared_files(), **own, **engine_scripts()}
+    files = {**files_of("cointoss.compare.lab"), **engine_scripts()}
     return one_file(files, {**data, "outcomes": shown_outcomes()}, ENGINE_POLICY)

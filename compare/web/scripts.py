@@ -24,6 +24,12 @@ def shared_files() -> dict[str, bytes]:
     return {entry.name: entry.read_bytes() for entry in entries}
 
 
+def files_of(package: str) -> dict[str, bytes]:
+    """Return the files of a package's page, and those that pages share, by their names."""
+    page = resources.files(package) / "page"
+    return {**shared_files(), **{entry.name: entry.read_bytes() for entry in page.iterdir()}}
+
+
 def one_file(files: Mapping[str, bytes], data: object, policy: str) -> str:
     """Return a page as one text that loads nothing: its styles, its modules in an import map, and its data.
 

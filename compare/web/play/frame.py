@@ -1,11 +1,10 @@
 """The frame of a notebook in which one or two tosses are played."""
 
-from importlib import resources
 from typing import Any
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.web.playable import playable
-from cointoss.compare.web.scripts import POLICY, one_file, shared_files
+from cointoss.compare.web.scripts import POLICY, files_of, one_file
 from cointoss.models.notebook import Frame
 from cointoss.models.records import Toss
 from cointoss.models.title import title_of_toss
@@ -22,10 +21,8 @@ def play(toss: Toss, other: Toss | None = None) -> Frame:
     """
     if not isinstance(other, Toss | None):
         raise TypeError(f"other: {other!r}, accepted: a toss")
-    page = resources.files("cointoss.compare.web.play") / "page"
-    own = {entry.name: entry.read_bytes() for entry in page.iterdir()}
     title = " and ".join(title_of_toss(one.scenario, "") for one in (toss, other) if one)
-    text = one_file({**shared_files(), **own}, _played(toss, other), POLICY)
+    text = one_file(files_of("cointoss.compare.web.play"), _played(toss, other), POLICY)
     return Frame(f"toss of {title}", text, HEIGHT)
 
 
