@@ -91,18 +91,13 @@ class _Size(click.ParamType):
 @no_video_option
 def basin(
     scenario: str,
-    x: str,
-    y: str,
-    out: Path,
     engine: str | None,
     both: bool,
     contact: str | None,
-    after: int | None,
     margin: str | None,
     trust: bool,
     resume: bool,
     overwrite: bool,
-    scheduler: str | None,
     png: Path | None,
     palette: str | None,
     boundaries: bool,
@@ -110,6 +105,7 @@ def basin(
     dpi: int | None,
     report: Path | None,
     no_video: bool,
+    **asked: Any,
 ) -> None:
     """Map the outcome over two fields of a scenario.
 
@@ -125,8 +121,8 @@ def basin(
         raise click.UsageError(f"--contact {contact}: accepted: only beside --engine mujoco or --compare")
     if both or engine == "mujoco":
         beside = "--compare" if both else f"--engine {engine}"
-        for asked in ([] if margin is None else [f"--margin {margin}"]) + ["--trust"] * (trust and not both):
-            raise click.UsageError(f"{asked} {beside}: accepted: only by the analytic engine alone")
+        for kept in ([] if margin is None else [f"--margin {margin}"]) + ["--trust"] * (trust and not both):
+            raise click.UsageError(f"{kept} {beside}: accepted: only by the analytic engine alone")
     if report is not None and not both:
         raise click.UsageError(f"--report {report}: accepted: only beside --compare")
     if no_video and report is None:
@@ -147,23 +143,19 @@ def basin(
         job = Job(
             source=scenario,
             text=scenario_text(scenario),
-            x=x,
-            y=y,
-            out=out,
             engine=None if both else Engine(engine or "analytic"),
             contact=contact or "spring",
-            after=after,
             margin=margin,
             trust=trust,
             resume=resume,
             overwrite=overwrite,
-            scheduler=scheduler,
             png=png,
             style=PictureStyle(
                 palette=Palette(palette or "safe"), boundaries=boundaries, size=size, dpi=dpi or DPI
             ),
             report=report,
             no_video=no_video,
+            **asked,
         )
         for result in make(job, say):
             click.echo(result)
