@@ -1,7 +1,5 @@
 """Maps of a coin made in small tiles, here or in another process."""
 
-import subprocess
-import time
 from typing import Any
 
 import numpy as np
@@ -14,7 +12,7 @@ from cointoss.models.reading import parse
 from cointoss.models.scenario import Scenario
 from tests.helpers.command_line import cointoss
 from tests.helpers.draws import AIR, scenario
-from tests.helpers.processes import started
+from tests.helpers.processes import started, wait_until
 
 SCENARIO = """
 [coin]
@@ -70,7 +68,7 @@ def whole_tiles(path):
     return len([entry for entry in path.glob("outcome/c/*/*") if entry.suffix == ""])
 
 
-def begun(coin, out, *extra, most=TILES, stderr=subprocess.PIPE):
+def begun(coin, out, *extra, most=TILES):
     """Start a process, for a `with` statement, that makes the map in small tiles until `most` are there."""
     script = (
         "import threading, time; from pathlib import Path; from cointoss.compare.engines import Engine\n"
@@ -83,12 +81,8 @@ def begun(coin, out, *extra, most=TILES, stderr=subprocess.PIPE):
         "run.toss_pixels = toss_pixels\n"
         "from cointoss.compare.cli import main; main()"
     )
-    words = ("basin", coin, *AXES, "--out", out, *extra)
-    return started("-c", script, *words, stdout=subprocess.PIPE, stderr=stderr)
+    return started("-c", script, "basin", coin, *AXES, "--out", out, *extra)
 
 
 def wait_for(process, out, count):
-    deadline = time.monotonic() + 200
-    while whole_tiles(out) < count and process.poll() is None and time.monotonic() < deadline:
-        time.sleep(0.01)
-    assert process.poll() is None, process.communicate()
+    wait_until(process, lambda: whole_tiles(out) >= count)

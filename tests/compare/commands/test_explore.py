@@ -4,7 +4,6 @@ import json
 import shutil
 import signal
 import socket
-import subprocess
 import time
 import webbrowser
 
@@ -116,8 +115,7 @@ def test_the_address_is_printed_and_opened(map_path, monkeypatch, opens, options
 def test_ctrl_c_ends_it_within_a_second(map_path):
     """A second on a machine of one's own; ten on one that is busy."""
     script = "from cointoss.compare.cli import main; main()"
-    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    with started("-c", script, "explore", map_path, "--no-browser", **pipes) as process:
+    with started("-c", script, "explore", map_path, "--no-browser") as process:
         assert process.stdout
         port = int(process.stdout.readline().rstrip("/\n").rpartition(":")[2])
         assert got(port, "/")[0] == 200

@@ -4,15 +4,13 @@ import csv
 import io
 import json
 import signal
-import subprocess
-import time
 
 import pytest
 
 from cointoss.models.hand import Hand
 from tests.helpers.basin_runs import SCENARIO
 from tests.helpers.command_line import cointoss, refused
-from tests.helpers.processes import started
+from tests.helpers.processes import started, wait_until
 
 ALONG = ("--along", "floor.restitution=0.3:0.6:2", "--tosses", 300, "--seed", 5)
 
@@ -110,11 +108,8 @@ from cointoss.compare.cli import main
 main()
 """
     words = ("shares", coin, "--along", "floor.restitution=0.3:0.6:3", "--out", "a.csv", "--out", "a.png")
-    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "cwd": tmp_path}
-    with started("-c", script, *words, **pipes) as process:
-        deadline = time.monotonic() + 200
-        while not (tmp_path / "begun").exists() and process.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.01)
+    with started("-c", script, *words, cwd=tmp_path) as process:
+        wait_until(process, (tmp_path / "begun").exists)
         process.send_signal(signal.SIGINT)
         printed, said = process.communicate(timeout=60)
     assert process.returncode == 130, said

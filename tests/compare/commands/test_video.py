@@ -2,9 +2,7 @@
 
 import os
 import signal
-import subprocess
 import sys
-import time
 from unittest.mock import patch
 
 import imageio_ffmpeg
@@ -17,7 +15,7 @@ from cointoss.compare.report.contents import FILES
 from cointoss.models.reading import scenario_text
 from tests.helpers.command_line import cointoss, in_a_shell
 from tests.helpers.films import film_written
-from tests.helpers.processes import started
+from tests.helpers.processes import started, wait_until
 
 
 @pytest.fixture
@@ -43,11 +41,8 @@ def test_where_a_film_is_interrupted_the_report_stands_without_it(tmp_path, shor
         "from cointoss.compare.cli import main; main()"
     )
     command = ("compare", short, "--out", "new/report")
-    how = {"cwd": tmp_path, "stderr": subprocess.PIPE, "start_new_session": True}
-    with started("-c", script, *command, **how) as filming:
-        deadline = time.monotonic() + 120
-        while not list(tmp_path.glob("new/report/.cointoss-*/toss.mp4")) and time.monotonic() < deadline:
-            time.sleep(0.05)
+    with started("-c", script, *command, cwd=tmp_path, start_new_session=True) as filming:
+        wait_until(filming, lambda: list(tmp_path.glob("new/report/.cointoss-*/toss.mp4")))
         os.killpg(filming.pid, signal.SIGINT)  # the encoder is stopped too, as by Ctrl-C
         _, told = filming.communicate(timeout=60)
     assert (filming.returncode, told) == (130, "cointoss: interrupted by SIGINT\n")

@@ -1,7 +1,6 @@
 """Ctrl-C, SIGTERM and SIGHUP end every command soon, with one line, and leave nothing half-made."""
 
 import signal
-import subprocess
 import time
 
 import numpy as np
@@ -10,7 +9,7 @@ import pytest
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep import grid
 from tests.helpers.basin_runs import AXES, SCENARIO, SMALL, assert_same, basin, pixels
-from tests.helpers.processes import started
+from tests.helpers.processes import started, wait_until
 
 STATUSES = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
 SOON = 10.0
@@ -34,22 +33,13 @@ def of_toss(*engines):
     return "\n".join([f"{ENDLESS}import sys", "from cointoss.compare.cli import main", *lines, ""])
 
 
-def child(folder, script, *arguments):
-    """Start a script in a folder, for a `with` statement."""
-    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    return started("-c", script, *arguments, cwd=folder, **pipes)
-
-
 def wait_until_begun(process, folder):
-    deadline = time.monotonic() + 200
-    while not (folder / "begun").exists() and process.poll() is None and time.monotonic() < deadline:
-        time.sleep(0.01)
-    assert process.poll() is None, process.communicate()
+    wait_until(process, (folder / "begun").exists)
 
 
 def ended(folder, number, script, *arguments):
     """Send a signal to a script once it has begun; return its exit status and what it said."""
-    with child(folder, script, *arguments) as process:
+    with started("-c", script, *arguments, cwd=folder) as process:
         wait_until_begun(process, folder)
         time.sleep(0.1)
         sent = time.monotonic()
@@ -125,7 +115,7 @@ def test_in_python_ctrl_c_raises_out_of_a_toss_and_of_many(tmp_path):
         "    except KeyboardInterrupt: print('back', flush=True)\n"
         "import os; os._exit(0)"
     )
-    with child(tmp_path, script) as process:
+    with started("-c", script, cwd=tmp_path) as process:
         for _ in range(3):
             wait_until_begun(process, tmp_path)
             (tmp_path / "begun").unlink()
@@ -182,7 +172,7 @@ ENDS = {
 @pytest.mark.parametrize("end", ENDS)
 def test_nothing_keeps_the_process_and_what_was_printed_before_is_there(tmp_path, end):
     script = f"{STUCK}def command():\n    print('first')\n    Path('begun').touch()\n    {ENDS[end]}\n"
-    with child(tmp_path, script + "run_to_exit(command)") as process:
+    with started("-c", script + "run_to_exit(command)", cwd=tmp_path) as process:
         wait_until_begun(process, tmp_path)
         process.send_signal(signal.SIGINT)
         assert process.communicate(timeout=60) == ("first\n", "cointoss: interrupted by SIGINT\n")
@@ -198,6 +188,6 @@ def test_a_signal_that_is_ignored_stays_so(tmp_path):
         "signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as nohup does\n"
         "run_to_exit(command)"
     )
-    with child(tmp_path, script) as process:
+    with started("-c", script, cwd=tmp_path) as process:
         assert process.communicate(timeout=60) == ("goes on\n", "")
     assert process.returncode == 3

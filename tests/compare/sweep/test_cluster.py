@@ -6,7 +6,6 @@ import socket
 import subprocess
 import sys
 import threading
-import time
 
 import distributed
 import pytest
@@ -26,7 +25,7 @@ from tests.helpers.basin_runs import (
     wait_for,
     whole_tiles,
 )
-from tests.helpers.processes import started
+from tests.helpers.processes import started, wait_until
 
 
 @pytest.fixture
@@ -36,9 +35,7 @@ def cluster(tmp_path):
     local = ("--scheduler-file", address, "--no-dashboard")
     worker = ("worker", *local, "--nthreads", "1", "--no-nanny", "--local-directory", tmp_path)
     with _started("scheduler", *local, "--host", "127.0.0.1", "--port", "0") as scheduler:
-        deadline = time.monotonic() + 100
-        while not address.exists() and time.monotonic() < deadline:
-            time.sleep(0.1)
+        wait_until(scheduler, lambda: address.exists() and address.read_text().endswith("}"))
         with _started(*worker) as one, _started(*worker) as other:
             where = json.loads(address.read_text())["address"]
             with distributed.Client(where, set_as_default=False) as client:
