@@ -12,6 +12,7 @@ from hypothesis import HealthCheck, settings
 from cointoss.analytic.horizon.certainty import Certainty
 from cointoss.compare.film.back_end import drawing_problem
 from cointoss.models.records import Outcome
+from tests.helpers.basin_runs import SCENARIO
 from tests.helpers.browser import Page, browser
 from tests.helpers.explored import serving, small_map
 
@@ -70,6 +71,13 @@ def page(chromium):
     """A tab of the browser."""
     with Page(chromium) as opened:
         yield opened
+
+
+@pytest.fixture
+def coin(tmp_path):
+    """The file of a scenario of which maps are made."""
+    (tmp_path / "coin.toml").write_text(SCENARIO)
+    return tmp_path / "coin.toml"
 
 
 @pytest.fixture(scope="module")

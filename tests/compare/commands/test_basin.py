@@ -1,7 +1,6 @@
 """`cointoss basin` draws: one map as asked, or both engines' and their difference, with their agreement."""
 
 import numpy as np
-import pytest
 import xarray as xr
 from PIL import Image
 
@@ -12,12 +11,6 @@ from tests.helpers.basin_runs import SCENARIO, basin
 from tests.helpers.made_maps import halves
 
 AXES = ("--x", "release.angular_velocity.eta=20:60:6", "--y", "release.position.z=0.2:0.6:5", "--after", 0)
-
-
-@pytest.fixture
-def coin(tmp_path):
-    (tmp_path / "coin.toml").write_text(SCENARIO)
-    return tmp_path / "coin.toml"
 
 
 def test_both_engines_make_a_map_each_and_are_compared(coin, tmp_path):

@@ -8,17 +8,10 @@ import signal
 import pytest
 
 from cointoss.models.hand import Hand
-from tests.helpers.basin_runs import SCENARIO
 from tests.helpers.command_line import cointoss, refused
 from tests.helpers.processes import started, wait_until
 
 ALONG = ("--along", "floor.restitution=0.3:0.6:2", "--tosses", 300, "--seed", 5)
-
-
-@pytest.fixture
-def coin(tmp_path):
-    (tmp_path / "coin.toml").write_text(SCENARIO)
-    return tmp_path / "coin.toml"
 
 
 def test_the_table_the_json_and_the_files_hold_the_same_counts(coin, tmp_path):

@@ -16,7 +16,6 @@ from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.distribution import DISTRIBUTION
 from tests.helpers.basin_runs import (
     AXES,
-    SCENARIO,
     TILES,
     assert_same,
     basin,
@@ -49,10 +48,8 @@ def _started(part, *arguments):
 
 
 @pytest.mark.slow
-def test_a_worker_lost_on_the_way_changes_no_pixel(cluster, tmp_path):
-    address, workers, _ = cluster
-    coin, out = tmp_path / "coin.toml", tmp_path / "map.zarr"
-    coin.write_text(SCENARIO)
+def test_a_worker_lost_on_the_way_changes_no_pixel(cluster, coin, tmp_path):
+    (address, workers, _), out = cluster, tmp_path / "map.zarr"
     with begun(coin, out, "--scheduler", address) as process:
         wait_for(process, out, 4)
         workers[0].kill()
@@ -74,13 +71,12 @@ def silent():
 
 @pytest.mark.parametrize("address", ["nonsense", "tcp://127.0.0.1:1", "127.0.0.1:x", "silent"])
 def test_a_scheduler_that_cannot_be_reached_is_one_line_and_leaves_no_thread(
-    tmp_path, monkeypatch, silent, address
+    coin, tmp_path, monkeypatch, silent, address
 ):
     address = silent if address == "silent" else address
     monkeypatch.setattr(importlib.import_module("cointoss.compare.sweep.cluster"), "PATIENCE", 0.5)
     threads = set(threading.enumerate())
-    (tmp_path / "coin.toml").write_text(SCENARIO)
-    answered = basin(tmp_path / "coin.toml", *AXES, "--out", tmp_path / "map.zarr", "--scheduler", address)
+    answered = basin(coin, *AXES, "--out", tmp_path / "map.zarr", "--scheduler", address)
     assert answered.exit_code == 2
     asked, refused = answered.stderr.splitlines()
     assert asked.endswith(f"--scheduler {address}: connecting, for up to 0.5 s")
@@ -89,12 +85,9 @@ def test_a_scheduler_that_cannot_be_reached_is_one_line_and_leaves_no_thread(
     assert not (tmp_path / "map.zarr").exists()
 
 
-def test_without_dask_the_extra_is_named(tmp_path, monkeypatch):
+def test_without_dask_the_extra_is_named(coin, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
-    (tmp_path / "coin.toml").write_text(SCENARIO)
-    answered = basin(
-        tmp_path / "coin.toml", *AXES, "--out", tmp_path / "map.zarr", "--scheduler", "tcp://h:1"
-    )
+    answered = basin(coin, *AXES, "--out", tmp_path / "map.zarr", "--scheduler", "tcp://h:1")
     assert answered.exit_code == 2
     assert f'pip install "{DISTRIBUTION}[cluster]"' in answered.stderr
     assert not (tmp_path / "map.zarr").exists()
@@ -119,10 +112,8 @@ def test_a_connection_that_is_lost_is_named_with_the_way_on(lost):
 
 
 @pytest.mark.slow
-def test_a_scheduler_lost_on_the_way_is_one_line_and_the_map_is_gone_on_with(cluster, tmp_path):
-    address, _, scheduler = cluster
-    coin, out = tmp_path / "coin.toml", tmp_path / "map.zarr"
-    coin.write_text(SCENARIO)
+def test_a_scheduler_lost_on_the_way_is_one_line_and_the_map_is_gone_on_with(cluster, coin, tmp_path):
+    (address, _, scheduler), out = cluster, tmp_path / "map.zarr"
     with begun(coin, out, "--scheduler", address) as process:
         wait_for(process, out, 4)
         scheduler.kill()

@@ -39,11 +39,10 @@ from tests.helpers.command_line import refused
 
 
 @pytest.fixture
-def coin(tmp_path, monkeypatch):
+def coin(coin, monkeypatch):
     """A scenario's file; the tiles of its maps are small."""
     monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, SMALL)
-    (tmp_path / "coin.toml").write_text(SCENARIO)
-    return tmp_path / "coin.toml"
+    return coin
 
 
 def map_sweep(**given):
