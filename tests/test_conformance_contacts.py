@@ -4,6 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from cointoss.compare.engines import Engine
 from cointoss.models.laws import ContactLaw
@@ -52,19 +53,9 @@ def toss(engine, name):
     return engines.toss(engine, described(name))
 
 
-def rotations(states):
-    e0, v = states.quaternion[:, 0], states.quaternion[:, 1:]
-    cross = np.cross(v[:, None], np.eye(3)[None])
-    return (
-        (e0**2 - (v**2).sum(1))[:, None, None] * np.eye(3)
-        + 2 * (v[:, :, None] * v[:, None])
-        + (2 * e0[:, None, None] * np.swapaxes(cross, 1, 2))
-    )
-
-
 def lowest_points(case, states):
     """Return height and velocity of the coin's lowest rim point, from its attitude alone, (n,) and (n, 3)."""
-    turn = rotations(states)
+    turn = Rotation.from_quat(states.quaternion, scalar_first=True).as_matrix()
     up = turn[:, 2]
     across = np.hypot(up[:, 0], up[:, 1])
     point = np.column_stack([-R * up[:, :2] / across[:, None], -H / 2 * np.sign(up[:, 2])])

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from cointoss.coin_mj import FINE, MANY
 from cointoss.coin_mj.model.machine import machine_of
@@ -58,19 +59,10 @@ def logged(case: Scenario, settings: Any) -> tuple[Any, np.ndarray, np.ndarray]:
     machine = machine_of(case, settings)
     answer = run(machine, case.rules)
     q, v = answer.knots[:, MOTION][:, :7], answer.knots[:, MOTION][:, 7:]
-    e0, e1, e2, e3 = q[:, 3:].T
-    up = np.stack([2 * (e1 * e3 - e0 * e2), 2 * (e2 * e3 + e0 * e1), 1 - 2 * (e1**2 + e2**2)], axis=1)
+    R = Rotation.from_quat(q[:, 3:], scalar_first=True).as_matrix()
+    up = R[:, 2]
     body, c = case.body, np.array(case.coin.center_of_mass)
     turning = np.cross(v[:, 3:], c)
-    # |v_B + R (ω × c)|², with R e_z = up's transpose: R is needed for the cross term alone.
-    R = np.stack(
-        [
-            np.stack([1 - 2 * (e2**2 + e3**2), 2 * (e1 * e2 - e0 * e3), 2 * (e1 * e3 + e0 * e2)], axis=1),
-            np.stack([2 * (e1 * e2 + e0 * e3), 1 - 2 * (e1**2 + e3**2), 2 * (e2 * e3 - e0 * e1)], axis=1),
-            up,
-        ],
-        axis=1,
-    )
     v_C = v[:, :3] + np.einsum("nij,nj->ni", R, turning)
     spin = np.einsum("ni,ij,nj->n", v[:, 3:], np.array(body.inertia), v[:, 3:])
     energy = body.mass * (np.sum(v_C**2, axis=1) / 2 + body.gravity * (q[:, 2] + up @ c)) + spin / 2

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from cointoss import coin_mj
 from cointoss.coin_mj.model.machine import machine_of
@@ -221,11 +222,9 @@ def test_steps_that_are_spent_leave_a_long_transient_or_an_undecided_toss():
 
 
 def lowest_of(motion, radius, thickness):
-    """Height of the coin's lowest point from qpos, by plain numpy: over both rims' circles."""
-    e = motion[3:7] / np.linalg.norm(motion[3:7])
-    up = np.array([2 * (e[1] * e[3] - e[0] * e[2]), 2 * (e[2] * e[3] + e[0] * e[1])])
-    n_z = 1 - 2 * (e[1] ** 2 + e[2] ** 2)
-    return motion[2] - radius * np.linalg.norm(up) - thickness / 2 * abs(n_z)
+    """Height of the coin's lowest point from qpos: over both rims' circles."""
+    x, y, z = Rotation.from_quat(motion[3:7], scalar_first=True).as_matrix()[2]
+    return motion[2] - radius * np.hypot(x, y) - thickness / 2 * abs(z)
 
 
 def near_the_edge(seed):
