@@ -166,44 +166,27 @@ def test_the_horizon_is_told_in_plain_words(name, horizon, begins):
 
 
 SECOND_POINT = "at impact {} a second point lands within MuJoCo's contact."
+TOLD = (
+    "Not even the first face must agree: ",
+    "The first face, up to the bar, must agree. A",
+    "The first 2 faces, up to the bar, must agree. A",
+)
+"""How the sentence on a horizon of so many impacts begins."""
 
 
 @pytest.mark.parametrize(
-    ("b", "prefix", "horizon", "verdict", "told"),
+    ("b", "prefix", "horizon", "verdict"),
     [
-        (
-            "HHT",
-            3,
-            0,
-            "Heads by both engines: they agree on all 3 impacts. Not even the first must agree: ",
-            "Not even the first face must agree: ",
-        ),
-        (
-            "TTT",
-            0,
-            0,
-            "HEADS, TAILS: they differ from the first impact on. Not even that must agree: ",
-            "Not even the first face must agree: ",
-        ),
-        (
-            "HTT",
-            1,
-            1,
-            "HEADS, TAILS: they agree on the first impact, as they must; ",
-            "The first face, up to the bar, must agree. A",
-        ),
-        (
-            "HHTH",
-            3,
-            2,
-            "Heads by both engines: they agree on the first 3 impacts. The first 2 must agree; ",
-            "The first 2 faces, up to the bar, must agree. A",
-        ),
+        ("HHT", 3, 0, "Heads by both engines: they agree on all 3 impacts. Not even the first must agree: "),
+        ("TTT", 0, 0, "HEADS, TAILS: they differ from the first impact on. Not even that must agree: "),
+        ("HTT", 1, 1, "HEADS, TAILS: they agree on the first impact, as they must; "),
+        ("HHTH", 3, 2, "Heads by both engines: they agree on the first 3 impacts. The first 2 must agree; "),
     ],
 )
-def test_an_impact_that_is_not_the_laws_is_named_where_it_ends_the_horizon(b, prefix, horizon, verdict, told):
+def test_an_impact_that_is_not_the_laws_is_named_where_it_ends_the_horizon(b, prefix, horizon, verdict):
     """There no tiny error decides: MuJoCo is wrong, and says so."""
     ends = replace(TOSSES[b], trusted_impacts=horizon, trust_end=TrustEnd.SECOND_POINT)
+    told = TOLD[horizon]
     found, reason = compared(TOSSES["HHT"], ends, prefix, horizon), SECOND_POINT.format(horizon + 1)
     begins = verdict.replace("HEADS", WORDS["HEADS"]).replace("TAILS", WORDS["TAILS"])
     assert verdict_of(found).text == begins + reason
