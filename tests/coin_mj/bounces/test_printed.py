@@ -210,8 +210,3 @@ def test_a_thousand_bounces_in_a_row_lose_no_energy():
         bounces += data.qvel[2] > 0 and not rising
         rising = data.qvel[2] > 0
     assert data.energy.sum() == pytest.approx(before, rel=0.1)
-
-
-def test_what_runs_on_no_backend_is_refused():
-    with pytest.raises(ValueError, match='backend = "brax": accepted: mujoco, mjx, warp'):
-        solref(0.5, 1e-3, backend="brax")

@@ -156,6 +156,7 @@ def test_a_floor_lets_a_body_through_whose_contact_is_deeper_than_half_of_both(b
         ({"body": "box 0.1"}, 'body = "box 0.1": accepted: a type and its size'),
         ({"body": "plane 1 1 1"}, 'body = "plane 1 1 1": accepted: a type and its size'),
         ({"body": "sphere -1"}, 'body = "sphere -1": accepted: a type and its size'),
+        ({"backend": "brax"}, 'backend = "brax": accepted: mujoco, mjx, warp'),
         ({"body": ""}, 'body = "": accepted: a type and its size'),
     ],
 )
