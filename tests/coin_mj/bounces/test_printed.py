@@ -80,9 +80,6 @@ def in_numbers(line: str) -> str:
 
 
 PRINTED = of_the_pages()
-NAMES = [
-    name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in (*PRINTED, *COMMANDS)
-]
 
 
 @cache
@@ -161,12 +158,12 @@ def test_every_xml_of_the_page_is_among_them():
     assert chart.geom_solref[1] == pytest.approx(solref(0.8, 2e-3).solref, rel=1e-12)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", QUICK)
 def test_a_hundred_bounces_of_what_is_printed(name):
     check_bounces(printed(name), 100)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", QUICK)
 def test_a_while_at_rest_of_what_is_printed(name):
     check_rest(printed(name), 20.0)
 
