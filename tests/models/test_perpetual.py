@@ -97,19 +97,12 @@ def test_a_coin_that_loses_steadily_is_never_said_to_go_on_for_ever():
     assert watched(case, lambda t: 0.6 + t**-0.5, 5000) is not None
 
 
-def test_on_a_smooth_floor_sliding_does_not_turn_a_coin_over():
+@pytest.mark.parametrize("motion", [{"v": (1.0, 0.0, 0.0)}, {"w": (0.0, 0.0, 100.0)}], ids=["slide", "spin"])
+def test_neither_sliding_nor_spin_about_the_vertical_turns_a_coin_over_on_a_smooth_floor(motion):
+    """Spin needs L_z²/(2 J_ξ) of its own to come upright, twice what it has as L_z²/(2 J_ζ) lying flat."""
     rough = scenario(coin=ZLOTY, floor={"contact": "coulomb", "friction": 0.3})
-    slide = (1.0, 0.0, 0.0)
-    assert watched(scenario(coin=ZLOTY), lambda _: 0.4, 1000, v=slide) is None
-    assert watched(rough, lambda _: 0.4, 1000, v=slide) is not None
-
-
-def test_a_spin_about_the_vertical_does_not_turn_a_coin_over_on_a_smooth_floor():
-    """It needs L_z²/(2 J_ξ) of its own to come upright, twice what it has as L_z²/(2 J_ζ) lying flat."""
-    rough = scenario(coin=ZLOTY, floor={"contact": "coulomb", "friction": 0.3})
-    spin = (0.0, 0.0, 100.0)
-    assert watched(scenario(coin=ZLOTY), lambda _: 0.4, 1000, w=spin) is None
-    assert watched(rough, lambda _: 0.4, 1000, w=spin) is not None
+    assert watched(scenario(coin=ZLOTY), lambda _: 0.4, 1000, **motion) is None
+    assert watched(rough, lambda _: 0.4, 1000, **motion) is not None
 
 
 def test_checks_missed_in_a_long_flight_count_for_nothing():
