@@ -41,8 +41,7 @@ def toss_pixel(
     scenario = pixel_scenario(replace(sweep, after=None), y, x)
     most = MOST_IMPACTS[engine]
     followed = scenario.replace("ending.max_impacts", min(most, scenario.rules.max_impacts))
-    with warnings.catch_warnings(record=True) as raised:
-        warnings.simplefilter("always", ApproximationWarning)
+    with warnings.catch_warnings(record=True, action="always", category=ApproximationWarning) as raised:
         try:
             if engine == Engine.MUJOCO:
                 require_mujoco()

@@ -238,9 +238,8 @@ def _write_empty(folder: Path, sweep: Sweep, scenario_text: str) -> None:
             dimension_names=(dimension,),
             attributes=axis_attributes(axis),
         )
-    with warnings.catch_warnings():
-        # Not yet in the specification of Zarr 3, but xarray asks for it.
-        warnings.simplefilter("ignore", ZarrUserWarning)
+    # Not yet in the specification of Zarr 3, but xarray asks for it.
+    with warnings.catch_warnings(action="ignore", category=ZarrUserWarning):
         zarr.consolidate_metadata(group.store)
 
 

@@ -50,8 +50,7 @@ def test_each_toss_is_that_of_toss_to_the_bit(law, air, thickness, realisation, 
         ending={"max_impacts": 30, "max_time": 2.0},
     )
     drawn, releases = draw_releases(np.random.default_rng([len(law), len(air), int(1e4 * thickness)]), 4)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ApproximationWarning)
+    with warnings.catch_warnings(action="ignore", category=ApproximationWarning):
         outcomes = coin_mj.toss_many(case, releases, settings=settings)
     assert_each_is_a_toss(case, drawn, outcomes, settings)
 

@@ -11,20 +11,17 @@ from cointoss.models.scenario import Scenario
 
 def toss(engine: Engine, case: Scenario) -> Toss:
     """Return one toss, with the engine's settings for one."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ApproximationWarning)
+    with warnings.catch_warnings(action="ignore", category=ApproximationWarning):
         return engine.package.toss(case)
 
 
 def toss_as_many(engine: Engine, case: Scenario) -> Toss:
     """Return one toss, with the engine's settings for many."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ApproximationWarning)
+    with warnings.catch_warnings(action="ignore", category=ApproximationWarning):
         return engine.package.toss(case, settings=engine.package.MANY)
 
 
 def toss_many(engine: Engine, case: Scenario, releases: Releases) -> Outcomes:
     """Return many tosses, with the engine's settings for many."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ApproximationWarning)
+    with warnings.catch_warnings(action="ignore", category=ApproximationWarning):
         return engine.package.toss_many(case, releases)
