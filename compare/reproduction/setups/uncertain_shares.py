@@ -5,11 +5,12 @@ from dataclasses import asdict
 from fractions import Fraction
 from math import log10, sqrt
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from cointoss.compare.metrics.estimate import Estimate
-from cointoss.compare.metrics.estimates import PARTS, jackknife
+from cointoss.compare.metrics.estimates import PARTS, jackknife, share_of
 from cointoss.compare.reproduction.parts import Part, kept
 from cointoss.compare.reproduction.precision.branching import EARLY, Branches, branch
 from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
@@ -23,6 +24,10 @@ LARGEST = Fraction(1, 1000)
 """The first accuracy ε, in SI units; the others are tenths of each other."""
 ACCURACIES = 10.0 ** -np.arange(3, 25)
 """ε, of the height of the release [m]; the same number is that of another quantity in its own unit."""
+CEILING = 0.75
+"""f where three tosses have nothing to do with each other: the chance that fair coins do not all agree."""
+FEWEST = 5
+"""Groups of ancestors whose boundaries are counted."""
 LEAST = 1e-300
 """In the place of a share that no ancestor met."""
 
@@ -101,16 +106,17 @@ def kept_run(
     made_by = source_hash("cointoss.compare.reproduction.setups.uncertain_shares")
     label = f"{made_by}, {name}, {'-'.join(map(str, seed))}, {population} x {levels}, {followed}"
     run = kept(parts, label, compute)
-    return Branches(
-        shares=run["shares"],
-        whole=run["whole"],
-        parted=run["parted"],
-        energy=run["energy"],
-        boundaries=run["boundaries"],
-        flat=run["flat"],
-        tosses=int(run["tosses"]),
-        undecided=int(run["undecided"]),
-    )
+    made: dict[str, Any] = {field: value if value.ndim else int(value) for field, value in run.items()}
+    return Branches(**made)
+
+
+def joined(runs: Sequence[Branches]) -> Branches:
+    """Return the groups of several runs as those of one."""
+    numbers = {name: [getattr(run, name) for run in runs] for name in asdict(runs[0])}
+    all_of: dict[str, Any] = {
+        name: np.vstack(every) if np.ndim(every[0]) else sum(every) for name, every in numbers.items()
+    }
+    return Branches(**all_of)
 
 
 def of_groups(numbers: Array, statistic: Callable[[Array], float]) -> Estimate:
@@ -127,13 +133,7 @@ def of_groups(numbers: Array, statistic: Callable[[Array], float]) -> Estimate:
 
 
 def exponent(shares: Array, first: int, decades: int) -> float:
-    """Return α over some decades of `ACCURACIES`.
-
-    Args:
-        shares: f at each accuracy, (m,).
-        first: where it starts.
-        decades: how many.
-    """
+    """Return α over some decades of `ACCURACIES` from the shares f at each, (m,)."""
     return log10(max(shares[first], LEAST) / max(shares[first + decades], LEAST)) / decades
 
 
@@ -146,3 +146,43 @@ def slope(shares: Array, first: int, decades: int) -> Estimate:
         decades: how many.
     """
     return of_groups(shares, lambda f: exponent(f, first, decades))
+
+
+def share_at(groups: Branches, accuracy: float) -> Estimate:
+    """Return f at one of `ACCURACIES`; the interval is one of its logarithm."""
+    level = level_of(accuracy)
+    found = _of_ratios(groups, lambda f: log10(max(f[level], LEAST)))
+    value, low, high = (10 ** min(x, log10(CEILING)) for x in found.ends)
+    return Estimate(value, low, high, found.count, found.counted)
+
+
+def slope_between(groups: Branches, first: float, last: float) -> Estimate:
+    """Return α between two of `ACCURACIES`."""
+    start, end = level_of(first), level_of(last)
+    return _of_ratios(groups, lambda f: exponent(f, start, end - start))
+
+
+def _of_ratios(groups: Branches, statistic: Callable[[Array], float]) -> Estimate:
+    """Return a statistic of f, as the ratio of shares and all weight, at each accuracy."""
+    found = np.hstack([groups.shares, groups.whole])
+    return of_groups(found, lambda means: statistic(np.divide(*np.split(means, 2))))
+
+
+def level_of(accuracy: float) -> int:
+    """Return which of `ACCURACIES` is nearest."""
+    return int(np.argmin(np.abs(np.log10(ACCURACIES) - log10(accuracy))))
+
+
+def flat_share(groups: Branches, accuracy: float) -> Estimate | None:
+    """Return the part of the boundaries at an accuracy, and at its neighbours, at which a coin lands flat.
+
+    None where too few were resolved.
+    """
+    near = slice(max(level_of(accuracy) - 1, 0), level_of(accuracy) + 2)
+    flat, boundaries = (numbers[:, near].sum(axis=1) for numbers in (groups.flat, groups.boundaries))
+    if np.sum(boundaries > 0) < FEWEST:
+        return None
+    if flat.sum() in (0, boundaries.sum()):
+        return share_of(int(flat.sum()), int(boundaries.sum()), "boundaries")
+    found = of_groups(np.column_stack([flat, boundaries]), lambda means: float(means[0] / means[1]))
+    return Estimate(found.value, max(found.low, 0.0), min(found.high, 1.0), found.count, found.counted)
