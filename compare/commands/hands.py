@@ -1,7 +1,7 @@
 """`cointoss hands`: a coin tossed many times as a hand does."""
 
 from dataclasses import asdict
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -15,6 +15,12 @@ from cointoss.compare.commands.common import (
 )
 from cointoss.compare.commands.hand_options import chosen_hand, hand_options
 from cointoss.compare.commands.names import scenario_argument
+
+if TYPE_CHECKING:
+    from cointoss.compare.engines import Engine
+    from cointoss.compare.metrics.estimate import Estimate
+    from cointoss.models.releases import Releases
+    from cointoss.models.scenario import Scenario
 
 
 @click.command(epilog=SCENARIO_HELP)
@@ -35,8 +41,9 @@ def hands(scenario: str, tosses: int, seed: int, engine: str, as_json: bool, **g
 
         from cointoss.compare.engines import Engine
         from cointoss.compare.film.back_end import require_mujoco
-        from cointoss.compare.metrics.estimates import share
-        from cointoss.compare.metrics.first_side import TOUCHES, caught_side, first_side
+        from cointoss.compare.metrics.estimates import share_of
+        from cointoss.compare.shares.counting import counting
+        from cointoss.compare.shares.plan import Plan, check
         from cointoss.models.reading import load
         from cointoss.models.records import Outcome
         from cointoss.models.releases import check_releases
@@ -44,21 +51,20 @@ def hands(scenario: str, tosses: int, seed: int, engine: str, as_json: bool, **g
         hand, described = chosen_hand(given, load(scenario))
         if engine == Engine.MUJOCO:
             require_mujoco()
-        try:
-            start = hand.releases(described.body, np.random.default_rng(seed), tosses)
-            check_releases(described, start)
-        except ValueError as error:
-            refuse(f"{scenario}: {error}")
         if hand.spun:
-            ended = Engine(engine).package.toss_many(described, start).outcome
-            counted = {str(one): ended == one for one in Outcome if one in ended}
-        elif described.ending.caught is not None:
-            counted = {"caught": caught_side(described, start, Engine(engine))}
+            plan = Plan(
+                scenario=described, name="", hand=hand, engines=(Engine(engine),), seed=seed, tosses=tosses
+            )
+            check(plan)
+            *_, counts = counting(plan)
+            shares = {str(one): share_of(int(met), tosses) for one in Outcome if (met := counts[0][one])}
         else:
-            found = first_side(described, start, Engine(engine))
-            counted = {f"touch {n + 1}": up for n, up in zip(TOUCHES, found.touches, strict=True)}
-            counted["at rest"] = found.at_rest
-        shares = {name: share(up) for name, up in counted.items() if len(up)}
+            try:
+                start = hand.releases(described.body, np.random.default_rng(seed), tosses)
+                check_releases(described, start)
+            except ValueError as error:
+                refuse(f"{scenario}: {error}")
+            shares = first_sides(described, start, Engine(engine))
         if as_json:
             told = {"hand": asdict(hand), "caught": described.ending.caught}
             told |= {"tosses": tosses, "seed": seed, "engine": engine}
@@ -67,5 +73,25 @@ def hands(scenario: str, tosses: int, seed: int, engine: str, as_json: bool, **g
             return
         for name, one in shares.items():
             click.echo(f"{name:9} {one.value:7.2%} [{one.low:.2%}, {one.high:.2%}] of {one.count:,d} tosses")
-        if not len(counted.get("caught", [True])):
+        if not shares:
             click.echo(f"none of {tosses:,d} tosses was caught")
+
+
+def first_sides(scenario: "Scenario", start: "Releases", engine: "Engine") -> "dict[str, Estimate]":
+    """Return how often the side that was up at first is up in the hand, or at the first touches and at rest.
+
+    Args:
+        scenario: that is tossed.
+        start: the releases.
+        engine: that tosses.
+    """
+    from cointoss.compare.metrics.estimates import share
+    from cointoss.compare.metrics.first_side import TOUCHES, caught_side, first_side
+
+    if scenario.ending.caught is not None:
+        sides = {"caught": caught_side(scenario, start, engine)}
+    else:
+        found = first_side(scenario, start, engine)
+        sides = {f"touch {n + 1}": up for n, up in zip(TOUCHES, found.touches, strict=True)}
+        sides["at rest"] = found.at_rest
+    return {name: share(up) for name, up in sides.items() if len(up)}

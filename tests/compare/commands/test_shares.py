@@ -40,11 +40,13 @@ def test_an_option_takes_the_place_of_what_the_hands_file_says(coin, tmp_path):
 
 
 def test_hands_and_shares_toss_a_spun_coin_to_the_same_shares(coin):
-    words = (coin, "--spun", "--psi-scatter", "10 deg", "--tosses", 500, "--json")
+    words = (coin, "--spun", "--psi-scatter", "10 deg", "--tosses", 300, "--json")
     one = json.loads(cointoss("hands", *words).stdout)["ended"]
     other = json.loads(cointoss("shares", *words).stdout)["settings"][0]["shares"]
-    assert one["heads"]["low"] < other["heads"]["value"] < one["heads"]["high"]
+    for outcome, part in one.items():
+        assert {end: part[end] for end in ("value", "low", "high")} == other[outcome]
     assert 0 < one["heads"]["value"] < 1
+    assert sum(part["value"] for part in one.values()) == pytest.approx(1)
 
 
 def test_the_side_that_was_up_is_counted_whichever_it_was(coin):
