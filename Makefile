@@ -39,9 +39,12 @@ check: $(READY) lint compiled
 test-all: $(READY) opengl chromium lint compiled
 	$(PYTEST) -m "slow or not slow"
 
-# The tests there run the same tosses once; only here are they timed.
-bench: $(READY) $(ENGINE) chromium
-	$(BIN)/pytest tests/benchmarks tests/site/test_speed.py --benchmark-enable --benchmark-columns=min,median,rounds
+# The tests there run the same tosses once; only here are they timed. KEEP=1 keeps the processor times of a commit
+# in docs/benchmarks.csv, of which `make pages` draws a picture.
+bench: $(READY) $(if $(KEEP),,$(ENGINE) chromium)
+	$(BIN)/pytest tests/benchmarks $(if $(KEEP),$(KEPT),tests/site/test_speed.py) \
+	  --benchmark-enable --benchmark-columns=min,median,rounds
+KEPT := -p tests.benchmarks.keeping --benchmark-timer=time.process_time --benchmark-json=/dev/null
 
 # The pages of docs/ as a site, out/site/index.html; its links and its pages in the browser are tested.
 docs: $(VENV)/.ready-docs chromium compiled $(MADE)/pages/explorer.html
