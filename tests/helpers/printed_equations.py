@@ -164,13 +164,6 @@ _TEXTS = {
         *(w_zeta_after*xi_A - w_xi_after*zeta_A) + (2*e1*e2 + 2*e0*e3)
         *(w_eta_after*zeta_A - w_zeta_after*eta_A) + vy_after
     """,
-    93: """
-        (2*e0**2 + 2*e3**2 - 1)*(w_xi_after*eta_A - w_eta_after*xi_A) + (2*e0*e1 + 2*e2*e3)
-        *(w_zeta_after*xi_A - w_xi_after*zeta_A) + (2*e1*e3 - 2*e0*e2)*(w_eta_after*zeta_A
-        - w_zeta_after*eta_A) + vz_after - (-chi)*((2*e0**2 + 2*e3**2 - 1)*(w_xi*eta_A - w_eta*xi_A)
-        + (2*e0*e1 + 2*e2*e3)*(w_zeta*xi_A - w_xi*zeta_A)
-        + (2*e1*e3 - 2*e0*e2)*(w_eta*zeta_A - w_zeta*eta_A) + vz)
-    """,
     95: """
         J_xi*w_xi_after + (-2*eta_A*e0**2 + 2*e1*zeta_A*e0 - 2*e3**2*eta_A + eta_A + 2*e2*e3*zeta_A)*S_z
         - J_xi*w_xi
@@ -184,4 +177,5 @@ _TEXTS = {
         - J_zeta*w_zeta
     """,
 }
+_TEXTS[93] = _TEXTS[86]
 EQUATIONS = {number: Equation(f"eq. ({number})", " ".join(text.split())) for number, text in _TEXTS.items()}
