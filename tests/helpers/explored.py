@@ -7,21 +7,10 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from cointoss.compare.explorer.server import Explorer
+from tests.helpers import basin_runs
 from tests.helpers.command_line import cointoss
 
-SCENARIO = """
-[coin]
-mass = "2 g"
-radius = "1.25 cm"
-thickness = "2 mm"
-[floor]
-restitution = 0.6
-contact = "smooth"
-[release]
-position = [0, 0, 0.4]
-[ending]
-max_impacts = 4
-"""
+SCENARIO = basin_runs.SCENARIO.replace("= 0\n", '= "2 mm"\n') + "[ending]\nmax_impacts = 4\n"
 FIELDS = "release.angular_velocity.eta", "release.position.z"
 
 

@@ -43,20 +43,8 @@ def test_json_has_the_agreed_form():
 def dropped(folder, *, restitution, height, tilt):
     """Write a scenario of a thin coin that is dropped onto a smooth floor, and return its file."""
     source = folder / "dropped.toml"
-    source.write_text(
-        f"""
-        [coin]
-        mass = "2 g"
-        radius = "1.25 cm"
-        thickness = 0
-        [floor]
-        contact = "smooth"
-        restitution = {restitution}
-        [release]
-        position = [0, 0, {height}]
-        angles = [0, {tilt}, 0]
-        """
-    )
+    release = {"position": [0, 0, height], "angles": [0, tilt, 0]}
+    source.write_text(scenario(coin=THIN, floor={"restitution": restitution}, release=release).to_toml())
     return source
 
 
