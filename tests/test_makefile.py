@@ -17,51 +17,41 @@ if [ ! -e once ]; then touch once; else touch twice; exit 1; fi
 """The first ten seconds pass at once, the next never."""
 
 
+def make(folder, *words):
+    """Run make in a folder, whose programs come before the system's."""
+    environment = {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}", "MAKEFLAGS": ""}
+    return subprocess.run(
+        ["make", "--no-print-directory", *words],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
+    )
+
+
 def test_a_long_step_says_that_it_runs_and_ends_as_its_command_does(tmp_path):
     (tmp_path / "sleep").write_text(SLEEP)
     (tmp_path / "sleep").chmod(0o755)
     waits = "sh -c 'while [ ! -e twice ]; do /bin/sleep 0.01; done; exit 3'"
     (tmp_path / "step.mk").write_text(f"include {MAKEFILE}\nstep:\n\t@$(call told,doing it,{waits})\n")
-    done = subprocess.run(
-        ["make", "--no-print-directory", "-f", "step.mk", "step"],
-        cwd=tmp_path,
-        env={**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}", "MAKEFLAGS": ""},
-        capture_output=True,
-        text=True,
-    )
+    done = make(tmp_path, "-f", "step.mk", "step")
     assert done.stdout.splitlines() == ["doing it", "doing it: 10 s"]
     assert "Error 3" in done.stderr
+
+
+READY = "## 0.3.1, 2027-01-31"
+UNREADY = 'docs/CHANGELOG.md needs a heading "## 0.3.1, YYYY-MM-DD"\n'
 
 
 @pytest.mark.parametrize(
     ("changed", "heading", "tagged", "says"),
     [
-        ("", "## 0.3.1, 2027-01-31", "", ""),
-        (
-            " M README.md",
-            "## 0.3.1, 2027-01-31",
-            "",
-            "make release: commit first, or put aside:\n M README.md",
-        ),
-        (
-            "",
-            "## 0.3.1, not yet released",
-            "",
-            'make release: docs/CHANGELOG.md needs a heading "## 0.3.1, YYYY-MM-DD"\n',
-        ),
-        ("", "## 0.3.10, 2027-01-31", "", 'docs/CHANGELOG.md needs a heading "## 0.3.1, YYYY-MM-DD"\n'),
-        (
-            "",
-            "## 0.3.1, 2027-01-31",
-            "",
-            "make release: tests/releases/0.3.1/ needs files of this release; docs/CONTRIBUTING.md says",
-        ),
-        (
-            "",
-            "## 0.3.1, 2027-01-31",
-            "refs/tags/v0.3.1",
-            "make release: v0.3.1 is tagged; pyproject.toml needs another version\n",
-        ),
+        ("", READY, "", ""),
+        (" M README.md", READY, "", "commit first, or put aside:\n M README.md"),
+        ("", "## 0.3.1, not yet released", "", UNREADY),
+        ("", "## 0.3.10, 2027-01-31", "", UNREADY),
+        ("", READY, "", "tests/releases/0.3.1/ needs files of this release; docs/CONTRIBUTING.md says"),
+        ("", READY, "refs/tags/v0.3.1", "v0.3.1 is tagged; pyproject.toml needs another version\n"),
     ],
 )
 def test_what_is_not_ready_is_not_released(tmp_path, changed, heading, tagged, says):
@@ -78,15 +68,9 @@ esac
     (tmp_path / "docs").mkdir()
     (tmp_path / "docs" / "CHANGELOG.md").write_text(f"# Changelog\n\n{heading}\n\n## 0.3.0, 2026-12-24\n")
     (tmp_path / "pyproject.toml").write_text('[project]\nname = "a"\nversion = "0.3.1"\n')
-    done = subprocess.run(
-        ["make", "--no-print-directory", "-f", str(MAKEFILE), "releasable"],
-        cwd=tmp_path,
-        env={**os.environ, "PATH": f"{tmp_path}:{os.environ['PATH']}", "MAKEFLAGS": ""},
-        capture_output=True,
-        text=True,
-    )
+    done = make(tmp_path, "-f", str(MAKEFILE), "releasable")
     assert (done.returncode != 0) == bool(says)
-    assert says in done.stderr
+    assert (f"make release: {says}" if says else "") in done.stderr
 
 
 def test_what_is_told_to_be_quiet_is_told_of():
@@ -102,10 +86,8 @@ def test_the_container_makes_all_results_and_pages_by_targets_that_there_are():
     (made,) = re.findall(r"^CMD (.*)$", container, flags=re.MULTILINE)
     program, *targets = json.loads(made)
     # Nothing is run; what is asked for must have rules.
-    command = [program, "--dry-run", "--always-make", "--no-print-directory", *asked.split(), *targets]
-    done = subprocess.run(
-        command, cwd=MAKEFILE.parent, env={**os.environ, "MAKEFLAGS": ""}, capture_output=True, text=True
-    )
+    assert program == "make"
+    done = make(MAKEFILE.parent, "--dry-run", "--always-make", *asked.split(), *targets)
     assert done.returncode == 0, done.stderr
     (listed,) = re.findall(r"cointoss reproduce (.*) --out docs$", done.stdout, flags=re.MULTILINE)
     assert set(listed.split()) == {path.name for path in (MAKEFILE.parent / "docs/reproduction").iterdir()}
