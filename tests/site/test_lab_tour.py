@@ -20,21 +20,11 @@ def scenario_of(stop):
     return plain.replace(*(part for pair in fields.items() for part in pair))
 
 
-def row_of(scenario, field, values, after, **fixed):
-    """Return the faces along a row of a map."""
+def row_of(scenario, values, after, **fixed):
+    """Return the faces along a row of a map, over values of the spin."""
     pairs = [part for name, value in fixed.items() for part in (name.replace("__", "."), value)]
     held = scenario.replace(*pairs) if pairs else scenario
-    assert field == SPIN
-    count = len(values)
-    release = held.release
-    spins = np.tile(release.angular_velocity, (count, 1))
-    spins[:, 1] = values
-    releases = Releases(
-        position=np.tile(release.position, (count, 1)),
-        velocity=np.tile(release.velocity, (count, 1)),
-        quaternion=np.tile(release.attitude, (count, 1)),
-        angular_velocity=spins,
-    )
+    releases = Releases.of(held, len(values), angular_velocity_eta=values)
     if after is None:
         return analytic.toss_many(held, releases).outcome
     return analytic.toss_many(held.replace("ending.max_impacts", after + 1), releases).after(after)
@@ -60,14 +50,8 @@ def test_the_share_of_a_hand_is_that_of_the_package(kept):
         # Within four standard errors.
         assert values.mean() == pytest.approx(mean, rel=4 * 0.02 / 2000**0.5)
         assert values.std() == pytest.approx(0.02 * mean, rel=4 / (2 * 2000) ** 0.5)
-    count = 2000
-    nothing = np.zeros(count)
-    releases = Releases(
-        position=np.column_stack([nothing, nothing, fields[HEIGHT]]),
-        velocity=np.zeros((count, 3)),
-        quaternion=np.tile([1.0, 0, 0, 0], (count, 1)),
-        angular_velocity=np.column_stack([nothing, fields[SPIN], nothing]),
-    )
+    drawn = {"height": fields[HEIGHT], "angular_velocity_eta": fields[SPIN]}
+    releases = Releases.of(scenario_of(stop), 2000, **drawn)
     for after, least, most in ((0, 0.99, 1), (2, 0.4, 0.6)):
         scenario = scenario_of(stop).replace("ending.max_impacts", after + 1)
         expected = share(analytic.toss_many(scenario, releases).after(after) == 1)
@@ -95,27 +79,25 @@ def test_the_stops_of_the_tour_say_what_is_so(kept):
     for speed in (1.0, 2.0):
         spun = np.linspace(10, 50, 201) * (2 / speed)
         turns = spun * speed / (np.pi * 9.81)
-        found = row_of(scenarios[0], SPIN, spun, None, release__velocity__z=speed)
+        found = row_of(scenarios[0], spun, None, release__velocity__z=speed)
         assert np.array_equal(found == 1, np.abs(turns - np.round(turns)) < 1 / 4)
 
     for height in (0.2, 0.4, 0.6):
-        assert 3 <= changes(row_of(scenarios[1], SPIN, spins, 0, release__position__z=height)) <= 5
-        assert changes(row_of(scenarios[1], SPIN, spins, 1, release__position__z=height)) > 100
+        assert 3 <= changes(row_of(scenarios[1], spins, 0, release__position__z=height)) <= 5
+        assert changes(row_of(scenarios[1], spins, 1, release__position__z=height)) > 100
 
     # The finer one looks, the more thin stripes are seen.
     for count in (641, 8001):
         fine = np.linspace(20, 60, count)
-        assert 11 <= changes(row_of(scenarios[2], SPIN, fine, None, floor__restitution=0.0)) <= 16
-    assert changes(row_of(scenarios[2], SPIN, spins, None, floor__restitution=0.3)) > 100
-    assert changes(row_of(scenarios[2], SPIN, spins, None, floor__restitution=0.6)) > 300
+        assert 11 <= changes(row_of(scenarios[2], fine, None, floor__restitution=0.0)) <= 16
+    assert changes(row_of(scenarios[2], spins, None, floor__restitution=0.3)) > 100
+    assert changes(row_of(scenarios[2], spins, None, floor__restitution=0.6)) > 300
 
     heights = np.linspace(0.2, 0.6, 12)
     spins = np.linspace(20, 60, 160)
 
     def faces_of(scenario, after):
-        return np.array(
-            [row_of(scenario, SPIN, spins, after, release__position__z=height) for height in heights]
-        )
+        return np.array([row_of(scenario, spins, after, release__position__z=height) for height in heights])
 
     vacuum = scenarios[3].replace("air.normal", 0, "air.tangential", 0)
     assert np.mean(faces_of(scenarios[3], 2) != faces_of(vacuum, 2)) == pytest.approx(1 / 3, abs=0.05)
