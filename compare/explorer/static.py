@@ -38,10 +38,6 @@ def write_static(map_path: Path, out: Path) -> None:
 
     Where the package carries the engine for a browser, and it tosses such a map, it tosses any pixel there.
 
-    Args:
-        map_path: of the map.
-        out: the .html file.
-
     Raises:
         MapError, ScenarioError: for what is no map.
         UnwritableError: naming the file and why.

@@ -17,14 +17,9 @@ DARKNESS = 0.2
 
 
 def add_shadow(scene: mujoco.MjvScene, data: mujoco.MjData, coin: Coin) -> None:
-    """Add the shadow of a coin to a scene.
+    """Add the shadow of a coin to a scene that has room for it.
 
     It is drawn as an ellipse, which takes a fiftieth of the time of a renderer's map of shadows.
-
-    Args:
-        scene: with room for it.
-        data: where the coin is.
-        coin: that casts it.
     """
     x, y, _ = data.body("coin").xpos
     n_x, n_y, n_z = data.body("coin").xmat.reshape(3, 3)[:, 2]

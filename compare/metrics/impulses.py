@@ -43,9 +43,6 @@ def errors_of_impacts(toss: Toss) -> Array:
     Unlike the difference of matched impacts this carries nothing on from the impacts before: it is the error
     that the engine makes anew each time.
 
-    Args:
-        toss: by any engine.
-
     Returns:
         |S_law - S|/|S_law|, (n,).
     """

@@ -176,13 +176,6 @@ def smallest_changes(
     """Return the margin of each of many tosses along a quantity, with its sign, in SI units, (n,).
 
     It is infinite where no change up to 1 does, or none before one that the scenario would refuse.
-
-    Args:
-        scenario: whose coin is tossed.
-        start: the releases.
-        quantity: what changes.
-        outcomes: tosses the coin.
-        search: how closely.
     """
     own = outcomes(start)
 

@@ -50,9 +50,6 @@ def raise_interruption_behind(error: BaseException) -> None:
     """Raise the interruption that an error arose from; return where there is none.
 
     Ctrl-C ends a child process too, and its complaint may come before the signal is heeded here.
-
-    Args:
-        error: raised since a child process stopped.
     """
     behind: BaseException | None = error
     while behind is not None:
@@ -66,14 +63,11 @@ def raise_interruption_behind(error: BaseException) -> None:
 
 
 def run_to_exit(command: Callable[[], object]) -> NoReturn:
-    """Run a command; where a signal comes, let the command clean up, and end the process.
+    """Run a command; where a signal comes, let it clean up, and end the process.
 
-    The signal raises `Interruption` on the main thread. A thread of its own learns of it too, even while the
-    main thread is in a long call of compiled code, and ends the process if the main thread does not within
-    `PATIENCE`. A signal that is ignored, as under nohup, stays so.
-
-    Args:
-        command: ends by raising SystemExit.
+    A command ends by raising SystemExit. The signal raises `Interruption` on the main thread. A thread of its
+    own learns of it too, even while the main thread is in a long call of compiled code, and ends the process
+    if the main thread does not within `PATIENCE`. A signal that is ignored, as under nohup, stays so.
     """
     heeded = [number for number in SIGNALS if signal.getsignal(number) != signal.SIG_IGN]
     ending = _Ending()

@@ -19,9 +19,6 @@ ROUNDING = 1e-16
 def motion_of(comparison: ComparedTosses) -> dict[str, Any]:
     """Return the motion of the tosses, for JSON.
 
-    Args:
-        comparison: of them.
-
     Returns:
         `tosses`; `apart`, how the differences between the engines grow, or None; and `horizon`, the time of
         the last impact whose face must be shared where others follow, or None [s].

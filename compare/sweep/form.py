@@ -88,12 +88,7 @@ def read_form(folder: Path) -> Form:
 
 
 def require_chunk(folder: Path, name: Path, size: int) -> None:
-    """Refuse a chunk that does not decode to a number of bytes, and one of an axis that is lost.
-
-    Args:
-        folder: of the map.
-        name: of the chunk's file in it.
-        size: bytes that it decodes to.
+    """Refuse a chunk of a map's folder that does not decode to `size` bytes, and one of an axis that is lost.
 
     Raises:
         FormError: naming the file.
