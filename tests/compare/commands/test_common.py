@@ -7,6 +7,7 @@ import pytest
 from tests.helpers.command_line import refused
 
 AXES = "basin fig24a --x release.position.z=1:2:3 --y gravity=9:10:2"
+FIND = "find fig24a --vary release.position.z=0.3:0.5"
 
 # What stands in each answer.
 ANSWERS = {
@@ -17,6 +18,10 @@ ANSWERS = {
     AXES: "--out: missing; accepted: --out MAP.zarr, the Zarr store to write (see ",
     "video fig24a": "--out: missing; accepted: --out PATH, the file to write: .mp4, .webm or .gif (see ",
     "solref --dt 0.002": "--restitution and --of: accepted: one of them",
+    "find fig24a": "--vary: missing; accepted: --vary FIELD=START:STOP, a field",
+    FIND: "--sequence, --outcome: none; accepted: one of them",
+    "fit": "OBSERVED.csv: missing; accepted: a CSV file with the times of touches",
+    "fit file fig24a": "--free: missing; accepted: --free FIELD=START:STOP, a field",
     "bounce model.xml ball": "GEOM: missing; accepted: the name or the number of a geom, twice (see ",
     "bounce gone.xml a b": "gone.xml: accepted: an XML file of MuJoCo that exists",
     "bounce file a b": "file: accepted: an XML file that MuJoCo loads (",
@@ -37,6 +42,7 @@ ANSWERS = {
     "throw": "throw: no such command; accepted: basin, bounce, compare, ",
     "toss nofile": "nofile: no such file; accepted: a TOML file, or one of: contact_coulomb, ",
     "toss tabel": " (did you mean table?)",
+    "lab no-such": "cointoss: no-such: ",
     "toss ''": "(no name): no such file; accepted: a TOML file, or one of: ",
     "compare fig24a --no-video --out ''": "'--out': an empty name; accepted: a path",
     "toss fig24a --engine bullet": "'--engine': 'bullet' is not one of 'analytic', 'mujoco' (",
@@ -45,12 +51,26 @@ ANSWERS = {
     "reproduce nothing": "nothing: no such name; accepted: accuracy-and-stripes, ",
     "reproduce contact-laws no-such --out out": "no-such: no such name; accepted: ",
     "reproduce contact_laws --out out": "contact_laws: no such name; accepted: ",
+    f"{FIND} --sequence ht": "sequence: 'ht', accepted: letters H and T",
+    "shares fig24a --up tails": "'--up': 'tails' is not one of 'heads', 'either'",
     f"{AXES} --margin weight --out a.zarr": "margin weight: accepted: height, velocity x,",
     # numbers
     "toss fig24a --max-impacts 0": "'--max-impacts': 0; accepted: an integer >= 1 and <= 30000000",
     "toss fig24a --max-impacts 1e9": "'--max-impacts': 1e9; accepted: an integer >= 1 and ",
     "toss fig24a --contact-steps 0": "'--contact-steps': 0; accepted: an integer >= 1 and ",
     "hands fig24a --tosses 0": "'--tosses': 0; accepted: an integer >= 1 and <= 10000000 (",
+    "find fig24a --sequence H --vary release.position.z=0.2:1e300": (
+        "release.position.z = 1e300: accepted: a finite number within 1e+09"
+    ),
+    "find fig24a --sequence H --vary coin.radius=-2:-1": (
+        "coin.radius=-2:-1: coin.radius = -2.0: accepted: a number >= 1e-09"
+    ),
+    "shares fig24a --to 60%": "to: 0.6, accepted: a part from 0.01 % to 50 %",
+    "shares fig24a --height 2e9": "accepted: numbers within 1e+09",
+    "shares fig24a --along hand.psi=0:1": "hand.psi=0:1: accepted: FIELD=START:STOP:N",
+    "shares fig24a --along hand.height=1e300:1e308:2": (
+        "hand.height = 1e300: accepted: a finite number within 1e+09"
+    ),
     "solref --restitution 0.5 --dt x": "'--dt': x; accepted: a number in s, or a string with a ",
     "solref --restitution 0.5 --dt 0": "--dt 0: accepted: a number of seconds from 1e-7 to 0.1",
     "solref --restitution 0.5 --dt '2 m'": "'--dt': 2 m; accepted: a number in s, or ",
@@ -79,6 +99,8 @@ ANSWERS = {
     f"{AXES} --margin height --compare --out a.zarr": "--margin height --compare: accepted: only by",
     f"{AXES} --trust --engine mujoco --out a.zarr": "--trust --engine mujoco: accepted: only",
     # what excludes another
+    "shares fig24a --compare --engine analytic": "--engine and --compare: accepted: one of them",
+    "shares fig24a --spun --caught '1 m'": "--caught 1 m: accepted: only without --spun",
     "solref --restitution 0.5 --dt 2ms --steps 40": "--steps 40: accepted: only beside --spring",
     "basin fig24a --x ending.max_impacts=1:3:3 --y gravity=9:10:2 --after 2 --out a.zarr": (
         "fig24a: ending.max_impacts: an axis beside after = 2; accepted: one of the two"
@@ -120,6 +142,11 @@ ANSWERS = {
     "video fig24a --out no/a.mp4": "no/a.mp4: no folder no; accepted: a file in a folder that exists",
     f"{AXES} --out a.map": "a.map: another kind of name; accepted: one that ends in .zarr",
     f"{AXES} --out no/a.zarr": "no/a.zarr: no folder no; accepted: a name in a folder that exists",
+    "lab fig24a --out lab.txt": "lab.txt: another kind of file; accepted: a name that ends in .html",
+    f"{FIND} --sequence H --out a.json": "a.json: another kind of file; accepted: a name that ends in .toml",
+    "shares fig24a --out a.txt": "a.txt: another kind of file; accepted: a name that ends in .csv or .png",
+    "shares fig24a --hand no.toml": "no.toml: can't be read (No such file or directory); accepted: a TOML",
+    "fit gone.csv fig24a --free floor.restitution=0.4:0.95": "gone.csv: no such file; accepted: a CSV file",
     "explore gone.zarr": "gone.zarr: no such folder; accepted: a map that cointoss basin made",
     "explore file": "file: is no folder; accepted: a map that cointoss basin made",
     f"{AXES} --out other.zarr": "other.zarr: is no map; accepted: a new name, or a map of cointoss",

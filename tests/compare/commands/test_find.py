@@ -8,7 +8,7 @@ from cointoss import __version__
 from cointoss.compare.find.window import window_of
 from cointoss.models.parts import LARGEST
 from cointoss.models.reading import load, parse
-from tests.helpers.command_line import cointoss, refused
+from tests.helpers.command_line import cointoss
 
 VARY = ("--vary", "release.position.z=0.3:0.5", "--tosses", 512)
 
@@ -44,15 +44,3 @@ def test_margins_are_looked_for_in_numbers_that_a_release_can_have():
     # A margin may be as wide as the window, to either side.
     assert window.values(np.array([[-1.0], [0.75], [2.0]])).ravel().tolist() == [-LARGEST, 5e8, LARGEST]
     window.toss(np.array([[-1.0], [2.0]]), 1)
-
-
-def test_bad_options_are_one_line(tmp_path):
-    assert "--sequence, --outcome: none; accepted: one of them" in refused("find", "fig24a", *VARY)
-    assert "--vary: missing; accepted: --vary FIELD=START:STOP, a field" in refused("find", "fig24a")
-    far = refused("find", "fig24a", "--sequence", "H", "--vary", "release.position.z=0.2:1e300")
-    assert "release.position.z = 1e300: accepted: a finite number within 1e+09" in far
-    none = refused("find", "fig24a", "--sequence", "H", "--vary", "coin.radius=-2:-1")
-    assert "coin.radius=-2:-1: coin.radius = -2.0: accepted: a number >= 1e-09" in none
-    assert "sequence: 'ht', accepted: letters H and T" in refused("find", "fig24a", "--sequence", "ht", *VARY)
-    other = refused("find", "fig24a", "--sequence", "H", *VARY, "--out", tmp_path / "a.json")
-    assert "accepted: a name that ends in .toml" in other

@@ -85,13 +85,3 @@ def test_a_decimal_comma_between_commas_is_no_cell_of_its_own(tmp_path):
     (tmp_path / "heard.csv").write_text("t (s)\n0,2257\n0,5821\n0,8629\n")
     told = refused(*CALL, "--sd-time", "1 ms")
     assert "heard.csv: row 1 has 2 cells; accepted: 1, one for each column" in told
-
-
-def test_what_is_missing_is_named():
-    assert "OBSERVED.csv: missing; accepted: a CSV file with the times of touches" in refused("fit")
-    assert "--free: missing; accepted: --free FIELD=START:STOP, a field" in refused(
-        "fit", "heard.csv", "coin.toml"
-    )
-    assert "gone.csv: no such file; accepted: a CSV file" in refused(
-        "fit", "gone.csv", "coin.toml", *CALL[3:]
-    )

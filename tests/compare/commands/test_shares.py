@@ -58,27 +58,6 @@ def test_the_side_that_was_up_is_counted_whichever_it_was(coin):
     assert heads["low"] > 0.6
 
 
-@pytest.mark.parametrize(
-    ("words", "told"),
-    [
-        (["--to", "60%"], "to: 0.6, accepted: a part from 0.01 % to 50 %"),
-        (["--out", "a.txt"], "a.txt: another kind of file; accepted: a name that ends in .csv or .png"),
-        (["--compare", "--engine", "analytic"], "--engine and --compare: accepted: one of them"),
-        (["--spun", "--caught", "1 m"], "--caught 1 m: accepted: only without --spun"),
-        (["--hand", "no.toml"], "no.toml: can't be read (No such file or directory); accepted: a TOML file"),
-        (["--along", "hand.psi=0:1"], "hand.psi=0:1: accepted: FIELD=START:STOP:N"),
-        (["--up", "tails"], "'--up': 'tails' is not one of 'heads', 'either'"),
-        (["--height", "2e9"], "accepted: numbers within 1e+09"),
-        (
-            ["--along", "hand.height=1e300:1e308:2"],
-            "hand.height = 1e300: accepted: a finite number within 1e+09",
-        ),
-    ],
-)
-def test_bad_options_are_one_line(coin, words, told):
-    assert told in refused("shares", coin, *words)
-
-
 def test_the_hands_file_is_not_written_over(coin, tmp_path):
     hand, link = tmp_path / "hand.toml", tmp_path / "hand.csv"
     hand.write_text("psi_scatter = 0.1\n")
