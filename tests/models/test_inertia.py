@@ -11,13 +11,7 @@ from cointoss.models.inertia import (
     obeys_triangle_inequality,
     principal_moments,
 )
-from cointoss.models.kernel.vectors import Matrix
-
-
-def rows(M) -> Matrix:
-    """Return a matrix as a tuple of its rows."""
-    first, second, third = (tuple(row) for row in np.asarray(M).tolist())
-    return first, second, third
+from tests.helpers.tuples import matrix
 
 
 def turned(moments, rng):
@@ -34,16 +28,16 @@ def test_principal_moments_are_the_eigenvalues(spread):
         moments = np.sort(1 + spread * rng.uniform(size=3))
         J = turned(moments, rng)
         # Jacobi's rotations lose some roundings of the largest moment, as LAPACK does.
-        assert principal_moments(rows(J)) == pytest.approx(np.linalg.eigvalsh(J), abs=1e-14 * moments[-1])
-    assert principal_moments(rows(np.diag([3.0, 1.0, 2.0]))) == (1.0, 2.0, 3.0)
+        assert principal_moments(matrix(J)) == pytest.approx(np.linalg.eigvalsh(J), abs=1e-14 * moments[-1])
+    assert principal_moments(matrix(np.diag([3.0, 1.0, 2.0]))) == (1.0, 2.0, 3.0)
 
 
 def test_the_inverse_is_one_and_of_a_diagonal_matrix_its_reciprocals():
     rng = np.random.default_rng(6)
     for _ in range(50):
         J = turned(rng.uniform(1, 5, 3), rng)
-        assert np.array(inverse(rows(J))) @ J == pytest.approx(np.eye(3), abs=1e-14)
-    assert inverse(rows(np.diag([3.0, 7.0, 2.0]))) == rows(np.diag([1 / 3, 1 / 7, 0.5]))
+        assert np.array(inverse(matrix(J))) @ J == pytest.approx(np.eye(3), abs=1e-14)
+    assert inverse(matrix(np.diag([3.0, 7.0, 2.0]))) == matrix(np.diag([1 / 3, 1 / 7, 0.5]))
 
 
 def test_cylinder_is_the_integral_of_its_mass():
@@ -84,10 +78,10 @@ def test_thin_coins_stand_on_the_triangle_equality():
         c = rng.uniform(-4e-3, 4e-3, 2)
         J = inertia_about_mass_center(cylinder_inertia(2e-3, 1.25e-2, 0.0), 2e-3, (c[0], c[1], 0.0))
         turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-        assert obeys_triangle_inequality(rows(turn @ J @ turn.T))
-    assert not obeys_triangle_inequality(rows(np.diag([1.0, 1.0, 2.0 + 1e-6])))
+        assert obeys_triangle_inequality(matrix(turn @ J @ turn.T))
+    assert not obeys_triangle_inequality(matrix(np.diag([1.0, 1.0, 2.0 + 1e-6])))
 
 
 def test_what_is_not_finite_is_not_positive():
-    assert not is_positive_definite(rows(np.full((3, 3), np.inf)))
-    assert not is_positive_definite(rows(np.full((3, 3), np.nan)))
+    assert not is_positive_definite(matrix(np.full((3, 3), np.inf)))
+    assert not is_positive_definite(matrix(np.full((3, 3), np.nan)))
