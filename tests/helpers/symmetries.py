@@ -4,6 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.spatial.transform import Rotation
 
 TURN = 0.7
 """About the vertical [rad]."""
@@ -32,35 +33,16 @@ class Symmetry(NamedTuple):
         """Return what becomes of a release."""
         # An axial vector keeps its sign where a map has determinant -1 and turns over elsewhere.
         handed = np.linalg.det(self.space) * self.space
-        turned = quaternion_product(quaternion_of(handed), release["quaternion"])
         inner = np.linalg.det(self.body) * self.body
-        e = quaternion_product(turned, quaternion_of(inner.T))
+        attitude = Rotation.from_quat(release["quaternion"], scalar_first=True)
+        turned = Rotation.from_matrix(handed) * attitude * Rotation.from_matrix(inner.T)
+        e = turned.as_quat(scalar_first=True)
         return {
             "position": (self.vector(release["position"]) + self.shift).tolist(),
             "velocity": self.vector(release["velocity"]).tolist(),
             "quaternion": (-e if self.negative else e).tolist(),
             "angular_velocity": (inner @ release["angular_velocity"]).tolist(),
         }
-
-
-def quaternion_product(a: ArrayLike, b: ArrayLike) -> np.ndarray:
-    """Return a b, scalar first."""
-    (a0, *a_vector), (b0, *b_vector) = np.asarray(a), np.asarray(b)
-    u, v = np.array(a_vector), np.array(b_vector)
-    return np.array([a0 * b0 - u @ v, *(a0 * v + b0 * u + np.cross(u, v))])
-
-
-def quaternion_of(R: np.ndarray) -> np.ndarray:
-    """Return Euler parameters of a rotation, (4,); of half a turn too."""
-    outer = np.array(
-        [
-            [np.trace(R), R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]],
-            [0, R[0, 0] - R[1, 1] - R[2, 2], R[0, 1] + R[1, 0], R[0, 2] + R[2, 0]],
-            [0, 0, R[1, 1] - R[0, 0] - R[2, 2], R[1, 2] + R[2, 1]],
-            [0, 0, 0, R[2, 2] - R[0, 0] - R[1, 1]],
-        ]
-    )
-    return np.linalg.eigh(outer + np.triu(outer, 1).T)[1][:, -1]
 
 
 ONE, NONE = np.eye(3), np.zeros(3)
