@@ -40,37 +40,34 @@ class Drops:
     """The greatest [m]."""
 
 
-def drops_of(contact: Contact, body: Body = BALL, gravity: float = 0.0, speed: float = SPEED) -> Drops:
-    """Let a body come down flat on a plane with plain `mj_step`.
+def drops_of(contact: Contact, body: Body = BALL, gravity: float = 0.0) -> Drops:
+    """Let a body come down flat on a plane with plain `mj_step`, released less than four steps above it.
 
     Args:
         contact: the settings.
         body: without spin.
         gravity: downward [m/s²]; by default the contact alone acts.
-        speed: at the release, less than four steps above the plane [m/s].
     """
     with unlogged():
-        found = [_drop(contact, body, gravity, speed, (number + 0.5) / PHASES) for number in range(PHASES)]
+        found = [_drop(contact, body, gravity, (number + 0.5) / PHASES) for number in range(PHASES)]
     restitutions, durations, depths = (np.array(column) for column in zip(*found, strict=True))
     return Drops(restitutions, durations, float(depths.max()))
 
 
 def restitutions_of_a_ball(
-    solref: tuple[float, float], dt: float, integrator: str, solimp: str = HARDEST, gravity: float = 0.0
+    solref: tuple[float, float], dt: float, integrator: str, solimp: str = HARDEST
 ) -> Array:
     """Return the restitutions of a ball at the `PHASES` of its touch, as `drops_of` does, (`PHASES`,)."""
     contact = Contact(solref=solref, timestep=dt, integrator=integrator, solimp=solimp)
-    return drops_of(contact, gravity=gravity).restitutions
+    return drops_of(contact).restitutions
 
 
-def _drop(
-    contact: Contact, body: Body, gravity: float, speed: float, phase: float
-) -> tuple[float, float, float]:
+def _drop(contact: Contact, body: Body, gravity: float, phase: float) -> tuple[float, float, float]:
     """Return the restitution, the duration of the contact [s] and the depth [m] of one touch."""
-    model = body.compiled(contact, body.height + speed * contact.timestep * (2 + phase))
+    model = body.compiled(contact, body.height + SPEED * contact.timestep * (2 + phase))
     data = mujoco.MjData(model)
     model.opt.gravity[2] = -gravity
-    data.qvel[2] = -speed
+    data.qvel[2] = -SPEED
 
     def speed_at_plane() -> float:
         """Return the speed that the body in free flight has where it meets the plane."""
@@ -81,7 +78,7 @@ def _drop(
         mujoco.mj_step(model, data)
         pushed = data.nefc > 0 and data.efc_force.max() > 0
         pushing += pushed
-        slow = slow + 1 if abs(data.qvel[2]) < SLOW * speed else 0
+        slow = slow + 1 if abs(data.qvel[2]) < SLOW * SPEED else 0
         depth = max(depth, body.height - data.qpos[2])
         if pushing and not pushed and data.qvel[2] > 0 and (data.ncon == 0 or gravity == 0):
             return speed_at_plane() / before, pushing * contact.timestep, depth
