@@ -1,37 +1,42 @@
 """How MuJoCo's contacts tend to the hard limit: errors of single impacts over every setting."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
+from cointoss.coin_mj import Settings
 from cointoss.coin_mj.bounces.contact import DEFAULT, HARDEST, one_step_solref, spring_solref
 from cointoss.coin_mj.bounces.drops import restitutions_of_a_ball
 from cointoss.compare.output.progress import Progress, stepping
 from cointoss.compare.output.tables import paragraphs, table
-from cointoss.compare.reproduction.setups.mujoco_impacts import draw_touches
+from cointoss.compare.reproduction.setups.mujoco_impacts import draw_touches, restitution_errors
 from cointoss.compare.reproduction.setups.mujoco_study import (
-    FINE,
+    IMPULSE,
+    LIMIT,
     RUBBED,
     ConeFormula,
     NativeCone,
     Spread,
-    StepErrors,
     StiffnessErrors,
     cone_formula,
+    default_errors,
     draw_spreads,
     native_cone,
-    over_friction,
     over_kinds,
-    over_restitution,
-    over_spin,
     over_steps,
     over_stiffness,
     over_tilt,
     smooth_and_rubbed,
+    spread,
+)
+from cointoss.compare.reproduction.setups.mujoco_study import (
+    RESTITUTIONS as DRAWN,
 )
 from cointoss.compare.reproduction.setups.study import study
+from cointoss.models.scenario import Scenario
 
 SEED = 4
 STIFFNESSES = tuple(10.0**power for power in range(6, 17))
@@ -44,6 +49,7 @@ CONE_TILTS, CONE_RESTITUTION = (20.0, 45.0, 70.0), 0.5
 INTEGRATORS = ("Euler", "implicitfast", "RK4")
 SPIN, TILT = f"spin up to [rad/s], μ = {RUBBED:g}", f"tilt [deg], μ = {RUBBED:g}"
 """What is varied."""
+STYLES = ("o-", "s--", "^:", "x-", "d-.", "v-.")
 USERS_STEP = 1e-3
 """Of the table for `mj_step` [s]; the restitution does not depend on it."""
 USERS_RESTITUTIONS, USERS_STEPS = (0.1, 0.3, 0.5, 0.8, 1.0), (10, 20, 40, 80, 160)
@@ -67,8 +73,10 @@ class ImpactErrors:
 
     kinds: dict[str, dict[str, Spread]]
     stiffness: dict[str, StiffnessErrors]
-    steps: dict[str, StepErrors]
+    steps: dict[str, dict[int, float]]
+    """Median change of the impulse against that of `MOST_STEPS`, by floor and by the steps in a contact."""
     restitution: dict[float, Spread]
+    """|χ' - χ|, χ' the restitution that the default spring gives on a smooth floor, by χ."""
     friction: dict[float, Spread]
     spin: dict[float, Spread]
     tilt: dict[float, Spread]
@@ -85,18 +93,26 @@ def compute(progress: Progress, sizes: Sizes = FULL, seed: int = SEED) -> Impact
     half = max(4, sizes.impacts // 2)
     axis = np.linspace(0, 1, sizes.cells).tolist()
     step = stepping(progress, len(fields(ImpactErrors)))
+
+    def by_restitution(chi: float) -> Spread:
+        return spread(restitution_errors(draw_touches(rng, half, (chi, chi)), Settings()))
+
     return ImpactErrors(
         kinds=step(over_kinds(sizes.kinds, rng)),
         stiffness=step({name: over_stiffness(cases, STIFFNESSES) for name, cases in floors.items()}),
         steps=step({name: over_steps(cases[:half], STEPS, MOST_STEPS) for name, cases in floors.items()}),
-        restitution=step(over_restitution(half, RESTITUTIONS, rng)),
-        friction=step(over_friction(sizes.impacts, FRICTIONS, rng)),
-        spin=step(over_spin(half, SPINS, rng)),
+        restitution=step({chi: by_restitution(chi) for chi in RESTITUTIONS}),
+        friction=step(_over_friction(draw_touches(rng, sizes.impacts, DRAWN))),
+        spin=step({spin: default_errors(draw_touches(rng, half, DRAWN, spin)) for spin in SPINS}),
         tilt=step(over_tilt(half, TILTS, rng)),
         cone=step(native_cone(CONE_RESTITUTION, CONE_TILTS, axis, [2 * part for part in axis])),
         formula=step(cone_formula(sizes.kinds, rng)),
         users=step(_users()),
     )
+
+
+def _over_friction(touches: Sequence[Scenario]) -> dict[float, Spread]:
+    return {mu: default_errors(touches, mu) for mu in FRICTIONS}
 
 
 def _users() -> dict[str, list[float]]:
@@ -132,10 +148,12 @@ def measures(found: ImpactErrors) -> dict[str, Any]:
         "orders": (min(orders), max(orders)),
         "nearer": max(
             limit / error
-            for k, error, limit in zip(smooth.stiffness, smooth.impulse, smooth.limit, strict=True)
+            for k, error, limit in zip(
+                smooth.stiffness, smooth.errors[IMPULSE], smooth.errors[LIMIT], strict=True
+            )
             if k <= 1e12
         ),
-        "steps": max(part.impulse[0] for part in found.steps.values()),
+        "steps": max(part[STEPS[0]] for part in found.steps.values()),
         "formula": found.formula,
         "gain": found.formula.gains["one step, native cone"][0],
         "one_step": max(found.users["one step, Euler"]),
@@ -149,18 +167,13 @@ def tables(found: ImpactErrors) -> str:
     parts = ["Errors of impulses by kind of impact, median (worst; number):"]
     parts.append(table(["contact", *kinds], of_kinds))
     for name, part in found.stiffness.items():
-        columns = part.impulse, part.velocity, part.spin, part.guessed_mass, part.limit, part.fine_limit
-        rows = zip(part.stiffness, *columns, strict=True)
+        rows = zip(part.stiffness, *part.errors.values(), strict=True)
         parts += [
             f"Median errors over the stiffness, {name}; order {part.order:.2f}:",
-            table(
-                "k [1/s²] | impulse | velocity | spin | impulse without diagexact | 2 S(k) - S(k/4) | "
-                f"with {FINE} steps",
-                [[f"{k:.0e}", *map(_short, errors)] for k, *errors in rows],
-            ),
+            table(["k [1/s²]", *part.errors], [[f"{k:.0e}", *map(_short, errors)] for k, *errors in rows]),
         ]
     for name, part in found.steps.items():
-        rows = [[str(n), _short(error)] for n, error in zip(part.steps, part.impulse, strict=True)]
+        rows = [[str(n), _short(error)] for n, error in part.items()]
         parts += [f"Change of the impulse against {MOST_STEPS} steps, {name}:", table("steps | median", rows)]
     parts += ["Restitution asked for, and |obtained - asked|, smooth:", _spreads("χ", found.restitution)]
     for name, spreads in {"μ": found.friction, SPIN: found.spin, TILT: found.tilt}.items():
@@ -213,19 +226,12 @@ def draw_convergence(found: ImpactErrors) -> Figure:
     picture = Figure(figsize=(12, 7.4))
     axes = picture.subplots(2, 3)
     for place, (name, part) in zip(axes[0], found.stiffness.items(), strict=False):
-        for label, column, style in (
-            ("impulse", part.impulse, "o-"),
-            ("velocity", part.velocity, "s--"),
-            ("spin", part.spin, "^:"),
-            ("impulse, mass guessed (no diagexact)", part.guessed_mass, "x-"),
-            ("impulse 2 S(k) − S(k/4)", part.limit, "d-."),
-            (f"the same with {FINE} steps", part.fine_limit, "v-."),
-        ):
+        for (label, column), style in zip(part.errors.items(), STYLES, strict=True):
             place.loglog(part.stiffness, column, style, label=label, markersize=4)
         place.set(title=f"{name}: order {part.order:.2f}", xlabel="stiffness k [1/s²]", ylabel="median error")
     picture.legend(*axes[0][0].get_legend_handles_labels(), loc="outside upper left", ncols=6, fontsize=8)
     for name, part in found.steps.items():
-        axes[0][2].loglog(part.steps, part.impulse, "o-", label=name)
+        axes[0][2].loglog(list(part), list(part.values()), "o-", label=name)
     axes[0][2].set(title=f"against {MOST_STEPS} steps", xlabel="steps in a contact")
     axes[0][2].set_ylabel("median change of the impulse")
     axes[0][2].legend()

@@ -24,7 +24,6 @@ from cointoss.compare.reproduction.setups.mujoco_impacts import (
     impulse_errors,
     on_floor,
     relative_errors,
-    restitution_errors,
     touch,
     velocity_at_touch,
 )
@@ -83,26 +82,21 @@ def smooth_and_rubbed(cases: Sequence[Scenario]) -> dict[str, list[Scenario]]:
     }
 
 
+IMPULSE, LIMIT = "impulse", "2 S(k) - S(k/4)"
+"""Of what errs: |ΔS|/|S|, and the same of Richardson's limit of errors like k^(-1/2)."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class StiffnessErrors:
     """Median errors of impacts against the law, over the stiffness of the spring."""
 
     stiffness: list[float]
     """k [1/s²]."""
-    impulse: list[float]
-    """|ΔS|/|S|."""
-    velocity: list[float]
-    """|Δv'|/|v' - v| of C."""
-    spin: list[float]
-    """|Δω'|/|ω' - ω|."""
-    guessed_mass: list[float]
-    """As `impulse`, without MuJoCo's `diagexact`."""
-    limit: list[float]
-    """Of the impulse 2 S(k) - S(k/4): Richardson's limit of errors like k^(-1/2)."""
-    fine_limit: list[float]
-    """As `limit`, with `FINE` steps in a contact."""
+    errors: dict[str, list[float]]
+    """Of the impulse, of C's velocity and of the spin, the last two over their change; of the impulse without
+    MuJoCo's `diagexact`, and in the limit, also with `FINE` steps in a contact."""
     order: float
-    """p of errors like k^-p, over the stiffnesses from 1e8 to 1e14."""
+    """p of errors of the impulse like k^-p, over the stiffnesses from 1e8 to 1e14."""
 
 
 def over_stiffness(cases: Sequence[Scenario], stiffnesses: Sequence[float]) -> StiffnessErrors:
@@ -117,18 +111,19 @@ def over_stiffness(cases: Sequence[Scenario], stiffnesses: Sequence[float]) -> S
     hard = [by_mujoco(cases, one) for one in settings]
     impulse = [median_error(found) for found in hard]
     fitted = [i for i, k in enumerate(stiffnesses) if 0.9e8 < k < 1.1e14]
-    limit, fine_limit = (
-        [_median(relative_errors(S, _limit(cases, k, steps))) for k in stiffnesses]
-        for steps in (Settings().steps, FINE)
-    )
+    errors = {
+        IMPULSE: impulse,
+        "velocity": [_median(_change_error(law, found, "velocity")) for found in hard],
+        "spin": [_median(_change_error(law, found, "angular_velocity")) for found in hard],
+        "impulse without diagexact": [
+            median_error([_with_guessed_mass(case, one) for case in cases]) for one in settings
+        ],
+    }
+    for name, steps in ((LIMIT, Settings().steps), (f"with {FINE} steps", FINE)):
+        errors[name] = [_median(relative_errors(S, _limit(cases, k, steps))) for k in stiffnesses]
     return StiffnessErrors(
         stiffness=list(stiffnesses),
-        impulse=impulse,
-        velocity=[_median(_change_error(law, found, "velocity")) for found in hard],
-        spin=[_median(_change_error(law, found, "angular_velocity")) for found in hard],
-        guessed_mass=[median_error([_with_guessed_mass(case, one) for case in cases]) for one in settings],
-        limit=limit,
-        fine_limit=fine_limit,
+        errors=errors,
         order=order([stiffnesses[i] for i in fitted], [impulse[i] for i in fitted]),
     )
 
@@ -157,21 +152,12 @@ def _with_guessed_mass(case: Scenario, settings: Settings) -> Impacts:
     return Impacts.from_rows(run(machine, case.rules).rows)
 
 
-@dataclass(frozen=True, kw_only=True)
-class StepErrors:
-    """Median change of the impulse against that of the most steps, over the steps in a contact."""
-
-    steps: list[int]
-    impulse: list[float]
-
-
-def over_steps(cases: Sequence[Scenario], steps: Sequence[int], most: int) -> StepErrors:
-    """Return how little impulses change as a contact is resolved by more steps."""
+def over_steps(cases: Sequence[Scenario], steps: Sequence[int], most: int) -> dict[int, float]:
+    """Return the median change of the impulse against that of the most steps, for each number of steps."""
     S = first(by_mujoco(cases, Settings(steps=most)), "impulse")
-    errors = [
-        _median(relative_errors(S, first(by_mujoco(cases, Settings(steps=n)), "impulse"))) for n in steps
-    ]
-    return StepErrors(steps=list(steps), impulse=errors)
+    return {
+        n: _median(relative_errors(S, first(by_mujoco(cases, Settings(steps=n)), "impulse"))) for n in steps
+    }
 
 
 def over_kinds(count: int, rng: np.random.Generator) -> dict[str, dict[str, Spread]]:
@@ -200,27 +186,6 @@ def _kind(impacts: Impacts) -> str:
     if np.hypot(after[0], after[1]) < NO_SLIP * np.linalg.norm(before):
         return "sticking"
     return "sliding" if before[:2] @ after[:2] > 0 else "turning"
-
-
-def over_restitution(
-    count: int, restitutions: Sequence[float], rng: np.random.Generator
-) -> dict[float, Spread]:
-    """Return |χ' - χ|, χ' the restitution that the default spring gives on a smooth floor, for each χ."""
-    return {
-        chi: spread(restitution_errors(draw_touches(rng, count, (chi, chi)), Settings()))
-        for chi in restitutions
-    }
-
-
-def over_friction(count: int, frictions: Sequence[float], rng: np.random.Generator) -> dict[float, Spread]:
-    """Return the errors of impulses of the default spring for each μ."""
-    touches = draw_touches(rng, count, RESTITUTIONS)
-    return {mu: default_errors(touches, mu) for mu in frictions}
-
-
-def over_spin(count: int, spins: Sequence[float], rng: np.random.Generator) -> dict[float, Spread]:
-    """Return the errors of impulses of the default spring for coins that spin up to each speed [rad/s]."""
-    return {spin: default_errors(draw_touches(rng, count, RESTITUTIONS, spin)) for spin in spins}
 
 
 def over_tilt(count: int, tilts: Sequence[float], rng: np.random.Generator) -> dict[float, Spread]:

@@ -22,6 +22,8 @@ from cointoss.compare.reproduction.setups.mujoco_impacts import (
     velocity_at_touch,
 )
 from cointoss.compare.reproduction.setups.mujoco_study import (
+    IMPULSE,
+    LIMIT,
     cone_formula,
     native_cone,
     order,
@@ -60,8 +62,8 @@ def test_impacts_converge_with_the_root_of_the_stiffness_and_few_steps_resolve_t
     rubbed = [on_floor(case, ContactLaw.COULOMB, 0.3) for case in cases]
     stiffness = over_stiffness(rubbed, [1e8, 1e10, 1e12])
     assert 0.45 < stiffness.order < 0.55
-    assert stiffness.limit[1] < 0.05 * stiffness.impulse[1]
-    assert max(over_steps(rubbed, [10, 40], 640).impulse) < 5e-6
+    assert stiffness.errors[LIMIT][1] < 0.05 * stiffness.errors[IMPULSE][1]
+    assert max(over_steps(rubbed, [10, 40], 640).values()) < 5e-6
 
 
 def test_kinds_of_impact_are_told_apart():
