@@ -1,6 +1,6 @@
 """Restitution of bodies of other mass and shape, of several contacts at once, and of other settings."""
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -72,8 +72,10 @@ class Bodies:
 def touch_of(contact: str, dt: float, **others) -> Touch:
     """Return the settings of "one step" or of a "spring"."""
     if contact == "one step":
-        return Touch(solref=one_step_solref(RESTITUTION, dt), dt=dt, integrator="implicitfast", **others)
-    return Touch(solref=spring_solref(RESTITUTION, dt, SPRING_STEPS), dt=dt, integrator="RK4", **others)
+        solref, integrator = one_step_solref(RESTITUTION, dt), "implicitfast"
+    else:
+        solref, integrator = spring_solref(RESTITUTION, dt, SPRING_STEPS), "RK4"
+    return Touch(solref=solref, timestep=dt, integrator=integrator, **others)
 
 
 CONTACTS = {
@@ -154,11 +156,8 @@ def _speculative() -> dict[str, list[tuple[float, float]]]:
 def _resting(mass: float, steps: int | None) -> float:
     """Return the depth at rest with the recommended settings, over (1 - d) g/k."""
     contact = recipe_of(RESTITUTION, STEP, steps)
-    touch = Touch(
-        solref=contact.solref, dt=STEP, integrator=contact.integrator, solimp=contact.solimp, mass=mass
-    )
     soft = 1 - float(contact.solimp.split()[0])
-    return resting_depth(touch) / (soft * GRAVITY / -contact.solref[0])
+    return resting_depth(Touch(**asdict(contact), mass=mass)) / (soft * GRAVITY / -contact.solref[0])
 
 
 def measures(found: Bodies) -> dict[str, Any]:

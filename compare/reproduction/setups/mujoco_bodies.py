@@ -9,7 +9,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from cointoss.coin_mj.bounces.contact import HARDEST
+from cointoss.coin_mj.bounces.contact import Contact
 from cointoss.coin_mj.bounces.drops import GRAVITY, LONGEST, PHASES, SPEED
 from cointoss.models.records import Array
 
@@ -45,16 +45,9 @@ SHAPES = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class Touch:
-    """Settings of a contact and of the simulation."""
+class Touch(Contact):
+    """Settings of a contact, with what touches there."""
 
-    solref: tuple[float, float]
-    dt: float
-    """[s]."""
-    integrator: str
-    solimp: str = HARDEST
-    exact: bool = True
-    """The flag diagexact."""
     speculative: bool = False
     """The flag of this name: contacts that would come within the step act at its beginning."""
     mass: float = 1.0
@@ -99,11 +92,10 @@ def _described(shape: Shape, touch: Touch) -> str:
         _OFFSET.format(x=x, y=y, z=z, mass=touch.mass, moment=0.4 * touch.mass * SIZE**2) if off else ""
     )
     mass = "" if off else f'mass="{touch.mass!r}"'
-    solref = " ".join(repr(number) if number else "0" for number in touch.solref)
     flags = {"diagexact": touch.exact, "speculative": touch.speculative}
     flag = " ".join(f'{name}="{"enable" if on else "disable"}"' for name, on in flags.items())
     return f"""<mujoco>
-  <option timestep="{touch.dt!r}" integrator="{touch.integrator}" gravity="0 0 0">
+  <option timestep="{touch.timestep!r}" integrator="{touch.integrator}" gravity="0 0 0">
     <flag {flag}/>
   </option>
   <worldbody>
@@ -111,7 +103,7 @@ def _described(shape: Shape, touch: Touch) -> str:
     <body euler="{shape.tilt}">
       <freejoint/>
       {inertial}
-      <geom {shape.geom} {mass} condim="1" solref="{solref}" solimp="{touch.solimp}" {touch.body}/>
+      <geom {shape.geom} {mass} condim="1" {touch.geom} {touch.body}/>
     </body>
   </worldbody>
 </mujoco>"""
@@ -122,7 +114,7 @@ def _drop(shape: Shape, touch: Touch, phase: float) -> tuple[Array, float]:
     model = mujoco.MjModel.from_xml_string(_described(shape, touch))
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
-    data.qpos[2] = -_corners(model, data)[:, 2].min() + SPEED * touch.dt * (2 + phase)
+    data.qpos[2] = -_corners(model, data)[:, 2].min() + SPEED * touch.timestep * (2 + phase)
     data.qvel[2] = -SPEED
     mujoco.mj_forward(model, data)
     corners = _corners(model, data)
@@ -133,7 +125,7 @@ def _drop(shape: Shape, touch: Touch, phase: float) -> tuple[Array, float]:
         mujoco.mj_step(model, data)
         mujoco.mj_forward(model, data)
         depth = max(depth, -_corners(model, data)[:, 2].min())
-        pressed = bool(data.nefc) and data.efc_force.max() > 1e-9 * touch.mass * SPEED / touch.dt
+        pressed = bool(data.nefc) and data.efc_force.max() > 1e-9 * touch.mass * SPEED / touch.timestep
         touched = touched or pressed or data.ncon > 0
         # A speculative contact first lets the body come to the floor.
         if touched and not pressed and (data.qvel[2] > 0 or not touch.speculative):
