@@ -101,7 +101,9 @@ def make(
     heads = {key: tosses.share(Outcome.HEADS) for key, tosses in made.items()}
     uncertain = {key: share(tosses.uncertain) for key, tosses in made.items()}
     others = {key: (tosses, made[THIN, key[1]]) for key, tosses in made.items() if key[0] != THIN}
-    same = {key: _same(*pair) for key, pair in others.items()}
+    same = {
+        key: share(own.outcome == thin.outcome[: len(own.outcome)]) for key, (own, thin) in others.items()
+    }
     shown = {key: (heads[key], same.get(key, Estimate(1, 1, 1, count)), uncertain[key]) for key in made}
     return Findings(
         after_row=after_row,
@@ -110,15 +112,21 @@ def make(
         same=same,
         same_words=_listed("as the thin coin's:", same, (NEAR, REAL)),
         heads={coin: _listed("heads", heads, (THIN, coin)) for coin in (NEAR, REAL)},
-        heads_apart={key: _heads_apart(*pair) for key, pair in others.items()},
+        heads_apart={
+            key: difference(*(one.outcome == Outcome.HEADS for one in pair)) for key, pair in others.items()
+        },
         impacts={key: tosses.impacts for key, tosses in made.items()},
         impacts_over={
-            f"impacts over the thin coin's ({floor} floor)": _impacts_over(*others[REAL, floor])
+            f"impacts over the thin coin's ({floor} floor)": _ratio_of_means(
+                *(one.impacts[:count_real] for one in others[REAL, floor])
+            )
             for floor in FLOORS
         },
         edge={key: tosses.share(Outcome.EDGE) for key, (tosses, _) in others.items()},
         uncertain=_listed(f"{1e6 * STEP:.0f} µm of height change", uncertain, COINS),
-        uncertain_over={key: _uncertain_over(*pair) for key, pair in others.items()},
+        uncertain_over={
+            key: _ratio_of_means(own.uncertain, thin.uncertain) for key, (own, thin) in others.items()
+        },
         data={
             f"{coin}, {floor}": np.array([one.ends for one in three])
             for (coin, floor), three in shown.items()
@@ -143,27 +151,8 @@ def _share_after_row(scenario: Scenario, tossed: Releases) -> Estimate:
     return share_after_row(np.array([[len(kind) for kind in both] for both in kinds]))
 
 
-def _same(own: Tossed, thin: Tossed) -> Estimate:
-    """Return the share of a coin's tosses with the outcome of the thin ideal coin."""
-    return share(own.outcome == thin.outcome[: len(own.outcome)])
-
-
-def _heads_apart(own: Tossed, thin: Tossed) -> Estimate:
-    """Return how far the shares of heads of a coin and the thin one differ."""
-    return difference(own.outcome == Outcome.HEADS, thin.outcome == Outcome.HEADS)
-
-
-def _impacts_over(own: Tossed, thin: Tossed) -> Estimate:
-    """Return the mean number of impacts of a coin over that of the thin one, in the same tosses."""
-    return _ratio_of_means(own.impacts, thin.impacts[: len(own.impacts)])
-
-
-def _uncertain_over(own: Tossed, thin: Tossed) -> Estimate:
-    """Return a coin's share of uncertain tosses over the thin one's."""
-    return _ratio_of_means(own.uncertain, thin.uncertain)
-
-
 def _ratio_of_means(own: NDArray[Any], thin: NDArray[Any]) -> Estimate:
+    """Return a mean of a coin's tosses over that of the thin one's, in the same tosses, (n,) each."""
     return jackknife(lambda kept: float(own[kept].mean() / thin[kept].mean()), len(own))
 
 

@@ -48,7 +48,8 @@ def make(progress: Progress, tosses: int = 200_000) -> Findings:
         landing: np.array([spread_over_cells(z, w, up, n) for n in CELLS]) for landing, up in heads.items()
     }
     densities = _densities(z, w)
-    errors = np.array([_error(weights) for weights in densities])
+    # The standard error of a share of one half with these weights.
+    errors = np.array([(weights**2).sum() ** 0.5 / weights.sum() / 2 for weights in densities])
     shares = {
         landing: np.array([np.average(up, weights=weights) for weights in densities])
         for landing, up in heads.items()
@@ -80,7 +81,7 @@ def make(progress: Progress, tosses: int = 200_000) -> Findings:
         spread={landing: spread[landing][CELLS == SHOWN][0] for landing in LANDINGS},
         spread_at={landing: spread_at(landing) for landing in LANDINGS},
         spread_finest=spread_at("bouncing", int(CELLS[-1])),
-        shares={landing: _listed(shares[landing]) for landing in LANDINGS},
+        shares={landing: ", ".join(f"{one:.1%}" for one in shares[landing]) for landing in LANDINGS},
         error=errors.max(),
         off_half={landing: off_half(landing) for landing in LANDINGS},
         finer=", ".join(f"{value:.2f} ({n}²)" for n, value in finer),
@@ -117,15 +118,6 @@ def spread_over_cells(z: Array, w: Array, heads: NDArray[np.bool_], cells: int) 
     """
     p, count = _shares(z, w, heads, cells)
     return scatter_of_shares(p[count > 1], count[count > 1])
-
-
-def _error(weights: Array) -> float:
-    """Return the standard error of a share of one half with these weights."""
-    return float(np.sqrt((weights**2).sum()) / weights.sum() / 2)
-
-
-def _listed(shares: Array) -> str:
-    return ", ".join(f"{share:.1%}" for share in shares)
 
 
 def _draw(data: Data) -> Figure:

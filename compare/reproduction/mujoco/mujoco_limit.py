@@ -1,6 +1,5 @@
 """How MuJoCo's contacts tend to the hard limit: errors of single impacts over every setting."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -36,7 +35,6 @@ from cointoss.compare.reproduction.setups.mujoco_study import (
     RESTITUTIONS as DRAWN,
 )
 from cointoss.compare.reproduction.setups.study import study
-from cointoss.models.scenario import Scenario
 
 SEED = 4
 STIFFNESSES = tuple(10.0**power for power in range(6, 17))
@@ -102,17 +100,19 @@ def compute(progress: Progress, sizes: Sizes = FULL, seed: int = SEED) -> Impact
         stiffness=step({name: over_stiffness(cases, STIFFNESSES) for name, cases in floors.items()}),
         steps=step({name: over_steps(cases[:half], STEPS, MOST_STEPS) for name, cases in floors.items()}),
         restitution=step({chi: by_restitution(chi) for chi in RESTITUTIONS}),
-        friction=step(_over_friction(draw_touches(rng, sizes.impacts, DRAWN))),
+        friction=step(
+            {
+                mu: default_errors(touches, mu)
+                for touches in [draw_touches(rng, sizes.impacts, DRAWN)]
+                for mu in FRICTIONS
+            }
+        ),
         spin=step({spin: default_errors(draw_touches(rng, half, DRAWN, spin)) for spin in SPINS}),
         tilt=step(over_tilt(half, TILTS, rng)),
         cone=step(native_cone(CONE_RESTITUTION, CONE_TILTS, axis, [2 * part for part in axis])),
         formula=step(cone_formula(sizes.kinds, rng)),
         users=step(_users()),
     )
-
-
-def _over_friction(touches: Sequence[Scenario]) -> dict[float, Spread]:
-    return {mu: default_errors(touches, mu) for mu in FRICTIONS}
 
 
 def _users() -> dict[str, list[float]]:

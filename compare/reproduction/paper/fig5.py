@@ -14,7 +14,7 @@ from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import ANALYTIC, GREY, MUJOCO
 from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.models.reading import load
-from cointoss.models.records import Array, Face, Toss
+from cointoss.models.records import Face
 from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 
@@ -48,10 +48,17 @@ def make(progress: Progress, count: int = 2000) -> Findings:
     tosses = (by_analytic, mujoco)
     found.sequences, found.trusted = [toss.sequence for toss in tosses], mujoco.trusted_impacts
     found.faces = min(len(set(toss.sequence[: toss.trusted_impacts])) for toss in tosses)
-    largest = np.array([_largest_spins(toss) for toss in tosses])
-    found.spins, found.least_spin = [_listed(spins) for spins in largest], largest.min()
-    slips = [_slip(toss) for toss in tosses]
-    found.sliding, found.slip = [_sliding(slip) for slip in slips], min(slip.max() for slip in slips)
+    impacts = [(toss.impacts, toss.trusted_impacts) for toss in tosses]
+    largest = np.array([np.abs(each.angular_velocity_after[:n]).max(axis=0) for each, n in impacts])
+    found.spins = [", ".join(f"{spin:.0f}" for spin in spins) for spins in largest]
+    found.least_spin = largest.min()
+    # Along the floor, of the contact point.
+    slips = [np.linalg.norm(each.contact_velocity_after[:n, :2], axis=1) for each, n in impacts]
+    found.sliding = [
+        f"after {np.sum(slip > SLIDES)} of {len(slip)} trusted impacts, at up to {slip.max():.2g} m/s"
+        for slip in slips
+    ]
+    found.slip = min(slip.max() for slip in slips)
     found.no_stills = f"; no stills: {drawn}" if isinstance(drawn, str) else ""
     found.first, found.last = first, last_seen
     found.tails, found.heads = [share(~first), share(~last_seen)], share(last_seen)
@@ -70,23 +77,6 @@ def make(progress: Progress, count: int = 2000) -> Findings:
 
 def _up_to(scenario: Scenario, impacts: int) -> Scenario:
     return scenario.replace("ending.max_impacts", impacts)
-
-
-def _largest_spins(toss: Toss) -> Array:
-    return np.abs(toss.impacts.angular_velocity_after[: toss.trusted_impacts]).max(axis=0)
-
-
-def _listed(spins: Array) -> str:
-    return ", ".join(f"{spin:.0f}" for spin in spins)
-
-
-def _slip(toss: Toss) -> Array:
-    """Return the speed along the floor of the contact point after the trusted impacts, (n,) [m/s]."""
-    return np.linalg.norm(toss.impacts.contact_velocity_after[: toss.trusted_impacts, :2], axis=1)
-
-
-def _sliding(slip: Array) -> str:
-    return f"after {np.sum(slip > SLIDES)} of {len(slip)} trusted impacts, at up to {slip.max():.2g} m/s"
 
 
 def _nearby(scenario: Scenario, count: int) -> Releases:

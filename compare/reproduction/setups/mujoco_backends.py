@@ -4,6 +4,7 @@
 # pyright: reportAttributeAccessIssue=false, reportMissingImports=false
 
 from collections.abc import Callable
+from functools import partial
 from importlib.metadata import version
 from importlib.util import find_spec
 from typing import Any
@@ -81,15 +82,10 @@ def by_warp(model: Any, qpos: Array, qvel: Array, steps: int) -> Array:
     return found
 
 
-def by_mjx_in_double(model: Any, qpos: Array, qvel: Array, steps: int) -> Array:
-    """Step by MJX in float64."""
-    return by_mjx(model, qpos, qvel, steps, double=True)
-
-
 BACKENDS: dict[str, Stepped] = {
     "MuJoCo": by_mujoco,
     "MJX, float32": by_mjx,
-    "MJX, float64": by_mjx_in_double,
+    "MJX, float64": partial(by_mjx, double=True),
     "Warp, float32": by_warp,
 }
 """By the names of their columns."""
