@@ -1,5 +1,6 @@
 """`cointoss fit`: what was seen of a coin to the fields that explain it."""
 
+import sys
 from pathlib import Path
 
 import click
@@ -10,6 +11,7 @@ from cointoss.compare.commands.common import (
     Given,
     Place,
     Quantity,
+    naming_options,
     plain_errors,
     print_json,
 )
@@ -63,7 +65,8 @@ def fit(
     shows at the release; without it your clock begins then. All other fields stay as the scenario has them.
 
     Printed are the values with their standard deviations and 99 % intervals, whether this model can do what
-    was seen at all, other values that would explain it too, and each touch.
+    was seen at all, other values that would explain it too, and each touch. The exit status is 1 where it
+    cannot.
     """
     with plain_errors(scenario):
         from cointoss.models.stages import stage
@@ -79,8 +82,11 @@ def fit(
         for path, suffix in ((out, ".toml"), (png, ".png")):
             if path is not None:
                 require_file(path, suffix, scenario, observed)
-        given = {"time": sd_time, "height": sd_height, "attitude": sd_attitude}
-        seen = read_observed(observed, {name: sd.value for name, sd in given.items() if sd is not None})
+        sd = {"time": sd_time, "height": sd_height, "attitude": sd_attitude}
+        given = {name: one for name, one in sd.items() if one is not None}
+        options = {name: (f"--sd-{name}", one) for name, one in given.items()}
+        with plain_errors(str(observed)), naming_options(options):
+            seen = read_observed(observed, {name: one.value for name, one in given.items()})
         spans = [parse_span(text, described) for text in free]
         found = fit_spans(seen, described, spans, starts=starts, seed=seed)
         if out is not None:
@@ -92,8 +98,9 @@ def fit(
                 draw_fit(found).savefig(aside, dpi=150, format="png")
         if as_json:
             print_json({**found.as_dict(), "seed": seed, "starts": starts}, "analytic")
-            return
-        click.echo(as_lines(found))
-        for name, path in (("scenario", out), ("picture", png)):
-            if path is not None:
-                click.echo(f"\n{name:11} {path}")
+        else:
+            click.echo(as_lines(found))
+            for name, path in (("scenario", out), ("picture", png)):
+                if path is not None:
+                    click.echo(f"\n{name:11} {path}")
+    sys.exit(0 if found.is_possible else 1)

@@ -4,14 +4,12 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from cointoss import analytic
 from cointoss.compare.find.search import search
 from cointoss.compare.find.window import Target, Window, window_of
 from cointoss.compare.metrics.estimates import share_of
 from cointoss.compare.sweep.axes import Span
-from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Outcome, Toss
 from cointoss.models.scenario import Scenario
@@ -157,10 +155,8 @@ def find(
         ValueError: naming the argument, its value and what is accepted.
     """
     described = scenario_of(scenario)
-    for name, value, least, most in (("tosses", tosses, 1, MOST_TOSSES), ("seed", seed, 0, 2**32)):
-        is_whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
-        if not (is_whole and least <= value <= most):
-            raise SweepError(f"{name}: {value!r}, accepted: a whole number from {least} to {most}")
+    require_whole("tosses", tosses, 1, MOST_TOSSES)
+    require_whole("seed", seed, 0, MOST_SEED)
     words = {str(one): one for one in Outcome}
     if outcome is not None and outcome not in words:
         raise SweepError(f"outcome: {outcome!r}, accepted: {', '.join(words)}")

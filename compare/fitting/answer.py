@@ -35,7 +35,7 @@ def _value(each: Fitted) -> str:
     if not np.isfinite(each.sd):
         return f"{name:34} not determined by what was seen"
     low, high = each.interval
-    end = "  at the end of its span" if each.at_end else ""
+    end = "  at the end of its span" if each.at_end else "  cut at the end of its span" if each.is_cut else ""
     return f"{name:34} {each.value:.7g} ± {each.sd:.2g}  99 % [{low:.7g}, {high:.7g}]{end}"
 
 

@@ -3,3 +3,12 @@
 
 class ObservationError(ValueError):
     """What was seen and can't be used; the message names file, column, value and what is accepted."""
+
+
+class ValueRefusedError(ObservationError):
+    """A number of an array of `Observed` that no observation has."""
+
+    def __init__(self, name: str, index: int, value: object, accepted: str) -> None:
+        """Keep which number of which array it is, its value, and what is accepted."""
+        super().__init__(f"Observed.{name}: [{index}] is {value}, accepted: {accepted}")
+        self.name, self.index, self.value, self.accepted = name, index, value, accepted

@@ -8,30 +8,27 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2, norm
+from scipy.stats import chi2
 
 from cointoss.analytic import toss
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.misfit import CLOCK, Misfit
 from cointoss.compare.fitting.observed import Observed
-from cointoss.compare.fitting.search import Minimum, Search
-from cointoss.compare.fitting.table import read_observed
+from cointoss.compare.fitting.search import LEVEL, Minimum, Search
+from cointoss.compare.fitting.table import DEVIATIONS, read_observed, require_deviations
 from cointoss.compare.sweep.axes import SPAN_FORM, Span, require_ends, span_of, split_span, unit_of
-from cointoss.compare.sweep.errors import SweepError
-from cointoss.models.errors import ScenarioError
+from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
+from cointoss.models.errors import FieldError, ScenarioError
 from cointoss.models.interruptible import interruptible
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Array, Toss
 from cointoss.models.scenario import Scenario
 from cointoss.models.units import in_si
 
-LEVEL = 0.99
-"""Of the intervals; a model is rejected that chance makes miss by so much in fewer than one case in 100."""
 STARTS, MOST_STARTS = 2048, 1 << 20
 AT_END = 1e-6
 """A value nearer to an end of its span than this part of it is at the end."""
-DEVIATIONS = {"time": "s", "height": "m", "attitude": "rad"}
-"""What has a standard deviation, and its unit."""
+_FREE = '{"floor.restitution": (0.4, 0.9)}'
 MOST_FIELDS = 12
 """That are free; more are not found from one toss."""
 
@@ -43,15 +40,20 @@ class Fitted:
     span: Span
     value: float
     sd: float
-    """Standard deviation; infinite where what was seen does not determine the value."""
-    at_end: bool
-    """Whether the value is at an end of its span, where the true one may be outside."""
+    """Standard deviation by linear propagation; infinite where what was seen does not determine the value."""
+    interval: tuple[float, float]
+    """Where the true value is in 99 of 100 cases, if the model is right: the lowest and the highest value
+    that explain what was seen about as well as the best one; no further than the ends of the span."""
 
     @property
-    def interval(self) -> tuple[float, float]:
-        """Where the true value is in 99 of 100 cases, if the model and no other values explain it."""
-        half = float(norm.ppf((1 + LEVEL) / 2)) * self.sd
-        return self.value - half, self.value + half
+    def at_end(self) -> bool:
+        """Whether the value is at an end of its span, where the true one may be outside."""
+        return _is_at_end(self.value, self.span)
+
+    @property
+    def is_cut(self) -> bool:
+        """Whether the interval ends where its span does, and may go on outside."""
+        return any(_is_at_end(end, self.span) for end in self.interval)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -99,7 +101,8 @@ class Fit:
         if self.degrees <= 0:
             return "nothing is left to test the model: as many numbers are fitted as were seen"
         found = (
-            f"chi-square {self.chi_square:.4g} for {self.degrees} degrees of freedom, p = {self.p_value:.2g}"
+            f"chi-square {self.chi_square:.4g} for {self.degrees} "
+            f"{'degree' if self.degrees == 1 else 'degrees'} of freedom, p = {self.p_value:.2g}"
         )
         can = (
             "can do" if self.is_possible else "cannot do, with no values of its free fields that were found,"
@@ -140,9 +143,10 @@ class Fit:
                 each.span.field: {
                     "value": each.value,
                     "sd": _finite(each.sd),
-                    "interval": [_finite(end) for end in each.interval],
+                    "interval": list(each.interval),
                     "unit": each.span.unit,
                     "at_end": each.at_end,
+                    "cut": each.is_cut,
                 }
                 for each in self.values
             },
@@ -207,22 +211,44 @@ def fit(
         ScenarioError: for a scenario that can't be used, or where no value of the spans makes one.
     """
     described = scenario_of(scenario)
-    seen = observed if isinstance(observed, Observed) else read_observed(observed, _deviations(sd or {}))
-    spans = tuple(_span(field, *ends, described) for field, ends in free.items())
+    if not isinstance(free, Mapping):
+        raise SweepError(f"free: {free!r}, accepted: a dict such as {_FREE}")
+    spans = tuple(_free_span(field, ends, described) for field, ends in free.items())
+    if isinstance(observed, Observed):
+        seen = observed
+    elif isinstance(observed, str | PathLike):
+        seen = read_observed(observed, _deviations({} if sd is None else sd))
+    else:
+        raise ObservationError(f"observed: {observed!r}, accepted: an Observed, or the path of a CSV file")
     return fit_spans(seen, described, spans, starts=starts, seed=seed)
 
 
 def _deviations(given: Mapping[str, float | str]) -> dict[str, float]:
     """Return standard deviations in SI."""
+    if not isinstance(given, Mapping):
+        raise ObservationError(f'sd: {given!r}, accepted: a dict such as {{"time": "1 ms"}}')
     found = {}
     for name, value in given.items():
         if name not in DEVIATIONS:
-            raise ObservationError(f"sd: {name}: accepted: {', '.join(DEVIATIONS)}")
+            raise ObservationError(f"sd: {name!r}, accepted: {', '.join(DEVIATIONS)}")
         try:
             found[name] = in_si(value, DEVIATIONS[name]) if isinstance(value, str) else float(value)
-        except ValueError as error:
-            raise ObservationError(f"sd: {name} = {value}: accepted: {error}") from None
+        except (ValueError, TypeError):
+            accepted = f'a number in {DEVIATIONS[name]}, or a string with a unit like "1 m{DEVIATIONS[name]}"'
+            raise ObservationError(f"sd: {name} = {value!r}, accepted: {accepted}") from None
+    try:
+        require_deviations(found)
+    except FieldError as error:
+        raise ObservationError(f"sd: {error}") from None
     return found
+
+
+def _free_span(field: object, ends: object, scenario: Scenario) -> Span:
+    if not isinstance(field, str):
+        raise SweepError(f"free: {field!r}, accepted: a field's name, as in {_FREE}")
+    if not (isinstance(ends, tuple | list) and len(ends) == 2):
+        raise SweepError(f"free: {field} = {ends!r}, accepted: its first and last value, as in {_FREE}")
+    return _span(field, ends[0], ends[1], scenario)
 
 
 def parse_span(text: str, scenario: Scenario) -> Span:
@@ -239,36 +265,36 @@ def fit_spans(
     observed: Observed, scenario: Scenario, spans: Sequence[Span], *, starts: int, seed: int
 ) -> Fit:
     """Return what `fit` finds; the arguments are those of `fit`, read."""
-    if not 1 <= starts <= MOST_STARTS:
-        raise SweepError(f"starts = {starts}: accepted: a whole number from 1 to {MOST_STARTS}")
+    require_whole("starts", starts, 1, MOST_STARTS)
+    require_whole("seed", seed, 0, MOST_SEED)
     fields = [span.field for span in spans]
     if not 1 <= len(set(fields)) == len(fields) <= MOST_FIELDS:
         raise SweepError(
             f"free fields {', '.join(fields) or 'none'}: accepted: from 1 to {MOST_FIELDS}, each once"
         )
     misfit = Misfit(scenario=scenario, spans=tuple(spans), observed=observed)
-    minima = interruptible(Search(misfit, starts=starts, seed=seed).minima)
-    if not minima:
+    searched = interruptible(Search(misfit, starts=starts, seed=seed).found)
+    if searched is None:
         middle = np.array([(span.start + span.stop) / 2 for span in spans])
         misfit.scenario_of(middle)  # says why
         raise ScenarioError(
             "no start of the spans makes a scenario; accepted: spans in which the coin is free"
         )
-    found = [_fit_of(misfit, minimum) for minimum in minima]
+    found = [_fit_of(misfit, minimum, searched.ends) for minimum in searched.minima]
     others = tuple(other for other in found[1:] if other.is_possible)
     return replace(found[0], others=others)
 
 
-def _fit_of(misfit: Misfit, minimum: Minimum) -> Fit:
+def _fit_of(misfit: Misfit, minimum: Minimum, ends: Array) -> Fit:
     deviations, shown = np.sqrt(np.diag(minimum.covariance)), minimum.predicted
     values = tuple(
         Fitted(
             span=span,
             value=float(value),
             sd=float(sd),
-            at_end=_is_at_end(float(value), span),
+            interval=(float(min(*both)), float(max(*both))),
         )
-        for span, value, sd in zip(misfit.spans, minimum.values, deviations, strict=True)
+        for span, value, sd, both in zip(misfit.spans, minimum.values, deviations, ends, strict=True)
     )
     for array in (misfit.times, minimum.covariance, shown.residuals, shown.is_tested, shown.touch_times):
         array.setflags(write=False)

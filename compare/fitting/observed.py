@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cointoss.compare.fitting.errors import ObservationError
+from cointoss.compare.fitting.errors import ObservationError, ValueRefusedError
 from cointoss.models.attitude import norm_of
 from cointoss.models.parts import LARGEST
 from cointoss.models.records import Array, Face
@@ -73,6 +73,9 @@ class Observed:
             ObservationError: naming the argument, its value and what is accepted.
         """
         n, m = np.size(touch_times), np.size(times)
+        for count, of in ((n, "touches"), (m, "frames")):
+            if count > MOST:
+                raise ObservationError(f"Observed: {count:,} {of}; accepted: at most {MOST:,}")
         numbers = np.arange(1, n + 1) if np.size(touch_numbers) == 0 else touch_numbers
         given: dict[str, ArrayLike] = {
             "touch_times": touch_times,
@@ -95,10 +98,8 @@ class Observed:
                 values = np.full(whole, np.nan)
             elif name.endswith("_sd") and values.ndim == 0:
                 values = np.full(whole, values)
-            if values.shape != whole or len(values) > MOST:
-                raise ObservationError(
-                    f"Observed.{name}: shape {values.shape}, accepted: {whole}, n <= {MOST}"
-                )
+            if values.shape != whole:
+                raise ObservationError(f"Observed.{name}: shape {values.shape}, accepted: {whole}")
             self._keep(name, values)
         self._check()
 
@@ -155,11 +156,9 @@ def _faces(given: Any, n: int) -> ArrayLike:
         return np.zeros(n)
     if isinstance(given, str):
         letters = {face.symbol: int(face) for face in Face} | {"?": 0}
-        bad = [letter for letter in given.upper() if letter not in letters]
-        if bad:
-            raise ObservationError(
-                f"Observed.faces: {given!r}, accepted: H, T or ? for each touch, as in HT?T"
-            )
+        for i, letter in enumerate(given.upper()):
+            if letter not in letters:
+                raise ValueRefusedError("faces", i, repr(letter), "H, T or ? for each touch, as in HT?T")
         return [letters[letter] for letter in given.upper()]
     return [int(Face(face)) if face else 0 for face in given]
 
@@ -167,4 +166,4 @@ def _faces(given: Any, n: int) -> ArrayLike:
 def _refuse(name: str, values: NDArray[Any], refused: ArrayLike, accepted: str) -> None:
     if np.any(refused):
         i = int(np.argmax(refused))
-        raise ObservationError(f"Observed.{name}: row {i} is {values[i].tolist()}, accepted: {accepted}")
+        raise ValueRefusedError(name, i, values[i].tolist(), accepted)

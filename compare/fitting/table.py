@@ -12,8 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.fitting.errors import ObservationError
-from cointoss.compare.fitting.observed import Observed
+from cointoss.compare.fitting.errors import ObservationError, ValueRefusedError
+from cointoss.compare.fitting.observed import LEAST_SD, Observed
+from cointoss.models.errors import FieldError
+from cointoss.models.parts import LARGEST as LARGEST_SD
 from cointoss.models.records import Array
 from cointoss.models.units import in_si
 from cointoss.models.unused import UnusedFieldWarning
@@ -34,6 +36,8 @@ NAMES = {
     "sd_attitude": (("sd_tilt", "sd_theta", "sd_e", "sd_attitude"), "rad"),
 }
 """Columns: the names accepted, in any case, each perhaps with a unit in brackets, and the unit without."""
+DEVIATIONS = {"time": "s", "height": "m", "attitude": "rad"}
+"""What has a standard deviation, and its unit."""
 FRAME = ("height", "tilt", "e0", "e1", "e2", "e3")
 ACCEPTED = (
     "t or time; of touches: touch, face, sd_t; of frames of a film: z, height or y; tilt or theta; e0 to e3; "
@@ -43,6 +47,21 @@ _IN_ONE_ROW = re.compile(r"(start|stop|stop \d+|bounce \d+)", re.IGNORECASE)
 """Touches as phyphox's acoustic stopwatch and its (in)elastic collision export them: one row, 0 for none."""
 _HEADING = re.compile(r"(?P<name>[^(\[]*?)\s*(?:[(\[](?P<unit>[^)\]]*)[)\]])?")
 _MISSING = ("", "nan", "?")
+_DIMENSIONS = {"s": "time", "m": "length", "rad": "angle"}
+_OF_COLUMNS = {
+    "touch_times": "time",
+    "touch_sd": "sd_time",
+    "touch_numbers": "touch",
+    "faces": "face",
+    "times": "time",
+    "heights": "height",
+    "height_sd": "sd_height",
+    "tilts": "tilt",
+    "tilt_sd": "sd_attitude",
+    "quaternions": "e0",
+    "quaternion_sd": "sd_attitude",
+}
+"""The column of each array of `Observed`."""
 
 
 @dataclass(frozen=True)
@@ -64,6 +83,20 @@ class Heading:
         name = self.name.lower().replace("sd ", "sd_").replace("sigma_", "sd_")
         return next((key for key, (names, _) in NAMES.items() if name in names), None)
 
+    def factor(self, unit: str) -> float:
+        """Return its unit in `unit`, SI; 1 where it has none or needs none.
+
+        Raises:
+            ObservationError: for a unit of something else.
+        """
+        if not (self.unit and unit):
+            return 1.0
+        try:
+            return in_si(f"1 {self.unit}", unit)
+        except ValueError:
+            accepted = f"a unit of {_DIMENSIONS[unit]}, such as {unit}"
+            raise ObservationError(f"column {self.name}: in {self.unit}, accepted: {accepted}") from None
+
 
 def read_observed(path: str | PathLike[str], sd: Mapping[str, float] | None = None) -> Observed:
     """Read what was seen from a CSV file; commas, semicolons or tabs between its cells, # before a comment.
@@ -77,10 +110,12 @@ def read_observed(path: str | PathLike[str], sd: Mapping[str, float] | None = No
 
     Raises:
         ObservationError: naming the file, what is wrong and what is accepted.
+        FieldError: for a standard deviation that nothing has.
 
     Warns:
         UnusedFieldWarning: for columns that are not used.
     """
+    require_deviations(sd or {})
     try:
         return _observed(_rows(Path(path)), sd or {})
     except ObservationError as error:
@@ -88,6 +123,18 @@ def read_observed(path: str | PathLike[str], sd: Mapping[str, float] | None = No
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "no text"
         raise ObservationError(f"{path}: can't be read ({reason}); accepted: a CSV file in UTF-8") from None
+
+
+def require_deviations(sd: Mapping[str, float]) -> None:
+    """Refuse standard deviations that nothing has.
+
+    Raises:
+        FieldError: naming what is to have it, its value and what is accepted.
+    """
+    for name, value in sd.items():
+        if not LEAST_SD <= value <= LARGEST_SD:
+            bounds = f"{LEAST_SD:g} to {LARGEST_SD:g} {DEVIATIONS[name]}"
+            raise FieldError(name, value, f"a standard deviation from {bounds}")
 
 
 def _rows(path: Path) -> list[list[str]]:
@@ -131,7 +178,7 @@ def _of_one_row(headings: Sequence[Heading], rows: list[list[str]], sd: Mapping[
     if len(rows) != 1:
         raise ObservationError(f"{len(rows)} rows of touches; accepted: one, as phyphox exports them")
     times = [
-        _number(cell, heading, "s", "row 1")
+        heading.factor("s") * _number(cell, heading, "s", 1)
         for cell, heading in zip(rows[0], headings, strict=False)
         if _IN_ONE_ROW.fullmatch(heading.name)
     ]
@@ -158,7 +205,8 @@ def _columns(headings: Sequence[Heading]) -> dict[str, tuple[int, Heading]]:
         found["height"] = (y[0], headings[y[0]])
         unused = [name for name in unused if name.lower() != "y"]
     if unused:
-        warnings.warn(f"columns {', '.join(unused)}: not used", UnusedFieldWarning, stacklevel=2)
+        columns = "column" if len(unused) == 1 else "columns"
+        warnings.warn(f"{columns} {', '.join(unused)}: not used", UnusedFieldWarning, stacklevel=2)
     return found
 
 
@@ -170,7 +218,8 @@ def _of_columns(
     if short is not None:
         raise ObservationError(f"row {short} has {len(rows[short - 1])} cells; accepted: one for each column")
     values = {
-        key: np.array([_number(row[i], heading, NAMES[key][1], f"row {n}") for n, row in enumerate(rows, 1)])
+        key: heading.factor(unit := NAMES[key][1])
+        * np.array([_number(row[i], heading, unit, n) for n, row in enumerate(rows, 1)])
         for key, (i, heading) in columns.items()
         if key != "face"
     }
@@ -203,7 +252,15 @@ def _of_columns(
         "quaternions": np.column_stack([of_frames(f"e{i}") for i in range(4)]),
         "quaternion_sd": sd_of("attitude", ~is_touch, of=["e0"]),
     }
-    return Observed(**made)
+    try:
+        return Observed(**made)
+    except ValueRefusedError as error:
+        of_touches = error.name.startswith(("touch", "face"))
+        row = np.flatnonzero(is_touch if of_touches else ~is_touch)[error.index]
+        i, heading = columns[_OF_COLUMNS[error.name]]
+        cell = f"{rows[row][i] or 'empty'} {heading.unit}".strip()
+        where = f"column {heading.name}: row {row + 1} is {cell}"
+        raise ObservationError(f"{where}, accepted: {error.accepted}") from None
 
 
 def _sd(values: Mapping[str, Array], what: str, n: int, given: Mapping[str, float]) -> Array:
@@ -217,12 +274,14 @@ def _sd(values: Mapping[str, Array], what: str, n: int, given: Mapping[str, floa
     return found
 
 
-def _number(cell: str, heading: Heading, unit: str, where: str) -> float:
-    """Return a cell in SI; NaN where nothing was measured."""
+def _number(cell: str, heading: Heading, unit: str, row: int) -> float:
+    """Return a cell in the column's unit; NaN where nothing was measured."""
     if cell.lower() in _MISSING:
         return float("nan")
     try:
-        return in_si(f"{cell} {heading.unit}", unit) if heading.unit and unit else float(cell)
+        return float(cell)
     except ValueError:
         accepted = f"a number [{heading.unit or unit}]" if unit else "a number"
-        raise ObservationError(f"column {heading.name}: {where} is {cell!r}, accepted: {accepted}") from None
+        raise ObservationError(
+            f"column {heading.name}: row {row} is {cell!r}, accepted: {accepted}"
+        ) from None

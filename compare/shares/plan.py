@@ -10,7 +10,7 @@ import numpy as np
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.axes import HAND, Axis, parse_axis
-from cointoss.compare.sweep.errors import SweepError
+from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.errors import FieldError, ScenarioError
 from cointoss.models.fields import UNITS
 from cointoss.models.hand import OF_A_TOSS, Hand
@@ -68,15 +68,8 @@ class Plan:
         Raises:
             SweepError: naming what is wrong and what is accepted.
         """
-        whole = {"seed": (0, 2**32), "tosses": (1, MOST_TOSSES)}
-        for name, (least, most) in whole.items():
-            value = getattr(self, name)
-            if (
-                isinstance(value, bool)
-                or not isinstance(value, int | np.integer)
-                or not least <= value <= most
-            ):
-                raise SweepError(f"{name}: {value!r}, accepted: a whole number from {least} to {most}")
+        require_whole("seed", self.seed, 0, MOST_SEED)
+        require_whole("tosses", self.tosses, 1, MOST_TOSSES)
         if self.to is not None and not (isinstance(self.to, float) and 1e-4 <= self.to <= 0.5):
             raise SweepError(f"to: {self.to!r}, accepted: a part from 0.01 % to 50 %")
         names = [axis.field for axis in self.along]

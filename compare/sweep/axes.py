@@ -144,7 +144,7 @@ def unit_of(field: str, scenario: Scenario, units: Mapping[str, str] = UNITS) ->
 def _number(field: str, text: str | float, unit: str) -> float:
     try:
         number = float(text)
-    except ValueError:
+    except (ValueError, TypeError):
         try:
             number = in_si(str(text), unit)
         except ValueError as error:

@@ -48,8 +48,8 @@ def test_values_a_verdict_and_files(tmp_path):
     [
         ((), "heard.csv: no standard deviation of time; accepted: a column sd_t, or --sd-time"),
         (("--sd-time", "1 mm"), "'--sd-time': 1 mm; accepted: a number in s"),
-        (("--sd-time", "0"), "Observed.touch_sd: row 0 is 0.0"),
-        (("--sd-time", "1e-300"), "accepted: a standard deviation from 1e-12 to 1e+09"),
+        (("--sd-time", "0"), "--sd-time 0: accepted: a standard deviation from 1e-12 to 1e+09 s"),
+        (("--sd-time", "1e-300"), "--sd-time 1e-300: accepted: a standard deviation from 1e-12 to"),
         (
             ("--sd-time", "1 ms", "--free", "clock=1e300:2e300"),
             "clock = 1e300: accepted: a finite number within",
@@ -71,6 +71,20 @@ def test_bad_input_is_answered_in_one_line(tmp_path, more, named):
     assert named in refused(*CALL, *more)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["coin.toml", "heard.csv"]
     assert (tmp_path / "coin.toml").read_text() == COIN
+
+
+def test_a_column_that_is_not_used_is_named_with_its_file(tmp_path):
+    (tmp_path / "heard.csv").write_text("t (s),loudness\n1.2,3\n1.55,2\n1.812,2\n2.01,1\n")
+    answered = cointoss(*CALL, *FREE, "--sd-time", "1 ms")
+    assert "cointoss: heard.csv: column loudness: not used" in answered.stderr
+    assert "coin.toml" not in answered.stderr
+
+
+def test_a_model_that_cannot_do_it_ends_with_status_1(tmp_path):
+    (tmp_path / "heard.csv").write_text("t\n1.0\n1.2\n1.45\n1.75\n")
+    answered = cointoss(*CALL, *FREE, "--sd-time", "1 ms")
+    assert answered.exit_code == 1
+    assert "this model cannot do" in answered.stdout
 
 
 def test_what_was_seen_is_not_written_over(tmp_path):

@@ -42,7 +42,7 @@ def test_touches_as_phyphox_exports_them(read, text):
 
 
 def test_heights_as_tracker_exports_them(read):
-    with pytest.warns(UnusedFieldWarning, match="columns x: not used"):
+    with pytest.warns(UnusedFieldWarning, match="column x: not used"):
         found = read(
             "#multi:\ncoin\t\t\t\nt\tx\ty\t\n0.000E0\t1.2E-1\t3.0E-1\t\n8.3E-3\t1.2E-1\t\t\n1.67E-2\t0\t2.9E-1\t\n"
         )
@@ -77,14 +77,24 @@ def test_a_path_that_this_program_wrote(read):
         ("", "no column of times; accepted: t or time;"),
         ("a,b\n1,2\n", "no column of times"),
         ("t\n0.1\nx\n", "column t: row 2 is 'x', accepted: a number"),
-        ("t (kg)\n0.1\n", r"column t: row 1 is '0.1', accepted: a number \[kg\]"),
+        ("t (kg)\n0.1\n", "column t: in kg, accepted: a unit of time, such as s"),
+        ("t,tilt (g)\n0.1,3\n", "column tilt: in g, accepted: a unit of angle, such as rad"),
+        ("Start (m),Stop (m)\n1,2\n", "column Start: in m, accepted: a unit of time, such as s"),
+        ("t (ms)\n0.1\nx\n", r"column t: row 2 is 'x', accepted: a number \[ms\]"),
+        ("t (ms)\n300\n# later\n200\n", "column t: row 2 is 200 ms, accepted: times in their order"),
+        ("t,z\n0,1\n0.1,1e10\n", "column z: row 2 is 1e10, accepted: numbers within"),
+        ("t,touch,z\n0,,1\n0.1,0,\n", "column touch: row 2 is 0, accepted: rising whole numbers from 1"),
+        ("t,touch,z\n0,,1\n0.1,1.5,\n", "column touch: row 2 is 1.5, accepted: whole numbers up to"),
+        ("t,touch,tilt (deg)\n0,1,\n0.1,,190\n", "column tilt: row 2 is 190 deg, accepted: angles from 0"),
         ("t,time\n0,0\n", "columns t and time; accepted: one of them"),
         ("t,y,y\n0,0,0\n", "column y twice"),
         ("t,z\n0\n", "row 1 has 1 cells"),
         ("t,z\n,1\n", "column t: row 1 has no time"),
         ("t,e0\n0,1\n", "accepted: all of e0, e1, e2 and e3"),
         ("Start (s),Stop (s)\n1,2\n3,4\n", "2 rows of touches"),
-        ("t,face\n0.1,X\n", "faces: 'X'"),
+        ("t,face\n0.1,H\n0.2,X\n", "column face: row 2 is X, accepted: H, T or "),
+        ("t,z\n" + "0.1,0.2\n" * 20_001, "20,001 frames; accepted: at most 20,000"),
+        ("t\n" + "0.1\n" * 20_001, "20,001 touches; accepted: at most 20,000"),
         ("t\n", "nothing was seen"),
     ],
 )
@@ -98,6 +108,13 @@ def test_a_number_without_its_deviation_is_refused(read):
         ObservationError, match=r"no standard deviation of time; accepted: a column sd_t, or --sd-time"
     ):
         read("t\n0.1\n", {})
+
+
+def test_a_row_without_its_deviation_is_named(read):
+    with pytest.raises(
+        ObservationError, match=r"column sd_t: row 2 is empty, accepted: a standard deviation"
+    ):
+        read("t,sd_t\n0.1,1\n0.2,\n", {})
 
 
 def test_what_is_no_file_of_text_is_refused(tmp_path):

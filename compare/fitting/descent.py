@@ -1,0 +1,114 @@
+"""Steps of least squares of a misfit from many points at once, each in parts of the spans, 0 to 1."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cointoss.compare.fitting.misfit import Misfit
+from cointoss.models.records import Array
+
+STEP = 1e-7
+"""Of the derivatives, in parts of the span."""
+LONGEST = 0.25
+"""Step of the least squares, in parts of the span."""
+TOGETHER = 1 << 22
+"""Residuals that are in memory together, about."""
+STEPS, SETTLED = 6, 1e-3
+"""Steps at most, and the change of χ² by less than which a point has arrived."""
+
+
+class Descent:
+    """The misfit as a function of points, (p, k), and some of what was seen, the rows."""
+
+    def __init__(self, misfit: Misfit) -> None:
+        """Keep the spans."""
+        self.misfit, self.size = misfit, len(misfit.spans)
+        self.low = np.array([span.start for span in misfit.spans])
+        self.width = np.array([span.stop - span.start for span in misfit.spans])
+
+    def values(self, points: Array) -> Array:
+        """Return the values of the fields."""
+        return self.low + self.width * points
+
+    def point(self, values: Array) -> Array:
+        """Return the point with these values, (k,)."""
+        return np.clip((values - self.low) / self.width, 0, 1)
+
+    def residuals(self, points: Array, rows: NDArray[np.intp]) -> Array:
+        """Return what was seen less what the tosses show, in standard deviations, (p, n)."""
+        until = float(self.misfit.times[rows].max())
+        return self.misfit.residuals(self.values(points), until)[:, rows]
+
+    def squares(self, points: Array, rows: NDArray[np.intp]) -> Array:
+        """Return χ², (p,)."""
+        return np.sum(self.residuals(points, rows) ** 2, axis=1)
+
+    def slopes(self, points: Array, rows: NDArray[np.intp]) -> Array:
+        """Return the derivatives of the residuals by the coordinates of the points, (p, n, k)."""
+        steps = np.where(points + STEP <= 1, STEP, -STEP)
+        there = points[:, None, :] + np.concatenate(
+            [np.zeros((len(points), 1, self.size)), steps[:, None, :] * np.eye(self.size)], axis=1
+        )
+        missed = self.residuals(there.reshape(-1, self.size), rows).reshape(len(points), self.size + 1, -1)
+        return np.moveaxis((missed[:, 1:] - missed[:, :1]) / steps[:, :, None], 1, 2)
+
+    def information(self, points: Array, rows: NDArray[np.intp]) -> Array:
+        """Return the products of the slopes, the inverse of the covariance at each point, (p, k, k)."""
+        found = np.empty((len(points), self.size, self.size))
+        for some in self._groups(len(points), rows):
+            slopes = self.slopes(points[some], rows)
+            found[some] = np.einsum("pni,pnj->pij", slopes, slopes)
+        return found
+
+    def _groups(self, count: int, rows: NDArray[np.intp]) -> list[slice]:
+        """Return how to share points out so that the memory holds the residuals of their slopes."""
+        size = max(1, TOGETHER // (len(rows) * (self.size + 1)))
+        return [slice(first, min(first + size, count)) for first in range(0, count, size)]
+
+    def descended(
+        self, points: Array, rows: NDArray[np.intp], held: NDArray[np.bool_] | None = None
+    ) -> tuple[Array, Array]:
+        """Return points after steps of Levenberg and Marquardt, (p, k), and χ² there, (p,).
+
+        All points step together: many tosses at a time take little longer than one.
+
+        Args:
+            points: where they begin.
+            rows: what is fitted.
+            held: coordinates that stay, (p, k); by default none.
+        """
+        held = np.zeros(points.shape, dtype=bool) if held is None else held
+        there, squares = np.empty_like(points), np.empty(len(points))
+        for some in self._groups(len(points), rows):
+            there[some], squares[some] = self._descended(points[some], rows, held[some])
+        return there, squares
+
+    def _descended(
+        self, points: Array, rows: NDArray[np.intp], held: NDArray[np.bool_]
+    ) -> tuple[Array, Array]:
+        points, missed = points.copy(), self.residuals(points, rows)
+        damping, left = np.full(len(points), 1e-3), np.arange(len(points))
+        for _ in range(STEPS):
+            slopes = self.slopes(points[left], rows) * ~held[left][:, None, :]
+            there, missed_there = self._stepped(points[left], missed[left], slopes, damping[left], rows)
+            gain = np.sum(missed[left] ** 2, axis=1) - np.sum(missed_there**2, axis=1)
+            better = left[gain > 0]
+            points[better], missed[better] = there[gain > 0], missed_there[gain > 0]
+            damping[left] *= np.where(gain > 0, 0.1, 10.0)
+            left = left[(gain < 0) | (gain > SETTLED)]
+            if not len(left):
+                break
+        return points, np.sum(missed**2, axis=1)
+
+    def _stepped(
+        self, points: Array, missed: Array, slopes: Array, damping: Array, rows: NDArray[np.intp]
+    ) -> tuple[Array, Array]:
+        """Return where one step leads, and the residuals there."""
+        curvature = np.einsum("pni,pnj->pij", slopes, slopes)
+        scale = np.einsum("pii->pi", curvature) + np.finfo(float).tiny
+        curvature += (damping[:, None] * scale + 1e-9 * scale.max(axis=1, keepdims=True))[
+            :, :, None
+        ] * np.eye(self.size)
+        slope = np.einsum("pni,pn->pi", slopes, missed)
+        step = np.linalg.solve(curvature, slope[:, :, None])[:, :, 0]
+        there = np.clip(points - np.clip(step, -LONGEST, LONGEST), 0, 1)
+        return there, self.residuals(there, rows)
