@@ -1,6 +1,8 @@
 """Files of a bounded size."""
 
+import errno
 import os
+import stat
 from pathlib import Path
 
 
@@ -11,11 +13,9 @@ class TooLargeError(ValueError):
 def read_bounded(path: Path, most: int) -> bytes:
     """Return the bytes of a file, of which at most `most` + 1 are read: a device may have no end.
 
-    A pipe that nobody writes to is empty.
-
     Raises:
         TooLargeError: if there are more.
-        OSError: if it can't be read.
+        OSError: if it can't be read, or is a pipe that nobody writes to.
     """
 
     def at_once(name: str, flags: int) -> int:
@@ -27,6 +27,8 @@ def read_bounded(path: Path, most: int) -> bytes:
 
     with open(path, "rb", opener=at_once) as file:
         content = file.read(most + 1)
+        if not content and stat.S_ISFIFO(os.fstat(file.fileno()).st_mode):
+            raise OSError(errno.EINVAL, "a pipe that nobody writes to")
     if len(content) > most:
         raise TooLargeError(f"more than {most} bytes")
     return content

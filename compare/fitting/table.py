@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from cointoss.compare.fitting.errors import ObservationError, ValueRefusedError
 from cointoss.compare.fitting.observed import LEAST_SD, Observed
+from cointoss.models.bounded import TooLargeError, read_bounded
 from cointoss.models.errors import FieldError
 from cointoss.models.parts import LARGEST as LARGEST_SD
 from cointoss.models.records import Array
@@ -120,6 +121,12 @@ def read_observed(path: str | PathLike[str], sd: Mapping[str, float] | None = No
         return _observed(_rows(Path(path)), sd or {})
     except ObservationError as error:
         raise ObservationError(f"{path}: {error}") from None
+    except TooLargeError as error:
+        raise ObservationError(
+            f"{path}: {error}; accepted: a CSV file of at most {LARGEST:,} bytes"
+        ) from None
+    except FileNotFoundError:
+        raise ObservationError(f"{path}: no such file; accepted: a CSV file") from None
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "no text"
         raise ObservationError(f"{path}: can't be read ({reason}); accepted: a CSV file in UTF-8") from None
@@ -139,14 +146,13 @@ def require_deviations(sd: Mapping[str, float]) -> None:
 
 def _rows(path: Path) -> list[list[str]]:
     """Return the cells of a file that are neither empty lines nor comments."""
-    if not path.is_file():
-        raise ObservationError("no such file; accepted: a CSV file")
-    if path.stat().st_size > LARGEST:
-        raise ObservationError(f"{path.stat().st_size:,} bytes; accepted: a CSV file of at most {LARGEST:,}")
-    lines = path.read_text(encoding="utf-8-sig").splitlines()
+    lines = read_bounded(path, LARGEST).decode("utf-8-sig").splitlines()
     lines = [line for line in lines if line.strip() and not line.startswith("#")]
     mark = max(";\t,", key=lambda mark: sum(line.count(mark) > 0 for line in lines[:BEFORE_HEADER]))
-    rows = [[cell.strip() for cell in row] for row in csv.reader(lines, delimiter=mark)]
+    try:
+        rows = [[cell.strip() for cell in row] for row in csv.reader(lines, delimiter=mark)]
+    except csv.Error as error:
+        raise ObservationError(f"{error}; accepted: a CSV file") from None
     return rows if mark == "," else [[_with_point(cell) for cell in row] for row in rows]
 
 

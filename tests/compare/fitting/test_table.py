@@ -1,5 +1,7 @@
 """Tables as phyphox, Tracker and a person write them, and what is wrong with others."""
 
+import os
+
 import numpy as np
 import pytest
 
@@ -74,6 +76,7 @@ def test_a_path_that_this_program_wrote(read):
 @pytest.mark.parametrize(
     ("text", "named"),
     [
+        ("t\n" + 140_000 * "1" + "\n", "field larger than field limit"),
         ("", "no column of times; accepted: t or time;"),
         ("a,b\n1,2\n", "no column of times"),
         ("t\n0.1\nx\n", "column t: row 2 is 'x', accepted: a number"),
@@ -123,5 +126,16 @@ def test_what_is_no_file_of_text_is_refused(tmp_path):
             (tmp_path / name).write_bytes(content)
         with pytest.raises(ObservationError, match=f"{name}: .*accepted: a CSV file"):
             read_observed(tmp_path / name, SD)
-    with pytest.raises(ObservationError, match="no such file"):
+    with pytest.raises(ObservationError, match="/dev/zero: more than 10000000 bytes; accepted: a CSV file"):
         read_observed("/dev/zero", SD)
+
+
+def test_a_pipe_is_a_table_and_one_that_nobody_writes_to_is_refused(tmp_path):
+    os.mkfifo(tmp_path / "seen.csv")
+    with pytest.raises(ObservationError, match=r"seen.csv: can't be read \(a pipe that nobody writes to\)"):
+        read_observed(tmp_path / "seen.csv", SD)
+    read, write = os.pipe()
+    os.write(write, b"t\n0.1\n0.2\n")
+    os.close(write)
+    assert read_observed(f"/dev/fd/{read}", SD).touch_times.tolist() == [0.1, 0.2]
+    os.close(read)
