@@ -157,8 +157,11 @@ class Hand:
         """Return a scenario whose coin this hand catches, where it catches any.
 
         Raises:
-            ScenarioError: for a catch below the coin.
+            ScenarioError: for a catch below the coin, or one of a coin that is spun on its edge.
         """
+        if self.spun and described.ending.caught is not None:
+            accepted = "none where the coin is spun on its edge"
+            raise ScenarioError(f"ending.caught = {described.ending.caught:g}: accepted: {accepted}")
         return described if self.caught is None else described.replace("ending.caught", self.caught)
 
 

@@ -81,7 +81,7 @@ def chosen_hand(given: dict[str, Any], described: "Scenario") -> "tuple[Hand, Sc
         described: the scenario.
 
     Raises:
-        ScenarioError: for what is wrong with the hand's file.
+        ScenarioError: for what is wrong with the hand's file, or a scenario in which it spins no coin.
     """
     from dataclasses import fields, replace
 
@@ -101,5 +101,7 @@ def chosen_hand(given: dict[str, Any], described: "Scenario") -> "tuple[Hand, Sc
     try:
         return hand, hand.scenario(described)
     except ScenarioError as error:
+        if hand.spun:
+            raise
         where = f"--caught {typed['caught']}" if "caught" in typed else f"{file}: caught = {hand.caught:g}"
         refuse(f"{where}: accepted: {str(error).partition('accepted: ')[2]}")

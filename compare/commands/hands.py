@@ -65,16 +65,18 @@ def hands(scenario: str, tosses: int, seed: int, engine: str, as_json: bool, **g
             except ValueError as error:
                 refuse(f"{scenario}: {error}")
             shares = first_sides(described, start, Engine(engine))
+        caught = shares["caught"].count if "caught" in shares else 0
+        not_caught = 0 if hand.spun or described.ending.caught is None else tosses - caught
         if as_json:
             told = {"hand": asdict(hand), "caught": described.ending.caught}
-            told |= {"tosses": tosses, "seed": seed, "engine": engine}
+            told |= {"tosses": tosses, "seed": seed, "engine": engine, "not_caught": not_caught}
             kind = "ended" if hand.spun else "same_side"
             print_json({**told, kind: {k: asdict(v) for k, v in shares.items()}}, engine)
             return
         for name, one in shares.items():
             click.echo(f"{name:9} {one.value:7.2%} [{one.low:.2%}, {one.high:.2%}] of {one.count:,d} tosses")
-        if not shares:
-            click.echo(f"none of {tosses:,d} tosses was caught")
+        if not_caught:
+            click.echo(f"left out  {not_caught:,d} coins that never came down to the hand")
 
 
 def first_sides(scenario: "Scenario", start: "Releases", engine: "Engine") -> "dict[str, Estimate]":

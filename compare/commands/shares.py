@@ -196,6 +196,8 @@ def _print(found: "Shares", scenario: str, as_json: bool) -> None:
     click.echo(laid_out(found.table(), _width()))
     click.echo(f"\nhand       {plan.hand.in_words}")
     click.echo(f"engine     {' and '.join(plan.engines)}, seed {plan.seed}; in brackets 99 % intervals")
+    if found.not_caught:
+        click.echo(f"left out   {found.not_caught:,d} coins that never came down to the hand")
     if found.alike:
         least, settings = np.nanmin(found.alike), len(found.alike)
         of = f", the least of {settings}; by chance it is so small in {found.least_alike:.2g} of all runs"

@@ -98,9 +98,10 @@ class Count:
     @property
     def width(self) -> float:
         """Half the width of the widest interval, of the share nearest to 1/2; infinite without tosses."""
-        if not self.tosses:
+        counts = self.plan.counted(self.counts)
+        if not (tosses := int(counts.sum())):
             return math.inf
-        return _width(int(self.counts[np.argmin(np.abs(self.counts - self.tosses / 2))]), self.tosses)
+        return _width(int(counts[np.argmin(np.abs(counts - tosses / 2))]), tosses)
 
     @property
     def is_enough(self) -> bool:
@@ -111,9 +112,9 @@ class Count:
     @property
     def needed(self) -> int:
         """Tosses at which it will be enough, about: an interval shrinks as 1/√n."""
-        if self.plan.to is None:
-            return self.plan.tosses
         made = self.tosses
+        if self.plan.to is None or (made and math.isinf(self.width)):
+            return self.plan.tosses
         tosses, width = (made, self.width) if made else (self.size, _width(self.size // 2, self.size))
         return min(self.plan.tosses, math.ceil(tosses * (width / self.plan.to) ** 2))
 

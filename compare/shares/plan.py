@@ -7,6 +7,7 @@ from itertools import product
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep.axes import HAND, Axis, parse_axis
@@ -14,6 +15,7 @@ from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.errors import FieldError, ScenarioError
 from cointoss.models.fields import UNITS
 from cointoss.models.hand import OF_A_TOSS, Hand
+from cointoss.models.records import Outcome
 from cointoss.models.releases import check_releases
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import counted
@@ -78,7 +80,7 @@ class Plan:
         if len(set(names)) < len(names):
             raise SweepError(f"{names[0]}: on both axes; accepted: two fields")
         for name in names:
-            if self.hand.spun and name.removeprefix("hand.") in OF_A_TOSS:
+            if self.hand.spun and name.removeprefix("hand.").removeprefix("ending.") in OF_A_TOSS:
                 raise SweepError(f"{name}: of no use where the coin is spun on its edge; accepted: others")
         if math.prod(self.shape) > MOST_SETTINGS:
             grid = " by ".join(map(str, self.shape))
@@ -88,6 +90,21 @@ class Plan:
     def shape(self) -> tuple[int, ...]:
         """Values of each field."""
         return tuple(axis.count for axis in self.along)
+
+    @property
+    def catches(self) -> bool:
+        """Whether a hand catches the coin."""
+        varied = any(axis.field == "ending.caught" for axis in self.along)
+        return varied or self.hand.caught is not None or self.scenario.ending.caught is not None
+
+    def counted(self, counts: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the counts of which shares are told, (..., 6): a coin that the hand does not catch has none.
+
+        Args:
+            counts: of all tosses, by code of `Outcome`, (..., 6).
+        """
+        has_none = self.catches & (np.arange(len(Outcome)) == Outcome.UNDECIDED)
+        return np.where(has_none, 0, counts)
 
     def settings(self) -> Iterator[Setting]:
         """Yield the points of the grid, the last field varying fastest.

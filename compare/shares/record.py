@@ -31,11 +31,13 @@ class Row(NamedTuple):
     """Of the fields that vary, in SI."""
     engine: Engine
     counts: Counts
-    """By code of `Outcome`, (6,)."""
+    """By code of `Outcome`, (6,); none of a coin that was not caught where a hand catches it."""
+    made: int
+    """How many tosses were made."""
 
     @property
     def tosses(self) -> int:
-        """How many there are."""
+        """How many were counted."""
         return int(self.counts.sum())
 
     @property
@@ -52,7 +54,8 @@ class Shares:
     plan: Plan
     """The scenario, the hand, the fields that vary, the engines and the seed."""
     counts: Counts
-    """Numbers of tosses, (engines, values of each field that varies, 6), the last by code of `Outcome`."""
+    """Numbers of tosses, (engines, values of each field that varies, 6), the last by code of `Outcome`; those
+    that a hand was to catch and did not are undecided, and no share is of them."""
 
     def __post_init__(self) -> None:
         """Check the shape and make the array read-only.
@@ -73,17 +76,23 @@ class Shares:
         return bool(self.counts.any(axis=-1).all())
 
     @property
+    def not_caught(self) -> int:
+        """How many tosses were left out, because the hand did not catch the coin."""
+        return int(self.counts.sum() - self.plan.counted(self.counts).sum())
+
+    @property
     def outcomes(self) -> tuple[Outcome, ...]:
         """Heads, tails, and the other outcomes that there were."""
+        counts = self.plan.counted(self.counts)
         faces = (Outcome.HEADS, Outcome.TAILS)
-        others = [one for one in Outcome if one not in faces and self.counts[..., one].any()]
+        others = [one for one in Outcome if one not in faces and counts[..., one].any()]
         return (*faces, *sorted(others, key=lambda one: (one == Outcome.UNDECIDED, one)))
 
     @property
     def rows(self) -> list[Row]:
         """Each setting by each engine, the engine varying fastest."""
         return [
-            Row(values, engine, counts)
+            Row(values, engine, self.plan.counted(counts), int(counts.sum()))
             for values, both in self._settings()
             for engine, counts in zip(self.plan.engines, both, strict=True)
         ]
@@ -158,6 +167,7 @@ class Shares:
                     **{axis.field: value for axis, value in zip(plan.along, row.values, strict=True)},
                     "engine": row.engine.value,
                     "tosses": row.tosses,
+                    "not_caught": row.made - row.tosses,
                     "shares": {str(one): _plain(part) for one, part in row.shares.items()},
                 }
                 for row in self.rows
@@ -175,7 +185,8 @@ class Shares:
         import xarray
 
         dimensions = ["engine", *(axis.field for axis in self.plan.along), "outcome"]
-        flat = [Row((), Engine.ANALYTIC, counts).shares for counts in self.counts.reshape(-1, len(Outcome))]
+        counted = self.plan.counted(self.counts)
+        flat = [Row((), Engine.ANALYTIC, counts, 0).shares for counts in counted.reshape(-1, len(Outcome))]
         ends = np.array([shares[one].ends for shares in flat for one in Outcome])
         names = {"share": "share of the tosses", "low": "low end of its 99 % interval"}
         names["high"] = "high end of its 99 % interval"

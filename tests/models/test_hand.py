@@ -1,5 +1,7 @@
 """Hands: what they release, and Diaconis, Holmes and Montgomery's probability of the same side."""
 
+import os
+
 import numpy as np
 import pytest
 
@@ -112,6 +114,20 @@ def test_a_hand_is_read_from_a_file(tmp_path):
     file.write_text(f"format = 1\n{text}")
     expected = Hand(spin=25.0, psi_scatter=np.radians(10), spun=True, scatter=0.05, up="either")
     assert load_hand(file) == expected
+
+
+def test_a_pipe_that_nobody_writes_to_is_no_hand(tmp_path):
+    os.mkfifo(tmp_path / "hand.toml")
+    with pytest.raises(
+        ScenarioError, match=r"hand.toml: can't be read \(a pipe that nobody writes to\); acc"
+    ):
+        load_hand(tmp_path / "hand.toml")
+
+
+def test_a_coin_that_is_spun_is_not_caught():
+    caught = load("fig24a").replace("ending.caught", 0.5)
+    with pytest.raises(ScenarioError, match=r"ending.caught = 0.5: accepted: none where the coin is spun"):
+        Hand(spun=True).scenario(caught)
 
 
 @pytest.mark.parametrize(

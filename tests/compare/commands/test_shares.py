@@ -49,6 +49,30 @@ def test_hands_and_shares_toss_a_spun_coin_to_the_same_shares(coin):
     assert sum(part["value"] for part in one.values()) == pytest.approx(1)
 
 
+def test_coins_that_are_not_caught_are_left_out_and_counted_apart(coin):
+    words = (coin, "--height", "30 cm", "--caught", "50 cm", "--tosses", 300)
+    hands, shares = (json.loads(cointoss(one, *words, "--json").stdout) for one in ("hands", "shares"))
+    (setting,) = shares["settings"]
+    assert hands["same_side"]["caught"]["count"] + hands["not_caught"] == 300
+    assert setting["tosses"] + setting["not_caught"] == 300
+    assert setting["shares"]["undecided"]["value"] == 0
+    assert sum(one["value"] for one in setting["shares"].values()) == pytest.approx(1)
+    # Heights z + v²/2g of the peaks have mean 0.506 m and deviation 0.051 m: 45 % are below the hand.
+    for left_out in (hands["not_caught"], setting["not_caught"]):
+        assert abs(left_out - 300 * 0.45) < 3.3 * (300 * 0.25) ** 0.5
+    for command, many in (("hands", hands["not_caught"]), ("shares", setting["not_caught"])):
+        assert (
+            f"left out{'  ' if command == 'hands' else '   '}{many} coins that never"
+            in cointoss(command, *words).stdout
+        )
+    narrow = json.loads(cointoss("shares", *words[:-2], "--to", "12 %", "--json").stdout)["settings"][0]
+    ends = narrow["shares"]["heads"]
+    assert (ends["high"] - ends["low"]) / 2 <= 0.12
+    none = cointoss("shares", coin, "--height", "30 cm", "--caught", "2 m", "--to", "1 %", "--tosses", 500)
+    assert none.exit_code == 0
+    assert "left out   500 coins" in none.stdout
+
+
 def test_the_side_that_was_up_is_counted_whichever_it_was(coin):
     words = ("hands", coin, "--psi", "50 deg", "--caught", "1 m", "--tosses", 4000, "--json")
     heads, either = (
