@@ -10,6 +10,7 @@ from typing import Any, TypeGuard
 
 from cointoss.compare.reproduction.claim import VERDICTS, read_claims
 from cointoss.compare.reproduction.provenance import PROVENANCE, read_provenance, unlike
+from cointoss.models.bounded import read_bounded
 
 CONFIDENCE = 2.58
 """Standard deviations to either side of 99 % of a normal distribution."""
@@ -21,6 +22,12 @@ PRINTED = "within one in the third digit, as they are printed"
 BESIDE = "within a thousandth of the largest number beside it"
 SMALL = "within a hundredth of the threshold: rounding"
 SAME = "equal"
+MOST_BYTES = 1 << 26
+"""Of the numbers of a run."""
+LONGEST = 18
+"""Digits of a whole number."""
+_ENDS = frozenset({"value", "low", "high"})
+"""Of an estimate."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,8 +86,9 @@ def require_run(folder: Path, *, quick: bool) -> None:
     ):
         try:
             made_of = read()
-        except (ValueError, TypeError, LookupError, AttributeError, RecursionError) as error:
-            raise RunError(f"{folder / name}: {error}; accepted: the file as a run has written it") from None
+        except (ValueError, TypeError, LookupError, AttributeError, RecursionError, OSError) as error:
+            why = error.strerror if isinstance(error, OSError) else error
+            raise RunError(f"{folder / name}: {why}; accepted: the file as a run has written it") from None
     if quick is not (made_of is not None and made_of["quick"]):
         size, way = ("full", "without") if quick else ("quick", "with")
         raise RunError(f"{folder}: of the {size} size; accepted: the same {way} --quick")
@@ -100,12 +108,49 @@ def _require_claims(folder: Path) -> None:
             raise ValueError(f"claim {number}: no line of text")
         if not (one["holds"] is None or isinstance(one["holds"], bool)):
             raise ValueError(f"claim {number}: holds is {one['holds']!r}")
+        for value in (value for criterion in one["criteria"] for value in _values(criterion)):
+            if not (isinstance(value, float) or (_is_number(value) and abs(value) < 10**LONGEST)):
+                raise ValueError(f"claim {number}: {str(value)[:LONGEST]!r} where a number is due")
     read_claims(folder / "claims.json")
 
 
+def _values(criterion: Mapping[str, Any]) -> list[Any]:
+    """Return the numbers of a criterion."""
+    measured = criterion["measured"]
+    ends = [measured[end] for end in sorted(_ENDS)] if isinstance(measured, dict) else [measured]
+    return [criterion["threshold"], *ends]
+
+
 def _numbers(folder: Path) -> Any:
+    """Return the numbers of a run, None where it keeps none as text.
+
+    Raises:
+        ValueError, OSError: for what no run writes: what is not finite, or a share that is no number.
+    """
     path = folder / "numbers.json"
-    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+    if not path.exists():
+        return None
+    read = {"parse_int": _whole, "parse_float": _finite, "parse_constant": _finite}
+    return json.loads(read_bounded(path, MOST_BYTES), object_hook=_of_numbers, **read)
+
+
+def _whole(text: str) -> int:
+    if len(text) > LONGEST:
+        raise ValueError(f"a whole number of {len(text)} digits")
+    return int(text)
+
+
+def _finite(text: str) -> float:
+    number = float(text)
+    if not math.isfinite(number):
+        raise ValueError(f"{text[:LONGEST]}: no finite number")
+    return number
+
+
+def _of_numbers(table: dict[str, Any]) -> dict[str, Any]:
+    if table.keys() >= _ENDS and not all(_is_number(table[end]) for end in _ENDS):
+        raise ValueError(f"{', '.join(f'{end} {table[end]!r}' for end in sorted(_ENDS))}: no numbers")
+    return table
 
 
 def check(there: Path, here: Path, *, timed: bool) -> Check:
@@ -172,7 +217,7 @@ def compared(
         small: what rounding may change.
     """
     if isinstance(there, dict) and isinstance(here, dict):
-        if not exact and {"value", "low", "high"} <= there.keys() & here.keys():
+        if not exact and _ENDS <= there.keys() & here.keys():
             agrees = all(
                 one["low"] <= other["value"] <= one["high"] for one, other in ((there, here), (here, there))
             )

@@ -1,6 +1,8 @@
 """Numbers of two runs are compared each with its own tolerance, and a verdict that would change is named."""
 
 import json
+import os
+import re
 import sys
 
 import pytest
@@ -109,6 +111,57 @@ def test_what_cannot_be_compared_is_refused_before_any_work(fake, tmp_path):
         assert "claims.json: claim 1: " in refused("reproduce", "fake", "--check", kept)
     assert "not with --check" in refused("reproduce", "fake", "--out", tmp_path, "--check", kept)
     assert "comes after the names" in refused("reproduce", "--check", "fake")
+
+
+@pytest.mark.parametrize(
+    ("odd", "named"),
+    [
+        ('{"length": 1e400}', "1e400: no finite number"),
+        ('{"length": NaN}', "NaN: no finite number"),
+        ('{"faces": [-Infinity]}', "-Infinity: no finite number"),
+        ('{"length": 1' + 400 * "0" + "}", "a whole number of 401 digits"),
+        ('{"share": {"value": "a", "low": 0, "high": 1}}', "high 1, low 0, value 'a': no numbers"),
+        ('{"share": {"value": [[1]], "low": 0, "high": 1}}', "value [[1]]: no numbers"),
+        (100_000 * "[", "recursion"),
+        ("", "Expecting value"),
+        (b"{\"a\": \xc3}", "decode"),
+        (None, "a pipe that nobody writes to"),
+    ],
+)
+def test_numbers_that_no_run_writes_are_refused_in_one_line(fake, odd, named):
+    kept, _ = fake
+    path = kept / "reproduction" / "fake" / "numbers.json"
+    if odd is None:
+        path.unlink()
+        os.mkfifo(path)
+    else:
+        path.write_bytes(odd if isinstance(odd, bytes) else odd.encode())
+    told = refused("reproduce", "fake", "--check", kept)
+    assert "numbers.json: " in told
+    assert named in told
+
+
+@pytest.mark.parametrize(
+    "odd", ['"a"', "[[1, 2]]", "1" + 30 * "0", "null", '{"value": "a", "low": 0, "high": 1}']
+)
+def test_criteria_that_no_run_writes_are_refused_in_one_line(fake, odd):
+    kept, _ = fake
+    path = kept / "reproduction" / "fake" / "claims.json"
+    text = path.read_text()
+    for name in ("measured", "threshold"):
+        other = re.sub(f'"{name}": [0-9.]+', lambda _, name=name: f'"{name}": {odd}', text, count=1)
+        assert other != text
+        path.write_text(other)
+        assert "claims.json: claim 1: " in refused("reproduce", "fake", "--check", kept)
+
+
+def test_text_and_lists_in_place_of_numbers_are_off(fake):
+    kept, _ = fake
+    path = kept / "reproduction" / "fake" / "numbers.json"
+    path.write_text('{"length": "a", "faces": [[40], 60]}')
+    status, lines = check(kept)
+    assert status == 1
+    assert lines[0].startswith("fake: 0 of 1 verdicts change, 2 of ")
 
 
 def alike(there, here, **how):
