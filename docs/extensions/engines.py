@@ -5,7 +5,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from cointoss.compare.output.files import write_text
+from places import fill
+
 from cointoss.compare.output.tables import table
 from cointoss.compare.reproduction.claim import Claim, read_claims
 from cointoss.compare.reproduction.mujoco.mujoco_laws import REALISED
@@ -113,12 +114,4 @@ def claim_of(out: Path, study: str, begins: str) -> Claim:
 
 def write(out: Path) -> None:
     """Write the tables into their places on the page in `out`."""
-    page = written = (out / PAGE).read_text(encoding="utf-8")
-    for name, block in blocks(out).items():
-        before, after = f"<!-- written by: make pages, {name} -->\n\n", "\n\n<!-- end -->\n"
-        head, place, rest = written.partition(before)
-        if place:
-            _, _, tail = f"\n\n{rest}".partition(after)
-            written = head + before + block + after + tail
-    if written != page:
-        write_text(out / PAGE, written)
+    fill(out / PAGE, blocks(out))

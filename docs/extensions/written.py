@@ -1,7 +1,8 @@
-"""Write what docs/ holds that is made of other files, as `make pages` does: results, notebooks, the house."""
+"""Write what docs/ holds that is made of other files, as `make pages` does; nothing is computed."""
 
 from pathlib import Path
 
+import benchmarks
 import engines
 import house
 import modes
@@ -47,6 +48,7 @@ def write_notebooks(examples: Path) -> None:
 if __name__ == "__main__":
     write_results(DOCS)
     engines.write(DOCS)
+    benchmarks.write(DOCS)
     write_notebooks(DOCS / "examples")
     (DOCS / "house.svg").write_text(house.house(DOCS.parent), encoding="utf-8")
     (DOCS / "automaton.svg").write_text(modes.automaton(), encoding="utf-8")
