@@ -1,9 +1,7 @@
-"""What all tests share: a back end for drawing, signals that processes heed, and reproducible Hypothesis."""
+"""What all tests share: signals that processes heed, reproducible Hypothesis, and fixtures."""
 
 import gc
-import os
 import signal
-import sys
 from importlib import import_module
 
 import pytest
@@ -15,11 +13,6 @@ from cointoss.models.records import Outcome
 from tests.helpers.basin_runs import SCENARIO
 from tests.helpers.browser import Page, browser
 from tests.helpers.explored import serving, small_map
-
-if sys.platform == "linux":
-    os.environ.setdefault("MUJOCO_GL", "egl")
-# A busy machine is slow, and of what is slow the commands speak.
-os.environ["TQDM_DISABLE"] = "1"
 
 # Runs in the background ignore Ctrl-C, and what they start would too.
 signal.signal(signal.SIGINT, signal.default_int_handler)
