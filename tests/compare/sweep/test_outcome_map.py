@@ -23,6 +23,15 @@ from cointoss.models.records import Outcome
 from tests.helpers.command_line import cointoss as command
 
 X, Y = "release.angular_velocity.eta=20:60:7", "release.position.z=20 cm:60 cm:5"
+ASKED = ("basin", "fig24a", "--x", X, "--y", Y)
+
+
+def tosses_of(found):
+    """Yield the row and the column of each pixel of a map of fig24a, and its toss."""
+    for row, height in enumerate(found.y):
+        for column, spin in enumerate(found.x):
+            changed = ("release.angular_velocity.eta", spin, "release.position.z", height)
+            yield row, column, cointoss.toss(cointoss.load("fig24a").replace(*changed))
 
 
 @pytest.fixture(scope="module")
@@ -48,13 +57,8 @@ def certain():
 
 
 def test_a_map_has_the_tosses_of_its_pixels(found):
-    scenario = cointoss.load("fig24a")
     assert (found.x[0], found.x[-1], found.y[0], found.y[-1]) == (20, 60, 0.2, 0.6)
-    for row, column in ((0, 0), (4, 6), (2, 3)):
-        changed = scenario.replace(
-            "release.angular_velocity.eta", found.x[column], "release.position.z", found.y[row]
-        )
-        toss = cointoss.analytic.toss(changed)
+    for row, column, toss in tosses_of(found):
         assert (found.outcome[row, column], found.impacts[row, column]) == (toss.outcome, len(toss.impacts))
     with pytest.raises(ValueError, match="read-only"):
         found.outcome[0, 0] = 0
@@ -62,18 +66,14 @@ def test_a_map_has_the_tosses_of_its_pixels(found):
 
 
 def test_a_map_counts_the_trusted_impacts_of_each_pixel(trusted):
-    scenario = cointoss.load("fig24a")
     covered = 0
-    for row, height in enumerate(trusted.y):
-        for column, spin in enumerate(trusted.x):
-            changed = scenario.replace("release.angular_velocity.eta", spin, "release.position.z", height)
-            toss = cointoss.analytic.toss(changed)
-            assert trusted.trusted_impacts[row, column] == min(toss.trusted_impacts, 9)
-            is_covered = not trusted.untrusted[row, column]
-            assert is_covered == (toss.trusted_impacts >= 9)
-            if is_covered:
-                assert trusted.outcome[row, column] == toss.impacts.face[8]
-            covered += is_covered
+    for row, column, toss in tosses_of(trusted):
+        assert trusted.trusted_impacts[row, column] == min(toss.trusted_impacts, 9)
+        is_covered = not trusted.untrusted[row, column]
+        assert is_covered == (toss.trusted_impacts >= 9)
+        if is_covered:
+            assert trusted.outcome[row, column] == toss.impacts.face[8]
+        covered += is_covered
     assert 0 < covered < trusted.outcome.size
     assert trusted.to_dataframe()["trusted_impacts"].tolist() == trusted.trusted_impacts.ravel().tolist()
     about = trusted.to_xarray()["trusted_impacts"].attrs["long_name"]
@@ -91,13 +91,9 @@ def test_of_a_map_of_a_touch_no_outcome_of_a_toss_that_ended_is_trusted():
 
 
 def test_a_final_outcome_is_trusted_where_it_is_certain(certain):
-    scenario = cointoss.load("fig24a")
-    for row, height in enumerate(certain.y):
-        for column, spin in enumerate(certain.x):
-            changed = scenario.replace("release.angular_velocity.eta", spin, "release.position.z", height)
-            toss = cointoss.analytic.toss(changed)
-            assert certain.outcome[row, column] == toss.outcome
-            assert certain.outcome_certain[row, column] == toss.outcome_certain
+    for row, column, toss in tosses_of(certain):
+        assert certain.outcome[row, column] == toss.outcome
+        assert certain.outcome_certain[row, column] == toss.outcome_certain
     assert np.array_equal(certain.untrusted, certain.outcome_certain == 0)
     assert 0 < certain.untrusted.sum() < certain.untrusted.size
     assert certain.trusted_impacts is None
@@ -179,8 +175,8 @@ def test_a_plot_hatches_untrusted_pixels(found, trusted):
 
 def test_the_command_says_what_is_untrusted(trusted, tmp_path, monkeypatch):
     monkeypatch.setitem(grid.TILE_TOSSES, Engine.ANALYTIC, 10)
-    asked = ("--x", X, "--y", Y, "--after", 8, "--trust", "--out", tmp_path / "map.zarr")
-    answered = command("basin", "fig24a", *asked, "--png", tmp_path / "map.png", "--dpi", 40)
+    asked = ("--after", 8, "--trust", "--out", tmp_path / "map.zarr")
+    answered = command(*ASKED, *asked, "--png", tmp_path / "map.png", "--dpi", 40)
     few, middle = np.quantile(trusted.trusted_impacts, [0.1, 0.5], method="inverted_cdf")
     assert f"trusted    median {middle} impacts, a tenth at most {few}\n" in answered.stdout
     share = 100 * trusted.untrusted.mean()
@@ -193,15 +189,14 @@ def test_a_count_that_a_stranger_made_huge_takes_no_room(trusted, tmp_path):
     huge = trusted.trusted_impacts.copy()
     huge[0, 0] = 2_000_000_000
     path = replace(trusted, trusted_impacts=huge).save(tmp_path / "m.zarr")
-    asked = ("--x", X, "--y", Y, "--after", 8, "--trust", "--out", path, "--resume")
-    answered = command("basin", "fig24a", *asked)
+    answered = command(*ASKED, "--after", 8, "--trust", "--out", path, "--resume")
     assert answered.exit_code == 0
     assert "untrusted  " in answered.stdout
 
 
 def test_the_command_says_which_outcomes_may_be_decided_by_errors(certain, tmp_path):
     path = tmp_path / "map.zarr"
-    answered = command("basin", "fig24a", "--x", X, "--y", Y, "--trust", "--out", path)
+    answered = command(*ASKED, "--trust", "--out", path)
     share = 100 * certain.untrusted.mean()
     said = f"untrusted  {share:.3f} %: the engine's own errors may have decided the outcome\n"
     assert said in answered.stdout
@@ -249,7 +244,7 @@ def test_a_part_of_a_map_is_saved_and_gone_on_with(found, tmp_path):
     part = cointoss.OutcomeMap(name="m", sweep=found.sweep, outcome=outcome, impacts=impacts)
     path = part.save(tmp_path / "m.zarr")
     assert cointoss.read_map(path).shares == {"not tossed": 1}
-    command("basin", "fig24a", "--x", X, "--y", Y, "--out", path, "--resume")
+    command(*ASKED, "--out", path, "--resume")
     assert np.array_equal(cointoss.read_map(path).outcome, found.outcome)
 
 
@@ -258,7 +253,7 @@ def test_a_pixel_without_its_trusted_impacts_is_tossed_again(trusted, tmp_path):
     lost[2, 3] = NOT_TOSSED
     path = replace(trusted, trusted_impacts=lost).save(tmp_path / "m.zarr")
     assert cointoss.read_map(path).shares["not tossed"] == 1 / 35
-    asked = ("basin", "fig24a", "--x", X, "--y", Y, "--after", 8, "--out", path, "--resume")
+    asked = (*ASKED, "--after", 8, "--out", path, "--resume")
     assert "another set of arrays (--trust)" in command(*asked).stderr
     assert command(*asked, "--trust").exit_code == 0
     assert np.array_equal(cointoss.read_map(path).layers["trusted_impacts"], trusted.trusted_impacts)
