@@ -1,4 +1,4 @@
-"""The MuJoCo model is the scenario's coin, and its state converts to the records' and back."""
+"""The MuJoCo model is the scenario's coin, and its state is the release's."""
 
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
@@ -10,7 +10,6 @@ import pytest
 from cointoss.coin_mj.model.scene import build, shape_thickness
 from cointoss.coin_mj.model.settings import Settings, rebound_of
 from cointoss.coin_mj.model.state import of_release
-from cointoss.models.free_joint import to_mass_center
 from tests.helpers.draws import AIR, IMPERFECT, PAPER_OFFSET, ZLOTY, draw_release, scenario
 
 
@@ -58,16 +57,6 @@ def test_a_mass_center_less_than_a_micrometre_off_is_kept():
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     assert data.body("coin").xipos[2] - data.body("coin").xpos[2] == pytest.approx(5e-7, abs=1e-15)
-
-
-def test_a_release_converts_to_mujocos_state_and_back():
-    rng = np.random.default_rng(2)
-    case = scenario(coin=IMPERFECT, release=draw_release(rng))
-    body, release = case.body, case.release
-    x, v, e, w, _ = to_mass_center(body, *of_release(body, release))
-    assert x == pytest.approx(release.position, abs=1e-17)
-    assert v == pytest.approx(release.velocity, abs=1e-16)
-    assert (e, w) == (release.attitude, release.angular_velocity)
 
 
 def test_mujoco_agrees_about_the_velocity_of_the_mass_center():
