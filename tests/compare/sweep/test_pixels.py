@@ -22,26 +22,23 @@ pytestmark = pytest.mark.usefixtures("without_horizon")
 WHOLE = Tile(slice(0, 3), slice(0, 4))
 
 
+AXES = [
+    ("release.angular_velocity.eta=20:60:4", "release.position.z=0.2:0.6:3"),
+    ("release.angles.theta=0.1:3:4", "release.angles.psi=-1:1:3"),
+    ("floor.restitution=0.2:0.6:4", "release.velocity.x=0:1:3"),
+    ("release.velocity.z=0:1:4", "coin.thickness=0:3 mm:3"),
+    ("coin.mass=1 g:5 g:4", "air.normal=0:0.8:3"),
+]
+
+
 @pytest.mark.parametrize(
-    ("x", "y"),
+    ("x", "y", "after"),
     [
-        ("release.angular_velocity.eta=20:60:4", "release.position.z=0.2:0.6:3"),
-        ("release.angles.theta=0.1:3:4", "release.angles.psi=-1:1:3"),
-        ("floor.restitution=0.2:0.6:4", "release.velocity.x=0:1:3"),
-        ("release.velocity.z=0:1:4", "coin.thickness=0:3 mm:3"),
-        ("coin.mass=1 g:5 g:4", "air.normal=0:0.8:3"),
+        *((x, y, after) for x, y in AXES for after in (None, 0, 2)),
+        ("gravity=1:20:4", "ending.max_impacts=1:9:3", None),
     ],
 )
-@pytest.mark.parametrize("after", [None, 0, 2])
 def test_each_pixel_is_its_own_toss_to_the_bit(x, y, after):
-    assert_each_pixel_is_its_own_toss(x, y, after)
-
-
-def test_each_pixel_of_a_largest_number_of_impacts_is_its_own_toss_to_the_bit():
-    assert_each_pixel_is_its_own_toss("gravity=1:20:4", "ending.max_impacts=1:9:3", None)
-
-
-def assert_each_pixel_is_its_own_toss(x, y, after):
     sweep = sweep_of(x, y, TUMBLING, after=after)
     pixels = toss_pixels(sweep, WHOLE)
     assert pixels.outcome.shape == (3, 4)
