@@ -13,14 +13,15 @@ from zipfile import ZipFile
 
 import pytest
 
+from tests.helpers.command_line import python
+
 TOP = Path(__file__).parents[1]
 FOLDERS = ("models", "analytic", "coin_mj", "compare")
 
 
 def build(target, source, folder):
     """Build an sdist or a wheel from a folder of sources into another folder, and return its path."""
-    command = [sys.executable, "-m", "hatchling", "build", "-t", target, "-d", str(folder)]
-    built = subprocess.run(command, cwd=source, capture_output=True, text=True)
+    built = python("-m", "hatchling", "build", "-t", target, "-d", folder, folder=source)
     assert built.returncode == 0, built.stderr
     (path,) = folder.glob("cointoss_dynamics-*")
     return path
@@ -58,18 +59,8 @@ def foreign(tmp_path):
 
 def run(installed, folder, *words, **environment):
     """Run Python, which finds what is installed there; a foreign folder comes first."""
-    return subprocess.run(
-        [sys.executable, "-P", *words],
-        cwd=folder,
-        env={
-            **os.environ,
-            "PYTHONPATH": os.pathsep.join([str(folder), str(installed)]),
-            "PYTHONDONTWRITEBYTECODE": "1",
-            **environment,
-        },
-        capture_output=True,
-        text=True,
-    )
+    paths = os.pathsep.join([str(folder), str(installed)])
+    return python("-P", *words, folder=folder, PYTHONPATH=paths, **environment)
 
 
 def test_a_wheel_has_every_file_under_one_name_and_no_other(wheel):
