@@ -15,12 +15,10 @@ from cointoss.compare.reproduction.saving import read_numbers
 from cointoss.compare.reproduction.setups.edge_classes import (
     DIAMETRAL,
     HANDS,
-    WOBBLING,
+    PUBLISHED,
     edge_of_die,
 )
 from cointoss.compare.reproduction.setups.edge_pages import (
-    PUBLISHED,
-    alike,
     draw,
     fair,
     holds,
@@ -30,7 +28,6 @@ from cointoss.compare.reproduction.setups.edge_pages import (
 )
 from cointoss.compare.reproduction.setups.edge_record import (
     ANGLE,
-    FREE,
     FULL,
     QUICK,
     SOLID_ANGLE,
@@ -39,12 +36,14 @@ from cointoss.compare.reproduction.setups.edge_record import (
     Sizes,
     record_of,
 )
-from cointoss.compare.reproduction.setups.ends import Ends, ended_as, together, tosses
+from cointoss.compare.reproduction.setups.ends import Ends, alike, ended_as, together, tosses
 from cointoss.models.records import Outcome
 
 _ROOT: Any = brentq(lambda aspect: edge_of_die(aspect) - 1 / 3, 0.1, 2)
 DIE = float(_ROOT)
 """h/D at which Pender and Uhrin's die is on edge in a third of its throws."""
+ROLLING_ON = "edge, standing"
+"""How a coin ends that rolls on its edge for ever."""
 LEAST_PROBABLE = 1e-3
 """Below this p-value the engines differ."""
 
@@ -70,8 +69,6 @@ def findings(record: EdgeRecord) -> Findings:
         "the analytic engine": [curve["1"] for curve in record.curves[DIAMETRAL].values()],
         "MuJoCo": [counts["mujoco"] for name, counts in record.engines.items() if SQUARE in name],
     }
-    free = record.nickel[WOBBLING][FREE]
-    edges = ended_as(free, Outcome.EDGE)
     chis = list(record.curves[DIAMETRAL])
     middle = chis[len(chis) // 2]
     fairest = {wobble: fair(record, wobble, middle) for wobble in HANDS}
@@ -93,7 +90,9 @@ def findings(record: EdgeRecord) -> Findings:
         agreeing_die=_agreeing_die(record),
         die_less=fairest[DIAMETRAL] - DIE,
         more=difference(_flags(people), _flags(plain)),
-        rolling=share_of(free.get("edge, standing", 0), edges, "tosses on edge"),
+        rolling=share_of(
+            record.free.get(ROLLING_ON, 0), ended_as(record.free, Outcome.EDGE), "tosses on edge"
+        ),
         touched={turned: touch.touched - 1 / 3 for turned, touch in record.touches.items()},
         let_go={turned: touch.let_go - 1 / 3 for turned, touch in record.touches.items()},
         energy=record.touches[DIAMETRAL].energy,
@@ -114,7 +113,7 @@ def findings(record: EdgeRecord) -> Findings:
         heads=_heads(record) - 1 / 2,
         square={engine: on_edge(together(ends)) - 1 / 2 for engine, ends in square.items() if ends},
         tests=len(record.engines),
-        least=min(map(alike, record.engines.values())),
+        least=min(alike(counts.values()) for counts in record.engines.values()),
         runs=1 / (1 - (1 - LEAST_PROBABLE) ** len(record.engines)),
     )
 

@@ -3,7 +3,6 @@
 import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +11,8 @@ from numpy.typing import NDArray
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.reproduction.parts import Part, kept
-from cointoss.compare.reproduction.setups.ends import Ends, counted, together
+from cointoss.compare.reproduction.setups.ends import Ends, by_outcome
+from cointoss.compare.shares.plan import Plan
 from cointoss.models.hand import Hand
 from cointoss.models.kernel.sources import source_hash
 from cointoss.models.records import Array
@@ -24,6 +24,8 @@ DIAMETER, THICKNESS, MASS = 21.21e-3, 1.95e-3, 5e-3
 """Of the US nickel [m, m, kg]; the other coins are as wide, and of its metal."""
 NICKEL = THICKNESS / DIAMETER
 """Its h/D."""
+PUBLISHED = 1 / 6000
+"""Murray and Teare's share of a nickel's tosses on edge."""
 DIAMETRAL, WOBBLING = HANDS = ("about a diameter", "as people")
 """ψ = 90°; and with the scatter that explains the flips of 48 people."""
 PEOPLE = np.radians(10.0)
@@ -69,14 +71,9 @@ class EdgeClass:
             }
         )
 
-    def releases(self, number: int, count: int) -> Releases:
-        """Draw a part of the releases, with either side up as likely.
-
-        Args:
-            number: of the part; the draws are those of the class, this number and this count.
-            count: how many.
-        """
-        rng = np.random.default_rng([SEED, zlib.crc32(self.name.encode()), number])
+    def releases(self, count: int) -> Releases:
+        """Draw releases, with either side up as likely."""
+        rng = np.random.default_rng([SEED, zlib.crc32(self.name.encode()), 0])
         return self.hand.releases(self.scenario.body, rng, count)
 
 
@@ -85,28 +82,31 @@ def hand_of(wobble: str, **other: Any) -> Hand:
     return Hand(psi_scatter=PEOPLE if wobble == WOBBLING else 0.0, up="either", **other)
 
 
-def ends_of(kind: EdgeClass, count: int, size: int, parts: Path, engine: Engine = Engine.ANALYTIC) -> Ends:
-    """Toss the coins of a class, part by part, and count how they end.
+def ends_of(kind: EdgeClass, count: int, parts: Path, engine: Engine = Engine.ANALYTIC) -> Ends:
+    """Toss the coins of a class as `cointoss shares` does, and count their outcomes.
 
     Args:
         kind: the class.
         count: how many tosses.
-        size: of a part.
         parts: folder of what an interrupted run had done.
         engine: that tosses.
     """
-    found, label = [], zlib.crc32(repr(kind).encode())
-    for number, first in enumerate(range(0, count, size)):
-        many = min(size, count - first)
-        name = f"{source_hash(_ENTRIES[engine])}-{engine}-{label:08x}-{number}-{many}"
-        part = kept(parts, name, partial(_part, kind, number, many, engine))
-        found.append(dict(zip(part["ends"].tolist(), part["counts"].tolist(), strict=True)))
-    return together(found)
+    plan = Plan(
+        scenario=kind.scenario,
+        name=kind.name,
+        hand=kind.hand,
+        engines=(engine,),
+        seed=zlib.crc32(kind.name.encode(), SEED),
+        tosses=count,
+    )
 
+    def compute() -> Part:
+        ends = by_outcome(plan)
+        return {"ends": np.array(list(ends)), "counts": np.array(list(ends.values()))}
 
-def _part(kind: EdgeClass, number: int, count: int, engine: Engine) -> Part:
-    ends = counted(engine.package.toss_many(kind.scenario, kind.releases(number, count)))
-    return {"ends": np.array(list(ends)), "counts": np.array(list(ends.values()))}
+    label = zlib.crc32(repr(kind).encode())
+    part = kept(parts, f"{source_hash(_ENTRIES[engine])}-{engine}-{label:08x}-{count}", compute)
+    return dict(zip(part["ends"].tolist(), part["counts"].tolist(), strict=True))
 
 
 def corner(aspect: float | Array) -> Any:

@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from cointoss.compare.metrics.estimate import Estimate
-from cointoss.compare.metrics.estimates import LEVEL, chance_alike, in_words, percent
+from cointoss.compare.metrics.estimates import LEVEL, in_words, percent
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
 from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.edge_classes import (
@@ -13,6 +13,7 @@ from cointoss.compare.reproduction.setups.edge_classes import (
     DIAMETRAL,
     HANDS,
     NICKEL,
+    PUBLISHED,
     SEED,
     WOBBLING,
     corner,
@@ -22,11 +23,9 @@ from cointoss.compare.reproduction.setups.edge_classes import (
     three_way,
 )
 from cointoss.compare.reproduction.setups.edge_record import ANGLE, LAWS, SOLID_ANGLE, EdgeRecord
-from cointoss.compare.reproduction.setups.ends import Ends, ended_as, on_edge, tosses
+from cointoss.compare.reproduction.setups.ends import alike, ended_as, on_edge, tosses
 from cointoss.models.records import Outcome
 
-PUBLISHED = 1 / 6000
-"""Murray and Teare's share of a nickel's tosses on edge."""
 DRAWS = 2000
 """Samples by which the intervals of the fair coin are found."""
 COLORS = (INK, BLUE, GREEN, ORANGE, VERMILION)
@@ -46,11 +45,6 @@ def fair(found: EdgeRecord, wobble: str, chi: str) -> Estimate:
     value, drawn = three_way(aspects, edges, counts, np.random.default_rng(SEED), DRAWS)
     low, high = np.quantile(np.where(np.isnan(drawn), np.inf, drawn), [(1 - LEVEL) / 2, (1 + LEVEL) / 2])
     return Estimate(value, float(low), float(high), int(counts.sum()))
-
-
-def alike(counts: dict[str, Ends]) -> float:
-    """Return the probability by chance of ends that differ so much between the engines, by a χ² test."""
-    return chance_alike([[ended_as(ends, outcome) for outcome in Outcome] for ends in counts.values()])
 
 
 def tables(found: EdgeRecord) -> str:
@@ -75,7 +69,7 @@ def tables(found: EdgeRecord) -> str:
             name,
             *(percent(on_edge(ends)) for ends in counts.values()),
             *(str(ended_as(ends, Outcome.UNDECIDED)) for ends in counts.values()),
-            f"{alike(counts):.2g}",
+            f"{alike(counts.values()):.2g}",
         ]
         for name, counts in found.engines.items()
     ]

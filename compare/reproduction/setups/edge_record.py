@@ -1,6 +1,7 @@
 """The tosses of the edge study: which are made, and the record of how they end."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -27,6 +28,7 @@ from cointoss.compare.reproduction.setups.edge_classes import (
 from cointoss.compare.reproduction.setups.edge_touches import (
     ANYHOW,
     TURNED,
+    endings_of,
     first_touches,
     let_go,
     tossed,
@@ -41,6 +43,7 @@ SQUARE = "h/D = 1,"
 """In the names of the classes of such coins."""
 SQUARES = 2
 """So many times more of them are tossed by MuJoCo."""
+ASPECTS = (0.01, 0.05, 0.1, 0.2, 0.3, SOLID_ANGLE, 0.42, 0.5, ANGLE, 0.65, 0.75, 0.85, 1, 1.3, 2, 4)
 LAWS = {
     DIAMETRAL: (ANGLE, edge_by_angle, "(2/π) atan(h/D)"),
     ANYHOW: (SOLID_ANGLE, edge_by_solid_angle, "(h/D)/√(1 + (h/D)²)"),
@@ -71,46 +74,35 @@ FREE = "δ = p = 0"
 class Sizes:
     """How many tosses are made of what."""
 
-    aspects: tuple[float, ...]
+    aspects: tuple[float, ...] = ASPECTS
     """h/D of the coins."""
-    chis: tuple[float, ...]
-    curve: dict[str, int]
+    chis: tuple[float, ...] = (0.0, 0.2, 0.4, 0.6, 0.8)
+    curve: Mapping[str, int] = field(default_factory=lambda: {DIAMETRAL: 2400, WOBBLING: 120})
     """Tosses of each coin and restitution, by hand."""
-    nickel: dict[str, int]
+    nickel: Mapping[str, int] = field(default_factory=lambda: {DIAMETRAL: 100_000, WOBBLING: 2000})
     """Tosses of the nickel as said."""
-    factor: dict[str, int]
+    factor: Mapping[str, int] = field(default_factory=lambda: {DIAMETRAL: 8000, WOBBLING: 500})
     """Tosses of the nickel with something other."""
-    factors: tuple[str, ...]
-    wobbles: tuple[float, ...]
+    factors: tuple[str, ...] = tuple(FACTORS)[1:]
+    wobbles: tuple[float, ...] = (0.1, 0.3, 1.0, 3.0, 30.0)
     """Scatters of ψ [deg]."""
-    wobble: int
-    touches: int
-    ways: int
-    mujoco: dict[str, int]
+    wobble: int = 1000
+    touches: int = 4000
+    ways: int = 200
+    free: int = 500
+    """Tosses of people's nickel without resistance whose endings are told apart."""
+    mujoco: Mapping[str, int] = field(default_factory=lambda: {DIAMETRAL: 1000, WOBBLING: 100})
     """Tosses of each class by MuJoCo, by hand; the analytic engine makes four times as many."""
-    shared: tuple[tuple[str, float, float, bool], ...]
-    """Hand, h/D and χ of the coins that both engines toss, and whether the floor resists."""
-
-
-FULL = Sizes(
-    aspects=(0.01, 0.05, 0.1, 0.2, 0.3, SOLID_ANGLE, 0.42, 0.5, ANGLE, 0.65, 0.75, 0.85, 1, 1.3, 2, 4),
-    chis=(0.0, 0.2, 0.4, 0.6, 0.8),
-    curve={DIAMETRAL: 2400, WOBBLING: 120},
-    nickel={DIAMETRAL: 100_000, WOBBLING: 2000},
-    factor={DIAMETRAL: 8000, WOBBLING: 500},
-    factors=tuple(FACTORS)[1:],
-    wobbles=(0.1, 0.3, 1.0, 3.0, 30.0),
-    wobble=1000,
-    touches=4000,
-    ways=200,
-    mujoco={DIAMETRAL: 1000, WOBBLING: 100},
-    shared=(
+    shared: tuple[tuple[str, float, float, bool], ...] = (
         *((DIAMETRAL, aspect, chi, True) for aspect in (NICKEL, 0.35, 0.6) for chi in (0.5, 0.8)),
         (DIAMETRAL, 1.0, 0.2, True),
         *((WOBBLING, aspect, chi, True) for aspect in (NICKEL, 0.35, 0.6) for chi in (0.5, 0.8)),
         *((WOBBLING, aspect, chi, False) for aspect in (NICKEL, 0.35) for chi in (0.5, 0.8)),
-    ),
-)
+    )
+    """Hand, h/D and χ of the coins that both engines toss, and whether the floor resists."""
+
+
+FULL = Sizes()
 QUICK = Sizes(
     aspects=(0.01, ANGLE, 1.0, 4.0),
     chis=(0.0, 0.6),
@@ -122,11 +114,10 @@ QUICK = Sizes(
     wobble=20,
     touches=200,
     ways=10,
+    free=150,
     mujoco={DIAMETRAL: 4, WOBBLING: 4},
     shared=((DIAMETRAL, 0.6, 0.8, True),),
 )
-SIZE = {DIAMETRAL: 10_000, WOBBLING: 500}
-"""Of the parts that are kept."""
 
 
 @dataclass(frozen=True)
@@ -157,6 +148,8 @@ class EdgeRecord:
     """Of people's nickels that end on edge: from the last impact to the end [s]."""
     ways: list[float]
     """Of C in this time, as the crow flies [m]."""
+    free: Ends
+    """Of people's nickels without resistance, by outcome and ending."""
     engines: dict[str, dict[str, Ends]]
     """By class and engine."""
 
@@ -171,10 +164,10 @@ def record_of(sizes: Sizes, progress: Progress, parts: Path) -> EdgeRecord:
     """
     curves, engines = len(sizes.chis) * len(sizes.aspects), 2 * len(sizes.shared)
     by_hand = len(HANDS) * (curves + 1 + len(sizes.factors))
-    step = stepping(progress, len(TURNED) + by_hand + len(sizes.wobbles) + 1 + engines)
+    step = stepping(progress, len(TURNED) + by_hand + len(sizes.wobbles) + 2 + engines)
 
-    def ends(kind: EdgeClass, count: int, size: int, engine: Engine = Engine.ANALYTIC) -> Ends:
-        return step(ends_of(kind, count, size, parts, engine))
+    def ends(kind: EdgeClass, count: int, engine: Engine = Engine.ANALYTIC) -> Ends:
+        return step(ends_of(kind, count, parts, engine))
 
     def by_aspect(wobble: str, chi: float) -> dict[str, Ends]:
         name, hand = f"{wobble}, χ = {chi:g}, h/D =", hand_of(wobble)
@@ -182,16 +175,16 @@ def record_of(sizes: Sizes, progress: Progress, parts: Path) -> EdgeRecord:
             EdgeClass(name=f"{name} {aspect:.4g}", aspect=aspect, hand=hand, floor={"restitution": chi})
             for aspect in sizes.aspects
         ]
-        return {f"{kind.aspect:.6g}": ends(kind, sizes.curve[wobble], SIZE[wobble]) for kind in kinds}
+        return {f"{kind.aspect:.6g}": ends(kind, sizes.curve[wobble]) for kind in kinds}
 
     def by_factor(wobble: str, factor: str) -> Ends:
         many = sizes.factor if FACTORS[factor] else sizes.nickel
-        return ends(nickel(wobble, factor), many[wobble], SIZE[wobble])
+        return ends(nickel(wobble, factor), many[wobble])
 
     def by_scatter(scatter: float) -> Ends:
         hand = replace(hand_of(DIAMETRAL), psi_scatter=np.radians(scatter))
         kind = EdgeClass(name=f"ψ = 90° ± {scatter:g}°", hand=hand, floor={})
-        return ends(kind, sizes.wobble, SIZE[WOBBLING])
+        return ends(kind, sizes.wobble)
 
     def by_engine(wobble: str, aspect: float, chi: float, resists: bool) -> tuple[str, dict[str, Ends]]:
         name = f"{wobble}, h/D = {aspect:.2g}, χ = {chi:g}{'' if resists else ', no resistance'}"
@@ -200,12 +193,13 @@ def record_of(sizes: Sizes, progress: Progress, parts: Path) -> EdgeRecord:
         for engine, times in ((Engine.ANALYTIC, 4), (Engine.MUJOCO, 1)):
             kind = EdgeClass(name=f"{name}, {engine}", aspect=aspect, hand=hand_of(wobble), floor=floor)
             many = times * sizes.mujoco[wobble] * (SQUARES if aspect == 1 and engine == Engine.MUJOCO else 1)
-            found[engine.value] = ends(kind, many, 50 * times, engine)
+            found[engine.value] = ends(kind, many, engine)
         return name, found
 
     touches = {turned: step(_touch(turned, sizes.touches, parts)) for turned in TURNED}
     name = f"{source_hash('cointoss.analytic.events')}-ways-{sizes.ways}"
     ways = step(kept(parts, name, partial(way_to_rest, nickel(WOBBLING), sizes.ways)))
+    free = step(endings_of(nickel(WOBBLING, FREE), sizes.free))
     return EdgeRecord(
         touches=touches,
         curves={wobble: {f"{chi:g}": by_aspect(wobble, chi) for chi in sizes.chis} for wobble in HANDS},
@@ -216,6 +210,7 @@ def record_of(sizes: Sizes, progress: Progress, parts: Path) -> EdgeRecord:
         wobbles={f"{scatter:g}": by_scatter(scatter) for scatter in sizes.wobbles},
         times=ways["times"].tolist(),
         ways=ways["ways"].tolist(),
+        free=free,
         engines=dict(by_engine(*one) for one in sizes.shared),
     )
 

@@ -8,6 +8,7 @@ from cointoss import analytic
 from cointoss.analytic.events import run
 from cointoss.compare.reproduction.parts import Part
 from cointoss.compare.reproduction.setups.edge_classes import DIAMETRAL, EdgeClass, corner
+from cointoss.compare.reproduction.setups.ends import Ends, counted
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import highest_on_floor
 from cointoss.models.geometry import gap
@@ -31,7 +32,7 @@ def attitudes(turned: str, rng: np.random.Generator, count: int) -> Array:
 
 def tossed(kind: EdgeClass, turned: str, rng: np.random.Generator, count: int) -> Releases:
     """Draw releases of a class, flat to turn about a diameter, or with any attitude and as much spin."""
-    drawn = kind.releases(0, count)
+    drawn = kind.releases(count)
     if turned == DIAMETRAL:
         return drawn
     return replace(drawn, quaternion=attitudes(turned, rng, count))
@@ -78,10 +79,15 @@ def way_to_rest(kind: EdgeClass, count: int) -> Part:
         The time from their last impact to the end [s], and the way of C in it, as the crow flies [m].
     """
     scenario, times, ways = kind.scenario, [], []
-    for state in states_of(kind.releases(0, count)):
+    for state in states_of(kind.releases(count)):
         log = run(scenario.body, scenario.rules, state)
         if log.outcome == Outcome.EDGE:
             last = log.rows[-1]
             times.append(log.end_time - last["time"])
             ways.append(np.linalg.norm(log.start_states[-1][:2] - last["position"][:2]))
     return {"times": np.array(times), "ways": np.array(ways)}
+
+
+def endings_of(kind: EdgeClass, count: int) -> Ends:
+    """Toss coins of a class, and return how many end how, by outcome and ending."""
+    return counted(analytic.toss_many(kind.scenario, kind.releases(count)))

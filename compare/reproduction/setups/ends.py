@@ -4,18 +4,26 @@ from collections import Counter
 from collections.abc import Iterable
 
 from cointoss.compare.metrics.estimate import Estimate
-from cointoss.compare.metrics.estimates import share_of
+from cointoss.compare.metrics.estimates import chance_alike, share_of
+from cointoss.compare.shares.counting import counting
+from cointoss.compare.shares.plan import Plan
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.records import Ending, Outcome
 
 Ends = dict[str, int]
-"""Numbers of tosses by outcome and ending, as in "edge, paper"."""
+"""Numbers of tosses by outcome, as in "edge", or by outcome and ending, as in "edge, paper"."""
 
 
 def counted(ended: Outcomes) -> Ends:
     """Return how many tosses ended how."""
     codes = zip(ended.outcome, ended.ending, strict=True)
     return dict(sorted(Counter(f"{Outcome(outcome)}, {Ending(ending)}" for outcome, ending in codes).items()))
+
+
+def by_outcome(plan: Plan) -> Ends:
+    """Toss a plan of one setting and one engine as `cointoss shares` does, and count the outcomes."""
+    *_, counts = counting(plan)
+    return {str(outcome): int(counts[0][outcome]) for outcome in Outcome if counts[0][outcome]}
 
 
 def together(several: Iterable[Ends]) -> Ends:
@@ -30,9 +38,14 @@ def tosses(ends: Ends) -> int:
 
 def ended_as(ends: Ends, outcome: Outcome) -> int:
     """Return how many tosses have an outcome."""
-    return sum(number for name, number in ends.items() if name.startswith(f"{outcome}, "))
+    return sum(number for name, number in ends.items() if name.partition(", ")[0] == outcome)
 
 
 def on_edge(ends: Ends) -> Estimate:
     """Return the share of tosses that end on edge."""
     return share_of(ended_as(ends, Outcome.EDGE), tosses(ends))
+
+
+def alike(by_engine: Iterable[Ends]) -> float:
+    """Return the probability by chance of outcomes that differ so much between the engines, by a χ² test."""
+    return chance_alike([[ended_as(ends, outcome) for outcome in Outcome] for ends in by_engine])

@@ -1,14 +1,15 @@
 """Coins that end on their edge: laws of the first touch, draws, the fair coin, and what the page shows."""
 
 from dataclasses import replace
+from zlib import crc32
 
 import numpy as np
 import pytest
 
-from cointoss.compare.engines import Engine
 from cointoss.compare.reproduction.claims import edge
 from cointoss.compare.reproduction.declared import result
 from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.setups import edge_classes
 from cointoss.compare.reproduction.setups.edge_classes import (
     DIAMETRAL,
     NICKEL,
@@ -22,7 +23,7 @@ from cointoss.compare.reproduction.setups.edge_classes import (
     hand_of,
     three_way,
 )
-from cointoss.compare.reproduction.setups.edge_pages import alike, fair, on_edge
+from cointoss.compare.reproduction.setups.edge_pages import fair, on_edge
 from cointoss.compare.reproduction.setups.edge_record import ANGLE, SOLID_ANGLE, EdgeRecord
 from cointoss.compare.reproduction.setups.edge_touches import (
     ANYHOW,
@@ -31,7 +32,8 @@ from cointoss.compare.reproduction.setups.edge_touches import (
     tossed,
     way_to_rest,
 )
-from cointoss.compare.reproduction.setups.ends import ended_as, tosses
+from cointoss.compare.reproduction.setups.ends import alike, ended_as, tosses
+from cointoss.compare.shares.along import shares
 from cointoss.models.records import Outcome
 from tests.helpers.pages import saved
 
@@ -77,19 +79,15 @@ def test_a_coin_let_go_at_rest_and_one_that_touches_are_on_the_laws_side(turned,
 
 def test_ends_are_counted_once_and_kept(tmp_path, monkeypatch):
     kind = kind_of(0.6, restitution=0.8)
-    found = ends_of(kind, 50, 20, tmp_path)
+    found = ends_of(kind, 50, tmp_path)
     assert tosses(found) == 50
-    outcomes = [
-        Engine.ANALYTIC.package.toss_many(kind.scenario, kind.releases(n, m))
-        for n, m in ((0, 20), (1, 20), (2, 10))
-    ]
-    for outcome in Outcome:
-        assert ended_as(found, outcome) == sum(int(np.sum(one.outcome == outcome)) for one in outcomes)
-    assert ended_as(found, Outcome.EDGE) > 0
-    monkeypatch.setattr(EdgeClass, "releases", None)
-    assert ends_of(kind, 50, 20, tmp_path) == found
+    counted = shares(kind.scenario, hand=kind.hand, tosses=50, seed=crc32(b"a test", SEED)).counts[0]
+    assert [ended_as(found, outcome) for outcome in Outcome] == counted.tolist()
+    assert 0 < ended_as(found, Outcome.EDGE) < 50
+    monkeypatch.setattr(edge_classes, "by_outcome", None)
+    assert ends_of(kind, 50, tmp_path) == found
     with pytest.raises(TypeError):
-        ends_of(replace(kind, aspect=0.7), 50, 20, tmp_path)
+        ends_of(replace(kind, aspect=0.7), 50, tmp_path)
 
 
 def test_the_fair_coin_is_found_again_within_its_interval():
@@ -105,9 +103,9 @@ def test_the_fair_coin_is_found_again_within_its_interval():
 
 
 def test_engines_that_differ_are_seen():
-    one = {"heads, paper": 40, "tails, paper": 40, "edge, paper": 20}
-    assert alike({"analytic": one, "mujoco": one}) > 0.9
-    assert alike({"analytic": one, "mujoco": {**one, "edge, paper": 90}}) < 1e-3
+    one = {"heads": 40, "tails": 40, "edge": 20}
+    assert alike([one, one]) > 0.9
+    assert alike([one, {**one, "edge": 90}]) < 1e-3
 
 
 def test_coins_that_end_on_their_edge_are_followed_to_their_rest():
@@ -117,7 +115,7 @@ def test_coins_that_end_on_their_edge_are_followed_to_their_rest():
 
 
 def test_a_nickel_as_rare_on_its_edge_as_published_would_be_seen():
-    rare = {"heads, paper": 300_000 - 50, "edge, paper": 50}
+    rare = {"heads": 300_000 - 50, "edge": 50}
     nickel = {hand: {**by_factor, "as said": rare} for hand, by_factor in SAVED.nickel.items()}
     # Their coins, floor and drop are not known, so that no number decides the claim.
     for record, is_met in ((replace(SAVED, nickel=nickel), True), (SAVED, False)):
