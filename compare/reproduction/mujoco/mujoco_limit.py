@@ -54,18 +54,6 @@ USERS_RESTITUTIONS, USERS_STEPS = (0.1, 0.3, 0.5, 0.8, 1.0), (10, 20, 40, 80, 16
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sizes:
-    """How many impacts each part of the study has."""
-
-    impacts: int = 24
-    kinds: int = 150
-    cells: int = 13
-
-
-FULL = Sizes()
-
-
-@dataclass(frozen=True, kw_only=True)
 class ImpactErrors:
     """All parts of the study; see `cointoss.compare.reproduction.setups.mujoco_study` for each."""
 
@@ -84,33 +72,35 @@ class ImpactErrors:
     """Largest |e' - e| of a ball stepped by `mj_step`, for each of `USERS_RESTITUTIONS`, by contact."""
 
 
-def compute(progress: Progress, sizes: Sizes = FULL, seed: int = SEED) -> ImpactErrors:
-    """Return the errors of all parts of the study."""
+def compute(
+    progress: Progress, impacts: int = 24, kinds: int = 150, cells: int = 13, seed: int = SEED
+) -> ImpactErrors:
+    """Return the errors of all parts of the study, of so many impacts each."""
     rng = np.random.default_rng(seed)
-    floors = smooth_and_rubbed(draw_touches(rng, sizes.impacts, (0.3, 1.0)))
-    half = max(4, sizes.impacts // 2)
-    axis = np.linspace(0, 1, sizes.cells).tolist()
+    floors = smooth_and_rubbed(draw_touches(rng, impacts, (0.3, 1.0)))
+    half = max(4, impacts // 2)
+    axis = np.linspace(0, 1, cells).tolist()
     step = stepping(progress, len(fields(ImpactErrors)))
 
     def by_restitution(chi: float) -> Spread:
         return spread(restitution_errors(draw_touches(rng, half, (chi, chi)), Settings()))
 
     return ImpactErrors(
-        kinds=step(over_kinds(sizes.kinds, rng)),
+        kinds=step(over_kinds(kinds, rng)),
         stiffness=step({name: over_stiffness(cases, STIFFNESSES) for name, cases in floors.items()}),
         steps=step({name: over_steps(cases[:half], STEPS, MOST_STEPS) for name, cases in floors.items()}),
         restitution=step({chi: by_restitution(chi) for chi in RESTITUTIONS}),
         friction=step(
             {
                 mu: default_errors(touches, mu)
-                for touches in [draw_touches(rng, sizes.impacts, DRAWN)]
+                for touches in [draw_touches(rng, impacts, DRAWN)]
                 for mu in FRICTIONS
             }
         ),
         spin=step({spin: default_errors(draw_touches(rng, half, DRAWN, spin)) for spin in SPINS}),
         tilt=step(over_tilt(half, TILTS, rng)),
         cone=step(native_cone(CONE_RESTITUTION, CONE_TILTS, axis, [2 * part for part in axis])),
-        formula=step(cone_formula(sizes.kinds, rng)),
+        formula=step(cone_formula(kinds, rng)),
         users=step(_users()),
     )
 
