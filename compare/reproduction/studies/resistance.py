@@ -11,21 +11,23 @@ from cointoss.analytic.contact.automaton import Mode, contact_at
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.sampling import sample_contact
 from cointoss.compare.metrics.estimates import in_words
-from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.progress import Progress, stepping
 from cointoss.compare.output.style import BLUE, GREY, ORANGE
 from cointoss.compare.output.tables import paragraphs, table
-from cointoss.compare.reproduction.setups.ends import Ends, counted, ended_as, on_edge
-from cointoss.compare.reproduction.setups.hands import releases_of_hands
+from cointoss.compare.reproduction.setups.edge_classes import PUBLISHED, WOBBLING
+from cointoss.compare.reproduction.setups.edge_record import FREE, nickel
+from cointoss.compare.reproduction.setups.edge_touches import endings_of
+from cointoss.compare.reproduction.setups.ends import Ends, ended_as, on_edge
 from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.attitude import quaternion_from_angles
 from cointoss.models.certificate import energies, turned
 from cointoss.models.records import Array, Ending, Outcome, States
 from cointoss.models.scenario import Scenario
 
-COUNT, SEED = 1000, 1993
-"""Hand tosses of a nickel for each size of the resistance, and the seed."""
-SIZES = (0.0, 1e-4, 1e-3)
-"""δ = p on a nickel's floor [m]."""
+COUNT = 1000
+"""People's tosses of a nickel for each size of the resistance."""
+NICKELS = {"0": FREE, "0.0001": "as said", "0.001": "δ = p = 1 mm"}
+"""δ = p on a nickel's floor [m], and what the edge study calls that floor."""
 SPEED, ROLLING = 0.3, 1e-3
 """Of the disc and the hoop that roll upright [m/s], and their δ [m]."""
 SPIN, PIVOTING, SLIDING = 80.0, 1e-3, 0.3
@@ -34,13 +36,8 @@ TILT, SAMPLES, SMALL = 0.3, 300, (2e-4, 1e-2)
 """Euler's disk starts from this tilt [rad]; its fall is sampled so often, and fitted between these tilts."""
 DISKS = {"rolling": (2e-5, 17.8), "pivoting": (1e-4, 3.0)}
 """δ, or p, on the floor of Euler's disk [m], and how long it is followed [s]."""
-LONGEST = 60.0
-"""Of a nickel's toss [s]."""
-PUBLISHED = 1 / 6000
-"""Murray and Teare's share of a nickel's tosses on edge."""
 _DISC = {"mass": 2e-3, "radius": 1.25e-2, "thickness": 0.0}
 _THICK = {**_DISC, "thickness": 2e-3}
-_NICKEL = {"mass": 5e-3, "radius": 10.605e-3, "thickness": 1.95e-3}
 _UPRIGHT = [0.0, np.pi / 2, 0.0]
 
 
@@ -163,29 +160,8 @@ def power_law(disk: EulersDisk) -> tuple[float, float]:
     return float(1 / (1 - slope)), float(np.median(falls[chosen] / closed))
 
 
-def nickel_ends(size: float, count: int, seed: int) -> Ends:
-    """Count the ends of hand tosses of a nickel, in air, where δ = p = `size`."""
-    case = Scenario.model_validate(
-        {
-            "coin": _NICKEL,
-            "air": {"normal": 0.8, "tangential": 0.2},
-            "floor": {
-                "contact": "coulomb",
-                "friction": 0.3,
-                "restitution": 0.5,
-                "rolling_friction": size,
-                "pivoting_friction": size,
-            },
-            "release": {"position": [0, 0, 1]},
-            "ending": {"max_time": LONGEST},
-        }
-    )
-    ended = analytic.toss_many(case, releases_of_hands(np.random.default_rng(seed), count, aside=10.0))
-    return counted(ended)
-
-
-def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> ResistanceRecord:
-    """Roll, pivot, and toss `count` nickels for each of `SIZES`."""
+def compute(progress: Progress, count: int = COUNT) -> ResistanceRecord:
+    """Roll, pivot, and toss `count` of people's nickels for each of `NICKELS`."""
     stops = {
         "disc rolls": rolling_stop(0.5),
         "hoop rolls": rolling_stop(1.0),
@@ -193,11 +169,9 @@ def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> Resista
         "thick coin pivots": pivoting_stop(_THICK),
     }
     disks = {resistance: eulers_disk(resistance) for resistance in DISKS}
-    nickel = {}
-    for done, size in enumerate(SIZES, start=1):
-        nickel[f"{size:g}"] = nickel_ends(size, count, seed)
-        progress(done, len(SIZES))
-    return ResistanceRecord(stops, disks, nickel)
+    step = stepping(progress, len(NICKELS))
+    nickels = {size: step(endings_of(nickel(WOBBLING, factor), count)) for size, factor in NICKELS.items()}
+    return ResistanceRecord(stops, disks, nickels)
 
 
 def measures(found: ResistanceRecord) -> dict[str, Any]:
@@ -224,6 +198,7 @@ def measures(found: ResistanceRecord) -> dict[str, Any]:
         "rolling": sum(
             ends.get(f"edge, {Ending.ROLLING}", 0) for size, ends in found.nickel.items() if size != "0"
         ),
+        "published": PUBLISHED,
         "least": min(map(on_edge, found.nickel.values()), key=lambda part: part.value),
     }
 
