@@ -52,7 +52,7 @@ class Releases:
         """
         n = None
         for item, columns in zip(fields(self), (3, 3, 4, 3), strict=True):
-            array = np.array(getattr(self, item.name), dtype=float, order="C")
+            array = _numbers(f"Releases.{item.name}", getattr(self, item.name), f"numbers, (n, {columns})")
             if array.ndim != 2 or array.shape != (len(array) if n is None else n, columns):
                 expected = f"({'n' if n is None else n}, {columns}), a row for each toss"
                 raise ValueError(f"Releases.{item.name}: shape {array.shape}, expected {expected}")
@@ -116,7 +116,12 @@ class Releases:
             ValueError: for other shapes, and for a release that this coin can't have.
         """
         described = scenario_of(scenario)
-        joint, motion = (np.atleast_2d(np.array(given, dtype=float)) for given in (qpos, qvel))
+        joint, motion = (
+            np.atleast_2d(
+                _numbers(f"Releases.from_mujoco: {name}", given, f"numbers, ({size},) or (n, {size})")
+            )
+            for name, given, size in (("qpos", qpos, 7), ("qvel", qvel, 6))
+        )
         for name, part, size in (("qpos", joint, 7), ("qvel", motion, 6)):
             if part.shape != (len(joint), size):
                 raise ValueError(
@@ -165,6 +170,18 @@ def changed_releases(release: Release, n: int, changed: Mapping[str, Array]) -> 
     if any(field.startswith("release.angles.") for field in changed):
         columns["quaternion"] = np.array([quaternion_from_angles((a, b, c)) for a, b, c in angles.tolist()])
     return Releases(**columns)
+
+
+def _numbers(name: str, given: object, accepted: str) -> Array:
+    """Return an array of what is given, which is a copy.
+
+    Raises:
+        ValueError: for what are no numbers, or rows of different lengths.
+    """
+    try:
+        return np.array(given, dtype=float, order="C")
+    except (TypeError, ValueError):
+        raise ValueError(f"{name}: {shown(given)}, accepted: {accepted}") from None
 
 
 def _spread(name: str, given: ArrayLike, n: int) -> Array:

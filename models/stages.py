@@ -83,7 +83,12 @@ def stage(
 
     The arguments are those of a `Stage`, and whether it is shown: True everywhere, None where someone is
     likely to look.
+
+    Raises:
+        TypeError: for a progress that is none of these.
     """
+    if not (shown is None or isinstance(shown, bool)):
+        raise TypeError(f"progress: {shown!r}, accepted: True, False, or None to show it in a terminal alone")
     own = Stage(name, unit, total=total, done=done, detail=detail)
     is_outermost = not stages.open
     stages.open.append(own)

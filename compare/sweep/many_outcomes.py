@@ -1,7 +1,7 @@
 """The outcomes of more tosses than memory holds, chunk by chunk into a Zarr store."""
 
 from collections.abc import Iterable
-from dataclasses import fields
+from dataclasses import Field, fields
 from importlib.metadata import version
 from os import PathLike
 from pathlib import Path
@@ -13,15 +13,16 @@ from zarr.codecs import ZstdCodec
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.output.files import UnwritableError, naming
+from cointoss.compare.sweep.store import consolidate
 from cointoss.models.errors import require_type
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.reading import ScenarioSource, scenario_of
-from cointoss.models.releases import Releases
+from cointoss.models.releases import Releases, changed_releases
 from cointoss.models.stages import stage
 
 FORMAT = 1
 """Of a store, under the attribute `cointoss_tosses`."""
-STORED = 1 << 20
+STORED = 1 << 18
 """Tosses in a file of an array."""
 
 
@@ -41,7 +42,7 @@ def toss_to_zarr(
         cointoss.toss_to_zarr("tosses.zarr", coin, chunks)
 
     No more than one chunk is in memory at a time. Where Ctrl-C or an error ends it, the store has the chunks
-    that were finished; of one that was being written the ending is none.
+    that were finished. Without any chunk it is a store of no tosses.
 
     Args:
         path: of the store, which ends in .zarr and must not exist.
@@ -56,54 +57,63 @@ def toss_to_zarr(
 
     Raises:
         OSError: for a path that can't be written or exists.
-        TypeError: for a chunk that is no `Releases`.
+        TypeError: for what are no chunks, or one that is no `Releases`.
     """
     place, described, tosses = Path(path), scenario_of(scenario), 0
     _require_new(place)
+    require_type("chunks", chunks, Iterable, "Releases, one after the other, as in [releases]")
     package: Any = Engine(engine).package
-    settings = asked.get("settings", package.MANY)
+    about = {
+        "cointoss_tosses": FORMAT,
+        "scenario": described.to_toml(),
+        "engine": str(engine),
+        "engine_settings": asked.get("settings", package.MANY).as_dict(),
+        "versions": {**Engine(engine).versions, "zarr": version("zarr")},
+    }
     with stage("tossing into a store", "tosses", shown=progress) as tell, naming(place):
         store = None
         for chunk in chunks:
             require_type("chunks", chunk, Releases, "Releases, one after the other")
             outcomes = package.toss_many(described, chunk, **asked)
-            if store is None:
-                about = {
-                    "cointoss_tosses": FORMAT,
-                    "scenario": described.to_toml(),
-                    "engine": str(engine),
-                    "engine_settings": settings.as_dict(),
-                    "versions": {**Engine(engine).versions, "zarr": version("zarr")},
-                }
-                store = zarr.create_group(place, zarr_format=3, attributes=about)
-            _append(store, outcomes, tosses)
+            store = _append(store or _created(place, outcomes, about), outcomes, tosses)
             tosses += len(chunk)
             tell(tosses, tosses)
+        if store is None:
+            none = changed_releases(described.release, 0, {})
+            _created(place, package.toss_many(described, none, **asked), about)
     return tosses
 
 
-def _append(store: zarr.Group, outcomes: Outcomes, first: int) -> None:
-    """Write outcomes behind the first ones; the endings last, which tell what was made."""
-    kept = [item for item in fields(Outcomes) if getattr(outcomes, item.name) is not None]
-    for item in kept:
-        if item.name not in store:
-            store.create_array(
-                item.name,
-                shape=(0,),
-                chunks=(STORED,),
-                dtype=item.metadata["kind"],
-                fill_value=item.metadata["kind"](0),
-                dimension_names=("toss",),
-                compressors=ZstdCodec(checksum=True),
-                attributes=item.metadata["attributes"],
-            )
-        _array(store, item.name).resize((first + len(outcomes),))
-    for item in sorted(kept, key=lambda item: item.name == "ending"):
-        _array(store, item.name)[first:] = np.asarray(getattr(outcomes, item.name))
+def _created(place: Path, outcomes: Outcomes, about: dict[str, Any]) -> zarr.Group:
+    """Return a new store for what these outcomes have, without tosses."""
+    store = zarr.create_group(place, zarr_format=3, attributes=about)
+    for item in _kept(outcomes):
+        store.create_array(
+            item.name,
+            shape=(0,),
+            chunks=(STORED,),
+            dtype=item.metadata["kind"],
+            fill_value=item.metadata["kind"](0),
+            dimension_names=("toss",),
+            compressors=ZstdCodec(checksum=True),
+            attributes=item.metadata["attributes"],
+        )
+    consolidate(store)
+    return store
 
 
-def _array(store: zarr.Group, name: str) -> Any:
-    return store[name]
+def _append(store: zarr.Group, outcomes: Outcomes, first: int) -> zarr.Group:
+    """Write outcomes behind the first ones; what describes the store last, so that it has them whole."""
+    for item in _kept(outcomes):
+        array: Any = store[item.name]
+        array.resize((first + len(outcomes),))
+        array[first:] = np.asarray(getattr(outcomes, item.name))
+    consolidate(store)
+    return store
+
+
+def _kept(outcomes: Outcomes) -> list[Field[Any]]:
+    return [item for item in fields(Outcomes) if getattr(outcomes, item.name) is not None]
 
 
 def _require_new(place: Path) -> None:

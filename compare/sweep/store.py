@@ -238,6 +238,11 @@ def _write_empty(folder: Path, sweep: Sweep, scenario_text: str) -> None:
             dimension_names=(dimension,),
             attributes=axis_attributes(axis),
         )
+    consolidate(group)
+
+
+def consolidate(group: zarr.Group) -> None:
+    """Write what describes a group's arrays into one file, from which xarray reads it without a warning."""
     # Not yet in the specification of Zarr 3, but xarray asks for it.
     with warnings.catch_warnings(action="ignore", category=ZarrUserWarning):
         zarr.consolidate_metadata(group.store)

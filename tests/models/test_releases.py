@@ -26,6 +26,11 @@ def changed(name: str, column: int, value: float) -> Releases:
     return Releases(**{**GOOD, name: array})
 
 
+def test_what_are_no_numbers_is_refused():
+    with pytest.raises(ValueError, match=r'Releases\.velocity: "fast", accepted: numbers, \(n, 3\)'):
+        Releases(**{**GOOD, "velocity": "fast"})
+
+
 @pytest.mark.parametrize(
     ("name", "shape"),
     [("position", (2, 2)), ("position", (3,)), ("velocity", (3, 3)), ("quaternion", (2,)), ("position", ())],

@@ -124,7 +124,7 @@ def test_what_cannot_be_compared_is_refused_before_any_work(fake, tmp_path):
         ('{"share": {"value": [[1]], "low": 0, "high": 1}}', "value [[1]]: no numbers"),
         (100_000 * "[", "recursion"),
         ("", "Expecting value"),
-        (b"{\"a\": \xc3}", "decode"),
+        (b'{"a": \xc3}', "decode"),
         (None, "a pipe that nobody writes to"),
     ],
 )

@@ -22,7 +22,7 @@ def chunks(count, size=50):
 def test_the_store_has_what_toss_many_returns(tmp_path):
     made = [analytic.toss_many(COIN, chunk, horizon=True) for chunk in chunks(3)]
     assert toss_to_zarr(tmp_path / "a.zarr", COIN, chunks(3), horizon=True) == 150
-    with xarray.open_zarr(tmp_path / "a.zarr", consolidated=False) as found:
+    with xarray.open_zarr(tmp_path / "a.zarr") as found:
         for name in ("outcome", "ending", "impacts", "last_face", "end_time", "trusted_impacts"):
             np.testing.assert_array_equal(found[name], np.concatenate([getattr(one, name) for one in made]))
         assert "outcome_certain" not in found
@@ -38,8 +38,35 @@ def test_what_was_finished_is_kept_where_it_is_interrupted(tmp_path):
 
     with pytest.raises(KeyboardInterrupt):
         toss_to_zarr(tmp_path / "a.zarr", COIN, interrupted())
-    with xarray.open_zarr(tmp_path / "a.zarr", consolidated=False) as found:
+    with xarray.open_zarr(tmp_path / "a.zarr") as found:
         assert len(found.toss) == 100
+        assert np.all(found.ending > 0)
+
+
+def test_without_chunks_the_store_has_no_tosses(tmp_path):
+    assert toss_to_zarr(tmp_path / "a.zarr", COIN, [], horizon=True) == 0
+    with xarray.open_zarr(tmp_path / "a.zarr") as found:
+        assert found.sizes == {"toss": 0}
+        assert {"outcome", "trusted_impacts"} < set(found.data_vars)
+
+
+def test_what_breaks_off_while_it_is_written_is_not_seen(tmp_path, monkeypatch):
+    """The second chunk's arrays are written half; the store has the first."""
+    import zarr
+
+    written, write = [], zarr.Array.__setitem__
+
+    def broken(self, *part):
+        written.append(part)
+        if len(written) == 7:
+            raise KeyboardInterrupt
+        write(self, *part)
+
+    monkeypatch.setattr(zarr.Array, "__setitem__", broken)
+    with pytest.raises(KeyboardInterrupt):
+        toss_to_zarr(tmp_path / "a.zarr", COIN, chunks(3))
+    with xarray.open_zarr(tmp_path / "a.zarr") as found:
+        assert len(found.toss) == 50
         assert np.all(found.ending > 0)
 
 
@@ -48,7 +75,11 @@ def test_a_place_that_exists_and_what_is_no_release_are_refused(tmp_path):
     for name, named in (("a.zarr", "exists"), ("a.map", "ends in .zarr"), ("no/a.zarr", "no folder")):
         with pytest.raises(UnwritableError, match=named):
             toss_to_zarr(tmp_path / name, COIN, chunks(1))
-    with pytest.raises(TypeError, match="chunks: of type"):
+    with pytest.raises(TypeError, match=r"chunks: of type Releases, accepted: .*, as in \[releases\]"):
+        toss_to_zarr(tmp_path / "b.zarr", COIN, next(chunks(1)))  # pyright: ignore[reportArgumentType]
+    with pytest.raises(TypeError, match="progress: 'yes', accepted: True, False, or None"):
+        toss_to_zarr(tmp_path / "b.zarr", COIN, chunks(1), progress="yes")  # pyright: ignore[reportArgumentType]
+    with pytest.raises(TypeError, match="chunks: of type int"):
         toss_to_zarr(tmp_path / "b.zarr", COIN, [1])  # pyright: ignore[reportArgumentType]
     assert not (tmp_path / "b.zarr").exists()
 
