@@ -5,6 +5,7 @@ import numpy as np
 from cointoss.analytic.events import Verdict, started_of, toss_coin
 from cointoss.analytic.horizon.certainty import certainty_of
 from cointoss.analytic.horizon.horizon import ErrorsMade, find_horizon
+from cointoss.analytic.impact.own_law import OwnLaw, rules_by
 from cointoss.analytic.settings import MANY, ContactLimits, Settings, contact_limits
 from cointoss.models.body import Body, Rules
 from cointoss.models.errors import require_type
@@ -29,6 +30,7 @@ def toss_many(
     horizon: bool = False,
     certain: bool = False,
     progress: bool | None = None,
+    law: OwnLaw | None = None,
 ) -> Outcomes:
     """Toss the coin once from each release, by the event loop of `toss`: each toss is the same to the bit.
 
@@ -43,19 +45,21 @@ def toss_many(
         progress: True shows how far it is on standard error wherever that leads, and lets Ctrl-C return the
             tosses that were made by then, with a warning: the others are undecided, with the ending none (see
             `Outcomes.is_done`). False shows nothing; None shows it in a terminal or a notebook.
+        law: a contact law of one's own, in place of the scenario's.
 
     Returns:
         How each toss ended, in the order of `releases`. The paths are not kept.
 
     Raises:
         ValueError: for a release that a scenario with this coin and air would refuse.
+        UnsupportedError: for a floor that a law of one's own can't be used with.
     """
     require_type("settings", settings, Settings, "analytic.Settings, such as analytic.MANY")
     require_type("horizon", horizon, bool, "True or False")
     require_type("certain", certain, bool, "True or False")
     described = scenario_of(scenario)
     check_releases(described, releases)
-    body, rules = described.body, described.rules
+    body, rules = described.body, rules_by(law, described)
     limits = contact_limits(settings)
     most = TILE if body.air.exponent is None else SLOW_TILE
     with stage("tossing by the analytic engine", "tosses", shown=progress) as tell:

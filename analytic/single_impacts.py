@@ -49,6 +49,7 @@ def rules_at(rules: Rules, chi: float, mu: float) -> Rules:
     """Return the same rules with another restitution χ and friction μ."""
     return Rules(
         rules.law,
+        rules.own,
         chi,
         rules.restitution_threshold,
         rules.restitution_kind,

@@ -1,5 +1,6 @@
 """One toss by the analytic engine, and its path."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,16 +17,17 @@ from cointoss.analytic.flight.flying import sample
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
 from cointoss.analytic.horizon.certainty import certainty_of, other_outcome
 from cointoss.analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR, horizon_of
+from cointoss.analytic.impact.own_law import OwnLaw, contact_in, residuals, rules_by
 from cointoss.analytic.settings import FINE, Settings
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.barriers import barrier, energy
-from cointoss.models.body import Body, in_vacuum, is_ideal
+from cointoss.models.body import Body, Rules, in_vacuum, is_ideal
 from cointoss.models.certificate import InContact, energies, gaps, measurements
 from cointoss.models.errors import require_type
 from cointoss.models.interruptible import interruptible
 from cointoss.models.parts import Release
 from cointoss.models.reading import ScenarioSource, scenario_of
-from cointoss.models.records import Array, Impacts, Setting, States, Toss, TrustEnd
+from cointoss.models.records import Array, Ending, Impacts, Setting, States, Toss, TrustEnd
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import stage
 
@@ -94,7 +96,7 @@ def require_supported(scenario: Scenario, *, settings: Settings) -> None:
     """Refuse nothing: this engine tosses every scenario."""
 
 
-def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
+def toss(scenario: ScenarioSource, *, settings: Settings = FINE, law: OwnLaw | None = None) -> Toss:
     """Toss a coin by the analytic engine.
 
     Free flight by eqs (21)-(22) of Strzalko et al. 2008 in Euler parameters, air drag by eqs (49)-(74),
@@ -112,18 +114,21 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     Args:
         scenario: what to toss; or a file's path, or a name such as "fig24a".
         settings: of the engine.
+        law: a contact law of one's own, in place of the scenario's.
 
     Raises:
         ScenarioError: for a file or a name that can't be used.
+        UnsupportedError: for a floor that a law of one's own can't be used with.
     """
     require_type("settings", settings, Settings, "analytic.Settings, such as analytic.FINE")
     described = scenario_of(scenario)
+    rules = rules_by(law, described)
     with stage("tossing by the analytic engine"):
-        return interruptible(lambda: _toss(described, settings))
+        return interruptible(lambda: _toss(described, rules, settings, law))
 
 
-def _toss(scenario: Scenario, settings: Settings) -> Toss:
-    body, rules, start = scenario.body, scenario.rules, state_at_release(scenario.release)
+def _toss(scenario: Scenario, rules: Rules, settings: Settings, law: OwnLaw | None) -> Toss:
+    body, start = scenario.body, state_at_release(scenario.release)
     answer = run(body, rules, start, settings)
     impacts, end = Impacts.from_rows(answer.rows), answer.start_states[-1]
     horizon, contacts = horizon_of(body, rules, answer), answer.contacts
@@ -159,10 +164,33 @@ def _toss(scenario: Scenario, settings: Settings) -> Toss:
             Setting(name="safety factor of the horizon", value=SAFETY),
             Setting(name="energy at the end", value=_energy(body, end), unit="J"),
             Setting(name="energy of the lowest pass to the other face", value=_barrier(body, end), unit="J"),
-            *measurements(scenario, impacts, contacts, _in_contact(body, answer), path, force_and_moment),
+            *measurements(
+                scenario,
+                impacts,
+                contacts,
+                _in_contact(body, answer),
+                path,
+                force_and_moment,
+                None if law is None else residuals(law, body, rules, impacts),
+            ),
+            *(() if law is None else _of_own_law(law, body, rules, impacts, answer)),
         ),
         path=path,
     )
+
+
+def _of_own_law(
+    law: OwnLaw, body: Body, rules: Rules, impacts: Impacts, answer: EventLog
+) -> Iterator[Setting]:
+    """Yield what a certificate says of a law of one's own."""
+    yield Setting(name="contact law of one's own, in place of the scenario's", value=law.name)
+    if law.may_add_energy:
+        gained = np.maximum(impacts.energy_change, 0).sum() / (body.mass * body.gravity * body.radius)
+        yield Setting(name="impacts: energy that this law adds, in all", value=float(gained), unit="m g r")
+    if answer.ending == Ending.NO_SOLUTION:
+        y = answer.start_states[-1]
+        touched = contact_in(body, rules, rotation_matrix(attitude_of(y)), y[3:6], y[10:13])
+        yield Setting(name="the impulse refused", value=law.breach(touched))
 
 
 def _flight(body: Body) -> str:

@@ -8,6 +8,7 @@ if TYPE_CHECKING:
     from cointoss import analytic as analytic
     from cointoss import coin_mj as coin_mj
     from cointoss import models as models
+    from cointoss.analytic.impact.own_law import OwnLaw as OwnLaw
     from cointoss.coin_mj.bounces.recipe import solref as solref
     from cointoss.compare.engines import Engine as Engine
     from cointoss.compare.engines import toss as toss
@@ -64,6 +65,7 @@ if TYPE_CHECKING:
 
 _PACKAGES = ("models", "analytic", "coin_mj", "compare")
 _NAMES = {
+    "cointoss.analytic.impact.own_law": ("OwnLaw",),
     "cointoss.coin_mj.bounces.recipe": ("solref",),
     "cointoss.compare.engines": ("Engine", "toss"),
     "cointoss.compare.film.back_end": ("BackEndError",),

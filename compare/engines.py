@@ -2,14 +2,17 @@
 
 from enum import StrEnum
 from importlib import import_module
-from typing import Any, Protocol, cast
+from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from cointoss.models.distribution import versions_of
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.reading import ScenarioSource
-from cointoss.models.records import Toss
+from cointoss.models.records import Toss, UnsupportedError
 from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
+
+if TYPE_CHECKING:
+    from cointoss.analytic import OwnLaw
 
 
 class EngineSettings(Protocol):
@@ -67,13 +70,20 @@ _COMPILED = ("cointoss", "numba", "numpy")
 _MADE_OF = {Engine.ANALYTIC: _COMPILED, Engine.MUJOCO: (*_COMPILED, "mujoco")}
 
 
-def toss(scenario: ScenarioSource, engine: Engine | str = "analytic", *, settings: Any = None) -> Toss:
+def toss(
+    scenario: ScenarioSource,
+    engine: Engine | str = "analytic",
+    *,
+    settings: Any = None,
+    law: "OwnLaw | None" = None,
+) -> Toss:
     """Toss a coin by one engine.
 
     Args:
         scenario: what to toss; or a file's path, or a name such as "fig24a".
         engine: "analytic" or "mujoco".
         settings: of that engine, `analytic.Settings` or `coin_mj.Settings`; by default those of one toss.
+        law: a contact law of one's own, in place of the scenario's, for the engine "analytic".
 
     Raises:
         ScenarioError: for a scenario, a file or a name that can't be used.
@@ -81,5 +91,11 @@ def toss(scenario: ScenarioSource, engine: Engine | str = "analytic", *, setting
         ValueError: for another engine.
         TypeError: for settings of another engine.
     """
-    package = Engine(engine).package
-    return package.toss(scenario, settings=package.FINE if settings is None else settings)
+    name = Engine(engine)
+    package = name.package
+    more = {} if law is None else {"law": law}
+    if more and name != Engine.ANALYTIC:
+        raise UnsupportedError(
+            f'law: given, accepted: none with the engine {name}; engine = "analytic" takes one'
+        )
+    return package.toss(scenario, settings=package.FINE if settings is None else settings, **more)

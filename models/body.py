@@ -43,10 +43,25 @@ class Body(NamedTuple):
     gravity: float
 
 
+class OwnCode(NamedTuple):
+    """A contact law of one's own, as compiled code calls it."""
+
+    address: int
+    """Of its machine code, see `cointoss.models.kernel.address`; 0 where there is none."""
+    may_add_energy: bool
+    may_pull: bool
+    """Whether S_z may be negative."""
+
+
+NO_CODE = OwnCode(0, False, False)
+
+
 class Rules(NamedTuple):
     """How a scenario's coin meets the floor and when its toss ends."""
 
     law: ContactLaw
+    """Where there is a law of one's own: `SHARP_EDGE`, which no sustained contact follows."""
+    own: OwnCode
     restitution: float
     restitution_threshold: float
     restitution_kind: RestitutionKind
@@ -65,6 +80,7 @@ def with_budgets(rules: Rules, max_impacts: int, max_time: float) -> Rules:
     """Return the rules with other budgets."""
     return Rules(
         rules.law,
+        rules.own,
         rules.restitution,
         rules.restitution_threshold,
         rules.restitution_kind,
@@ -76,6 +92,14 @@ def with_budgets(rules: Rules, max_impacts: int, max_time: float) -> Rules:
         max_time,
         rules.caught,
     )
+
+
+@compiled
+def never_adds_energy(rules: Rules) -> bool:
+    """Return whether no impact adds energy: by proof, or, by a law of one's own, as each is checked."""
+    if rules.own.address != 0:
+        return not rules.own.may_add_energy
+    return rules.law == ContactLaw.SMOOTH or rules.restitution_kind == RestitutionKind.ENERGETIC
 
 
 @compiled

@@ -50,7 +50,13 @@ class InContact(NamedTuple):
 
 
 def measurements(
-    scenario: Scenario, impacts: Impacts, contacts: Array, in_contact: InContact, path: Path, air: Air
+    scenario: Scenario,
+    impacts: Impacts,
+    contacts: Array,
+    in_contact: InContact,
+    path: Path,
+    air: Air,
+    residuals: Array | None = None,
 ) -> tuple[Setting, ...]:
     """Return what is measured of a toss, one line each; what did not happen has none.
 
@@ -61,8 +67,11 @@ def measurements(
         in_contact: energies and gaps there.
         path: its path.
         air: of the engine; measured where b > 0.
+        residuals: of a contact law of one's own, (n,), in place of those of the scenario's.
     """
     body = scenario.body
+    if residuals is None:
+        residuals = law_residuals(body, scenario.rules, impacts)
     weight = body.mass * body.gravity * body.radius
     lines, lowest = [], in_contact.gaps.min(initial=np.inf)
     if len(impacts):
@@ -78,7 +87,7 @@ def measurements(
         lowest = min(lowest, *(gaps(body, each).min(initial=np.inf) for each in (states, touches)))
         of_flights = Setting(name=FLIGHT_ENERGY, value=_largest(drift) / weight, unit="m g r")
         lines += [
-            Setting(name=LAW, value=_largest(law_residuals(body, scenario.rules, impacts))),
+            Setting(name=LAW, value=_largest(residuals)),
             Setting(name=MOMENTUM, value=_largest(momentum_residuals(body, impacts))),
             Setting(name=IMPACT_ENERGY, value=_largest(energy_residuals(impacts)) / weight, unit="m g r"),
             *([of_flights] if len(drift) else []),

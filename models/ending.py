@@ -10,12 +10,21 @@ from cointoss.models.barriers import (
     spin_barrier,
     spin_barrier_bound,
 )
-from cointoss.models.body import Body, Rules, in_vacuum, is_ideal, is_linear, is_to_be_caught, resists
+from cointoss.models.body import (
+    Body,
+    Rules,
+    in_vacuum,
+    is_ideal,
+    is_linear,
+    is_to_be_caught,
+    never_adds_energy,
+    resists,
+)
 from cointoss.models.clearance import drag_bound
 from cointoss.models.geometry import tilt_sine_of
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, apply, dot, norm
-from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
+from cointoss.models.laws import ContactLaw, EndingTest
 from cointoss.models.perpetual import EnergyHistory, can_be_judged, energy_loss_converges
 from cointoss.models.records import Ending, Face, Outcome
 from cointoss.models.state import State
@@ -61,8 +70,7 @@ def cannot_be_caught(body: Body, rules: Rules, state: State) -> bool:
         rules: floor and ending.
         state: of the coin, a `State`.
     """
-    never_adds = rules.law == ContactLaw.SMOOTH or rules.restitution_kind == RestitutionKind.ENERGETIC
-    if not (is_to_be_caught(rules) and never_adds):
+    if not (is_to_be_caught(rules) and never_adds_energy(rules)):
         return False
     E = energy(body, state.position[2], state.velocity, state.spin)
     return E < body.mass * body.gravity * rules.caught
@@ -163,8 +171,8 @@ def settled_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Endin
     linear air most of that of v_h, and of a balanced coin that of its spin. A thick coin may also be caught
     on its edge. docs/ENDINGS.md has the proofs.
 
-    Only the smooth law, and `coulomb` with energetic restitution, never add energy; for every other the same
-    test ends the toss as `Ending.PAPER`.
+    Only the smooth law, `coulomb` with energetic restitution, and a law of one's own that may not, never add
+    energy; for every other the same test ends the toss as `Ending.PAPER`.
 
     Args:
         body: the coin.
@@ -174,8 +182,7 @@ def settled_face(body: Body, rules: Rules, state: State) -> tuple[Outcome, Endin
     v, w, up = state.velocity, state.spin, state.R[2]
     E, face = energy(body, state.position[2], v, w), face_outcome(state)
     smooth = rules.law == ContactLaw.SMOOTH
-    energetic = rules.restitution_kind == RestitutionKind.ENERGETIC
-    ending = Ending.SETTLED if smooth or energetic else Ending.PAPER
+    ending = Ending.SETTLED if never_adds_energy(rules) else Ending.PAPER
     tilt_sine = tilt_sine_of(up)
     on_face = _is_on_face(body, up)
     if E < barrier(body, up[2]):

@@ -12,7 +12,7 @@ from pydantic import (
 )
 
 from cointoss.models.attitude import Quaternion
-from cointoss.models.body import AirLaw, Body, Rules
+from cointoss.models.body import NO_CODE, AirLaw, Body, Rules
 from cointoss.models.errors import ScenarioError, describe, require_type
 from cointoss.models.faults import fault_of_toss
 from cointoss.models.fields import put
@@ -116,6 +116,7 @@ class Scenario(Part):
         most = ending.max_impacts or most_impacts(floor.contact, floor.restitution_kind, floor.restitution)
         return Rules(
             law=floor.contact,
+            own=NO_CODE,
             restitution=floor.restitution,
             restitution_threshold=floor.restitution_threshold,
             restitution_kind=floor.restitution_kind,

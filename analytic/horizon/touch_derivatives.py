@@ -31,6 +31,9 @@ TO_KINK = 1e-2
 """A change stays below this part of the distance to a state at which the impact is not smooth."""
 LEAST_STEP = 1e-11
 """Smaller changes drown in rounding."""
+WIDER, AGREES = 4.0, 1e-3
+"""What a law of one's own does beside a touch is trusted where differences by wider changes give its
+derivatives to this part: it may have a kink that this engine knows nothing of."""
 
 # A touch as numbers: the gap, the upward unit vector, the velocity of A, the impulse, and the state after, or
 # the spin gained.
@@ -63,6 +66,8 @@ class Touch(NamedTuple):
 def touch_derivatives(body: Body, rules: Rules, y: Array) -> Touch:
     """Return the derivatives of a touch and of its impact, the Euler parameters kept at norm 1.
 
+    Those of the impact by a law of one's own are infinite where the law is not smooth.
+
     Args:
         body: the coin.
         rules: floor and ending.
@@ -72,7 +77,12 @@ def touch_derivatives(body: Body, rules: Rules, y: Array) -> Touch:
     derivative(body, y, rate)
     point, _ = lowest_point(body, state.R[2], state.spin)
     v_A = contact_velocity(body, state.R, state.velocity, state.spin, point)
-    slopes = touch_differences(body, rules, chi, y, step_size(body, rules, y, v_A))
+    part = step_size(body, rules, y, v_A)
+    slopes = touch_differences(body, rules, chi, y, part)
+    if rules.own.address != 0 and not agree(
+        slopes, touch_differences(body, rules, chi, y, WIDER * part), speed_scale(body, y)
+    ):
+        slopes[_IMPULSE:] = np.inf
     return Touch(
         v_A[2],
         rate,
@@ -102,11 +112,30 @@ def step_size(body: Body, rules: Rules, y: Array, v_A: Vector) -> float:
     distance = abs(up[2])
     if tilt_sine > FLAT_SINE:
         distance *= tilt_sine
-    if rules.law == ContactLaw.SLIDING_FRICTION or rules.law == ContactLaw.COULOMB:
+    rubs = rules.law == ContactLaw.SLIDING_FRICTION or rules.law == ContactLaw.COULOMB
+    if rubs or rules.own.address != 0:
         distance *= abs(v_A[2]) / speed
         if slip > 0:
             distance *= slip / speed
     return max(min(STEP, TO_KINK * distance), LEAST_STEP)
+
+
+@compiled
+def agree(slopes: Array, wider: Array, speed: float) -> bool:
+    """Return whether both differences give the same derivatives of the impulse, to the part `AGREES`.
+
+    Args:
+        slopes: of `touch_differences`.
+        wider: by wider changes.
+        speed: the scale of velocities [m/s].
+    """
+    largest, apart = 0.0, 0.0
+    for j in range(3, 10):
+        scale = speed if j < 6 else 1.0
+        for i in range(_IMPULSE, _AFTER):
+            largest = max(largest, scale * abs(slopes[i, j]))
+            apart = max(apart, scale * abs(slopes[i, j] - wider[i, j]))
+    return apart <= AGREES * largest
 
 
 @compiled

@@ -7,8 +7,10 @@ eq. (85).
 
 from typing import NamedTuple
 
+from cointoss.analytic.impact.breach import Breach, breach_of
 from cointoss.analytic.impact.coulomb import coulomb
 from cointoss.models.body import Body, Rules
+from cointoss.models.kernel.address import call_at
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import (
     Matrix,
@@ -133,7 +135,7 @@ def sliding_friction(K: Matrix, v_A: Vector, chi: float, mu: float) -> tuple[Vec
 
 @compiled
 def impulse(body: Body, rules: Rules, chi: float, A: ImpactPoint) -> tuple[Vector, Ending]:
-    """Return the floor's impulse on the coin by the scenario's contact law.
+    """Return the floor's impulse on the coin by the contact law: one's own, or the scenario's.
 
     Args:
         body: the coin.
@@ -143,12 +145,17 @@ def impulse(body: Body, rules: Rules, chi: float, A: ImpactPoint) -> tuple[Vecto
 
     Returns:
         S: impulse, space frame, (3,) [N s].
-        ending: `Ending.NO_SOLUTION` where the law has none, else `Ending.NONE`.
+        ending: `Ending.NO_SOLUTION` where the law has none, or gives what no floor can, else `Ending.NONE`.
     """
     law, tau, v_A = rules.law, A.tau, A.velocity
     if A.is_flat:
         return (0.0, 0.0, -(1 + chi) * body.mass * v_A[2]), Ending.NONE
     K = delassus(body, A.R, A.arm)
+    if rules.own.address != 0:
+        S = call_at(rules.own.address, K, v_A, tau, chi, rules.friction)
+        if breach_of(rules.own, K, v_A, S) != Breach.NONE:
+            return NO_IMPULSE, Ending.NO_SOLUTION
+        return S, Ending.NONE
     if law == ContactLaw.SHARP_EDGE:
         return sharp_edge(K, v_A, tau, chi), Ending.NONE
     if law == ContactLaw.KNURLED:

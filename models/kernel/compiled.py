@@ -42,7 +42,7 @@ def inlined(function: Callable[P, R]) -> Callable[P, R]:
 
 def _compiled(function: Callable[..., Any], *, inlined: bool) -> Any:
     """Compile by numba's private members where they were tried, else by what numba makes public."""
-    if _compiles_nothing():
+    if compiles_nothing():
         return function
     compiling.declared[function.__module__] += 1
     if _is_tested():
@@ -60,7 +60,7 @@ def _is_tested() -> bool:
 
 
 @cache
-def _compiles_nothing() -> bool:
+def compiles_nothing() -> bool:
     """Return whether numba is told to compile nothing; it is asked where it may have been."""
     is_told = "NUMBA_DISABLE_JIT" in os.environ or Path(".numba_config.yaml").exists()
     if "numba" not in sys.modules and not is_told:

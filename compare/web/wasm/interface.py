@@ -19,7 +19,7 @@ from cointoss.analytic.settings import MANY, contact_limits
 from cointoss.compare.web.wasm.fields import FIELDS
 from cointoss.models.attitude import normalized, quaternion_from_angles
 from cointoss.models.barriers import barrier, energy
-from cointoss.models.body import AirLaw, Body, Rules
+from cointoss.models.body import NO_CODE, AirLaw, Body, Rules
 from cointoss.models.faults import (
     Fault,
     fault_of_center,
@@ -112,6 +112,7 @@ def rules_of(row):
     most = most_impacts(law, kind, floor[0]) if math.isnan(ending[1]) else int(ending[1])
     return Rules(
         law,
+        NO_CODE,
         floor[0],
         floor[1],
         kind,

@@ -1,0 +1,293 @@
+"""A contact law of one's own: a function in plain Python that is compiled, and tried before it is used."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import cache
+from inspect import signature
+from itertools import cycle, product
+from types import FunctionType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from cointoss.analytic.impact.breach import Breach, breach_of
+from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
+from cointoss.models.body import Body, OwnCode, Rules, resists
+from cointoss.models.errors import require_type
+from cointoss.models.kernel.address import Function, NotCompiledError, call_at, place
+from cointoss.models.kernel.vectors import Matrix, Vector
+from cointoss.models.laws import ContactLaw
+from cointoss.models.making import MOST_LOSSLESS
+from cointoss.models.parts import Coin, Floor, Release
+from cointoss.models.records import Array, Impacts, UnsupportedError
+from cointoss.models.scenario import Scenario, euler_parameters
+
+FORM = "a function (K, v_A, tau, chi, mu) -> (S_x, S_y, S_z) of plain arithmetic"
+AGREES = 1e-9
+"""To this part of |S| the compiled law gives what the function gives as it is written."""
+_ACCEPTED = {
+    Breach.NOT_FINITE: "three finite numbers",
+    Breach.SINKS: "an impulse after which A does not go into the floor, v_Az' >= 0",
+    Breach.PULLS: "S_z >= 0, or may_pull=True",
+    Breach.ADDS_ENERGY: "S . (v_A + K S/2) <= 0, or may_add_energy=True",
+}
+
+
+class Contact(NamedTuple):
+    """What a law is asked at an impact."""
+
+    K: Matrix
+    velocity: Vector
+    """v_A."""
+    tau: Vector
+    chi: float
+    mu: float
+
+
+@dataclass(frozen=True)
+class OwnLaw:
+    """A contact law of one's own, for `toss` and `toss_many` of the analytic engine.
+
+    A function in plain Python gives the impulse S of the floor on the coin at the contact point A, space
+    frame, (3,) [N s]. Its arguments are K, the Delassus matrix of A, inverse effective mass, space frame, a
+    tuple of three rows [1/kg], an impulse S changing v_A by K S; v_A, the velocity of A before the impact,
+    space frame, a tuple of three numbers, the third negative [m/s]; tau, the unit vector along the coin's
+    edge at A, horizontal, likewise; chi, the restitution of this impact; mu, the scenario's friction.
+
+    The function is compiled by numba, and tried at impacts of many kinds. Whatever the coin, each impulse
+    must be finite, must not drive A into the floor, and must neither add energy nor pull, unless that is
+    asked for; else the toss ends there, as `no_solution`. A coin that lands flat takes the engine's own
+    impulse through C, and what chatters ends as `chatter`: no such law is followed into sustained contact.
+
+    Args:
+        function: of those five arguments, S as a tuple of three numbers.
+        may_add_energy: whether impacts may add energy; the certificate of a toss then says how much.
+        may_pull: whether S_z may be negative.
+
+    Raises:
+        TypeError: for what is no such function.
+        ValueError: for a function that numba can't compile, or that breaks a condition, naming K and v_A.
+    """
+
+    function: Function
+    may_add_energy: bool = field(default=False, kw_only=True)
+    may_pull: bool = field(default=False, kw_only=True)
+    code: OwnCode = field(init=False, repr=False, compare=False)
+    """For compiled code of this process."""
+
+    def __post_init__(self) -> None:
+        """Compile the function and try it."""
+        plain = getattr(self.function, "py_func", self.function)
+        if not isinstance(plain, FunctionType):
+            raise TypeError(f"law: of type {type(plain).__name__}, accepted: {FORM}")
+        if not _takes_five(plain):
+            raise TypeError(f"law {self.name}: takes {signature(plain)}, accepted: {FORM}")
+        object.__setattr__(self, "function", plain)
+        _require_vector(self, _contacts()[0])
+        try:
+            address = place(plain)
+        except NotCompiledError as error:
+            raise ValueError(f"law {self.name}: {error}; accepted: {FORM}") from None
+        object.__setattr__(self, "code", OwnCode(address, bool(self.may_add_energy), bool(self.may_pull)))
+        for contact in _contacts():
+            S = _require_vector(self, contact)
+            if told := self.breach(contact) or _difference(S, call_at(address, *contact)):
+                raise ValueError(f"law {self.name}: {told}")
+
+    def __reduce__(self) -> tuple[Callable[..., "OwnLaw"], tuple[object, ...]]:
+        """Return the law as another process makes it, at an address of its own."""
+        return _made, (self.function, self.may_add_energy, self.may_pull)
+
+    @property
+    def name(self) -> str:
+        """The function's."""
+        return getattr(self.function, "__name__", "law")
+
+    def breach(self, contact: Contact) -> str:
+        """Return what the law must not do and does at a contact, in words; empty where it does nothing."""
+        S = call_at(self.code.address, *contact)
+        breach = Breach(breach_of(self.code, contact.K, contact.velocity, S))
+        if breach == Breach.NONE:
+            return ""
+        K, v_A = np.array(contact.K), np.array(contact.velocity)
+        does = {
+            Breach.NOT_FINITE: f"S = {_shown(S)}",
+            Breach.SINKS: f"v_Az' = {(v_A + K @ S)[2]:.3g} m/s",
+            Breach.PULLS: f"pulls, S = {_shown(S)} N s",
+            Breach.ADDS_ENERGY: f"adds {S @ (v_A + K @ S / 2):.3g} J",
+        }[breach]
+        return f"{does}{_at(contact)}; accepted: {_ACCEPTED[breach]}"
+
+
+def contact_of(body: Body, R: Array, v_A: Array, chi: float, mu: float) -> Contact:
+    """Return what a law is asked of a coin that touches the floor with a point of its rim.
+
+    Args:
+        body: the coin.
+        R: rotation matrix, body to space, (3, 3); the coin is not level.
+        v_A: velocity of A before the impact, space frame, (3,) [m/s].
+        chi: restitution of the impact.
+        mu: friction of the floor.
+    """
+    point = rim_point(body, R[2])
+    x, y, z = R @ (point - np.array(body.center))
+    arm = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    K = np.eye(3) / body.mass - arm @ R @ np.array(body.inertia_inverse) @ R.T @ arm
+    tau = R @ np.array([-point[1], point[0], 0.0]) / body.radius
+    a, b, c = K.tolist()
+    return Contact((tuple(a), tuple(b), tuple(c)), tuple(v_A.tolist()), tuple(tau.tolist()), chi, mu)
+
+
+def contact_in(body: Body, rules: Rules, R: Matrix, v: Array, w: Array) -> Contact:
+    """Return what a law is asked of a coin that touches the floor.
+
+    Args:
+        body: the coin.
+        rules: the floor.
+        R: rotation matrix, body to space; the coin is not level.
+        v: velocity of C, space frame, (3,) [m/s].
+        w: angular velocity, body frame, (3,) [rad/s].
+    """
+    turn = np.array(R)
+    v_A = v + turn @ np.cross(w, rim_point(body, turn[2]) - np.array(body.center))
+    chi = rules.restitution if -v_A[2] > rules.restitution_threshold else 0.0
+    return contact_of(body, turn, v_A, chi, rules.friction)
+
+
+def rim_point(body: Body, up: Array) -> Array:
+    """Return the lowest point of a coin that is not level, from B, body frame, (3,) [m].
+
+    Args:
+        body: the coin.
+        up: the upward unit vector in the body frame, (3,).
+    """
+    out = up[:2] / np.hypot(up[0], up[1])
+    return np.array([*(-body.radius * out), -np.copysign(body.thickness / 2, up[2])])
+
+
+def rules_by(law: OwnLaw | None, scenario: Scenario) -> Rules:
+    """Return a scenario's rules, with a law of one's own in place of its own where there is one.
+
+    Raises:
+        TypeError: for what is no such law.
+        UnsupportedError: for a floor that resists rolling or pivoting, which is a matter of contact.
+    """
+    rules = scenario.rules
+    if law is None:
+        return rules
+    require_type("law", law, OwnLaw, "a cointoss.OwnLaw; a named law is the scenario's floor.contact")
+    if resists(rules):
+        floor = scenario.floor
+        key = "rolling_friction" if floor.rolling_friction > 0 else "pivoting_friction"
+        raise UnsupportedError(
+            f"floor.{key} = {getattr(floor, key):g}: accepted: 0 with the law {law.name}, "
+            "which is not followed into sustained contact"
+        )
+    most = scenario.ending.max_impacts or MOST_LOSSLESS
+    return rules._replace(law=ContactLaw.SHARP_EDGE, own=law.code, max_impacts=most)
+
+
+def residuals(law: OwnLaw, body: Body, rules: Rules, impacts: Impacts) -> Array:
+    """Return by how much each impulse misses what the law gives as it is written, relative to |S|, (n,).
+
+    That of a flat landing is vertical.
+
+    Args:
+        law: of the impacts.
+        body: the coin.
+        rules: the floor.
+        impacts: by the law.
+    """
+    flat = np.hypot(impacts.point[:, 0], impacts.point[:, 1]) < body.radius * (1 - 1e-9)
+    missed = np.zeros(len(impacts))
+    for i, S in enumerate(impacts.impulse):
+        asked = np.array([0.0, 0.0, S[2]])
+        if not flat[i]:
+            R = rotation_matrix(euler_parameters(impacts.quaternion[i]))
+            touched = contact_in(
+                body, rules, R, impacts.velocity_before[i], impacts.angular_velocity_before[i]
+            )
+            asked = np.array(law.function(*touched))
+        missed[i] = np.linalg.norm(S - asked) / np.linalg.norm(S)
+    return missed
+
+
+def _made(function: Function, may_add_energy: bool, may_pull: bool) -> OwnLaw:
+    return OwnLaw(function, may_add_energy=may_add_energy, may_pull=may_pull)
+
+
+def _takes_five(function: FunctionType) -> bool:
+    try:
+        signature(function).bind(*Contact._fields)
+    except TypeError:
+        return False
+    return True
+
+
+def _require_vector(law: OwnLaw, contact: Contact) -> Array:
+    """Return S of the function as it is written, refused unless it is a tuple of three numbers."""
+    try:
+        S = law.function(*contact)
+    except Exception as error:
+        why = f"raises {type(error).__name__}: {error}"
+        raise ValueError(f"law {law.name}: {why}{_at(contact)}; accepted: {FORM}") from None
+    if type(S) is not tuple or len(S) != 3 or not all(isinstance(one, int | float) for one in S):
+        raise TypeError(f"law {law.name}: returns {S!r:.60}, accepted: {FORM}")
+    return np.array(S, dtype=float)
+
+
+def _difference(S: Array, compiled: Vector) -> str:
+    """Return in words by how much the compiled law differs from the function as it is written."""
+    if np.linalg.norm(S - compiled) <= AGREES * np.linalg.norm(S):
+        return ""
+    return (
+        f"gives S = {_shown(S)} N s as it is written and {_shown(compiled)} N s as it is compiled; "
+        "accepted: a function of its arguments alone"
+    )
+
+
+def _at(contact: Contact) -> str:
+    """Return a contact in words."""
+    K = ", ".join(_shown(row) for row in contact.K)
+    v_A = _shown(contact.velocity)
+    return f" at K = ({K}) 1/kg, v_A = {v_A} m/s, chi = {contact.chi:g}, mu = {contact.mu:g}"
+
+
+def _shown(numbers: Vector | Array) -> str:
+    return f"({', '.join(f'{one:.3g}' for one in numbers)})"
+
+
+_COINS: tuple[dict[str, Any], ...] = (
+    {"mass": 2e-3, "radius": 1.25e-2, "thickness": 0.0},
+    {"mass": 2e-3, "radius": 1.25e-2, "thickness": 2e-3, "center_of_mass": (-1e-3, -1e-3, -2e-4)},
+    {"mass": 0.5, "radius": 0.1, "thickness": 0.15},
+    # Turns as a ball: 2/5 m r² about every axis.
+    {"mass": 0.05, "radius": 0.025, "thickness": 1e-3, "inertia": tuple((1.25e-5 * np.eye(3)).tolist())},
+)
+_ALOFT = Release(position=(0.0, 0.0, 1.0))
+_TILTS = (0.01, 0.5, 0.8, 1.2, 1.56)
+"""Angles between the coin and the floor [rad]."""
+_SPEEDS = ((0.0, 0.0, 1.0), (1.0, 0.0, 1.0), (0.0, -1.0, 1.0), (-0.6, 0.8, 0.05), (0.02, 0.03, 1.0))
+"""Slip along the edge and across it, and approach, in units of the coin's speed of fall [m/s]."""
+
+
+@cache
+def _contacts() -> tuple[Contact, ...]:
+    """Return the contacts at which every law is tried."""
+    return tuple(_draw_contacts())
+
+
+def _draw_contacts() -> Iterator[Contact]:
+    rng, chis, mus = np.random.default_rng(2008), cycle((1.0, 0.5, 0.0, 0.8)), cycle((0.3, 0.0, 1.0))
+    for coin, tilt, _ in product(_COINS, _TILTS, range(3)):
+        body = Scenario(
+            coin=Coin(**coin), floor=Floor(restitution=1.0, contact=ContactLaw.SMOOTH), release=_ALOFT
+        ).body
+        side = rng.choice([-1.0, 1.0])
+        psi, phi = rng.uniform(0, 2 * np.pi, 2)
+        R = np.array(rotation_matrix(quaternion_from_angles((psi, tilt if side > 0 else np.pi - tilt, phi))))
+        tau = np.array(contact_of(body, R, np.zeros(3), 1.0, 0.0).tau)
+        nu = np.array([-tau[1], tau[0], 0.0])
+        for along, across, down in _SPEEDS:
+            v_A = rng.uniform(0.1, 3) * (along * tau + across * nu - np.array([0.0, 0.0, down]))
+            yield contact_of(body, R, v_A, next(chis), next(mus))
