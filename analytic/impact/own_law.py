@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cache
-from inspect import signature
+from inspect import Parameter, signature
 from itertools import cycle, product
 from types import FunctionType
 from typing import Any, NamedTuple
@@ -217,11 +217,8 @@ def _made(function: Function, may_add_energy: bool, may_pull: bool) -> OwnLaw:
 
 
 def _takes_five(function: FunctionType) -> bool:
-    try:
-        signature(function).bind(*Contact._fields)
-    except TypeError:
-        return False
-    return True
+    kinds = [one.kind for one in signature(function).parameters.values()]
+    return len(kinds) == len(Contact._fields) and {*kinds} <= _POSITIONAL
 
 
 def _require_vector(law: OwnLaw, contact: Contact) -> Array:
@@ -254,9 +251,10 @@ def _at(contact: Contact) -> str:
 
 
 def _shown(numbers: Vector | Array) -> str:
-    return f"({', '.join(f'{one:.3g}' for one in numbers)})"
+    return f"({', '.join(f'{one + 0.0:.3g}' for one in numbers)})"
 
 
+_POSITIONAL = {Parameter.POSITIONAL_ONLY, Parameter.POSITIONAL_OR_KEYWORD}
 _COINS: tuple[dict[str, Any], ...] = (
     {"mass": 2e-3, "radius": 1.25e-2, "thickness": 0.0},
     {"mass": 2e-3, "radius": 1.25e-2, "thickness": 2e-3, "center_of_mass": (-1e-3, -1e-3, -2e-4)},
