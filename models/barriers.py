@@ -2,17 +2,15 @@
 
 import math
 
-import numpy as np
-
 from cointoss.models.body import Body, is_ideal
 from cointoss.models.geometry import lower_rim, tilt_sine_of
+from cointoss.models.kernel.circle import on_circle
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector, apply, dot
 from cointoss.models.state import State
 
 # Tilts at which what a coin needs is computed, from just off a face to upright: their sines and cosines.
-_TILTS = np.pi / 2 * np.arange(1, 129) / 128
-_SINES, _COSINES = np.sin(_TILTS), np.cos(_TILTS)
+_COSINES, _SINES = (part[1:].copy() for part in on_circle(4 * 128, 129))
 # A bound times it stays a bound whatever rounding does.
 BEYOND_ROUNDING = 1 + 1e-12
 

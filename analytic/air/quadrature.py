@@ -1,9 +1,14 @@
 """Gauss's rules on an interval, plain or graded towards one end."""
 
-from typing import NamedTuple
+import math
+from decimal import Decimal, localcontext
+from functools import cache
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from cointoss.models.kernel.circle import EXACT
 
 Rule = tuple[NDArray[np.float64], NDArray[np.float64]]
 """Nodes and weights on [0, 1]."""
@@ -11,8 +16,7 @@ Rule = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 def gauss_rule(n: int) -> Rule:
     """Return the n nodes and weights of Gauss and Legendre for [0, 1]."""
-    x, weights = np.polynomial.legendre.leggauss(n)
-    return (x + 1) / 2, weights / 2
+    return graded_rule(n, 1)
 
 
 def graded_rule(n: int, grading: int) -> Rule:
@@ -23,8 +27,37 @@ def graded_rule(n: int, grading: int) -> Rule:
     after the change of variables an angle of at least π/(2p) to the interval for every ε: the same n serves
     for all.
     """
-    t, weights = gauss_rule(n)
-    return t**grading, grading * t ** (grading - 1) * weights
+    with localcontext(EXACT):
+        found = [((1 + x) / 2, weight / 2) for x, weight in _legendre(n)]
+        rows = [(float(t**grading), float(grading * t ** (grading - 1) * weight)) for t, weight in found]
+    nodes, weights = np.array(rows).T
+    return nodes.copy(), weights.copy()
+
+
+@cache
+def _legendre(n: int) -> list[tuple[Decimal, Decimal]]:
+    """Return the roots x of P_n, increasing, and the weights 2/((1 - x²) P_n'(x)²), to many digits.
+
+    numpy's are eigenvalues, whose last bits depend on the machine. Each of Newton's steps doubles the digits.
+    """
+    half = []
+    for i in range((n + 1) // 2):
+        x = -math.cos(math.pi * (i + 0.75) / (n + 0.5))
+        for _ in range(3):
+            x -= _newton(n, x)[0]
+        x = Decimal(x) - _newton(n, Decimal(x))[0]
+        step, slope = _newton(n, x)
+        half.append((x - step, 2 / ((1 - x * x) * slope * slope)))
+    return half + [(-x, weight) for x, weight in reversed(half[: n // 2])]
+
+
+def _newton(n: int, x: Any) -> tuple[Any, Any]:
+    """Return P_n(x)/P_n'(x), and P_n'(x), in the arithmetic of x."""
+    before, P = 1, x
+    for k in range(2, n + 1):
+        before, P = P, ((2 * k - 1) * x * P - (k - 1) * before) / k
+    slope = n * (before - x * P) / (1 - x * x)
+    return P / slope, slope
 
 
 class Nodes(NamedTuple):

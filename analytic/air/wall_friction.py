@@ -6,6 +6,7 @@ rest, C ± D h/2 = 0 = B, or a point between the rims, where B = 0 and C + D z v
 are known, complex θ too, and the rule around is chosen by their distance.
 """
 
+import cmath
 import math
 
 import numpy as np
@@ -15,12 +16,13 @@ from cointoss.analytic.air.quadrature import Nodes, gauss_rule
 from cointoss.analytic.air.wall_strip import PhiSeries, phi_series, strip_change
 from cointoss.models.body import Body
 from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.circle import on_circle
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, norm, scale
 
 TURN = 96
 """Points of the full rectangle rule around; coarser ones take every second, third, fourth or sixth."""
-_TURN_COS, _TURN_SIN = (part(2 * np.pi * np.arange(TURN) / TURN) for part in (np.cos, np.sin))
+_TURN_COS, _TURN_SIN = on_circle(TURN, TURN)
 _SHORT_X, _SHORT_WEIGHTS = gauss_rule(16)
 # Where B = 0 while C + D z vanishes at a height, complex too, above so many h/2, the integral along z is
 # smooth: its path lies between the rims.
@@ -156,7 +158,7 @@ def _rest_on_rim(body: Body, v: Vector, w: Vector, z: float) -> tuple[float, flo
     g_0 = complex(r * w[2], v[2])
     g_c = complex(v[1] - w[0] * z, -r * w[1])
     g_s = complex(-v[0] - w[1] * z, r * w[0])
-    root = (g_0 * g_0 - g_c * g_c - g_s * g_s) ** 0.5
+    root = cmath.sqrt(g_0 * g_0 - g_c * g_c - g_s * g_s)
     if (g_0.conjugate() * root).real < 0:
         root = -root
     top, bottom = g_c + 1j * g_s, g_c - 1j * g_s
@@ -187,7 +189,7 @@ def _rest_between_rims(body: Body, v: Vector, w: Vector) -> tuple[float, float, 
         return theta_1, away_1, theta_2, away_2
     along, across = (v[0] * w[0] + v[1] * w[1]) / W, (v[1] * w[0] - v[0] * w[1]) / W
     sine, phi = -v[2] / (r * W), math.atan2(w[1], w[0])
-    cosine = complex(1 - sine * sine, 0.0) ** 0.5
+    cosine = cmath.sqrt(complex(1 - sine * sine, 0.0))
     angle, distance = math.asin(min(max(sine, -1.0), 1.0)), math.acosh(max(abs(sine), 1.0))
     highest = _HIGHEST * body.thickness / 2 * W
     # C + D z = 0 at z = -C/D.

@@ -8,12 +8,13 @@ import math
 
 import numpy as np
 
+from cointoss.models.kernel.circle import on_circle
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector, dot, scale, solve
 
 # The direction in which slip starts is sought from the best of these.
 _ANGLES = 2 * np.pi * np.arange(24) / 24
-_COSINES, _SINES = np.cos(_ANGLES), np.sin(_ANGLES)
+_COSINES, _SINES = on_circle(24, 24)
 
 
 @compiled
