@@ -6,9 +6,10 @@ READY := $(VENV)/.ready
 SCENARIOS := table fig24a
 # What the site computes, made again where the code has changed.
 MADE := out/docs
-# The analytic engine for a browser.
+# The analytic engine for a browser, and musl's functions, which it calls, and the package with COINTOSS_LIBM=musl.
 ENGINE := compare/web/wasm/engine.wasm
-CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path '*/__pycache__/*' -not -name '*.wasm')
+LIBM := models/kernel/musl.bc
+CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path '*/__pycache__/*' -not -name '*.wasm' -not -name '*.bc')
 
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 # Tests start hundreds of processes, each of which would compile all modules to bytecode.
@@ -21,7 +22,7 @@ told = echo "$(1)"; \
   while sleep 10 >/dev/null 2>&1 && kill -0 $$$$; do s=$$(($$s + 10)); echo "$(1): $$s s"; done & \
   trap "kill $$!" EXIT; $(2)
 
-.PHONY: report test check test-all bench docs pages paper results releasable release lock lint opengl chromium compiled clean
+.PHONY: report test check test-all bench docs pages paper results releasable release lock lint libm arm64 opengl chromium compiled clean
 
 report: $(READY) opengl compiled
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
@@ -44,10 +45,11 @@ test-all: $(READY) opengl chromium lint compiled
 bench: $(READY) $(if $(KEEP),,$(ENGINE) chromium)
 	$(BIN)/pytest tests/benchmarks $(if $(KEEP),$(KEPT),tests/site/test_speed.py) \
 	  --benchmark-enable --benchmark-columns=min,median,rounds
+	$(if $(KEEP),,$(BIN)/python -m tests.benchmarks.libms)
 KEPT := -p tests.benchmarks.keeping --benchmark-timer=time.process_time --benchmark-json=/dev/null
 
 # The pages of docs/ as a site, out/site/index.html; its links and its pages in the browser are tested.
-docs: $(VENV)/.ready-docs chromium compiled $(MADE)/pages/explorer.html
+docs: $(VENV)/.ready-docs chromium compiled $(LIBM) $(MADE)/pages/explorer.html
 	rm -rf out/site
 	@$(call told,making the site of docs/,$(BIN)/sphinx-build -q -W --keep-going -d $(MADE)/doctrees docs out/site)
 	$(BIN)/pytest tests/site
@@ -104,7 +106,16 @@ $(MADE)/pages/explorer.html: $(READY) $(CODE) $(ENGINE) docs/conf.py $(wildcard 
 	$(BIN)/cointoss lab --out $(@D)/lab.html
 	$(BIN)/cointoss explore $(MADE)/map.zarr --static $@
 
-$(ENGINE): $(CODE) | $(VENV)/.ready-docs
+libm: $(LIBM)
+
+$(LIBM): models/kernel/libm.py models/kernel/libm_build.py $(VENV)/.ready-docs
+	@$(call told,compiling musl's functions,$(BIN)/python -m cointoss.models.kernel.libm_build)
+
+# The same tosses by a program for arm64, in an emulator: qemu-aarch64, of Debian's qemu-user.
+arm64: $(VENV)/.ready-docs $(LIBM)
+	$(BIN)/python -m tests.helpers.arm64
+
+$(ENGINE): $(CODE) $(LIBM) | $(VENV)/.ready-docs
 	@$(call told,compiling the engine to WebAssembly,$(BIN)/python -m cointoss.compare.web.wasm.build $@)
 
 lint: $(READY)
@@ -146,4 +157,4 @@ compiled: $(READY) | opengl
 	@$(BIN)/cointoss toss fig24a --engine mujoco >/dev/null & $(BIN)/cointoss toss fig24a >/dev/null && wait
 
 clean:
-	rm -rf $(VENV) out dist $(ENGINE) .pytest_cache .ruff_cache .hypothesis .import_linter_cache
+	rm -rf $(VENV) out dist $(ENGINE) $(LIBM) .pytest_cache .ruff_cache .hypothesis .import_linter_cache

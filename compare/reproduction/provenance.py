@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from cointoss.models.distribution import versions_of
+from cointoss.models.kernel.libm import libm_digest
 from cointoss.models.kernel.sources import source_hash
 
 PROVENANCE = "provenance.json"
@@ -46,7 +47,7 @@ def machine() -> dict[str, str]:
         "system": sys.platform,
         "architecture": platform.machine(),
         "processor": compiled_for,
-        "libc": " ".join(filter(None, platform.libc_ver())),
+        "libc": f"musl {libm_digest()}" if libm_digest() else " ".join(filter(None, platform.libc_ver())),
     }
 
 

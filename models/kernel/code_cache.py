@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from cointoss.models.kernel.base_folder import base_folder
 from cointoss.models.kernel.compiling import compiling
 from cointoss.models.kernel.fork import numba_version
+from cointoss.models.kernel.libm import libm_digest
 from cointoss.models.kernel.sources import is_as_imported, part_of, source_hash
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ UNUSED = 3 * 24 * 3600.0
 """Folders not used for so long are removed when another is made [s]."""
 PATIENCE = 600.0
 """How long to wait at most while another process compiles the same function [s]."""
-_FOLDER = re.compile(r"cointoss\.[\w.]+-[0-9a-f]{16}")
+_FOLDER = re.compile(r"cointoss\.[\w.]+(-[0-9a-f]{16}){1,2}")
 
 
 @cache
@@ -32,7 +33,8 @@ def cache_folder(module: str) -> Path:
 
     numba checks only the file of the function it compiles, so an edit in a function that this one calls would
     go unnoticed. The folder's name is a hash of the module's source and of all that it imports, directly or
-    not, from this project: an edit in any of them starts a new folder, an edit elsewhere does not.
+    not, from this project: an edit in any of them starts a new folder, an edit elsewhere does not. Code that
+    calls musl's functions has a folder of its own.
 
     Args:
         module: its full name, in this project.
@@ -40,7 +42,7 @@ def cache_folder(module: str) -> Path:
     Returns:
         A folder below $NUMBA_CACHE_DIR, else below the user's cache, else below the temporary folder.
     """
-    folder = base_folder() / f"{module}-{source_hash(module)}"
+    folder = base_folder() / "-".join(filter(None, (module, source_hash(module), libm_digest())))
     try:
         # What is used is kept: see `remove_unused`.
         os.utime(folder)

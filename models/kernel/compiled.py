@@ -15,6 +15,7 @@ from typing import Any, ParamSpec, TypeVar
 
 from cointoss.models.kernel.compiling import compiling
 from cointoss.models.kernel.fork import TESTED, numba_version
+from cointoss.models.kernel.libm import check_libm
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -22,6 +23,7 @@ R = TypeVar("R")
 _asked = os.environ.get("COINTOSS_COMPILER", "")
 if _asked not in ("", "plain"):
     raise ImportError(f"COINTOSS_COMPILER = {_asked!r}: accepted: plain, or unset")
+check_libm()
 
 
 def compiled(function: Callable[P, R]) -> Callable[P, R]:
@@ -43,15 +45,23 @@ def inlined(function: Callable[P, R]) -> Callable[P, R]:
 def _compiled(function: Callable[..., Any], *, inlined: bool) -> Any:
     """Compile by numba's private members where they were tried, else by what numba makes public."""
     if compiles_nothing():
+        _refuse_musl("unset NUMBA_DISABLE_JIT: nothing is compiled")
         return function
     compiling.declared[function.__module__] += 1
     if _is_tested():
         from cointoss.models.kernel.fork.function import CompiledFunction
 
         return CompiledFunction(function, inlined=inlined)
+    _refuse_musl(f"needs numba {' or '.join(TESTED)}, COINTOSS_COMPILER unset, and no Windows")
     from cointoss.models.kernel.plain import plain_function
 
     return plain_function(function, inlined=inlined)
+
+
+def _refuse_musl(needed: str) -> None:
+    """Raise where musl's functions are asked for, but this way of compiling calls those of the system."""
+    if os.environ.get("COINTOSS_LIBM"):
+        raise ImportError(f"COINTOSS_LIBM = 'musl': {needed}")
 
 
 @cache

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from cointoss.models.kernel.fork import TESTED
+from cointoss.models.kernel.libm import FILE
 from cointoss.models.kernel.vectors import solve
 from tests.helpers.command_line import python
 
@@ -58,6 +59,32 @@ def test_another_compiler_is_refused_in_one_line(words, status, begins):
     assert (done.returncode, done.stdout) == (status, "")
     assert line == f"{begins}COINTOSS_COMPILER = 'nonsense': accepted: plain, or unset"
     assert not (above and status == 2)
+
+
+@pytest.mark.parametrize(
+    ("environment", "refusal"),
+    [
+        ({"COINTOSS_LIBM": "glibc"}, "'glibc': accepted: musl, or unset"),
+        (
+            {"COINTOSS_LIBM": "musl", "COINTOSS_COMPILER": "plain"},
+            f"'musl': needs numba {' or '.join(TESTED)}, COINTOSS_COMPILER unset, and no Windows",
+        ),
+        (
+            {"COINTOSS_LIBM": "musl", "NUMBA_DISABLE_JIT": "1"},
+            "'musl': unset NUMBA_DISABLE_JIT: nothing is compiled",
+        ),
+    ],
+)
+def test_other_functions_of_the_system_are_refused_in_one_line(environment, refusal):
+    words = ("-m", "cointoss", "toss", "fig24a")
+    done = subprocess.run(
+        [sys.executable, *words], env={**HERE, **environment}, capture_output=True, text=True
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    (line,) = done.stderr.splitlines()
+    missing = f"'musl': {FILE} is missing; make libm builds it"
+    is_built = FILE.is_file() or "glibc" in environment.values()
+    assert line == f"cointoss: COINTOSS_LIBM = {refusal if is_built else missing}"
 
 
 @pytest.mark.slow

@@ -11,7 +11,9 @@ from pathlib import Path
 
 from cointoss.compare.output.files import written_whole
 from cointoss.compare.web.wasm.carried import SECTION, sources
+from cointoss.models.kernel import libm_build
 from cointoss.models.kernel.fork import TESTED, numba_version
+from cointoss.models.kernel.libm import FILE
 from cointoss.models.kernel.sources import is_as_imported
 
 ENTRIES = {
@@ -35,9 +37,12 @@ def build(out: Path) -> None:
         raise RuntimeError(f"numba {numba_version()}: accepted for WebAssembly: {', '.join(TESTED)}")
     if find_spec("ziglang") is None:
         raise RuntimeError("ziglang is missing, which links WebAssembly: pip install --group docs")
+    if not FILE.is_file():
+        libm_build.build()
     with tempfile.TemporaryDirectory() as folder:
         # Code for a page is never mixed with that for this machine.
         os.environ["NUMBA_CACHE_DIR"] = folder
+        os.environ["COINTOSS_LIBM"] = "musl"
         from numba import types
 
         from cointoss.compare.web.wasm import interface
@@ -66,22 +71,11 @@ def build(out: Path) -> None:
 
 
 def _link(code: Path, linked: Path) -> None:
-    """Link an object file with a C library, whose functions every browser then shares."""
-    from cointoss.compare.web.wasm.compiler import COMPLEX_POWER
-
-    power = code.with_name("power.c")
-    power.write_text(COMPLEX_POWER, encoding="utf-8")
+    """Link an object file with the memory of a C library."""
     exported = [f"-Wl,--export={name}" for name in (*ENTRIES, "malloc", "free")]
     command = [
         *(sys.executable, "-m", "ziglang", "cc", "-target", "wasm32-wasi", "-mexec-model=reactor", "-O3"),
-        *(
-            str(code),
-            str(power),
-            *exported,
-            "-Wl,--no-entry",
-            "-Wl,--strip-all",
-            f"-Wl,-z,stack-size={STACK}",
-        ),
+        *(str(code), *exported, "-Wl,--no-entry", "-Wl,--strip-all", f"-Wl,-z,stack-size={STACK}"),
         *("-o", str(linked)),
     ]
     done = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -1,4 +1,4 @@
-"""Compiled functions as one object file of WebAssembly; for a process of its own, whose compiler it changes.
+"""Compiled functions as an object file for another processor, in a process of its own, which is changed.
 
 numba lowers Python for the machine that it runs on. Here its target has 32-bit addresses from the start: the
 layout of arrays in memory is part of the code of every function. Nothing that is compiled so is run.
@@ -17,54 +17,23 @@ from numba.core.registry import cpu_target
 from numba.core.runtime import rtsys
 
 from cointoss.models.kernel.fork.callee_code import Codegen, callee_codegen, spare_references
-from cointoss.models.kernel.fork.entry import MEMORY, declared, entry_module, returned_kind
+from cointoss.models.kernel.fork.entry import MEMORY, ROOM, declared, entry_module, returned_kind
 from cointoss.models.kernel.fork.values import Passed
 
 TRIPLE = "wasm32-unknown-unknown"
-C_LIBRARY = {
-    *("malloc", "free", "memcpy", "memset", "hypot", "pow", "log", "log2", "log1p", "exp", "expm1"),
-    *("sin", "cos", "tan", "asin", "acos", "atan2", "acosh", "lgamma", "numba_cpow"),
-}
-"""What the code may call of a C library that is linked to it, and of `COMPLEX_POWER`."""
-COMPLEX_POWER = """
-#include <math.h>
-
-typedef struct { double real, imag; } Complex;
-
-void numba_cpow(const Complex *base, const Complex *exponent, Complex *power)
-{
-    const double size = hypot(base->real, base->imag);
-    double length, angle;
-    if (exponent->real == 0 && exponent->imag == 0) {
-        power->real = 1;
-        power->imag = 0;
-        return;
-    }
-    if (size == 0) {
-        power->real = power->imag = exponent->real > 0 && exponent->imag == 0 ? 0 : NAN;
-        return;
-    }
-    length = pow(size, exponent->real);
-    angle = atan2(base->imag, base->real) * exponent->real;
-    if (exponent->imag != 0) {
-        length *= exp(-atan2(base->imag, base->real) * exponent->imag);
-        angle += exponent->imag * log(size);
-    }
-    power->real = length * cos(angle);
-    power->imag = length * sin(angle);
-}
-"""
-"""What numba calls for a power of complex numbers, in C: Python's own, by moduli and angles."""
-COUNTING = """
-target triple = "wasm32-unknown-unknown"
+C_LIBRARY = {"malloc", "free", "memcpy", "memset", "sqrt"}
+"""What the code may call of a C library that is linked to it; a root has one right answer."""
+ROOM_OF_32_BITS = """
 declare ptr @malloc(i32)
-declare void @NRT_MemInfo_call_dtor(ptr)
 
 define ptr @NRT_room(i64 %size) {
   %length = trunc i64 %size to i32
   %block = call ptr @malloc(i32 %length)
   ret ptr %block
 }
+"""
+COUNTING = """
+declare void @NRT_MemInfo_call_dtor(ptr)
 
 define ptr @NRT_MemInfo_data_fast(ptr %block) {
   %place = getelementptr i64, ptr %block, i32 3
@@ -110,8 +79,10 @@ class _Nothing:
         return lambda *_, **__: 0
 
 
-def object_code(functions: Mapping[str, tuple[Any, tuple[Any, ...]]]) -> bytes:
-    """Return an object file with an entry for each function.
+def object_code(
+    functions: Mapping[str, tuple[Any, tuple[Any, ...]]], triple: str = TRIPLE, features: str = "+bulk-memory"
+) -> bytes:
+    """Return an object file of WebAssembly, or for another processor, with an entry for each function.
 
     An entry takes the addresses of its numbers, of room for what it returns, and of room for an error's
     address; it returns 0 unless it failed. An array is passed as the numbers 0, 0, its size, 8, its address,
@@ -119,11 +90,13 @@ def object_code(functions: Mapping[str, tuple[Any, tuple[Any, ...]]]) -> bytes:
 
     Args:
         functions: by the name of its entry, each compiled function and numba's types of its arguments.
+        triple: the processor and the system, as LLVM names them.
+        features: of the processor that are used.
 
     Raises:
         RuntimeError: where the code calls what a page does not have.
     """
-    machine = _change_target()
+    machine = _change_target(triple, features)
     codegen = Codegen()
     context = cpu_target.target_context.subtarget(enable_nrt=True, _internal_codegen=codegen)
     library = codegen.create_library("engine")
@@ -140,13 +113,13 @@ def object_code(functions: Mapping[str, tuple[Any, tuple[Any, ...]]]) -> bytes:
             raise RuntimeError(f"{name}: cannot be called by rows of numbers")
         library.add_ir_module(entry)
         callee.library.link_into(whole)
-    for text in (MEMORY, COUNTING):
+    for text in (MEMORY, COUNTING, ROOM_OF_32_BITS if triple == TRIPLE else ROOM):
         whole.link_in(binding.parse_assembly(text))
     for each in (*whole.functions, *whole.global_variables):
         if each.name not in functions and not each.is_declaration:
             each.linkage = "internal"
     spare_references(whole, codegen)
-    whole.triple = TRIPLE
+    whole.triple = triple
     library._optimize_final_module()
     whole.verify()
     if foreign := set(declared(whole)) - C_LIBRARY:
@@ -154,11 +127,12 @@ def object_code(functions: Mapping[str, tuple[Any, tuple[Any, ...]]]) -> bytes:
     return machine.emit_object(whole)
 
 
-def _change_target() -> binding.TargetMachine:
-    """Let numba compile for WebAssembly from here on, and make no machine code."""
+def _change_target(triple: str, features: str) -> binding.TargetMachine:
+    """Let numba compile for another processor from here on, and make no machine code."""
     binding.initialize_all_targets()
     binding.initialize_all_asmprinters()
-    machine = binding.Target.from_triple(TRIPLE).create_target_machine(opt=3, features="+bulk-memory")
+    reloc = "default" if triple == TRIPLE else "pic"
+    machine = binding.Target.from_triple(triple).create_target_machine(opt=3, features=features, reloc=reloc)
     njit(lambda: None)()  # numba makes its own runtime for this machine when it first compiles
     rtsys.initialize(cpu_target.target_context)
     whole_of_numba = cpu_target.target_context.codegen()
@@ -166,7 +140,7 @@ def _change_target() -> binding.TargetMachine:
     for codegen in (whole_of_numba, callee_codegen()):
         codegen._tm, codegen._target_data = machine, machine.target_data
         codegen._data_layout, codegen._engine = str(machine.target_data), _Nothing()
-    rtsys.library._get_module_for_linking = lambda: binding.parse_assembly(f'target triple = "{TRIPLE}"')
+    rtsys.library._get_module_for_linking = lambda: binding.parse_assembly(f'target triple = "{triple}"')
     CPUContext.get_executable = lambda _, *described: _not_run(*described)
     return machine
 

@@ -35,6 +35,8 @@ from numba.core.untyped_passes import (
     WithLifting,
 )
 
+from cointoss.models.kernel.fork.libm_code import call_musl, link_musl
+from cointoss.models.kernel.libm import PREFIX
 from cointoss.models.kernel.sources import part_of, source_hash
 
 
@@ -92,6 +94,7 @@ class CalleeCode(JITCodeLibrary):
 
     def _optimize_functions(self, ll_module: binding.ModuleRef) -> None:
         # numba runs all of LLVM's passes on each function. What is linked later is optimised as a whole.
+        call_musl(ll_module)
         ll_module.data_layout = self._codegen._data_layout
         passes = binding.create_new_module_pass_manager()
         passes.add_sroa_pass()
@@ -126,6 +129,7 @@ class CalleeCode(JITCodeLibrary):
         for name in _exported(module) - exported:
             module.get_function(name).linkage = linkage
         module.link_in(rtsys.library._get_module_for_linking(), preserve=True)
+        link_musl(module, linkage)
         _require_all_that_is_called(module)
 
     def _get_module_for_linking(self) -> binding.ModuleRef:
@@ -143,7 +147,8 @@ class CalleeCode(JITCodeLibrary):
 
 def _require_all_that_is_called(module: binding.ModuleRef) -> None:
     """Raise where a module calls one of our functions that it lacks: LLVM would call address 0 instead."""
-    lacking = [each.name for each in module.functions if each.is_declaration and each.name.startswith("_ZN")]
+    declared = [each.name for each in module.functions if each.is_declaration]
+    lacking = [name for name in declared if name.startswith(("_ZN", PREFIX))]
     if lacking:
         raise RuntimeError(
             f"compiled code calls {', '.join(lacking)}, which was kept under another name; "

@@ -60,7 +60,7 @@ define void @NRT_MemInfo_call_dtor(ptr %block) noinline {
 
 `NRT_room` is the machine's own: its C library counts bytes in 64 bits, or in 32.
 """
-_ROOM = """
+ROOM = """
 declare ptr @malloc(i64)
 
 define ptr @NRT_room(i64 %size) {
@@ -68,6 +68,7 @@ define ptr @NRT_room(i64 %size) {
   ret ptr %block
 }
 """
+"""For a machine whose C library counts bytes in 64 bits."""
 _INT, _WORD = ir.IntType(64), 8
 _OTHERS = ("Py", "_Py", "NRT_", "numba_", "_ZN")
 """How the names of functions begin that only numba and Python itself have."""
@@ -105,7 +106,7 @@ def kept_code(callee: CompileResult, passed: Passed, kind: Returned) -> Kept | N
     # Nothing else calls these functions here, so LLVM may change them as it likes.
     callee.library.link_into(whole, "private")
     whole.link_in(binding.parse_assembly(MEMORY))
-    whole.link_in(binding.parse_assembly(_ROOM))
+    whole.link_in(binding.parse_assembly(ROOM))
     for function in whole.functions:
         if function.name.startswith("NRT_") and not function.is_declaration:
             function.linkage = "internal"

@@ -1,5 +1,6 @@
 """Code that is kept on disk is never stale, and what another process keeps meanwhile does it no harm."""
 
+import math
 import os
 import shutil
 import subprocess
@@ -12,6 +13,7 @@ from subprocess import PIPE
 from types import SimpleNamespace
 
 import pytest
+from llvmlite import binding
 
 import cointoss.models.kernel.code_cache as code_cache
 from cointoss.models.kernel.base_folder import base_folder
@@ -131,6 +133,47 @@ def test_plain_mode_compiles_anew_what_an_edit_can_change(folder, run):
     assert run(folder, script) == [21, 1, 0]
     write(folder, "cointoss.analytic.callee", CALLEE.format(3.0))
     assert run(folder, script) == [31, 0, 0]
+
+
+def write_libm(folder, factor):
+    """Write a file of musl's functions whose sine multiplies."""
+    sine = f"define double @musl.sin(double %x) {{ %y = fmul double %x, {factor} ret double %y }}"
+    code = binding.parse_assembly(sine).as_bitcode()
+    (folder / "cointoss" / "models" / "kernel" / "musl.bc").write_bytes(code)
+
+
+def test_code_that_calls_musl_is_kept_apart_and_computes_nothing_by_the_system(folder, run):
+    """LLVM would compute the sine of a constant by the system's function when it compiles."""
+    write(folder, "cointoss.analytic.callee", "import math\n" + CALLEE.format("math.sin(3.0)"))
+    calling = "from cointoss.analytic.caller import whole\nprint(whole(10.0), whole.read)"
+    musl = f"import os\nos.environ['COINTOSS_LIBM'] = 'musl'\n{calling}"
+    write_libm(folder, "2.0")
+    assert run(folder, musl) == [61, 0]
+    assert run(folder, calling) == [10 * math.sin(3.0) + 1, 0]
+    assert run(folder, musl) == [61, 1]
+    assert run(folder, calling) == [10 * math.sin(3.0) + 1, 1]
+    write_libm(folder, "3.0")
+    assert run(folder, musl) == [91, 0]
+
+
+@pytest.mark.parametrize(
+    ("function", "refusal"),
+    [
+        ("math.erf", "compiled code calls erf, which is not among acos, "),
+        ("numba.njit(lambda x: math.sin(x))", "numba's own code calls sin of the system"),
+    ],
+)
+def test_what_musl_is_not_asked_for_is_refused(folder, run, function, refusal):
+    callee = "import math\nimport numba\n" + CALLEE.replace("\n\n@", f"\nfunction = {function}\n\n@", 1)
+    write(folder, "cointoss.analytic.callee", callee.format("function(x)"))
+    write_libm(folder, "2.0")
+    script = (
+        "import os\nos.environ['COINTOSS_LIBM'] = 'musl'\n"
+        "from cointoss.analytic.caller import whole\n"
+        "try:\n    whole(10.0)\n"
+        f"except Exception as error:\n    print(int({refusal!r} in str(error)))"
+    )
+    assert run(folder, script) == [1]
 
 
 CHANGES = {

@@ -1,0 +1,42 @@
+"""Whose sine and logarithm compiled functions call: the system's, or musl's, the same on every machine."""
+
+import hashlib
+import os
+from functools import cache
+from pathlib import Path
+
+FILE = Path(__file__).with_name("musl.bc")
+"""musl's functions as LLVM's code: `libm_build` makes it."""
+PREFIX = "musl."
+"""How their names begin there."""
+FUNCTIONS = (
+    *("acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "cos", "exp", "exp2", "expm1"),
+    *("hypot", "lgamma", "log", "log1p", "log2", "pow", "sin"),
+)
+"""Those that compiled functions may call."""
+
+
+def check_libm() -> None:
+    """Check which functions are asked for, and that they are there.
+
+    Raises:
+        ImportError: in one line.
+    """
+    asked = os.environ.get("COINTOSS_LIBM", "")
+    if asked not in ("", "musl"):
+        raise ImportError(f"COINTOSS_LIBM = {asked!r}: accepted: musl, or unset")
+    if asked and not FILE.is_file():
+        raise ImportError(f"COINTOSS_LIBM = 'musl': {FILE} is missing; make libm builds it")
+
+
+@cache
+def musl() -> bytes | None:
+    """Return musl's functions, or None where those of the system are called."""
+    return FILE.read_bytes() if os.environ.get("COINTOSS_LIBM") else None
+
+
+@cache
+def libm_digest() -> str:
+    """Return the hash of musl's functions, empty where those of the system are called."""
+    code = musl()
+    return "" if code is None else hashlib.sha256(code).hexdigest()[:16]

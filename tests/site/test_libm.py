@@ -1,0 +1,54 @@
+"""By musl's functions the package and the engine in a browser give the same tosses, to the last bit."""
+
+import pytest
+
+from cointoss.compare.reproduction.setups.general_coins import CLASSES
+from cointoss.models.records import Outcome
+from tests.helpers.bits import MANY, cases, tossed
+from tests.helpers.engine_page import changes, written
+
+
+@pytest.fixture(scope="module")
+def by_musl():
+    return tossed(COINTOSS_LIBM="musl")
+
+
+def in_page(loaded, case):
+    """Return the numbers of a toss by the engine in a page, as `numbers_of` returns them."""
+    return loaded.value(
+        f"""(() => {{
+          const toss = engine.toss({written(case)}), end = toss.endTime;
+          const times = Array.from({{ length: 11 }}, (_, i) => (i === 10 ? end : i * (end / 10)));
+          return {{
+            ending: toss.ending, outcome: toss.outcome, certain: toss.outcomeCertain,
+            trusted: toss.trustedImpacts, time: end,
+            impacts: toss.impacts.map(({{ time, energy, impulse }}) => [time, energy, ...impulse]),
+            states: [...toss.path(times).states],
+          }};
+        }})()"""
+    )
+
+
+def test_every_number_of_a_toss_is_the_same(loaded, by_musl):
+    """Impacts, states, horizon and ending: by every law, in every air, with resistance, in contact."""
+    differing = [name for name, case in cases().items() if in_page(loaded, case) != by_musl["one"][name]]
+    assert differing == []
+    assert sum(len(each["impacts"]) for each in by_musl["one"].values()) > 1000
+
+
+def test_many_tosses_are_the_same(loaded, by_musl):
+    for kind in CLASSES:
+        given = f"{written(kind.scenario)}, {changes(kind.releases(MANY))}, 'certain'"
+        names = {"outcome": "outcome", "impacts": "impacts", "end_time": "endTime"}
+        names |= {"trusted_impacts": "trustedImpacts", "outcome_certain": "outcomeCertain"}
+        taken = ", ".join(f"{ours}: [...all.{theirs}]" for ours, theirs in names.items())
+        found = loaded.value(f"workers.tossEach({given}).then((all) => ({{ {taken} }}))")
+        assert found == by_musl["many"][kind.name]
+        assert len(set(found["outcome"]) - {Outcome.UNDECIDED.value}) >= 1
+
+
+def test_by_the_functions_of_the_system_they_differ(by_musl):
+    by_system = tossed()
+    for kind in ("one", "many"):
+        same = [name for name, each in by_musl[kind].items() if by_system[kind][name] == each]
+        assert len(same) < len(by_musl[kind]) / 2
