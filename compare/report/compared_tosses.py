@@ -39,11 +39,7 @@ class Together:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ComparedTosses:
-    """The tosses of one scenario by both engines, or by the analytic one alone where MuJoCo can't toss it.
-
-    How they differ is computed when it is first asked for; without a toss by MuJoCo it raises
-    `UnsupportedError`.
-    """
+    """The numbers of a `cointoss.compare.report.comparison.Comparison`, without what shows them."""
 
     name: str
     """Of the scenario."""
