@@ -19,6 +19,6 @@ def require_whole(name: str, value: object, least: int, most: int) -> None:
     Raises:
         SweepError: naming the argument, its value and what is accepted.
     """
-    is_whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
-    if not (is_whole and least <= value <= most):
+    whole = None if isinstance(value, bool) or not isinstance(value, int | np.integer) else int(value)
+    if whole is None or not least <= whole <= most:
         raise SweepError(f"{name}: {value!r}, accepted: a whole number from {least} to {most}")

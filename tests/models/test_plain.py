@@ -76,10 +76,7 @@ def test_another_compiler_is_refused_in_one_line(words, status, begins):
     ],
 )
 def test_other_functions_of_the_system_are_refused_in_one_line(environment, refusal):
-    words = ("-m", "cointoss", "toss", "fig24a")
-    done = subprocess.run(
-        [sys.executable, *words], env={**HERE, **environment}, capture_output=True, text=True
-    )
+    done = python("-m", "cointoss", "toss", "fig24a", **environment)
     assert (done.returncode, done.stdout) == (2, "")
     (line,) = done.stderr.splitlines()
     missing = f"'musl': {FILE} is missing; make libm builds it"
