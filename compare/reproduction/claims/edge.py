@@ -1,6 +1,5 @@
 """A claim of section 1: a nickel lands on its edge once in 6,000 tosses; which coin is fair three ways?"""
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -8,10 +7,7 @@ from scipy.optimize import brentq
 
 from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import difference, share_of
-from cointoss.compare.output.progress import Progress
-from cointoss.compare.reproduction.declared import Findings, declared, listed, result
-from cointoss.compare.reproduction.result import Result
-from cointoss.compare.reproduction.saving import read_numbers
+from cointoss.compare.reproduction.declared import listed
 from cointoss.compare.reproduction.setups.edge_classes import (
     DIAMETRAL,
     HANDS,
@@ -28,15 +24,14 @@ from cointoss.compare.reproduction.setups.edge_pages import (
 )
 from cointoss.compare.reproduction.setups.edge_record import (
     ANGLE,
-    FULL,
     QUICK,
     SOLID_ANGLE,
     SQUARE,
     EdgeRecord,
-    Sizes,
     record_of,
 )
 from cointoss.compare.reproduction.setups.ends import Ends, alike, ended_as, together, tosses
+from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.records import Outcome
 
 _ROOT: Any = brentq(lambda aspect: edge_of_die(aspect) - 1 / 3, 0.1, 2)
@@ -48,12 +43,7 @@ LEAST_PROBABLE = 1e-3
 """Below this p-value the engines differ."""
 
 
-def make(progress: Progress, parts: Path, sizes: Sizes = FULL) -> Findings:
-    """Make all tosses of the study."""
-    return findings(record_of(sizes, progress, parts))
-
-
-def findings(record: EdgeRecord) -> Findings:
+def measures(record: EdgeRecord) -> dict[str, Any]:
     """Return what the claims of the papers are decided by, and what explains why they hold or do not."""
     nickels = {wobble: record.nickel[wobble]["as said"] for wobble in HANDS}
     plain, people = nickels.values()
@@ -78,44 +68,42 @@ def findings(record: EdgeRecord) -> Findings:
         for factor, ends in by_factor.items()
     )
     agreeing = [words for _, words, edge in by_share if holds(edge, PUBLISHED)]
-    return Findings(
-        data=record,
-        tables=tables(record),
-        one_in=[_one_in(ends) for ends in nickels.values()],
-        over={wobble: on_edge(ends) / PUBLISHED for wobble, ends in nickels.items()},
-        rarest=by_share[0][1],
-        commonest=by_share[-1][1],
-        agreeing=" and of ".join(agreeing) or "none",
-        curves=len(chis),
-        agreeing_die=_agreeing_die(record),
-        die_less=fairest[DIAMETRAL] - DIE,
-        more=difference(_flags(people), _flags(plain)),
-        rolling=share_of(
+    return {
+        "one_in": [_one_in(ends) for ends in nickels.values()],
+        "over": {wobble: on_edge(ends) / PUBLISHED for wobble, ends in nickels.items()},
+        "rarest": by_share[0][1],
+        "commonest": by_share[-1][1],
+        "agreeing": " and of ".join(agreeing) or "none",
+        "curves": len(chis),
+        "agreeing_die": _agreeing_die(record),
+        "die_less": fairest[DIAMETRAL] - DIE,
+        "more": difference(_flags(people), _flags(plain)),
+        "rolling": share_of(
             record.free.get(ROLLING_ON, 0), ended_as(record.free, Outcome.EDGE), "tosses on edge"
         ),
-        touched={turned: touch.touched - 1 / 3 for turned, touch in record.touches.items()},
-        let_go={turned: touch.let_go - 1 / 3 for turned, touch in record.touches.items()},
-        energy=record.touches[DIAMETRAL].energy,
-        no_rebound=on_edge(of_angle) - 1 / 3,
-        middle=middle,
-        aspects={
+        "touched": {turned: touch.touched - 1 / 3 for turned, touch in record.touches.items()},
+        "let_go": {turned: touch.let_go - 1 / 3 for turned, touch in record.touches.items()},
+        "energy": record.touches[DIAMETRAL].energy,
+        "no_rebound": on_edge(of_angle) - 1 / 3,
+        "middle": middle,
+        "aspects": {
             source: {
                 "aspect": aspect,
                 "less": {wobble: one - aspect for wobble, one in fairest.items()},
             }
             for aspect, source in ((SOLID_ANGLE, "von Neumann's solid angle"), (ANGLE, "the angle"))
         },
-        thinnest={
+        "thinnest": {
             wobble: {"edge": edge, "known": True if wobble == DIAMETRAL else None}
             for wobble, edge in thin.items()
         },
-        rod=rod,
-        heads=_heads(record) - 1 / 2,
-        square={engine: on_edge(together(ends)) - 1 / 2 for engine, ends in square.items() if ends},
-        tests=len(record.engines),
-        least=min(alike(counts.values()) for counts in record.engines.values()),
-        runs=1 / (1 - (1 - LEAST_PROBABLE) ** len(record.engines)),
-    )
+        "rod": rod,
+        "heads": _heads(record) - 1 / 2,
+        "square": {engine: on_edge(together(ends)) - 1 / 2 for engine, ends in square.items() if ends},
+        "tests": len(record.engines),
+        "least": min(alike(counts.values()) for counts in record.engines.values()),
+        "runs": 1 / (1 - (1 - LEAST_PROBABLE) ** len(record.engines)),
+    }
 
 
 def _agreeing_die(found: EdgeRecord) -> str:
@@ -143,8 +131,12 @@ def _one_in(ends: Ends) -> str:
     return f"{percent(part)} of {part.count:,d}, 1 in {1 / part.value:,.0f}" if part.value else "none"
 
 
-def _read(folder: Path) -> Result:
-    return result(__name__, findings(read_numbers(folder, EdgeRecord)))
-
-
-REPRODUCTION = declared(__name__, make, draw={"figure": draw}, read=_read, quick={"sizes": QUICK})
+REPRODUCTION = study(
+    __name__,
+    record_of,
+    record=EdgeRecord,
+    measures=measures,
+    tables=tables,
+    draw={"figure": draw},
+    quick={"sizes": QUICK},
+)

@@ -154,13 +154,13 @@ class EdgeRecord:
     """By class and engine."""
 
 
-def record_of(sizes: Sizes, progress: Progress, parts: Path) -> EdgeRecord:
+def record_of(progress: Progress, parts: Path, sizes: Sizes = FULL) -> EdgeRecord:
     """Toss coins from thin ones to rods, nickels on many floors, and some by both engines.
 
     Args:
-        sizes: how many of what.
         progress: called as the work goes on.
         parts: folder of what an interrupted run had done.
+        sizes: how many of what.
     """
     curves, engines = len(sizes.chis) * len(sizes.aspects), 2 * len(sizes.shared)
     by_hand = len(HANDS) * (curves + 1 + len(sizes.factors))

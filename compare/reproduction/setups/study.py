@@ -21,6 +21,7 @@ def study(
     tables: Callable[[Any], str],
     draw: "Mapping[str, Callable[[Any], Figure]]",
     record: type | None = None,
+    **others: Any,
 ) -> Reproduction:
     """Return a study, as the TOML file beside its module declares it.
 
@@ -31,6 +32,7 @@ def study(
         tables: gives the tables in Markdown.
         draw: the pictures, by name, each drawn from the record.
         record: its type; none where it cannot be read again.
+        others: further fields of `Reproduction`.
     """
 
     def findings(found: Any) -> Findings:
@@ -43,4 +45,4 @@ def study(
     def read(folder: Path) -> Result:
         return result(module, findings(read_numbers(folder, cast(type, record))))
 
-    return declared(module, make, read=read if record else None, draw=draw)
+    return declared(module, make, read=read if record else None, draw=draw, **others)

@@ -6,8 +6,6 @@ from zlib import crc32
 import numpy as np
 import pytest
 
-from cointoss.compare.reproduction.claims import edge
-from cointoss.compare.reproduction.declared import result
 from cointoss.compare.reproduction.saving import read_numbers
 from cointoss.compare.reproduction.setups import edge_classes
 from cointoss.compare.reproduction.setups.edge_classes import (
@@ -36,13 +34,10 @@ from cointoss.compare.reproduction.setups.ends import alike, ended_as, tosses
 from cointoss.compare.shares.along import shares
 from cointoss.models.records import Outcome
 from tests.helpers.pages import saved
+from tests.helpers.studies import result_of
 
 SAVED = read_numbers(saved("edge"), EdgeRecord)
 LAWS = {DIAMETRAL: edge_by_angle, ANYHOW: edge_by_solid_angle}
-
-
-def claims(record):
-    return result(edge.__name__, edge.findings(record)).claims
 
 
 def kind_of(aspect: float = NICKEL, **floor: float) -> EdgeClass:
@@ -119,7 +114,7 @@ def test_a_nickel_as_rare_on_its_edge_as_published_would_be_seen():
     nickel = {hand: {**by_factor, "as said": rare} for hand, by_factor in SAVED.nickel.items()}
     # Their coins, floor and drop are not known, so that no number decides the claim.
     for record, is_met in ((replace(SAVED, nickel=nickel), True), (SAVED, False)):
-        claim = claims(record)[0]
+        claim = result_of("edge", record).claims[0]
         assert [criterion.is_met for criterion in claim.criteria] == 2 * [is_met]
         assert claim.holds is None
     assert on_edge(rare).value == pytest.approx(1 / 6000)
