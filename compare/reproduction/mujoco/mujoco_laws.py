@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from cointoss.coin_mj import Friction, Realisation, Settings
 from cointoss.coin_mj.model.settings import ROUGH
-from cointoss.compare.output.progress import Progress
+from cointoss.compare.output.progress import Progress, stepping
 from cointoss.compare.output.style import BLUE, GREEN, GREY, VERMILION
 from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.setups.mujoco_impacts import (
@@ -89,29 +89,25 @@ class LawFits:
 
 def compute(progress: Progress, count: int = COUNT, seed: int = SEED) -> LawFits:
     """Return the impulses of `count` random impacts."""
-    parts = len(CONTACTS) + len(ONE_STEP) + len(FRICTIONS) + 1
+    step = stepping(progress, len(CONTACTS) + len(ONE_STEP) + len(FRICTIONS) + 1)
     cases = draw_touches(np.random.default_rng(seed), count, RESTITUTIONS)
-    laws = {
-        NAMES[law]: first(by_law(on_floor(case, law, FRICTION) for case in cases), "impulse")
-        for law in ContactLaw
-    }
-    progress(1, parts)
+    laws = step(
+        {
+            NAMES[law]: first(by_law(on_floor(case, law, FRICTION) for case in cases), "impulse")
+            for law in ContactLaw
+        }
+    )
 
     def of(mu: float, settings: Settings) -> Array:
         return first(
             by_mujoco((on_floor(case, ContactLaw.COULOMB, mu) for case in cases), settings), "impulse"
         )
 
-    contacts, in_one = {}, {}
-    listed = [(contacts, CONTACTS), (in_one, ONE_STEP)]
-    each = [(made, name, *given) for made, kinds in listed for name, given in kinds.items()]
-    for number, (made, name, mu, settings) in enumerate(each, start=2):
-        made[name] = of(mu, settings)
-        progress(number, parts)
-    growing = {}
-    for number, mu in enumerate(FRICTIONS, start=len(each) + 2):
-        growing[mu] = _fit(laws[NAMES[ContactLaw.PERFECTLY_ROUGH]], of(mu, Settings()))
-        progress(number, parts)
+    contacts, in_one = (
+        {name: step(of(*given)) for name, given in kinds.items()} for kinds in (CONTACTS, ONE_STEP)
+    )
+    rough = laws[NAMES[ContactLaw.PERFECTLY_ROUGH]]
+    growing = {mu: step(_fit(rough, of(mu, Settings()))) for mu in FRICTIONS}
     fits, one_step = (
         {law: {contact: _fit(S_law, S) for contact, S in made.items()} for law, S_law in laws.items()}
         for made in (contacts, in_one)
