@@ -4,16 +4,18 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from cointoss import analytic
 from cointoss.compare.find.search import search
 from cointoss.compare.find.window import Target, Window, window_of
 from cointoss.compare.metrics.estimates import share_of
 from cointoss.compare.sweep.axes import Span
 from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
+from cointoss.models.errors import ScenarioError
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Outcome, Toss
 from cointoss.models.scenario import Scenario
-from cointoss.models.stages import stage
 from cointoss.models.writing import toml
 
 USUAL_TOSSES, MOST_TOSSES = 1 << 16, 1 << 30
@@ -42,6 +44,8 @@ class Found:
     window: Window
     tosses: int
     """That were made over the window."""
+    refused: int
+    """Points of the window besides that make no scenario, and so no toss."""
     scenario: Scenario | None
     """Of the toss that shows what is wanted; None where none does."""
     toss: Toss | None
@@ -71,19 +75,27 @@ class Found:
     @property
     def lines(self) -> list[str]:
         """What was found, for a person."""
-        wanted, made = self.target.in_words, f"{self.tosses:,d} tosses, covering {self.covering}"
+        wanted, made = (
+            self.target.in_words,
+            f"{self.tosses:,d} {'toss' if self.tosses == 1 else 'tosses'}, covering {self.covering}",
+        )
+        if self.refused:
+            made += f", where {self.refused:,d} more points make no scenario"
         if self.toss is None:
             most = share_of(0, self.tosses).high
             shown = f"; the longest part shown is {self.target.sequence[: self.longest] or 'nothing'}"
             return [
                 f"none in {made}{shown if self.target.sequence else ''}",
-                f"at most {100 * most:.2g} % of the window shows {wanted} (99 %)",
+                f"at most {100 * most:.2g} % of the tosses in the window show {wanted} (99 %)",
             ]
         lines = [f"{wanted}: found in {made}"]
         for room in self.rooms:
             unit = f" {room.span.printed_unit}".rstrip()
-            ends = [f"{sign}{end:.3g}" for sign, end in (("-", room.down), ("+", room.up))]
-            lines.append(f"margin of {room.span.field}: {' '.join(ends)}{unit}")
+            ends = [
+                f"{sign}{end:.3g}{unit}" if math.isfinite(end) else f"none found {side}"
+                for sign, end, side in (("-", room.down, "below"), ("+", room.up, "above"))
+            ]
+            lines.append(f"margin of {room.span.field}: {', '.join(ends)}")
         if self.target.sequence:
             lines.append(f"trusted: {self.trusted} of {len(self.target.sequence)} touches")
         if self.target.outcome is not None:
@@ -103,6 +115,7 @@ class Found:
             "outcome": None if target.outcome is None else str(target.outcome),
             "covering": {one.field: [one.start, one.stop] for one in self.window.spans},
             "tosses": self.tosses,
+            "refused": self.refused,
             "longest": target.sequence[: self.longest],
             "found": None if self.scenario is None else self.scenario.as_tables(),
             "margins": rooms,
@@ -164,9 +177,18 @@ def find(
     if len(sequence) > (most := min(LONGEST, described.rules.max_impacts)):
         raise SweepError(f"sequence: {len(sequence)} faces, accepted: at most {most}, as ending.max_impacts")
     window = window_of(vary, described)
-    with stage("searching the window", "tosses", total=tosses) as progress:
-        searched = search(window, target, tosses, seed, progress)
-    found: dict[str, Any] = {"target": target, "window": window, "tosses": searched.tosses}
+    searched = search(window, target, tosses, seed)
+    if searched.longest < 0:
+        window.scenario_at(np.full(len(window.spans), 0.5))  # says why
+        raise ScenarioError(
+            "no point of the window makes a scenario; accepted: spans in which the coin is free"
+        )
+    found: dict[str, Any] = {
+        "target": target,
+        "window": window,
+        "tosses": searched.tosses,
+        "refused": searched.refused,
+    }
     for hit in searched.hits:
         own = window.scenario_at(hit.point)
         toss = analytic.toss(own)

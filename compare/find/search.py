@@ -14,7 +14,9 @@ from scipy.stats import qmc
 
 from cointoss.compare.find.window import Target, Window
 from cointoss.compare.metrics.margin import FINE, MANY, Search, changes_both_ways
+from cointoss.compare.output.interruption import Interruption
 from cointoss.models.records import Array
+from cointoss.models.stages import stage
 
 BLOCK = 1 << 12
 """Points of the window that are tossed together."""
@@ -61,13 +63,13 @@ class Searched:
     """The best first; none where nothing shows it."""
     tosses: int
     """That were made over the window; those in boxes and of margins come on top."""
+    refused: int
+    """Points of the window besides, which make no scenario."""
     longest: int
-    """Steps of what is wanted that the best point showed."""
+    """Steps of what is wanted that the best point showed; -1 where no point makes a scenario."""
 
 
-def search(
-    window: Window, target: Target, tosses: int, seed: int, progress: Callable[[int, int], None]
-) -> Searched:
+def search(window: Window, target: Target, tosses: int, seed: int) -> Searched:
     """Search a window.
 
     Args:
@@ -75,28 +77,37 @@ def search(
         target: for what.
         tosses: over the window, at most.
         seed: of the points.
-        progress: called with how many tosses were made over the window.
     """
     sampler = qmc.Sobol(len(window.spans), rng=np.random.default_rng(seed))
-    points, shown, made = np.empty((0, len(window.spans))), np.empty(0, dtype=np.int64), 0
-    while made < tosses and np.sum(shown == target.steps) < ENOUGH:
-        block = sampler.random(BLOCK)[: tosses - made]
-        points = np.concatenate([points, block])
-        shown = np.concatenate([shown, target.shown(window, block)])
-        best = np.argsort(-shown, kind="stable")[:ENOUGH]
-        points, shown, made = points[best], shown[best], made + len(block)
-        progress(made, tosses)
+    points, shown = np.empty((0, len(window.spans))), np.empty(0, dtype=np.int64)
+    tried = refused = hits = 0
+    try:
+        with stage("searching the window", "tosses", total=tosses) as progress:
+            while tried < tosses and hits < ENOUGH:
+                block = sampler.random(BLOCK)[: tosses - tried]
+                of_block = target.shown(window, block)
+                points, shown = np.concatenate([points, block]), np.concatenate([shown, of_block])
+                best = np.argsort(-shown, kind="stable")[:ENOUGH]
+                points, shown, tried = points[best], shown[best], tried + len(block)
+                refused += int(np.sum(of_block < 0))
+                hits += int(np.sum(of_block == target.steps))
+                progress(tried, tosses)
+    except Interruption as interruption:
+        interruption.message += f": {hits or 'none'} of {tried - refused:,d} tosses shows it"
+        raise
+    made = tried - refused
     longest = int(shown.max())
     if 0 < longest < target.steps:
         points, longest = _in_boxes(window, target, points[shown == longest], longest, seed)
     elif longest == target.steps:
         points = points[shown == longest]
     if longest < target.steps:
-        return Searched((), made, longest)
-    wide = [Hit(*one) for one in zip(points, _margins(window, target, points, target.steps), strict=True)]
-    chosen = sorted(wide, key=lambda hit: -hit.margin)[:BEST]
-    hits = [_centred(window, target, hit) for hit in chosen[: BEST if chosen[0].margin > LEAST else 1]]
-    return Searched(tuple(sorted(hits, key=lambda hit: -hit.margin)), made, longest)
+        return Searched((), made, refused, longest)
+    with stage("measuring margins"):
+        wide = [Hit(*one) for one in zip(points, _margins(window, target, points, target.steps), strict=True)]
+        chosen = sorted(wide, key=lambda hit: -hit.margin)[:BEST]
+        centred = [_centred(window, target, hit) for hit in chosen[: BEST if chosen[0].margin > LEAST else 1]]
+    return Searched(tuple(sorted(centred, key=lambda hit: -hit.margin)), made, refused, longest)
 
 
 def _in_boxes(window: Window, target: Target, points: Array, shown: int, seed: int) -> tuple[Array, int]:
@@ -109,9 +120,21 @@ def _in_boxes(window: Window, target: Target, points: Array, shown: int, seed: i
         shown: how many.
         seed: of the points.
     """
+    points, rng = points[:BEAM], np.random.default_rng([seed, 1])
+    with stage("searching smaller boxes", "steps", total=target.steps, done=shown) as progress:
+        return _narrowed(window, target, points, shown, rng, progress)
+
+
+def _narrowed(
+    window: Window,
+    target: Target,
+    points: Array,
+    shown: int,
+    rng: np.random.Generator,
+    progress: Callable[[int, int], None],
+) -> tuple[Array, int]:
+    """Return what `_in_boxes` does."""
     tries, number = 0, IN_A_BOX
-    points = points[:BEAM]
-    rng = np.random.default_rng([seed, 1])
     while shown < target.steps and tries < TRIES:
         margins = np.minimum(_margins(window, target, points, shown), 1.0)
         found = []
@@ -126,6 +149,7 @@ def _in_boxes(window: Window, target: Target, points: Array, shown: int, seed: i
             # The first of each box, then others: from different parts of the window.
             met = np.flatnonzero(now == shown)
             points = drawn[met[np.linspace(0, len(met) - 1, min(BEAM, len(met))).astype(int)]]
+            progress(shown, target.steps)
         else:
             tries, number = tries + 1, 2 * number
     return points, shown

@@ -11,6 +11,7 @@ from cointoss import analytic
 from cointoss.compare.find import search
 from cointoss.compare.find.find import find
 from cointoss.compare.find.window import Target, window_of
+from cointoss.compare.metrics.estimates import share_of
 from cointoss.models.errors import ScenarioError
 from cointoss.models.reading import load, parse
 from cointoss.models.records import Outcome
@@ -136,6 +137,27 @@ def test_points_that_no_scenario_accepts_are_passed_over():
     assert (shown[0], shown[1] >= 0) == (-1, True)
     with pytest.raises(ScenarioError):
         window.scenario_at(np.array([0.1]))
+
+
+def test_points_that_make_no_scenario_are_no_tosses():
+    """The floor is in the middle of the window; of 256 points half have the coin's rim above it."""
+    found = find(COIN, "release.position.z=-1:1", sequence="HTHTHTHTHT", tosses=256)
+    assert not found
+    assert found.tosses + found.refused == 256
+    assert abs(found.tosses - 128) < 8
+    most = share_of(0, found.tosses).high
+    assert found.lines[0].startswith(
+        f"none in {found.tosses} tosses, covering release.position.z from -1 to 1 m"
+    )
+    assert f", where {found.refused} more points make no scenario" in found.lines[0]
+    assert found.lines[1].startswith(f"at most {100 * most:.2g} % of the tosses in the window")
+
+
+def test_a_window_without_a_scenario_is_refused():
+    with pytest.raises(ScenarioError, match=r"release\.position\.z"):
+        find(COIN, "release.position.z=-2:-1", sequence="H", tosses=16)
+    with pytest.raises(ScenarioError, match="no point of the window makes a scenario"):
+        find(COIN, "release.position.z=-1:1.1", sequence="H", tosses=1)
 
 
 @pytest.mark.parametrize(

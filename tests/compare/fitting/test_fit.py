@@ -146,8 +146,9 @@ def test_intervals_of_a_few_coins_cover_the_truth():
 
 
 @pytest.mark.slow
-def test_intervals_of_200_flat_coins_cover_the_truth():
-    assert_covers(*flat_misses(200, seed=2))
+@pytest.mark.parametrize("seed", [2, 3])
+def test_intervals_of_100_flat_coins_cover_the_truth(seed):
+    assert_covers(*flat_misses(100, seed=seed))
 
 
 def test_intervals_of_filmed_tumbling_coins_cover_the_truth_across_minima():
@@ -157,9 +158,10 @@ def test_intervals_of_filmed_tumbling_coins_cover_the_truth_across_minima():
 
 
 @pytest.mark.slow
-def test_intervals_of_100_filmed_tumbling_coins_cover_the_truth():
-    share, n = np.mean(tumbling_coverage(range(100)), axis=0), 100
-    assert np.all(share > 0.99 - 3.3 * np.sqrt(0.0099 / n)), share
+@pytest.mark.parametrize("first", range(0, 100, 25))
+def test_intervals_of_100_filmed_tumbling_coins_cover_the_truth(first):
+    """Of 25 intervals of 99 % more than one misses the truth in fewer than three cases of a hundred."""
+    assert np.all(tumbling_coverage(range(first, first + 25)).sum(axis=0) >= 24)
 
 
 def test_a_coin_of_another_law_is_rejected():
