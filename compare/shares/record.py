@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
+from itertools import product
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -125,10 +126,11 @@ class Shares:
         engines, chances = self.plan.engines, self.alike
         both = len(engines) > 1
         head = [*self._heads(), *["engine"] * both, "tosses", *map(str, self.outcomes), *["by chance"] * both]
+        settings = list(product(*(axis.texts for axis in self.plan.along)))
         rows = []
         for i, row in enumerate(self.rows):
             setting, engine = divmod(i, len(engines))
-            values = ["" if engine else f"{value:.6g}" for value in row.values]
+            values = ["" if engine else text for text in settings[setting]]
             shares = row.shares
             cells = [percent(shares[one]) if row.tosses else "-" for one in self.outcomes]
             of_engine = [row.engine.value] if both else []

@@ -61,6 +61,15 @@ class Axis(Span):
         """The field's values, (count,) [unit]."""
         return np.linspace(self.start, self.stop, self.count)
 
+    @property
+    def texts(self) -> list[str]:
+        """The values in few digits, but so many that no two are alike."""
+        for digits in range(6, 18):
+            texts = [f"{value:.{digits}g}" for value in self.values.tolist()]
+            if len(set(texts)) == self.count:
+                break
+        return texts
+
 
 def parse_axis(text: str, scenario: Scenario, units: Mapping[str, str] = UNITS) -> Axis:
     """Read an axis from FIELD=START:STOP:N; numbers are SI, or carry a unit: "coin.mass=2 g:5 g:100".
@@ -82,6 +91,8 @@ def parse_axis(text: str, scenario: Scenario, units: Mapping[str, str] = UNITS) 
     if not 2 <= count <= MOST_VALUES:
         raise SweepError(f"{text}: N = {parts[2]}; accepted: a whole number from 2 to {MOST_VALUES}")
     axis = Axis(**vars(span), count=count)
+    if len(np.unique(axis.values)) < count:
+        raise SweepError(f"{text}: not {count} numbers between both; accepted: ends that are farther apart")
     if field == "ending.max_impacts" and not np.all(np.mod(axis.values, 1) == 0):
         raise SweepError(f"{text}: accepted: START, STOP and N that give whole numbers only, such as 1:9:9")
     return axis

@@ -8,6 +8,7 @@ from pydantic import BaseModel
 from cointoss.compare.sweep.axes import Axis, parse_axis
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.models.fields import UNITS, split
+from cointoss.models.reading import load
 from cointoss.models.scenario import Scenario
 from tests.helpers.basin_runs import TUMBLING
 from tests.helpers.draws import scenario
@@ -87,3 +88,11 @@ def test_an_axis_includes_both_ends_and_takes_units():
 def test_a_wrong_axis_is_refused_with_what_is_accepted(text, said):
     with pytest.raises(SweepError, match=said):
         parse_axis(text, TUMBLING)
+
+
+def test_an_axis_has_as_many_values_as_asked_for_and_none_twice():
+    with pytest.raises(SweepError, match="not 3 numbers between both; accepted: ends that are farther apart"):
+        parse_axis("floor.restitution=0.5:0.5000000000000001:3", load("fig24a"))
+    close = parse_axis("floor.restitution=0.5:0.50000002:3", load("fig24a"))
+    assert close.texts == ["0.5", "0.50000001", "0.50000002"]
+    assert parse_axis("floor.restitution=0.8:0.2:3", load("fig24a")).texts == ["0.8", "0.5", "0.2"]
