@@ -110,12 +110,15 @@ class OwnLaw:
         if breach == Breach.NONE:
             return ""
         K, v_A = np.array(contact.K), np.array(contact.velocity)
-        does = {
-            Breach.NOT_FINITE: f"S = {_shown(S)}",
-            Breach.SINKS: f"v_Az' = {(v_A + K @ S)[2]:.3g} m/s",
-            Breach.PULLS: f"pulls, S = {_shown(S)} N s",
-            Breach.ADDS_ENERGY: f"adds {S @ (v_A + K @ S / 2):.3g} J",
-        }[breach]
+        match breach:
+            case Breach.SINKS:
+                does = f"v_Az' = {(v_A + K @ S)[2]:.3g} m/s"
+            case Breach.ADDS_ENERGY:
+                does = f"adds {S @ (v_A + K @ S / 2):.3g} J"
+            case Breach.PULLS:
+                does = f"pulls, S = {_shown(S)} N s"
+            case _:
+                does = f"S = {_shown(S)}"
         return f"{does}{_at(contact)}; accepted: {_ACCEPTED[breach]}"
 
 
@@ -226,7 +229,7 @@ def _require_vector(law: OwnLaw, contact: Contact) -> Array:
     try:
         S = law.function(*contact)
     except Exception as error:
-        why = f"raises {type(error).__name__}: {error}"
+        why = f"raises {type(error).__name__}: {' '.join(str(error).split())}"
         raise ValueError(f"law {law.name}: {why}{_at(contact)}; accepted: {FORM}") from None
     if type(S) is not tuple or len(S) != 3 or not all(isinstance(one, int | float) for one in S):
         raise TypeError(f"law {law.name}: returns {S!r:.60}, accepted: {FORM}")

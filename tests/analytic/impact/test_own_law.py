@@ -247,9 +247,14 @@ def not_finite(K, v_A, tau, chi, mu):
     return 0.0 * math.inf, 0.0, 1.0
 
 
+def infinite(K, v_A, tau, chi, mu):
+    return -math.inf, math.inf, math.inf
+
+
 @pytest.mark.parametrize(
     ("law", "says"),
     [
+        (infinite, r"^law infinite: S = \(-inf, inf, inf\) at K = .*; accepted: three finite numbers$"),
         (adds, r"^law adds: adds \S+ J at K = .*, v_A = .*; accepted: S . \(v_A \+ K S/2\) <= 0, or may_add"),
         (
             sinks,
@@ -293,6 +298,10 @@ def raises(K, v_A, tau, chi, mu):
     raise KeyError("x")
 
 
+def raises_lines(K, v_A, tau, chi, mu):
+    raise ValueError("not\nhere")
+
+
 def raises_later(K, v_A, tau, chi, mu):
     if chi == 0:
         raise KeyError("x")
@@ -331,6 +340,7 @@ calls: list[float] = []
             ValueError,
             r"^law raises_later: raises KeyError: 'x' at K = .* chi = 0, .*; accepted: ",
         ),
+        (raises_lines, ValueError, r"^law raises_lines: raises ValueError: not here at K = .*; accepted: "),
         (unknown, ValueError, r"^law unknown: raises NameError: name 'nothing' is not defined at K = "),
         (opens, ValueError, r"^law opens: numba cannot compile it: .*; accepted: "),
         (counts, ValueError, r"^law counts: numba cannot compile it: .*; accepted: "),
