@@ -1,6 +1,6 @@
 """`cointoss hands`: a coin tossed many times as a hand does."""
 
-from dataclasses import asdict
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -17,10 +17,22 @@ from cointoss.compare.commands.hand_options import chosen_hand, hand_options
 from cointoss.compare.commands.names import scenario_argument
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    import numpy as np
+    from numpy.typing import NDArray
+
     from cointoss.compare.engines import Engine
     from cointoss.compare.metrics.estimate import Estimate
+    from cointoss.compare.shares.plan import Plan as SharesPlan
     from cointoss.models.releases import Releases
     from cointoss.models.scenario import Scenario
+
+BLOCK = {"analytic": 5000, "mujoco": 100}
+"""Tosses that are counted together; an interruption tells those that are counted."""
+
+Counts = dict[str, tuple[int, int]]
+"""For each of what is counted, how often it was so, of how many tosses."""
 
 
 @click.command(epilog=SCENARIO_HELP)
@@ -34,18 +46,18 @@ def hands(scenario: str, tosses: int, seed: int, engine: str, as_json: bool, **g
 
     The coin is released flat, or on its edge with --spun; the scenario's own release is not used. The side is
     that at the first touches of the floor and at rest, or that in a hand which catches the coin. Of a coin
-    that is spun all ends are counted. Intervals are of 99 %.
+    that is spun all ends are counted; a coin that the hand does not catch is left out. Intervals are of 99 %.
+    Ctrl-C prints what is counted until then.
     """
     with plain_errors(scenario):
         import numpy as np
 
         from cointoss.compare.engines import Engine
         from cointoss.compare.film.back_end import require_mujoco
-        from cointoss.compare.metrics.estimates import share_of
-        from cointoss.compare.shares.counting import counting
+        from cointoss.compare.metrics.estimates import share_of  # where Ctrl-C comes there is no time for it
+        from cointoss.compare.output.interruption import Interruption, undoing
         from cointoss.compare.shares.plan import Plan, check
         from cointoss.models.reading import load
-        from cointoss.models.records import Outcome
         from cointoss.models.releases import check_releases
 
         hand, described = chosen_hand(given, load(scenario))
@@ -56,44 +68,92 @@ def hands(scenario: str, tosses: int, seed: int, engine: str, as_json: bool, **g
                 scenario=described, name="", hand=hand, engines=(Engine(engine),), seed=seed, tosses=tosses
             )
             check(plan)
-            *_, counts = counting(plan)
-            shares = {str(one): share_of(int(met), tosses) for one in Outcome if (met := counts[0][one])}
+            several = spins(plan)
         else:
             try:
                 start = hand.releases(described.body, np.random.default_rng(seed), tosses)
                 check_releases(described, start)
             except ValueError as error:
                 refuse(f"{scenario}: {error}")
-            shares = first_sides(described, start, Engine(engine))
-        caught = shares["caught"].count if "caught" in shares else 0
-        not_caught = 0 if hand.spun or described.ending.caught is None else tosses - caught
-        if as_json:
-            told = {"hand": asdict(hand), "caught": described.ending.caught}
-            told |= {"tosses": tosses, "seed": seed, "engine": engine, "not_caught": not_caught}
-            kind = "ended" if hand.spun else "same_side"
-            print_json({**told, kind: {k: asdict(v) for k, v in shares.items()}}, engine)
-            return
-        for name, one in shares.items():
-            click.echo(f"{name:9} {one.value:7.2%} [{one.low:.2%}, {one.high:.2%}] of {one.count:,d} tosses")
-        if not_caught:
-            click.echo(f"left out  {not_caught:,d} coins that never came down to the hand")
+            several = first_sides(described, start, Engine(engine))
+        counted = Counted()
+        told = {"hand": asdict(hand), "caught": described.ending.caught, "seed": seed, "engine": engine}
+        with undoing(lambda: _answer(counted, told, share_of, as_json=as_json)):
+            try:
+                for counted.tosses, counted.counts in several:
+                    pass
+            except Interruption as interruption:
+                interruption.message += f": {counted.tosses:,d} tosses are counted"
+                raise
 
 
-def first_sides(scenario: "Scenario", start: "Releases", engine: "Engine") -> "dict[str, Estimate]":
-    """Return how often the side that was up at first is up in the hand, or at the first touches and at rest.
+@dataclass
+class Counted:
+    """What was counted so far."""
+
+    tosses: int = 0
+    counts: Counts = field(default_factory=dict)
+    is_told: bool = False
+
+
+def spins(plan: "SharesPlan") -> "Iterator[tuple[int, Counts]]":
+    """Yield how many coins were spun so far, and how many ended with each outcome."""
+    from cointoss.compare.shares.counting import counting
+    from cointoss.models.records import Outcome
+
+    for (counts,) in counting(plan):
+        tosses = int(counts.sum())
+        yield tosses, {str(one): (int(counts[one]), tosses) for one in Outcome if counts[one]}
+
+
+def first_sides(scenario: "Scenario", start: "Releases", engine: "Engine") -> "Iterator[tuple[int, Counts]]":
+    """Yield how many coins were tossed so far, and how often the side that was up at first is up later.
 
     Args:
         scenario: that is tossed.
         start: the releases.
         engine: that tosses.
     """
-    from cointoss.compare.metrics.estimates import share
-    from cointoss.compare.metrics.first_side import TOUCHES, caught_side, first_side
+    import numpy as np
 
-    if scenario.ending.caught is not None:
-        sides = {"caught": caught_side(scenario, start, engine)}
-    else:
-        found = first_side(scenario, start, engine)
-        sides = {f"touch {n + 1}": up for n, up in zip(TOUCHES, found.touches, strict=True)}
-        sides["at rest"] = found.at_rest
-    return {name: share(up) for name, up in sides.items() if len(up)}
+    from cointoss.compare.metrics.first_side import TOUCHES, caught_side, first_side
+    from cointoss.compare.metrics.release_arrays import chosen
+    from cointoss.models.stages import stage
+
+    def sides(block: "Releases") -> "dict[str, NDArray[np.bool_]]":
+        if scenario.ending.caught is not None:
+            return {"caught": caught_side(scenario, block, engine)}
+        found = first_side(scenario, block, engine)
+        touches = {f"touch {n + 1}": up for n, up in zip(TOUCHES, found.touches, strict=True)}
+        return {**touches, "at rest": found.at_rest}
+
+    counts: Counts = {}
+    with stage("tosses by hand", "tosses", total=len(start)) as progress:
+        for first in range(0, len(start), BLOCK[engine.value]):
+            block = np.arange(first, min(first + BLOCK[engine.value], len(start)))
+            for name, up in sides(chosen(start, block)).items():
+                met, of = counts.get(name, (0, 0))
+                counts[name] = met + int(up.sum()), of + len(up)
+            tosses = int(block[-1]) + 1
+            yield tosses, dict(counts)
+            progress(tosses, len(start))
+
+
+def _answer(
+    counted: Counted, told: dict[str, Any], share_of: "Callable[[int, int], Estimate]", *, as_json: bool
+) -> None:
+    """Print what is counted, once."""
+    if counted.is_told or not counted.tosses:
+        return
+    counted.is_told = True
+    shares = {name: share_of(met, of) for name, (met, of) in counted.counts.items() if of}
+    not_caught = counted.tosses - counted.counts["caught"][1] if "caught" in counted.counts else 0
+    if as_json:
+        told |= {"tosses": counted.tosses, "not_caught": not_caught}
+        kind = "ended" if told["hand"]["spun"] else "same_side"
+        print_json({**told, kind: {k: asdict(v) for k, v in shares.items()}}, told["engine"])
+        return
+    for name, one in shares.items():
+        click.echo(f"{name:9} {one.value:7.2%} [{one.low:.2%}, {one.high:.2%}] of {one.count:,d} tosses")
+    if not_caught:
+        click.echo(f"left out  {not_caught:,d} coins that never came down to the hand")

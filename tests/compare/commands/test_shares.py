@@ -7,6 +7,7 @@ import signal
 
 import pytest
 
+from cointoss.compare.commands import hands
 from cointoss.models.hand import Hand
 from tests.helpers.command_line import cointoss, refused
 from tests.helpers.processes import started, wait_until
@@ -116,3 +117,37 @@ main()
     assert [row["tosses"] for row in rows] == ["250", "250", "0"]
     assert printed.count("250") >= 2
     assert not (tmp_path / "a.png").exists()
+
+
+def test_ctrl_c_prints_what_hands_have_counted_until_then(coin, tmp_path):
+    """The third block is never tossed; `begun` is there from then on."""
+    script = """
+import time
+from pathlib import Path
+from cointoss.compare.commands import hands
+from cointoss.compare.metrics import first_side
+tossed, own = [], first_side.first_side
+hands.BLOCK["analytic"] = 40
+def slow(*words):
+    tossed.append(1)
+    if len(tossed) > 2:
+        Path("begun").touch()
+        time.sleep(1000)
+    return own(*words)
+first_side.first_side = slow
+from cointoss.compare.cli import main
+main()
+"""
+    with started("-c", script, "hands", coin, "--tosses", "1000", cwd=tmp_path) as process:
+        wait_until(process, (tmp_path / "begun").exists)
+        process.send_signal(signal.SIGINT)
+        printed, said = process.communicate(timeout=60)
+    assert process.returncode == 130, said
+    assert said.endswith("cointoss: interrupted by SIGINT: 80 tosses are counted\n")
+    assert [line.split(" of ")[-1] for line in printed.splitlines()[:4]] == 4 * ["80 tosses"]
+
+
+def test_blocks_count_what_all_tosses_at_once_do(coin, monkeypatch):
+    whole = cointoss("hands", coin, "--tosses", 130, "--json").stdout
+    monkeypatch.setitem(hands.BLOCK, "analytic", 37)
+    assert cointoss("hands", coin, "--tosses", 130, "--json").stdout == whole
