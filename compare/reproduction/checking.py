@@ -28,6 +28,8 @@ LONGEST = 18
 """Digits of a whole number."""
 _ENDS = frozenset({"value", "low", "high"})
 """Of an estimate."""
+_TOLD = ("analytic", "mujoco", "headline")
+"""What a claim says in words."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,6 +56,8 @@ class Check:
     changed: tuple[str, ...]
     """Claims whose verdict changes, in words."""
     numbers: tuple[Compared, ...]
+    words: tuple[str, ...] = ()
+    """What the claims say in words, where that differs; its numbers have no tolerance of their own."""
 
     @property
     def off(self) -> tuple[Compared, ...]:
@@ -62,8 +66,8 @@ class Check:
 
     @property
     def agrees(self) -> bool:
-        """Whether no verdict changes and all numbers agree."""
-        return not self.changed and not self.off
+        """Whether no verdict changes and all numbers agree; the words too, where the bits should."""
+        return not self.changed and not self.off and (bool(self.unlike) or not self.words)
 
 
 class RunError(ValueError):
@@ -171,12 +175,25 @@ def check(there: Path, here: Path, *, timed: bool) -> Check:
         if _verdict(claims.get(claim)) != _verdict(found.get(claim))
     )
     numbers: list[Compared] = []
+    words: list[str] = []
     if not timed:
+        words = [
+            f"{claim}: {claims[claim][who]} there, {found[claim][who]} here"
+            for claim in claims
+            for who in _TOLD
+            if claim in found and claims[claim][who] != found[claim][who]
+        ]
         for claim in claims.keys() & found.keys():
             numbers += _criteria(claim, claims[claim]["criteria"], found[claim]["criteria"], exact=not other)
         if (kept := _numbers(there)) is not None:
             numbers += compared("numbers.json", kept, _numbers(here), exact=not other)
-    return Check(unlike=other, verdicts=len({**claims, **found}), changed=changed, numbers=tuple(numbers))
+    return Check(
+        unlike=other,
+        verdicts=len({**claims, **found}),
+        changed=changed,
+        numbers=tuple(numbers),
+        words=tuple(words),
+    )
 
 
 def _claims(folder: Path) -> dict[str, Any]:
@@ -286,6 +303,7 @@ def in_words(name: str, where: str, found: Check, *, timed: bool) -> str:
     )
     lines += [f"  {count} {reason}" for reason, count in agreeing.items()]
     lines += [f"  changes: {words}" for words in found.changed]
+    lines += [f"  in other words: {words}" for words in found.words]
     lines += [
         f"  off: {number.place}: {number.there} there, {number.here} here; accepted: {number.reason}"
         for number in found.off

@@ -76,6 +76,18 @@ def test_a_last_bit_is_off_where_bits_are_the_same_and_not_elsewhere(fake):
     assert lines[1] == "  not to the bit: no provenance.json there"
 
 
+def test_words_that_a_claim_says_otherwise_are_shown_and_are_off_where_bits_are_the_same(fake):
+    kept, write = fake
+    write('claim="it is short",', 'claim="it is short", mujoco="by 0.2",')
+    status, lines = check(kept)
+    assert status == 1
+    assert lines[-1] == "  in other words: it is short: - there, by 0.2 here"
+    (kept / "reproduction" / "fake" / "provenance.json").unlink()
+    status, lines = check(kept)
+    assert status == 0
+    assert lines[-1].startswith("  in other words: ")
+
+
 def test_a_claim_that_would_change_and_a_number_that_is_off_are_named(fake):
     kept, write = fake
     write("LENGTH = 0.123456", "LENGTH = 1.5")
