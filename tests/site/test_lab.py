@@ -3,6 +3,7 @@
 import csv
 import io
 import re
+from pathlib import Path
 from urllib.parse import parse_qs, quote
 
 import numpy as np
@@ -16,6 +17,7 @@ from tests.helpers.coins_shown import BLUE, GOLD, NO_WEBGL, UNNAMED, box, faces,
 from tests.helpers.command_line import cointoss as command
 from tests.helpers.lab import COUNTED, HEIGHT, SPIN, TOSSED, WHOLE
 
+RELEASES = sorted(folder for folder in (Path(__file__).parents[1] / "releases").iterdir() if folder.is_dir())
 ADDRESSED = "location.hash.length > 1"
 PAPER = "getComputedStyle(document.body).backgroundColor"
 WHOLE_COIN = (
@@ -182,6 +184,26 @@ def test_a_link_opens_the_same_state_on_another_page(chromium, page, lab_path, t
         assert second.value("location.hash") == address
         for id_ in ("outcome", "horizon", "share", "sequences"):
             assert second.text(id_) == page.text(id_)
+
+
+@pytest.mark.parametrize("release", RELEASES, ids=lambda folder: folder.name)
+def test_an_address_of_an_earlier_release_is_the_toss_it_was(page, lab_path, release):
+    address = (release / "given" / "lab.txt").read_text(encoding="utf-8").strip()
+    page.open(lab_path.as_uri() + address, width=420)
+    page.wait_for(f"{COUNTED} && {TOSSED} && {WHOLE}")
+    assert page.text("problem") == ""
+    page.value("document.getElementById('copy').click()")
+    page.wait_for("!document.getElementById('command').hidden")
+    asked = page.text("command")
+    _, text, line = re.split(r"^cat > coin.toml << 'END'\n|^END\n", asked, flags=re.MULTILINE)
+    assert parse(text, "coin.toml") == cointoss.load(release / "given" / "smooth.toml")
+    spans = {axis: re.findall(rf"--{axis} (\S+)=(\S+):(\S+):\d+", line)[0] for axis in "xy"}
+    assert {axis: (field, float(low), float(high)) for axis, (field, low, high) in spans.items()} == {
+        "x": (SPIN, pytest.approx(20, abs=0.2), pytest.approx(60, abs=0.2)),
+        "y": (HEIGHT, pytest.approx(0.2, abs=2e-3), pytest.approx(0.6, abs=2e-3)),
+    }
+    assert "--after 1 --trust" in line
+    assert len(sequences(page)) == 2
 
 
 @pytest.mark.parametrize(
