@@ -55,7 +55,10 @@ def cases():
 
 
 def numbers_of(case):
-    """Return all numbers of a toss: how it ends, its impacts, its state at each tenth of its time."""
+    """Return all numbers of a toss: how it ends, its impacts, its state at each tenth of its time.
+
+    The state at the end is there as it is followed, too: a sampled one has a quaternion of norm 1.
+    """
     toss = analytic.toss(case)
     path = toss.path.sample(np.linspace(0, toss.end_time, 11))
     impacts = toss.impacts
@@ -68,6 +71,7 @@ def numbers_of(case):
         "time": toss.end_time,
         "impacts": np.column_stack([impacts.time, impacts.energy, impacts.impulse]).tolist(),
         "states": rows.ravel().tolist(),
+        "end": toss.path.start_states[-1].tolist(),
     }
 
 

@@ -46,9 +46,6 @@ def build(out: Path) -> None:
         from numba import types
 
         from cointoss.compare.web.wasm import interface
-
-        if not hasattr(interface.toss_each, "dispatcher"):
-            raise RuntimeError("needs the compiler of models/kernel/fork: unset COINTOSS_COMPILER")
         from cointoss.compare.web.wasm.compiler import object_code
 
         kinds = {
@@ -124,7 +121,7 @@ def main(arguments: list[str]) -> int:
         return 2
     try:
         build(Path(arguments[0]))
-    except (RuntimeError, OSError) as problem:
+    except (RuntimeError, OSError, ImportError) as problem:
         print(f"engine.wasm: {problem}", file=sys.stderr)
         return 2
     return 0
