@@ -43,8 +43,8 @@ LEVEL = 0.99
 """Of the intervals."""
 ABOVE = float(chi2.ppf(LEVEL, 1))
 """χ² above its least, up to which a value is in its interval."""
-REGIONS, GAIN = 4, 1e-3
-"""Intervals are measured so often, where that meets a misfit that is less by so much."""
+AGAIN, GAIN = 3, 1e-3
+"""Intervals are measured again so often, at most, where that meets a misfit that is less by so much."""
 UNTESTED = 3.0
 """χ² that an observation beyond the horizon counts when minima are compared: else the values that nothing
 could test would win."""
@@ -96,32 +96,41 @@ class Search:
     def found(self) -> Found | None:
         """Return what was found; None where no start makes a scenario."""
         with stage("screening starts", "starts") as progress:
-            points = self._screened(progress)
-        if not len(points):
+            starts = self._screened(progress)
+        if not len(starts):
             return None
-        fitted, seen = 0, len(self._order)
-        with stage("fitting touch by touch", "numbers", total=seen) as progress:
-            while fitted < seen:
-                fitted = self._next(points, fitted)
-                rows = self._order[:fitted]
-                modes, information = self._modes(*self._descent.descended(points, rows), rows)
-                points = np.vstack([modes, self._neighbours(modes, information)])
-                progress(fitted, seen)
+        modes, around = self._fitted(starts)
         with stage("refining the best fits"):
-            refined = [each for each in map(self._refined, modes[:REFINED]) if each is not None]
-        if not refined:
+            minima = [each for each in map(self._refined, modes[:REFINED]) if each is not None]
+        if not minima:
             return None
         with stage("measuring the intervals"):
-            for _ in range(REGIONS):
-                best = min(refined, key=lambda each: each.score)
-                region = self._region(
-                    best, np.vstack([points, [self._descent.point(each.values) for each in refined]])
-                )
-                better = self._refined(region.best) if region.least < best.chi_square - GAIN else None
-                if better is None or better.score >= best.score - GAIN:
-                    break
-                refined.append(better)
-        return Found(self._apart(refined), self._descent.values(region.ends.T).T)
+            ends = self._ends(minima, np.vstack([modes, around]))
+        return Found(self._apart(minima), ends)
+
+    def _fitted(self, points: Array) -> tuple[Array, Array]:
+        """Return points that explain all that was seen, the best first, and their neighbours, (n, k) each."""
+        fitted, seen, around = 0, len(self._order), points[:0]
+        with stage("fitting touch by touch", "numbers", total=seen) as progress:
+            while fitted < seen:
+                points = np.vstack([points, around])
+                fitted = self._next(points, fitted)
+                rows = self._order[:fitted]
+                points, information = self._modes(*self._descent.descended(points, rows), rows)
+                around = self._neighbours(points, information)
+                progress(fitted, seen)
+        return points, around
+
+    def _ends(self, minima: list[Minimum], points: Array, again: int = AGAIN) -> Array:
+        """Return the ends of the intervals, (k, 2); minima that are met on the way are added."""
+        best = min(minima, key=lambda each: each.score)
+        known = np.vstack([points, [self._descent.point(each.values) for each in minima]])
+        region = self._region(best, known)
+        better = self._refined(region.best) if region.least < best.chi_square - GAIN else None
+        if not again or better is None or better.score >= best.score - GAIN:
+            return self._descent.values(region.ends.T).T
+        minima.append(better)
+        return self._ends(minima, points, again - 1)
 
     def _region(self, best: Minimum, points: Array) -> Region:
         """Return the region of the intervals."""

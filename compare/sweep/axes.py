@@ -64,11 +64,8 @@ class Axis(Span):
     @property
     def texts(self) -> list[str]:
         """The values in few digits, but so many that no two are alike."""
-        for digits in range(6, 18):
-            texts = [f"{value:.{digits}g}" for value in self.values.tolist()]
-            if len(set(texts)) == self.count:
-                break
-        return texts
+        written = ([f"{value:.{digits}g}" for value in self.values.tolist()] for digits in range(6, 18))
+        return next(texts for texts in written if len(set(texts)) == self.count)
 
 
 def parse_axis(text: str, scenario: Scenario, units: Mapping[str, str] = UNITS) -> Axis:

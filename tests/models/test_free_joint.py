@@ -54,7 +54,7 @@ def test_one_state_is_one_release_and_other_shapes_are_refused():
     assert len(Releases.from_mujoco(qpos[0], qvel[0], "fig24a")) == 1
     for bad in ("abc", [[0.0, 1.0], [2.0]], {"a": 1}):
         with pytest.raises(ValueError, match=r"from_mujoco: qpos: .*, accepted: numbers, \(7,\) or \(n, 7\)"):
-            Releases.from_mujoco(bad, qvel, COIN)
+            Releases.from_mujoco(bad, qvel, COIN)  # pyright: ignore[reportArgumentType]
     with pytest.raises(ValueError, match=r"from_mujoco: qvel: shape \(1, 7\), accepted: \(1, 6\)"):
         Releases.from_mujoco(qpos, qpos, COIN)
     with pytest.raises(ValueError, match="norm 1 within"):

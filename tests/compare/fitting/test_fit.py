@@ -279,7 +279,7 @@ def test_an_interval_ends_with_its_span_and_says_so():
 def test_a_span_may_run_downwards():
     shown = seen(FLAT, 5, np.random.default_rng(8))
     up = fit(shown, FLAT, ANY, starts=64)
-    down = fit(shown, FLAT, {field: ends[::-1] for field, ends in ANY.items()}, starts=64)
+    down = fit(shown, FLAT, {field: (stop, start) for field, (start, stop) in ANY.items()}, starts=64)
     for one, other in zip(up.values, down.values, strict=True):
         assert other.value == pytest.approx(one.value, abs=one.sd / 100)
         assert other.interval == pytest.approx(one.interval, abs=one.sd / 50)
