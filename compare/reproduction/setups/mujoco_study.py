@@ -82,7 +82,7 @@ def smooth_and_rubbed(cases: Sequence[Scenario]) -> dict[str, list[Scenario]]:
     }
 
 
-IMPULSE, LIMIT = "impulse", "2 S(k) - S(k/4)"
+IMPULSE, LIMIT = "impulse", "impulse 2 S(k) − S(k/4)"
 """Of what errs: |ΔS|/|S|, and the same of Richardson's limit of errors like k^(-1/2)."""
 
 
@@ -115,11 +115,11 @@ def over_stiffness(cases: Sequence[Scenario], stiffnesses: Sequence[float]) -> S
         IMPULSE: impulse,
         "velocity": [_median(_change_error(law, found, "velocity")) for found in hard],
         "spin": [_median(_change_error(law, found, "angular_velocity")) for found in hard],
-        "impulse without diagexact": [
+        "impulse, mass guessed (no diagexact)": [
             median_error([_with_guessed_mass(case, one) for case in cases]) for one in settings
         ],
     }
-    for name, steps in ((LIMIT, Settings().steps), (f"with {FINE} steps", FINE)):
+    for name, steps in ((LIMIT, Settings().steps), (f"the same with {FINE} steps", FINE)):
         errors[name] = [_median(relative_errors(S, _limit(cases, k, steps))) for k in stiffnesses]
     return StiffnessErrors(
         stiffness=list(stiffnesses),
