@@ -132,6 +132,20 @@ def ratio_of_medians(
     return Estimate(value, float(low), float(high), count, counted)
 
 
+def quotient(first: Estimate, second: Estimate) -> Estimate:
+    """Return one positive quantity over another, estimated apart from it, with an interval of its logarithm.
+
+    The errors of both logarithms add as squares. Any quotient is possible where one of the values is 0.
+    """
+    if not (first.value and second.value):
+        return Estimate(np.nan, 0.0, np.inf, first.count, first.counted)
+    value = first.value / second.value
+    errors = [np.log(np.array([one.low, one.high]) / one.value) for one in (first, second)]
+    below, above = np.hypot(errors[0][0], errors[1][1]), np.hypot(errors[0][1], errors[1][0])
+    count = min(first.count, second.count)
+    return Estimate(value, float(value * np.exp(-below)), float(value * np.exp(above)), count, first.counted)
+
+
 def scatter_of_shares(shares: Array, counts: ArrayLike) -> float:
     """Return the root of the mean square of p - 1/2 over groups, less what counting adds.
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from cointoss import analytic
 from cointoss.compare.basins.picture import draw_panel
 from cointoss.compare.metrics.estimate import Estimate
-from cointoss.compare.metrics.estimates import share, share_of
+from cointoss.compare.metrics.estimates import quotient, share, share_of
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import GREY, INK, PALE, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
@@ -176,13 +176,13 @@ def _boundaries(twins: NDArray[np.int64]) -> Boundaries:
         share_of(int(twins[0, i]), int(twins[1, i]), "twins") * (LENGTH / float(RESOLUTIONS[i]))
         for i in (finest, finest - 1)
     )
-    return Boundaries(count=finer, resolution=float(RESOLUTIONS[finest]), growth=_over(finer, coarser))
+    return Boundaries(count=finer, resolution=float(RESOLUTIONS[finest]), growth=quotient(finer, coarser))
 
 
 def _growth(found: Sequence[Boundaries]) -> dict[str, Any]:
     """Return how the number of boundaries grows, as far as it is counted, by the names of the claims."""
     known = next((n for n, one in enumerate(found) if not one.is_converged), len(found))
-    steps = [_over(found[n + 1].count, found[n].count) for n in range(known - 1)]
+    steps = [quotient(found[n + 1].count, found[n].count) for n in range(known - 1)]
     numbers = ", ".join(f"{float(f'{one.count.value:.2g}'):,.0f}" for one in found[:known])
     beyond = f"; after {known} at least {found[known].count.low:.1g}" if known < len(found) else ""
     told = (
@@ -195,22 +195,11 @@ def _growth(found: Sequence[Boundaries]) -> dict[str, Any]:
         "told": told if steps else ("-", "-"),
         "steps": {f"N({n}) over N({n - 1})": step for n, step in enumerate(steps, start=1)},
         "faster": {
-            f"growth at impact {n + 1} over that at impact {n}": _over(later, earlier)
+            f"growth at impact {n + 1} over that at impact {n}": quotient(later, earlier)
             for n, (earlier, later) in enumerate(pairwise(steps), start=1)
         },
         "missing": ["" if len(steps) > least else FEW_TWINS for least in (0, 1)],
     }
-
-
-def _over(first: Estimate, second: Estimate) -> Estimate:
-    """Return one quantity over another, with the interval that both of theirs allow; any where one is 0."""
-    if not (first.value and second.value):
-        return Estimate(np.nan, 0.0, np.inf, first.count, first.counted)
-    value = first.value / second.value
-    errors = [np.log(np.array([one.low, one.high]) / one.value) for one in (first, second)]
-    below, above = np.hypot(errors[0][0], errors[1][1]), np.hypot(errors[0][1], errors[1][0])
-    count = min(first.count, second.count)
-    return Estimate(value, float(value * np.exp(-below)), float(value * np.exp(above)), count, first.counted)
 
 
 def _elastic_shares(heights: Array, spins: Array) -> Array:

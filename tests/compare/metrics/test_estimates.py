@@ -8,6 +8,7 @@ from cointoss.compare.metrics.estimates import (
     difference,
     jackknife,
     mean,
+    quotient,
     ratio_of_medians,
     share,
 )
@@ -18,6 +19,7 @@ KINDS = {
     "mean": (2.0, lambda rng: mean(rng.exponential(2.0, 400))),
     "difference": (1.0, lambda rng: difference(rng.normal(3, 1, 60), rng.normal(2, 3, 200))),
     "jackknife": (2.0, lambda rng: _spread(rng.normal(0, 2, 400))),
+    "quotient": (2.0, lambda rng: quotient(share(rng.random(900) < 0.4), share(rng.random(900) < 0.2))),
     "ratio": (2.0, lambda rng: ratio_of_medians(rng.exponential(2, 150), rng.exponential(1, 150), rng)),
 }
 
@@ -42,6 +44,12 @@ def test_a_share_of_none_has_an_interval_above_it():
     none = share(np.zeros(500, dtype=bool), counted="impacts")
     assert (none.value, none.low, none.count, none.counted) == (0, 0, 500, "impacts")
     assert 0.005 < none.high < 0.02
+
+
+def test_a_quotient_of_none_may_be_anything():
+    found = quotient(share(np.zeros(50, dtype=bool)), share(np.arange(50) < 9))
+    assert np.isnan(found.value)
+    assert (found.low, found.high) == (0, np.inf)
 
 
 def test_as_many_as_it_says_would_tell():
