@@ -8,8 +8,8 @@ import os
 import subprocess
 import sys
 import time
-from contextlib import ExitStack
 from subprocess import PIPE
+from typing import Any
 
 import numpy as np
 
@@ -50,16 +50,16 @@ def kinds():
 def rates():
     """Yield what is tossed, how many in a second by the system's functions and by musl's, and the ratio."""
     own = {name: value for name, value in os.environ.items() if name != "COINTOSS_LIBM"}
+    pipes: Any = {"stdin": PIPE, "stdout": PIPE, "text": True}
     command = [sys.executable, "-m", "tests.benchmarks.libms", ANSWERS]
-    with ExitStack() as stack:
-        started = []
-        for libm in ({}, {"COINTOSS_LIBM": "musl"}):
-            process = subprocess.Popen(command, env=own | libm, stdin=PIPE, stdout=PIPE, text=True)
-            started.append(stack.enter_context(process))
+    with (
+        subprocess.Popen(command, env=own, **pipes) as system,
+        subprocess.Popen(command, env={**own, "COINTOSS_LIBM": "musl"}, **pipes) as musl,
+    ):
         for name, (_, releases) in kinds().items():
-            times = np.array([[_asked(process, name) for process in started] for _ in range(REPEATS + 1)])[1:]
+            times = np.array([[_asked(system, name), _asked(musl, name)] for _ in range(REPEATS + 1)])[1:]
             yield name, *(len(releases) / np.min(times, axis=0)), np.median(times[:, 0] / times[:, 1])
-        for process in started:
+        for process in (system, musl):
             process.communicate()
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from cointoss import analytic
 from cointoss.compare.reproduction.setups.general_coins import CLASSES
 from cointoss.models.laws import ContactLaw
+from cointoss.models.reading import scenario_of
 from tests.helpers.draws import AIR, IMPERFECT, LONG_TRANSIENT, THIN, ZLOTY, draw_release, scenario
 
 FEW, MANY = 3, 60
@@ -50,6 +51,7 @@ def cases():
         floor={"contact": "coulomb", "friction": 0.3, "restitution": 0.5, "restitution_kind": "energetic"},
         release=draw_release(rng),
     )
+    found["by angles"] = scenario_of("fig24a")
     found["long contact"] = scenario(**LONG_TRANSIENT, ending={"max_time": 2.0})
     return found
 
