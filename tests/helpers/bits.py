@@ -8,6 +8,7 @@ import os
 import subprocess
 import sys
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -62,9 +63,9 @@ def numbers_of(case):
     The state at the end is there as it is followed, too: a sampled one has a quaternion of norm 1.
     """
     toss = analytic.toss(case)
-    path = toss.path.sample(np.linspace(0, toss.end_time, 11))
-    impacts = toss.impacts
-    rows = np.hstack([path.position, path.velocity, path.quaternion, path.angular_velocity])
+    path: Any = toss.path
+    states, impacts = path.sample(np.linspace(0, toss.end_time, 11)), toss.impacts
+    rows = np.hstack([states.position, states.velocity, states.quaternion, states.angular_velocity])
     return {
         "ending": str(toss.ending),
         "outcome": str(toss.outcome),
@@ -73,7 +74,7 @@ def numbers_of(case):
         "time": toss.end_time,
         "impacts": np.column_stack([impacts.time, impacts.energy, impacts.impulse]).tolist(),
         "states": rows.ravel().tolist(),
-        "end": toss.path.start_states[-1].tolist(),
+        "end": path.start_states[-1].tolist(),
     }
 
 
