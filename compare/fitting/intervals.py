@@ -75,7 +75,14 @@ def region_of(descent: Descent, rows: NDArray[np.intp], points: Array, *, sd: Ar
         between = near + np.clip((ends() - near) / (beyond - near), 0.1, 0.9) * (beyond - near)
         target = np.where(np.isnan(beyond), outwards, between)[left]
         moved = np.where(held[left], target[:, None], at[left])
-        moved, square = descent.descended(moved, rows, held[left])
+        along = np.clip(
+            _along(descent.information(at[left], rows), moved - at[left], held[left]) + at[left], 0, 1
+        )
+        both, squared = descent.descended(
+            np.vstack([moved, along]), rows, np.vstack([held[left], held[left]])
+        )
+        best_of = np.argmin(squared.reshape(2, -1), axis=0), np.arange(len(left))
+        moved, square = both.reshape(2, len(left), -1)[best_of], squared.reshape(2, -1)[best_of]
         if square.min() < found[1]:
             found = moved[np.argmin(square)], float(square.min())
         is_inside = square <= least + above
@@ -84,3 +91,20 @@ def region_of(descent: Descent, rows: NDArray[np.intp], points: Array, *, sd: Ar
         beyond[outer], root_beyond[outer] = target[~is_inside], root_of(square[~is_inside])
         steps[inner] *= GROWTH
     return Region(np.sort(ends().reshape(-1, 2), axis=1), *found)
+
+
+def _along(information: Array, moved: Array, held: NDArray[np.bool_]) -> Array:
+    """Return changes with those of the held coordinates, and others that let the misfit grow least, (p, k).
+
+    Args:
+        information: at each point, (p, k, k).
+        moved: changes of the held coordinates, 0 for others, (p, k).
+        held: which they are, one for each point, (p, k).
+    """
+    pulled = np.einsum("pij,pj->pi", information, moved)
+    ridge = 1e-9 * np.einsum("pii->p", information) + np.finfo(float).tiny
+    free = ~held
+    kept = information * (free[:, :, None] & free[:, None, :])
+    kept += (held + ridge[:, None])[:, :, None] * np.eye(held.shape[1])
+    others = np.linalg.solve(kept, -np.where(free, pulled, 0.0)[:, :, None])[:, :, 0]
+    return np.where(held, moved, others)
