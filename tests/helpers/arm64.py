@@ -49,8 +49,7 @@ int main(void)
 
 
 def program(folder, wide):
-    """Compile the engine and the program for arm64, in this process, which can compile nothing else then."""
-    os.environ.update(NUMBA_CACHE_DIR=str(folder), COINTOSS_LIBM="musl")
+    """Compile the engine and the program for arm64, in this process, which can compile nothing else."""
     from numba import types
 
     from cointoss.compare.web.wasm import interface
@@ -63,7 +62,6 @@ def program(folder, wide):
     rooms = (f"-DWIDE={wide}", f"-DIMPACTS={IMPACTS}", f"-DPIECES={PIECES}")
     command = [sys.executable, "-m", "ziglang", "cc", "-target", "aarch64-linux-musl", "-static", *rooms]
     subprocess.run([*command, "main.c", "engine.o", "-lm", "-o", "program"], cwd=folder, check=True)
-    return folder / "program"
 
 
 def read(answers):
@@ -91,7 +89,10 @@ def main():
     rows = np.array([row_of(case) for case in drawn.values()])
     of_libm = {"musl": tossed(COINTOSS_LIBM="musl")["one"], "the system": tossed()["one"]}
     with tempfile.TemporaryDirectory() as folder:
-        command = [EMULATOR, str(program(Path(folder), rows.shape[1]))]
+        own = {**os.environ, "NUMBA_CACHE_DIR": folder, "COINTOSS_LIBM": "musl"}
+        compiling = [sys.executable, "-m", "tests.helpers.arm64", folder, str(rows.shape[1])]
+        subprocess.run(compiling, env=own, check=True)
+        command = [EMULATOR, str(Path(folder, "program"))]
         done = subprocess.run(command, input=rows.tobytes(), capture_output=True, check=True)
     found = dict(zip(drawn, read(np.frombuffer(done.stdout)), strict=True))
     for libm, there in of_libm.items():
@@ -105,4 +106,6 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    if len(sys.argv) == 1:
+        sys.exit(main())
+    program(Path(sys.argv[1]), int(sys.argv[2]))
