@@ -23,6 +23,7 @@ from cointoss.models.records import Array, Impacts, UnsupportedError
 from cointoss.models.scenario import Scenario, euler_parameters
 
 FORM = "a function (K, v_A, tau, chi, mu) -> (S_x, S_y, S_z) of plain arithmetic"
+_DECORATE = " (decorate that function with @numba.njit)"
 AGREES = 1e-9
 """To this part of |S| the compiled law gives what the function gives as it is written."""
 _ACCEPTED = {
@@ -78,8 +79,9 @@ class OwnLaw:
     def __post_init__(self) -> None:
         """Compile the function and try it."""
         plain = getattr(self.function, "py_func", self.function)
-        if not isinstance(plain, FunctionType):
-            raise TypeError(f"law: of type {type(plain).__name__}, accepted: {FORM}")
+        require_type("law", plain, FunctionType, FORM)
+        for name in ("may_add_energy", "may_pull"):
+            require_type(name, getattr(self, name), bool, "True or False")
         if not _takes_five(plain):
             raise TypeError(f"law {self.name}: takes {signature(plain)}, accepted: {FORM}")
         object.__setattr__(self, "function", plain)
@@ -87,8 +89,9 @@ class OwnLaw:
         try:
             address = place(plain)
         except NotCompiledError as error:
-            raise ValueError(f"law {self.name}: {error}; accepted: {FORM}") from None
-        object.__setattr__(self, "code", OwnCode(address, bool(self.may_add_energy), bool(self.may_pull)))
+            more = _DECORATE if "<class 'function'>" in str(error) else ""
+            raise ValueError(f"law {self.name}: {error}{more}; accepted: {FORM}") from None
+        object.__setattr__(self, "code", OwnCode(address, self.may_add_energy, self.may_pull))
         for contact in _contacts():
             S = _require_vector(self, contact)
             if told := self.breach(contact) or _difference(S, call_at(address, *contact)):
@@ -229,11 +232,15 @@ def _require_vector(law: OwnLaw, contact: Contact) -> Array:
     try:
         S = law.function(*contact)
     except Exception as error:
-        why = f"raises {type(error).__name__}: {' '.join(str(error).split())}"
+        why = ": ".join(filter(None, [f"raises {type(error).__name__}", " ".join(str(error).split())]))
         raise ValueError(f"law {law.name}: {why}{_at(contact)}; accepted: {FORM}") from None
-    if type(S) is not tuple or len(S) != 3 or not all(isinstance(one, int | float) for one in S):
+    if type(S) is not tuple or len(S) != 3 or not all(_is_number(one) for one in S):
         raise TypeError(f"law {law.name}: returns {S!r:.60}, accepted: {FORM}")
     return np.array(S, dtype=float)
+
+
+def _is_number(one: object) -> bool:
+    return isinstance(one, float) or (type(one) is int and abs(one) < 2**63)
 
 
 def _difference(S: Array, compiled: Vector) -> str:

@@ -9,6 +9,7 @@ import sys
 from dataclasses import fields
 from typing import Any
 
+import numba
 import numpy as np
 import pytest
 
@@ -272,6 +273,21 @@ def test_a_law_that_breaks_a_condition_is_refused_when_it_is_made(law, says):
         OwnLaw(law)
 
 
+@pytest.mark.parametrize("name", ["may_pull", "may_add_energy"])
+def test_what_a_law_may_do_is_true_or_false(name):
+    with pytest.raises(TypeError, match=f"^{name}: of type str, accepted: True or False$"):
+        OwnLaw(smooth, **{name: "no"})  # pyright: ignore[reportArgumentType]
+
+
+def test_a_law_may_call_other_functions_that_numba_compiles():
+    decorated = numba.njit(not_decorated)
+
+    def law(K, v_A, tau, chi, mu):
+        return 0.0, 0.0, -decorated(chi) * v_A[2] / K[2][2]
+
+    assert analytic.toss("fig24a", law=OwnLaw(law)).sequence == analytic.toss("fig24a").sequence
+
+
 def test_a_law_refused_for_its_energy_is_taken_where_that_is_asked_for():
     assert OwnLaw(adds, may_add_energy=True).may_add_energy
     with pytest.raises(ValueError, match=r"^law perfectly_rough: adds "):
@@ -317,6 +333,26 @@ def unknown(K, v_A, tau, chi, mu):
     return nothing(K)  # noqa: F821 # pyright: ignore[reportUndefinedVariable]
 
 
+def raises_silently(K, v_A, tau, chi, mu):
+    raise ValueError
+
+
+def too_large(K, v_A, tau, chi, mu):
+    return 0, 0, 10**400
+
+
+def is_true(K, v_A, tau, chi, mu):
+    return 0.0, 0.0, True
+
+
+def not_decorated(chi):
+    return 1 + chi
+
+
+def calls_not_decorated(K, v_A, tau, chi, mu):
+    return 0.0, 0.0, -not_decorated(chi) * v_A[2] / K[2][2]
+
+
 def counts(K, v_A, tau, chi, mu):
     calls.append(0.0)
     return 0.0, 0.0, -(1 + chi + 0.0 * len(calls)) * v_A[2] / K[2][2]
@@ -342,6 +378,14 @@ calls: list[float] = []
         ),
         (raises_lines, ValueError, r"^law raises_lines: raises ValueError: not here at K = .*; accepted: "),
         (unknown, ValueError, r"^law unknown: raises NameError: name 'nothing' is not defined at K = "),
+        (raises_silently, ValueError, r"^law raises_silently: raises ValueError at K = .*; accepted: "),
+        (too_large, TypeError, r"^law too_large: returns \(0, 0, 10+, accepted: "),
+        (is_true, TypeError, r"^law is_true: returns \(0.0, 0.0, True\), accepted: "),
+        (
+            calls_not_decorated,
+            ValueError,
+            r"numba cannot compile it: .*'not_decorated'.* \(decorate that function with @numba.njit\); acc",
+        ),
         (opens, ValueError, r"^law opens: numba cannot compile it: .*; accepted: "),
         (counts, ValueError, r"^law counts: numba cannot compile it: .*; accepted: "),
     ],
