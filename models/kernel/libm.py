@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 
 FILE = Path(__file__).with_name("musl.bc")
-"""musl's functions as LLVM's code: `libm_build` makes it."""
+"""musl's functions as LLVM's code, after the hash of that code: `libm_build` makes it."""
 PREFIX = "musl."
 """How their names begin there."""
 FUNCTIONS = (
@@ -25,14 +25,16 @@ def check_libm() -> None:
     asked = os.environ.get("COINTOSS_LIBM", "")
     if asked not in ("", "musl"):
         raise ImportError(f"COINTOSS_LIBM = {asked!r}: accepted: musl, or unset")
-    if asked and not FILE.is_file():
-        raise ImportError(f"COINTOSS_LIBM = 'musl': {FILE} is missing; make libm builds it")
+    if asked and read_code() is None:
+        problem = "is damaged; remove it, and" if FILE.exists() else "is missing;"
+        raise ImportError(f"COINTOSS_LIBM = 'musl': {FILE} {problem} make libm builds it")
 
 
 @cache
 def musl() -> bytes | None:
     """Return musl's functions, or None where those of the system are called."""
-    return FILE.read_bytes() if os.environ.get("COINTOSS_LIBM") else None
+    check_libm()
+    return read_code() if os.environ.get("COINTOSS_LIBM") else None
 
 
 @cache
@@ -40,3 +42,18 @@ def libm_digest() -> str:
     """Return the hash of musl's functions, empty where those of the system are called."""
     code = musl()
     return "" if code is None else hashlib.sha256(code).hexdigest()[:16]
+
+
+def with_digest(code: bytes) -> bytes:
+    """Return what the file holds: the hash of the code, then the code."""
+    return hashlib.sha256(code).digest() + code
+
+
+def read_code() -> bytes | None:
+    """Return the code in the file, or None where there is none or its hash is another."""
+    try:
+        content = FILE.read_bytes()
+    except OSError:
+        return None
+    code = content[hashlib.sha256().digest_size :]
+    return code if content == with_digest(code) else None

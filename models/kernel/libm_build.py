@@ -11,7 +11,7 @@ import tempfile
 from importlib.util import find_spec
 from pathlib import Path
 
-from cointoss.models.kernel.libm import FILE, FUNCTIONS, PREFIX
+from cointoss.models.kernel.libm import FILE, FUNCTIONS, PREFIX, with_digest
 
 _SOURCES = (
     *("__cos", "__sin", "__rem_pio2", "__rem_pio2_large", "scalbn"),
@@ -115,7 +115,7 @@ def build(out: Path = FILE) -> None:
     if missing := [name for name in FUNCTIONS if f"{PREFIX}{name}" not in defined]:
         raise RuntimeError(f"ziglang's musl has no {', '.join(missing)}")
     aside = out.with_name(f"{out.name}.{os.getpid()}")
-    aside.write_bytes(whole.as_bitcode())
+    aside.write_bytes(with_digest(whole.as_bitcode()))
     aside.replace(out)
 
 

@@ -13,7 +13,7 @@ from cointoss.compare.output.files import written_whole
 from cointoss.compare.web.wasm.carried import SECTION, sources
 from cointoss.models.kernel import libm_build
 from cointoss.models.kernel.fork import TESTED, numba_version
-from cointoss.models.kernel.libm import FILE
+from cointoss.models.kernel.libm import read_code
 from cointoss.models.kernel.sources import is_as_imported
 
 ENTRIES = {
@@ -37,7 +37,7 @@ def build(out: Path) -> None:
         raise RuntimeError(f"numba {numba_version()}: accepted for WebAssembly: {', '.join(TESTED)}")
     if find_spec("ziglang") is None:
         raise RuntimeError("ziglang is missing, which links WebAssembly: pip install --group docs")
-    if not FILE.is_file():
+    if read_code() is None:
         libm_build.build()
     with tempfile.TemporaryDirectory() as folder:
         # Code for a page is never mixed with that for this machine.

@@ -19,6 +19,7 @@ import cointoss.models.kernel.code_cache as code_cache
 from cointoss.models.kernel.base_folder import base_folder
 from cointoss.models.kernel.code_cache import UNUSED, cache_folder, remove_unused
 from cointoss.models.kernel.fork.code_files import CodeFiles
+from cointoss.models.kernel.libm import with_digest
 from tests.helpers.modules import write
 
 TOP = Path(code_cache.__file__).parents[2]
@@ -139,7 +140,7 @@ def write_libm(folder, factor):
     """Write a file of musl's functions whose sine multiplies."""
     sine = f"define double @musl.sin(double %x) {{ %y = fmul double %x, {factor} ret double %y }}"
     code = binding.parse_assembly(sine).as_bitcode()
-    (folder / "cointoss" / "models" / "kernel" / "musl.bc").write_bytes(code)
+    (folder / "cointoss" / "models" / "kernel" / "musl.bc").write_bytes(with_digest(code))
 
 
 def test_code_that_calls_musl_is_kept_apart_and_computes_nothing_by_the_system(folder, run):
@@ -154,6 +155,20 @@ def test_code_that_calls_musl_is_kept_apart_and_computes_nothing_by_the_system(f
     assert run(folder, calling) == [10 * math.sin(3.0) + 1, 1]
     write_libm(folder, "3.0")
     assert run(folder, musl) == [91, 0]
+
+
+@pytest.mark.parametrize("kept", [slice(0), slice(-1), slice(None, None, -1)])
+def test_a_damaged_file_of_musls_functions_is_refused_in_one_line(folder, run, kept):
+    write_libm(folder, "2.0")
+    file = folder / "cointoss" / "models" / "kernel" / "musl.bc"
+    file.write_bytes(file.read_bytes()[kept])
+    refusal = f"COINTOSS_LIBM = 'musl': {file} is damaged; remove it, and make libm builds it"
+    script = (
+        "import os\nos.environ['COINTOSS_LIBM'] = 'musl'\n"
+        "try:\n    import cointoss.analytic.caller\n"
+        f"except ImportError as error:\n    print(int(str(error) == {refusal!r}))"
+    )
+    assert run(folder, script) == [1]
 
 
 @pytest.mark.parametrize(
