@@ -97,6 +97,33 @@ def test_a_claim_that_would_change_and_a_number_that_is_off_are_named(fake):
     assert any(line.startswith("  off: numbers.json length: 0.123456 there, 1.5 here") for line in lines)
 
 
+def test_claims_and_criteria_that_one_run_alone_has_are_off(fake):
+    kept, write = fake
+    claim = 'Claim(claim="it is short", criteria=criteria)'
+    write(claim, f"{claim}, {claim}, {claim.replace('short', 'new')}")
+    status, lines = check(kept)
+    assert status == 1
+    assert lines[0].startswith("fake: 2 of 3 verdicts change, ")
+    for name in ("it is short (2)", "it is new"):
+        assert f"  changes: {name}: no such claim there, holds here" in lines
+    write(', Criterion("share", share, "<", 0.6, "so")', "")
+    status, lines = check(kept)
+    assert status == 1
+    assert any(line.startswith("  off: it is short: 2 criteria there, 1 criteria here") for line in lines)
+
+
+def test_a_hundredth_of_its_threshold_is_rounding_of_what_a_claim_measures(fake):
+    kept, write = fake
+    (kept / "reproduction" / "fake" / "provenance.json").unlink()
+    for length, off in (
+        ("0.133", ["numbers.json length"]),
+        ("0.134", ["it is short: length", "numbers.json length"]),
+    ):
+        write("LENGTH = 0.123456", f"LENGTH = {length}")
+        found = [line.removeprefix("  off: ") for line in check(kept)[1] if line.startswith("  off: ")]
+        assert [place.partition(": 0.1")[0] for place in found] == off
+
+
 def test_of_times_the_verdicts_alone_are_compared(fake):
     kept, write = fake
     write("LENGTH = 0.123456", "LENGTH = 0.9", timed="True")
@@ -185,11 +212,13 @@ def test_each_kind_of_number_has_its_own_tolerance():
     estimate = {"value": 0.5, "low": 0.4, "high": 0.6, "count": 100}
     assert alike(estimate, {**estimate, "value": 0.59}) == (True, ESTIMATE)
     assert alike(estimate, {**estimate, "value": 0.61, "high": 0.7}) == (False, ESTIMATE)
+    assert alike(estimate, {"value": 0.55, "low": 0.54, "high": 0.56}) == (False, ESTIMATE)
     assert alike(100, 125) == (True, COUNT)
     assert alike(100, 126) == (False, COUNT)
     assert alike(0, 1) == (False, COUNT)
     assert alike(1.23, 1.2399) == (True, PRINTED)
     assert alike(1.23, 1.2401) == (False, PRINTED)
+    assert alike(0.999, 1.0005) == alike(1.0005, 0.999) == (True, PRINTED)
     assert alike(1e-15, 4e-15, small=1e-10) == (True, SMALL)
     assert alike(1e-15, 2e-10, small=1e-10) == (False, SMALL)
     assert [one.agrees for one in compared("", [100.0, 1e-9], [100.0, 0.09], exact=False)] == [True, True]
