@@ -47,8 +47,15 @@ def test_another_numba_or_compiler_is_refused(monkeypatch, capsys, tmp_path):
     monkeypatch.setattr(building, "numba_version", lambda: "0.64.0")
     assert main([str(tmp_path / "engine.wasm")]) == 2
     assert capsys.readouterr().err.startswith("engine.wasm: numba 0.64.0: accepted for WebAssembly: ")
-    script = "import sys; from cointoss.compare.web.wasm import build; build.find_spec = lambda _: True; "
-    asked = [sys.executable, "-c", f"{script}sys.exit(build.main([{str(tmp_path / 'engine.wasm')!r}]))"]
+    script = f"""
+import sys
+from cointoss.models.kernel import libm
+libm.read_code = lambda: b"built"
+from cointoss.compare.web.wasm import build
+build.find_spec = lambda _: True
+sys.exit(build.main([{str(tmp_path / "engine.wasm")!r}]))
+"""
+    asked = [sys.executable, "-c", script]
     plain = {**os.environ, "COINTOSS_COMPILER": "plain"}
     done = subprocess.run(asked, env=plain, capture_output=True, text=True, check=False)
     assert done.returncode == 2
