@@ -79,7 +79,8 @@ class Fit:
     chi_square: float
     """Sum of the squares of the tested residuals."""
     degrees: int
-    """Tested numbers less fitted ones; no more than 0 where nothing is left to test the model."""
+    """Tested numbers less the values that they determine; no more than 0 where nothing is left to test the
+    model."""
     clock: float
     """Of the observer, at the release [s]."""
     others: "tuple[Fit, ...]"
@@ -102,12 +103,12 @@ class Fit:
             return "nothing is left to test the model: as many numbers are fitted as were seen"
         found = (
             f"chi-square {self.chi_square:.4g} for {self.degrees} "
-            f"{'degree' if self.degrees == 1 else 'degrees'} of freedom, p = {self.p_value:.2g}"
+            f"{'degree' if self.degrees == 1 else 'degrees'} of freedom, "
+            f"{'p < 1e-300' if self.p_value < 1e-300 else f'p = {self.p_value:.2g}'}"
         )
-        can = (
-            "can do" if self.is_possible else "cannot do, with no values of its free fields that were found,"
-        )
-        return f"this model {can} what was seen: {found}"
+        can = "can" if self.is_possible else "cannot"
+        so = "" if self.is_possible else " with any values of its free fields that were found"
+        return f"this model {can} do what was seen{so}: {found}"
 
     @property
     def untested_touches(self) -> tuple[int, ...]:
@@ -308,7 +309,7 @@ def _fit_of(misfit: Misfit, minimum: Minimum, ends: Array) -> Fit:
         tested=shown.is_tested,
         touch_times=shown.touch_times,
         chi_square=minimum.chi_square,
-        degrees=int(np.sum(shown.is_tested & misfit.is_measured)) - len(values),
+        degrees=int(np.sum(shown.is_tested & misfit.is_measured)) - minimum.determined,
         clock=dict(zip((span.field for span in misfit.spans), minimum.values.tolist(), strict=True)).get(
             CLOCK, 0.0
         ),

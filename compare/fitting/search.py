@@ -62,6 +62,8 @@ class Minimum:
     predicted: Predicted
     covariance: Array
     """(k, k); infinite variances of what is not determined."""
+    determined: int
+    """How many combinations of the values what was seen determines: at most k."""
 
     @property
     def chi_square(self) -> float:
@@ -225,14 +227,21 @@ class Search:
             predicted = self._misfit.predicted(self._descent.values(point))
         except ScenarioError:
             return None
-        covariance = covariance_of(
+        covariance, determined = covariance_of(
             self._descent.slopes(point[None], np.flatnonzero(predicted.is_tested))[0], self._descent.width
         )
-        return Minimum(values=self._descent.values(point), predicted=predicted, covariance=covariance)
+        return Minimum(
+            values=self._descent.values(point),
+            predicted=predicted,
+            covariance=covariance,
+            determined=determined,
+        )
 
 
-def covariance_of(slopes: Array, scales: Array) -> Array:
-    """Return the covariance of fitted values, (k, k); infinite variances of what is not determined.
+def covariance_of(slopes: Array, scales: Array) -> tuple[Array, int]:
+    """Return the covariance of fitted values, (k, k), and how many combinations of them are determined.
+
+    Variances of what is not determined are infinite.
 
     Args:
         slopes: of the residuals, in standard deviations, by the values over their scales, (n, k).
@@ -245,4 +254,4 @@ def covariance_of(slopes: Array, scales: Array) -> Array:
     covariance = np.outer(scales, scales) * (known.T @ known)
     lost = np.any(np.abs(axes[open_]) > UNDETERMINED**0.5, axis=0)
     covariance[lost, lost] = np.inf
-    return covariance
+    return covariance, len(known)
