@@ -4,10 +4,12 @@ import csv
 import io
 import json
 import signal
+from contextlib import contextmanager
 
 import pytest
 
 from cointoss.compare.commands import hands
+from cointoss.compare.output import interruption
 from cointoss.models.hand import Hand
 from tests.helpers.command_line import cointoss, refused
 from tests.helpers.processes import started, wait_until
@@ -72,6 +74,8 @@ def test_coins_that_are_not_caught_are_left_out_and_counted_apart(coin):
     none = cointoss("shares", coin, "--height", "30 cm", "--caught", "2 m", "--to", "1 %", "--tosses", 500)
     assert none.exit_code == 0
     assert "left out   500 coins" in none.stdout
+    none = cointoss("hands", coin, "--height", "30 cm", "--caught", "2 m", "--tosses", 50)
+    assert (none.exit_code, none.stdout) == (0, "left out  50 coins that never came down to the hand\n")
 
 
 def test_the_side_that_was_up_is_counted_whichever_it_was(coin):
@@ -151,3 +155,19 @@ def test_blocks_count_what_all_tosses_at_once_do(coin, monkeypatch):
     whole = cointoss("hands", coin, "--tosses", 130, "--json").stdout
     monkeypatch.setitem(hands.BLOCK, "analytic", 37)
     assert cointoss("hands", coin, "--tosses", 130, "--json").stdout == whole
+
+
+def test_an_answer_is_printed_once_and_not_before_any_toss(coin, monkeypatch):
+    """What is to be undone may be called twice, and before the first block is counted."""
+    words = ("hands", coin, "--tosses", 5, "--json")
+    whole = cointoss(*words).stdout
+
+    @contextmanager
+    def undoing(undo):
+        undo()
+        yield
+        undo()
+        undo()
+
+    monkeypatch.setattr(interruption, "undoing", undoing)
+    assert cointoss(*words).stdout == whole

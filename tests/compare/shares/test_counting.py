@@ -148,6 +148,28 @@ def test_blocks_beyond_what_is_needed_are_left_out():
     assert one.counts.tolist() == [0, 200, 300, 0, 0, 0]
 
 
+def test_an_interval_has_the_width_asked_for_after_the_tosses_that_are_needed():
+    one = counting.Count(plan(to=0.02, tosses=100_000), Engine.ANALYTIC)
+    one.counts[[Outcome.HEADS, Outcome.TAILS]] = 125
+    one.counts[[Outcome.HEADS, Outcome.TAILS]] = one.needed // 2
+    assert one.width == pytest.approx(0.02, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("coin", "axes", "hand", "is_left_out"),
+    [
+        (DISC, (), Hand(), False),
+        (DISC, (), Hand(caught=1.0), True),
+        (DISC, ("ending.caught=0.5:1:2",), Hand(), True),
+        (DISC.replace("ending.caught", 0.5), (), Hand(), True),
+    ],
+)
+def test_what_is_undecided_is_left_out_where_any_hand_catches(coin, axes, hand, is_left_out):
+    counts = np.array([3, 4, 5, 0, 0, 0])
+    left = plan_of(axes, coin, name="", hand=hand).counted(counts)
+    assert left.tolist() == [0 if is_left_out else 3, 4, 5, 0, 0, 0]
+
+
 @pytest.mark.parametrize(
     ("given", "told"),
     [

@@ -69,6 +69,16 @@ def test_the_dataset_the_csv_and_the_json_say_the_same():
     )
 
 
+def test_no_share_of_the_dataset_is_of_coins_that_are_not_caught():
+    plan = plan_of((), load("zloty"), name="zloty", hand=Hand(caught=1.0))
+    found = Shares(plan=plan, counts=np.array([[60, 30, 10, 0, 0, 0]]))
+    (row,) = found.rows
+    share = found.to_xarray().share.sel(engine="analytic")
+    assert share.sel(outcome="heads") == row.shares[Outcome.HEADS].value == 0.75
+    assert share.sel(outcome="undecided") == 0
+    assert found.not_caught == 60
+
+
 def test_a_picture_has_a_panel_for_each_value_of_the_second_field():
     axes = Figure().subplots()
     assert made(AXES[0]).plot(axes) is axes
