@@ -1,11 +1,16 @@
 """Outcomes in a Zarr store are those of `toss_many`, and what was finished is kept."""
 
+from contextlib import nullcontext
+from importlib.metadata import version
+
 import numpy as np
 import pytest
 import xarray
 
-from cointoss import Hand, analytic, load, toss_to_zarr
+from cointoss import Hand, analytic, coin_mj, load, toss_to_zarr
+from cointoss.compare.engines import Engine
 from cointoss.compare.output.files import UnwritableError
+from cointoss.compare.sweep import many_outcomes
 from cointoss.compare.sweep.many_outcomes import FORMAT
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.reading import parse
@@ -29,6 +34,32 @@ def test_the_store_has_what_toss_many_returns(tmp_path):
         assert found.outcome.attrs["flag_meanings"].split()[:3] == ["undecided", "heads", "tails"]
         assert parse(found.attrs["scenario"], "store") == COIN
         assert found.attrs["cointoss_tosses"] == FORMAT
+
+
+def test_the_store_says_by_what_it_was_made(tmp_path):
+    asked = coin_mj.MANY.softened(2.0)
+    toss_to_zarr(tmp_path / "a.zarr", COIN, chunks(1, 2), engine="mujoco", settings=asked)
+    with xarray.open_zarr(tmp_path / "a.zarr") as found:
+        assert found.attrs["engine"] == "mujoco"
+        assert found.attrs["engine_settings"] == asked.as_dict() != coin_mj.MANY.as_dict()
+        assert found.attrs["versions"] == {**Engine.MUJOCO.versions, "zarr": version("zarr")}
+
+
+def test_each_chunk_is_told(tmp_path, monkeypatch):
+    told = []
+    monkeypatch.setattr(many_outcomes, "stage", lambda *_, **__: nullcontext(lambda *made: told.append(made)))
+    toss_to_zarr(tmp_path / "a.zarr", COIN, chunks(3))
+    assert told == [(50, 50), (100, 100), (150, 150)]
+
+
+def test_a_damaged_file_of_the_store_is_found_out(tmp_path):
+    toss_to_zarr(tmp_path / "a.zarr", COIN, chunks(1))
+    file = tmp_path / "a.zarr" / "end_time" / "c" / "0"
+    content = bytearray(file.read_bytes())
+    content[len(content) // 2] ^= 1
+    file.write_bytes(content)
+    with xarray.open_zarr(tmp_path / "a.zarr") as found, pytest.raises(RuntimeError, match="checksum"):
+        found.end_time.load()
 
 
 def test_what_was_finished_is_kept_where_it_is_interrupted(tmp_path):
@@ -113,8 +144,6 @@ def test_an_interrupt_returns_the_tosses_that_were_made(monkeypatch):
 
 
 def test_progress_is_shown_where_it_is_asked_for(monkeypatch):
-    from contextlib import nullcontext
-
     from cointoss.models.stages import stages
 
     asked = []
