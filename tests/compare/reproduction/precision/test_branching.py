@@ -89,17 +89,63 @@ def test_a_map_whose_share_is_known(monkeypatch):
         starts[:, HEIGHT, 0] = rng.uniform(0.1, 0.9, 120)
         starts[:, HEIGHT, 0] -= np.round(starts[:, HEIGHT, 0], 1) - rng.integers(0, 10, 120) / 10
         starts[:, HEIGHT, 0] %= 1
-        found.append(
-            branch(
-                NO_COIN, starts, row=HEIGHT, largest=Fraction(1, 100), levels=16, population=40, rng=rng
-            ).shares.mean(axis=0)
+        made = branch(
+            NO_COIN, starts, row=HEIGHT, largest=Fraction(1, 100), levels=16, population=40, rng=rng
         )
+        assert np.all((made.parted <= made.energy) & (made.energy <= (LAST + 1) * made.parted))
+        found.append(made.shares.mean(axis=0))
     shares, errors = np.mean(found, axis=0), np.std(found, axis=0, ddof=1) / len(found) ** 0.5
     known = [share_by_digits(k) for k in (2, 3, 4)]
     assert shares[:3] == pytest.approx(known, abs=4 * errors[:3].max())
     expected = known[2] / 2.0 ** np.arange(14)
     assert (np.abs(shares[2:] - expected) < 4 * errors[2:] + 0.02 * expected).all()
     assert (errors < 0.25 * shares).all()
+
+
+def test_where_no_toss_parts_all_weight_is_in_dead_parts(monkeypatch):
+    def toss_alike(coin, states):
+        made = toss_by_digits(coin, states)
+        return made._replace(
+            outcome=np.ones_like(made.outcome),
+            itinerary=np.zeros_like(made.itinerary),
+            left=np.zeros_like(made.left),
+        )
+
+    monkeypatch.setattr(branching, "toss_many", toss_alike)
+    made = branch(
+        NO_COIN, np.zeros((20, 5, 2)), row=HEIGHT, largest=Fraction(1, 100), levels=4, population=5,
+        rng=np.random.default_rng(0),
+    )  # fmt: skip
+    assert made.whole == pytest.approx(1)
+    assert not made.shares.any()
+
+
+class Told(np.random.Generator):
+    """Keeps the chances of what is drawn."""
+
+    chances: list[np.ndarray]
+
+    def choice(self, *given, p):
+        self.chances.append(p)
+        return super().choice(*given, p=p)
+
+
+def test_boundaries_are_drawn_by_weight(monkeypatch):
+    """A part has the weight of one over the chances by which it came so far, and no two have the same."""
+    monkeypatch.setattr(branching, "toss_many", toss_by_digits)
+    nothing = np.zeros(7, dtype=bool)
+    monkeypatch.setattr(branching, "what_lies_there", lambda *_: (nothing, nothing))
+    rng = Told(np.random.PCG64(1))
+    rng.chances = []
+    starts = np.zeros((120, 5, 2))
+    starts[:, HEIGHT, 0] = rng.uniform(0.1, 0.9, 120)
+    branch(
+        NO_COIN, starts, row=HEIGHT, largest=Fraction(1, 100), levels=8, population=20, rng=rng, followed=7
+    )
+    first, *_, last = (np.unique(p[p > 0]) for p in rng.chances)
+    assert len(rng.chances) == 8
+    assert np.ptp(first) == pytest.approx(0)
+    assert last[-1] > 1.5 * last[0]
 
 
 @pytest.mark.parametrize(

@@ -35,6 +35,10 @@ def test_spins_are_counted_as_shares_are():
     assert tosses(found) == 30
 
 
+def test_each_offset_has_draws_of_its_own():
+    assert len({plan_of(THIN, "± 1°", offset, 1).seed for offset in OFFSETS}) == len(OFFSETS)
+
+
 def test_a_coin_turned_over_with_its_mass_centre_shows_the_other_side():
     """A half turn about a diameter swaps the sides; ζ of C changes its sign, and so does the vertical's."""
     setting = plan_of(THIN, "± 10°", OFFSETS[-1], 40).setting(0)
