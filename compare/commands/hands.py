@@ -56,7 +56,7 @@ def hands(scenario: str, tosses: int, seed: int, engine: str, as_json: bool, **g
         from cointoss.compare.film.back_end import require_mujoco
         from cointoss.compare.metrics.estimates import share_of  # where Ctrl-C comes there is no time for it
         from cointoss.compare.output.interruption import Interruption, undoing
-        from cointoss.compare.shares.plan import Plan, check
+        from cointoss.compare.shares.plan import Plan
         from cointoss.models.reading import load
         from cointoss.models.releases import check_releases
 
@@ -67,7 +67,6 @@ def hands(scenario: str, tosses: int, seed: int, engine: str, as_json: bool, **g
             plan = Plan(
                 scenario=described, name="", hand=hand, engines=(Engine(engine),), seed=seed, tosses=tosses
             )
-            check(plan)
             several = spins(plan)
         else:
             try:
