@@ -19,7 +19,7 @@ def test_both_engines_have_the_same_verbs_with_the_same_arguments(verb):
         [(name, of.kind) for name, of in signature(getattr(engine.package, verb)).parameters.items()]
         for engine in Engine
     )
-    assert [each for each in ours if each[0] != "law"] == theirs, "a law of one's own is for the analytic engine"
+    assert [each for each in ours if each[0] != "law"] == theirs, "laws of one's own are for one engine"
     assert theirs[-1][0] == ("progress" if verb == "toss_many" else "settings")
 
 
