@@ -5,6 +5,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from cointoss.models.distribution import versions_of
+from cointoss.models.kernel.libm import libm_digest
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.reading import ScenarioSource
 from cointoss.models.records import Toss, UnsupportedError
@@ -61,8 +62,8 @@ class Engine(StrEnum):
 
     @property
     def versions(self) -> dict[str, str]:
-        """The versions of what makes its tosses."""
-        return versions_of(_MADE_OF[self])
+        """The versions of what makes its tosses; musl is named by its hash where its functions are called."""
+        return {**versions_of(_MADE_OF[self]), **({"musl": libm_digest()} if libm_digest() else {})}
 
 
 _PACKAGES = {Engine.ANALYTIC: "cointoss.analytic", Engine.MUJOCO: "cointoss.coin_mj"}

@@ -271,7 +271,8 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], sweep: Sweep) -> M
         form, found = read_form(target), Map.at(target, mode)
         values = {name: found.whole(name) for name in (form.x, form.y)}
     attributes = form.attributes
-    made_by = {name: attributes["versions"].get(name) for name in sweep.engine.versions}
+    stored = attributes["versions"]
+    made_by = {name: stored.get(name) for name in {**sweep.engine.versions, **stored} if name != "zarr"}
     settings = attributes["engine_settings"]
     try:
         same_scenario = parse(attributes["scenario"], str(path)) == sweep.scenario
