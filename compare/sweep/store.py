@@ -291,7 +291,7 @@ def _same(path: Path, target: Path, mode: Literal["r", "r+"], sweep: Sweep) -> M
         ("set of arrays (--trust)", (TRUST in attributes) == sweep.trust),
         ("grid in x", is_axis(form.x, sweep.x)),
         ("grid in y", is_axis(form.y, sweep.y)),
-        (f"versions, {json.dumps(made_by)}", made_by == sweep.engine.versions),
+        (f"set of versions, {json.dumps(made_by)}", made_by == sweep.engine.versions),
         (f"size of its tiles, {form.tile}", form.tile == tile_shape(sweep)),
     ):
         if not same:

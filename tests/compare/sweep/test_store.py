@@ -290,7 +290,7 @@ def test_a_map_of_other_versions_or_that_lost_an_axis_is_not_gone_on_with(in_til
     described = json.loads((old / "zarr.json").read_text())
     described["attributes"]["versions"] = {"cointoss": "0.0.1"}
     (old / "zarr.json").write_text(json.dumps(described))
-    assert "is a map with another versions" in refused("basin", coin, *AXES, "--out", old, "--resume")
+    assert "is a map with another set of versions" in refused("basin", coin, *AXES, "--out", old, "--resume")
 
 
 def test_a_map_by_musls_functions_is_not_gone_on_with_by_those_of_the_system(
@@ -301,7 +301,7 @@ def test_a_map_by_musls_functions_is_not_gone_on_with_by_those_of_the_system(
     words = "basin", coin, *AXES, "--out", out, "--resume"
     with monkeypatch.context() as with_musl:
         with_musl.setattr(engines, "libm_digest", lambda: "0123456789abcdef")
-        assert "is a map with another versions" in refused(*words)
+        assert "is a map with another set of versions" in refused(*words)
         assert Engine.MUJOCO.versions["musl"] == "0123456789abcdef"
     described = json.loads((out / "zarr.json").read_text())
     described["attributes"]["versions"]["musl"] = "0123456789abcdef"
