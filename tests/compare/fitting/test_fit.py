@@ -43,6 +43,12 @@ def test_the_restitution_of_a_flat_coin_is_the_ratio_of_the_times_between_its_to
     chi, between = found["floor.restitution"], t[1] - t[0]
     assert chi.value == pytest.approx(0.72, abs=1e-7)
     assert chi.sd == pytest.approx(MS / between * np.sqrt(1 + 1.72**2 + 0.72**2), rel=1e-4)
+    # (t3 - t2 - χ (t2 - t1))² is 6.63 times its variance at the ends of the interval (Fieller).
+    above = 6.635 * MS**2
+    ends = np.roots(
+        [between**2 - 2 * above, -2 * between * (t[2] - t[1]) - 2 * above, (t[2] - t[1]) ** 2 - 2 * above]
+    )
+    assert chi.interval == pytest.approx(tuple(sorted(ends)), abs=chi.sd / 50)
     # The height is that from which the coin hits the floor at g (t2 - t1) / 2 χ.
     fall = between / (2 * 0.72)
     assert found["release.position.z"].value == pytest.approx(FLAT.coin.thickness / 2 + 9.81 * fall**2 / 2)

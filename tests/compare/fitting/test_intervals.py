@@ -1,0 +1,91 @@
+"""Regions of χ² in closed form: parabolas, bent valleys, deeper minima on the way, and edges of the spans."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from cointoss.compare.fitting.descent import Descent
+from cointoss.compare.fitting.intervals import region_of
+from cointoss.compare.fitting.misfit import Misfit
+from cointoss.compare.fitting.observed import Observed
+from cointoss.compare.sweep.axes import Span
+from cointoss.models.records import Array
+from tests.helpers.draws import scenario
+
+ABOVE = 6.63
+
+
+class Formula:
+    """A misfit whose residuals are a formula of points from 0 to 1."""
+
+    def __init__(self, formula: Callable[[Array], Array], size: int) -> None:
+        self.formula = formula
+        self.spans = [Span(field=str(i), start=0.0, stop=1.0, unit="") for i in range(size)]
+        self.times = np.zeros(len(formula(np.zeros((1, size)))[0]))
+
+    def residuals(self, values: Array, until: float) -> Array:
+        assert until == 0
+        return self.formula(values)
+
+
+def region(formula: Callable[[Array], Array], points: list[list[float]], sd: list[float]) -> Any:
+    misfit: Any = Formula(formula, len(sd))
+    return region_of(
+        Descent(misfit), np.arange(len(misfit.times)), np.array(points), sd=np.array(sd), above=ABOVE
+    )
+
+
+def test_the_region_of_a_parabola_has_the_ends_of_its_marginals():
+    """The sum of x and y is known to 1e-3, the difference to 0.1: each to half the root of their squares."""
+
+    def valley(p):
+        return np.column_stack([(p[:, 0] + p[:, 1] - 1) / 1e-3, (p[:, 0] - p[:, 1]) / 0.1])
+
+    sd = np.hypot(1e-3, 0.1) / 2
+    found = region(valley, [[0.5, 0.5]], [sd, sd])
+    far = ABOVE**0.5 * sd
+    assert found.ends == pytest.approx(np.array([[0.5 - far, 0.5 + far]] * 2), abs=0.01 * far)
+    assert found.best == pytest.approx([0.5, 0.5])
+    assert found.least == pytest.approx(0)
+
+
+def test_the_region_follows_a_valley_in_which_steps_of_least_squares_are_slow():
+    """y is x, seen by exp 60 y: Newton's steps from afar are of 1/60, those along the valley exact."""
+
+    def valley(p):
+        return np.column_stack([np.expm1(60 * (p[:, 1] - p[:, 0])) / 1e-3, (p[:, 0] - 0.5) / 0.1])
+
+    found = region(valley, [[0.5, 0.5]], [0.1, 0.1])
+    far = ABOVE**0.5 * 0.1
+    assert found.ends == pytest.approx(np.array([[0.5 - far, 0.5 + far]] * 2), abs=0.01 * far)
+
+
+def test_a_region_ends_with_its_span():
+    found = region(lambda p: (p - 0.1) / 0.1, [[0.1]], [0.1])
+    assert found.ends[0] == pytest.approx([0, 0.1 + ABOVE**0.5 * 0.1], abs=2e-3)
+
+
+def test_a_deeper_minimum_that_is_met_on_the_way_is_told():
+    def two(p):
+        near, deep = np.exp(-(((p - 0.3) / 0.1) ** 2)), np.exp(-(((p - 0.6) / 0.1) ** 2))
+        return 2 - near - 2 * deep
+
+    found = region(two, [[0.3]], [0.05])
+    assert found.least < 0.9
+    assert 0.5 < found.best[0] < 0.7
+    assert found.least == pytest.approx(two(found.best)[0] ** 2)
+
+
+def test_slopes_at_the_end_of_a_span_are_those_within_it():
+    """No coin is thinner than 0."""
+    seen = Observed(touch_times=[0.3, 0.7, 1.1], touch_sd=1e-3)
+    misfit = Misfit(
+        scenario=scenario(release={"position": [0, 0, 0.4]}),
+        spans=(Span(field="coin.thickness", start=2e-3, stop=0.0, unit="m"),),
+        observed=seen,
+    )
+    at_end, within = (Descent(misfit).slopes(np.array([[x]]), np.arange(3))[0] for x in (1.0, 1 - 1e-5))
+    assert at_end == pytest.approx(within, rel=1e-3)
+    assert np.abs(at_end).max() > 1
