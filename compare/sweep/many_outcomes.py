@@ -17,6 +17,7 @@ from cointoss.compare.sweep.store import consolidate
 from cointoss.models.errors import require_type
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.reading import ScenarioSource, scenario_of
+from cointoss.models.records import UnsupportedError
 from cointoss.models.releases import Releases, changed_releases
 from cointoss.models.stages import stage
 
@@ -58,10 +59,13 @@ def toss_to_zarr(
     Raises:
         OSError: for a path that can't be written or exists.
         TypeError: for what are no chunks, or one that is no `Releases`.
+        UnsupportedError: for a law of one's own.
     """
     place, described, tosses = Path(path), scenario_of(scenario), 0
     _require_new(place)
     require_type("chunks", chunks, Iterable, "Releases, one after the other, as in [releases]")
+    if asked.get("law") is not None:
+        raise UnsupportedError("law: given, accepted: none in a store, whose scenario would not name it")
     package: Any = Engine(engine).package
     about = {
         "cointoss_tosses": FORMAT,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import xarray
 
-from cointoss import Hand, analytic, coin_mj, load, toss_to_zarr
+from cointoss import Hand, OwnLaw, UnsupportedError, analytic, coin_mj, load, toss_to_zarr
 from cointoss.compare.engines import Engine
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.sweep import many_outcomes
@@ -112,6 +112,9 @@ def test_a_place_that_exists_and_what_is_no_release_are_refused(tmp_path):
         toss_to_zarr(tmp_path / "b.zarr", COIN, chunks(1), progress="yes")  # pyright: ignore[reportArgumentType]
     with pytest.raises(TypeError, match="chunks: of type int"):
         toss_to_zarr(tmp_path / "b.zarr", COIN, [1])  # pyright: ignore[reportArgumentType]
+    law = OwnLaw(lambda K, v_A, tau, chi, mu: (0.0, 0.0, -(1 + chi) * v_A[2] / K[2][2]))  # noqa: ARG005
+    with pytest.raises(UnsupportedError, match="law: given, accepted: none in a store"):
+        toss_to_zarr(tmp_path / "b.zarr", COIN, chunks(1), law=law)
     assert not (tmp_path / "b.zarr").exists()
 
 
