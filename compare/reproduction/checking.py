@@ -178,10 +178,10 @@ def check(there: Path, here: Path, *, timed: bool) -> Check:
     words: list[str] = []
     if not timed:
         words = [
-            f"{claim}: {claims[claim][who]} there, {found[claim][who]} here"
+            f"{claim}: {claims[claim].get(who, 'nothing')} there, {found[claim][who]} here"
             for claim in claims
             for who in _TOLD
-            if claim in found and claims[claim][who] != found[claim][who]
+            if claim in found and claims[claim].get(who) != found[claim][who]
         ]
         for claim in claims.keys() & found.keys():
             numbers += _criteria(claim, claims[claim]["criteria"], found[claim]["criteria"], exact=not other)

@@ -88,6 +88,17 @@ def test_words_that_a_claim_says_otherwise_are_shown_and_are_off_where_bits_are_
     assert lines[-1].startswith("  in other words: ")
 
 
+def test_words_that_a_run_does_not_have_are_other_words(fake):
+    kept, _ = fake
+    file = kept / "reproduction" / "fake" / "claims.json"
+    listed = json.loads(file.read_text())
+    del listed[0]["mujoco"]
+    file.write_text(json.dumps(listed))
+    status, lines = check(kept)
+    assert status == 1
+    assert lines[-1] == f"  in other words: {listed[0]['claim']}: nothing there, - here"
+
+
 def test_a_claim_that_would_change_and_a_number_that_is_off_are_named(fake):
     kept, write = fake
     write("LENGTH = 0.123456", "LENGTH = 1.5")
