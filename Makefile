@@ -6,7 +6,7 @@ READY := $(VENV)/.ready
 SCENARIOS := table fig24a
 # What the site computes, made again where the code has changed.
 MADE := out/docs
-# The analytic engine for a browser, and musl's functions, which it calls, and the package with COINTOSS_LIBM=musl.
+# The analytic engine for a browser, and musl's functions: it calls them, and the package does with COINTOSS_LIBM=musl.
 ENGINE := compare/web/wasm/engine.wasm
 LIBM := models/kernel/musl.bc
 CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path '*/__pycache__/*' -not -name '*.wasm' -not -name '*.bc')
