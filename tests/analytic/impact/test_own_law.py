@@ -20,6 +20,7 @@ from cointoss.analytic.flight.state_vector import STATE_SIZE
 from cointoss.analytic.horizon.touch_derivatives import touch_derivatives
 from cointoss.analytic.impact.own_law import rules_by
 from cointoss.models.certificate import IMPACT_ENERGY, LAW
+from cointoss.models.making import MOST_LOSSLESS
 from cointoss.models.records import Ending, Outcome, UnsupportedError
 from tests.helpers.command_line import HERE
 from tests.helpers.draws import THIN, draw_coin, draw_release, scenario
@@ -100,6 +101,29 @@ def test_a_named_law_written_again_gives_the_same_tosses_to_the_bit(same):
         assert of(own, LAW) < 1e-12
         assert own.ending in (Ending.SETTLED, Ending.PAPER, Ending.CHATTER)
         assert len(own.contacts) == 0
+
+
+def along_the_edge(K, v_A, tau, chi, mu):
+    return solve(K, (1e-3 * v_A[2] * tau[0], 1e-3 * v_A[2] * tau[1], -(1 + chi) * v_A[2]))
+
+
+def test_the_certificate_asks_the_law_what_the_engine_has_asked():
+    """The edge has two directions; a coin that lands flat takes the engine's own impulse."""
+    law = OwnLaw(along_the_edge, **FREE)
+    tilted = scenario(release={"position": [0, 0, 0.4], "angles": [0.3, 0.5, 0.2]}, ending={"max_impacts": 2})
+    assert of(analytic.toss(tilted, law=law), LAW) < 1e-12
+    flat = analytic.toss(tilted.replace("release.angles", [0, 0, 0]), law=law)
+    v = flat.impacts.velocity_before[0, 2]
+    assert flat.impacts.impulse[0] == pytest.approx([0, 0, -1.8 * flat.scenario.coin.mass * v])
+    assert of(flat, LAW) < 1e-12
+
+
+def test_a_toss_by_a_law_is_given_up_as_where_impacts_may_take_no_energy():
+    floor = {"restitution": 0.5, "contact": "coulomb", "friction": 0.3}
+    law, case = OwnLaw(smooth), scenario(floor=floor)
+    assert case.rules.max_impacts > MOST_LOSSLESS
+    assert rules_by(law, case).max_impacts == MOST_LOSSLESS
+    assert rules_by(law, case.replace("ending.max_impacts", 7)).max_impacts == 7
 
 
 def test_only_a_law_that_may_not_add_energy_settles_a_face():
@@ -234,6 +258,19 @@ def test_a_law_that_breaks_a_condition_outside_the_sample_ends_the_toss_at_that_
     gained = allowed.impacts.energy_change[allowed.impacts.energy_change > 0].sum() / weight
     assert gained > 100
     assert of(allowed, GAINED) == pytest.approx(gained, rel=1e-12)
+
+
+def fails_when_fast(K, v_A, tau, chi, mu):
+    if v_A[2] < -20:
+        raise ValueError
+    return 0.0, 0.0, -(1 + chi) * v_A[2] / K[2][2]
+
+
+def test_an_error_in_a_compiled_law_ends_the_toss_with_no_number():
+    fast = scenario(release={"position": [0, 0, 1.0], "velocity": [0, 0, -25.0], "angles": [0, 0.5, 0]})
+    toss = analytic.toss(fast, law=OwnLaw(fails_when_fast))
+    assert (toss.ending, len(toss.impacts)) == (Ending.NO_SOLUTION, 0)
+    assert of(toss, REFUSED).startswith("S = (nan, nan, nan) at K = ")
 
 
 def adds(K, v_A, tau, chi, mu):
@@ -387,7 +424,11 @@ calls: list[float] = []
             r"numba cannot compile it: .*'not_decorated'.* \(decorate that function with @numba.njit\); acc",
         ),
         (opens, ValueError, r"^law opens: numba cannot compile it: .*; accepted: "),
-        (counts, ValueError, r"^law counts: numba cannot compile it: .*; accepted: "),
+        (
+            counts,
+            ValueError,
+            r"^law counts: numba cannot compile it: Untyped global name .calls.: .*; accepted: ",
+        ),
     ],
 )
 def test_what_is_no_law_is_answered_in_one_line(law, error, says):
@@ -416,6 +457,18 @@ def test_a_law_that_depends_on_more_than_its_arguments_is_refused_or_found_out()
     factor[0] = 0.5
     case = scenario(ending={"max_impacts": 2}, release={"position": [0, 0, 0.4], "angles": [0, 0.4, 0]})
     assert of(analytic.toss(case, law=law_now), LAW) > 0.1
+
+
+def noisy(K, v_A, tau, chi, mu):
+    return 0.0, 0.0, -(1 + chi * np.random.random()) * v_A[2] / K[2][2]  # noqa: NPY002
+
+
+def test_a_law_that_is_another_one_when_it_is_compiled_is_refused():
+    told = (
+        r"^law noisy: gives S = \(0, 0, \S+\) N s as it is written and \(0, 0, \S+\) N s as it is compiled; "
+    )
+    with pytest.raises(ValueError, match=told):
+        OwnLaw(noisy)
 
 
 def test_only_the_analytic_engine_takes_one_and_only_where_the_floor_does_not_resist():
@@ -462,8 +515,9 @@ from cointoss.analytic.single_impacts import strike
 from tests.analytic.impact.test_own_law import FREE, NAMED, superball
 case = cointoss.load("fig24a")
 state = np.array([[0, 0, 0.1, 0.3, 0.2, -1, np.cos(0.3), 0.6 * np.sin(0.3), 0.8 * np.sin(0.3), 0, 20, 30, 5]])
-for law, more in {**NAMED, superball(0.5, 0.8): FREE}.items():
-    rules = rules_by(cointoss.OwnLaw(law, **more), case)
+laws = [cointoss.OwnLaw(law, **more) for law, more in {**NAMED, superball(0.5, 0.8): FREE}.items()]
+for law in laws:
+    rules = rules_by(law, case)
     impacts, solved = strike(case.body, rules, state, restitution=0.7, friction=0.2)
     print(solved, impacts.impulse.tobytes().hex())
 """
