@@ -125,9 +125,9 @@ class Told(np.random.Generator):
 
     chances: list[np.ndarray]
 
-    def choice(self, *given, p):
-        self.chances.append(p)
-        return super().choice(*given, p=p)
+    def choice(self, *given: Any, **chances: Any) -> Any:
+        self.chances.append(chances["p"])
+        return super().choice(*given, **chances)
 
 
 def test_boundaries_are_drawn_by_weight(monkeypatch):
