@@ -20,7 +20,7 @@ def minimum(residuals: list[float], tested: list[bool]) -> Minimum:
         touch_times=np.zeros(len(tested)),
         trusted=sum(tested),
     )
-    return Minimum(values=np.zeros(1), predicted=predicted, covariance=np.eye(1))
+    return Minimum(values=np.zeros(1), predicted=predicted, covariance=np.eye(1), determined=1)
 
 
 def test_values_that_nothing_could_test_do_not_win():
@@ -42,7 +42,9 @@ def test_a_better_minimum_met_while_intervals_are_measured_is_among_those_found(
         observed=Observed(touch_times=times, touch_sd=1e-3),
     )
     search, values = Search(misfit, starts=1, seed=0), np.array([0.802, 0.4])
-    known = Minimum(values=values, predicted=misfit.predicted(values), covariance=np.diag([1e-6, 1e-6]))
+    known = Minimum(
+        values=values, predicted=misfit.predicted(values), covariance=np.diag([1e-6, 1e-6]), determined=2
+    )
     minima = [known]
     ends = search._ends(minima, np.empty((0, 2)))
     best = min(minima, key=lambda each: each.score)
