@@ -427,7 +427,7 @@ calls: list[float] = []
         (
             counts,
             ValueError,
-            r"^law counts: numba cannot compile it: The use of a reflected list.* variable .calls.*; accepted: ",
+            r"^law counts: numba cannot compile it: The use of a .*list.* variable .calls.*; accepted: ",
         ),
     ],
 )
