@@ -103,7 +103,7 @@ class Misfit:
             until: what was seen later may have any residuals, which spares most of the work [s].
         """
         found, columns = np.full((len(values), len(self.times)), IMPOSSIBLE), self._columns(values)
-        apart = {field: column for field, column in columns.items() if not _is_of_one_coin(field)}
+        apart = {field: column for field, column in columns.items() if not _may_differ(field)}
         coins = np.array(list(apart.values())).T if apart else np.zeros((len(values), 1))
         for coin in np.unique(coins, axis=0):
             rows = np.flatnonzero(np.all(coins == coin, axis=1))
@@ -192,7 +192,7 @@ def _replaced(scenario: Scenario, values: dict[str, float]) -> Scenario:
     return scenario.replace(*pairs) if pairs else scenario  # pyright: ignore[reportArgumentType]
 
 
-def _is_of_one_coin(field: str) -> bool:
+def _may_differ(field: str) -> bool:
     """Return whether a field may differ between tosses that are made together."""
     return field == CLOCK or field.startswith("release.") or field.removeprefix("floor.") in _OF_FLOOR
 

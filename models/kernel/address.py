@@ -76,7 +76,7 @@ def _compiled(function: Function) -> Any:
         try:
             x, y, z = inner(*given[0])
             answer[0] = (float(x), float(y), float(z))
-        except Exception:
+        except Exception:  # the only kind that compiled code can catch; NaN is then refused as not finite
             return
 
     form = types.void(types.CPointer(types.Tuple(kinds)), types.CPointer(row))
@@ -117,8 +117,8 @@ class _CallAt:
             with builder.goto_entry_block():
                 numbers, answer = builder.alloca(given), builder.alloca(back)
             for i, value in enumerate(values):
-                place = builder.gep(numbers, [ir.IntType(32)(0), ir.IntType(32)(i)], inbounds=True)
-                builder.store(value, place)
+                slot = builder.gep(numbers, [ir.IntType(32)(0), ir.IntType(32)(i)], inbounds=True)
+                builder.store(value, slot)
             kind = ir.FunctionType(ir.VoidType(), [numbers.type, answer.type])
             builder.call(builder.inttoptr(address, kind.as_pointer()), [numbers, answer])
             return builder.load(answer)
