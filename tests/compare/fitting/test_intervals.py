@@ -89,3 +89,12 @@ def test_slopes_at_the_end_of_a_span_are_those_within_it():
     at_end, within = (Descent(misfit).slopes(np.array([[x]]), np.arange(3))[0] for x in (1.0, 1 - 1e-5))
     assert at_end == pytest.approx(within, rel=1e-3)
     assert np.abs(at_end).max() > 1
+
+
+def test_a_step_that_leads_too_far_is_damped_until_it_does_not():
+    """Undamped, every step from 0.6 passes over the minimum at 0.5 to where the misfit is larger."""
+    misfit: Any = Formula(lambda points: np.arctan(100 * (points - 0.5)), 1)
+    descent, start = Descent(misfit), np.array([[0.6]])
+    there, squares = descent.descended(start, np.arange(1))
+    assert squares[0] < 0.8 * descent.squares(start, np.arange(1))[0]
+    assert 0.4 < there[0, 0] < 0.6
