@@ -13,6 +13,7 @@ from cointoss.analytic.flight.flying import sample
 from cointoss.analytic.flight.state_vector import STATE_SIZE, state_of
 from cointoss.analytic.settings import FINE, ContactLimits, Settings, contact_limits
 from cointoss.analytic.single_impacts import rules_at
+from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body, Rules, with_budgets
 from cointoss.models.faults import Fault, fault_of_release
 from cointoss.models.interruptible import interruptible
@@ -97,7 +98,7 @@ def _see_each(
             if k < n:
                 e = rows[k]["quaternion"]
                 found.touch_times[i, k] = rows[k]["time"]
-                found.up[i, k] = 1 - 2 * (e[1] * e[1] + e[2] * e[2])
+                found.up[i, k] = rotation_matrix((e[0], e[1], e[2], e[3]))[2][2]
         if is_filmed:
             _film(body, floor, limits, pieces, asked.times[i], found.states[i])
 

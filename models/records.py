@@ -250,7 +250,8 @@ class States:
         """The coin's normal ζ, space frame, (n, 3)."""
         e0, e1, e2, e3 = self.quaternion.T
         return np.stack(
-            [2 * (e0 * e2 + e1 * e3), 2 * (e2 * e3 - e0 * e1), 1 - 2 * (e1 * e1 + e2 * e2)], axis=-1
+            [2 * (e0 * e2 + e1 * e3), 2 * (e2 * e3 - e0 * e1), (e0 * e0 + e3 * e3) - (e1 * e1 + e2 * e2)],
+            axis=-1,
         )
 
 

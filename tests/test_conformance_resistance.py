@@ -68,11 +68,14 @@ def test_a_coin_comes_to_rest_as_its_name_says(engine, name):
 @pytest.mark.parametrize("name", CASES)
 def test_engines_agree_on_when_and_where(name):
     analytic, mujoco = (tossed(engine, name) for engine in (Engine.ANALYTIC, Engine.MUJOCO))
-    # MuJoCo notices an end after a step, of up to 4 ms, and in a second its steps change 1e-3 of the energy.
-    assert mujoco.end_time == pytest.approx(analytic.end_time, rel=2e-2)
-    at_end = [each.sample(each.end_time).position[0, :2] for each in (analytic, mujoco)]
-    path = analytic.sample(np.linspace(0, analytic.end_time, 200)).position[:, :2]
-    assert np.linalg.norm(at_end[0] - at_end[1]) < 0.02 * np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
+    # An end is noticed after a step, of up to 4 ms in MuJoCo and 25 ms in the other.
+    assert mujoco.end_time == pytest.approx(analytic.end_time, abs=0.03)
+    times = np.linspace(0, min(mujoco.end_time, analytic.end_time), 200)
+    here, there = (energies(CASES[name][0], each.sample(times)) for each in (analytic, mujoco))
+    # In a second MuJoCo's steps change up to 4e-3 of the energy, and a fast spin 1e-3 at once.
+    assert there == pytest.approx(here, abs=6e-3 * here[0])
+    path, other = (each.sample(times).position[:, :2] for each in (analytic, mujoco))
+    assert np.linalg.norm(path[-1] - other[-1]) < 0.02 * np.linalg.norm(np.diff(path, axis=0), axis=1).sum()
 
 
 @pytest.mark.parametrize(("engine", "name"), BOTH)

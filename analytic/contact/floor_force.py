@@ -13,7 +13,6 @@ from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector, dot, scale, solve
 
 # The direction in which slip starts is sought from the best of these.
-_ANGLES = 2 * np.pi * np.arange(24) / 24
 _COSINES, _SINES = on_circle(24, 24)
 
 
@@ -64,26 +63,30 @@ def starting_slip(K: Matrix, b: Vector, mu: float) -> tuple[float, float]:
     """Return the direction in which a point starts to slip that friction cannot hold, (2,).
 
     Slip keeps the direction s that its own acceleration has, b_t + N (K_tz - μ K_tt s) = λ s, with the N
-    that holds v_Az; against all others friction turns it at once. A Newton iteration for the angle of s,
-    from the best of a few angles.
+    that holds v_Az; against all others friction turns it at once. A Newton iteration for the direction,
+    from the best of a few.
 
     Args:
         K: Delassus matrix of A [1/kg].
         b: dv_A/dt of free flight, space frame, (3,) [m/s²].
         mu: coefficient of friction μ.
     """
-    best, angle = -np.inf, 0.0
-    for i in range(len(_ANGLES)):
-        turning, _, growth = _slip_turning(K, b, mu, (_COSINES[i], _SINES[i]))
+    best, s = -np.inf, (1.0, 0.0)
+    for i in range(len(_COSINES)):
+        tried = (_COSINES[i], _SINES[i])
+        turning, _, growth = _slip_turning(K, b, mu, tried)
         if growth - abs(turning) > best:
-            best, angle = growth - abs(turning), _ANGLES[i]
+            best, s = growth - abs(turning), tried
     for _ in range(30):
-        turning, slope, _ = _slip_turning(K, b, mu, (math.cos(angle), math.sin(angle)))
+        turning, slope, _ = _slip_turning(K, b, mu, s)
         change = -turning / slope if slope < 0 else math.copysign(0.1, turning)
-        angle += min(max(change, -0.2), 0.2)
+        step = min(max(change, -0.2), 0.2)
+        # Of the vector, not of an angle in a turn that starts somewhere: the mirror image is rounded alike.
+        length = math.hypot(1.0, step)
+        s = ((s[0] - step * s[1]) / length, (s[1] + step * s[0]) / length)
         if abs(change) < 1e-14:
             break
-    return math.cos(angle), math.sin(angle)
+    return s
 
 
 @compiled

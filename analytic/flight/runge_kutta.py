@@ -108,8 +108,7 @@ def _sum_of_squares(
         total += (part / length) ** 2
     for part in v:
         total += (part / speed) ** 2
-    for part in e:
-        total += part**2
+    total += (e[0] ** 2 + e[1] ** 2) + (e[2] ** 2 + e[3] ** 2)
     for part in w:
         total += (part / spin) ** 2
     return total

@@ -3,7 +3,7 @@
 Position of C (space), velocity of C (space), Euler parameters (body to space), angular velocity (body).
 """
 
-from cointoss.models.attitude import Quaternion
+from cointoss.models.attitude import Quaternion, norm_of
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector
@@ -75,6 +75,6 @@ def set_spin(y: Array, w: Vector) -> None:
 @compiled
 def normalise(y: Array) -> None:
     """Bring the Euler parameters of the state y back to norm 1."""
-    norm = (y[6] ** 2 + y[7] ** 2 + y[8] ** 2 + y[9] ** 2) ** 0.5
+    norm = norm_of(attitude_of(y))
     for i in range(6, 10):
         y[i] /= norm

@@ -28,6 +28,9 @@ LEAST = 1e-9
 """And so far at least, against the scales of the coin: as a step of sustained contact errs."""
 PAIRS = 2
 """Of neighbours, on opposite sides."""
+CONTACT_ERROR = CONTACT_STEP_ERROR / 100
+"""Error allowed in their steps of sustained contact, relative: far below the toss's own. With its tolerance
+they would repeat its errors, and agree with it where those have changed its outcome."""
 FOLLOWED = 50_000
 """Steps of contact up to which neighbours are followed; more would take seconds."""
 _CLOSER, _CLOSER_STEPS = 0.1, 16
@@ -108,7 +111,7 @@ def neighbour(body: Body, start: Start, horizon: Horizon, pair: int, size: float
 @compiled
 def end_of(body: Body, rules: Rules, y: Array) -> tuple[NDArray[Any], Outcome, Ending]:
     """Return the impacts, the outcome and the ending of a neighbour that starts in the state y, (13,)."""
-    limits, room = ContactLimits(FOLLOWED, CONTACT_STEP_ERROR), np.zeros(FIRST_ROOM, IMPACT_ROW)
+    limits, room = ContactLimits(FOLLOWED, CONTACT_ERROR), np.zeros(FIRST_ROOM, IMPACT_ROW)
     n, rows, _, outcome, ending, _ = toss_coin(body, rules, limits, y, room, True)
     return rows[:n], outcome, ending
 

@@ -2,7 +2,7 @@
 
 import math
 
-from cointoss.models.attitude import Quaternion
+from cointoss.models.attitude import Quaternion, norm_of
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector
 
@@ -54,8 +54,13 @@ def axis_and_angle(e: Quaternion) -> tuple[Vector, float]:
 @compiled
 def attitude_products(R: Matrix) -> tuple[Four, tuple[Four, Four, Four, Four]]:
     """Return 4 e_i² and all 4 e_i e_j of a rotation matrix, the inverse of eq. (15)."""
-    trace = R[0][0] + R[1][1] + R[2][2]
-    squares = (1 + trace, 1 + 2 * R[0][0] - trace, 1 + 2 * R[1][1] - trace, 1 + 2 * R[2][2] - trace)
+    total, difference = R[1][1] + R[2][2], R[1][1] - R[2][2]
+    squares = (
+        (1 + R[0][0]) + total,
+        (1 + R[0][0]) - total,
+        (1 - R[0][0]) + difference,
+        (1 - R[0][0]) - difference,
+    )
     a, b, c = R[2][1] - R[1][2], R[0][2] - R[2][0], R[1][0] - R[0][1]
     p, q, s = R[1][0] + R[0][1], R[0][2] + R[2][0], R[2][1] + R[1][2]
     return squares, (
@@ -79,13 +84,13 @@ def attitude_near(R: Matrix, e: Quaternion) -> Quaternion:
     _, products = attitude_products(R)
     a, b = _dot_4(products[0], e), _dot_4(products[1], e)
     c, d = _dot_4(products[2], e), _dot_4(products[3], e)
-    length = (a * a + b * b + c * c + d * d) ** 0.5
+    length = norm_of((a, b, c, d))
     return a / length, b / length, c / length, d / length
 
 
 @compiled
 def _dot_4(a: Four, b: Four) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
+    return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
 
 
 def quaternion_from_matrix(R: Matrix) -> Quaternion:
@@ -111,9 +116,9 @@ def turn_of(e: Quaternion, change: Quaternion) -> Vector:
     """Return the small turn that a change of the Euler parameters is, 2 e* ∘ de, body frame, (3,) [rad]."""
     a, b, c, d = change
     return (
-        2 * (e[0] * b - e[1] * a - e[2] * d + e[3] * c),
-        2 * (e[0] * c - e[2] * a - e[3] * b + e[1] * d),
-        2 * (e[0] * d - e[3] * a - e[1] * c + e[2] * b),
+        2 * ((e[0] * b - e[1] * a) - (e[2] * d - e[3] * c)),
+        2 * ((e[0] * c - e[2] * a) + (e[1] * d - e[3] * b)),
+        2 * ((e[0] * d - e[3] * a) + (e[2] * b - e[1] * c)),
     )
 
 
@@ -127,9 +132,9 @@ def quaternion_rate(e: Quaternion, w: Vector) -> Quaternion:
     """
     return (
         (-e[1] * w[0] - e[2] * w[1] - e[3] * w[2]) / 2,
-        (e[0] * w[0] + e[2] * w[2] - e[3] * w[1]) / 2,
-        (e[0] * w[1] + e[3] * w[0] - e[1] * w[2]) / 2,
-        (e[0] * w[2] + e[1] * w[1] - e[2] * w[0]) / 2,
+        (e[0] * w[0] - e[3] * w[1] + e[2] * w[2]) / 2,
+        (e[3] * w[0] + e[0] * w[1] - e[1] * w[2]) / 2,
+        (-e[2] * w[0] + e[1] * w[1] + e[0] * w[2]) / 2,
     )
 
 

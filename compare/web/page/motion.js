@@ -13,8 +13,8 @@ function linesOf(tosses, values, more = {}) {
 
 const along = (axis) => (path) => path.time.map((_, k) => 1e3 * path.position[3 * k + axis]);
 const tiltOf = (path) => path.time.map((_, k) => {
-  const [, e1, e2] = path.quaternion.slice(4 * k, 4 * k + 3);
-  return TURN * Math.acos(Math.min(Math.max(1 - 2 * (e1 * e1 + e2 * e2), -1), 1));
+  const [e0, e1, e2, e3] = path.quaternion.slice(4 * k, 4 * k + 4);
+  return TURN * Math.acos(Math.min(Math.max(e0 * e0 + e3 * e3 - (e1 * e1 + e2 * e2), -1), 1));
 });
 
 export function heightOf(tosses) {
