@@ -82,14 +82,19 @@ def toss(
         if trajectory is not None:
             times = answer.path_times(result)
             write_text(trajectory, answer.path_csv(result.sample(times), described))
-        extra = []
+        extra, unproved = [], ""
         if margin:
             from cointoss.compare.metrics.margin import is_planar, margins
 
             prove = None
             if is_planar(described):  # a proof takes intervals in long arithmetic
                 from cointoss.compare.reproduction.precision.proved_change import proved_change as prove
-            extra = margins(described, prove)
+                from cointoss.compare.reproduction.precision.proved_change import refusal
+
+                unproved = refusal(described)
+                if contact_steps is not None:
+                    unproved = f"--contact-steps: {contact_steps}, accepted: none"
+            extra = margins(described, None if unproved else prove, settings=settings)
         if as_json:
             told = {
                 item.quantity.name: {"change": item.finite, "proved": item.proved, "unit": item.quantity.unit}
@@ -101,4 +106,5 @@ def toss(
             }
             print_json({**answer.as_json(result), **made, **({"margin": told} if margin else {})}, engine)
         else:
-            click.echo("\n".join([answer.as_lines(result, whole=whole), *(item.line for item in extra)]))
+            why = [f"proved    none, for {unproved}"] if unproved else []
+            click.echo("\n".join([answer.as_lines(result, whole=whole), *(one.line for one in extra), *why]))

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from decimal import ROUND_DOWN, ROUND_UP, Context
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,7 +66,8 @@ class Margin:
     change: float
     """With its sign, in the quantity's unit; infinite where none up to 1 SI unit does."""
     proved: float = 0.0
-    """No smaller change to either side does, in the quantity's unit; 0 where that is not proved."""
+    """No smaller change to either side does, in the quantity's unit, rounded down to two digits; 0 where that
+    is not proved."""
 
     @property
     def finite(self) -> float | None:
@@ -74,10 +76,17 @@ class Margin:
 
     @property
     def line(self) -> str:
-        """The margin for a person."""
-        found = f"{self.change:+.3g} {self.quantity.unit}" if self.finite is not None else "none found"
-        proved = f", proved to be above {self.proved:.2g} {self.quantity.unit}" if self.proved else ""
-        return f"margin    {self.quantity.name:18}  {found}{proved}"
+        """The margin for a person; rounded up, what was found stays an upper bound."""
+        found, unit = "none found", self.quantity.unit
+        if self.finite is not None:
+            found = f"{_rounded(self.change, 3, ROUND_UP):+.3g} {unit}"
+        if self.proved:
+            found += f", proved to be above {self.proved:.2g} {unit}"
+        return f"margin    {self.quantity.name:18}  {found}"
+
+
+def _rounded(number: float, digits: int, rounding: str) -> float:
+    return float(Context(prec=digits, rounding=rounding).create_decimal(number))
 
 
 Differ = Callable[[NDArray[np.intp], Array], tuple[NDArray[np.bool_], NDArray[np.bool_]]]
@@ -141,7 +150,9 @@ def is_planar(scenario: Scenario) -> bool:
     return not (scenario.coin.thickness or any(others) or any(scenario.body.drag))
 
 
-def margins(scenario: Scenario, proved_change: Proof | None = None) -> tuple[Margin, ...]:
+def margins(
+    scenario: Scenario, proved_change: Proof | None = None, *, settings: analytic.Settings = analytic.MANY
+) -> tuple[Margin, ...]:
     """Return the margin of a scenario's toss along each of `QUANTITIES`.
 
     Changes are tried on a ladder, up and down; the first that changes the outcome is cut down by bisection.
@@ -150,17 +161,19 @@ def margins(scenario: Scenario, proved_change: Proof | None = None) -> tuple[Mar
     Args:
         scenario: whose coin is tossed.
         proved_change: gives a lower bound too; none is given without.
+        settings: of the engine.
     """
     start = changed_releases(scenario.release, 1, {})
 
     def outcomes(releases: Releases) -> Codes:
-        return analytic.toss_many(scenario, releases).outcome
+        return analytic.toss_many(scenario, releases, settings=settings).outcome
 
     def margin_along(quantity: Quantity) -> Margin:
         found = smallest_changes(scenario, start, quantity, outcomes=outcomes, search=FINE)
         change = float(found[0])
         proved = proved_change(scenario, quantity, change) if proved_change else 0.0
-        return Margin(quantity, change * quantity.factor, proved * quantity.factor)
+        proved = _rounded(proved * quantity.factor, 2, ROUND_DOWN)
+        return Margin(quantity, change * quantity.factor, proved)
 
     return tuple(map(margin_along, counted("margins", "quantities", QUANTITIES)))
 

@@ -5,6 +5,7 @@ from math import isqrt
 from typing import NamedTuple
 
 from cointoss.compare.reproduction.precision.double_double import Pair, pair_of
+from cointoss.models.body import in_vacuum
 from cointoss.models.laws import ContactLaw
 from cointoss.models.parts import RESISTANCES
 from cointoss.models.scenario import Scenario
@@ -45,13 +46,15 @@ def planar_coin(scenario: Scenario) -> PlanarCoin:
     """Return the coin of a scenario.
 
     Raises:
-        ValueError: where the coin is thick or unbalanced, the air not linear or the floor's law another.
+        ValueError: where the coin is thick, unbalanced or does not keep turning about ξ, the air is not
+            linear, or the floor is another.
     """
     coin, air, body = scenario.coin, scenario.air, scenario.body
     refused = {
         f"coin.thickness: {coin.thickness}, accepted: 0": coin.thickness != 0,
         f"coin.center_of_mass: {coin.center_of_mass}, accepted: [0, 0, 0]": any(coin.center_of_mass),
-        f"air.exponent: {air.exponent}, accepted: 0": air.exponent != 0,
+        f"coin.inertia: {coin.inertia}, accepted: without products with ξ": any(body.inertia[0][1:]),
+        f"air.exponent: {air.exponent}, accepted: 0": air.exponent != 0 and not in_vacuum(body),
         f"floor.contact: {scenario.floor.contact}, accepted: {', '.join(str(law) for law in LAWS)}": (
             scenario.floor.contact not in LAWS
         ),
