@@ -15,7 +15,7 @@ from cointoss.analytic.contact.resets import (
     begin_contact,
     bounce,
     lay_flat,
-    restitution_at,
+    rebound_at,
     stand_up,
     stop_slip,
     tip_over,
@@ -315,7 +315,7 @@ def fly_to_event(setup: Setup, y: Array, spent: Spent) -> Passage:
     spent = Spent(spent.time + flown.time, spent.impacts, spent.steps + steps)
     if not flown.touches:
         return ends(spent, Outcome.UNDECIDED, Ending.MAX_TIME)
-    if not is_chattering(body, restitution_at(body, rules, y), state_of(y)):
+    if not is_chattering(body, rebound_at(body, rules, y), state_of(y)):
         return Passage(Event.IMPACT, spent, GOES_ON, flown)
     spent = Spent(spent.time, spent.impacts, spent.steps + 1)
     verdict = classified(setup, y, spent.time)

@@ -21,7 +21,7 @@ from cointoss.analytic.impact.own_law import OwnLaw, contact_in, residuals, rule
 from cointoss.analytic.settings import FINE, Settings
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.barriers import barrier, energy
-from cointoss.models.body import Body, Rules, in_vacuum, is_ideal
+from cointoss.models.body import Body, Rules, in_vacuum, is_ideal, never_adds_energy
 from cointoss.models.certificate import InContact, energies, gaps, measurements
 from cointoss.models.errors import require_type
 from cointoss.models.interruptible import interruptible
@@ -184,7 +184,7 @@ def _of_own_law(
 ) -> Iterator[Setting]:
     """Yield what a certificate says of a law of one's own."""
     yield Setting(name="contact law of one's own, in place of the scenario's", value=law.name)
-    if law.may_add_energy:
+    if not never_adds_energy(rules):
         gained = np.maximum(impacts.energy_change, 0).sum() / (body.mass * body.gravity * body.radius)
         yield Setting(name="impacts: energy that this law adds, in all", value=float(gained), unit="m g r")
     if answer.ending == Ending.NO_SOLUTION:

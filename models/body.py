@@ -51,9 +51,13 @@ class OwnCode(NamedTuple):
     may_add_energy: bool
     may_pull: bool
     """Whether S_z may be negative."""
+    tolerance: float
+    """Against |S|, |K S| and |S| |v_A|: up to it the law's impulses err."""
 
 
-NO_CODE = OwnCode(0, False, False)
+EXACT = 1e-10
+"""The tolerance of a law that errs by rounding: an impulse that solves K S = v_A' - v_A is good to less."""
+NO_CODE = OwnCode(0, False, False, EXACT)
 
 
 class Rules(NamedTuple):
@@ -96,9 +100,9 @@ def with_budgets(rules: Rules, max_impacts: int, max_time: float) -> Rules:
 
 @compiled
 def never_adds_energy(rules: Rules) -> bool:
-    """Return whether no impact adds energy: by proof, or, by a law of one's own, as each is checked."""
+    """Return whether no impact adds energy: by proof, or as each is checked, of an exact law of one's own."""
     if rules.own.address != 0:
-        return not rules.own.may_add_energy
+        return not rules.own.may_add_energy and rules.own.tolerance <= EXACT
     return rules.law == ContactLaw.SMOOTH or rules.restitution_kind == RestitutionKind.ENERGETIC
 
 

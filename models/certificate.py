@@ -10,6 +10,7 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cointoss.models.body import Body, Rules, in_vacuum
 from cointoss.models.kernel.vectors import Vector
@@ -116,7 +117,7 @@ def law_residuals(body: Body, rules: Rules, impacts: Impacts) -> Array:
     before, after, S = impacts.contact_velocity_before, impacts.contact_velocity_after, impacts.impulse
     speed, size = np.linalg.norm(before, axis=1), np.linalg.norm(S, axis=1)
     out = np.hypot(impacts.point[:, 0], impacts.point[:, 1])
-    flat = out < body.radius * (1 - 1e-9)
+    flat = _lands_flat(body, impacts)
     edge = np.stack([-impacts.point[:, 1], impacts.point[:, 0], 0 * out], axis=1)
     tau = turned(impacts.quaternion, edge / np.where(out > 0, out, 1)[:, None])
     nu = np.stack([-tau[:, 1], tau[:, 0], 0 * out], axis=1)
@@ -161,10 +162,13 @@ def restitution_residuals(rules: Rules, impacts: Impacts) -> Array:
 
 
 def momentum_residuals(body: Body, impacts: Impacts) -> Array:
-    """Return by how much m Δv = S and J_C Δω = Rᵀ (a × S) fail, relative to |S| and r |S|, (n,)."""
+    """Return by how much m Δv = S and J_C Δω = Rᵀ (a × S) fail, relative to |S| and r |S|, (n,).
+
+    The impulse of a flat landing goes through C: a = 0.
+    """
     S, e = impacts.impulse, impacts.quaternion
     size = np.linalg.norm(S, axis=1)
-    arm = impacts.point - np.array(body.center)
+    arm = np.where(_lands_flat(body, impacts)[:, None], 0.0, impacts.point - np.array(body.center))
     linear = body.mass * (impacts.velocity_after - impacts.velocity_before) - S
     gained = (impacts.angular_velocity_after - impacts.angular_velocity_before) @ np.array(body.inertia)
     angular = gained - np.cross(arm, turned(_conjugate(e), S))
@@ -277,6 +281,11 @@ def _flights(
 @cache
 def _gauss(count: int) -> tuple[Array, Array]:
     return np.polynomial.legendre.leggauss(count)
+
+
+def _lands_flat(body: Body, impacts: Impacts) -> NDArray[np.bool_]:
+    """Return whether the coin touches with a face, without turning, and not with its rim, (n,)."""
+    return np.hypot(impacts.point[:, 0], impacts.point[:, 1]) < body.radius * (1 - 1e-9)
 
 
 def _restitution(rules: Rules, impacts: Impacts) -> Array:

@@ -59,7 +59,7 @@ def impact_of(body: Body, rules: Rules, chi: float, before: State) -> Impact:
     point, flat = lowest_point(body, R[2], w)
     arm = apply(R, subtract(point, body.center))
     out = (point[0] ** 2 + point[1] ** 2) ** 0.5
-    tau = apply(R, (-point[1] / out, point[0] / out, 0.0)) if out > 0 else (1.0, 0.0, 0.0)
+    tau = (0.0, 0.0, 0.0) if flat else apply(R, (-point[1] / out, point[0] / out, 0.0))
     v_A = contact_velocity(body, R, v, w, point)
     S, ending = impulse(body, rules, chi, ImpactPoint(R, arm, tau, v_A, flat))
     v_after = add(v, scale(1 / body.mass, S))
@@ -95,6 +95,20 @@ def restitution_at(body: Body, rules: Rules, y: Array) -> float:
     threshold = rules.restitution_threshold
     is_plastic = threshold > 0 and -evaluate_gap(body, state_of(y)).speed <= threshold
     return 0.0 if is_plastic else rules.restitution
+
+
+@compiled
+def rebound_at(body: Body, rules: Rules, y: Array) -> float:
+    """Return -v_Az'/v_Az of an impact in the state y, (13,): χ, or, at most 1, that of a law of one's own."""
+    chi = restitution_at(body, rules, y)
+    if rules.own.address == 0:
+        return chi
+    before = state_of(y)
+    struck = impact_of(body, rules, chi, before)
+    v, w, speed = struck.after.velocity, struck.after.spin, -struck.contact_velocity[2]
+    if struck.ending != Ending.NONE or speed <= 0:
+        return 1.0
+    return min(contact_velocity(body, before.R, v, w, struck.point)[2] / speed, 1.0)
 
 
 @compiled

@@ -98,7 +98,7 @@ def is_chattering(body: Body, chi: float, state: State) -> bool:
 
     Args:
         body: the coin.
-        chi: restitution χ.
+        chi: restitution χ; of a law of one's own that of an impact there.
         state: at the touch.
     """
     speed, least_flight = -evaluate_gap(body, state).speed, smallest_flight(body, state)

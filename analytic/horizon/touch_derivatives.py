@@ -16,7 +16,7 @@ from cointoss.analytic.flight.state_vector import (
 )
 from cointoss.analytic.numerics.rotation import quaternion_rate, turn_of
 from cointoss.models.body import Body, Rules
-from cointoss.models.geometry import FLAT_SINE, contact_velocity, gap, lowest_point
+from cointoss.models.geometry import FLAT_SINE, contact_velocity, gap, lowest_point, tilt_sine_of
 from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, apply, cross, dot, norm, scale, subtract
@@ -80,7 +80,10 @@ def touch_derivatives(body: Body, rules: Rules, y: Array) -> Touch:
     part = step_size(body, rules, y, v_A)
     slopes = touch_differences(body, rules, chi, y, part)
     if rules.own.address != 0 and not agree(
-        slopes, touch_differences(body, rules, chi, y, WIDER * part), speed_scale(body, y)
+        slopes,
+        touch_differences(body, rules, chi, y, WIDER * part),
+        speed_scale(body, y),
+        tilt_sine_of(state.R[2]) <= FLAT_SINE,
     ):
         slopes[_IMPULSE:] = np.inf
     return Touch(
@@ -121,16 +124,19 @@ def step_size(body: Body, rules: Rules, y: Array, v_A: Vector) -> float:
 
 
 @compiled
-def agree(slopes: Array, wider: Array, speed: float) -> bool:
+def agree(slopes: Array, wider: Array, speed: float, is_flat: bool) -> bool:
     """Return whether both differences give the same derivatives of the impulse, to the part `AGREES`.
+
+    Of a flat coin those by the velocity: where a turn would change its lowest point, nothing is trusted.
 
     Args:
         slopes: of `touch_differences`.
         wider: by wider changes.
         speed: the scale of velocities [m/s].
+        is_flat: whether the coin lies flat at the touch.
     """
     largest, apart = 0.0, 0.0
-    for j in range(3, 10):
+    for j in range(3, 6 if is_flat else 10):
         scale = speed if j < 6 else 1.0
         for i in range(_IMPULSE, _AFTER):
             largest = max(largest, scale * abs(slopes[i, j]))

@@ -7,9 +7,6 @@ from cointoss.models.body import OwnCode
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector, apply, dot, norm
 
-ROUNDING = 1e-10
-"""Against |S|, |K S| and |S| |v_A|: an impulse that solves K S = v_A' - v_A is good to less."""
-
 
 class Breach(IntEnum):
     """A condition that an impulse does not meet."""
@@ -29,7 +26,7 @@ def work_of(K: Matrix, v_A: Vector, S: Vector) -> float:
 
 @compiled
 def breach_of(own: OwnCode, K: Matrix, v_A: Vector, S: Vector) -> Breach:
-    """Return the first condition that an impulse does not meet.
+    """Return the first condition that an impulse does not meet to the law's tolerance.
 
     Args:
         own: the law, and what it may do.
@@ -37,13 +34,13 @@ def breach_of(own: OwnCode, K: Matrix, v_A: Vector, S: Vector) -> Breach:
         v_A: velocity of A before the impact, space frame, (3,) [m/s].
         S: impulse, space frame, (3,) [N s].
     """
-    gained, size = apply(K, S), norm(S)
+    gained, size, tolerance = apply(K, S), norm(S), own.tolerance
     if not size < math.inf:  # nor is it NaN
         return Breach.NOT_FINITE
-    if v_A[2] + gained[2] < -ROUNDING * norm(gained):
+    if v_A[2] + gained[2] < -tolerance * norm(gained):
         return Breach.SINKS
-    if S[2] < -ROUNDING * size and not own.may_pull:
+    if S[2] < -tolerance * size and not own.may_pull:
         return Breach.PULLS
-    if work_of(K, v_A, S) > ROUNDING * size * norm(v_A) and not own.may_add_energy:
+    if work_of(K, v_A, S) > tolerance * size * norm(v_A) and not own.may_add_energy:
         return Breach.ADDS_ENERGY
     return Breach.NONE

@@ -38,11 +38,11 @@ class ImpactPoint(NamedTuple):
     arm: Vector
     """From C to A, space frame [m]."""
     tau: Vector
-    """Unit vector along the coin's edge at A, space frame."""
+    """Unit vector along the coin's edge at A, space frame; zero where the coin lands flat without turning."""
     velocity: Vector
     """v_A before the impact, space frame [m/s]."""
     is_flat: bool
-    """Whether the coin lands flat without turning; the impulse then goes through C, and is vertical."""
+    """Whether the coin lands flat without turning: the impulse then goes through C."""
 
 
 @compiled
@@ -137,6 +137,8 @@ def sliding_friction(K: Matrix, v_A: Vector, chi: float, mu: float) -> tuple[Vec
 def impulse(body: Body, rules: Rules, chi: float, A: ImpactPoint) -> tuple[Vector, Ending]:
     """Return the floor's impulse on the coin by the contact law: one's own, or the scenario's.
 
+    That of a flat landing is vertical by each of the scenario's.
+
     Args:
         body: the coin.
         rules: floor and ending.
@@ -148,10 +150,11 @@ def impulse(body: Body, rules: Rules, chi: float, A: ImpactPoint) -> tuple[Vecto
         ending: `Ending.NO_SOLUTION` where the law has none, or gives what no floor can, else `Ending.NONE`.
     """
     law, tau, v_A = rules.law, A.tau, A.velocity
-    if A.is_flat:
+    is_own = rules.own.address != 0
+    if A.is_flat and not is_own:
         return (0.0, 0.0, -(1 + chi) * body.mass * v_A[2]), Ending.NONE
-    K = delassus(body, A.R, A.arm)
-    if rules.own.address != 0:
+    K = delassus(body, A.R, (0.0, 0.0, 0.0) if A.is_flat else A.arm)
+    if is_own:
         S = call_at(rules.own.address, K, v_A, tau, chi, rules.friction)
         if breach_of(rules.own, K, v_A, S) != Breach.NONE:
             return NO_IMPULSE, Ending.NO_SOLUTION

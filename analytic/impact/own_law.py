@@ -1,31 +1,34 @@
 """A contact law of one's own: a function in plain Python that is compiled, and tried before it is used."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cache
 from inspect import Parameter, signature
 from itertools import cycle, product
 from types import FunctionType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeGuard
 
 import numpy as np
 
 from cointoss.analytic.impact.breach import Breach, breach_of
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
-from cointoss.models.body import Body, OwnCode, Rules, resists
+from cointoss.models.body import EXACT, Body, OwnCode, Rules, resists
 from cointoss.models.errors import require_type
+from cointoss.models.geometry import lowest_point
 from cointoss.models.kernel.address import Function, NotCompiledError, call_at, place
 from cointoss.models.kernel.vectors import Matrix, Vector
 from cointoss.models.laws import ContactLaw
 from cointoss.models.making import MOST_LOSSLESS
 from cointoss.models.parts import Coin, Floor, Release
 from cointoss.models.records import Array, Impacts, UnsupportedError
-from cointoss.models.scenario import Scenario, euler_parameters
+from cointoss.models.scenario import Scenario, euler_parameters, vector
 
 FORM = "a function (K, v_A, tau, chi, mu) -> (S_x, S_y, S_z) of plain arithmetic"
 _DECORATE = " (decorate that function with @numba.njit)"
 AGREES = 1e-9
-"""To this part of |S| the compiled law gives what the function gives as it is written."""
+"""To this part of |S|, or its tolerance, the compiled law gives what the function gives as it is written."""
+COARSEST = 1e-3
+"""The largest tolerance accepted."""
 _ACCEPTED = {
     Breach.NOT_FINITE: "three finite numbers",
     Breach.SINKS: "an impulse after which A does not go into the floor, v_Az' >= 0",
@@ -41,6 +44,7 @@ class Contact(NamedTuple):
     velocity: Vector
     """v_A."""
     tau: Vector
+    """Zero where the coin lands flat without turning."""
     chi: float
     mu: float
 
@@ -54,25 +58,32 @@ class OwnLaw:
     tuple of three rows [1/kg], an impulse S changing v_A by K S; v_A, the velocity of A before the impact,
     space frame, a tuple of three numbers, the third negative [m/s]; tau, the unit vector along the coin's
     edge at A, horizontal, likewise; chi, the restitution of this impact; mu, the scenario's friction.
+    Where a coin lands flat without turning, S acts at C: K is 1/m times the identity, and tau is zero.
 
     The function is compiled by numba, and tried at impacts of many kinds. Whatever the coin, each impulse
     must be finite, must not drive A into the floor, and must neither add energy nor pull, unless that is
-    asked for; else the toss ends there, as `no_solution`. A coin that lands flat takes the engine's own
-    impulse through C, and what chatters ends as `chatter`: no such law is followed into sustained contact.
+    asked for; else the toss ends there, as `no_solution`. What chatters ends as `chatter`: no such law is
+    followed into sustained contact.
 
     Args:
         function: of those five arguments, S as a tuple of three numbers.
         may_add_energy: whether impacts may add energy; the certificate of a toss then says how much.
         may_pull: whether S_z may be negative.
+        max_restitution: the largest chi that the law is meant for; a scenario with a larger one is refused.
+        tolerance: up to which the law's impulses err, relative to |S|, |K S| and |S| |v_A|: 1e-10, that of
+            rounding, to 1e-3. A law with more may add energy so far, and proves no face.
 
     Raises:
-        TypeError: for what is no such function.
-        ValueError: for a function that numba can't compile, or that breaks a condition, naming K and v_A.
+        TypeError: for what is no such function or number.
+        ValueError: for a number out of its range; for a function that numba can't compile, or that breaks a
+            condition, naming K and v_A.
     """
 
     function: Function
     may_add_energy: bool = field(default=False, kw_only=True)
     may_pull: bool = field(default=False, kw_only=True)
+    max_restitution: float = field(default=1.0, kw_only=True)
+    tolerance: float = field(default=EXACT, kw_only=True)
     code: OwnCode = field(init=False, repr=False, compare=False)
     """For compiled code of this process."""
 
@@ -82,24 +93,29 @@ class OwnLaw:
         require_type("law", plain, FunctionType, FORM)
         for name in ("may_add_energy", "may_pull"):
             require_type(name, getattr(self, name), bool, "True or False")
+        for name, least, most in (("max_restitution", 0.0, 1.0), ("tolerance", EXACT, COARSEST)):
+            _require_between(name, getattr(self, name), least, most)
         if not _takes_five(plain):
             raise TypeError(f"law {self.name}: takes {signature(plain)}, accepted: {FORM}")
         object.__setattr__(self, "function", plain)
-        _require_vector(self, _contacts()[0])
+        tried = [contact._replace(chi=contact.chi * self.max_restitution) for contact in _contacts()]
+        _require_vector(self, tried[0])
         try:
             address = place(plain)
         except NotCompiledError as error:
             more = _DECORATE if "<class 'function'>" in str(error) else ""
             raise ValueError(f"law {self.name}: {error}{more}; accepted: {FORM}") from None
-        object.__setattr__(self, "code", OwnCode(address, self.may_add_energy, self.may_pull))
-        for contact in _contacts():
+        object.__setattr__(self, "code", OwnCode(address, self.may_add_energy, self.may_pull, self.tolerance))
+        agrees = max(AGREES, self.tolerance)
+        for contact in tried:
             S = _require_vector(self, contact)
-            if told := self.breach(contact) or _difference(S, call_at(address, *contact)):
+            if told := self.breach(contact) or _difference(S, call_at(address, *contact), agrees):
                 raise ValueError(f"law {self.name}: {told}")
 
-    def __reduce__(self) -> tuple[Callable[..., "OwnLaw"], tuple[object, ...]]:
+    def __reduce__(self) -> tuple[Callable[..., "OwnLaw"], tuple[dict[str, Any]]]:
         """Return the law as another process makes it, at an address of its own."""
-        return _made, (self.function, self.may_add_energy, self.may_pull)
+        given = {one.name: getattr(self, one.name) for one in fields(self) if one.init}
+        return _made, (given,)
 
     @property
     def name(self) -> str:
@@ -113,35 +129,38 @@ class OwnLaw:
         if breach == Breach.NONE:
             return ""
         K, v_A = np.array(contact.K), np.array(contact.velocity)
+        meant = f" (max_restitution = {self.max_restitution:g}, tolerance = {self.tolerance:g})"
         match breach:
             case Breach.SINKS:
                 does = f"v_Az' = {(v_A + K @ S)[2]:.3g} m/s"
             case Breach.ADDS_ENERGY:
                 does = f"adds {S @ (v_A + K @ S / 2):.3g} J"
             case Breach.PULLS:
-                does = f"pulls, S = {_shown(S)} N s"
+                does, meant = f"pulls, S = {_shown(S)} N s", ""
             case _:
-                does = f"S = {_shown(S)}"
-        return f"{does}{_at(contact)}; accepted: {_ACCEPTED[breach]}"
+                does, meant = f"S = {_shown(S)}", ""
+        return f"{does}{_at(contact)}; accepted: {_ACCEPTED[breach]}{meant}"
 
 
-def contact_of(body: Body, R: Array, v_A: Array, chi: float, mu: float) -> Contact:
-    """Return what a law is asked of a coin that touches the floor with a point of its rim.
+def contact_of(body: Body, R: Array, point: Array | None, v_A: Array, chi: float, mu: float) -> Contact:
+    """Return what a law is asked of a coin that touches the floor.
 
     Args:
         body: the coin.
-        R: rotation matrix, body to space, (3, 3); the coin is not level.
+        R: rotation matrix, body to space, (3, 3).
+        point: A from B, body frame, (3,) [m]; None for a coin that lands flat without turning.
         v_A: velocity of A before the impact, space frame, (3,) [m/s].
         chi: restitution of the impact.
         mu: friction of the floor.
     """
-    point = rim_point(body, R[2])
-    x, y, z = R @ (point - np.array(body.center))
-    arm = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    K = np.eye(3) / body.mass - arm @ R @ np.array(body.inertia_inverse) @ R.T @ arm
-    tau = R @ np.array([-point[1], point[0], 0.0]) / body.radius
+    K, tau = np.eye(3) / body.mass, np.zeros(3)
+    if point is not None:
+        x, y, z = R @ (point - np.array(body.center))
+        arm = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+        K -= arm @ R @ np.array(body.inertia_inverse) @ R.T @ arm
+        tau = R @ np.array([-point[1], point[0], 0.0]) / body.radius
     a, b, c = K.tolist()
-    return Contact((tuple(a), tuple(b), tuple(c)), tuple(v_A.tolist()), tuple(tau.tolist()), chi, mu)
+    return Contact((tuple(a), tuple(b), tuple(c)), tuple(v_A.tolist()), vector(tau), chi, mu)
 
 
 def contact_in(body: Body, rules: Rules, R: Matrix, v: Array, w: Array) -> Contact:
@@ -150,25 +169,15 @@ def contact_in(body: Body, rules: Rules, R: Matrix, v: Array, w: Array) -> Conta
     Args:
         body: the coin.
         rules: the floor.
-        R: rotation matrix, body to space; the coin is not level.
+        R: rotation matrix, body to space.
         v: velocity of C, space frame, (3,) [m/s].
         w: angular velocity, body frame, (3,) [rad/s].
     """
-    turn = np.array(R)
-    v_A = v + turn @ np.cross(w, rim_point(body, turn[2]) - np.array(body.center))
+    lowest, is_flat = lowest_point(body, R[2], vector(w))
+    turn, point = np.array(R), np.array(lowest)
+    v_A = v + turn @ np.cross(w, point - np.array(body.center))
     chi = rules.restitution if -v_A[2] > rules.restitution_threshold else 0.0
-    return contact_of(body, turn, v_A, chi, rules.friction)
-
-
-def rim_point(body: Body, up: Array) -> Array:
-    """Return the lowest point of a coin that is not level, from B, body frame, (3,) [m].
-
-    Args:
-        body: the coin.
-        up: the upward unit vector in the body frame, (3,).
-    """
-    out = up[:2] / np.hypot(up[0], up[1])
-    return np.array([*(-body.radius * out), -np.copysign(body.thickness / 2, up[2])])
+    return contact_of(body, turn, None if is_flat else point, v_A, chi, rules.friction)
 
 
 def rules_by(law: OwnLaw | None, scenario: Scenario) -> Rules:
@@ -176,14 +185,20 @@ def rules_by(law: OwnLaw | None, scenario: Scenario) -> Rules:
 
     Raises:
         TypeError: for what is no such law.
-        UnsupportedError: for a floor that resists rolling or pivoting, which is a matter of contact.
+        UnsupportedError: for a floor that resists rolling or pivoting, which is a matter of contact, or with
+            more restitution than the law is meant for.
     """
     rules = scenario.rules
     if law is None:
         return rules
     require_type("law", law, OwnLaw, "a cointoss.OwnLaw; a named law is the scenario's floor.contact")
+    floor = scenario.floor
+    if floor.restitution > law.max_restitution:
+        raise UnsupportedError(
+            f"floor.restitution = {floor.restitution:g}: accepted: up to max_restitution, "
+            f"{law.max_restitution:g}, of the law {law.name}"
+        )
     if resists(rules):
-        floor = scenario.floor
         key = "rolling_friction" if floor.rolling_friction > 0 else "pivoting_friction"
         raise UnsupportedError(
             f"floor.{key} = {getattr(floor, key):g}: accepted: 0 with the law {law.name}, "
@@ -196,30 +211,31 @@ def rules_by(law: OwnLaw | None, scenario: Scenario) -> Rules:
 def residuals(law: OwnLaw, body: Body, rules: Rules, impacts: Impacts) -> Array:
     """Return by how much each impulse misses what the law gives as it is written, relative to |S|, (n,).
 
-    That of a flat landing is vertical.
-
     Args:
         law: of the impacts.
         body: the coin.
         rules: the floor.
         impacts: by the law.
     """
-    flat = np.hypot(impacts.point[:, 0], impacts.point[:, 1]) < body.radius * (1 - 1e-9)
     missed = np.zeros(len(impacts))
     for i, S in enumerate(impacts.impulse):
-        asked = np.array([0.0, 0.0, S[2]])
-        if not flat[i]:
-            R = rotation_matrix(euler_parameters(impacts.quaternion[i]))
-            touched = contact_in(
-                body, rules, R, impacts.velocity_before[i], impacts.angular_velocity_before[i]
-            )
-            asked = np.array(law.function(*touched))
+        R = rotation_matrix(euler_parameters(impacts.quaternion[i]))
+        v, w = impacts.velocity_before[i], impacts.angular_velocity_before[i]
+        asked = np.array(law.function(*contact_in(body, rules, R, v, w)))
         missed[i] = np.linalg.norm(S - asked) / np.linalg.norm(S)
     return missed
 
 
-def _made(function: Function, may_add_energy: bool, may_pull: bool) -> OwnLaw:
-    return OwnLaw(function, may_add_energy=may_add_energy, may_pull=may_pull)
+def _made(given: dict[str, Any]) -> OwnLaw:
+    return OwnLaw(**given)
+
+
+def _require_between(name: str, value: object, least: float, most: float) -> None:
+    accepted = f"a number from {least:g} to {most:g}"
+    if not _is_number(value):
+        raise TypeError(f"{name}: of type {type(value).__name__}, accepted: {accepted}")
+    if not least <= value <= most:
+        raise ValueError(f"{name} = {value}: accepted: {accepted}")
 
 
 def _takes_five(function: FunctionType) -> bool:
@@ -239,13 +255,13 @@ def _require_vector(law: OwnLaw, contact: Contact) -> Array:
     return np.array(S, dtype=float)
 
 
-def _is_number(one: object) -> bool:
+def _is_number(one: object) -> TypeGuard[float]:
     return isinstance(one, float) or (type(one) is int and abs(one) < 2**63)
 
 
-def _difference(S: Array, compiled: Vector) -> str:
+def _difference(S: Array, compiled: Vector, agrees: float) -> str:
     """Return in words by how much the compiled law differs from the function as it is written."""
-    if np.linalg.norm(S - compiled) <= AGREES * np.linalg.norm(S):
+    if np.linalg.norm(S - compiled) <= agrees * np.linalg.norm(S):
         return ""
     return (
         f"gives S = {_shown(S)} N s as it is written and {_shown(compiled)} N s as it is compiled; "
@@ -256,8 +272,8 @@ def _difference(S: Array, compiled: Vector) -> str:
 def _at(contact: Contact) -> str:
     """Return a contact in words."""
     K = ", ".join(_shown(row) for row in contact.K)
-    v_A = _shown(contact.velocity)
-    return f" at K = ({K}) 1/kg, v_A = {v_A} m/s, chi = {contact.chi:g}, mu = {contact.mu:g}"
+    v_A, tau = _shown(contact.velocity), _shown(np.round(contact.tau, 3))
+    return f" at K = ({K}) 1/kg, v_A = {v_A} m/s, tau = {tau}, chi = {contact.chi:g}, mu = {contact.mu:g}"
 
 
 def _shown(numbers: Vector | Array) -> str:
@@ -273,7 +289,7 @@ _COINS: tuple[dict[str, Any], ...] = (
     {"mass": 0.05, "radius": 0.025, "thickness": 1e-3, "inertia": tuple((1.25e-5 * np.eye(3)).tolist())},
 )
 _ALOFT = Release(position=(0.0, 0.0, 1.0))
-_TILTS = (0.01, 0.5, 0.8, 1.2, 1.56)
+_TILTS = (0.01, 0.5, 0.8, 1.2, 1.56, 0.0)
 """Angles between the coin and the floor [rad]."""
 _SPEEDS = ((0.0, 0.0, 1.0), (1.0, 0.0, 1.0), (0.0, -1.0, 1.0), (-0.6, 0.8, 0.05), (0.02, 0.03, 1.0))
 """Slip along the edge and across it, and approach, in units of the coin's speed of fall [m/s]."""
@@ -287,15 +303,16 @@ def _contacts() -> tuple[Contact, ...]:
 
 def _draw_contacts() -> Iterator[Contact]:
     rng, chis, mus = np.random.default_rng(2008), cycle((1.0, 0.5, 0.0, 0.8)), cycle((0.3, 0.0, 1.0))
-    for coin, tilt, _ in product(_COINS, _TILTS, range(3)):
+    for tilt, coin, _ in product(_TILTS, _COINS, range(3)):
         body = Scenario(
             coin=Coin(**coin), floor=Floor(restitution=1.0, contact=ContactLaw.SMOOTH), release=_ALOFT
         ).body
         side = rng.choice([-1.0, 1.0])
         psi, phi = rng.uniform(0, 2 * np.pi, 2)
         R = np.array(rotation_matrix(quaternion_from_angles((psi, tilt if side > 0 else np.pi - tilt, phi))))
-        tau = np.array(contact_of(body, R, np.zeros(3), 1.0, 0.0).tau)
-        nu = np.array([-tau[1], tau[0], 0.0])
+        lowest, is_flat = lowest_point(body, vector(R[2]), (0.0, 0.0, 0.0))
+        point = None if is_flat else np.array(lowest)
+        tau, nu = np.array([np.cos(psi), np.sin(psi), 0.0]), np.array([-np.sin(psi), np.cos(psi), 0.0])
         for along, across, down in _SPEEDS:
             v_A = rng.uniform(0.1, 3) * (along * tau + across * nu - np.array([0.0, 0.0, down]))
-            yield contact_of(body, R, v_A, next(chis), next(mus))
+            yield contact_of(body, R, point, v_A, next(chis), next(mus))

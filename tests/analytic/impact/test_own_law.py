@@ -7,7 +7,6 @@ import pickle
 import subprocess
 import sys
 from dataclasses import fields
-from typing import Any
 
 import numba
 import numpy as np
@@ -24,52 +23,17 @@ from cointoss.models.making import MOST_LOSSLESS
 from cointoss.models.records import Ending, Outcome, UnsupportedError
 from tests.helpers.command_line import HERE
 from tests.helpers.draws import THIN, draw_coin, draw_release, scenario
+from tests.helpers.own_laws import (
+    FREE,
+    NAMED,
+    REFUSED,
+    of,
+    perfectly_rough,
+    smooth,
+    superball,
+)
 
 GAINED = "impacts: energy that this law adds, in all"
-REFUSED = "the impulse refused"
-
-
-def smooth(K, v_A, tau, chi, mu):
-    return 0.0, 0.0, -(1 + chi) * v_A[2] / K[2][2]
-
-
-def perfectly_rough(K, v_A, tau, chi, mu):
-    return solve(K, (0.0 - v_A[0], 0.0 - v_A[1], -chi * v_A[2] - v_A[2]))
-
-
-def sharp_edge(K, v_A, tau, chi, mu):
-    along = v_A[0] * tau[0] + v_A[1] * tau[1] + v_A[2] * tau[2]
-    return solve(K, (along * tau[0] - v_A[0], along * tau[1] - v_A[1], -chi * v_A[2] - v_A[2]))
-
-
-def sliding_friction(K, v_A, tau, chi, mu):
-    slip = (v_A[0] * v_A[0] + v_A[1] * v_A[1]) ** 0.5
-    if slip == 0:
-        return 0.0, 0.0, -(1 + chi) * v_A[2] / K[2][2]
-    x, y = -mu * v_A[0] / slip, -mu * v_A[1] / slip
-    gained = K[2][0] * x + K[2][1] * y + K[2][2] * 1.0
-    if gained <= 0:
-        return 0.0, 0.0, 0.0
-    size = -(1 + chi) * v_A[2] / gained
-    return size * x, size * y, size
-
-
-def superball(along, up):
-    """The law v_At' = -along v_At, v_Az' = -up v_Az."""
-
-    def law(K, v_A, tau, chi, mu):
-        return solve(K, (-(1 + along) * v_A[0], -(1 + along) * v_A[1], -(1 + up) * v_A[2]))
-
-    return law
-
-
-def of(toss, name) -> Any:
-    """What a certificate says under a name."""
-    return next(line.value for line in toss.certificate if line.name == name)
-
-
-FREE = {"may_add_energy": True, "may_pull": True}
-NAMED = {smooth: {}, perfectly_rough: FREE, sharp_edge: FREE, sliding_friction: FREE}
 
 
 @pytest.fixture(scope="module", params=NAMED, ids=lambda law: law.__name__)
@@ -512,7 +476,7 @@ SCRIPT = """
 import numpy as np, cointoss
 from cointoss.analytic.impact.own_law import rules_by
 from cointoss.analytic.single_impacts import strike
-from tests.analytic.impact.test_own_law import FREE, NAMED, superball
+from tests.helpers.own_laws import FREE, NAMED, superball
 case = cointoss.load("fig24a")
 state = np.array([[0, 0, 0.1, 0.3, 0.2, -1, np.cos(0.3), 0.6 * np.sin(0.3), 0.8 * np.sin(0.3), 0, 20, 30, 5]])
 laws = [cointoss.OwnLaw(law, **more) for law, more in {**NAMED, superball(0.5, 0.8): FREE}.items()]
