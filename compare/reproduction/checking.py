@@ -17,7 +17,9 @@ CONFIDENCE = 2.58
 BITS = "equal to the bit: the same sources, versions and kind of machine"
 EQUAL = "equal to the bit"
 ESTIMATE = "each value within the other's 99 % interval"
-COUNT = f"within {CONFIDENCE} √n of a count n: tosses past their horizon of trust may end otherwise"
+COUNT = (
+    f"within {CONFIDENCE} √n, n the larger of two counts: tosses past their horizon of trust may end otherwise"
+)
 PRINTED = "within one in the third digit, as they are printed"
 BESIDE = "within a thousandth of the largest number beside it"
 SMALL = "within a hundredth of the threshold: rounding"
@@ -81,7 +83,9 @@ def require_run(folder: Path, *, quick: bool) -> None:
         RunError: naming the file, why, and what is accepted.
     """
     if not (folder / "claims.json").is_file():
-        raise RunError(f"{folder}: holds no claims.json; accepted: a folder that --out has written")
+        raise RunError(
+            f"{folder}: holds no claims.json, so no run; accepted: --check DIR after a run with --out DIR"
+        )
     made_of: Any = None
     for name, read in (
         ("claims.json", lambda: _require_claims(folder)),
@@ -216,7 +220,7 @@ def _criteria(claim: str, there: list[Any], here: list[Any], *, exact: bool) -> 
         yield _unequal(claim, f"{len(there)} criteria", f"{len(here)} criteria", PRINTED)
     for one, other in zip(there, here, strict=False):
         place = f"{claim}: {other['quantity']}"
-        threshold = abs(other["threshold"])
+        threshold = min(abs(one["threshold"]), abs(other["threshold"]))
         yield from compared(place, one["measured"], other["measured"], exact=exact, small=threshold / 100)
 
 
@@ -225,12 +229,14 @@ def compared(
 ) -> Iterator[Compared]:
     """Yield the numbers of two values as JSON has them, each with what it may differ by.
 
+    Neither run is preferred: exchanged, they agree in the same places.
+
     Args:
         place: where the values stand.
         there: of the earlier run.
         here: of this one.
         exact: whether the bits should be the same.
-        beside: the largest number in the list that holds them.
+        beside: the largest number in the lists that hold them.
         small: what rounding may change.
     """
     if isinstance(there, dict) and isinstance(here, dict):
@@ -253,7 +259,7 @@ def compared(
     elif isinstance(there, list) and isinstance(here, list):
         if len(there) != len(here):
             yield _unequal(place, f"{len(there)} numbers", f"{len(here)} numbers", SAME)
-        largest = max((abs(one) for one in there if isinstance(one, float)), default=0.0)
+        largest = max((abs(one) for one in (*there, *here) if isinstance(one, float)), default=0.0)
         for number, (one, other) in enumerate(zip(there, here, strict=False)):
             yield from compared(f"{place}[{number}]", one, other, exact=exact, beside=largest, small=small)
     elif _is_number(there) and _is_number(here):
@@ -265,9 +271,9 @@ def compared(
 
 
 def _allowed(there: float, here: float, beside: float, small: float) -> tuple[float, str]:
-    """Return by how much two numbers may differ, and why."""
+    """Return by how much two numbers may differ, and why; the same whichever is the earlier."""
     if isinstance(there, int) and isinstance(here, int):
-        return CONFIDENCE * math.sqrt(abs(there)), COUNT
+        return CONFIDENCE * math.sqrt(max(abs(there), abs(here))), COUNT
     size = max(abs(there), abs(here))
     printed = 10.0 ** (math.floor(math.log10(size)) - 2) if 0 < size < math.inf else 0.0
     return max((printed, PRINTED), (beside / 1000, BESIDE), (small, SMALL), key=lambda pair: pair[0])

@@ -6,6 +6,8 @@ import re
 import sys
 
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 from cointoss.compare.reproduction import checking, provenance, studies
 from cointoss.compare.reproduction.checking import BESIDE, COUNT, ESTIMATE, PRINTED, SMALL, compared
@@ -224,9 +226,11 @@ def test_each_kind_of_number_has_its_own_tolerance():
     assert alike(estimate, {**estimate, "value": 0.59}) == (True, ESTIMATE)
     assert alike(estimate, {**estimate, "value": 0.61, "high": 0.7}) == (False, ESTIMATE)
     assert alike(estimate, {"value": 0.55, "low": 0.54, "high": 0.56}) == (False, ESTIMATE)
-    assert alike(100, 125) == (True, COUNT)
-    assert alike(100, 126) == (False, COUNT)
-    assert alike(0, 1) == (False, COUNT)
+    # 2.58 √129 = 29.30, 2.58 √130 = 29.42; 2.58 √6 = 6.3, 2.58 √7 = 6.8
+    assert alike(100, 129) == (True, COUNT)
+    assert alike(100, 130) == (False, COUNT)
+    assert alike(0, 6) == (True, COUNT)
+    assert alike(0, 7) == (False, COUNT)
     assert alike(1.23, 1.2399) == (True, PRINTED)
     assert alike(1.23, 1.2401) == (False, PRINTED)
     assert alike(0.999, 1.0005) == alike(1.0005, 0.999) == (True, PRINTED)
@@ -235,6 +239,34 @@ def test_each_kind_of_number_has_its_own_tolerance():
     assert [one.agrees for one in compared("", [100.0, 1e-9], [100.0, 0.09], exact=False)] == [True, True]
     assert [one.reason for one in compared("", [100.0, 1e-9], [100.0, 0.2], exact=False)] == [PRINTED, BESIDE]
     assert [one.agrees for one in compared("", [100.0, 1e-9], [100.0, 0.2], exact=False)] == [True, False]
+
+
+NUMBERS = st.integers(-200, 200) | st.floats(-200, 200)
+ESTIMATES = st.tuples(*3 * [st.floats(0, 1)]).map(
+    lambda ends: dict(zip(("low", "value", "high"), sorted(ends), strict=True))
+)
+VALUES = st.recursive(
+    NUMBERS | ESTIMATES | st.sampled_from([None, "so", True]),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from("ab"), inner),
+)
+
+
+@given(there=VALUES, here=VALUES, small=st.sampled_from([0.0, 1.0]))
+@example(there=0, here=1, small=0.0)
+@example(there=[1.0], here=[1000.0], small=0.0)
+def test_two_runs_agree_alike_whichever_is_the_earlier(there, here, small):
+    def kinds(*runs):
+        found = compared("here", *runs, exact=False, small=small)
+        return sorted((one.place, one.agrees, one.reason) for one in found)
+
+    assert kinds(there, here) == kinds(here, there)
+
+
+def test_criteria_of_other_thresholds_agree_alike_whichever_is_the_earlier(fake):
+    kept, write = fake
+    (kept / "reproduction" / "fake" / "provenance.json").unlink()
+    write('LENGTH, "<", 1.0,', 'LENGTH + 0.05, "<", 10.0,')
+    assert any("off: it is short: length: 0.123456 there" in line for line in check(kept)[1])
 
 
 def test_what_is_missing_on_either_side_is_off():
