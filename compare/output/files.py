@@ -138,11 +138,13 @@ def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
     """Yield a folder inside `folder` to write to; when all went well, move its files up to `folder`.
 
     Of `names`, those that were not written are removed from `folder`: they belong to what is replaced.
-    `folder` is made if missing. When something goes wrong, everything is as before.
+    `folder` is made if missing. When something goes wrong, everything is as before. Only SIGKILL between two
+    of the moves leaves files of both, each whole.
 
     Raises:
-        UnwritableError: naming the folder and why, for every error of the system on the way.
+        UnwritableError: naming the folder or the file in the way, and why, for every error of the system.
     """
+    require_folder(folder, names)
     made = [part for part in (folder, *folder.parents) if not os.path.lexists(part)]
     with naming(folder), undoing(lambda: _remove_empty(made)):
         folder.mkdir(parents=True, exist_ok=True)
@@ -151,11 +153,43 @@ def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
         with undoing(lambda: remove(aside)):
             aside.mkdir(mode=0o700)
             yield aside
-            for name in names:
-                if (aside / name).exists():
-                    _move(aside / name, folder / name)
-                else:
+            _move_together(aside, folder, names)
+
+
+def _move_together(aside: Path, folder: Path, names: tuple[str, ...]) -> None:
+    """Move files from one folder to another, and remove those of `names` that are none of them: all or none."""
+    replaced = require_folder(folder, names)
+    new = [name for name in names if (aside / name).exists()]
+    earlier, is_done = beside(folder / "earlier"), False
+
+    def undo() -> None:
+        if not is_done:
+            for name in new:
+                if not (aside / name).exists() and folder / name not in replaced:
                     (folder / name).unlink(missing_ok=True)
+            for path in replaced:
+                if (earlier / path.name).exists():
+                    (earlier / path.name).replace(path)
+        remove(earlier)
+
+    with undoing(undo):
+        earlier.mkdir(mode=0o700)
+        for path in replaced:
+            _keep(path, earlier / path.name)
+        for name in new:
+            _move(aside / name, folder / name)
+        for path in replaced:
+            if path.name not in new:
+                path.unlink()
+        is_done = True
+
+
+def _keep(path: Path, kept: Path) -> None:
+    """Give a file a second name, or copy it where the file system has no second names."""
+    try:
+        kept.hardlink_to(path)
+    except OSError:
+        shutil.copy2(path, kept)
 
 
 def beside(path: Path) -> Path:

@@ -1,12 +1,15 @@
 """Files are whole or not there: which are accepted, and what cannot be written."""
 
+import errno
+import itertools
 import os
+from pathlib import Path
 
 import pytest
 
-from cointoss.compare.output.files import UnwritableError, require_file, write_text
+from cointoss.compare.output.files import UnwritableError, require_file, write_text, written_together
 from cointoss.models.reading import scenario_text
-from tests.helpers.command_line import in_a_shell, refused
+from tests.helpers.command_line import in_a_shell, python, refused
 
 
 def test_a_failed_write_leaves_what_was_there(tmp_path):
@@ -16,6 +19,117 @@ def test_a_failed_write_leaves_what_was_there(tmp_path):
         write_text(target, "second, up to what can't be encoded: \ud800")
     assert target.read_text() == "first"
     assert [path.name for path in tmp_path.iterdir()] == ["kept.txt"]
+
+
+NAMES = ("a.txt", "b.txt", "c.txt", "d.txt")
+
+
+def write_anew(folder):
+    """Write a.txt to c.txt together, in place of b.txt to d.txt."""
+    with written_together(folder, NAMES) as aside:
+        for name in NAMES[:3]:
+            (aside / name).write_text("new")
+
+
+@pytest.fixture
+def earlier(tmp_path):
+    """A folder with b.txt to d.txt."""
+    for name in NAMES[1:]:
+        (tmp_path / name).write_text("old")
+        (tmp_path / name).chmod(0o640)
+    return tmp_path
+
+
+def held(folder):
+    return {path.name: path.is_file() and path.read_text() for path in folder.iterdir()}
+
+
+OLD = dict.fromkeys(NAMES[1:], "old")
+
+
+@pytest.mark.parametrize("links", [True, False])
+def test_files_that_belong_together_are_replaced_together(earlier, monkeypatch, links):
+    if not links:
+        monkeypatch.setattr(Path, "hardlink_to", failing(0, Path.hardlink_to))
+    write_anew(earlier)
+    assert held(earlier) == dict.fromkeys(NAMES[:3], "new")
+    assert (earlier / "b.txt").stat().st_mode & 0o777 == 0o640
+
+
+def test_a_folder_in_the_place_of_one_file_leaves_all_as_they_were(earlier):
+    (earlier / "c.txt").unlink()
+    (earlier / "c.txt").mkdir()
+    with pytest.raises(UnwritableError, match=r"c\.txt: is a folder"):
+        write_anew(earlier)
+    assert held(earlier) == OLD | {"c.txt": False}
+    (earlier / "c.txt").rmdir()
+    with (
+        pytest.raises(UnwritableError, match=r"c\.txt: is a folder"),
+        written_together(earlier, NAMES) as aside,
+    ):
+        (aside / "a.txt").write_text("new")
+        (earlier / "c.txt").mkdir()  # meanwhile
+    assert held(earlier) == OLD | {"c.txt": False}
+
+
+def failing(number, method=None):
+    """Return a method of a path whose call of that number, from 0, fails as on a full disk."""
+    calls = itertools.count()
+
+    def fail(*arguments, **named):
+        if next(calls) == number:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        return method(*arguments, **named)
+
+    return fail
+
+
+@pytest.mark.parametrize(
+    ("method", "number"),
+    [
+        *((name, number) for name in ("replace", "chmod") for number in range(3)),
+        ("unlink", 0),
+        ("mkdir", 2),
+    ],
+)
+def test_a_move_that_fails_leaves_all_files_as_they_were(earlier, monkeypatch, method, number):
+    before = {path: path.stat().st_ino for path in earlier.iterdir()}
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, method, failing(number, getattr(Path, method)))
+        with pytest.raises(UnwritableError, match="No space left on device"):
+            write_anew(earlier)
+    assert held(earlier) == OLD
+    assert {path: path.stat().st_ino for path in earlier.iterdir()} == before
+
+
+@pytest.mark.parametrize("moves", [1, 2, 3])
+def test_a_signal_between_two_moves_leaves_all_files_as_they_were(earlier, moves):
+    script = f"""
+import os, signal, sys
+from pathlib import Path
+from cointoss.compare.output.files import written_together
+from cointoss.compare.output.interruption import run_to_exit
+move, left = Path.replace, [{moves}]
+
+def replace(*paths):
+    moved = move(*paths)
+    left[0] -= 1
+    if left[0] == 0:
+        os.kill(os.getpid(), signal.SIGTERM)
+    return moved
+
+Path.replace = replace
+
+def command():
+    with written_together(Path({str(earlier)!r}), {NAMES}) as aside:
+        for name in {NAMES[:3]}:
+            (aside / name).write_text("new")
+
+run_to_exit(command)
+"""
+    ended = python("-c", script)
+    assert (ended.returncode, ended.stderr) == (143, "cointoss: interrupted by SIGTERM\n")
+    assert held(earlier) == OLD
 
 
 def test_an_output_is_never_the_scenario(tmp_path):
