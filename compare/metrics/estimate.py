@@ -39,10 +39,11 @@ class Estimate:
     def needed(self, threshold: float) -> int | None:
         """Return the size of sample whose interval would leave out a threshold; None where none would.
 
-        An interval shrinks as 1/√count; the value is taken to stay as found.
+        An interval shrinks as 1/√count; the value is taken to stay as found, so that an empty sample has
+        none.
         """
         side = self.low if threshold < self.value else self.high
-        if self.value == threshold or not math.isfinite(side):
+        if self.value == threshold or not (self.count and math.isfinite(side)):
             return None
         exact = self.count * ((self.value - side) / (self.value - threshold)) ** 2
         if exact > _MOST:

@@ -30,7 +30,15 @@ def share(met: ArrayLike, counted: str = "tosses") -> Estimate:
 
 
 def share_of(met: int, count: int, counted: str = "tosses") -> Estimate:
-    """Return the share of a sample that meets something, from its number and that of all; see `share`."""
+    """Return the share of a sample that meets something, from its number and that of all; see `share`.
+
+    Of no sample it is NaN, and may be anything from 0 to 1.
+
+    Raises:
+        ValueError: for more that meet it than there are, or a negative number.
+    """
+    if count == 0 == met:
+        return Estimate(np.nan, 0.0, 1.0, 0, counted)
     interval = binomtest(met, count).proportion_ci(LEVEL, "wilson")
     return Estimate(met / count, float(interval.low), float(interval.high), count, counted)
 
@@ -43,7 +51,8 @@ def mean_share(shares: ArrayLike, counted: str = "tosses") -> Estimate:
         counted: what the sample is of.
     """
     values = np.asarray(shares, dtype=float)
-    return mean(values, counted) if np.ptp(values) > 0 else share(values > 1 / 2, counted)
+    varies = values.size and np.ptp(values) > 0
+    return mean(values, counted) if varies else share(values > 1 / 2, counted)
 
 
 def mean(values: ArrayLike, counted: str = "tosses") -> Estimate:
@@ -135,9 +144,10 @@ def ratio_of_medians(
 def quotient(first: Estimate, second: Estimate) -> Estimate:
     """Return one positive quantity over another, estimated apart from it, with an interval of its logarithm.
 
-    The errors of both logarithms add as squares. Any quotient is possible where one of the values is 0.
+    The errors of both logarithms add as squares. Any quotient is possible where one of the values is 0, or
+    one of the samples is empty.
     """
-    if not (first.value and second.value):
+    if not (first.value > 0 and second.value > 0):
         return Estimate(np.nan, 0.0, np.inf, first.count, first.counted)
     value = first.value / second.value
     errors = [np.log(np.array([one.low, one.high]) / one.value) for one in (first, second)]

@@ -157,7 +157,7 @@ def written_together(folder: Path, names: tuple[str, ...]) -> Iterator[Path]:
 
 
 def _move_together(aside: Path, folder: Path, names: tuple[str, ...]) -> None:
-    """Move files from one folder to another, and remove those of `names` that are none of them: all or none."""
+    """Move files from one folder to another, and remove the others of `names` there: all or none."""
     replaced = require_folder(folder, names)
     new = [name for name in names if (aside / name).exists()]
     earlier, is_done = beside(folder / "earlier"), False

@@ -17,9 +17,7 @@ CONFIDENCE = 2.58
 BITS = "equal to the bit: the same sources, versions and kind of machine"
 EQUAL = "equal to the bit"
 ESTIMATE = "each value within the other's 99 % interval"
-COUNT = (
-    f"within {CONFIDENCE} √n, n the larger of two counts: tosses past their horizon of trust may end otherwise"
-)
+COUNT = f"within {CONFIDENCE} √n of the larger count n: tosses past their horizon of trust may end otherwise"
 PRINTED = "within one in the third digit, as they are printed"
 BESIDE = "within a thousandth of the largest number beside it"
 SMALL = "within a hundredth of the threshold: rounding"

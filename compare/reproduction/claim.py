@@ -85,6 +85,8 @@ class Criterion:
         if self.is_met is not None or not isinstance(self.measured, Estimate):
             return ""
         sample = self.measured
+        if not sample.count:
+            return f"there were no {sample.counted}"
         nearest = min(self._limits, key=lambda limit: abs(limit - sample.value))
         needed = sample.needed(nearest)
         if needed is None:

@@ -21,9 +21,6 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-NONE = Estimate(np.nan, np.nan, np.nan, 0)
-"""Of a setting that was not tossed yet."""
-
 
 class Row(NamedTuple):
     """A setting, by one engine."""
@@ -43,9 +40,8 @@ class Row(NamedTuple):
 
     @property
     def shares(self) -> dict[Outcome, Estimate]:
-        """The share of every outcome, with its 99 % interval; NaN without tosses."""
-        n = self.tosses
-        return {one: share_of(int(self.counts[one]), n) if n else NONE for one in Outcome}
+        """The share of every outcome, with its 99 % interval; NaN, from 0 to 1, without tosses."""
+        return {one: share_of(int(self.counts[one]), self.tosses) for one in Outcome}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -8,9 +8,11 @@ from cointoss.compare.metrics.estimates import (
     difference,
     jackknife,
     mean,
+    mean_share,
     quotient,
     ratio_of_medians,
     share,
+    share_of,
 )
 
 RUNS = 400
@@ -44,6 +46,18 @@ def test_a_share_of_none_has_an_interval_above_it():
     none = share(np.zeros(500, dtype=bool), counted="impacts")
     assert (none.value, none.low, none.count, none.counted) == (0, 0, 500, "impacts")
     assert 0.005 < none.high < 0.02
+
+
+def test_a_share_of_no_trials_may_be_anything():
+    for none in (share_of(0, 0, "spins"), share([], "spins"), mean_share([], "spins")):
+        assert np.isnan(none.value)
+        assert (none.low, none.high, none.count, none.counted) == (0, 1, 0, "spins")
+        assert none.needed(0.5) is none.needed(2.0) is None
+    with pytest.raises(ValueError, match="an integer not less than 1"):
+        share_of(1, 0)
+    found = quotient(share_of(0, 0), share_of(3, 9))
+    assert np.isnan(found.value)
+    assert (found.low, found.high) == (0, np.inf)
 
 
 def test_a_quotient_of_none_may_be_anything():

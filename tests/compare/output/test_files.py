@@ -24,9 +24,10 @@ def test_a_failed_write_leaves_what_was_there(tmp_path):
 NAMES = ("a.txt", "b.txt", "c.txt", "d.txt")
 
 
-def write_anew(folder):
+def write_anew(folder, meanwhile=lambda: None):
     """Write a.txt to c.txt together, in place of b.txt to d.txt."""
     with written_together(folder, NAMES) as aside:
+        meanwhile()
         for name in NAMES[:3]:
             (aside / name).write_text("new")
 
@@ -63,12 +64,8 @@ def test_a_folder_in_the_place_of_one_file_leaves_all_as_they_were(earlier):
         write_anew(earlier)
     assert held(earlier) == OLD | {"c.txt": False}
     (earlier / "c.txt").rmdir()
-    with (
-        pytest.raises(UnwritableError, match=r"c\.txt: is a folder"),
-        written_together(earlier, NAMES) as aside,
-    ):
-        (aside / "a.txt").write_text("new")
-        (earlier / "c.txt").mkdir()  # meanwhile
+    with pytest.raises(UnwritableError, match=r"c\.txt: is a folder"):
+        write_anew(earlier, meanwhile=(earlier / "c.txt").mkdir)
     assert held(earlier) == OLD | {"c.txt": False}
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from cointoss.compare.metrics.estimates import share_of
 from cointoss.compare.reproduction import gallery, runner
 from cointoss.compare.reproduction.claim import (
     Claim,
@@ -48,6 +49,12 @@ def test_a_claim_holds_where_all_its_criteria_are_met():
     assert (KNOWN.verdict, REFUTED.verdict) == ("holds", "does not hold")
     with pytest.raises(ValueError, match="accepted: one or more"):
         Claim(claim="so it is", criteria=[])
+
+
+def test_a_share_of_no_trials_decides_nothing():
+    claim = Claim(claim="often", criteria=[Criterion("x", share_of(0, 0, "spins"), ">", 0.5, "")])
+    assert claim.holds is None
+    assert claim.verdict == "cannot be tested: there were no spins"
 
 
 @pytest.mark.parametrize(
