@@ -1,9 +1,11 @@
-"""Tests keep what they share in tests/helpers, no test imports a test, and no process is left behind."""
+"""Tests share what is in tests/helpers, leave no process behind, and have no limit for a busy machine."""
 
 import ast
 from pathlib import Path
 
 import pytest
+
+from tests.helpers.processes import HANGS
 
 TESTS = Path(__file__).parent
 SOURCES = sorted(TESTS.rglob("*.py"))
@@ -80,3 +82,23 @@ def test_a_process_left_behind_is_seen(line):
 
 def test_every_process_is_waited_for():
     assert [path for path in [*PACKAGES, *SOURCES] if unwaited(path.read_text(encoding="utf-8"))] == []
+
+
+def hasty(source: str) -> list[int]:
+    """Return the lines that limit something by a number of seconds of their own."""
+    calls = [node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Call)]
+    limits = [one.value for call in calls for one in call.keywords if one.arg == "timeout"]
+    waits = [call.args[0] for call in calls if ast.unparse(call.func).endswith("process.wait") and call.args]
+    return [one.lineno for one in (*limits, *waits) if isinstance(one, ast.Constant)]
+
+
+@pytest.mark.parametrize(
+    "line", ["process.communicate(timeout=60)", "process.wait(60)", "connect(timeout=9)"]
+)
+def test_a_limit_by_the_clock_is_seen(line):
+    assert hasty(line) == [1]
+
+
+def test_a_busy_machine_meets_no_limit(pytestconfig):
+    assert [path for path in SOURCES if hasty(path.read_text(encoding="utf-8"))] == []
+    assert float(pytestconfig.getini("faulthandler_timeout")) >= 3 * HANGS

@@ -12,7 +12,7 @@ def test_what_is_not_begun_is_given_up():
 
     def work(number):
         begun.append(number)
-        go.wait(10)
+        go.wait()
         return number
 
     def interrupted():

@@ -12,7 +12,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, Self
 
-from tests.helpers.processes import started
+from tests.helpers.processes import HANGS, started
 
 OPTIONS = (
     "--headless",
@@ -30,8 +30,6 @@ OPTIONS = (
 LAUNCH = "import os, sys; r, w, *c = sys.argv[1:]; os.dup2(int(r), 3); os.dup2(int(w), 4); os.execv(c[0], c)"
 READY = "document.body?.dataset.ready === 'true'"
 """A page of the explorer says that it is ready."""
-PATIENCE = 60.0
-"""For an answer, on a machine that other work keeps busy [s]."""
 
 
 def chromium() -> str:
@@ -60,7 +58,7 @@ def browser(profile: Path) -> Iterator["Browser"]:
         finally:
             os.close(ordered)  # its end ends the browser
             with suppress(subprocess.TimeoutExpired):
-                process.wait(timeout=20)
+                process.wait(timeout=HANGS)
             os.close(answered)
 
 
@@ -89,7 +87,7 @@ class Browser:
             self.events.append(answer)
 
     def _next(self) -> dict[str, Any]:
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + HANGS
         while b"\0" not in self._read:
             assert select.select([self._answered], [], [], max(deadline - time.monotonic(), 0))[0], (
                 "no answer"
@@ -165,7 +163,7 @@ class Page:
         self.call("Target.setAutoAttach", autoAttach=True, waitForDebuggerOnStart=True, flatten=True)
         loaded = "document.readyState !== 'loading' && location.protocol !== 'about:'"
         self.open(url, ready=loaded, scheme=scheme, moving=moving, **size)
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + HANGS
         while len(sessions := self._sessions_of_frames()) < count:
             assert time.monotonic() < deadline, f"{len(sessions)} frames"
             self.value("1")
@@ -192,9 +190,9 @@ class Page:
         assert "exceptionDetails" not in answer, answer["exceptionDetails"]
         return answer["result"].get("value")
 
-    def wait_for(self, expression: str, *, patience: float = PATIENCE) -> None:
-        """Wait until an expression is true, at most so long [s]."""
-        deadline = time.monotonic() + patience
+    def wait_for(self, expression: str) -> None:
+        """Wait until an expression is true."""
+        deadline = time.monotonic() + HANGS
         while not self.value(expression):
             assert time.monotonic() < deadline, f"never: {expression}; {self.complaints()}"
             time.sleep(0.05)

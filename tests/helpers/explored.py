@@ -9,6 +9,7 @@ from pathlib import Path
 from cointoss.compare.explorer.server import Explorer
 from tests.helpers import basin_runs
 from tests.helpers.command_line import cointoss
+from tests.helpers.processes import HANGS
 
 SCENARIO = basin_runs.SCENARIO.replace("= 0\n", '= "2 mm"\n') + "[ending]\nmax_impacts = 4\n"
 FIELDS = "release.angular_velocity.eta", "release.position.z"
@@ -39,7 +40,7 @@ def serving(path: Path) -> Iterator[Explorer]:
 
 def sent(port: int, request: bytes) -> tuple[int, dict[str, str], bytes]:
     """Send bytes to a server; return its answer's status, headers and body."""
-    with socket.create_connection(("127.0.0.1", port), timeout=200) as connection:
+    with socket.create_connection(("127.0.0.1", port), timeout=HANGS) as connection:
         connection.sendall(request)
         connection.shutdown(socket.SHUT_WR)
         answer = b"".join(iter(lambda: connection.recv(1 << 16), b""))

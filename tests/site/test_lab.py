@@ -12,7 +12,7 @@ import pytest
 import cointoss
 from cointoss import analytic
 from cointoss.models.reading import parse
-from tests.helpers.browser import PATIENCE, Page
+from tests.helpers.browser import Page
 from tests.helpers.coins_shown import BLUE, GOLD, NO_WEBGL, UNNAMED, box, faces, picture, set_time
 from tests.helpers.command_line import cointoss as command
 from tests.helpers.lab import COUNTED, HEIGHT, SPIN, TOSSED, WHOLE
@@ -292,7 +292,7 @@ def test_the_browser_is_measured(page, lab_path):
     # The map takes seconds, and minutes where other programs run.
     for count in (1, 3, 4):
         page.wait_for(f"document.querySelectorAll('#measurements tr').length >= {count}")
-    page.wait_for("!document.getElementById('measure').disabled", patience=4 * PATIENCE)
+    page.wait_for("!document.getElementById('measure').disabled")
     rows = page.value(
         "[...document.querySelectorAll('#measurements tr')].map((row) => row.children[1].textContent)"
     )

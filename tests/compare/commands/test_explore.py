@@ -4,7 +4,6 @@ import json
 import shutil
 import signal
 import socket
-import time
 import webbrowser
 
 import numpy as np
@@ -19,7 +18,7 @@ from cointoss.compare.sweep.grid import tile_shape, tiles
 from cointoss.compare.sweep.reading import read_map
 from tests.helpers.command_line import cointoss, refused
 from tests.helpers.explored import got, small_map
-from tests.helpers.processes import started
+from tests.helpers.processes import answered, ask, started
 
 
 @pytest.fixture
@@ -112,15 +111,12 @@ def test_the_address_is_printed_and_opened(map_path, monkeypatch, opens, options
     assert ("no browser was found" in answered.stderr) == (not opens)
 
 
-def test_ctrl_c_ends_it_within_a_second(map_path):
-    """A second on a machine of one's own; ten on one that is busy."""
+def test_ctrl_c_ends_it(map_path):
     script = "from cointoss.compare.cli import main; main()"
     with started("-c", script, "explore", map_path, "--no-browser") as process:
         assert process.stdout
         port = int(process.stdout.readline().rstrip("/\n").rpartition(":")[2])
         assert got(port, "/")[0] == 200
-        sent = time.monotonic()
-        process.send_signal(signal.SIGINT)
-        _, said = process.communicate(timeout=60)
-        assert time.monotonic() - sent < 10
+        ask(process, signal.SIGINT)
+        _, said = answered(process)
     assert (process.returncode, said) == (130, "cointoss: interrupted by SIGINT\n")

@@ -12,7 +12,7 @@ from cointoss.compare.commands import hands
 from cointoss.compare.output import interruption
 from cointoss.models.hand import Hand
 from tests.helpers.command_line import cointoss, refused
-from tests.helpers.processes import started, wait_until
+from tests.helpers.processes import answered, ask, started, wait_until
 
 ALONG = ("--along", "floor.restitution=0.3:0.6:2", "--tosses", 300, "--seed", 5)
 
@@ -113,8 +113,8 @@ main()
     words = ("shares", coin, "--along", "floor.restitution=0.3:0.6:3", "--out", "a.csv", "--out", "a.png")
     with started("-c", script, *words, cwd=tmp_path) as process:
         wait_until(process, (tmp_path / "begun").exists)
-        process.send_signal(signal.SIGINT)
-        printed, said = process.communicate(timeout=60)
+        ask(process, signal.SIGINT)
+        printed, said = answered(process)
     assert process.returncode == 130, said
     assert said.endswith("cointoss: interrupted by SIGINT: 500 tosses are counted\n")
     rows = list(csv.DictReader(io.StringIO((tmp_path / "a.csv").read_text())))
@@ -144,8 +144,8 @@ main()
 """
     with started("-c", script, "hands", coin, "--tosses", "1000", cwd=tmp_path) as process:
         wait_until(process, (tmp_path / "begun").exists)
-        process.send_signal(signal.SIGINT)
-        printed, said = process.communicate(timeout=60)
+        ask(process, signal.SIGINT)
+        printed, said = answered(process)
     assert process.returncode == 130, said
     assert said.endswith("cointoss: interrupted by SIGINT: 80 tosses are counted\n")
     assert [line.split(" of ")[-1] for line in printed.splitlines()[:4]] == 4 * ["80 tosses"]

@@ -15,7 +15,7 @@ from cointoss.compare.report.contents import FILES
 from cointoss.models.reading import scenario_text
 from tests.helpers.command_line import cointoss, in_a_shell
 from tests.helpers.films import film_written
-from tests.helpers.processes import started, wait_until
+from tests.helpers.processes import answered, started, wait_until
 
 
 @pytest.fixture
@@ -44,7 +44,7 @@ def test_where_a_film_is_interrupted_the_report_stands_without_it(tmp_path, shor
     with started("-c", script, *command, cwd=tmp_path, start_new_session=True) as filming:
         wait_until(filming, lambda: list(tmp_path.glob("new/report/.cointoss-*/toss.mp4")))
         os.killpg(filming.pid, signal.SIGINT)  # the encoder is stopped too, as by Ctrl-C
-        _, told = filming.communicate(timeout=60)
+        _, told = answered(filming)
     assert (filming.returncode, told) == (130, "cointoss: interrupted by SIGINT\n")
     assert {path.name for path in (tmp_path / "new/report").iterdir()} == set(FILES) - {"toss.mp4"}
 

@@ -24,7 +24,7 @@ from tests.helpers.basin_runs import (
     wait_for,
     whole_tiles,
 )
-from tests.helpers.processes import started, wait_until
+from tests.helpers.processes import HANGS, answered, started, wait_until
 
 
 @pytest.fixture
@@ -38,7 +38,7 @@ def cluster(tmp_path):
         with _started(*worker) as one, _started(*worker) as other:
             where = json.loads(address.read_text())["address"]
             with distributed.Client(where, set_as_default=False) as client:
-                client.wait_for_workers(2, timeout=100)
+                client.wait_for_workers(2, timeout=HANGS)
             yield where, (one, other), scheduler
 
 
@@ -54,7 +54,7 @@ def test_a_worker_lost_on_the_way_changes_no_pixel(cluster, coin, tmp_path):
         wait_for(process, out, 4)
         workers[0].kill()
         at_the_loss = whole_tiles(out)
-        _, said = process.communicate(timeout=200)
+        _, said = answered(process)
     assert process.returncode == 0, said
     assert at_the_loss < whole_tiles(out)
     assert workers[1].poll() is None
@@ -117,7 +117,7 @@ def test_a_scheduler_lost_on_the_way_is_one_line_and_the_map_is_gone_on_with(clu
     with begun(coin, out, "--scheduler", address) as process:
         wait_for(process, out, 4)
         scheduler.kill()
-        _, said = process.communicate(timeout=200)
+        _, said = answered(process)
     assert process.returncode == 2, said
     assert f"cointoss: {coin}: --scheduler {address}: the cluster was lost, or a part there (" in said
     assert said.endswith("); --resume goes on\n")

@@ -9,8 +9,8 @@ from cointoss import analytic, coin_mj
 from cointoss.compare.explorer import static
 from cointoss.compare.sweep.reading import read_map
 from cointoss.models.reading import load
-from tests.helpers.browser import PATIENCE
 from tests.helpers.coins_shown import UNNAMED, faces, picture, set_time
+from tests.helpers.processes import HANGS
 
 STAGE = 300
 """Height of the coins in a frame of full height, at most [px]."""
@@ -54,7 +54,7 @@ def row(toss, label, kind):
 
 def painted(page, cell, coins=1):
     """Return what the window shows of a cell once each of its coins is there, in its part of the stage."""
-    deadline = time.monotonic() + PATIENCE
+    deadline = time.monotonic() + HANGS
     while True:
         shown = picture(page, cell)
         if all(faces(part) > 500 for part in np.array_split(shown[:STAGE], coins, axis=1)):
