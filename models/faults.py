@@ -47,6 +47,7 @@ class Fault(IntEnum):
     ROLLING = 17
     PIVOTING = 18
     CAUGHT = 19
+    ROW = 20
 
 
 _RESISTANCE_LAW = (
@@ -99,6 +100,7 @@ ACCEPTED = {
     Fault.DRAG: ("air", f"air that slows the coin at a rate of at most {FASTEST_DRAG:g} sqrt(g/r)"),
     Fault.ROLLING: ("floor.rolling_friction", _RESISTANCES),
     Fault.PIVOTING: ("floor.pivoting_friction", _RESISTANCES),
+    Fault.ROW: ("row", "a finite number at place {limit:g}; NaN stands for a field that may be left out"),
     Fault.CAUGHT: ("ending.caught", "more than {limit:.6g} m, so that the coin is caught in flight"),
 }
 """The field that each fault names, and what is accepted there: `limit` is a number, `contact` the law."""

@@ -108,3 +108,15 @@ def _default(place: _Place) -> tuple[float | str | None, bool]:
         if isinstance(step, int) and value is not None:
             value = value[step]
     return str(value) if isinstance(value, Word) else value, False
+
+
+def _first_places() -> tuple[int, ...]:
+    found: dict[_Place, int] = {}
+    return tuple(
+        found.setdefault(place[:2], i) if _default(place) == (None, False) else -1
+        for i, place in enumerate(PLACES.values())
+    )
+
+
+FIRST = _first_places()
+"""For each field that may be left out, the place of the first number of its list; -1 for the others."""

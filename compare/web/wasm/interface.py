@@ -16,7 +16,7 @@ from cointoss.analytic.flight.state_vector import STATE_SIZE, position_of, spin_
 from cointoss.analytic.horizon.certainty import certainty_of
 from cointoss.analytic.horizon.horizon import MOST_CARRIED, STEP_ERROR, TURN_ERROR, ErrorsMade, find_horizon
 from cointoss.analytic.settings import MANY, contact_limits
-from cointoss.compare.web.wasm.fields import FIELDS
+from cointoss.compare.web.wasm.fields import FIELDS, FIRST
 from cointoss.models.attitude import normalized, quaternion_from_angles
 from cointoss.models.barriers import barrier, energy
 from cointoss.models.body import NO_CODE, AirLaw, Body, Rules
@@ -41,7 +41,7 @@ IMPACT = ("time", "face", "energy", "impulse_x", "impulse_y", "impulse_z")
 """Columns of an impact, in SI."""
 EXAMINED = ("fault", "limit", "barrier")
 """Columns of what is said of a scenario: its `Fault`, the number in its sentence, and the least energy with
-which the coin turns over [J]."""
+which the coin turns over [J], NaN of a row that is no scenario's."""
 PIECE = 2 + STATE_SIZE
 """Numbers of a piece of a path: when it starts, its `Mode`, and the state there."""
 NO_TRUST, TRUST, CERTAIN = range(3)
@@ -64,6 +64,19 @@ _ENDING = FIELDS.index("ending.test")
 def three(row: Array, first: int) -> Vector:
     """Return three numbers of a row."""
     return row[first], row[first + 1], row[first + 2]
+
+
+@compiled
+def foreign_number(row: Array) -> int:
+    """Return the place of the first number that no scenario's row has there, -1 where there is none.
+
+    All are finite, but for the parts of a scenario that are left out, which are not a number as a whole.
+    """
+    for i in range(len(FIRST)):
+        is_left_out = FIRST[i] >= 0 and math.isnan(row[FIRST[i]])
+        if not (math.isnan(row[i]) if is_left_out else math.isfinite(row[i])):
+            return i
+    return -1
 
 
 @compiled
@@ -128,12 +141,14 @@ def rules_of(row):
 
 @compiled
 def release_of(row: Array) -> State:
-    """Return the state at the release of a row."""
+    """Return the state at the release of a row; without an attitude the coin is flat, heads up."""
     q = row[_QUATERNION : _QUATERNION + 4]
-    if math.isnan(q[0]):
+    if not math.isnan(q[0]):
+        e = normalized((q[0], q[1], q[2], q[3]))
+    elif not math.isnan(row[_ANGLES]):
         e = quaternion_from_angles(three(row, _ANGLES))
     else:
-        e = normalized((q[0], q[1], q[2], q[3]))
+        e = quaternion_from_angles((0.0, 0.0, 0.0))
     return state(three(row, _POSITION), three(row, _POSITION + 3), e, three(row, _SPIN))
 
 
@@ -174,10 +189,13 @@ def examine(row: Array, answer: Array) -> None:
     """Say whether a row is a scenario.
 
     Args:
-        row: of numbers each within its bounds.
+        row: of numbers, each within its bounds where it is finite.
         answer: where it goes, (3,), see `EXAMINED`.
     """
-    if has_linear_air(row):
+    place = foreign_number(row)
+    if place >= 0:
+        answer[0], answer[1], answer[2] = Fault.ROW.value, place, math.nan
+    elif has_linear_air(row):
         _examine(body_of(row, None), row, answer)
     else:
         _examine(body_of(row, row[_AIR]), row, answer)
@@ -201,7 +219,10 @@ def toss_each(rows: Array, wanted: int, answers: Array) -> None:
     """
     impacts, y = np.zeros(2 if wanted == NO_TRUST else FIRST_ROOM, IMPACT_ROW), np.empty(STATE_SIZE)
     for i in range(len(rows)):
-        if has_linear_air(rows[i]):
+        answers[i, :] = -1
+        if foreign_number(rows[i]) >= 0:
+            answers[i, 0] = NO_SCENARIO
+        elif has_linear_air(rows[i]):
             _answer(body_of(rows[i], None), rows[i], wanted, impacts, y, answers[i])
         else:
             _answer(body_of(rows[i], rows[i, _AIR]), rows[i], wanted, impacts, y, answers[i])
@@ -209,8 +230,6 @@ def toss_each(rows: Array, wanted: int, answers: Array) -> None:
 
 @compiled
 def _answer(body, row, wanted, impacts, y, answer):
-    for i in range(len(answer)):
-        answer[i] = -1
     if fault_of(body, row).fault != Fault.NONE:
         answer[0] = NO_SCENARIO
         return

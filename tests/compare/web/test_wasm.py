@@ -4,12 +4,27 @@ import os
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
+import cointoss
 from cointoss.compare.web.wasm import build as building
 from cointoss.compare.web.wasm import carried
 from cointoss.compare.web.wasm.build import _leb128, main
 from cointoss.compare.web.wasm.carried import engine_bytes, made_of, sources
+from cointoss.compare.web.wasm.fields import FIELDS, row_of
+from cointoss.compare.web.wasm.interface import (
+    ANSWER,
+    EXAMINED,
+    NO_SCENARIO,
+    NO_TRUST,
+    examine,
+    foreign_number,
+    toss_each,
+)
+from cointoss.models.faults import Fault
+from cointoss.models.records import Outcome
+from tests.helpers.draws import scenario
 
 
 @pytest.mark.parametrize("content", [b"", b"cointoss{", b'cointoss{"version": "1"}', b"\0asm" + bytes(100)])
@@ -62,3 +77,46 @@ sys.exit(build.main([{str(tmp_path / "engine.wasm")!r}]))
     (line,) = done.stderr.splitlines()
     assert line.startswith("engine.wasm: ")
     assert "COINTOSS_COMPILER unset" in line
+
+
+LEFT_OUT = ("coin.inertia.", "release.angles.", "release.quaternion.", "ending.max_impacts", "ending.caught")
+
+
+def rows_of(case):
+    """Return rows of a scenario, each with one number that no scenario has there, and the places of these."""
+    row = row_of(case)
+    places = [i for i, name in enumerate(FIELDS) if not name.startswith(LEFT_OUT)]
+    changes = [(i, value) for i in places for value in (np.nan, np.inf, -np.inf)]
+    changes += [(i, np.inf) for i in range(len(FIELDS)) if i not in places]
+    lists = [FIELDS.index(f"release.angles.{name}") for name in ("psi", "theta", "phi")]
+    changes += [(i, np.nan) for i in lists if not np.isnan(row[i])]
+    rows = np.tile(row, (len(changes), 1))
+    for one, (i, value) in zip(rows, changes, strict=True):
+        one[i] = value
+    return rows, [i for i, _ in changes]
+
+
+def test_a_row_with_a_number_that_no_scenario_has_is_no_scenario():
+    rows, places = rows_of(cointoss.load("fig24a"))
+    assert foreign_number(row_of(cointoss.load("fig24a"))) == -1
+    answers, told = np.empty((len(rows), len(ANSWER))), np.empty(len(EXAMINED))
+    toss_each(rows, NO_TRUST, answers)
+    assert (answers[:, 0] == NO_SCENARIO).all()
+    assert (answers[:, 1:] == -1).all()
+    for row, place in zip(rows, places, strict=True):
+        examine(row, told)
+        assert told[0] == Fault.ROW
+        # A list is named by its first number, which says whether it is there.
+        assert FIELDS[int(told[1])].rpartition(".")[0] == FIELDS[place].rpartition(".")[0]
+
+
+def test_a_release_without_an_attitude_is_flat_with_heads_up():
+    flat = scenario(release={"position": [0, 0, 0.3], "angular_velocity": [0, 5, 0]})
+    rows = np.array([row_of(flat), row_of(flat.replace("release.angles", [0, 0, 0]))])
+    assert np.isnan(rows[0]).sum() == np.isnan(rows[1]).sum() + 3
+    answers, told = np.empty((2, len(ANSWER))), np.empty(len(EXAMINED))
+    examine(rows[0], told)
+    assert told[0] == Fault.NONE
+    toss_each(rows, NO_TRUST, answers)
+    assert answers[0].tolist() == answers[1].tolist()
+    assert answers[0, 0] in (Outcome.HEADS, Outcome.TAILS)
