@@ -1,18 +1,10 @@
 """Both engines asked the same question, and the command line; imports the other three packages."""
 
 import inspect
-import signal
 import sys
 from collections.abc import Callable
-from pathlib import Path
 from types import ModuleType
 from typing import Any
-
-# The command, `cointoss` or `python -m cointoss`, comes here before any code of its own.
-_is_command = sys.argv[0].endswith(("cointoss", "cointoss.exe", str(Path("cointoss", "__main__.py"))))
-if _is_command and signal.getsignal(signal.SIGINT) == signal.default_int_handler:
-    # No traceback, until cointoss.compare.output.interruption has its own handler.
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 class _Package(ModuleType):

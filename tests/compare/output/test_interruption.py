@@ -2,6 +2,8 @@
 
 import signal
 import time
+import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ import pytest
 from cointoss.compare.engines import Engine
 from cointoss.compare.sweep import grid
 from tests.helpers.basin_runs import AXES, SCENARIO, SMALL, assert_same, basin, pixels
+from tests.helpers.command_line import python
 from tests.helpers.processes import HANGS, answered, ask, started, wait_until
 
 STATUSES = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
@@ -171,6 +174,35 @@ def test_nothing_keeps_the_process_and_what_was_printed_before_is_there(tmp_path
         ask(process, signal.SIGINT)
         assert answered(process) == ("first\n", "cointoss: interrupted by SIGINT\n")
     assert process.returncode == 130
+
+
+@pytest.mark.parametrize("name", ["my_cointoss", "cointoss", "cointoss.exe", "cointoss/__main__.py"])
+def test_a_script_that_imports_the_package_keeps_its_ctrl_c(tmp_path, name):
+    (tmp_path / name).parent.mkdir(exist_ok=True)
+    (tmp_path / name).write_text(
+        "import signal, cointoss\n"
+        "cointoss.load('fig24a'), cointoss.compare, cointoss.Engine('analytic').package\n"
+        "print(signal.getsignal(signal.SIGINT) == signal.default_int_handler)\n"
+    )
+    done = python(tmp_path / name, folder=tmp_path)
+    assert (done.stdout, done.stderr) == ("True\n", "")
+
+
+def test_the_command_leaves_no_traceback_even_while_it_is_imported():
+    script = (
+        "import builtins, os, signal\n"
+        "own = builtins.__import__\n"
+        "def importing(name, *more):\n"
+        "    if name == 'cointoss.compare.cli': os.kill(os.getpid(), signal.SIGINT)\n"
+        "    return own(name, *more)\n"
+        "builtins.__import__ = importing\n"
+        "from cointoss.__main__ import main\n"
+        "main()"
+    )
+    done = python("-c", script)
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "", "")
+    project = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text())["project"]
+    assert project["scripts"] == {"cointoss": "cointoss.__main__:main"}
 
 
 def test_a_signal_that_is_ignored_stays_so(tmp_path):
