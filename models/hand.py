@@ -86,6 +86,7 @@ class Hand:
                 raise FieldError(name, getattr(self, name), what)
         if self.up not in UPWARDS:
             raise FieldError("up", self.up, " or ".join(UPWARDS))
+        object.__setattr__(self, "up", str(self.up))
         if not isinstance(self.spun, bool):
             raise FieldError("spun", self.spun, "true or false")
         if self.spun and self.caught is not None:

@@ -142,7 +142,7 @@ def find(
     scenario: ScenarioSource,
     *vary: str,
     sequence: str = "",
-    outcome: str | None = None,
+    outcome: Outcome | str | None = None,
     tosses: int = USUAL_TOSSES,
     seed: int = 0,
 ) -> Found:
@@ -159,7 +159,7 @@ def find(
         scenario: a `Scenario`, the path of its file, or the name of one that comes with the package.
         vary: FIELD=START:STOP, one or more; those of the release are fastest.
         sequence: faces up at the first touches, as in "HTTH".
-        outcome: such as "edge".
+        outcome: such as `Outcome.EDGE` or "edge".
         tosses: over the window, at most; where many show it, fewer are made.
         seed: of the points of the window.
 
@@ -170,10 +170,9 @@ def find(
     described = scenario_of(scenario)
     require_whole("tosses", tosses, 1, MOST_TOSSES)
     require_whole("seed", seed, 0, MOST_SEED)
-    words = {str(one): one for one in Outcome}
-    if outcome is not None and outcome not in words:
-        raise SweepError(f"outcome: {outcome!r}, accepted: {', '.join(words)}")
-    target = Target(sequence=sequence, outcome=None if outcome is None else words[outcome])
+    if outcome is not None and outcome not in list(Outcome):
+        raise SweepError(f"outcome: {outcome!r}, accepted: {', '.join(map(str, Outcome))}")
+    target = Target(sequence=sequence, outcome=None if outcome is None else Outcome(outcome))
     if len(sequence) > (most := min(LONGEST, described.rules.max_impacts)):
         raise SweepError(f"sequence: {len(sequence)} faces, accepted: at most {most}, as ending.max_impacts")
     window = window_of(vary, described)

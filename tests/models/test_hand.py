@@ -10,6 +10,7 @@ from cointoss.models.attitude import rotation_matrix
 from cointoss.models.errors import ScenarioError
 from cointoss.models.hand import Hand, load_hand, same_side_probability
 from cointoss.models.reading import load
+from cointoss.models.records import Face, Outcome
 
 COINS = [load("fig29"), load("zloty")]
 
@@ -65,6 +66,12 @@ def test_a_coin_in_flight_has_its_first_side_up_for_that_part_of_the_time(psi):
 def test_what_is_no_number_is_refused_as_such(value):
     with pytest.raises(ValueError, match=r"^height = .*: accepted: a number$"):
         Hand(height=value)
+
+
+def test_the_side_that_is_up_is_a_word_or_a_member():
+    hand = Hand(up="heads")
+    for up in (Face.HEADS, Outcome.HEADS):
+        assert repr(Hand(up=up)) == repr(hand)
 
 
 def rotations(releases):

@@ -92,13 +92,14 @@ def test_what_is_found_is_a_scenario_file():
     assert again.release.position[2] != field
 
 
-def test_an_outcome_is_found_and_all_fields_may_vary():
+@pytest.mark.parametrize("outcome", ["edge", Outcome.EDGE])
+def test_an_outcome_is_found_and_all_fields_may_vary(outcome):
     """A thick coin dropped near its edge: on it, and beside it."""
     thick = COIN.replace("coin.thickness", 0.01, "floor.restitution", 0.3, "air.normal", 0.8)
     found = find(
         thick,
         *("release.angles.theta=60 deg:90 deg", "coin.thickness=9 mm:11 mm"),
-        outcome="edge",
+        outcome=outcome,
         tosses=32,
     )
     assert found.toss is not None
