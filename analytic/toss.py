@@ -28,7 +28,7 @@ from cointoss.models.interruptible import interruptible
 from cointoss.models.parts import Release
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Array, Ending, Impacts, Setting, States, Toss, TrustEnd
-from cointoss.models.scenario import Scenario
+from cointoss.models.scenario import Scenario, keeping_all
 from cointoss.models.stages import stage
 
 _INTEGRATED = "Dormand-Prince of order 8(5,3), Euler parameters kept at norm 1"
@@ -117,12 +117,12 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE, law: OwnLaw | N
         law: a contact law of one's own, in place of the scenario's.
 
     Raises:
-        ScenarioError: for a file or a name that can't be used.
+        ScenarioError: for a file or a name that can't be used, and for more impacts than can be kept.
         UnsupportedError: for a floor that a law of one's own can't be used with.
     """
     require_type("settings", settings, Settings, "analytic.Settings, such as analytic.FINE")
     described = scenario_of(scenario)
-    rules = rules_by(law, described)
+    rules = keeping_all(rules_by(law, described), described)
     with stage("tossing by the analytic engine"):
         return interruptible(lambda: _toss(described, rules, settings, law))
 

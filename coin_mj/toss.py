@@ -37,7 +37,7 @@ from cointoss.models.records import (
     TrustEnd,
     UnsupportedError,
 )
-from cointoss.models.scenario import Scenario
+from cointoss.models.scenario import Scenario, keeping_all
 from cointoss.models.stages import stage
 
 REALISABLE = (ContactLaw.SMOOTH, ContactLaw.COULOMB, ContactLaw.PERFECTLY_ROUGH)
@@ -119,7 +119,7 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
         settings: how MuJoCo realises the floor, and how finely it steps.
 
     Raises:
-        ScenarioError: for a file or a name that can't be used.
+        ScenarioError: for a file or a name that can't be used, and for more impacts than can be kept.
         UnsupportedError: for contact laws other than "smooth", "coulomb" and "perfectly_rough"; energetic
             restitution; resistance to rolling or pivoting beside native friction.
 
@@ -129,14 +129,15 @@ def toss(scenario: ScenarioSource, *, settings: Settings = FINE) -> Toss:
     require_type("settings", settings, Settings, "coin_mj.Settings, such as coin_mj.FINE")
     described = scenario_of(scenario)
     require_supported(described, settings=settings)
+    rules = keeping_all(described.rules, described)
     warn_of_approximation(described)
     with stage("tossing by MuJoCo"):
-        return interruptible(lambda: _toss(described, settings))
+        return interruptible(lambda: _toss(described, rules, settings))
 
 
-def _toss(scenario: Scenario, settings: Settings) -> Toss:
+def _toss(scenario: Scenario, rules: Rules, settings: Settings) -> Toss:
     machine = machine_of(scenario, settings)
-    answer = run(machine, scenario.rules)
+    answer = run(machine, rules)
     impacts = Impacts.from_rows(answer.rows)
     path = Knots(machine=machine, knots=answer.knots, restitution=scenario.floor.restitution)
     trusted, trust_end = _trust(scenario, settings, impacts, answer.contacts)

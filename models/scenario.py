@@ -17,7 +17,7 @@ from cointoss.models.errors import ScenarioError, describe, require_type
 from cointoss.models.faults import fault_of_toss
 from cointoss.models.fields import put
 from cointoss.models.kernel.vectors import Vector
-from cointoss.models.making import make_body, most_impacts
+from cointoss.models.making import MOST_LOSSLESS, make_body, most_impacts
 from cointoss.models.parts import (
     Acceleration,
     Air,
@@ -30,6 +30,9 @@ from cointoss.models.parts import (
 )
 from cointoss.models.unused import warn_of_unused_fields
 from cointoss.models.writing import toml
+
+MOST_KEPT, KEPT_BYTES = MOST_LOSSLESS, 416
+"""Impacts of a toss that keeps them all, and the memory that each takes, with the flight after it."""
 
 
 class Scenario(Part):
@@ -128,6 +131,21 @@ class Scenario(Part):
             max_time=ending.max_time,
             caught=math.inf if ending.caught is None else ending.caught,
         )
+
+
+def keeping_all(rules: Rules, scenario: Scenario) -> Rules:
+    """Return the rules of a toss that keeps all its impacts: no more of them than `MOST_KEPT`.
+
+    Raises:
+        ScenarioError: where the scenario asks for more.
+    """
+    asked = scenario.ending.max_impacts or 0
+    if asked > MOST_KEPT:
+        raise ScenarioError(
+            f"ending.max_impacts = {asked}: accepted: at most {MOST_KEPT} of one toss, which keeps all its "
+            f"impacts ({asked * KEPT_BYTES / 1e9:.3g} GB here); toss_many and maps keep none"
+        )
+    return rules._replace(max_impacts=min(rules.max_impacts, MOST_KEPT))
 
 
 def vector(row: NDArray[np.floating]) -> Vector:

@@ -8,12 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from cointoss.analytic.flight.state_vector import STATE_SIZE
 from cointoss.models.errors import ScenarioError
 from cointoss.models.laws import ContactLaw, EndingTest
 from cointoss.models.making import MOST_IMPACTS, MOST_LOSSLESS
 from cointoss.models.parts import Coin, Release
 from cointoss.models.reading import MOST_BYTES, load, named_scenarios, parse, scenario_text
-from cointoss.models.scenario import Scenario
+from cointoss.models.records import IMPACT_ROW
+from cointoss.models.scenario import KEPT_BYTES, MOST_KEPT, Scenario, keeping_all
 from tests.helpers.draws import scenario
 
 GOOD = """
@@ -72,6 +74,17 @@ def test_what_is_left_out_has_its_documented_default():
 def test_a_toss_has_patience_where_impacts_take_energy(floor, lossless):
     assert scenario(floor=floor).rules.max_impacts == (MOST_LOSSLESS if lossless else MOST_IMPACTS)
     assert scenario(floor=floor, ending={"max_impacts": 7}).rules.max_impacts == 7
+
+
+def test_a_toss_that_keeps_its_impacts_keeps_no_more_than_fit():
+    assert IMPACT_ROW.itemsize + 8 * (STATE_SIZE + 4) == KEPT_BYTES
+    case = scenario(ending={"max_impacts": MOST_KEPT})
+    assert keeping_all(case.rules, case) == case.rules
+    patient = scenario(floor={"restitution": 0.99})
+    assert keeping_all(patient.rules, patient) == patient.rules._replace(max_impacts=MOST_KEPT)
+    more = scenario(ending={"max_impacts": MOST_KEPT + 1})
+    with pytest.raises(ScenarioError, match=r"max_impacts = 1000001: .* 1000000 of one toss.*0\.416 GB here"):
+        keeping_all(more.rules, more)
 
 
 def test_the_unit_of_lambda_follows_the_exponent():

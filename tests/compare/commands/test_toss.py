@@ -12,10 +12,22 @@ from cointoss import analytic
 from cointoss.compare.output.answer import as_json
 from cointoss.models.distribution import DISTRIBUTION
 from cointoss.models.reading import load, scenario_text
-from cointoss.models.records import OtherOutcome, Outcome
+from cointoss.models.records import Ending, OtherOutcome, Outcome
+from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 from tests.helpers.command_line import cointoss, refused
 from tests.helpers.draws import THIN, scenario
+
+
+@pytest.mark.parametrize("engine", ["analytic", "mujoco"])
+def test_more_impacts_than_memory_has_room_for_are_refused_before_the_toss(engine):
+    said = refused("toss", "fig24a", "--engine", engine, "--max-impacts", 30_000_000)
+    assert "accepted: at most 1000000 of one toss, which keeps all its impacts (12.5 GB here)" in said
+
+
+def test_many_tosses_keep_no_impacts_and_may_have_more():
+    case = scenario(ending={"max_impacts": 30_000_000, "max_time": 0.5})
+    assert analytic.toss_many(case, Releases.of(case, 2)).ending.tolist() == 2 * [Ending.MAX_TIME]
 
 
 def test_json_has_the_agreed_form():
