@@ -21,7 +21,7 @@ from cointoss.compare.commands.names import scenario_argument
 @scenario_argument
 @engine_option
 @contact_option
-@click.option("--max-impacts", type=Count(1, 30_000_000), help="Stop after this number of impacts.")
+@click.option("--max-impacts", type=Count(1, 1_000_000), help="Stop after this number of impacts.")
 @click.option(
     "--contact-steps",
     type=Count(1, 1_000_000_000),

@@ -14,15 +14,17 @@ from cointoss.models.distribution import DISTRIBUTION
 from cointoss.models.reading import load, scenario_text
 from cointoss.models.records import Ending, OtherOutcome, Outcome
 from cointoss.models.releases import Releases
-from cointoss.models.scenario import Scenario
+from cointoss.models.scenario import MOST_KEPT, Scenario
 from tests.helpers.command_line import cointoss, refused
 from tests.helpers.draws import THIN, scenario
 
 
 @pytest.mark.parametrize("engine", ["analytic", "mujoco"])
-def test_more_impacts_than_memory_has_room_for_are_refused_before_the_toss(engine):
-    said = refused("toss", "fig24a", "--engine", engine, "--max-impacts", 30_000_000)
+def test_more_impacts_than_memory_has_room_for_are_refused_before_the_toss(engine, tmp_path):
+    (tmp_path / "long.toml").write_text(scenario_text("fig24a") + "\n[ending]\nmax_impacts = 30000000\n")
+    said = refused("toss", tmp_path / "long.toml", "--engine", engine)
     assert "accepted: at most 1000000 of one toss, which keeps all its impacts (12.5 GB here)" in said
+    assert f"<= {MOST_KEPT}" in refused("toss", "fig24a", "--max-impacts", MOST_KEPT + 1)
 
 
 def test_many_tosses_keep_no_impacts_and_may_have_more():
