@@ -1,5 +1,6 @@
 """The command line: `cointoss`."""
 
+import difflib
 import os
 import sys
 from io import TextIOWrapper
@@ -44,6 +45,8 @@ class _Commands(click.Group):
                 sys.stdout.flush()
         except click.MissingParameter as error:
             refuse(_missing(error))
+        except click.NoSuchOption as error:
+            refuse(_no_such_option(error, self))
         except click.UsageError as error:
             command = error.ctx.command_path if error.ctx else "cointoss"
             refuse(f"{error.format_message().rstrip('.')} (see {command} --help)")
@@ -106,6 +109,21 @@ def _missing(error: click.MissingParameter) -> str:
         form = parameter.metavar or parameter.type.name.upper()
         accepted = f"{name} {form}, {about[:1].lower()}{about[1:]}"
     return f"{name}: missing; accepted: {accepted} (see {command} --help)"
+
+
+def _no_such_option(error: click.NoSuchOption, group: click.Group) -> str:
+    """Return which option a command does not have, and a near one of its own, or which commands have it."""
+    asked, command = error.option_name, error.ctx.command if error.ctx else group
+    near = difflib.get_close_matches(asked, _options(command), n=1, cutoff=0.75)
+    others = [f"cointoss {name}" for name, each in group.commands.items() if asked in _options(each)]
+    hint = f"; did you mean {near[0]}?" if near else f"; {' and '.join(others)} take it" if others else ""
+    return (
+        f"No such option '{asked}'{hint} (see {error.ctx.command_path if error.ctx else 'cointoss'} --help)"
+    )
+
+
+def _options(command: click.Command) -> list[str]:
+    return [text for option in command.params for text in option.opts]
 
 
 def _lose_stdout() -> None:

@@ -30,6 +30,15 @@ QUANTITIES = {"height": HEIGHT, "spin": SPIN} | {
 """What `Releases.of` may change, and its field: `height` is `position_z`, `spin` the size of ω."""
 
 
+class RefusedRowError(ValueError):
+    """A row of releases that can't be used."""
+
+    def __init__(self, name: str, row: int, value: object, accepted: str) -> None:
+        """Keep which part of the releases is wrong, and what is accepted there."""
+        super().__init__(f"Releases.{name}: row {row} is {value}, accepted: {accepted}")
+        self.name, self.accepted = name, accepted
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Releases:
     """The states of many coins at time 0, one row each; arrays are copies, and read-only."""
@@ -241,7 +250,7 @@ def check_releases(scenario: Scenario, releases: Releases) -> None:
 def _refuse(name: str, rows: Array, refused: ArrayLike, accepted: str) -> None:
     if np.any(refused):
         i = int(np.argmax(refused))
-        raise ValueError(f"Releases.{name}: row {i} is {rows[i].tolist()}, accepted: {accepted}")
+        raise RefusedRowError(name, i, rows[i].tolist(), accepted)
 
 
 @compiled

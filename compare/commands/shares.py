@@ -18,6 +18,7 @@ from cointoss.compare.commands.common import (
     Place,
     Quantity,
     engine_option,
+    naming_options,
     plain_errors,
     print_json,
     say,
@@ -110,16 +111,17 @@ def shares(
         read = [given["hand_file"]] if given["hand_file"] is not None else []
         hand, _ = chosen_hand(given, described := load(scenario))
         engines = tuple(Engine) if both else (Engine(engine),)
-        plan = plans.plan_of(
-            along,
-            described,
-            name=Path(scenario).stem,
-            hand=hand,
-            engines=engines,
-            seed=seed,
-            tosses=plans.most_tosses(to and to.value) if tosses is None else tosses,
-            to=to and to.value,
-        )
+        with naming_options({"to": ("--to", to)}):
+            plan = plans.plan_of(
+                along,
+                described,
+                name=Path(scenario).stem,
+                hand=hand,
+                engines=engines,
+                seed=seed,
+                tosses=plans.most_tosses(to and to.value) if tosses is None else tosses,
+                to=to and to.value,
+            )
         for path in out:
             require_file(path, (".csv", *PICTURES), scenario, *read)
         if any(path.suffix.lower() in PICTURES for path in out):

@@ -15,8 +15,9 @@ from cointoss.compare.sweep.errors import MOST_SEED, SweepError, require_whole
 from cointoss.models.errors import FieldError, ScenarioError
 from cointoss.models.fields import UNITS
 from cointoss.models.hand import OF_A_TOSS, Hand
+from cointoss.models.parts import LARGEST, Release
 from cointoss.models.records import Outcome
-from cointoss.models.releases import check_releases
+from cointoss.models.releases import RefusedRowError, check_releases
 from cointoss.models.scenario import Scenario
 from cointoss.models.stages import counted
 from cointoss.models.unused import warn_of_unused_fields
@@ -32,6 +33,9 @@ FIELDS = {
     **{name: unit for name, unit in UNITS.items() if not name.startswith("release.")},
 }
 """What may vary, and its unit: the hand releases the coin, so the scenario's release is of no use."""
+_HIGH = Release(position=(0.0, 0.0, LARGEST))
+_GIVES = {"position": "height", "velocity": "speed", "angular_velocity": "spin"}
+"""What of the hand each part of a release is made of."""
 
 
 def most_tosses(to: float | None) -> int:
@@ -46,6 +50,8 @@ class Setting(NamedTuple):
     """Of the fields that vary, in SI."""
     scenario: Scenario
     hand: Hand
+    place: str
+    """The values in words, after what is wrong there; empty for the one point of no fields."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,12 +74,12 @@ class Plan:
         """Check the numbers, and that the axes go together.
 
         Raises:
-            SweepError: naming what is wrong and what is accepted.
+            SweepError, FieldError: naming what is wrong and what is accepted.
         """
         require_whole("seed", self.seed, 0, MOST_SEED)
         require_whole("tosses", self.tosses, 1, MOST_TOSSES)
         if self.to is not None and not (isinstance(self.to, float) and 1e-4 <= self.to <= 0.5):
-            raise SweepError(f"to: {self.to!r}, accepted: a part from 0.01 % to 50 %")
+            raise FieldError("to", self.to, "a part from 0.01 % to 50 %")
         names = [axis.field for axis in self.along]
         if len(names) > MOST_AXES:
             raise SweepError(f"along: {len(names)} fields, accepted: at most {MOST_AXES}")
@@ -121,20 +127,22 @@ class Plan:
         return self._setting(tuple(float(axis.values[i]) for axis, i in zip(self.along, at, strict=True)))
 
     def _setting(self, values: tuple[float, ...]) -> Setting:
+        at = ", ".join(f"{axis.field} = {one:g}" for axis, one in zip(self.along, values, strict=True))
+        place = f" (at {at})" if at else ""
         pairs = dict(zip((axis.field for axis in self.along), values, strict=True))
         of_hand = {name.removeprefix("hand."): pairs.pop(name) for name in list(pairs) if name in HAND}
         numbers = {name: int(one) if name == "ending.max_impacts" else one for name, one in pairs.items()}
         try:
             hand = replace(self.hand, **of_hand)
-            scenario = hand.scenario(self.scenario)
+            # The scenario's own release is not used, and is out of the way of any coin.
+            scenario = hand.scenario(self.scenario).replace("release", _HIGH)
             for name, number in numbers.items():
                 scenario = scenario.replace(name, number)
         except FieldError as error:
             raise SweepError(f"hand.{error}") from None
         except ScenarioError as error:
-            at = ", ".join(f"{axis.field} = {one:g}" for axis, one in zip(self.along, values, strict=True))
-            raise SweepError(f"{error} (at {at})" if at else str(error)) from None
-        return Setting(values, scenario, hand)
+            raise SweepError(f"{error}{place}") from None
+        return Setting(values, scenario, hand, place)
 
 
 def plan_of(along: tuple[str, ...], scenario: Scenario, **others: object) -> Plan:
@@ -146,7 +154,7 @@ def plan_of(along: tuple[str, ...], scenario: Scenario, **others: object) -> Pla
         others: fields of the plan.
 
     Raises:
-        SweepError: naming what is wrong and what is accepted.
+        SweepError, FieldError: naming what is wrong and what is accepted.
     """
     for text in along:
         if not isinstance(text, str):
@@ -177,6 +185,9 @@ def check(plan: Plan) -> None:
         try:
             few = setting.hand.releases(setting.scenario.body, np.random.default_rng(plan.seed), 1)
             check_releases(setting.scenario, few)
-        except ValueError as error:
-            raise SweepError(str(error)) from None
+        except RefusedRowError as error:
+            name = _GIVES[error.name]
+            number = getattr(setting.hand, name)
+            accepted = f"accepted: {error.accepted}{setting.place}"
+            raise SweepError(f"hand.{name} = {number:g}: {accepted}") from None
     warn_of_unused_fields(setting.scenario.floor, setting.scenario.air)

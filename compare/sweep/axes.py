@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from cointoss.compare.sweep.errors import SweepError
-from cointoss.models.errors import ScenarioError
+from cointoss.models.errors import MOST_NAMED, ScenarioError
 from cointoss.models.fields import UNITS, WORDS, lambda_unit, printed_unit
 from cointoss.models.hand import QUANTITIES
 from cointoss.models.parts import LARGEST
@@ -142,11 +142,22 @@ def unit_of(field: str, scenario: Scenario, units: Mapping[str, str] = UNITS) ->
         SweepError: for another field.
     """
     if field not in units:
-        near = difflib.get_close_matches(field, units, n=1)
-        hint = f" (did you mean {near[0]}?)" if near else ""
         what = "numeric field of a scenario" if field not in UNITS else "field that may vary here"
-        raise SweepError(f"{field}: no {what}; accepted: {', '.join(units)}{hint}")
+        raise SweepError(f"{field}: no {what}; accepted: {_accepted(field, list(units))}")
     return lambda_unit(scenario.air.exponent) if field in ("air.normal", "air.tangential") else units[field]
+
+
+def _accepted(field: str, known: list[str]) -> str:
+    """Return the fields that a wrong name may mean: those called so, its components, or its neighbours."""
+    tables = list(dict.fromkeys(name.partition(".")[0] for name in known if "." in name))
+    table = field.partition(".")[0]
+    of_table = [name for name in known if table in tables and name.startswith(f"{table}.")]
+    near = difflib.get_close_matches(field, of_table, n=1)
+    named = [name for name in known if field in (name.rpartition(".")[2], _WORDS[name])]
+    found = named or [name for name in known if name.startswith(f"{field}.")] or near
+    others = of_table if 0 < len(of_table) <= MOST_NAMED else [f"numbers of {', '.join(tables)}, and gravity"]
+    hint = f" (did you mean {near[0]}?)" if near and not named else ""
+    return ", ".join(dict.fromkeys([*found, *others])) + hint
 
 
 def _number(field: str, text: str | float, unit: str) -> float:

@@ -48,6 +48,9 @@ ANSWERS = {
     "toss fig24a --engine bullet": "'--engine': 'bullet' is not one of 'analytic', 'mujoco' (",
     "video fig24a --out a.mp4 --camera below": "'--camera': 'below' is not one of 'overview', ",
     "toss fig24a --max-impact 3 --jsn": "No such option '--max-impact'",
+    "toss fig24a --jsn": "No such option '--jsn'; did you mean --json? (see ",
+    "toss fig24a --spin 50": "No such option '--spin'; cointoss hands and cointoss shares take it (see ",
+    "toss fig24a --weight 5": "No such option '--weight' (see ",
     "reproduce nothing": "nothing: no such name; accepted: accuracy-and-stripes, ",
     "reproduce contact-laws no-such --out out": "no-such: no such name; accepted: ",
     "reproduce contact_laws --out out": "contact_laws: no such name; accepted: ",
@@ -55,7 +58,7 @@ ANSWERS = {
     "shares fig24a --up tails": "'--up': 'tails' is not one of 'heads', 'either'",
     f"{AXES} --margin weight --out a.zarr": "margin weight: accepted: height, velocity x,",
     # numbers
-    "toss fig24a --max-impacts 0": "'--max-impacts': 0; accepted: an integer >= 1 and <= 30000000",
+    "toss fig24a --max-impacts 0": "'--max-impacts': 0; accepted: an integer >= 1 and <= 1000000 (",
     "toss fig24a --max-impacts 1e9": "'--max-impacts': 1e9; accepted: an integer >= 1 and ",
     "toss fig24a --contact-steps 0": "'--contact-steps': 0; accepted: an integer >= 1 and ",
     "hands fig24a --tosses 0": "'--tosses': 0; accepted: an integer >= 1 and <= 10000000 (",
@@ -65,8 +68,12 @@ ANSWERS = {
     "find fig24a --sequence H --vary coin.radius=-2:-1": (
         "coin.radius=-2:-1: coin.radius = -2.0: accepted: a number >= 1e-09"
     ),
-    "shares fig24a --to 60%": "to: 0.6, accepted: a part from 0.01 % to 50 %",
-    "shares fig24a --height 2e9": "accepted: numbers within 1e+09",
+    "shares fig24a --to 60%": "--to 60%: accepted: a part from 0.01 % to 50 %",
+    "shares fig24a --to 2": "--to 2: accepted: a part from 0.01 % to 50 %",
+    "shares fig24a --height 2e9": "hand.height = 2e+09: accepted: numbers within 1e+09",
+    "shares fig24a --along coin.thickness=0:30:5": (
+        "hand.height = 1: accepted: a coin above the floor: z >= 3.75 m (at coin.thickness = 7.5)"
+    ),
     "shares fig24a --along hand.psi=0:1": "hand.psi=0:1: accepted: FIELD=START:STOP:N",
     "shares fig24a --along hand.height=1e300:1e308:2": (
         "hand.height = 1e300: accepted: a finite number within 1e+09"
@@ -118,6 +125,11 @@ ANSWERS = {
     "toss fig24a --contact one_step": "--contact one_step: accepted: only beside --engine mujoco",
     # axes of a map
     "basin fig24a --x floor.contact=0:1:3 --y gravity=9:10:2 --out a.zarr": "no numeric field",
+    "basin fig24a --x height=0:1:10 --y gravity=9:10:2 --out a.zarr": (
+        "fig24a: height: no numeric field of a scenario; accepted: release.position.z, numbers of coin, air, "
+        "floor, release, ending, and gravity\n"
+    ),
+    "shares fig24a --along height=1:2:3": "accepted: hand.height, numbers of hand, coin, air, floor, ",
     "basin fig24a --x gravity=9:9:3 --y coin.mass=1:2:2 --out a.zarr": "START = STOP",
     "basin fig24a --x release.position.z=-1:1:3 --y gravity=9:10:3 --out a.zarr": "above the floor",
     f"{AXES} --after -1 --out a.zarr": "accepted: an integer >= 0",
