@@ -8,6 +8,13 @@ from typing import TypeVar
 from cointoss.models.kernel.compiling import compiling
 
 Item = TypeVar("Item")
+TELLING_PART, TELLING_TIME = 0.01, 60.0
+"""The rate of less work than this part of all, in less than this time [s], says nothing of the rest."""
+
+
+def is_telling(done: int, total: int, seconds: float) -> bool:
+    """Return whether enough is done, in so long [s], to say when all will be."""
+    return done >= TELLING_PART * total or seconds >= TELLING_TIME
 
 
 @dataclass(eq=False)
@@ -49,8 +56,11 @@ class Stage:
 
     @property
     def seconds_left(self) -> float | None:
-        """How long it will run on at this rate [s]; None where that is not known."""
-        return None if self.rate is None or self.total is None else (self.total - self.done) / self.rate
+        """How long it will run on at this rate [s]; None where that is not known yet."""
+        if self.rate is None or self.total is None:
+            return None
+        done, total = self.done - self._before, self.total - self._before
+        return (self.total - self.done) / self.rate if is_telling(done, total, self.seconds) else None
 
 
 class Stages:

@@ -11,7 +11,7 @@ from itertools import count
 from typing import Any
 
 from cointoss.models.kernel.compiling import Compiling, compiling
-from cointoss.models.stages import Stage, Stages, stages
+from cointoss.models.stages import Stage, Stages, is_telling, stages
 
 Progress = Callable[[int, int], None]
 """Called after each part of a job with the number of parts done so far and of all."""
@@ -114,9 +114,10 @@ class Display:
         if found.waits:
             return f"waiting for another process, which compiles the same: {_duration(found.seconds)}"
         name = f"compiling functions of {found.what}, kept for later"
+        left = found.seconds_left if is_telling(found.begun, found.total, found.seconds) else None
         if self._rewrites:
-            return self._meter(name, found.begun, found.total, "functions", found.seconds, found.seconds_left)
-        return f"{name}: {found.begun} of {found.total}{_about(found.seconds_left)}"
+            return self._meter(name, found.begun, found.total, "functions", found.seconds, left)
+        return f"{name}: {found.begun} of {found.total}{_about(left)}"
 
     def _tell_of_compiled(self) -> None:
         if self._told_of_compiling:
