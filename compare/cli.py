@@ -28,6 +28,8 @@ from cointoss.models.distribution import DISTRIBUTION
 
 # The commands' modules import little: `cointoss --help` answers at once, a command brings what it needs.
 
+NO_MEMORY = "out of memory, or of threads; accepted: more of them for this process, see ulimit -a"
+
 
 class _Commands(click.Group):
     """The commands, each of whose failures is one line."""
@@ -52,11 +54,19 @@ class _Commands(click.Group):
             refuse(f"{error.format_message().rstrip('.')} (see {command} --help)")
         except click.Abort:  # KeyboardInterrupt
             refuse("interrupted", status=130)
+        except (MemoryError, RuntimeError) as error:
+            if not _lacks_memory(error):
+                raise
+            refuse(NO_MEMORY, status=1)
         except ImportError as error:
+            if _lacks_memory(error):
+                refuse(NO_MEMORY, status=1)
             if error.name is not None:  # of a module that is missing or broken
                 raise
             refuse(str(error))
         except OSError as error:
+            if _lacks_memory(error):
+                refuse(NO_MEMORY, status=1)
             if error.errno is None:  # not of a file, as where a connection is lost
                 refuse(str(error) or type(error).__name__, status=1)
             _lose_stdout()
@@ -124,6 +134,17 @@ def _no_such_option(error: click.NoSuchOption, group: click.Group) -> str:
 
 def _options(command: click.Command) -> list[str]:
     return [text for option in command.params for text in option.opts]
+
+
+def _lacks_memory(error: BaseException) -> bool:
+    """Return whether an error, or one that it arose from, is that the system refused memory or a thread."""
+    said = ("can't start new thread", "failed to map segment", "Cannot allocate memory")
+    behind: BaseException | None = error
+    while behind is not None:
+        if isinstance(behind, MemoryError) or any(words in str(behind) for words in said):
+            return True
+        behind = behind.__context__
+    return False
 
 
 def _lose_stdout() -> None:

@@ -1,5 +1,6 @@
 """The command line: help, completion, imports, scenarios, and errors that are one line."""
 
+import errno
 import os
 import subprocess
 import sys
@@ -7,7 +8,7 @@ import sys
 import pytest
 from click.testing import CliRunner
 
-from cointoss.compare.cli import main
+from cointoss.compare.cli import NO_MEMORY, main
 from cointoss.models.reading import named_scenarios, scenario_text
 from tests.helpers.command_line import HERE, cointoss, in_a_shell, python, refused
 
@@ -171,3 +172,35 @@ def test_a_command_imports_no_more_than_it_needs(words, needed, tmp_path):
         imported = set(done.stdout.split())
     assert HEAVY & imported <= needed
     assert not {"scipy.integrate", "scipy.optimize", "scipy.special", "scipy.stats"} & imported
+
+
+@pytest.mark.parametrize("kilobytes", [300_000, 400_000])
+def test_too_little_memory_is_one_line(tmp_path, kilobytes):
+    done = in_a_shell(f"ulimit -v {kilobytes}; cointoss toss fig24a --max-impacts 1", tmp_path)
+    assert done.returncode != 0
+    assert "Traceback" not in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        MemoryError(),
+        RuntimeError("can't start new thread"),
+        OSError(errno.ENOMEM, os.strerror(errno.ENOMEM)),
+        ImportError("a.so: failed to map segment from shared object", name="a"),
+    ],
+)
+def test_what_the_system_lacks_is_one_line_from_wherever_it_comes(error, monkeypatch):
+    monkeypatch.setattr("cointoss.models.reading.named_scenarios", lambda: (_ for _ in ()).throw(error))
+    answered = cointoss("scenarios")
+    assert (answered.exit_code, answered.stderr) == (1, f"cointoss: {NO_MEMORY}\n")
+
+
+def test_other_failures_of_the_program_are_not_hidden(monkeypatch):
+    def fail():
+        raise RuntimeError("a defect")
+
+    monkeypatch.setattr("cointoss.models.reading.named_scenarios", fail)
+    with pytest.raises(RuntimeError, match="a defect"):
+        cointoss("scenarios")
