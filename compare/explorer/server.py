@@ -7,6 +7,7 @@ import sys
 import threading
 from collections.abc import Callable, Sequence
 from http.server import BaseHTTPRequestHandler
+from io import BytesIO
 from pathlib import Path
 from socketserver import ThreadingTCPServer
 from typing import Any
@@ -17,6 +18,7 @@ from cointoss.compare.explorer.finer import toss_tile
 from cointoss.compare.explorer.page_files import page_files
 from cointoss.compare.explorer.page_map import MOST_SHOWN, page_map
 from cointoss.compare.explorer.tosses import require_inside, toss_pixel
+from cointoss.compare.explorer.turns import Client, in_turn
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.sweep.errors import SweepError
 from cointoss.compare.sweep.reading import read_map
@@ -62,7 +64,7 @@ class Explorer(ThreadingTCPServer):
         self.path = path
         self.sweep = read_map(path, most=MOST_SHOWN).sweep
         self.files = {f"/{name}": content for name, content in page_files().items()}
-        self.tossing = threading.Lock()
+        self.turns = {path: threading.Lock() for path in ("/map", "/toss", "/tile")}
         try:
             super().__init__((ADDRESS, port), Request)
         except OSError as error:
@@ -93,6 +95,11 @@ class Request(BaseHTTPRequestHandler):
     timeout = 30
     """For a client to send its request [s]."""
 
+    def setup(self) -> None:
+        """Know the client."""
+        super().setup()
+        self._client = Client(self.connection, self.protocol_version.encode())
+
     def parse_request(self) -> bool:
         """Return whether the request is one to be answered; what is not is refused here."""
         if not super().parse_request():
@@ -120,7 +127,7 @@ class Request(BaseHTTPRequestHandler):
         name = "/index.html" if path == "/" else path
         try:
             if path in answers:
-                with self.server.tossing:
+                with in_turn(self.server.turns[path], self._client):
                     answer = answers[path](_query(query))
                 body = answer if isinstance(answer, bytes) else json.dumps(answer, allow_nan=False).encode()
                 kind = "application/octet-stream" if isinstance(answer, bytes) else "application/json"
@@ -164,8 +171,10 @@ class Request(BaseHTTPRequestHandler):
             self.send_header("Allow", "GET")
         self.send_header("Content-Type", f"{kind}; charset=utf-8" if kind.startswith("text/") else kind)
         self.send_header("Content-Length", str(len(body)))
+        to_client, self.wfile = self.wfile, BytesIO()
         self.end_headers()
-        self.wfile.write(body)
+        head, self.wfile = self.wfile.getvalue(), to_client
+        self.wfile.write(self._client.left_of(head) + body)
 
     def send_error(self, code: int, *_: object, **__: object) -> None:
         """Refuse what is no HTTP, in one line."""

@@ -1,7 +1,11 @@
 """The explorer's server answers what its page asks, and nothing else."""
 
 import json
+import queue
+import socket
+import threading
 from base64 import b64decode
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
 import numpy as np
@@ -9,6 +13,7 @@ import pytest
 import xarray as xr
 
 from cointoss import analytic
+from cointoss.compare.explorer import server as serving
 from cointoss.compare.explorer.finer import toss_tile
 from cointoss.compare.explorer.page_files import page_files
 from cointoss.compare.sweep.reading import read_map
@@ -44,6 +49,53 @@ def test_three_is_shipped_with_its_licence_and_asks_for_nothing_else():
     own = b"".join(content for name, content in files.items() if not name.startswith("three."))
     assert b"https://" not in own
     assert own.count(b"http://") == own.count(b"http://www.w3.org/2000/svg") == 1
+
+
+@pytest.fixture
+def busy(monkeypatch):
+    """Let no toss end before it may; return the places that are tossed, in turn, and what lets them end."""
+    tossed, may_end = queue.Queue(), threading.Event()
+
+    def toss_pixel(_sweep, x, _y, engine):
+        tossed.put(x)
+        may_end.wait()
+        return {"engine": engine}
+
+    monkeypatch.setattr(serving, "toss_pixel", toss_pixel)
+    yield tossed, may_end
+    may_end.set()
+
+
+def asked(port, target):
+    """Return a connection on which a target was asked for."""
+    connection = socket.create_connection(("127.0.0.1", port))
+    connection.sendall(f"GET {target} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n".encode())
+    return connection
+
+
+def test_the_map_and_a_tile_do_not_wait_for_tosses(server, busy):
+    tossed, _ = busy
+    with asked(server.port, "/toss?x=40&y=0.4"):
+        assert tossed.get() == 40
+        assert got(server.port, "/map")[0] == 200
+        assert got(server.port, "/tile?level=3&column=2&row=1")[0] == 200
+
+
+def test_a_toss_that_nobody_waits_for_any_more_is_given_up(server, busy):
+    tossed, may_end = busy
+    with ThreadPoolExecutor() as pool:
+        first = asked(server.port, "/toss?x=40&y=0.4&engine=analytic")
+        assert tossed.get() == 40
+        for _ in range(20):
+            asked(server.port, "/toss?x=41&y=0.4&engine=analytic").close()
+        # It sends no more, and waits for its answer.
+        last = pool.submit(got, server.port, "/toss?x=42&y=0.4&engine=analytic")
+        may_end.set()
+        status, _, body = last.result()
+    assert (status, json.loads(body)) == (200, [{"engine": "analytic"}])
+    assert (tossed.get(), tossed.empty()) == (42, True)
+    assert first.recv(1 << 16).startswith(b"HTTP/1.0 200 OK\r\n")
+    first.close()
 
 
 METHODS = "POST HEAD PUT DELETE OPTIONS TRACE CONNECT FOO get"
