@@ -15,6 +15,7 @@ from cointoss.models.outcomes import Outcomes
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import IMPACT_ROW
 from cointoss.models.releases import Releases, check_releases
+from cointoss.models.scenario import keeping_all
 from cointoss.models.stages import stage
 from cointoss.models.tiles import Tile, toss_in_tiles
 
@@ -52,6 +53,7 @@ def toss_many(
 
     Raises:
         ValueError: for a release that a scenario with this coin and air would refuse.
+        ScenarioError: for more impacts than can be kept, with `horizon` or `certain`.
         UnsupportedError: for a floor that a law of one's own can't be used with.
     """
     require_type("settings", settings, Settings, "analytic.Settings, such as analytic.MANY")
@@ -64,7 +66,7 @@ def toss_many(
     most = TILE if body.air.exponent is None else SLOW_TILE
     with stage("tossing by the analytic engine", "tosses", shown=progress) as tell:
         if horizon or certain:
-            made = ErrorsMade()
+            made, rules = ErrorsMade(), keeping_all(rules, described)
             return toss_in_tiles(
                 releases,
                 most,

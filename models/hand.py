@@ -18,6 +18,7 @@ from cointoss.models.records import Array
 from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 from cointoss.models.units import in_si
+from cointoss.models.words import Word
 
 QUANTITIES = {
     "height": ("height of the release", "m"),
@@ -56,7 +57,7 @@ class Hand:
     """Standard deviation of height, speed and spin, relative to each."""
     psi_scatter: float = 0.0
     """Standard deviation of ψ [rad]."""
-    up: Literal["heads", "either"] = "heads"
+    up: Literal["heads", "either"] | Word = "heads"
     """The side that is up at the release; "either": both are as likely."""
     spun: bool = False
     """Whether the coin is spun on its edge, not tossed."""

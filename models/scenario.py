@@ -134,7 +134,7 @@ class Scenario(Part):
 
 
 def keeping_all(rules: Rules, scenario: Scenario) -> Rules:
-    """Return the rules of a toss that keeps all its impacts: no more of them than `MOST_KEPT`.
+    """Return the rules of a toss that keeps all its impacts, as its trust needs: at most `MOST_KEPT`.
 
     Raises:
         ScenarioError: where the scenario asks for more.
@@ -142,8 +142,8 @@ def keeping_all(rules: Rules, scenario: Scenario) -> Rules:
     asked = scenario.ending.max_impacts or 0
     if asked > MOST_KEPT:
         raise ScenarioError(
-            f"ending.max_impacts = {asked}: accepted: at most {MOST_KEPT} of one toss, which keeps all its "
-            f"impacts ({asked * KEPT_BYTES / 1e9:.3g} GB here); toss_many and maps keep none"
+            f"ending.max_impacts = {asked}: accepted: at most {MOST_KEPT} where all are kept, as of one toss "
+            f"({asked * KEPT_BYTES / 1e9:.3g} GB here); toss_many and maps keep none"
         )
     return rules._replace(max_impacts=min(rules.max_impacts, MOST_KEPT))
 

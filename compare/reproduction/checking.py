@@ -239,7 +239,7 @@ def compared(
     """
     if isinstance(there, dict) and isinstance(here, dict):
         if not exact and _ENDS <= there.keys() & here.keys():
-            agrees = all(
+            agrees = _same(there["value"], here["value"]) or all(
                 one["low"] <= other["value"] <= one["high"] for one, other in ((there, here), (here, there))
             )
             yield Compared(
@@ -262,7 +262,7 @@ def compared(
             yield from compared(f"{place}[{number}]", one, other, exact=exact, beside=largest, small=small)
     elif _is_number(there) and _is_number(here):
         allowed, reason = (0.0, BITS) if exact else _allowed(there, here, beside, small)
-        agrees = there == here or abs(there - here) <= allowed
+        agrees = _same(there, here) or abs(there - here) <= allowed
         yield Compared(place=place, there=there, here=here, reason=reason, agrees=agrees)
     else:
         yield Compared(place=place, there=there, here=here, reason=SAME, agrees=there == here)
@@ -275,6 +275,11 @@ def _allowed(there: float, here: float, beside: float, small: float) -> tuple[fl
     size = max(abs(there), abs(here))
     printed = 10.0 ** (math.floor(math.log10(size)) - 2) if 0 < size < math.inf else 0.0
     return max((printed, PRINTED), (beside / 1000, BESIDE), (small, SMALL), key=lambda pair: pair[0])
+
+
+def _same(there: float, here: float) -> bool:
+    """Return whether two numbers are equal, or both not a number, as the share of no trials."""
+    return there == here or (math.isnan(there) and math.isnan(here))
 
 
 def _is_number(value: Any) -> TypeGuard[float]:

@@ -15,7 +15,7 @@ from cointoss.models.errors import ScenarioError
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.records import Array
 from cointoss.models.releases import Releases, changed_releases, check_releases
-from cointoss.models.scenario import Scenario
+from cointoss.models.scenario import Scenario, keeping_all
 from cointoss.models.stages import counted
 from cointoss.models.unused import warn_of_unused_fields
 
@@ -147,7 +147,7 @@ def check(sweep: Sweep) -> None:
     the pixel where both axes are farthest from 0.
 
     Raises:
-        SweepError: naming field, value, and what is accepted.
+        SweepError, ScenarioError: naming field, value, and what is accepted.
         UnsupportedError: likewise.
 
     Warns:
@@ -161,6 +161,8 @@ def check(sweep: Sweep) -> None:
             _check_together(sweep, some[rows], x[columns])
     largest = pixel_scenario(sweep, *(max(part.tolist(), key=abs) for part in (y, x)))
     warn_of_unused_fields(largest.floor, largest.air)
+    if sweep.trust:
+        keeping_all(largest.rules, largest)
 
 
 def _check_together(sweep: Sweep, y: Array, x: Array) -> None:

@@ -83,7 +83,7 @@ def test_a_toss_that_keeps_its_impacts_keeps_no_more_than_fit():
     patient = scenario(floor={"restitution": 0.99})
     assert keeping_all(patient.rules, patient) == patient.rules._replace(max_impacts=MOST_KEPT)
     more = scenario(ending={"max_impacts": MOST_KEPT + 1})
-    with pytest.raises(ScenarioError, match=r"max_impacts = 1000001: .* 1000000 of one toss.*0\.416 GB here"):
+    with pytest.raises(ScenarioError, match=r"= 1000001: .* at most 1000000 where.*0\.416 GB here"):
         keeping_all(more.rules, more)
 
 

@@ -10,7 +10,9 @@ import pytest
 
 from cointoss import analytic
 from cointoss.compare.output.answer import as_json
+from cointoss.compare.sweep.in_memory import basin
 from cointoss.models.distribution import DISTRIBUTION
+from cointoss.models.errors import ScenarioError
 from cointoss.models.reading import load, scenario_text
 from cointoss.models.records import Ending, OtherOutcome, Outcome
 from cointoss.models.releases import Releases
@@ -23,13 +25,19 @@ from tests.helpers.draws import THIN, scenario
 def test_more_impacts_than_memory_has_room_for_are_refused_before_the_toss(engine, tmp_path):
     (tmp_path / "long.toml").write_text(scenario_text("fig24a") + "\n[ending]\nmax_impacts = 30000000\n")
     said = refused("toss", tmp_path / "long.toml", "--engine", engine)
-    assert "accepted: at most 1000000 of one toss, which keeps all its impacts (12.5 GB here)" in said
+    assert "accepted: at most 1000000 where all are kept, as of one toss (12.5 GB here)" in said
     assert f"<= {MOST_KEPT}" in refused("toss", "fig24a", "--max-impacts", MOST_KEPT + 1)
 
 
 def test_many_tosses_keep_no_impacts_and_may_have_more():
     case = scenario(ending={"max_impacts": 30_000_000, "max_time": 0.5})
-    assert analytic.toss_many(case, Releases.of(case, 2)).ending.tolist() == 2 * [Ending.MAX_TIME]
+    two = Releases.of(case, 2)
+    assert analytic.toss_many(case, two).ending.tolist() == 2 * [Ending.MAX_TIME]
+    for horizon, certain in ((True, False), (False, True)):
+        with pytest.raises(ScenarioError, match=r"max_impacts = 30000000: .*12\.5 GB here"):
+            analytic.toss_many(case, two, horizon=horizon, certain=certain)
+    with pytest.raises(ScenarioError, match="max_impacts"):
+        basin(case, x="gravity=9:10:2", y="coin.mass=1 g:2 g:2", trust=True)
 
 
 def test_json_has_the_agreed_form():

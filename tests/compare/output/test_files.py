@@ -69,7 +69,7 @@ def test_a_folder_in_the_place_of_one_file_leaves_all_as_they_were(earlier):
     assert held(earlier) == OLD | {"c.txt": False}
 
 
-def failing(number, method=None):
+def failing(number, method):
     """Return a method of a path whose call of that number, from 0, fails as on a full disk."""
     calls = itertools.count()
 

@@ -1,6 +1,7 @@
 """Numbers of two runs are compared each with its own tolerance, and a verdict that would change is named."""
 
 import json
+import math
 import os
 import re
 import sys
@@ -267,6 +268,13 @@ def test_criteria_of_other_thresholds_agree_alike_whichever_is_the_earlier(fake)
     (kept / "reproduction" / "fake" / "provenance.json").unlink()
     write('LENGTH, "<", 1.0,', 'LENGTH + 0.05, "<", 10.0,')
     assert any("off: it is short: length: 0.123456 there" in line for line in check(kept)[1])
+
+
+def test_shares_of_no_trials_agree():
+    none = {"value": math.nan, "low": 0.0, "high": 1.0, "count": 0}
+    for exact in (True, False):
+        assert all(one.agrees for one in compared("", none, dict(none), exact=exact))
+        assert not all(one.agrees for one in compared("", none, {**none, "value": 0.5}, exact=exact))
 
 
 def test_what_is_missing_on_either_side_is_off():
