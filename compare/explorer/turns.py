@@ -30,15 +30,14 @@ class Client:
         The two differ once something is sent to it: the system of one that has gone refuses it.
         """
         try:
-            if self._sent:
-                return self._connection.getsockopt(socket.SOL_SOCKET, socket.SO_ERROR) != 0
-            if not select.select([self._connection], [], [], 0)[0]:
-                return False
-            if self._connection.recv(1, socket.MSG_PEEK):
-                return False
-            self._connection.sendall(self._start)
-            self._sent = self._start
-            time.sleep(PAUSE)
+            if not self._sent:
+                if not select.select([self._connection], [], [], 0)[0]:
+                    return False
+                if self._connection.recv(1, socket.MSG_PEEK):
+                    return False
+                self._connection.sendall(self._start)
+                self._sent = self._start
+                time.sleep(PAUSE)
             return self._connection.getsockopt(socket.SOL_SOCKET, socket.SO_ERROR) != 0
         except OSError:
             return True
