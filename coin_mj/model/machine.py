@@ -116,12 +116,17 @@ def machine_of(
 def shape_of(body: Body, thickness: float) -> Body:
     """Return the body with the thickness of its shape [m], for the search of its touches.
 
-    How a rod turns about its own axis hardly moves its ends. Its small moment of inertia about that axis
-    would make all bounds on their motion useless: they get the largest moment alone.
+    How a rod turns about its own axis hardly moves its ends, and its small moment of inertia there would make
+    all bounds on their motion useless. For these bounds a rod has the largest moment there too, and half of
+    it for the smallest: their ω̃ is then above |ω|, and their ω⊥ grows at the rate ω̃, as that of a rod may.
     """
     largest = body.inertia_largest
-    smallest = largest if largest > LONG * body.inertia_smallest else body.inertia_smallest
-    return body._replace(thickness=thickness, inertia_smallest=smallest)
+    across, other, (x, y, _) = body.inertia
+    if largest <= LONG * body.inertia_smallest or min(across[0], other[1]) < largest / 2:
+        return body._replace(thickness=thickness)
+    return body._replace(
+        thickness=thickness, inertia=(across, other, (x, y, largest)), inertia_smallest=largest / 2
+    )
 
 
 def _mass_unit(body: Body) -> float:

@@ -4,9 +4,14 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
+from cointoss.coin_mj.model.machine import shape_of
 from cointoss.coin_mj.model.settings import Friction, Settings
 from cointoss.coin_mj.toss import toss
+from cointoss.coin_mj.trust import IMPULSE_ERROR
 from cointoss.compare.metrics.impulses import errors_of_impacts
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.certificate import restitution_residuals
+from cointoss.models.clearance import clear_time
 from cointoss.models.records import TrustEnd
 from tests.helpers.draws import ZLOTY, draw_coin, draw_release, scenario
 
@@ -60,6 +65,42 @@ def test_a_coin_that_lands_on_both_rims_is_not_trusted():
     release = {"position": [0, 0, 0.2], "quaternion": turned_about([1, 0, 0], np.pi / 2 + 4e-8)}
     found = toss(scenario(release=release, ending={"max_impacts": 2}))
     assert (found.trusted_impacts, found.trust_end) == (0, TrustEnd.SECOND_POINT)
+
+
+ROD = {
+    "mass": 1.66119,
+    "radius": 0.00130558,
+    "thickness": 0.0241183,
+    "center_of_mass": [0.000130558, 0.0, 0.00241183],
+}
+HOPPING = {
+    "position": [0.06563451506991096, 0.0008596517867624133, 0.009702034853710167],
+    "velocity": [0.1354638685783497, 0.025881409973475974, 0.11408535910945451],
+    "quaternion": [0.03215220366557612, -0.4437310041775389, -0.013691460707286742, 0.8954784060125296],
+    "angular_velocity": [2.9042486576876336, -10.579506934806648, 608.0894928254569],
+}
+"""A rod's release from its sixth impact, 33 nm high in 60 µs, as it spins about its own axis."""
+
+
+def test_a_rod_that_hops_low_touches_where_it_comes_down():
+    """A touch that is missed for a step of flight is deep, and a hard spring would send the rod off."""
+    case = scenario(coin=ROD, floor={"restitution": 0.3}, release=HOPPING, ending={"max_impacts": 1})
+    exact, found = analytic.toss(case).impacts, toss(case).impacts
+    assert found.time == pytest.approx(exact.time, rel=1e-5)
+    assert found.impulse[0, 2] == pytest.approx(exact.impulse[0, 2], rel=1e-2)
+    # It turns on in a contact at 2 mm/s.
+    assert restitution_residuals(case.rules, found)[0] < IMPULSE_ERROR
+    assert found.energy_change[0] < 0
+
+
+def test_a_rod_does_not_touch_within_the_time_that_its_bounds_call_clear():
+    case = scenario(coin=ROD, release=HOPPING, ending={"max_impacts": 1})
+    body, release = case.body, case.release
+    up = rotation_matrix(release.attitude)[2]
+    motion = (release.position[2], release.velocity, up, release.angular_velocity, 8e-5)
+    touch = analytic.toss(case).impacts.time[0]
+    by_own_axis, found = (clear_time(shape, *motion) for shape in (body, shape_of(body, body.thickness)))
+    assert 10 * by_own_axis < found < touch < motion[-1]
 
 
 def draw_landing(rng):
