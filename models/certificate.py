@@ -15,18 +15,19 @@ from numpy.typing import NDArray
 from cointoss.models.body import Body, Rules, in_vacuum
 from cointoss.models.kernel.vectors import Vector
 from cointoss.models.laws import ContactLaw, RestitutionKind
-from cointoss.models.records import Array, Impacts, Path, Setting, States
+from cointoss.models.records import Array, Flag, Impacts, Path, Setting, States, raised_flags
 from cointoss.models.scenario import Scenario
 
 LAW = "impacts: largest residual of the contact law, relative"
 MOMENTUM = "impacts: largest residual of linear and angular momentum, relative"
 IMPACT_ENERGY = "impacts: largest difference of energy change and work"
+GAIN = "impacts: largest gain of energy"
 FLIGHT_ENERGY = "flights: largest difference of energy change and work of the air"
 CONTACT_ENERGY = "sustained contacts: largest gain of energy"
 NORM = "largest deviation of the norm of the Euler parameters from 1"
 GAP = "smallest gap, at impacts, sampled in flight and in sustained contacts"
 OF_ENERGY = (IMPACT_ENERGY, FLIGHT_ENERGY, CONTACT_ENERGY)
-NAMES = (LAW, MOMENTUM, *OF_ENERGY, NORM, GAP)
+NAMES = (LAW, MOMENTUM, *OF_ENERGY, GAIN, NORM, GAP)
 """The lines of a certificate that are measured."""
 FLIGHTS = 10
 """Flights that are sampled: the longest ones. The energy of every flight in vacuum is measured without it."""
@@ -87,10 +88,12 @@ def measurements(
         norms = [np.linalg.norm(each.quaternion, axis=1) - 1 for each in (states, touches)]
         lowest = min(lowest, *(gaps(body, each).min(initial=np.inf) for each in (states, touches)))
         of_flights = Setting(name=FLIGHT_ENERGY, value=_largest(drift) / weight, unit="m g r")
+        gained = impacts.energy_change[raised_flags(impacts, 0.0)[Flag.GAINS_ENERGY]]
         lines += [
             Setting(name=LAW, value=_largest(residuals)),
             Setting(name=MOMENTUM, value=_largest(momentum_residuals(body, impacts))),
             Setting(name=IMPACT_ENERGY, value=_largest(energy_residuals(impacts)) / weight, unit="m g r"),
+            *([Setting(name=GAIN, value=_largest(gained) / weight, unit="m g r")] if len(gained) else []),
             *([of_flights] if len(drift) else []),
             Setting(name=NORM, value=_largest(np.concatenate(norms))),
         ]

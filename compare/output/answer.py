@@ -39,7 +39,11 @@ MOST_ROWS = 1_000_000
 
 
 def as_json(toss: Toss) -> dict[str, Any]:
-    """Return a toss in the form of `cointoss toss --json`, but for what made it, in full precision."""
+    """Return a toss in the form of `cointoss toss --json`, but for what made it, in full precision.
+
+    Of an impact `point`, from B, and the angular velocities are in the body frame; all other vectors are in
+    the space frame, and `position` is C's.
+    """
     return {
         "engine": toss.engine,
         "sequence": toss.sequence,
@@ -165,7 +169,8 @@ def _checked(toss: Toss) -> str:
     found = {item.name: float(item.value) for item in toss.certificate if item.name in certificate.NAMES}
     law = max(found[certificate.LAW], found[certificate.MOMENTUM])
     energy = max(found.get(name, 0.0) for name in certificate.OF_ENERGY)
+    gain = f", an impact gains {found[certificate.GAIN]:.0e} m g r" if certificate.GAIN in found else ""
     return (
         f"contact law {law:.0e}, energy {energy:.0e} m g r, |e| {found[certificate.NORM]:.0e}, "
-        f"gap {found[certificate.GAP]:.0e} r"
+        f"gap {found[certificate.GAP]:.0e} r{gain}"
     )

@@ -102,6 +102,16 @@ def test_a_damaged_velocity_of_the_contact_point_shows(law, axis):
         assert found[certificate.IMPACT_ENERGY] > 1e3 * measured(toss)[certificate.IMPACT_ENERGY]
 
 
+def test_a_gain_of_energy_is_a_line_of_its_own():
+    toss = analytic.toss(draw(2))
+    body = toss.scenario.body
+    assert certificate.GAIN not in measured(toss)
+    change = toss.impacts.energy_change.copy()
+    change[1] = 0.3 * body.mass * body.gravity * body.radius
+    found = again(toss, replace(toss.impacts, energy_change=change))
+    assert found[certificate.GAIN] == pytest.approx(0.3)
+
+
 def test_lost_energy_shows_in_the_impact_or_in_the_flight_that_lost_it():
     toss = analytic.toss(draw(2))
     body = toss.scenario.body
