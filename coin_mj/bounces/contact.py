@@ -46,6 +46,14 @@ class Contact:
         """The attributes of one of the two geoms that touch."""
         return f'solref="{text_of(self.solref)}" solimp="{self.solimp}"'
 
+    def pasted(self, condim: int = 1) -> str:
+        """Return the attributes as they are printed: by its priority one geom's hold alone.
+
+        Args:
+            condim: 1 without friction; 3 with MuJoCo's own, as for what stands on something.
+        """
+        return f'condim="{condim}" {self.geom} priority="1"'
+
 
 def text_of(solref: tuple[float, float]) -> str:
     """Return a solref as it stands in a model."""

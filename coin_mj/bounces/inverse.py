@@ -18,6 +18,10 @@ from cointoss.coin_mj.bounces.rest import Rest, rest_of
 from cointoss.coin_mj.model.settings import contact_duration, restitution_of
 
 TWO = "two numbers as in a <geom>: both above 0, or both at most 0, such as 0.02 1 or -1000 -10"
+SOFTEST, HARDEST_IMPEDANCE = 1e-4, 0.9999
+"""Impedances to which MuJoCo limits those of a solimp."""
+HALVINGS = 60
+"""By which a depth is found."""
 _PAIR = """<mujoco>
   <worldbody>
     <geom type="sphere" size="1" {one}/>
@@ -154,12 +158,11 @@ def formula_of(contact: Contact) -> Formula | None:
     A contact pushes with the acceleration -d (b v + k x), d the impedance. Where b dt reaches 1 it ends
     within one step of Euler: v' = (1 - b dt) v + k dt x, x anything from 0 to v dt. Otherwise it is a damped
     spring that lets go when its force vanishes: its greatest depth is v √(e/k). At rest d k x = (1 - d) g,
-    with the impedance of a shallow contact.
+    with the impedance at that depth.
     """
     stiffness, damping = _spring_of(contact)
-    shallow, deep = (float(number) for number in contact.solimp.split()[:2])
     dt = contact.timestep
-    rest = (1 - shallow) * GRAVITY * (deep / shallow) ** 2 / stiffness if stiffness else math.inf
+    rest = _depth_at_rest(contact.solimp, stiffness) if stiffness else math.inf
     root = math.sqrt(stiffness)
     if damping * dt >= 1 or not stiffness:
         if contact.integrator in ("RK4", "discrete"):
@@ -171,6 +174,34 @@ def formula_of(contact: Contact) -> Formula | None:
     return Formula(
         restitution=e, duration=contact_duration(zeta) / root, depth=math.sqrt(e) / root, rest=rest
     )
+
+
+def _depth_at_rest(solimp: str, stiffness: float) -> float:
+    """Return x = (1 - d) g (D/d)²/k, d the impedance at the depth x and D that of a deep contact [m]."""
+    deep = _impedance(solimp, math.inf)
+
+    def held(depth: float) -> float:
+        d = _impedance(solimp, depth)
+        return (1 - d) * GRAVITY * (deep / d) ** 2 / stiffness
+
+    low, high = 0.0, max(held(0.0), held(math.inf))
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if held(middle) > middle else (low, middle)
+    return high
+
+
+def _impedance(solimp: str, depth: float) -> float:
+    """Return the impedance at a depth [m], as MuJoCo has it: from d0 to d_width, by a curve of two powers."""
+    shallow, deep, width, middle, power = (float(number) for number in solimp.split())
+    part = min(depth / width, 1.0) if width > 0 else 1.0
+    middle, power = min(max(middle, SOFTEST), HARDEST_IMPEDANCE), max(power, 1.0)
+    if part <= middle:
+        part = part**power / middle ** (power - 1)
+    else:
+        part = 1 - (1 - part) ** power / (1 - middle) ** (power - 1)
+    shallow, deep = (min(max(d, SOFTEST), HARDEST_IMPEDANCE) for d in (shallow, deep))
+    return shallow + part * (deep - shallow)
 
 
 def _spring_of(contact: Contact) -> tuple[float, float]:

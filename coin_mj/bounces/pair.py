@@ -1,20 +1,23 @@
-"""The restitution between two geoms of a user's own model, over speed and the phase of the step."""
+"""The bounce of two geoms of a user's own model, over speed and the phase of the step."""
 
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
 
+import copy
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, field
+from enum import StrEnum
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
 
+from cointoss.coin_mj.bounces.approach import Pair
 from cointoss.coin_mj.bounces.contact import INTEGRATORS
+from cointoss.coin_mj.bounces.inverse import TWO
 from cointoss.coin_mj.bounces.unlogged import unlogged
-from cointoss.coin_mj.bounces.user_model import Pair, geom_of, load_model
+from cointoss.coin_mj.bounces.user_model import geom_of, load_model, require_measurable
 from cointoss.models.errors import FieldError
 from cointoss.models.records import Array
 
@@ -24,10 +27,31 @@ PHASES = 8
 """Of the touch between two steps."""
 LONGEST = 4000
 """A contact that goes on for more steps is no rebound."""
-LOOKED_AT, SLOW, LYING = 10, 1e-3, 10
-"""Geoms slower than this part of their speed at every tenth step, ten times in turn, lie on each other."""
+AHEAD = 2
+"""Steps before the touch at which the geoms start, or up to one more."""
+SLOW, LYING = 1e-3, 100
+"""Geoms slower than this part of their speed for so many steps lie on each other, or stick in each other."""
 MISSED = 60
-"""Geoms that have not touched after so many steps have passed through each other."""
+"""Geoms that have not touched after so many steps do not touch."""
+SHARE = 0.1
+"""Of a speed, by which it may differ at the touch from the speed asked for and from that a step beside it."""
+
+
+class Outcome(StrEnum):
+    """What two geoms do that come together."""
+
+    REBOUNDS = "rebound"
+    """They part; only then the restitution is a number above 0."""
+    STAYS = "stay"
+    """They do not part: they lie on each other, or stick in each other."""
+    PASSES = "go through"
+    """They part on the wrong sides."""
+    MISSES = "do not touch"
+    OTHER_SPEED = "come at another speed"
+    """Something else brakes or accelerates them by more than `SHARE` of their speed on the way."""
+    TURNS = "turn too far in a step"
+    """The speed changes by more than `SHARE` in a step beside the touch, so that it is none."""
+    UNSTABLE = "become unstable"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,17 +67,36 @@ class PairBounce:
     solimp: str
     condim: int
     friction: float
+    thinnest: float
+    """Half of the thickness of the thinner geom, where it is thinnest; a plane has none [m]."""
     speeds: Array = field(default_factory=lambda: np.array(SPEEDS))
     """[m/s], (n,)."""
     restitutions: Array
-    """Without gravity: the normal speed of the points that touched first, after over before, (n, `PHASES`).
-    0 where the geoms do not part; NaN where they pass through each other or the model becomes unstable."""
+    """Without gravity: the normal speed of the points that touched first, where both geoms touch, after over
+    before, (n, `PHASES`). 0 where they stay; NaN where they neither rebound nor stay."""
     with_gravity: Array
-    """Likewise, under the model's gravity."""
+    """The same under the model's gravity."""
+    outcomes: tuple[tuple[Outcome, ...], ...]
+    """Of each touch without gravity, (n, `PHASES`)."""
+    outcomes_with_gravity: tuple[tuple[Outcome, ...], ...]
+    """Of each touch under the model's gravity, (n, `PHASES`)."""
+    energy_kept: Array
+    """Share of the model's kinetic energy that is left after the contact, without gravity, (n, `PHASES`);
+    NaN where the geoms do not part. Of a turning body it is what the restitution of a point does not show."""
     durations: Array
     """For which the geoms push, without gravity [s], (n, `PHASES`)."""
     depths: Array
     """The greatest, without gravity [m], (n,)."""
+
+
+class _Touch(NamedTuple):
+    """What came of one touch."""
+
+    outcome: Outcome
+    restitution: float
+    kept: float
+    duration: float
+    depth: float
 
 
 def bounce(model: mujoco.MjModel | Path | str, one: str, two: str) -> PairBounce:
@@ -61,7 +104,8 @@ def bounce(model: mujoco.MjModel | Path | str, one: str, two: str) -> PairBounce
 
     Other geoms are kept out of it. A geom on a free body comes straight along the normal of the contact,
     without turning; where neither geom is on one, the joints move as an impulse between both would move them.
-    All else of the model acts: its joints, springs, actuators and limits. Nothing is written.
+    What active equality constraints couple moves along. All else of the model acts: its joints, springs,
+    actuators and limits. Nothing is written.
 
     Args:
         model: of MuJoCo, or the path of its XML.
@@ -72,12 +116,16 @@ def bounce(model: mujoco.MjModel | Path | str, one: str, two: str) -> PairBounce
         ValueError: naming what does not load, exist or touch, and what is accepted.
     """
     loaded = model if isinstance(model, mujoco.MjModel) else load_model(model)
+    require_measurable(loaded)
     first, second = geom_of(loaded, one), geom_of(loaded, two)
     if first == second:
         raise FieldError("geoms", f"{one} and {two}", "two different geoms")
     with unlogged():
         pair = Pair(loaded, first, second)
         touch = pair.contact
+        solref = (float(touch.solref[0]), float(touch.solref[1]))
+        if min(solref) <= 0 < max(solref):
+            raise _no_solref(loaded, (first, second), solref)
         gravity = pair.model.opt.gravity.copy()
         pair.model.opt.gravity[:] = 0
         free = _touches(pair)
@@ -87,105 +135,199 @@ def bounce(model: mujoco.MjModel | Path | str, one: str, two: str) -> PairBounce
         geoms=(one, two),
         timestep=float(pair.model.opt.timestep),
         integrator=INTEGRATORS[pair.model.opt.integrator],
-        solref=(float(touch.solref[0]), float(touch.solref[1])),
+        solref=solref,
         solimp=" ".join(f"{number:.12g}" for number in touch.solimp),
         condim=int(touch.dim),
         friction=float(touch.friction[0]),
-        restitutions=free[..., 0],
-        with_gravity=pulled[..., 0],
-        durations=free[..., 1],
-        depths=free[..., 2].max(axis=1),
+        thinnest=pair.thinnest,
+        restitutions=_column(free, "restitution"),
+        with_gravity=_column(pulled, "restitution"),
+        outcomes=_outcomes(free),
+        outcomes_with_gravity=_outcomes(pulled),
+        energy_kept=_column(free, "kept"),
+        durations=_column(free, "duration"),
+        depths=_column(free, "depth").max(axis=1),
     )
 
 
-def _touches(pair: Pair) -> Array:
-    """Return restitution, duration and depth of every touch, (speeds, phases, 3)."""
-    return np.array([[_touch(pair, speed, (n + 0.5) / PHASES) for n in range(PHASES)] for speed in SPEEDS])
+def _no_solref(model: mujoco.MjModel, geoms: tuple[int, int], mixed: tuple[float, float]) -> FieldError:
+    """Return that a solref is none: that of a geom, or both mixed; MuJoCo would take its own."""
+    name, numbers = "solref", mixed
+    for geom in geoms:
+        own = model.geom_solref[geom]
+        if own.min() <= 0 < own.max():
+            name, numbers = f"geom {model.geom(geom).name or geom} solref", (float(own[0]), float(own[1]))
+    return FieldError(name, " ".join(f"{number:g}" for number in numbers), TWO)
 
 
-def _touch(pair: Pair, speed: float, phase: float) -> tuple[float, float, float]:
-    """Return restitution, duration [s] and depth [m] of one touch."""
+def _touches(pair: Pair) -> list[list[_Touch]]:
+    """Return every touch, by speed and phase."""
+    return [[_touch(pair, speed, (n + 0.5) / PHASES) for n in range(PHASES)] for speed in SPEEDS]
+
+
+def _column(touches: list[list[_Touch]], name: str) -> Array:
+    return np.array([[getattr(touch, name) for touch in row] for row in touches])
+
+
+def _outcomes(touches: list[list[_Touch]]) -> tuple[tuple[Outcome, ...], ...]:
+    return tuple(tuple(touch.outcome for touch in row) for row in touches)
+
+
+def _touch(pair: Pair, speed: float, phase: float) -> _Touch:
+    """Return what comes of one touch."""
+    pair.set_apart(speed, AHEAD + phase)
+    came = _come(pair, speed)
+    if isinstance(came, Outcome):
+        return _nothing(came)
+    return _part(pair, came)
+
+
+def _nothing(outcome: Outcome) -> _Touch:
+    """Return a touch of which nothing was measured."""
+    return _Touch(outcome, math.nan, math.nan, math.nan, math.nan)
+
+
+class _Come(NamedTuple):
+    """Two geoms where they first touch."""
+
+    points: "_Points"
+    speed: float
+    """[m/s]."""
+    energy: float
+    """Kinetic, a step before [J]."""
+
+
+def _come(pair: Pair, speed: float) -> _Come | Outcome:
+    """Step until both geoms touch, at about a speed [m/s]; return the touch, or why there is none."""
     model, data = pair.model, pair.data
-    pair.set_apart(speed * model.opt.timestep * (2 + phase), speed)
-    weightless = not model.opt.gravity.any()
-    points: _Points | None = None
-    before, pushing, depth, slow = math.nan, 0, 0.0, 0
-    for step in range(LONGEST):
-        velocity = data.qvel.copy()
-        mujoco.mj_step(model, data)
+    apart, has_flown = copy.copy(data), False
+    for _ in range(MISSED):
+        mujoco.mj_forward(model, data)
         touches = pair.touches()
-        if any(warning.number for warning in data.warning) or (points is None and step > MISSED):
-            return math.nan, math.nan, depth
-        if touches and points is None:
-            points = _Points(pair, touches)
-            first = float(np.mean([contact.dist - contact.includemargin for contact in touches]))
-            before = points.speed_at_touch(pair, -points.speed(pair, velocity), first)
-        if points is None:
-            continue
-        depth = max([depth, *(-float(contact.dist) for contact in touches)])
-        pushed = pair.push() > 0
-        pushing += pushed
-        if pushed and pushing % LOOKED_AT == 0:
-            slow = slow + 1 if abs(points.speed(pair, data.qvel)) < SLOW * speed else 0
+        if touches:
+            break
+        mujoco.mj_copyData(apart, model, data)
+        has_flown = True
+        mujoco.mj_step(model, data)
+    else:
+        return Outcome.UNSTABLE if _is_unstable(pair) else Outcome.MISSES
+    if not has_flown:
+        return Outcome.OTHER_SPEED
+    points = _Points(pair, list(touches.values()))
+    found = -points.speed_at_touch(apart)
+    if math.isnan(found):
+        return Outcome.TURNS
+    if abs(found - speed) > SHARE * speed + _weight(pair) * model.opt.timestep:
+        return Outcome.OTHER_SPEED
+    return _Come(points, found, _kinetic_energy(model, apart))
+
+
+def _part(pair: Pair, came: _Come) -> _Touch:
+    """Step until both geoms part, and return what they did."""
+    model, data, dt = pair.model, pair.data, float(pair.model.opt.timestep)
+    depth, pushing, slow, last, kept, free = 0.0, 0, 0, math.nan, math.nan, 0
+
+    def ended(outcome: Outcome, restitution: float = math.nan) -> _Touch:
+        if _is_unstable(pair):
+            return _nothing(Outcome.UNSTABLE)
+        return _Touch(outcome, restitution, kept, pushing * dt, depth)
+
+    for _ in range(LONGEST):
+        mujoco.mj_forward(model, data)
+        touches, gap = pair.touches(), came.points.gap(data)
+        depth = max([depth, *(-float(contact.dist) for contact in touches.values())])
+        slow = slow + 1 if abs(gap - last) < SLOW * came.speed * dt else 0
+        if pair.push(touches) > 0:
+            pushing, free = pushing + 1, 0
+        else:
+            free += 1
+        if free <= 1 and not _weight(pair):
+            kept = _kinetic_energy(model, data) / came.energy
         if slow == LYING:
             break
-        if pushed or not pushing or (touches and not weightless):
-            continue
-        mujoco.mj_forward(model, data)
-        after = points.speed(pair, data.qvel)
-        if after > 0 or points.gap(pair) > 0:
-            apart = pair.distance() - pair.contact.includemargin
-            return points.speed_at_touch(pair, after, apart) / before, pushing * model.opt.timestep, depth
-        if not touches:
-            return math.nan, math.nan, depth
-    return 0.0, pushing * model.opt.timestep, depth
+        if pushing and free and gap > -dt * came.points.speed(data) and (gap > 0 or not _weight(pair)):
+            left = came.points.speed_at_touch(data)
+            return ended(Outcome.TURNS if math.isnan(left) else Outcome.REBOUNDS, left / came.speed)
+        if free > 1 and not touches and gap < last:
+            return ended(Outcome.PASSES if gap < 0 else Outcome.TURNS)
+        last = gap
+        mujoco.mj_step(model, data)
+    return ended(Outcome.STAYS, 0.0)
+
+
+def _is_unstable(pair: Pair) -> bool:
+    return any(warning.number for warning in pair.data.warning)
+
+
+def _weight(pair: Pair) -> float:
+    """Return the gravity [m/s²]."""
+    return float(np.linalg.norm(pair.model.opt.gravity))
+
+
+def _kinetic_energy(model: mujoco.MjModel, data: mujoco.MjData) -> float:
+    """Return the kinetic energy of the whole model [J]."""
+    momentum = np.zeros(model.nv)
+    mujoco.mj_mulM(model, data, momentum, data.qvel)
+    return float(momentum @ data.qvel) / 2
 
 
 class _Points:
-    """Where both bodies touched first: points that stay with them, and the normals."""
+    """Where both bodies touched first: points that stay with them, and the normals, which stay in space."""
 
     def __init__(self, pair: Pair, touches: list[Any]) -> None:
+        self.model = pair.model
         self.bodies = [int(pair.model.geom_bodyid[geom]) for geom in (pair.one, pair.two)]
-        self.normals, self.places = [], []
-        for contact in touches:
-            # MuJoCo's normal leads from the first geom of the contact to the second.
-            sign = -1.0 if int(contact.geom[0]) == pair.one else 1.0
-            self.normals.append(sign * contact.frame[:3])
-            self.places.append(
-                [
-                    pair.data.xmat[body].reshape(3, 3).T @ (contact.pos - pair.data.xpos[body])
-                    for body in self.bodies
-                ]
-            )
+        gaps = np.array([contact.dist - contact.includemargin for contact in touches])
+        # What overlaps by less came later: corners of a tilted box, edges between the prisms of a field.
+        first = gaps <= gaps.min() / 2
+        touches = [contact for contact, chosen in zip(touches, first, strict=True) if chosen]
+        # MuJoCo's normal leads from the first geom of the contact to the second.
+        signs = [-1.0 if int(contact.geom[0]) == pair.one else 1.0 for contact in touches]
+        self.normals = np.array([s * c.frame[:3] for s, c in zip(signs, touches, strict=True)])
+        at = np.array([contact.pos for contact in touches])
+        self.places = [
+            (at - pair.data.xpos[body]) @ pair.data.xmat[body].reshape(3, 3) for body in self.bodies
+        ]
+        self.overlap = float(gaps[first].mean())
 
-    def speed_at_touch(self, pair: Pair, speed: float, distance: float) -> float:
-        """Return the speed that the points have where the geoms touch, at constant acceleration [m/s].
+    def speed_at_touch(self, data: mujoco.MjData) -> float:
+        """Return the speed at which the points part where the geoms touch [m/s], within a step of a state.
 
-        Args:
-            pair: with what accelerates it without contact.
-            speed: at a distance [m/s].
-            distance: from the touch [m].
+        It is that at constant acceleration, J q̈ + J̇ q̇ without constraints. Integrators but RK4 have the q̇
+        of half a step before a state. NaN where it differs from that of the state by more than `SHARE` of it
+        and what the model's gravity does in two steps.
         """
-        acceleration = self.speed(pair, pair.data.qacc_smooth)
-        return math.sqrt(max(speed**2 - 2 * acceleration * distance, 0.0))
+        speed, forced = self.speed(data), float(self._mean(data, mujoco.mj_jac) @ data.qacc_smooth)
+        acceleration = forced + float(self._mean(data, mujoco.mj_jacDot) @ data.qvel)
+        step, rk4 = float(self.model.opt.timestep), int(mujoco.mjtIntegrator.mjINT_RK4)
+        late = 0.0 if self.model.opt.integrator == rk4 else forced * step / 2
+        square = (speed + late) ** 2 - 2 * acceleration * self.gap(data)
+        found = math.copysign(math.sqrt(max(square, 0.0)), speed)
+        allowed = SHARE * abs(found) + 2 * step * float(np.linalg.norm(self.model.opt.gravity))
+        return found if abs(found - speed) <= allowed else math.nan
 
-    def speed(self, pair: Pair, velocity: Array) -> float:
-        """Return the mean speed at which the points part [m/s], with the kinematics in `pair.data`."""
-        total = 0.0
-        for normal, body, point, side in self._now(pair):
-            jacobian = np.zeros((3, pair.model.nv))
-            mujoco.mj_jac(pair.model, pair.data, jacobian, None, point, body)
-            total += side * float(normal @ (jacobian @ velocity))
+    def speed(self, data: mujoco.MjData) -> float:
+        """Return the mean speed at which the points part [m/s]."""
+        return float(self._mean(data, mujoco.mj_jac) @ data.qvel)
+
+    def gap(self, data: mujoco.MjData) -> float:
+        """Return how far the points have parted, in the mean, from where the geoms touch [m]."""
+        one, two = self._now(data)
+        return float(np.einsum("ij,ij->i", self.normals, one - two).mean()) + self.overlap
+
+    def _mean(self, data: mujoco.MjData, jacobian_of: Any) -> Array:
+        """Return the mean row of the points' Jacobian along the normals, or of its rate of change, (nv,)."""
+        total = np.zeros(self.model.nv)
+        for body, points, sign in zip(self.bodies, self._now(data), (1.0, -1.0), strict=True):
+            for normal, point in zip(self.normals, points, strict=True):
+                jacobian = np.zeros((3, self.model.nv))
+                jacobian_of(self.model, data, jacobian, None, point, body)
+                total += sign * (normal @ jacobian)
         return total / len(self.normals)
 
-    def gap(self, pair: Pair) -> float:
-        """Return how far the points have parted, in the mean [m]; below 0 where the geoms went through."""
-        parts = [side * float(normal @ point) for normal, _, point, side in self._now(pair)]
-        return sum(parts) / len(self.normals)
-
-    def _now(self, pair: Pair) -> Iterator[tuple[Array, int, Array, float]]:
-        """Yield each point with its normal, its body, its place in the space frame, and its side."""
-        for normal, places in zip(self.normals, self.places, strict=True):
-            for body, place, side in zip(self.bodies, places, (1.0, -1.0), strict=True):
-                point = pair.data.xpos[body] + pair.data.xmat[body].reshape(3, 3) @ place
-                yield normal, body, point, side
+    def _now(self, data: mujoco.MjData) -> list[Array]:
+        """Return the points of each body in the space frame, each (n, 3) [m]."""
+        return [
+            data.xpos[body] + places @ data.xmat[body].reshape(3, 3).T
+            for body, places in zip(self.bodies, self.places, strict=True)
+        ]

@@ -27,6 +27,9 @@ SPRING_STEPS = 40
 """Steps in a contact by a spring, by default."""
 LEAST = 0.01
 """Restitution by a spring."""
+SHORTEST_STEP, LONGEST_STEP = 1e-7, 0.1
+"""[s]."""
+STEP_ACCEPTED = "a number of seconds from 1e-7 to 0.1, such as 0.002"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,7 +51,8 @@ class Bounce:
     error: float
     """Largest |e' - e| over `PHASES` touches without weight, anywhere between two steps."""
     error_with_weight: float
-    """That of a body which touches at `SPEED` under `GRAVITY`; as the contact's length over the speed."""
+    """That of a body which touches at `SPEED` under `GRAVITY`, as its heights have it; at others about as
+    1/v, see `weight_cost`."""
     depth: float
     """How deep a body goes into the floor at 1 m/s, at most, whatever its mass [m]."""
     rest: Rest
@@ -64,7 +68,7 @@ class Bounce:
     @property
     def geom(self) -> str:
         """The attributes of one of the two geoms that touch; by its priority they hold alone."""
-        return f'condim="1" {self.contact.geom} priority="1"'
+        return self.contact.pasted()
 
     @property
     def model(self) -> str:
@@ -79,6 +83,17 @@ class Bounce:
         A contact deeper than half of both thicknesses sends the body out on the other side.
         """
         return 2 * (SPEED * self.depth - body_of(self.body).thinnest)
+
+    @property
+    def weight_cost(self) -> float:
+        """What weight takes from e in one step, over g dt/v, to first order: (1 - e)(2 + e)/(2 e).
+
+        A ball that comes at v touches s v dt deep, s from 0 to 1, and is e v dt higher after the step. By its
+        heights before and after, e' = √(h'/h) = e + ((1 - e)/2 - s (1/e - e)) g dt/v. Where e² is not far
+        above 2 g dt/v it may stay on the floor.
+        """
+        e = self.restitution
+        return (1 - e) * (2 + e) / (2 * e) if e else math.inf
 
     @property
     def creep(self) -> float:
@@ -212,9 +227,7 @@ def require_numbers(**numbers: object) -> None:
 
 def require_timestep(timestep: float) -> None:
     """Refuse a step that MuJoCo's own settings do not suit."""
-    require(
-        "timestep", timestep, 1e-7 <= timestep <= 0.1, "a number of seconds from 1e-7 to 0.1, such as 0.002"
-    )
+    require("timestep", timestep, SHORTEST_STEP <= timestep <= LONGEST_STEP, STEP_ACCEPTED)
 
 
 def _warn_if_deep(body: Body, depth: float) -> None:

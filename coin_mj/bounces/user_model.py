@@ -1,25 +1,22 @@
-"""A model of the user's own: loaded, and two of its geoms set to touch each other alone."""
+"""A model of the user's own: loaded, checked for what no measurement bears, its geoms by name."""
 
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
 
-import copy
 from pathlib import Path
-from typing import Any
+from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
 
+from cointoss.coin_mj.bounces.recipe import LONGEST_STEP, SHORTEST_STEP, STEP_ACCEPTED
 from cointoss.coin_mj.bounces.unlogged import unlogged
 from cointoss.models.errors import FieldError
-from cointoss.models.records import Array
 
-FARTHEST = 1e3
-"""Distance beyond which two geoms are not moved together [m]."""
-TRIES = 200
-"""Moves by which two geoms are brought to a distance."""
-TURN = 0.2
-"""The largest of these moves [m or rad]."""
+MOST_POINTS = 10_000_000
+"""Of a height field; MuJoCo's loader ends in an error without a message, or never, beyond the memory."""
+UNBOUNDED = ("_aabb", "_range", "_ctrlrange", "_forcerange", "_actrange", "_actfrcrange", "_lengthrange")
+"""Endings of names of fields in which infinity may stand for no bound."""
 
 
 def load_model(path: Path | str) -> mujoco.MjModel:
@@ -30,12 +27,29 @@ def load_model(path: Path | str) -> mujoco.MjModel:
     """
     if not Path(path).is_file():
         raise FieldError("model", str(path), "an XML file of MuJoCo that exists")
+    _require_small_fields(Path(path))
     try:
         with unlogged():
             return mujoco.MjModel.from_xml_path(str(path))
-    except (ValueError, mujoco.FatalError) as error:
+    except (ValueError, RuntimeError, MemoryError, mujoco.FatalError) as error:
         why = "; ".join(line.strip() for line in str(error).splitlines() if line.strip())
         raise FieldError("model", str(path), f"an XML file that MuJoCo loads ({why})") from None
+
+
+def require_measurable(model: mujoco.MjModel) -> None:
+    """Refuse a model with a step that suits no measurement, or with numbers that are not finite.
+
+    Raises:
+        FieldError: naming the field, its value and what is accepted.
+    """
+    step = float(model.opt.timestep)
+    if not SHORTEST_STEP <= step <= LONGEST_STEP:
+        raise FieldError("option timestep", step, STEP_ACCEPTED)
+    for name, values in _numbers(model.opt, "option "):
+        _require_finite(name, values)
+    for name, values in _numbers(model, ""):
+        if not name.endswith(UNBOUNDED):
+            _require_finite(_named(model, name, values), values)
 
 
 def geom_of(model: mujoco.MjModel, name: str) -> int:
@@ -54,134 +68,44 @@ def geom_of(model: mujoco.MjModel, name: str) -> int:
     return found
 
 
-class Pair:
-    """Two geoms of a model, alone, that one joint or a free body brings together.
+def _numbers(part: object, prefix: str) -> list[tuple[str, np.ndarray]]:
+    """Return the fields of floating point numbers of a model or of its options, by name."""
+    fields = [(name, getattr(part, name)) for name in dir(part) if not name.startswith("_")]
+    return [
+        (prefix + name, np.asarray(value))
+        for name, value in fields
+        if isinstance(value, float | np.ndarray) and np.asarray(value).dtype.kind == "f"
+    ]
 
-    Other geoms touch nothing. A geom on a free body comes straight along the normal, without turning; where
-    neither geom is on one, the joints move as an impulse between the two geoms would move them.
-    """
 
-    def __init__(self, model: mujoco.MjModel, one: int, two: int) -> None:
-        """Set both geoms at a distance.
+def _named(model: mujoco.MjModel, name: str, values: np.ndarray) -> str:
+    """Return a field's name with that of the first element whose numbers are not finite."""
+    kind, _, field = name.partition("_")
+    wrong = np.argwhere(~np.isfinite(values))
+    if not len(wrong) or len(values) != getattr(model, f"n{kind}", None):
+        return name
+    number = int(wrong[0][0])
+    return f"{kind} {getattr(model, kind)(number).name or number} {field}"
 
-        Raises:
-            FieldError: where no joint brings them together, or MuJoCo lets them pass through each other.
-        """
-        self.model = copy.copy(model)
-        self.model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
-        self.geoms = {one, two}
-        others = np.array([number not in self.geoms for number in range(model.ngeom)])
-        self.model.geom_contype[others] = 0
-        self.model.geom_conaffinity[others] = 0
-        for number in range(model.npair):
-            if {int(model.pair_geom1[number]), int(model.pair_geom2[number])} != self.geoms:
-                self.model.pair_margin[number] = -FARTHEST
-        self.one, self.two = one, two
-        self.data = mujoco.MjData(self.model)
-        mujoco.mj_forward(self.model, self.data)
-        self.size = float(min(r for r in self.model.geom_rbound[[one, two]] if r > 0) or 1.0)
-        self._bring_to(-1e-3 * self.size)
-        self.contact = self._contact()
-        self._bring_to(self.contact.includemargin + 1e-3 * self.size)
-        self.start = self.data.qpos.copy()
 
-    def set_apart(self, gap: float, speed: float) -> None:
-        """Set the geoms a gap before they touch [m], at a speed toward each other [m/s]."""
-        mujoco.mj_resetData(self.model, self.data)
-        self.data.qpos[:] = self.start
-        mujoco.mj_forward(self.model, self.data)
-        approach = self._bring_to(self.contact.includemargin + gap)
-        self.data.qvel[:] = speed * approach
-        mujoco.mj_forward(self.model, self.data)
+def _require_finite(name: str, values: np.ndarray) -> None:
+    wrong = values[~np.isfinite(values)]
+    if len(wrong):
+        raise FieldError(name, float(wrong[0]), "finite numbers")
 
-    def touches(self) -> list[Any]:
-        """Return the active contacts between both geoms."""
-        return [
-            contact
-            for contact in self.data.contact
-            if {int(contact.geom[0]), int(contact.geom[1])} == self.geoms and contact.efc_address >= 0
-        ]
 
-    def distance(self) -> float:
-        """Return the signed distance of both geoms [m]."""
-        return float(mujoco.mj_geomDistance(self.model, self.data, self.one, self.two, FARTHEST, np.zeros(6)))
-
-    def push(self) -> float:
-        """Return the normal force between both geoms [N]."""
-        force, total = np.zeros(6), 0.0
-        for number, contact in enumerate(self.data.contact):
-            if {int(contact.geom[0]), int(contact.geom[1])} == self.geoms and contact.efc_address >= 0:
-                mujoco.mj_contactForce(self.model, self.data, number, force)
-                total += force[0]
-        return total
-
-    def _contact(self) -> Any:
-        """Return a contact of both geoms where they overlap."""
-        for contact in self.data.contact:
-            if {int(contact.geom[0]), int(contact.geom[1])} == self.geoms:
-                return copy.copy(contact)
-        raise self._apart("MuJoCo lets them pass (contype and conaffinity, exclude, or parent and child)")
-
-    def _bring_to(self, distance: float) -> Array:
-        """Bring the geoms to a distance [m]; return the velocity that brings them nearer at 1 m/s, (nv,)."""
-        for _ in range(TRIES):
-            found, normal, point = self._nearest()
-            approach = self._approach(normal, point)
-            missing = distance - found
-            if abs(missing) < 1e-9 * self.size:
-                return approach
-            move = -missing * approach
-            move *= min(1.0, TURN / np.abs(move).max()) if not self._free() else 1.0
-            mujoco.mj_integratePos(self.model, self.data.qpos, move, 1.0)
-            mujoco.mj_forward(self.model, self.data)
-        raise self._apart("no joint brings them together")
-
-    def _nearest(self) -> tuple[float, Array, Array]:
-        """Return the distance [m], the normal from the second geom to the first, and a point between."""
-        ends = np.zeros(6)
-        distance = mujoco.mj_geomDistance(self.model, self.data, self.one, self.two, FARTHEST, ends)
-        way = ends[3:] - ends[:3]
-        length = np.linalg.norm(way)
-        if distance >= FARTHEST:
-            raise self._apart(f"they are further apart than {FARTHEST:g} m")
-        if length < 1e-12:
-            way = self.data.geom_xpos[self.two] - self.data.geom_xpos[self.one]
-            length, distance = np.linalg.norm(way), abs(distance)
-        sign = -1.0 if distance >= 0 else 1.0
-        return float(distance), sign * way / length, (ends[:3] + ends[3:]) / 2
-
-    def _approach(self, normal: Array, point: Array) -> Array:
-        """Return the generalised velocity by which the geoms come nearer at 1 m/s."""
-        velocity = np.zeros(self.model.nv)
-        free = self._free()
-        if free is not None:
-            dof, sign = free
-            velocity[dof : dof + 3] = -sign * normal
-            return velocity
-        row = normal @ (self._jacobian(self.one, point) - self._jacobian(self.two, point))
-        mujoco.mj_solveM(self.model, self.data, velocity[None], row[None])
-        response = row @ velocity
-        if response < 1e-12 / max(self.model.body_mass.sum(), 1e-12):
-            raise self._apart("no joint brings them together")
-        return -velocity / response
-
-    def _free(self) -> tuple[int, float] | None:
-        """Return the first coordinate of the free joint that moves a geom, and that geom's side."""
-        bodies = [int(self.model.body_rootid[self.model.geom_bodyid[geom]]) for geom in (self.one, self.two)]
-        if bodies[0] == bodies[1]:
-            return None
-        for body, sign in zip(bodies, (1.0, -1.0), strict=True):
-            joint = int(self.model.body_jntadr[body])
-            if joint >= 0 and self.model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE:
-                return int(self.model.jnt_dofadr[joint]), sign
-        return None
-
-    def _jacobian(self, geom: int, point: Array) -> Array:
-        """Return the Jacobian of a point of a geom's body, (3, nv)."""
-        jacobian = np.zeros((3, self.model.nv))
-        mujoco.mj_jac(self.model, self.data, jacobian, None, point, self.model.geom_bodyid[geom])
-        return jacobian
-
-    def _apart(self, why: str) -> FieldError:
-        names = [self.model.geom(geom).name or str(geom) for geom in (self.one, self.two)]
-        return FieldError("geoms", " and ".join(names), f"two geoms that touch: {why}")
+def _require_small_fields(path: Path) -> None:
+    """Refuse a file whose height fields have more points than `MOST_POINTS`, before MuJoCo reads it."""
+    try:
+        elements = list(ElementTree.parse(path).iter())
+    except (ElementTree.ParseError, ValueError, OSError):
+        return  # MuJoCo's loader says what is wrong with it
+    for element in elements:
+        if element.tag == "include" and (path.parent / element.get("file", "")).is_file():
+            _require_small_fields(path.parent / element.get("file", ""))
+        if element.tag == "hfield":
+            sides = [element.get(side, "0") for side in ("nrow", "ncol")]
+            if all(side.strip().isdigit() for side in sides) and int(sides[0]) * int(sides[1]) > MOST_POINTS:
+                name = element.get("name", "without a name")
+                accepted = f"at most {MOST_POINTS:,} points"
+                raise FieldError(f"hfield {name} nrow x ncol", " x ".join(sides), accepted)

@@ -1,7 +1,7 @@
 """`cointoss solref`: settings of MuJoCo for a bounce, and the bounce of given settings."""
 
 from dataclasses import asdict
-from math import floor, isfinite, log10
+from math import floor, inf, isfinite, log10
 from typing import TYPE_CHECKING
 
 import click
@@ -12,6 +12,9 @@ if TYPE_CHECKING:
     from cointoss.coin_mj.bounces.inverse import Rebounds
     from cointoss.coin_mj.bounces.recipe import Bounce
     from cointoss.coin_mj.bounces.rest import Rest
+
+FAILS = 0.2
+"""A formula that is further off than this part of itself fails."""
 
 
 @click.command()
@@ -140,10 +143,14 @@ def _settings(found: "Bounce") -> str:
     from cointoss.coin_mj.bounces.drops import SPEED
     from cointoss.coin_mj.bounces.flight import energy_change
     from cointoss.coin_mj.bounces.recipe import exact_of
-    from cointoss.coin_mj.bounces.rest import rest_of
+    from cointoss.coin_mj.bounces.rest import depth_at_rest, rest_of
 
     spring = found.integrator == "RK4"
-    rest = [_rest(found.rest)]
+    alone = 1e6 * depth_at_rest(found.contact)
+    rest = [
+        _rest(found.rest),
+        f"on several points 1/4 to 2 times (1 - d) g/k = {alone:.3g} um, by its shape: --body measures it",
+    ]
     flight = f"a brick at 10 turns a second {_change(found.flight)} of its energy in half a second"
     if not spring:
         exact = exact_of(found)
@@ -161,14 +168,15 @@ def _settings(found: "Bounce") -> str:
             + ("any but discrete, which errs more" if spring else "or Euler; not RK4, not discrete"),
             f"backend     {found.backend}: {found.backend.remark}",
             f"error       {_at_most(found.error)} at worst, of a {found.body} that touches at 16 phases",
-            f"            {_at_most(found.error_with_weight)} with weight, at {SPEED:g} m/s; more if slower",
+            f"            {_at_most(found.error_with_weight)} with weight at {SPEED:g} m/s; {_slower(found)}",
             "            more if the impact turns it, in proportion to its speed and DT: cointoss bounce",
             f"depth       up to {1e3 * found.depth:.3g} mm into the floor for each m/s, whatever the mass",
             f"floor       {_floor(found)}",
             *_column("rest", rest),
             f"flight      {flight}",
-            "friction    none; MuJoCo's own lifts a body that slides, and what it holds "
-            + (f"slips at some {1e6 * found.creep:.2g} um/s:" if found.creep < 1e-3 else "slips out:"),
+            'friction    none: a stack slides apart; condim="3" is MuJoCo\'s own, which lifts a body that',
+            "            slides, and lets what it holds "
+            + (f"slip at some {1e6 * found.creep:.2g} um/s:" if found.creep < 1e-3 else "slip out:"),
             "            docs/MUJOCO.md has a way out of both",
         ]
     )
@@ -182,13 +190,12 @@ def _rebounds(found: "Rebounds") -> str:
     theory = found.formula
     by = ["", "", "", ""]
     if theory is not None:
-        values = (
-            (theory.restitution, f"{theory.restitution:.4f}"),
-            (theory.duration, f"{1e3 * theory.duration:.3g} ms"),
-            (theory.depth, f"{1e3 * theory.depth:.3g} mm"),
-            (theory.rest, f"{1e6 * theory.rest:.3g} um deep"),
-        )
-        by = [f"; by formula {text}" if isfinite(value) else "" for value, text in values]
+        by = [
+            _by_formula(theory.restitution, found.restitution, f"{theory.restitution:.4f}", found),
+            _by_formula(theory.duration, found.duration, f"{1e3 * theory.duration:.3g} ms", found),
+            _by_formula(theory.depth, found.depth, f"{1e3 * theory.depth:.3g} mm", found),
+            _by_formula(theory.rest, found.rest.depth, f"{1e6 * theory.rest:.3g} um deep", found),
+        ]
     return "\n".join(
         [
             f'mixed       solref="{text_of(found.solref)}" solimp="{found.solimp}"',
@@ -196,10 +203,44 @@ def _rebounds(found: "Rebounds") -> str:
             f"over 16 phases of a step{by[0]}",
             f"            {found.restitution_with_weight:.4f} with weight, at {SPEED:g} m/s",
             f"duration    {1e3 * found.duration:.3g} ms{by[1]}",
-            f"depth       up to {1e3 * found.depth:.3g} mm for each m/s{by[2]}",
+            f"depth       up to {1e3 * found.depth:.3g} mm for each m/s{by[2]}{_deep(found)}",
             f"rest        {_rest(found.rest)}{by[3]}",
         ]
     )
+
+
+def _deep(found: "Rebounds") -> str:
+    """Return at which speed the contact is deeper than half of the ball that was measured, in words."""
+    from cointoss.coin_mj.bounces.bodies import BALL
+    from cointoss.coin_mj.bounces.drops import SPEED
+
+    fastest = BALL.thinnest / found.depth if found.depth else inf
+    if fastest >= SPEED:
+        return ""
+    ball = f"this ball of {2e3 * BALL.thinnest:g} mm"
+    return f"; above {fastest:.2g} m/s deeper than half of {ball}, which only a plane sends back"
+
+
+def _by_formula(theory: float, measured: float, text: str, found: "Rebounds") -> str:
+    """Return what theory says beside what was measured, and where it fails; nothing for infinity."""
+    if not isfinite(theory):
+        return ""
+    if abs(theory - measured) <= FAILS * abs(theory):
+        return f"; by formula {text}"
+    from cointoss.compare.output.answer import counted
+
+    steps = max(1, round(found.duration / found.timestep))
+    return f"; by formula {text}, which fails here, in a contact of {counted(steps, 'step')}"
+
+
+def _slower(found: "Bounce") -> str:
+    """Return what weight costs at another speed, in words."""
+    if found.integrator == "RK4":
+        return "more if slower, about as 1/v"
+    if not found.restitution:
+        return "a ball stays on the floor"
+    most = f"{_at_most(found.error)} + {found.weight_cost:.3g} g DT/v"
+    return f"at v up to {most}, while 2 g DT/v is far below E^2"
 
 
 def _floor(found: "Bounce") -> str:

@@ -4,9 +4,19 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from cointoss.coin_mj.bounces.pair import PairBounce
+from cointoss.coin_mj.bounces.pair import SHARE, Outcome, PairBounce
 from cointoss.compare.output.style import BLUE, STYLE, VERMILION
 from cointoss.models.records import Array
+
+DEEP = "*"
+"""Marks a depth that may let a body through."""
+MEANINGS = {
+    Outcome.STAYS: "the geoms do not part; they lie on each other or stick in each other, as deep as shown",
+    Outcome.PASSES: "the geoms part on the wrong sides",
+    Outcome.OTHER_SPEED: f"something else changes the speed by more than {100 * SHARE:g} % on the way",
+    Outcome.TURNS: f"the point's speed changes by more than {100 * SHARE:g} % in a step: take a shorter one",
+}
+"""What outcomes mean, where a line needs it."""
 
 
 def draw_bounce(found: PairBounce) -> Figure:
@@ -31,24 +41,48 @@ def draw_bounce(found: PairBounce) -> Figure:
 
 
 def bounce_table(found: PairBounce) -> str:
-    """Return the restitution at each speed, line by line."""
-    head = f"{'speed [m/s]':>11}  {'restitution':23}  {'with gravity':23}  lasts [ms]  depth [mm]"
+    """Return the bounce at each speed, line by line, and what its marks mean."""
+    head = (
+        f"{'speed [m/s]':>11}  {'restitution':23}  {'with gravity':23}  energy kept  lasts [ms]  depth [mm]"
+    )
     lines = [
-        f"{speed:11g}  {_range(free):23}  {_range(pulled):23}  {_mean(1e3 * lasts):>10}  {1e3 * depth:10.3g}"
-        for speed, free, pulled, lasts, depth in zip(
-            found.speeds, found.restitutions, found.with_gravity, found.durations, found.depths, strict=True
+        f"{speed:11g}  {_range(free, ends):23}  {_range(pulled, pulled_ends):23}  {_mean(kept, '.4f'):>11}  "
+        f"{_mean(1e3 * lasts, '.3g'):>10}  {_depth(depth, found.thinnest):>10}".rstrip()
+        for speed, free, ends, pulled, pulled_ends, kept, lasts, depth in zip(
+            found.speeds,
+            found.restitutions,
+            found.outcomes,
+            found.with_gravity,
+            found.outcomes_with_gravity,
+            found.energy_kept,
+            found.durations,
+            found.depths,
+            strict=True,
         )
     ]
-    return "\n".join([head, *lines])
+    seen = {end for row in (*found.outcomes, *found.outcomes_with_gravity) for end in row}
+    notes = [f"{end}: {meaning}" for end, meaning in MEANINGS.items() if end in seen]
+    if (found.depths > found.thinnest).any():
+        notes.append(
+            f"{DEEP} deeper than half of the thinner geom, {2e3 * found.thinnest:.3g} mm thick: what is no "
+            "plane may let it through"
+        )
+    return "\n".join([head, *lines, *notes])
 
 
-def _range(values: Array) -> str:
-    """Return the mean and the range over the phases of a step, or how many have no answer."""
-    lost = int(np.isnan(values).sum())
-    if lost:
-        return f"{lost} of {len(values)} went through"
+def _range(values: Array, outcomes: tuple[Outcome, ...]) -> str:
+    """Return the mean and the range over the phases of a step, or how many do something else than rebound."""
+    others = [outcome for outcome in Outcome if outcome != Outcome.REBOUNDS and outcome in outcomes]
+    if others:
+        return ", ".join(f"{outcomes.count(outcome)} of {len(outcomes)} {outcome}" for outcome in others)
     return f"{values.mean():.4f} [{values.min():.4f}, {values.max():.4f}]"
 
 
-def _mean(values: Array) -> str:
-    return "-" if np.isnan(values).any() else f"{values.mean():.3g}"
+def _mean(values: Array, how: str) -> str:
+    return "-" if np.isnan(values).any() else f"{values.mean():{how}}"
+
+
+def _depth(depth: float, thinnest: float) -> str:
+    if np.isnan(depth):
+        return "-"
+    return f"{1e3 * depth:.3g}" + (DEEP if depth > thinnest else "")

@@ -1,6 +1,6 @@
 """Bodies that rest, are pressed, tumble, hit each other and slide, by MuJoCo's settings for a bounce."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -41,6 +41,8 @@ FALLEN = 0.01
 """Depth of a stack that has fallen [m]."""
 STANDING = 1e-7
 """Speed below which a stack stands [m/s]."""
+STACKS = {"as printed": (1, True), 'with condim="3"': (3, True), "and no diagexact": (3, False)}
+"""condim of the printed line, and whether the flag diagexact is set, of stacks."""
 PRESSED = 500.0
 """Force on a body of 1 kg [N]."""
 STEPS = (2e-3, 1e-3, 1e-4)
@@ -81,6 +83,9 @@ CONTACTS = {
     ),
 }
 
+Means = tuple[float | None, float | None]
+"""Restitution of the point that touches and share of energy kept, means over phases; None where unknown."""
+
 
 @dataclass(frozen=True)
 class Situations:
@@ -92,8 +97,8 @@ class Situations:
     """Of a ball under its weight, by contact."""
     pressed: dict[str, Rest]
     """Of 1 kg under `PRESSED` and its weight, by contact."""
-    stack: dict[str, tuple[float, float]]
-    """Depth [m] and speed of sinking [m/s] of the uppermost of five boxes, by contact."""
+    stack: dict[str, list[tuple[float, float]]]
+    """Depth [m] and speed of sinking [m/s] of the uppermost of five boxes, for each of `STACKS`."""
     flight: dict[str, list[float]]
     """Change of a tumbling brick's energy, by integrator, for each of `STEPS`."""
     hits: dict[str, list[float]]
@@ -106,10 +111,10 @@ class Situations:
     """Balls of `FALLS` that go through each of `FLOORS`, by contact."""
     depths: dict[str, float]
     """Of a ball's contact at 1 m/s [m], by contact."""
-    legs: dict[str, list[float]]
-    """Restitution of a hopper's leg at each of `SPEEDS`, in the mean over phases, by contact and step."""
-    cylinders: dict[str, list[list[float]]]
-    """Likewise of a cylinder on a ball: on its middle, and `BESIDE` it."""
+    legs: dict[str, list[Means]]
+    """Of a hopper's leg at each of `SPEEDS`, by contact and step."""
+    cylinders: dict[str, list[list[Means]]]
+    """Of a cylinder on a ball: on its middle, and `BESIDE` it."""
     creeping: dict[str, list[float | None]]
     """Speed at which a pinched box creeps [m/s] for each of `HELD`; None where it falls; by contact."""
 
@@ -121,7 +126,7 @@ def compute(progress: Progress) -> Situations:
         errors[name] = float(np.abs(drops_of(contact).restitutions - E).max())
         rest[name] = rest_of(contact)
         pressed[name] = rest_of(contact, gravity=GRAVITY + PRESSED)
-        stacked[name] = stack(contact)
+        stacked[name] = [stack(replace(contact, exact=exact), condim) for condim, exact in STACKS.values()]
         progress(done, len(CONTACTS))
     contact = CONTACTS["one step"]
     row = {
@@ -159,8 +164,23 @@ def _turning(steps: int | None, dt: float) -> str:
     return f"{'one step' if steps is None else 'spring'}, {1e3 * dt:g} ms"
 
 
-def _means(found: PairBounce) -> list[float]:
-    return [float(mean) for mean in found.restitutions.mean(axis=1)]
+def _means(found: PairBounce) -> list[Means]:
+    columns = (found.restitutions.mean(axis=1), found.energy_kept.mean(axis=1))
+    return [(_known(e), _known(kept)) for e, kept in zip(*columns, strict=True)]
+
+
+def _known(number: float) -> float | None:
+    return None if np.isnan(number) else float(number)
+
+
+def _restitutions(means: list[Means]) -> list[float]:
+    """Return the restitutions that are known."""
+    return [e for e, _ in means if e is not None]
+
+
+def _kept(means: list[Means]) -> list[float]:
+    """Return the shares of energy that are known."""
+    return [kept for _, kept in means if kept is not None]
 
 
 def measures(found: Situations) -> dict[str, Any]:
@@ -180,8 +200,10 @@ def measures(found: Situations) -> dict[str, Any]:
         "pressed": _depth_of(found.pressed["one step"], "one step", GRAVITY + PRESSED),
         "sinking": exact.sinking / (1e-4 * GRAVITY * STEP / (1 + E)) - 1,
         "hop": found.rest["spring, solimp 0.9999"].hop,
-        "stack": abs(found.stack["one step"][1]),
-        "sinking_stack": found.stack["one step, no stiffness"][1],
+        "fallen_stack": min(depth for depth, _ in (found.stack[name][0] for name in RECOMMENDED)),
+        "stack": abs(found.stack["one step"][1][1]),
+        "stack_depth": max(depth for depth, _ in found.stack["one step"][1:]),
+        "sinking_stack": found.stack["one step, no stiffness"][2][1],
         "implicit": found.flight["implicitfast"][0],
         "rk4": max(abs(change) for change in found.flight["RK4"]),
         "hits": max(hit),
@@ -194,14 +216,23 @@ def measures(found: Situations) -> dict[str, Any]:
             for thick, went in zip(FLOORS, found.floors[name], strict=True)
         ),
         "went": sum(found.floors["spring"]),
-        "middle": max(abs(e - E) for on_middle, _ in found.cylinders.values() for e in on_middle),
-        "turned": max(e for _, beside in found.cylinders.values() for e in beside),
-        "jumping": max(found.legs["spring, 2 ms"]),
+        "middle": max(
+            abs(e - E) for on_middle, _ in found.cylinders.values() for e in _restitutions(on_middle)
+        ),
+        "turned": max(e for _, beside in found.cylinders.values() for e in _restitutions(beside)),
+        "leg_loses": min(_kept(found.legs["spring, 2 ms"])),
+        "leg_keeps": max(_kept(found.legs["spring, 2 ms"])),
+        "most_kept": max(
+            kept
+            for means in (*found.legs.values(), *(beside for _, beside in found.cylinders.values()))
+            for kept in _kept(means)
+        ),
         "turning": max(
             abs(e - E)
             for values in (found.legs["spring, 0.02 ms"], found.cylinders["spring, 0.02 ms"][1])
-            for e in values[:5]
+            for e in _restitutions(values)[:5]
         ),
+        "leg_energy": max(abs(kept - E**2) for kept in _kept(found.legs["spring, 0.02 ms"])[:5]),
         "creep": found.creeping["one step"][2],
         "creep_pair": found.creeping["spring"][3],
         "fallen": sum(speed is None for speed in found.creeping["spring"]),
@@ -223,7 +254,7 @@ def tables(found: Situations) -> str:
             f"{found.errors[name]:.0e}",
             _rest(found.rest[name]),
             _rest(found.pressed[name]),
-            _stack(*found.stack[name]),
+            *(_stack(*depth) for depth in found.stack[name]),
         ]
         for name in CONTACTS
     ]
@@ -238,22 +269,32 @@ def tables(found: Situations) -> str:
     ]
     floors = [[name, *map(str, found.floors[name])] for name in RECOMMENDED]
     turning = [
-        [f"{body}: {kind}", *(f"{e:.3f}" for e in values)]
+        [f"{body}: {kind}", *(_bounce(*means) for means in values)]
         for body, kinds in (
             ("leg", found.legs),
             ("cylinder", {kind: values[1] for kind, values in found.cylinders.items()}),
         )
         for kind, values in kinds.items()
     ]
-    on_middle = [e for values, _ in found.cylinders.values() for e in values]
+    on_middle = [e for means, _ in found.cylinders.values() for e in _restitutions(means)]
     creeping = [
         [name, *("falls out" if v is None else f"{1e6 * v:.2g} µm/s" for v in found.creeping[name])]
         for name in CONTACTS
     ]
     friction = [[name, *(f"{e:.0e}, {slip:.0e}" for e, slip in found.friction[name])] for name in OPTIONS]
     return paragraphs(
-        f"e = {E:g}, steps of {1e3 * STEP:g} ms; the stack: boxes of 0.1, 0.1, 0.1, 0.1, 10 kg, after 40 s:",
-        table(["contact", "error of e", "a ball at rest", "1 kg pressed by 500 N", "top of a stack"], rest),
+        f"e = {E:g}, steps of {1e3 * STEP:g} ms; the top of a stack of boxes of 0.1, 0.1, 0.1, 0.1, 10 kg, "
+        "after 40 s, with the printed line and with friction:",
+        table(
+            [
+                "contact",
+                "error of e",
+                "a ball at rest",
+                "1 kg pressed by 500 N",
+                *(f"a stack {name}" for name in STACKS),
+            ],
+            rest,
+        ),
         "Energy gained in half a second of flight, over itself, by a brick (1:2:4) at ten turns a second:",
         table(["integrator", *(f"{1e3 * dt:g} ms" for dt in STEPS)], flight),
         "A ball that comes at 1 m/s, in one step, e = 0.8; of the rod only the ball's velocity is given:",
@@ -264,8 +305,10 @@ def tables(found: Situations) -> str:
         table(["contact", *("a plane" if t is None else f"a box of {1e3 * t:g} mm" for t in FLOORS)], floors),
         "Bodies that turn in a contact, in the mean over phases of a step: a hopper's leg on a plane, and a "
         f"cylinder that lands flat on a ball of 10 cm, {1e3 * BESIDE:g} mm beside its middle (on its middle: "
-        f"{min(on_middle):.3f} to {max(on_middle):.3f}):",
-        table(["e'", *(f"{speed:g} m/s" for speed in SPEEDS)], turning),
+        f"{min(on_middle):.3f} to {max(on_middle):.3f}); e' of the point that touched, and the share of the "
+        f"kinetic energy that is kept, {100 * E**2:.0f} % of a leg by Newton's law; a dash: the point's "
+        "speed changes too much in a step:",
+        table(["e', energy", *(f"{speed:g} m/s" for speed in SPEEDS)], turning),
         "A box of 0.1 kg, pinched with 20 N by two plates (μ = 1), creeps down:",
         table(["contact", *HELD], creeping),
         "SimBenchmark's bouncing test, 49 balls of 10 kg with e = 1: change of energy in 10 s, over itself: "
@@ -282,9 +325,14 @@ def _rest(rest: Rest) -> str:
     return f"{1e6 * rest.depth:.3g} µm deep"
 
 
+def _bounce(e: float | None, kept: float | None) -> str:
+    shown = "-" if e is None else f"{e:.3f}"
+    return shown + ("" if kept is None else f", {100 * kept:.0f} %")
+
+
 def _stack(depth: float, sinking: float) -> str:
     if abs(depth) > FALLEN:
-        return "falls over"
+        return "falls"
     speed = f", sinks {1e6 * sinking:.2g} µm/s" if sinking > STANDING else ""
     return f"{1e3 * depth:.2g} mm deep{speed}"
 

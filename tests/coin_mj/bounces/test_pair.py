@@ -8,7 +8,11 @@ import numpy as np
 import pytest
 
 from cointoss.coin_mj import bounce, solref_of
+from cointoss.coin_mj.bounces import pair
+from cointoss.coin_mj.bounces.pair import Outcome
 from cointoss.coin_mj.bounces.recipe import recipe_of
+from cointoss.compare.output.bounce_plot import bounce_table
+from cointoss.compare.reproduction.setups.mujoco_failures import leg
 
 DT = 2e-3
 HARD = recipe_of(0.8, DT)
@@ -144,6 +148,106 @@ def test_a_thin_body_that_goes_through_is_no_number():
     assert found[0] == pytest.approx(0.8, abs=0.02)
 
 
+PENDULUM = (
+    '<geom name="a" type="box" size="0.1 1 2" pos="0.5 0 0"/><body pos="0 0 1">'
+    f'<joint axis="0 -1 0"/><geom name="b" size="0.06" pos="0 0 -0.6" {SET}/></body>'
+)
+SLIDES = f"""{FLOOR}<body pos="0 0 0.2"><joint name="j1" type="slide" axis="0 0 1"/>
+<geom name="b" size="0.05" mass="0.3" {SET}/></body>
+<body pos="0.5 0 0.2"><joint name="j2" type="slide" axis="0 0 1"/>
+<geom size="0.05" mass="0.5" contype="0" conaffinity="0"/></body>"""
+COUPLED = {
+    "as fast": '<equality><joint joint1="j2" joint2="j1"/></equality>',
+    "twice as fast": '<equality><joint joint1="j2" joint2="j1" polycoef="0 2 0 0 0"/></equality>',
+    "by a tendon": '<tendon><fixed name="t"><joint joint="j1" coef="1"/><joint joint="j2" coef="2"/></fixed>'
+    '</tendon><equality><tendon tendon1="t"/></equality>',
+}
+
+
+@pytest.mark.parametrize("steps", [None, 40])
+def test_a_pendulum_has_e_at_every_speed_and_keeps_its_square_of_the_energy(steps):
+    """Its angular velocity after over that before is -e, wherever within a step it touches."""
+    contact = recipe_of(0.8, DT, steps)
+    text = PENDULUM.replace(HARD.geom, contact.geom)
+    found = bounce(model(text, contact.integrator), "b", "a")
+    # As the page promises, without the flag diagexact.
+    error = 6e-4 if steps is None else 7e-3
+    assert found.restitutions == pytest.approx(0.8, abs=error)
+    assert found.energy_kept == pytest.approx(0.64, abs=2 * error)
+    assert found.energy_kept == pytest.approx(found.restitutions**2, rel=2e-3)
+
+
+def test_the_energy_kept_is_that_of_both_bodies():
+    """A ball on one like it leaves with (1 - e)/2, the other with (1 + e)/2."""
+    two = '<body><freejoint/><geom name="a" size="0.1"/></body>' + ball(SET)
+    found = bounce(model(two), "a", "b")
+    assert found.energy_kept == pytest.approx((1 + 0.64) / 2, abs=5e-4)
+    assert {end for row in found.outcomes for end in row} == {Outcome.REBOUNDS}
+
+
+def test_a_point_that_turns_too_far_in_a_step_has_no_restitution():
+    found = leg(recipe_of(0.8, DT, 40))
+    assert set(found.outcomes[-1]) <= {Outcome.TURNS, Outcome.OTHER_SPEED}
+    assert np.isnan(found.restitutions[-1]).all()
+    assert np.nanmax(found.energy_kept) < 1
+    assert "take a shorter one" in bounce_table(found)
+    assert found.energy_kept[0] == pytest.approx(0.64, abs=6e-3)
+
+
+@pytest.mark.parametrize("how", COUPLED)
+def test_what_is_coupled_comes_along(how):
+    found = bounce(model(SLIDES, more=COUPLED[how]), "b", "a")
+    assert {end for row in found.outcomes for end in row} == {Outcome.REBOUNDS}
+    # Of what equality constraints hold, MuJoCo's own impedance of 0.9 to 0.95 lets a part through.
+    assert found.restitutions == pytest.approx(0.8, abs=2e-3)
+
+
+@pytest.mark.parametrize(("e", "v"), [(0.5, 2.0), (0.8, 1.0)])
+def test_with_gravity_it_is_that_of_the_heights(e, v, monkeypatch):
+    """A ball is dropped from rest, and √(h'/h) is what it keeps of its speed at the plane."""
+    monkeypatch.setattr(pair, "SPEEDS", (v,))
+    contact = recipe_of(e, DT)
+    text = FLOOR + ball(f'{contact.geom} condim="1" priority="1"', "0 0 1")
+    built, kept = model(text), []
+    for phase in np.arange(16) / 16:
+        data, height = mujoco.MjData(built), v**2 / 2 / 9.81 + phase * v * DT
+        data.qpos[2] = 0.1 + height
+        while data.qvel[2] <= 0:
+            mujoco.mj_step(built, data)
+        highest = 0.0
+        while data.qvel[2] > 0:
+            highest = data.qpos[2] - 0.1
+            mujoco.mj_step(built, data)
+        kept.append((highest / height) ** 0.5)
+    found = bounce(built, "b", "a").with_gravity
+    assert [found.min(), found.max()] == pytest.approx([min(kept), max(kept)], abs=2e-3)
+    assert min(kept) < e - 4e-3
+
+
+FIELD = """<mujoco><option timestep="0.001"/>
+<asset><hfield name="h" nrow="6" ncol="6" size="1 1 0.1 0.1"/></asset>
+<worldbody><geom name="a" type="hfield" hfield="h"/><body pos="{} 0.02 1"><freejoint/>
+<geom name="b" size="0.05"/></body></worldbody></mujoco>"""
+
+
+def test_a_ball_that_sticks_in_a_height_field_is_no_number(monkeypatch):
+    monkeypatch.setattr(pair, "SPEEDS", (0.5,))
+    monkeypatch.setattr(pair, "PHASES", 2)
+    found = bounce(mujoco.MjModel.from_xml_string(FIELD.format(0.03)), "b", "a")
+    assert set(found.outcomes_with_gravity[0]) == {Outcome.STAYS}
+    assert "2 of 2 stay" in bounce_table(found)
+    assert ((found.restitutions > 0.05) & (found.restitutions < 0.2)).all()
+    with pytest.raises(ValueError, match="not above the height field"):
+        bounce(mujoco.MjModel.from_xml_string(FIELD.format(3)), "b", "a")
+
+
+def test_a_contact_deeper_than_a_geom_is_marked():
+    soft = ball('solref="-500 -5" priority="1" condim="1"', size=0.0035)
+    shown = bounce_table(bounce(model(FLOOR + soft), "a", "b"))
+    assert "* deeper than half of the thinner geom, 7 mm thick" in shown
+    assert "*" not in bounce_table(bounce(model(FLOOR + ball(SET)), "a", "b"))
+
+
 @pytest.mark.parametrize(
     ("bodies", "names", "said"),
     [
@@ -163,11 +267,48 @@ def test_a_thin_body_that_goes_through_is_no_number():
             "no joint brings them together",
         ),
         (FLOOR + ball("", "0 0 5000"), ("a", "b"), "further apart than 1000 m"),
+        (
+            '<geom name="a" type="plane" size="0 0 1"/><geom name="b" type="plane" size="0 0 1"/>',
+            ("a", "b"),
+            "at least one is no plane",
+        ),
+        (FLOOR + ball('solref="0.02 -1"'), ("a", "b"), "geom b solref = .0.02 -1.: accepted: two numbers"),
+        (FLOOR + ball('solref="nan 1"'), ("a", "b"), "geom b solref = nan: accepted: finite numbers"),
+        (FLOOR + ball('solimp="0.9 inf 1"'), ("a", "b"), "geom b solimp = inf: accepted: finite numbers"),
     ],
 )
 def test_geoms_that_do_not_exist_or_touch_are_refused(bodies, names, said):
     with pytest.raises(ValueError, match=said):
         bounce(model(bodies), *names)
+
+
+@pytest.mark.parametrize("step", ["-1", "0", "10", "inf", "nan"])
+def test_a_step_that_suits_no_measurement_is_refused(step):
+    text = f'<mujoco><option timestep="{step}"/><worldbody>{FLOOR}{ball("")}</worldbody></mujoco>'
+    with pytest.raises(ValueError, match=r"option timestep = .*: accepted: a number of seconds from 1e-7"):
+        bounce(mujoco.MjModel.from_xml_string(text), "a", "b")
+
+
+def test_numbers_that_are_not_finite_are_refused():
+    for option in ('gravity="0 0 inf"', 'impratio="nan"', 'density="inf"'):
+        text = f"<mujoco><option {option}/><worldbody>{FLOOR}{ball('')}</worldbody></mujoco>"
+        with pytest.raises(ValueError, match=r"option .*: accepted: finite numbers"):
+            bounce(mujoco.MjModel.from_xml_string(text), "a", "b")
+
+
+def test_a_geom_that_equality_constraints_hold_is_refused():
+    held = '<body name="B" pos="0 0 1"><freejoint/><geom name="b" size="0.1"/></body>'
+    with pytest.raises(ValueError, match="equality constraints hold them"):
+        bounce(model(FLOOR + held, more='<equality><weld body1="B"/></equality>'), "b", "a")
+
+
+def test_a_height_field_beyond_the_memory_is_refused_before_it_is_read(tmp_path):
+    asset = '<mujoco><asset><hfield name="h" nrow="60000" ncol="60000" size="1 1 1 1"/></asset></mujoco>'
+    (tmp_path / "field.xml").write_text(asset)
+    (tmp_path / "model.xml").write_text('<mujoco><include file="field.xml"/></mujoco>')
+    for name in ("field.xml", "model.xml"):
+        with pytest.raises(ValueError, match=r"hfield h nrow x ncol = .60000 x 60000.: accepted: at most"):
+            bounce(tmp_path / name, "a", "b")
 
 
 def test_a_model_is_read_by_the_loader_and_nothing_is_written(tmp_path, monkeypatch):

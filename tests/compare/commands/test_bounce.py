@@ -16,6 +16,7 @@ def test_a_table_a_picture_and_numbers(tmp_path, monkeypatch):
     assert 'mixed       solref="0 -900" solimp="0.9 0.95 0.001 0.5 2" condim="1"\n' in shown
     assert "integrator  Euler, 2 ms\n" in shown
     assert len(shown.splitlines()) == 3 + 7 + 2
+    assert "energy kept" in shown
     assert (tmp_path / "e.png").read_bytes().startswith(b"\x89PNG")
     found = json.loads(cointoss("bounce", "model.xml", "0", "ball", "--json").stdout)
     assert "mujoco" in found["versions"]
@@ -24,3 +25,20 @@ def test_a_table_a_picture_and_numbers(tmp_path, monkeypatch):
     assert "bad.xml: accepted: an XML file that MuJoCo loads (" in refused("bounce", "bad.xml", "a", "b")
     assert "geom cup: accepted: a geom of the model" in refused("bounce", "model.xml", "cup", "ball")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["bad.xml", "e.png", "model.xml"]
+
+
+def test_what_is_no_rebound_is_said_and_what_is_no_model_is_refused(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    dead = XML.replace('solref="0 -900"', 'solref="0 -500" solimp="0.9999 0.9999 0.001"')
+    (tmp_path / "dead.xml").write_text(dead)
+    shown = cointoss("bounce", "dead.xml", "ball", "floor").stdout
+    assert "          1  8 of 8 stay              8 of 8 stay                   0.0000" in shown
+    assert "stay: the geoms do not part" in shown
+    found = json.loads(cointoss("bounce", "dead.xml", "ball", "floor", "--json").stdout)
+    assert found["outcomes"][0] == ["stay"] * 8
+    assert found["restitutions"][0] == [0.0] * 8
+    for number in ("-1", "0", "10", "nan"):
+        (tmp_path / "step.xml").write_text(XML.replace("0.002", number))
+        said = refused("bounce", "step.xml", "ball", "floor")
+        assert "step.xml: option timestep" in said
+        assert "accepted: a number of seconds from 1e-7 to 0.1" in said

@@ -1,0 +1,253 @@
+"""Two geoms of a model, alone, set so that they come together at a speed."""
+
+# The MuJoCo wheel describes no types.
+# pyright: reportAttributeAccessIssue=false
+
+import copy
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from cointoss.models.errors import FieldError
+from cointoss.models.records import Array
+
+FARTHEST = 1e3
+"""Distance beyond which two geoms are not moved together [m]."""
+TRIES = 200
+"""Moves by which two geoms are brought to a distance."""
+TURN = 0.2
+"""The largest of these moves [m or rad]."""
+HALVINGS = 60
+"""By which the distance to a height field is found."""
+CLOSED = 1e-10
+"""Error of an equality constraint that is met [m or rad]."""
+HELD = 1e-6
+"""Two geoms come nearer at less than this part of a speed: equality constraints hold them."""
+
+
+class Pair:
+    """Two geoms of a model, alone, that one joint or a free body brings together.
+
+    Other geoms touch nothing. A geom on a free body comes straight along the normal, without turning; where
+    neither geom is on one, the joints move as an impulse between the two geoms would move them. What active
+    equality constraints couple moves along with it. On a height field a body comes along the field's own z.
+    """
+
+    def __init__(self, model: mujoco.MjModel, one: int, two: int) -> None:
+        """Set both geoms at a distance.
+
+        Raises:
+            FieldError: where no joint brings them together, or MuJoCo lets them pass through each other.
+        """
+        self.model = copy.copy(model)
+        self.model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+        self.geoms = {one, two}
+        others = np.array([number not in self.geoms for number in range(model.ngeom)])
+        self.model.geom_contype[others] = 0
+        self.model.geom_conaffinity[others] = 0
+        for number in range(model.npair):
+            if {int(model.pair_geom1[number]), int(model.pair_geom2[number])} != self.geoms:
+                self.model.pair_margin[number] = -FARTHEST
+        self.one, self.two = one, two
+        fields = [geom for geom in (one, two) if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_HFIELD]
+        self.field = fields[0] if fields else None
+        self.data = mujoco.MjData(self.model)
+        mujoco.mj_forward(self.model, self.data)
+        bounds = [float(r) for r in self.model.geom_rbound[[one, two]] if r > 0]
+        if not bounds:
+            raise self._apart("at least one is no plane")
+        self.size = min(bounds)
+        self._close()
+        self._bring_to(-1e-3 * self.size)
+        self.contact = self._contact()
+        self._bring_to(self.contact.includemargin + 1e-3 * self.size)
+        self.start = self.data.qpos.copy()
+
+    @property
+    def thinnest(self) -> float:
+        """Half of the thickness of the thinner geom, where it is thinnest; a plane has none [m]."""
+        planes = int(mujoco.mjtGeom.mjGEOM_PLANE)
+        halves = [self.model.geom_aabb[g, 3:].min() for g in self.geoms if self.model.geom_type[g] != planes]
+        return float(min(halves))
+
+    def set_apart(self, speed: float, steps: float) -> None:
+        """Set the geoms so many steps before they touch, so that they then come together at a speed [m/s].
+
+        What accelerates them meanwhile is taken into account as a constant acceleration.
+        """
+        mujoco.mj_resetData(self.model, self.data)
+        self.data.qpos[:] = self.start
+        mujoco.mj_forward(self.model, self.data)
+        duration, margin = steps * self.model.opt.timestep, self.contact.includemargin
+        approach = self._bring_to(margin + speed * duration)
+        gained = duration * self._acceleration(speed * approach)
+        gap, before = (speed - gained / 2) * duration, speed - gained
+        if gap > 0:
+            approach = self._bring_to(margin + gap)
+        else:
+            before = speed
+        self.data.qvel[:] = before * approach
+        mujoco.mj_forward(self.model, self.data)
+
+    def touches(self) -> dict[int, Any]:
+        """Return the active contacts between both geoms, by number."""
+        return {number: contact for number, contact in self._between() if contact.efc_address >= 0}
+
+    def push(self, touches: dict[int, Any]) -> float:
+        """Return the normal force of some contacts [N]."""
+        force, total = np.zeros(6), 0.0
+        for number in touches:
+            mujoco.mj_contactForce(self.model, self.data, number, force)
+            total += force[0]
+        return total
+
+    def _between(self) -> list[tuple[int, Any]]:
+        """Return the contacts between both geoms, with their numbers."""
+        if not self.data.ncon:
+            return []
+        pairs = np.sort(self.data.contact.geom, axis=1)
+        return [(int(n), self.data.contact[n]) for n in np.flatnonzero((pairs == sorted(self.geoms)).all(1))]
+
+    def _contact(self) -> Any:
+        """Return a contact of both geoms where they overlap."""
+        for _, contact in self._between():
+            return copy.copy(contact)
+        raise self._apart("MuJoCo lets them pass (contype and conaffinity, exclude, or parent and child)")
+
+    def _bring_to(self, distance: float) -> Array:
+        """Bring the geoms to a distance [m]; return the velocity that brings them nearer at 1 m/s, (nv,)."""
+        for _ in range(TRIES):
+            found, normal, point = self._nearest()
+            approach = self._approach(normal, point)
+            missing = distance - found
+            if abs(missing) < 1e-9 * self.size:
+                return approach
+            move = -missing * approach
+            move *= min(1.0, TURN / np.abs(move).max()) if not self._free() else 1.0
+            mujoco.mj_integratePos(self.model, self.data.qpos, move, 1.0)
+            mujoco.mj_forward(self.model, self.data)
+            self._close()
+        raise self._apart("no joint brings them together")
+
+    def _close(self) -> None:
+        """Move the joints to where the equality constraints are met, as far as they can be."""
+        for _ in range(TRIES):
+            errors = self.data.efc_pos[: self.data.ne]
+            if np.abs(errors).max(initial=0.0) < CLOSED:
+                return
+            move = -self._by_equalities(errors)
+            mujoco.mj_integratePos(self.model, self.data.qpos, move, 1.0)
+            mujoco.mj_forward(self.model, self.data)
+            if np.abs(move).max() < CLOSED:
+                return
+
+    def _by_equalities(self, change: Array) -> Array:
+        """Return the least generalised velocity that changes the equality constraints so, (nv,)."""
+        rows = np.zeros((self.data.ne, self.model.nv))
+        one = np.zeros(self.data.nefc)
+        for number, row in enumerate(rows):
+            one[number] = 1.0
+            mujoco.mj_mulJacTVec(self.model, self.data, row, one)
+            one[number] = 0.0
+        by_force = np.zeros_like(rows)
+        mujoco.mj_solveM(self.model, self.data, by_force, rows)
+        return by_force.T @ np.linalg.lstsq(rows @ by_force.T, change)[0]
+
+    def _nearest(self) -> tuple[float, Array, Array]:
+        """Return the distance [m], the normal from the second geom to the first, and a point between."""
+        if self.field is not None:
+            return self._above_field()
+        ends = np.zeros(6)
+        distance = mujoco.mj_geomDistance(self.model, self.data, self.one, self.two, FARTHEST, ends)
+        way = ends[3:] - ends[:3]
+        length = np.linalg.norm(way)
+        if distance >= FARTHEST:
+            raise self._apart(f"they are further apart than {FARTHEST:g} m")
+        if length < 1e-12:
+            way = self.data.geom_xpos[self.two] - self.data.geom_xpos[self.one]
+            length, distance = np.linalg.norm(way), abs(distance)
+        sign = -1.0 if distance >= 0 else 1.0
+        return float(distance), sign * way / length, (ends[:3] + ends[3:]) / 2
+
+    def _above_field(self) -> tuple[float, Array, Array]:
+        """Return the same above a height field, along its z, to which MuJoCo measures no distance."""
+        other = self.two if self.field == self.one else self.one
+        up = self.data.geom_xmat[self.field].reshape(3, 3)[:, 2].copy()
+        place = self.data.geom_xpos[other].copy()
+        size = self.model.hfield_size[self.model.geom_dataid[self.field]]
+        height = float(up @ (place - self.data.geom_xpos[self.field]))
+        reach = float(self.model.geom_rbound[other])
+
+        def overlaps(lowered: float) -> bool:
+            self.data.geom_xpos[other] = place - lowered * up
+            mujoco.mj_collision(self.model, self.data)
+            return any(contact.dist <= 0 for _, contact in self._between())
+
+        apart, inside = height - size[2] - 2 * reach, height
+        reached = overlaps(inside)
+        for _ in range(HALVINGS):
+            middle = (apart + inside) / 2
+            apart, inside = (apart, middle) if overlaps(middle) else (middle, inside)
+        mujoco.mj_forward(self.model, self.data)
+        if not reached:
+            raise self._apart("MuJoCo lets them pass, or the one is not above the height field")
+        return inside, up if other == self.one else -up, place - inside * up
+
+    def _approach(self, normal: Array, point: Array) -> Array:
+        """Return the generalised velocity by which the geoms come nearer at 1 m/s."""
+        velocity, row = np.zeros(self.model.nv), self._row(normal, point)
+        free = self._free()
+        if free is not None:
+            dof, sign = free
+            velocity[dof : dof + 3] = -sign * normal
+        else:
+            mujoco.mj_solveM(self.model, self.data, velocity[None], row[None])
+            response = row @ velocity
+            if response < 1e-12 / max(self.model.body_mass.sum(), 1e-12):
+                raise self._apart("no joint brings them together")
+            velocity /= -response
+        if self.data.ne:
+            rates = np.zeros(self.data.nefc)
+            mujoco.mj_mulJacVec(self.model, self.data, rates, velocity)
+            velocity -= self._by_equalities(rates[: self.data.ne])
+            nearer = -(row @ velocity)
+            if nearer < HELD:
+                raise self._apart("equality constraints hold them where they are")
+            velocity /= nearer
+        return velocity
+
+    def _acceleration(self, velocity: Array) -> float:
+        """Return by how much the speed at which the geoms come nearer grows [m/s²], at a velocity, (nv,)."""
+        _, normal, point = self._nearest()
+        self.data.qvel[:] = velocity
+        mujoco.mj_forward(self.model, self.data)
+        row, change = self._row(normal, point), self._row(normal, point, mujoco.mj_jacDot)
+        found = -(row @ self.data.qacc + change @ velocity)
+        self.data.qvel[:] = 0
+        mujoco.mj_forward(self.model, self.data)
+        return float(found)
+
+    def _free(self) -> tuple[int, float] | None:
+        """Return the first coordinate of the free joint that moves a geom, and that geom's side."""
+        bodies = [int(self.model.body_rootid[self.model.geom_bodyid[geom]]) for geom in (self.one, self.two)]
+        if bodies[0] == bodies[1]:
+            return None
+        for body, sign in zip(bodies, (1.0, -1.0), strict=True):
+            joint = int(self.model.body_jntadr[body])
+            if joint >= 0 and self.model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE:
+                return int(self.model.jnt_dofadr[joint]), sign
+        return None
+
+    def _row(self, normal: Array, point: Array, of: Any = mujoco.mj_jac) -> Array:
+        """Return the Jacobian of the speed at which both geoms part, or its rate of change, (nv,)."""
+        total = np.zeros(self.model.nv)
+        for geom, sign in ((self.one, 1.0), (self.two, -1.0)):
+            jacobian = np.zeros((3, self.model.nv))
+            of(self.model, self.data, jacobian, None, point, self.model.geom_bodyid[geom])
+            total += sign * (normal @ jacobian)
+        return total
+
+    def _apart(self, why: str) -> FieldError:
+        names = [self.model.geom(geom).name or str(geom) for geom in (self.one, self.two)]
+        return FieldError("geoms", " and ".join(names), f"two geoms that touch: {why}")
