@@ -128,7 +128,7 @@ class Pair:
             mujoco.mj_integratePos(self.model, self.data.qpos, move, 1.0)
             mujoco.mj_forward(self.model, self.data)
             self._close()
-        raise self._apart("no joint brings them together")
+        raise self._apart("no joint brings them together from where the model starts")
 
     def _close(self) -> None:
         """Move the joints to where the equality constraints are met, as far as they can be."""

@@ -44,6 +44,8 @@ class Outcome(StrEnum):
     """They part; only then the restitution is a number above 0."""
     STAYS = "stay"
     """They do not part: they lie on each other, or stick in each other."""
+    LASTS = "touch on and on"
+    """They touch for more than `LONGEST` steps, and still move."""
     PASSES = "go through"
     """They part on the wrong sides."""
     MISSES = "do not touch"
@@ -225,18 +227,22 @@ def _come(pair: Pair, speed: float) -> _Come | Outcome:
 def _part(pair: Pair, came: _Come) -> _Touch:
     """Step until both geoms part, and return what they did."""
     model, data, dt = pair.model, pair.data, float(pair.model.opt.timestep)
-    depth, pushing, slow, last, kept, free = 0.0, 0, 0, math.nan, math.nan, 0
+    depth, pushing, free, slow, kept = 0.0, 0, 0, 0, math.nan
+    last = deep = middle = math.nan
 
     def ended(outcome: Outcome, restitution: float = math.nan) -> _Touch:
         if _is_unstable(pair):
             return _nothing(Outcome.UNSTABLE)
         return _Touch(outcome, restitution, kept, pushing * dt, depth)
 
-    for _ in range(LONGEST):
+    for step in range(LONGEST):
         mujoco.mj_forward(model, data)
-        touches, gap = pair.touches(), came.points.gap(data)
-        depth = max([depth, *(-float(contact.dist) for contact in touches.values())])
-        slow = slow + 1 if abs(gap - last) < SLOW * came.speed * dt else 0
+        touches, gap, before = pair.touches(), came.points.gap(data), deep
+        # Of the geoms, not of the points that touched first: what rolls stays.
+        deep = max((-float(contact.dist) for contact in touches.values()), default=-gap)
+        depth = max(depth, deep) if touches else depth
+        middle = deep if step == LONGEST // 2 else middle
+        slow = slow + 1 if abs(deep - before) < SLOW * came.speed * dt else 0
         if pair.push(touches) > 0:
             pushing, free = pushing + 1, 0
         else:
@@ -244,7 +250,7 @@ def _part(pair: Pair, came: _Come) -> _Touch:
         if free <= 1 and not _weight(pair):
             kept = _kinetic_energy(model, data) / came.energy
         if slow == LYING:
-            break
+            return ended(Outcome.STAYS, 0.0)
         if pushing and free and gap > -dt * came.points.speed(data) and (gap > 0 or not _weight(pair)):
             left = came.points.speed_at_touch(data)
             return ended(Outcome.TURNS if math.isnan(left) else Outcome.REBOUNDS, left / came.speed)
@@ -252,7 +258,9 @@ def _part(pair: Pair, came: _Come) -> _Touch:
             return ended(Outcome.PASSES if gap < 0 else Outcome.TURNS)
         last = gap
         mujoco.mj_step(model, data)
-    return ended(Outcome.STAYS, 0.0)
+    # What trembles on, or creeps, stays.
+    stays = abs(deep - middle) < SLOW * came.speed * dt * LONGEST / 2
+    return ended(Outcome.STAYS, 0.0) if stays else ended(Outcome.LASTS)
 
 
 def _is_unstable(pair: Pair) -> bool:

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from cointoss.coin_mj.bounces.pair import SHARE, Outcome, PairBounce
+from cointoss.coin_mj.bounces.pair import LONGEST, SHARE, Outcome, PairBounce
 from cointoss.compare.output.style import BLUE, STYLE, VERMILION
 from cointoss.models.records import Array
 
@@ -12,6 +12,7 @@ DEEP = "*"
 """Marks a depth that may let a body through."""
 MEANINGS = {
     Outcome.STAYS: "the geoms do not part; they lie on each other or stick in each other, as deep as shown",
+    Outcome.LASTS: f"the contact goes on for more than {LONGEST} steps, and the geoms still move",
     Outcome.PASSES: "the geoms part on the wrong sides",
     Outcome.OTHER_SPEED: f"something else changes the speed by more than {100 * SHARE:g} % on the way",
     Outcome.TURNS: f"the point's speed changes by more than {100 * SHARE:g} % in a step: take a shorter one",
@@ -42,24 +43,19 @@ def draw_bounce(found: PairBounce) -> Figure:
 
 def bounce_table(found: PairBounce) -> str:
     """Return the bounce at each speed, line by line, and what its marks mean."""
-    head = (
-        f"{'speed [m/s]':>11}  {'restitution':23}  {'with gravity':23}  energy kept  lasts [ms]  depth [mm]"
-    )
-    lines = [
-        f"{speed:11g}  {_range(free, ends):23}  {_range(pulled, pulled_ends):23}  {_mean(kept, '.4f'):>11}  "
-        f"{_mean(1e3 * lasts, '.3g'):>10}  {_depth(depth, found.thinnest):>10}".rstrip()
-        for speed, free, ends, pulled, pulled_ends, kept, lasts, depth in zip(
-            found.speeds,
-            found.restitutions,
-            found.outcomes,
-            found.with_gravity,
-            found.outcomes_with_gravity,
-            found.energy_kept,
-            found.durations,
-            found.depths,
-            strict=True,
-        )
+    columns = [
+        ["speed [m/s]", *(f"{speed:g}" for speed in found.speeds)],
+        ["restitution", *map(_range, found.restitutions, found.outcomes)],
+        ["with gravity", *map(_range, found.with_gravity, found.outcomes_with_gravity)],
+        ["energy kept", *(_mean(kept, ".4f") for kept in found.energy_kept)],
+        ["lasts [ms]", *(_mean(1e3 * lasts, ".3g") for lasts in found.durations)],
+        ["depth [mm]", *(_depth(depth, found.thinnest) for depth in found.depths)],
     ]
+    aligned = [
+        [f"{cell:{side}{max(map(len, cells))}}" for cell in cells]
+        for side, cells in zip("><<>>>", columns, strict=True)
+    ]
+    lines = ["  ".join(cells) for cells in zip(*aligned, strict=True)]
     seen = {end for row in (*found.outcomes, *found.outcomes_with_gravity) for end in row}
     notes = [f"{end}: {meaning}" for end, meaning in MEANINGS.items() if end in seen]
     if (found.depths > found.thinnest).any():
@@ -67,7 +63,7 @@ def bounce_table(found: PairBounce) -> str:
             f"{DEEP} deeper than half of the thinner geom, {2e3 * found.thinnest:.3g} mm thick: what is no "
             "plane may let it through"
         )
-    return "\n".join([head, *lines, *notes])
+    return "\n".join([*lines, *notes])
 
 
 def _range(values: Array, outcomes: tuple[Outcome, ...]) -> str:

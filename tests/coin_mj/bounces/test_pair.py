@@ -241,6 +241,14 @@ def test_a_ball_that_sticks_in_a_height_field_is_no_number(monkeypatch):
         bounce(mujoco.MjModel.from_xml_string(FIELD.format(3)), "b", "a")
 
 
+def test_a_contact_that_outlasts_the_measurement_is_no_rebound(monkeypatch):
+    monkeypatch.setattr(pair, "LONGEST", 300)
+    soft = ball('solref="-10 -0.5" priority="1" condim="1"')
+    found = bounce(model(FLOOR + soft), "a", "b")
+    assert {end for row in found.outcomes for end in row} == {Outcome.LASTS}
+    assert np.isnan(found.restitutions).all()
+
+
 def test_a_contact_deeper_than_a_geom_is_marked():
     soft = ball('solref="-500 -5" priority="1" condim="1"', size=0.0035)
     shown = bounce_table(bounce(model(FLOOR + soft), "a", "b"))

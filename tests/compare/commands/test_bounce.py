@@ -32,7 +32,7 @@ def test_what_is_no_rebound_is_said_and_what_is_no_model_is_refused(tmp_path, mo
     dead = XML.replace('solref="0 -900"', 'solref="0 -500" solimp="0.9999 0.9999 0.001"')
     (tmp_path / "dead.xml").write_text(dead)
     shown = cointoss("bounce", "dead.xml", "ball", "floor").stdout
-    assert "          1  8 of 8 stay              8 of 8 stay                   0.0000" in shown
+    assert "          1  8 of 8 stay  8 of 8 stay        0.0000" in shown
     assert "stay: the geoms do not part" in shown
     found = json.loads(cointoss("bounce", "dead.xml", "ball", "floor", "--json").stdout)
     assert found["outcomes"][0] == ["stay"] * 8
