@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 _DRAWN = 600
 """Times at which a path is drawn."""
+_PROVED, _NO_PROOF = "", "by a test that is no proof"
 
 
 class Face(Word):
@@ -49,37 +50,52 @@ class Outcome(Word):
     PERPETUAL = 4
     TRANSIENT = 5
 
+    @property
+    def is_decided(self) -> bool:
+        """Whether it says what becomes of the coin."""
+        return self not in (Outcome.UNDECIDED, Outcome.TRANSIENT)
+
 
 class Ending(Word):
     """Why a toss stopped."""
 
     sentence: str
     """What the ending means."""
+    proviso: str
+    """With what reserve the outcome is said; empty where the ending proves it."""
 
-    def __new__(cls, value: int, sentence: str) -> "Ending":
-        """Make a member of its integer and its sentence."""
+    def __new__(cls, value: int, sentence: str, proviso: str = "so far") -> "Ending":
+        """Make a member of its integer and its words."""
         member = int.__new__(cls, value)
-        member._value_, member.sentence = value, sentence
+        member._value_, member.sentence, member.proviso = value, sentence, proviso
         return member
 
     NONE = 0, "The toss goes on."
-    SETTLED = 1, "The coin can no longer turn over, and this floor gives it no energy."
-    PAPER = 2, "The coin can no longer turn over, unless a later impact gives it energy."
-    PAPER_SMOOTH = 3, "The energy that can turn the coin over is below m g r: the paper's eq. (20)."
+    SETTLED = 1, "The coin can no longer turn over, and this floor gives it no energy.", _PROVED
+    PAPER = 2, "The coin's energy is too low to turn it over, but a later impact may add some.", _NO_PROOF
+    PAPER_SMOOTH = (
+        3,
+        "The energy that can turn the coin over is below m g r: the paper's eq. (20).",
+        _NO_PROOF,
+    )
     MAX_IMPACTS = 4, "The toss stopped at [ending] max_impacts; raise it to go on."
     MAX_TIME = 5, "The toss stopped at [ending] max_time; raise it to go on."
     CHATTER = 6, "Ever faster impacts bring the coin into contact, where this law is not followed."
     NO_SOLUTION = 7, "The contact law has no solution at this impact."
-    LYING = 8, "The coin lies on a face. It may still slide or spin, but that can't tip it."
-    STANDING = 9, "The coin stands on its edge: the floor turns it back from either rim."
-    PERPETUAL = 10, "Its recent losses, extrapolated, leave the coin enough energy to turn over for ever."
+    LYING = 8, "The coin lies on a face. It may still slide or spin, but that can't tip it.", _PROVED
+    STANDING = 9, "The coin stands on its edge: the floor turns it back from either rim.", _PROVED
+    PERPETUAL = (
+        10,
+        "Its recent losses, extrapolated, leave the coin enough energy to turn over for ever.",
+        "by extrapolation",
+    )
     CONTACT_STEPS = 11, "The toss stopped at contact_steps; raise it to go on: --contact-steps N."
     FLIGHT_STEPS = 12, "The toss stopped at flight_steps; raise it to go on: --flight-steps N."
-    AT_REST = 13, "The coin rests on its edge, held by the floor's resistance to rolling."
+    AT_REST = 13, "The coin rests on its edge, held by the floor's resistance to rolling.", _PROVED
     ROLLING = 14, "The coin still rolls on its edge; to go on raise max_time or contact_steps."
-    CAUGHT = 15, "A hand caught the coin at the height [ending] caught; the face up there counts."
+    CAUGHT = 15, "A hand caught the coin at the height [ending] caught; the face up there counts.", _PROVED
     NOT_CAUGHT = 16, "The coin never came down to the hand at the height [ending] caught."
-    PERIODIC = 17, "The coin's contact has gone through a whole period, and repeats it for ever."
+    PERIODIC = 17, "The coin's contact has gone through a whole period, and repeats it for ever.", _PROVED
     TRANSIENT = 18, "A long transient: after contact_steps its losses had neither settled it nor died away."
 
 
@@ -360,13 +376,34 @@ class Toss:
         """The faces up at the touches, as in "HHT"."""
         return self.impacts.sequence
 
+    # What ended the toss, whether the engine's errors can change its outcome, and which impacts they can
+    # change, are three things. No two of the words below deny each other.
+
+    @property
+    def is_sure(self) -> bool:
+        """Whether it has an outcome that the engine's own errors can't change."""
+        return bool(self.outcome_certain) and self.outcome.is_decided
+
+    @property
+    def is_certain(self) -> bool:
+        """Whether its outcome `is_sure`, and proved by its ending."""
+        return self.is_sure and not self.ending.proviso
+
     @property
     def outcome_told(self) -> str:
-        """The outcome, and whether it is certain, in words."""
-        if self.outcome_certain:
-            return f"{self.outcome}, and that is certain"
-        other = self.other_outcome
-        return f"{self.outcome} or {other.outcome}: {other.told}" if other else str(self.outcome)
+        """The outcome, and how sure it is, in words."""
+        told, other = str(self.outcome), self.other_outcome
+        if not self.outcome.is_decided:
+            return told
+        if self.is_certain:
+            return f"{told}, and that is certain"
+        if other:
+            return f"{told} or {other.outcome}: {other.told}"
+        if self.outcome_certain is None:
+            reserved = f"{told} {self.ending.proviso}".rstrip()
+            return f"{reserved}; this engine does not find out how certain that is"
+        how = "can't" if self.is_sure else "may"
+        return f"{told} {self.ending.proviso or 'as computed'}; the engine's own errors {how} change that"
 
     @property
     def trust_reason(self) -> str:
@@ -375,12 +412,13 @@ class Toss:
 
     @property
     def trust(self) -> str:
-        """How many leading impacts are trusted, and why no more."""
+        """How many leading impacts are trusted, why no more, and whether it matters, in words."""
         trusted, count = self.trusted_impacts, len(self.impacts)
-        noun = "impact" if count == 1 else "impacts"
+        impacts = f"{count} impact" if count == 1 else f"{count} impacts"
         if trusted >= count:
-            return f"{count} {noun}"
-        return f"{trusted} of {count} {noun}" + (f": {self.trust_reason}" if self.trust_reason else "")
+            return impacts
+        told = f"{trusted} of {impacts}" + (f": {self.trust_reason}" if self.trust_reason else "")
+        return f"{told}; yet all faces and the outcome stay the same" if self.is_sure else told
 
     @property
     def flags(self) -> tuple[frozenset[Flag], ...]:

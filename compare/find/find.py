@@ -99,8 +99,7 @@ class Found:
         if self.target.sequence:
             lines.append(f"trusted: {self.trusted} of {len(self.target.sequence)} touches")
         if self.target.outcome is not None:
-            certain = "certain" if self.toss.outcome_certain else "not certain"
-            lines.append(f"outcome: {self.toss.outcome}, {certain}")
+            lines.append(f"outcome: {self.toss.outcome_told}")
         return lines
 
     def as_json(self) -> dict[str, Any]:

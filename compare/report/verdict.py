@@ -3,12 +3,13 @@
 from enum import StrEnum
 from typing import NamedTuple
 
-from cointoss.compare.output.answer import counted
 from cointoss.compare.report.compared_tosses import ComparedTosses
 from cointoss.models.records import Ending, Outcome, Toss, TrustEnd
 
 REPORT_IT = "One engine is wrong: please report it"
 TINY_ERRORS = "tiny errors decide, and neither engine is wrong"
+MUJOCOS_ERRORS = "errors as small as MuJoCo’s decide, and neither engine is wrong"
+"""Where those of the analytic engine change nothing."""
 OFF_THE_LAW = (TrustEnd.SECOND_POINT, TrustEnd.RESTITUTION)
 """Ends of MuJoCo's trust where its impulse is not that of the contact law, however well the toss is known."""
 
@@ -35,14 +36,22 @@ class Verdict(NamedTuple):
 
 def verdict_of(comparison: ComparedTosses) -> Verdict:
     """Return the verdict."""
-    certainly = ", and that is certain" if comparison.analytic.outcome_certain else ""
-    doubt = _doubt(comparison.analytic)
-    if comparison.mujoco is None:
-        says = f"{_outcome(comparison.analytic)} by the analytic engine alone{certainly}"
+    analytic, mujoco = comparison.analytic, comparison.mujoco
+    a, doubt = _outcome(analytic), _doubt(analytic)
+    if mujoco is None:
+        says = f"{a} by the analytic engine alone{', and that is certain' * analytic.is_certain}"
         return Verdict(_sentence(f"{says}: MuJoCo can't toss this coin on this floor") + doubt, Kind.ALONE)
-    a, b = (_outcome(toss) for toss in comparison.both)
-    says = f"{a} by both engines{certainly}" if a == b else f"{a} by the analytic engine, {b} by MuJoCo"
+    b = _outcome(mujoco)
     agreement, kind = _agreement(comparison, a == b)
+    if a == b:
+        proviso = analytic.ending.proviso
+        has_reserve = analytic.outcome.is_decided and proviso and proviso == mujoco.ending.proviso
+        reserve = f", {proviso}" if has_reserve else ""
+        says = f"{a} by both engines{', and certain by the analytic one' * analytic.is_certain}{reserve}"
+    else:
+        says = f"{a} by the analytic engine, {b} by MuJoCo"
+        if analytic.is_sure and kind != Kind.FAULT:
+            doubt = " The analytic engine's own errors are too small to change its outcome."
     return Verdict(_sentence(f"{says}: {agreement}") + doubt, kind)
 
 
@@ -60,7 +69,8 @@ def horizon_sentence(comparison: ComparedTosses) -> str:
     if count == 0:
         before = "The coin is caught before its first impact: without" if caught else "Without"
         return f"{before} an impact nothing amplifies small errors."
-    errors = "errors as small as the engines’ own"
+    whose = "MuJoCo’s" if comparison.analytic.is_sure else "the engines’ own"
+    errors = f"errors as small as {whose}"
     if horizon >= count and caught:
         return f"All faces must agree: the coin is caught before {errors} change one."
     if horizon >= count:
@@ -91,33 +101,41 @@ def _agreement(comparison: ComparedTosses, same_outcome: bool) -> tuple[str, Kin
             Kind.FAULT,
         )
     off_the_law = _off_the_law(comparison)
-    then = off_the_law or f"after that {TINY_ERRORS}"
-    certain = agree and horizon == prefix
-    decided = not {Outcome.UNDECIDED, Outcome.TRANSIENT} & {a.outcome, b.outcome}
+    decide = MUJOCOS_ERRORS if a.is_sure else TINY_ERRORS
+    then = off_the_law or f"after that {decide}"
+    as_they_must = agree and horizon == prefix
+    decided = a.outcome.is_decided and b.outcome.is_decided
     # The face in a hand may differ where the coin comes to it on its edge, unless it has flown only.
-    leads_to_it = not in_contact and not (caught and count)
-    if certain and decided and not same_outcome and leads_to_it:
+    leads_to_it = not in_contact and not (caught and count) and a.outcome_certain is not False
+    if as_they_must and decided and not same_outcome and leads_to_it:
         why = f"{_all(count)} must lead to the same" if count else "the coin only flew"
         return f"they differ, although {why}. {REPORT_IT}", Kind.FAULT
     if count == 0:
         return _without_impact(a, b, in_contact), kind
     if not agree and prefix == 0:
         return (
-            f"they differ from the first impact on. Not even that must agree: {off_the_law or TINY_ERRORS}",
+            f"they differ from the first impact on. Not even that must agree: {off_the_law or decide}",
             kind,
         )
     before = " before it is caught" if caught else ""
-    shared = _all(count) if prefix == count else f"the {counted(prefix, 'impact')} that both count"
-    first = f"they agree on {shared}{before}" if agree else f"they agree on {_first(prefix)}"
-    if certain:
+    shared = _all(count) if agree and prefix == count else _first(prefix)
+    first = f"they agree on {shared}{before if agree else ''}"
+    if as_they_must:
         decides = "the flight to the hand" if caught else "what the floor does after that"
         follows = "" if same_outcome else f"; {decides} decides"
-        return f"{first}, as they must{follows}", kind
+        return f"{first}, as they must{follows or _further(a, b)}", kind
     if horizon == 0:
-        return f"{first}. Not even the first must agree: {off_the_law or TINY_ERRORS}", kind
+        return f"{first}. Not even the first must agree: {off_the_law or decide}", kind
     if horizon == prefix:
         return f"{first}, as they must; {then}", kind
     return f"{first}. The first{'' if horizon == 1 else f' {horizon}'} must agree; {then}", kind
+
+
+def _further(a: Toss, b: Toss) -> str:
+    """Return which engine counts more impacts than both share; empty where neither does."""
+    more = len(a.impacts) - len(b.impacts)
+    who = "the analytic engine" if more > 0 else "MuJoCo"
+    return f"; after that {who} counts {abs(more)} more" if more else ""
 
 
 def _off_the_law(comparison: ComparedTosses) -> str:

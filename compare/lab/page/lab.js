@@ -184,10 +184,13 @@ function valuesText(x, y) {
   return `${part(state.x.field, x)}, ${part(state.y.field, y)}`;
 }
 
+// What is hatched: of a final outcome that it is not certain, of a touch that it is not trusted.
+const doubtText = () => (state.after === null ? "not certain" : "not trusted");
+
 function placeText({ x, y, code, trusted }) {
   const parts = [valuesText(x, y)];
   if (code !== -1) parts.push(code === -2 ? "no scenario" : outcomes[code].label);
-  if (trusted === 0) parts.push("not trusted");
+  if (trusted === 0) parts.push(doubtText());
   return parts.join("; ");
 }
 
@@ -198,7 +201,7 @@ function ends(isEnd) {
 
 function legend() {
   const entries = [1, 2, 3].map((code) => [outcomes[code].label, outcomes[code].color]);
-  entries.push(["not trusted", "repeating-linear-gradient(135deg, #fff 0 2px, var(--soft) 2px 6px)"]);
+  entries.push([doubtText(), "repeating-linear-gradient(135deg, #fff 0 2px, var(--soft) 2px 6px)"]);
   byId("legend").replaceChildren(...entries.map(([label, color]) => {
     const item = element("li"), patch = element("i");
     patch.style.background = color;

@@ -47,6 +47,8 @@ TOSSES = {
     "HHT": made("HHT"),
     "sure": replace(made("HHT"), outcome_certain=True),
     "open": replace(made("HHT"), other_outcome=OtherOutcome(outcome=Outcome.EDGE, change=1.2e-16, impact=2)),
+    "shaky": replace(made("HHT"), outcome_certain=False),
+    "tested": replace(made("HHT", ending=Ending.PAPER), outcome_certain=True),
     "HTT": made("HTT", Outcome.TAILS),
     "HHTH": made("HHTH"),
     "TTT": made("TTT", Outcome.TAILS),
@@ -70,13 +72,22 @@ HHT HHT 3 3 AGREE
 HHT HHT 3 1 AGREE
     Heads by both engines: they agree on all 3 impacts. The first must agree; after that DECIDE
 sure HHT 3 1 AGREE
-    Heads by both engines, and that is certain: they agree on all 3 impacts. The first must agree; after that
-    DECIDE
+    Heads by both engines, and certain by the analytic one: they agree on all 3 impacts. The first must agree;
+    after that MUJOCOS
 open HHT 3 1 AGREE
     Heads by both engines: they agree on all 3 impacts. The first must agree; after that DECIDE Heads or on
     its edge: a change of 1e-16 after impact 2 decides.
 sure HTT 1 1 DIFFER
-    HEADS, TAILS: they agree on the first impact, as they must; after that DECIDE
+    HEADS, TAILS: they agree on the first impact, as they must; after that MUJOCOS The analytic engine's own
+    errors are too small to change its outcome.
+sure turned 3 3 FAULT
+    HEADS, TAILS: they differ, although all 3 impacts must lead to the same. FAULTY
+shaky turned 3 3 DIFFER
+    HEADS, TAILS: they agree on all 3 impacts, as they must; what the floor does after that decides.
+tested tested 3 3 AGREE
+    Heads by both engines, by a test that is no proof: they agree on all 3 impacts, as they must.
+tested HHT 3 3 AGREE
+    Heads by both engines: they agree on all 3 impacts, as they must.
 HHT HHTH 3 2 DIFFER
     Heads by both engines: they agree on the first 3 impacts. The first 2 must agree; after that DECIDE
 HHT HTT 1 1 DIFFER
@@ -93,7 +104,10 @@ rolled rolled-upright 2 2 DIFFER
     HEADS, on its edge by MuJoCo: they agree on both impacts, as they must; what the floor does after that
     decides.
 rolled rolled-on 2 2 AGREE
-    Heads by both engines: they agree on the 2 impacts that both count, as they must.
+    Heads by both engines: they agree on the first 2 impacts, as they must; after that MuJoCo counts 1 more.
+rolled-on rolled 2 2 AGREE
+    Heads by both engines: they agree on the first 2 impacts, as they must; after that the analytic engine
+    counts 1 more.
 rolled-over rolled 2 1 DIFFER
     Tails by the analytic engine, heads by MuJoCo: they agree on the first 2 impacts. The first must agree;
     after that DECIDE
@@ -120,6 +134,7 @@ flying flying 0 0 AGREE
 """Two tosses, how many impacts agree, how many must, and the verdict with its words."""
 WORDS = {
     "DECIDE": "tiny errors decide, and neither engine is wrong.",
+    "MUJOCOS": "errors as small as MuJoCo’s decide, and neither engine is wrong.",
     "HEADS": "Heads by the analytic engine",
     "TAILS": "tails by MuJoCo",
     "FAULTY": "One engine is wrong: please report it.",
@@ -152,6 +167,8 @@ def test_what_mujoco_cannot_toss_is_said():
     ("name", "horizon", "begins"),
     [
         ("HHT", 3, "All faces must agree: errors"),
+        ("sure", 3, "All faces must agree: errors as small as MuJoCo’s change none"),
+        ("sure", 0, "Not even the first face must agree: errors as small as MuJoCo’s can change it"),
         ("HHT", 2, "The first 2 faces, up to the bar, must agree. Each"),
         ("HHT", 1, "The first face, up to the bar, must agree. Each"),
         ("HHT", 0, "Not even the first face must agree: errors"),
