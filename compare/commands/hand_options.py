@@ -36,7 +36,12 @@ _OPTIONS = (
         show_default="90 deg",
         help="Angle between normal and angular momentum; less than 90 deg: the coin wobbles.",
     ),
-    click.option("--psi-scatter", type=Quantity("rad"), show_default="0 deg", help="Its standard deviation."),
+    click.option(
+        "--psi-scatter",
+        type=Quantity("rad"),
+        show_default="10 deg, as of people; 0 deg with --hand, --psi or --spun",
+        help="Its standard deviation.",
+    ),
     click.option(
         "--scatter",
         type=Quantity(""),
@@ -94,10 +99,11 @@ def chosen_hand(given: dict[str, Any], described: "Scenario") -> "tuple[Hand, Sc
     for name in OF_A_TOSS:
         if typed.get("spun") and name in typed:
             raise click.UsageError(f"--{name} {typed[name]}: accepted: only without --spun")
-    of_file = load_hand(file) if file is not None else Hand()
+    says_psi = "psi" in typed or "spun" in typed
+    usual = load_hand(file) if file is not None else Hand() if says_psi else Hand.people()
     values = {name: one.value if isinstance(one, Given) else one for name, one in typed.items()}
     with naming_options({name: (f"--{name.replace('_', '-')}", one) for name, one in typed.items()}):
-        hand = replace(of_file, **values)
+        hand = replace(usual, **values)
     try:
         return hand, hand.scenario(described)
     except ScenarioError as error:

@@ -38,7 +38,7 @@ def shares(
             release is not used.
         along: FIELD=START:STOP:N, such as "coin.thickness=1 mm:12 mm:12", of none, one or two fields of the
             scenario, or of the hand, such as "hand.height=0.2:2:10"; both ends are included.
-        hand: that releases the coin, or the path of its file; by default `Hand()`.
+        hand: that releases the coin, or the path of its file; by default `Hand.people()`.
         engine: "analytic" or "mujoco".
         compare: whether both engines toss, each its own releases.
         tosses: of each setting; with `to` at most, by default ten million, without it 1000.
@@ -58,7 +58,7 @@ def shares(
         along,
         scenario_of(scenario),
         name="" if isinstance(scenario, Scenario) else Path(scenario).stem,
-        hand=hand if isinstance(hand, Hand) else Hand() if hand is None else load_hand(hand),
+        hand=hand if isinstance(hand, Hand) else Hand.people() if hand is None else load_hand(hand),
         engines=tuple(Engine) if compare else (Engine(engine),),
         seed=seed,
         tosses=most_tosses(to) if tosses is None else tosses,

@@ -1,6 +1,8 @@
 """Hands: what they release, and Diaconis, Holmes and Montgomery's probability of the same side."""
 
+import json
 import os
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from cointoss.models.errors import ScenarioError
 from cointoss.models.hand import Hand, load_hand, same_side_probability
 from cointoss.models.reading import load
 from cointoss.models.records import Face, Outcome
+from tests.helpers.pages import saved
 
 COINS = [load("fig29"), load("zloty")]
 
@@ -28,6 +31,13 @@ def test_a_coin_is_released_flat_with_its_angular_momentum_at_psi(scenario):
     assert momentum[:, 2] == pytest.approx(80 * inertia[0, 0] * np.cos(1.0))
     aside = np.arctan2(momentum[:, 1], momentum[:, 0])
     assert np.histogram(aside, 4, (-np.pi, np.pi))[0].min() > 90
+
+
+def test_peoples_hand_has_the_wobble_that_was_found_from_their_flips():
+    found = json.loads((saved("same-side") / "numbers.json").read_text(encoding="utf-8"))["rms_angle"]
+    hand = Hand.people(spin=80.0)
+    assert np.degrees(hand.psi_scatter) == pytest.approx(found["value"], abs=0.05)
+    assert hand == replace(Hand(spin=80.0), psi_scatter=hand.psi_scatter)
 
 
 def test_releases_scatter_as_asked():

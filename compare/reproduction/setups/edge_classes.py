@@ -28,8 +28,6 @@ PUBLISHED = 1 / 6000
 """Murray and Teare's share of a nickel's tosses on edge."""
 DIAMETRAL, WOBBLING = HANDS = ("about a diameter", "as people")
 """ψ = 90°; and with the scatter that explains the flips of 48 people."""
-PEOPLE = np.radians(10.0)
-"""Root of the mean square of 90° - ψ over people, as `cointoss reproduce same-side` finds it [rad]."""
 BASE: dict[str, Any] = {
     "contact": "coulomb",
     "restitution": 0.5,
@@ -79,7 +77,7 @@ class EdgeClass:
 
 def hand_of(wobble: str, **other: Any) -> Hand:
     """Return the hand of one of `HANDS`, with either side up."""
-    return Hand(psi_scatter=PEOPLE if wobble == WOBBLING else 0.0, up="either", **other)
+    return Hand.people(up="either", **other) if wobble == WOBBLING else Hand(up="either", **other)
 
 
 def ends_of(kind: EdgeClass, count: int, parts: Path, engine: Engine = Engine.ANALYTIC) -> Ends:

@@ -42,6 +42,24 @@ def test_an_option_takes_the_place_of_what_the_hands_file_says(coin, tmp_path):
         assert Hand(**told["hand"]) == Hand(spin=50.0, up="either", psi_scatter=0.1)
 
 
+def test_by_default_a_coin_is_tossed_as_people_do_unless_the_hand_is_described(coin, tmp_path):
+    """Whoever says ψ, spins the coin, or has a hand's file means a hand of their own."""
+    file = tmp_path / "hand.toml"
+    file.write_text('speed = "1 m/s"\n')
+    hands = {
+        (): Hand.people(),
+        ("--spin", "50 rad/s"): Hand.people(spin=50.0),
+        ("--psi-scatter", "0"): Hand(),
+        ("--psi", "0.5"): Hand(psi=0.5),
+        ("--spun",): Hand(spun=True),
+        ("--hand", file): Hand(speed=1.0),
+    }
+    for words, hand in hands.items():
+        for command in ("shares", "hands"):
+            told = json.loads(cointoss(command, coin, *words, "--tosses", 2, "--json").stdout)
+            assert Hand(**told["hand"]) == hand, words
+
+
 def test_hands_and_shares_toss_a_spun_coin_to_the_same_shares(coin):
     words = (coin, "--spun", "--psi-scatter", "10 deg", "--tosses", 300, "--json")
     one = json.loads(cointoss("hands", *words).stdout)["ended"]
