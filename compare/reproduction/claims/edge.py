@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from cointoss.compare.metrics.estimate import Estimate
-from cointoss.compare.metrics.estimates import difference, share_of
+from cointoss.compare.metrics.estimates import difference, in_words, share_of
 from cointoss.compare.reproduction.declared import listed
 from cointoss.compare.reproduction.setups.edge_classes import (
     DIAMETRAL,
@@ -30,6 +30,7 @@ from cointoss.compare.reproduction.setups.edge_record import (
     EdgeRecord,
     record_of,
 )
+from cointoss.compare.reproduction.setups.edge_thrown import QUOTED, fitted_floor
 from cointoss.compare.reproduction.setups.ends import Ends, alike, ended_as, together, tosses
 from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.records import Outcome
@@ -61,6 +62,7 @@ def measures(record: EdgeRecord) -> dict[str, Any]:
     }
     chis = list(record.curves[DIAMETRAL])
     middle = chis[len(chis) // 2]
+    chi, chance = fitted_floor(record.thrown)
     fairest = {wobble: fair(record, wobble, middle) for wobble in HANDS}
     by_share = sorted(
         (on_edge(ends).value, f"{percent(on_edge(ends))} ({wobble}, {factor})", on_edge(ends))
@@ -69,6 +71,9 @@ def measures(record: EdgeRecord) -> dict[str, Any]:
     )
     agreeing = [words for _, words, edge in by_share if holds(edge, PUBLISHED)]
     return {
+        "thrown_chi": in_words(chi, ".2f"),
+        "thrown_chance": chance,
+        "thrown_plain": [percent(on_edge(record.thrown["χ = 0.1, about a diameter"][h])) for h in QUOTED],
         "one_in": [_one_in(ends) for ends in nickels.values()],
         "over": {wobble: on_edge(ends) / PUBLISHED for wobble, ends in nickels.items()},
         "rarest": by_share[0][1],

@@ -23,6 +23,7 @@ from cointoss.compare.reproduction.setups.edge_classes import (
     three_way,
 )
 from cointoss.compare.reproduction.setups.edge_record import ANGLE, LAWS, SOLID_ANGLE, EdgeRecord
+from cointoss.compare.reproduction.setups.edge_thrown import QUOTED, THROWS, fitted_floor, quoted
 from cointoss.compare.reproduction.setups.ends import alike, ended_as, on_edge, tosses
 from cointoss.models.records import Outcome
 
@@ -87,6 +88,27 @@ def tables(found: EdgeRecord) -> str:
         _curves(found, WOBBLING),
         table(["h/D of the coin that is fair three ways", *HANDS], fairest),
         table(f"by both engines | {by_both}", engines),
+        _thrown(found),
+    )
+
+
+def _thrown(found: EdgeRecord) -> str:
+    """Return the shares of thrown coins, by floor and as they are quoted."""
+    chi, chance = fitted_floor(found.thrown)
+    rows = [
+        [f"quoted of {THROWS:,d} throws each", *(percent(quoted(aspect)) for aspect in QUOTED)],
+        *(
+            [floor, *(percent(on_edge(each)) for each in ends.values())]
+            for floor, ends in found.thrown.items()
+        ),
+    ]
+    return paragraphs(
+        table(
+            ["thrown as people do, but where said", *(f"h/D = {float(aspect):.3f}" for aspect in QUOTED)],
+            rows,
+        ),
+        f"One restitution for both coins, μ = 0.3: χ = {in_words(chi, '.2f')}. By chance shares differ as "
+        f"much from the model's with a probability of {chance:.2g}.",
     )
 
 
@@ -191,6 +213,11 @@ def _draw_curves(axes: Axes, found: EdgeRecord, wobble: str) -> None:
     axes.plot(x, edge_by_solid_angle(x), ":", color=GREY, linewidth=0.9, label="by solid angle")
     if wobble == DIAMETRAL:
         axes.plot(x, edge_of_die(x), "-.", color=GREY, linewidth=0.9, label="die in a plane")
+    else:
+        throws = [(float(aspect), quoted(aspect)) for aspect in QUOTED]
+        spans = [[one.value - one.low for _, one in throws], [one.high - one.value for _, one in throws]]
+        values = [one.value for _, one in throws]
+        axes.errorbar([x for x, _ in throws], values, spans, fmt="kx", capsize=3, label="thrown", zorder=3)
     axes.axhline(1 / 3, color=GREY, linewidth=0.6)
     axes.set(
         title=f"tossed {wobble}",

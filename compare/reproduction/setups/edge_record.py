@@ -25,6 +25,7 @@ from cointoss.compare.reproduction.setups.edge_classes import (
     ends_of,
     hand_of,
 )
+from cointoss.compare.reproduction.setups.edge_thrown import FLOORS, QUOTED, thrown
 from cointoss.compare.reproduction.setups.edge_touches import (
     ANYHOW,
     TURNED,
@@ -87,6 +88,8 @@ class Sizes:
     wobbles: tuple[float, ...] = (0.1, 0.3, 1.0, 3.0, 30.0)
     """Scatters of ψ [deg]."""
     wobble: int = 1000
+    thrown: int = 800
+    """Tosses of each thrown coin and floor."""
     touches: int = 4000
     ways: int = 200
     free: int = 500
@@ -112,6 +115,7 @@ QUICK = Sizes(
     factors=(FREE,),
     wobbles=(1.0,),
     wobble=20,
+    thrown=10,
     touches=200,
     ways=10,
     free=150,
@@ -152,6 +156,8 @@ class EdgeRecord:
     """Of people's nickels without resistance, by outcome and ending."""
     engines: dict[str, dict[str, Ends]]
     """By class and engine."""
+    thrown: dict[str, dict[str, Ends]]
+    """By one of `FLOORS` and h/D."""
 
 
 def record_of(progress: Progress, parts: Path, sizes: Sizes = FULL) -> EdgeRecord:
@@ -164,7 +170,8 @@ def record_of(progress: Progress, parts: Path, sizes: Sizes = FULL) -> EdgeRecor
     """
     curves, engines = len(sizes.chis) * len(sizes.aspects), 2 * len(sizes.shared)
     by_hand = len(HANDS) * (curves + 1 + len(sizes.factors))
-    step = stepping(progress, len(TURNED) + by_hand + len(sizes.wobbles) + 2 + engines)
+    others = len(TURNED) + len(sizes.wobbles) + 2 + len(FLOORS) * len(QUOTED)
+    step = stepping(progress, by_hand + engines + others)
 
     def ends(kind: EdgeClass, count: int, engine: Engine = Engine.ANALYTIC) -> Ends:
         return step(ends_of(kind, count, parts, engine))
@@ -212,6 +219,10 @@ def record_of(progress: Progress, parts: Path, sizes: Sizes = FULL) -> EdgeRecor
         ways=ways["ways"].tolist(),
         free=free,
         engines=dict(by_engine(*one) for one in sizes.shared),
+        thrown={
+            floor: {aspect: ends(thrown(floor, aspect), sizes.thrown) for aspect in QUOTED}
+            for floor in FLOORS
+        },
     )
 
 

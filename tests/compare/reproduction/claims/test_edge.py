@@ -23,6 +23,7 @@ from cointoss.compare.reproduction.setups.edge_classes import (
 )
 from cointoss.compare.reproduction.setups.edge_pages import fair, on_edge
 from cointoss.compare.reproduction.setups.edge_record import ANGLE, SOLID_ANGLE, EdgeRecord
+from cointoss.compare.reproduction.setups.edge_thrown import CHIS, QUOTED, THROWS, fitted_floor, quoted
 from cointoss.compare.reproduction.setups.edge_touches import (
     ANYHOW,
     first_touches,
@@ -95,6 +96,28 @@ def test_the_fair_coin_is_found_again_within_its_interval():
     assert value == pytest.approx(ANGLE, abs=0.03)
     assert 0.01 < high - low < 0.1
     assert np.isnan(three_way(aspects, counts // 10, counts, rng, 3)[0])
+
+
+@pytest.mark.parametrize(("of_one", "of_other"), [(0.0, 0.0), (0.13, 0.13), (0.0, 0.5)])
+def test_the_restitution_of_thrown_coins_is_found_where_one_fits_both(of_one, of_other):
+    """Shares that rise with χ by 0.2, through the quoted ones at a χ of each coin."""
+    count, found = 100_000, {}
+    for x in CHIS:
+        shares = [
+            quoted(aspect).value + 0.2 * (x - chi)
+            for aspect, chi in zip(QUOTED, (of_one, of_other), strict=True)
+        ]
+        edges = {aspect: round(count * share) for aspect, share in zip(QUOTED, shares, strict=True)}
+        found[f"χ = {x:g}"] = {aspect: {"edge": n, "heads": count - n} for aspect, n in edges.items()}
+    floor = fitted_floor(found)
+    if of_one != of_other:
+        assert floor.chance < 1e-4
+        return
+    assert floor.chance > 0.9
+    assert floor.chi.value == pytest.approx(of_one, abs=0.002)
+    # A share p of n throws is known to √(p (1 - p)/n).
+    known = sum(0.2**2 * THROWS / (one.value * (1 - one.value)) for one in map(quoted, QUOTED))
+    assert floor.chi.high - of_one == pytest.approx(2.576 / known**0.5, rel=0.1)
 
 
 def test_engines_that_differ_are_seen():
