@@ -67,7 +67,7 @@ def _search(body: Body, y: Array, inside: float, longest: float) -> tuple[Found,
     while time < longest and result == Found.NOTHING:
         turning = turning_of(body, state_of(y))
         piece = expand(body, turning, y, clock(slowing_of(body), longest - time), series)
-        heights, bounds = series[3, : piece.order + 1], _bounds(body, turning, piece, velocity_of(y))
+        heights, bounds = series[3, : piece.order + 1], bounds_in_air(body, turning, piece, velocity_of(y))
         result, s, made = first_touch(body, turning, heights, inside, piece.length, bounds)
         fly_on(turning, piece, series, s, y, y)
         time, inside = time + time_of(piece.slowing, s), 0.0
@@ -92,7 +92,7 @@ def closed_graze(body: Body, start: Array, duration: float) -> float:
     while time < duration:
         turning = turning_of(body, state_of(y))
         piece = expand(body, turning, y, clock(slowing_of(body), duration - time), series)
-        heights, bounds = series[3, : piece.order + 1], _bounds(body, turning, piece, velocity_of(y))
+        heights, bounds = series[3, : piece.order + 1], bounds_in_air(body, turning, piece, velocity_of(y))
         lowest = min(lowest, lowest_dip(body, turning, heights, piece.length, bounds))
         fly_on(turning, piece, series, piece.length, y, y)
         made = time_of(piece.slowing, piece.length)
@@ -110,7 +110,7 @@ def fly_on(turning: Turning, piece: Piece, series: Array, s: float, y: Array, y_
 
 
 @compiled
-def _bounds(body: Body, turning: Turning, piece: Piece, v: Vector) -> Bounds:
+def bounds_in_air(body: Body, turning: Turning, piece: Piece, v: Vector) -> Bounds:
     """Return the `Bounds` of a piece that starts with the velocity v; drag never speeds the coin up."""
     rate = max(body.drag.force_tangential, body.drag.force_normal) / body.mass
     # The clock is slower than time: dt = ds/left.

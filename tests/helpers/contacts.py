@@ -7,9 +7,11 @@ from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.integrator import Step, contact_work, step_contact
 from cointoss.analytic.contact.resets import stop_slip, tip_over
 from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.numerics.tolerances import STEP_ERROR
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.body import Body
+from cointoss.models.geometry import evaluate_gap
 from cointoss.models.records import Array
 
 SMOOTH = FloorFriction(0.0)
@@ -55,6 +57,15 @@ def follow_for(
         states.append(y.copy())
         times.append(times[-1] + step.elapsed)
     return np.array(states), np.array(times)
+
+
+def touching(body: Body, speed: float) -> Array:
+    """Return a tilted coin whose lowest point touches the floor at this speed."""
+    y = np.array([0, 0, 0, 0.2, 0.1, 0, *quaternion_from_angles((0.0, 0.6, 0.0)), 1.0, 0.5, 0.3])
+    height, falling = evaluate_gap(body, state_of(y))
+    y[2] -= height
+    y[5] -= falling + speed
+    return y
 
 
 def upright_coin(body: Body, phase: float, turn_rate: float, roll_rate: float) -> Array:

@@ -12,20 +12,10 @@ from cointoss.analytic.flight.flying import fly
 from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.flight.touch_search import gap_acceleration
 from cointoss.analytic.numerics.tolerances import CHATTERING, CONTACT_STEP_ERROR
-from cointoss.models.attitude import quaternion_from_angles
 from cointoss.models.geometry import evaluate_gap
 from cointoss.models.records import IMPACT_ROW
-from tests.helpers.contacts import end_mode, held
+from tests.helpers.contacts import end_mode, held, touching
 from tests.helpers.draws import IMPERFECT, THIN, scenario
-
-
-def touching(body, speed):
-    """Give a tilted coin whose lowest point touches the floor at this speed."""
-    y = np.array([0, 0, 0, 0.2, 0.1, 0, *quaternion_from_angles((0.0, 0.6, 0.0)), 1.0, 0.5, 0.3])
-    height, falling = evaluate_gap(body, state_of(y))
-    y[2] -= height
-    y[5] -= falling + speed
-    return y
 
 
 def at_the_end(case, speed, duration, *, bouncing):

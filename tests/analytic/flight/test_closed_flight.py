@@ -2,14 +2,16 @@
 
 import numpy as np
 import pytest
+from numpy.polynomial import Polynomial
 
 from cointoss.analytic.events import run
-from cointoss.analytic.flight.closed_flight import fly_closed, sample_closed
+from cointoss.analytic.flight.closed_flight import bounds_in_air, fly_closed, sample_closed
+from cointoss.analytic.flight.fall import ORDER, expand
 from cointoss.analytic.flight.flying import fly, sample
 from cointoss.analytic.flight.integrated_flight import sample_flight
-from cointoss.analytic.flight.state_vector import spin_of, state_of
+from cointoss.analytic.flight.state_vector import spin_of, state_of, velocity_of
 from cointoss.analytic.flight.touch_search import fly_by_steps
-from cointoss.analytic.flight.turning import turns_in_closed_form
+from cointoss.analytic.flight.turning import turning_of, turns_in_closed_form
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.geometry import evaluate_gap
 from cointoss.models.records import Ending
@@ -73,6 +75,7 @@ def test_samples_are_states_of_the_flight(air):
         assert closed[0] == pytest.approx(start, abs=1e-15)
         assert closed[-1] == pytest.approx(end, abs=1e-13)
         assert closed[:, :10] == pytest.approx(integrated[:, :10], abs=1e-11)
+        assert closed[:, 10:] == pytest.approx(integrated[:, 10:], abs=1e-10)
 
 
 def test_a_coin_at_rest_sinks_through_air_as_its_drag_says():
@@ -192,3 +195,32 @@ def test_a_flight_that_is_cut_short_keeps_its_velocity():
         assert fly_closed(body, y, duration, False).time == duration
         assert y[5] == pytest.approx(-2.0, abs=1.1 * 9.81 * duration + 1e-15)
         assert y[5] < -1.99 or duration > 1e-3
+
+
+@pytest.mark.parametrize(("share", "least"), [(1.0, 0.0), (0.1, 0.5)])
+def test_no_derivative_of_the_height_in_air_passes_its_bound_or_stays_far_below_it(share, least):
+    """By the clock, which the air slows; the smaller the moments of inertia, the sooner.
+
+    Args:
+        share: of the moments of inertia of a disc.
+        least: of each bound is met.
+    """
+    rng, met = np.random.default_rng(65), np.zeros(3)
+    J = share * ZLOTY["mass"] * ZLOTY["radius"] ** 2 / 4
+    coin = {**ZLOTY, "inertia": [[J, 0, 0], [0, J, 0], [0, 0, 2 * J]]}
+    for number in range(40):
+        w = [*rng.uniform(-40, 40, 2), 0] if number % 2 else [0, 0, 0]
+        release = {**draw_release(rng), "velocity": [0, 0, rng.uniform(-5, 2)], "angular_velocity": w}
+        case = scenario(coin=coin, air=STRONG_AIR, release={**release, "position": [0, 0, 3.0]})
+        body, y, series = case.body, state_at_release(case.release), np.empty((4, ORDER + 1))
+        turning = turning_of(body, state_of(y))
+        piece = expand(body, turning, y, np.inf, series)
+        bounds = bounds_in_air(body, turning, piece, velocity_of(y))
+        height, clock = Polynomial(series[3, : piece.order + 1]), np.linspace(0, piece.length, 50)
+        acceleration, jerk = height.deriv(2)(clock), height.deriv(3)(clock)
+        assert (-bounds.down <= acceleration).all()
+        assert (acceleration <= bounds.up).all()
+        assert (np.abs(jerk) <= bounds.jerk).all()
+        parts = np.array([-acceleration, acceleration, np.abs(jerk)]).max(axis=1)
+        met = np.maximum(met, parts / [bounds.down, max(bounds.up, 1e-9), bounds.jerk])
+    assert (met >= least).all()

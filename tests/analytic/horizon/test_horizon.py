@@ -8,7 +8,9 @@ import pytest
 from cointoss import analytic
 from cointoss.analytic.events import EventLog, run
 from cointoss.analytic.horizon.horizon import (
+    CLOSED_FORM,
     IMPULSE_ERROR,
+    SAFETY,
     TIME_ERROR,
     TOUCH_COST,
     ErrorsMade,
@@ -17,7 +19,7 @@ from cointoss.analytic.horizon.horizon import (
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.records import Impacts
 from cointoss.models.scenario import Scenario
-from tests.helpers.draws import AIR, PAPER_LAWS, draw_coin, draw_release, scenario
+from tests.helpers.draws import AIR, PAPER_LAWS, THIN, draw_coin, draw_release, scenario
 
 
 def draw_toss(rng: np.random.Generator, number: int) -> Scenario:
@@ -164,3 +166,99 @@ def test_a_flat_coin_that_turns_and_does_not_fall_is_not_trusted():
     tossed = analytic.toss(scenario(release=release, ending={"max_impacts": 3}))
     assert len(tossed.impacts) > 0
     assert tossed.trusted_impacts == 0
+
+
+CLOSED = SAFETY * CLOSED_FORM
+"""Standard deviations that are carried, of the errors of a flight in closed form."""
+
+
+def trusted_by(toss: EventLog, case: Scenario, **made: float) -> list[int]:
+    """Return how many impacts are trusted with errors 2 % smaller than those made, and 2 % larger."""
+    none = {"step": 0.0, "turn": 0.0}
+    errors = [ErrorsMade(**none | {name: part * made[name] for name in made}) for part in (0.98, 1.02)]
+    return [horizon_of(case.body, case.rules, toss, each).impacts for each in errors]
+
+
+def logged(case: Scenario) -> EventLog:
+    return run(case.body, case.rules, state_at_release(case.release))
+
+
+def test_an_impact_is_trusted_whose_flight_keeps_clear_of_half_its_least_minimum():
+    """A coin falls flat: the errors of its height are that of the start, of the speed there, and of the end.
+
+    No minimum is below half of what the flight has noted; the errors may sink the coin so far.
+    """
+    case = scenario(coin=THIN, release={"position": [0, 0, 0.4]}, ending={"max_impacts": 1})
+    toss, r, error = logged(case), case.body.radius, 1e-12
+    falling = (2 * 0.4 / 9.81) ** 0.5 * (9.81 * r) ** 0.5
+    sinking = CLOSED * error * (0.4**2 + falling**2 + r**2) ** 0.5
+    started = toss.started._replace(grazes=np.full(len(toss.started.grazes), 2 * sinking))
+    assert trusted_by(toss, case, step=error) == [1, 1]
+    assert trusted_by(toss._replace(started=started), case, step=error) == [1, 0]
+
+
+def test_the_tilt_at_a_trusted_touch_is_known_to_a_thousandth():
+    """The upward vector errs twice as far as the Euler parameters, at the start and the end of the fall."""
+    tilt = 1e-6
+    release = {"position": [0, 0, 0.4], "angles": [0, tilt, 0]}
+    case = scenario(coin=THIN, release=release, ending={"max_impacts": 1})
+    assert trusted_by(logged(case), case, turn=1e-3 * tilt / (2 * 2**0.5 * CLOSED)) == [1, 0]
+
+
+def test_the_speed_of_a_trusted_touch_is_known_to_a_thousandth():
+    """A coin that flies past the floor touches it slowly: its speeds err in proportion to the largest."""
+    past, down, lean = 1000.0, 1e-3, 1.0
+    release = {
+        "position": [0, 0, THIN["radius"] * np.sin(lean) + 1e-9],
+        "velocity": [past, 0, -down],
+        "angles": [0, lean, 0],
+    }
+    floor = {"contact": "perfectly_rough", "restitution": 0.999}
+    case = scenario(coin=THIN, floor=floor, release=release, ending={"max_impacts": 1})
+    toss = logged(case)
+    speed = -toss.rows[0]["contact_velocity_before"][2]
+    assert speed == pytest.approx(down, rel=0.02)
+    assert trusted_by(toss, case, step=1e-3 * speed / (2**0.5 * CLOSED * past)) == [1, 0]
+
+
+def test_the_flight_to_a_trusted_touch_is_known_to_a_thousandth_or_their_order_might_change():
+    """An upright coin that leans lands on one rim and then on the other: the time between goes as its lean.
+
+    Its errors go as those of the lean, by a factor between 1/4 and 4.
+    """
+    lean = 1e-5
+    coin = {"mass": 0.01, "radius": 0.0125, "thickness": 0.01}
+    release = {"position": [0, 0, 0.05], "angles": [0, np.pi / 2 - lean, 0]}
+    case = scenario(coin=coin, floor={"restitution": 0.5}, release=release, ending={"max_impacts": 2})
+    toss = logged(case)
+    assert np.diff(toss.rows["time"]) < 0.1 * lean
+    assert toss.rows["face"].tolist() == [1, 2]
+    for part, trusted in ((4e-3, 1), (0.25e-3, 2)):
+        assert trusted_by(toss, case, turn=part * lean / CLOSED) == [trusted, trusted]
+
+
+def test_the_errors_after_a_touch_are_those_of_the_closed_form_of_a_fall():
+    """All tosses touch at one height, earlier or later, and come as fast as their height at the start says.
+
+    The speed of the start delays the touch, and gives none of its own: v² = v_0² + 2 g z, v_0 being 0.
+    """
+    z, chi, error, g = 0.4, 0.7, 1e-9, 9.81
+    case = scenario(
+        coin=THIN, floor={"restitution": chi}, release={"position": [0, 0, z]}, ending={"max_impacts": 1}
+    )
+    horizon = horizon_of(case.body, case.rules, logged(case), ErrorsMade(error, 0.0))
+    assert horizon.impacts == 1
+    made, r, v = CLOSED_FORM * error, case.body.radius, (2 * g * z) ** 0.5
+    of_z, of_v, of_z_at_end, of_v_at_end = made * np.array([z, (g * r) ** 0.5, r, (g * r) ** 0.5 + v])
+    covariance = horizon.errors.T @ horizon.errors
+    of_height, of_speed, of_time = np.sqrt(np.diag(covariance))[[0, 3, 11]]
+    assert of_height < 1e-5 * of_z  # what rounds the time at which the touch is found
+    of_both = of_z**2 + of_z_at_end**2
+    found = [of_speed, of_time, covariance[3, 11]]
+    # What comes from higher comes later, and faster.
+    expected = [
+        chi * np.sqrt((g / v) ** 2 * of_both + of_v_at_end**2),
+        np.sqrt(of_both + (of_v * v / g) ** 2) / v,
+        chi * g * of_both / v**2,
+    ]
+    assert found == pytest.approx(expected, rel=1e-6, abs=0)

@@ -4,7 +4,16 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from cointoss.analytic.impact.coulomb import coulomb, friction_without_slip
+from cointoss.analytic.impact.coulomb import (
+    NO_SLIP,
+    SIZE,
+    V_Z,
+    Goal,
+    RoughPoint,
+    coulomb,
+    friction_without_slip,
+    straight_slip,
+)
 from cointoss.analytic.impact.laws import perfectly_rough, sliding_friction, smooth
 from cointoss.models.laws import RestitutionKind
 from tests.helpers.impacts import draw_contact
@@ -322,3 +331,23 @@ def test_an_impact_ends_though_its_slip_would_later_turn_the_point_back():
     assert end is not None
     S = np.array(coulomb(K, v, 1.0, mu, KINEMATIC))
     assert S == pytest.approx(end[[3, 4, 6]], abs=1e-9 * float(np.linalg.norm(S)))
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.4, 1.2, 2.5, -0.9])
+def test_slow_slip_is_turned_into_the_direction_that_it_keeps_in_every_frame(angle):
+    """Along x it keeps its direction, K_ty being 0, and dies away at the rate μ K_xx - K_xz: slowly.
+
+    Seen from axes turned about z, K_xy is not 0.
+    """
+    c, s = np.cos(angle), np.sin(angle)
+    turned = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    mu, K_xx, K_xz, K_zz, slip, v_z = 0.4, 1500.0, 599.9, 1000.0, 1e-6, -1.0
+    K = turned @ np.array([[K_xx, 0, K_xz], [0, 400.0, 0], [K_xz, 0, K_zz]]) @ turned.T
+    y = np.zeros(SIZE)
+    y[:3] = turned @ [slip, 1e-7 * slip, v_z]
+    A = RoughPoint(matrix(K), mu, NO_SLIP, False)
+    f, gained, p, stops = straight_slip(A, y, Goal(V_Z, 0.5))
+    assert stops
+    assert p == pytest.approx(slip / (mu * K_xx - K_xz), rel=1e-9)
+    assert f == pytest.approx(-mu * turned[:2, 0], abs=1e-12)
+    assert gained == pytest.approx(turned @ [K_xz - mu * K_xx, 0, K_zz - mu * K_xz], rel=1e-9, abs=1e-9)
