@@ -7,12 +7,12 @@ from cointoss import analytic
 from cointoss.coin_mj.model.machine import shape_of
 from cointoss.coin_mj.model.settings import Friction, Settings
 from cointoss.coin_mj.toss import toss
-from cointoss.coin_mj.trust import IMPULSE_ERROR
+from cointoss.coin_mj.trust import IMPULSE_ERROR, shared_impacts
 from cointoss.compare.metrics.impulses import errors_of_impacts
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.certificate import restitution_residuals
 from cointoss.models.clearance import clear_time
-from cointoss.models.records import TrustEnd
+from cointoss.models.records import IMPACT_ROW, Impacts, TrustEnd
 from tests.helpers.draws import ZLOTY, draw_coin, draw_release, scenario
 
 NEARLY_FLAT = scenario(
@@ -153,3 +153,24 @@ def test_friction_that_changes_the_restitution_is_not_trusted():
     native = toss(case, settings=Settings(friction=Friction.NATIVE))
     assert (native.trusted_impacts, native.trust_end) == (0, TrustEnd.RESTITUTION)
     assert native.trust == "0 of 1 impact: at impact 1 MuJoCo's contact misses the restitution"
+
+
+def impacts_of(faces, impulses):
+    rows = np.zeros(len(faces), IMPACT_ROW)
+    rows["face"], rows["impulse"] = faces, impulses
+    return Impacts.from_rows(rows)
+
+
+def test_impacts_are_shared_with_a_softer_contact_up_to_the_first_that_is_not():
+    """Each keeps its face, and its impulse to 3 %."""
+    impulses = np.outer([1.0, 2.0, 3.0, 4.0], [0.6, 0.0, 0.8])
+    impacts = impacts_of([1, 2, 1, 2], impulses)
+    near, far, aside = impulses * 1.029, impulses.copy(), impulses.copy()
+    far[2] *= 1.031
+    aside[1, 1] = 0.07
+    assert shared_impacts(impacts, impacts_of([1, 2, 1, 2], near), 4) == 4
+    assert shared_impacts(impacts, impacts_of([1, 2, 1, 2], near), 3) == 3
+    assert shared_impacts(impacts, impacts_of([1, 2], near[:2]), 4) == 2
+    assert shared_impacts(impacts, impacts_of([1, 2, 1, 2], far), 4) == 2
+    assert shared_impacts(impacts, impacts_of([1, 2, 1, 2], aside), 4) == 1
+    assert shared_impacts(impacts, impacts_of([1, 2, 1, 1], near), 4) == 3

@@ -14,7 +14,7 @@ from cointoss.analytic.air.law import AirMotion
 from cointoss.analytic.air.quadrature import CHANGE_NODES, FORCE_NODES, nodes_of
 from cointoss.analytic.flight.flying import fly
 from cointoss.models.kernel.fork.callee_code import Callee
-from tests.helpers.draws import AIR, ZLOTY, scenario
+from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, scenario
 from tests.helpers.referee import air_by_cubature
 from tests.helpers.tuples import vector
 
@@ -290,3 +290,17 @@ def test_linear_air_is_compiled_without_the_quadrature():
     assert "expand_flight" in linear
     assert quadrature <= other
     assert not quadrature & linear
+
+
+def test_the_power_of_linear_air_on_an_unbalanced_coin_is_that_of_its_drag_at_B():
+    """f · v_C + m_C · ω = -v_B · c v_B - ω · d ω, whichever point the moment is about."""
+    rng = np.random.default_rng(12)
+    body = scenario(coin=IMPERFECT, air=AIR).body
+    drag = body.drag
+    c = np.array([drag.force_tangential, drag.force_tangential, drag.force_normal])
+    d = np.array([drag.moment_tangential, drag.moment_tangential, drag.moment_normal])
+    for _ in range(5):
+        v, w = rng.normal(size=3), rng.normal(size=3) * 60
+        v_B = v - np.cross(w, body.center)
+        f, m = force_and_moment(body, vector(v), vector(w))
+        assert np.array(f) @ v + np.array(m) @ w == pytest.approx(-(c @ v_B**2 + d @ w**2), rel=1e-13)

@@ -6,7 +6,7 @@ import pytest
 from cointoss.analytic.contact import upright
 from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.contact import lower_rim_of
-from cointoss.analytic.contact.edge.restoring import lean_and_rate, restoring_acceleration
+from cointoss.analytic.contact.edge.restoring import held_on_edge, lean_and_rate, restoring_acceleration
 from cointoss.analytic.contact.edge.rocking import rocks_on_edge, steady_lean
 from cointoss.analytic.contact.edge.rolling import roll_by, to_lowest
 from cointoss.analytic.contact.edge.standing import on_edge
@@ -14,6 +14,7 @@ from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.rim_contact import rim_contact
 from cointoss.analytic.events import run
+from cointoss.analytic.numerics.tolerances import STEADY
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.laws import ContactLaw, EndingTest
 from cointoss.models.records import Ending, Outcome
@@ -107,3 +108,31 @@ def test_a_coin_that_rocks_leaves_its_edge_on_the_side_on_which_it_is_hardly_hel
     assert strong > 4 * weak > 0
     assert not rocks_on_edge(held(body, SMOOTH, Mode.SLIDING, y), y)
     assert run(body, case.rules, y).outcome in {Outcome.HEADS, Outcome.TAILS}
+
+
+@pytest.mark.parametrize("height", [2e-4, -2e-4])
+def test_a_still_coin_is_turned_back_up_to_four_times_the_steady_lean_and_not_beyond(height):
+    """Its mass centre is as high as can be, and over the lowest point at (h/2 - |z|)/(r + the rest of c)."""
+    case = scenario(coin={"thickness": 1e-3, "center_of_mass": [1.2e-3, 0, height]})
+    body = case.body
+    y = upright_coin(body, np.pi / 2, 0.0, 0.0)
+    assert np.array(rotation_matrix(tuple(y[6:10])))[2, 0] == pytest.approx(1)
+    contact, rim = held(body, SMOOTH, Mode.SLIDING, y), np.sign(height)
+    tips = steady_lean(body) / STEADY
+    assert tips == pytest.approx(3e-4 / 13.7e-3)
+    inside, beyond = (restoring_acceleration(contact, rim, part * tips, y) for part in (0.999, 1.001))
+    assert inside > 0 > beyond
+    assert restoring_acceleration(contact, -rim, 1.5 * tips, y) > 0
+
+
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_a_coin_that_turns_as_it_rolls_is_tipped_to_the_side_to_which_it_turns(direction):
+    """J_ζ ω_ζ Ω is more than m g h/2: the one rim turns it back, the other does not, and it is not held."""
+    body = scenario().body
+    y = upright_coin(body, 0.4, 60.0, 60.0 * direction)
+    contact = held(body, SMOOTH, Mode.SLIDING, y)
+    back = [restoring_acceleration(contact, rim * direction, 1e-9, y) for rim in (1.0, -1.0)]
+    assert max(back) > 0 > min(back)
+    assert not held_on_edge(contact, y)
+    slower = upright_coin(body, 0.4, 20.0, 5.0 * direction)
+    assert held_on_edge(held(body, SMOOTH, Mode.SLIDING, slower), slower)

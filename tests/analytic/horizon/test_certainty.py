@@ -5,8 +5,8 @@ import pytest
 
 from cointoss import analytic
 from cointoss.analytic.events import Verdict, run
-from cointoss.analytic.horizon.certainty import certainty_of
-from cointoss.analytic.horizon.horizon import horizon_of
+from cointoss.analytic.horizon.certainty import certainty_of, start_of
+from cointoss.analytic.horizon.horizon import Horizon, horizon_of
 from cointoss.analytic.settings import MANY, Settings
 from cointoss.analytic.toss import state_at_release
 from cointoss.compare.reproduction.studies.endings import COINS, draw_toss
@@ -149,3 +149,17 @@ def test_a_catch_is_certain_unless_the_coin_is_upright_in_it():
         tossed = analytic.toss(scenario(release=release, ending={"caught": 0.2}))
         assert tossed.outcome in (Outcome.HEADS, Outcome.TAILS)
         assert tossed.outcome_certain == certain
+
+
+def test_a_neighbour_starts_at_the_last_trusted_impact_with_what_the_toss_has_left():
+    """A coin falls flat: all of its impacts are trusted, or the first three; a hand may pass it on any."""
+    case = scenario(release={"angular_velocity": [0, 0, 5.0]}, ending={"max_impacts": 8, "max_time": 50.0})
+    log = run(case.body, case.rules, state_at_release(case.release))
+    for horizon, caught, impact in ((8, np.inf, 7), (3, np.inf, 3), (3, 0.2, 0)):
+        known = Horizon(horizon, np.zeros((12, 12)))
+        start = start_of(case.rules._replace(caught=caught), log.started, known)
+        assert start.impact == impact
+        assert np.array_equal(start.state, log.start_states[impact])
+        assert start.rules.max_impacts == 8 - impact
+        assert start.rules.max_time == 50.0 - log.start_times[impact]
+        assert start.rules.caught == caught

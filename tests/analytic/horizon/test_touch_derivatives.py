@@ -139,3 +139,12 @@ def test_near_a_kink_the_step_is_shorter_but_never_as_short_as_rounding():
     for slow in ((1e-6, 0.0, -1.0), (0.5, 0.5, -1e-6)):
         assert 1e-11 < step(rough, tilted(0.7, 5.0, [0, 0, -1]), slow) < 1e-8
     assert step(rough, tilted(0.7, 5.0, [0, 0, -1]), (1e-13, 0.0, -1e-9)) == 1e-11
+
+
+@pytest.mark.parametrize("floor", LAWS[::3])
+def test_the_velocity_after_an_impact_changes_as_its_impulse_over_the_mass(floor):
+    """The velocity of C by S/m."""
+    case = on_floor(floor, center_of_mass=PAPER_OFFSET)
+    touch = touch_derivatives(case.body, case.rules, draw_touch(np.random.default_rng(8)))
+    assert touch.after[3:6] - np.eye(13)[3:6] == pytest.approx(touch.impulse / case.body.mass, rel=1e-12)
+    assert np.abs(touch.impulse[:, 3:6]).max() > 0.1 * case.body.mass

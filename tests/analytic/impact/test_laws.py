@@ -126,3 +126,6 @@ def test_painleves_case_has_no_solution_and_says_so():
     S, possible = sliding_friction(K, against_the_edge, 0.5, 1.2)
     assert not possible
     assert S == (0.0, 0.0, 0.0)
+    # And where friction takes just all of the normal motion.
+    K = ((1500.0, 0.0, -800.0), (0.0, 1500.0, 0.0), (-800.0, 0.0, 1000.0))
+    assert sliding_friction(K, against_the_edge, 0.5, 1.25) == ((0.0, 0.0, 0.0), False)

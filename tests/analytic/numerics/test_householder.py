@@ -24,3 +24,14 @@ def test_columns_of_zeros_stay_zero_exactly():
     rows[:, [0, 2]] = 0
     reflect_to_triangle(rows)
     assert np.all(rows[:, [0, 2]] == 0)
+
+
+@pytest.mark.parametrize("below", [0.0, 1e-12, 1e-8])
+def test_what_is_nearly_a_triangle_loses_no_digits(below):
+    """As the errors carried from the impact before are: a reflection takes no difference of near numbers."""
+    rng = np.random.default_rng(3)
+    rows = below * rng.normal(size=(9, 5))
+    rows[:5] += np.triu(rng.uniform(1, 2, (5, 5)))
+    triangle = rows.copy()
+    reflect_to_triangle(triangle)
+    assert triangle.T @ triangle == pytest.approx(rows.T @ rows, rel=1e-14)

@@ -10,7 +10,7 @@ import pytest
 from cointoss.coin_mj.model.scene import build, shape_thickness
 from cointoss.coin_mj.model.settings import Settings, rebound_of
 from cointoss.coin_mj.model.state import of_release
-from tests.helpers.draws import AIR, IMPERFECT, PAPER_OFFSET, ZLOTY, draw_release, scenario
+from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, draw_release, scenario
 
 
 def built(case):
@@ -18,10 +18,11 @@ def built(case):
 
 
 def test_mass_and_inertia_are_the_scenarios():
-    case = scenario(coin=IMPERFECT, gravity=1.6)
+    offset = [-1e-3, -4e-4, -2e-4]  # each product of inertia is another
+    case = scenario(coin={**ZLOTY, "center_of_mass": offset}, gravity=1.6)
     model = built(case)
     assert model.body("coin").mass[0] == 2e-3
-    assert model.body("coin").ipos == pytest.approx(PAPER_OFFSET, rel=1e-15)
+    assert model.body("coin").ipos == pytest.approx(offset, rel=1e-15)
     turn = np.zeros(9)
     mujoco.mju_quat2Mat(turn, model.body("coin").iquat)
     R = turn.reshape(3, 3)

@@ -10,10 +10,14 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from cointoss.coin_mj.model.settings import (
+    LEAST_LOSS,
+    LOSS,
+    MANY,
     Realisation,
     Settings,
     damping_ratio_of,
     rebound_of,
+    resolved,
     restitution_of,
 )
 from cointoss.coin_mj.steps.impact import time_to_release
@@ -91,3 +95,11 @@ def test_a_stretched_spring_that_returns_slowly_never_lets_go():
 @pytest.mark.parametrize(("damping", "x", "speed"), [(0.0, 0.1, 1.0), (2.0, -0.5, 2.0), (4.0, -1.0, 0.5)])
 def test_a_spring_that_would_pull_has_let_go(damping, x, speed):
     assert time_to_release(1.0, damping, x, speed) == 0
+
+
+@pytest.mark.parametrize("restitution", [0.97, 0.99, 0.995, 1.0])
+def test_the_less_energy_an_impact_takes_the_less_its_steps_may_change(restitution):
+    """A share of what χ = 0.96 takes. Three steps change a hundredth of that, n steps (3/n)⁵ of it."""
+    share = max(1 - restitution**2, LEAST_LOSS) / LOSS
+    steps = resolved(MANY, restitution, 20.0).steps
+    assert (3 / steps) ** 5 <= share**2 < (3 / (steps - 1)) ** 5

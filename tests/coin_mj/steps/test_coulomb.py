@@ -10,6 +10,7 @@ from cointoss.compare.metrics.impulses import match
 from cointoss.models.records import ApproximationWarning, Ending, Flag
 from tests.helpers.draws import ZLOTY, draw_release, scenario
 from tests.helpers.impacts import draw_single_impact
+from tests.helpers.tuples import vector
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
@@ -49,6 +50,20 @@ def test_where_sliding_has_no_solution_the_slip_stops_at_once():
     slip = (1.0, 0.0)
     f = coulomb_force(K, 1.0, 10.0, slip, slip, 1e-3)
     assert 1 + (2 - 1.44) * f[0] * 1e-3 == pytest.approx(0, abs=1e-12)
+
+
+@pytest.mark.parametrize("slip", [0.0, 2e-3, 0.1])
+@pytest.mark.parametrize("angle", [0.5, 2.1])
+def test_in_axes_turned_about_the_vertical_friction_is_turned(angle, slip):
+    """Where the point sticks, where it stops, and where it slides on; K_xy is 0 in one frame only."""
+    c, s = np.cos(angle), np.sin(angle)
+    turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    K = np.array([[3.5, 0.0, 0.6], [0.0, 1.0, -0.3], [0.6, -0.3, 1.2]])
+    before, after = (slip, -slip, 0.0), (slip + 2e-3, 1e-3 - slip, 0.0)
+    f = coulomb_force(K, 0.3, 10.0, before[:2], after[:2], 1e-3)
+    before, after = vector(turn @ before), vector(turn @ after)
+    f_turned = coulomb_force(turn @ K @ turn.T, 0.3, 10.0, before[:2], after[:2], 1e-3)
+    assert f_turned == pytest.approx(turn[:2, :2] @ f, rel=1e-9)
 
 
 def errors_and_kinds(rng, count, **settings):

@@ -1,0 +1,43 @@
+"""About when the other rim of a coin in contact lands: where the parabola of n_z passes zero."""
+
+import numpy as np
+import pytest
+
+from cointoss.analytic.contact.automaton import Mode
+from cointoss.analytic.contact.landing import time_to_landing
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.models.attitude import quaternion_from_angles
+from tests.helpers.contacts import held
+from tests.helpers.draws import scenario
+
+LEAN = 0.01
+
+
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize(("rate", "acceleration"), [(0.3, 0.0), (0.3, 40.0), (0.3, -2.0), (-0.3, 20.0)])
+def test_the_other_rim_lands_where_the_parabola_of_the_lean_ends(side, rate, acceleration):
+    """A coin that turns about the horizontal ξ alone: n_z is the cosine of its tilt θ.
+
+    Args:
+        side: 1 for heads up.
+        rate: of θ towards the edge and past it [rad/s].
+        acceleration: likewise [rad/s²].
+    """
+    tilt = np.pi / 2 - side * LEAN
+    y = np.array([0, 0, 0.01, 0, 0, 0, *quaternion_from_angles((0.0, tilt, 0.0)), side * rate, 0, 0])
+    dy = np.zeros(13)
+    dy[10] = side * acceleration
+    c, s = np.sin(LEAN), np.cos(LEAN)
+    parabola = [(-c * rate**2 - s * acceleration) / 2, -s * rate, c]
+    roots = [root.real for root in np.roots(np.trim_zeros(parabola, "f")) if root.imag == 0 and root.real > 0]
+    contact = held(scenario().body, FloorFriction(0.0), Mode.SLIDING, y)
+    assert time_to_landing(contact, y, dy) == pytest.approx(min(roots), rel=1e-12)
+
+
+def test_a_coin_that_turns_away_or_back_in_time_does_not_land():
+    for rate, acceleration in ((-0.3, -5.0), (0.0, -1.0), (0.3, -10.0)):
+        y = np.array([0, 0, 0.01, 0, 0, 0, *quaternion_from_angles((0.0, np.pi / 2 - LEAN, 0.0)), rate, 0, 0])
+        dy = np.zeros(13)
+        dy[10] = acceleration
+        contact = held(scenario().body, FloorFriction(0.0), Mode.SLIDING, y)
+        assert time_to_landing(contact, y, dy) == np.inf
