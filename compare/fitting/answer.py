@@ -34,9 +34,12 @@ def _value(each: Fitted) -> str:
     name = f"{each.span.field}{unit}"
     if not np.isfinite(each.sd):
         return f"{name:34} not determined by what was seen"
+    value = f"{name:34} {each.value:.7g} ± {each.sd:.2g}"
+    if each.interval is None:
+        return value
     low, high = each.interval
     end = "  at the end of its span" if each.at_end else "  cut at the end of its span" if each.is_cut else ""
-    return f"{name:34} {each.value:.7g} ± {each.sd:.2g}  99 % [{low:.7g}, {high:.7g}]{end}"
+    return f"{value}  99 % [{low:.7g}, {high:.7g}]{end}"
 
 
 def _seen(fit: Fit) -> str:

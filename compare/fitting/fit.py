@@ -41,9 +41,10 @@ class Fitted:
     value: float
     sd: float
     """Standard deviation by linear propagation; infinite where what was seen does not determine the value."""
-    interval: tuple[float, float]
+    interval: tuple[float, float] | None
     """Where the true value is in 99 of 100 cases, if the model is right: the lowest and the highest value
-    that explain what was seen about as well as the best one; no further than the ends of the span."""
+    that explain what was seen about as well as the best one; no further than the ends of the span. None where
+    the model cannot do what was seen: then no value is the true one."""
 
     @property
     def at_end(self) -> bool:
@@ -53,7 +54,7 @@ class Fitted:
     @property
     def is_cut(self) -> bool:
         """Whether the interval ends where its span does, and may go on outside."""
-        return any(_is_at_end(end, self.span) for end in self.interval)
+        return any(_is_at_end(end, self.span) for end in self.interval or ())
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -144,7 +145,7 @@ class Fit:
                 each.span.field: {
                     "value": each.value,
                     "sd": _finite(each.sd),
-                    "interval": list(each.interval),
+                    "interval": each.interval and list(each.interval),
                     "unit": each.span.unit,
                     "at_end": each.at_end,
                     "cut": each.is_cut,
@@ -283,7 +284,12 @@ def fit_spans(
         )
     found = [_fit_of(misfit, minimum, searched.ends) for minimum in searched.minima]
     others = tuple(other for other in found[1:] if other.is_possible)
-    return replace(found[0], others=others)
+    best = found[0] if found[0].is_possible else _without_intervals(found[0])
+    return replace(best, others=others)
+
+
+def _without_intervals(fit: Fit) -> Fit:
+    return replace(fit, values=tuple(replace(each, interval=None) for each in fit.values))
 
 
 def _fit_of(misfit: Misfit, minimum: Minimum, ends: Array) -> Fit:

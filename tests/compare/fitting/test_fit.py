@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from cointoss import Observed, analytic, fit
+from cointoss import Fitted, Observed, analytic, fit
 from cointoss.compare.fitting.errors import ObservationError
 from cointoss.compare.fitting.misfit import Misfit
 from cointoss.compare.sweep.errors import SweepError
@@ -64,7 +64,15 @@ def test_touches_that_come_ever_later_are_those_of_no_coin():
     assert found["floor.restitution"].at_end
     assert found.p_value < 1e-10
     assert found.verdict.startswith("this model cannot do what was seen with any values of its free fields")
+    assert [each.interval for each in found.values] == [None] * 3
+    assert not any(each.is_cut for each in found.values)
     assert replace(found, chi_square=1e5).verdict.endswith("freedom, p < 1e-300")
+
+
+def ends_of(value: Fitted) -> tuple[float, float]:
+    """Return the ends of an interval, which a model that can do what was seen has."""
+    assert value.interval is not None
+    return value.interval
 
 
 def flat_misses(count: int, seed: int) -> tuple[np.ndarray, int]:
@@ -143,7 +151,7 @@ def tumbling_coverage(
         misfit = Misfit(scenario=coin, spans=tuple(each.span for each in found.values), observed=shown)
         true = misfit.predicted(truth)
         assert found.chi_square < np.sum(true.residuals[true.is_tested] ** 2) + 1e-3, seed
-        ends = np.array([each.interval for each in found.values])
+        ends = np.array([each.interval or (np.nan, np.nan) for each in found.values])
         held.append((ends[:, 0] <= truth) & (truth <= ends[:, 1]))
     return np.array(held)
 
@@ -291,13 +299,13 @@ def test_an_interval_ends_with_its_span_and_says_so():
         cut = fit(shown, FLAT, {**ANY, "clock": ends}, starts=16)["clock"]
         assert cut.is_cut
         assert not cut.at_end
-        assert ends[0] <= cut.interval[0] <= cut.value <= cut.interval[1] <= ends[1]
-        uncut = 1 if ends[0] == 0.5 else 0
-        assert cut.interval[1 - uncut] == pytest.approx(clock.interval[1 - uncut], abs=clock.sd / 50)
+        low, high = ends_of(cut)
+        assert ends[0] <= low <= cut.value <= high <= ends[1]
+        kept = 0 if ends[0] == 0.5 else 1
+        assert ends_of(cut)[kept] == pytest.approx(ends_of(clock)[kept], abs=clock.sd / 50)
     beyond = fit(shown, FLAT, {**ANY, "clock": (0.5, 1 - 30 * clock.sd)}, starts=16)["clock"]
     assert beyond.at_end
-    assert beyond.is_cut
-    assert beyond.interval[1] <= 1 - 30 * clock.sd
+    assert beyond.interval is None, "30 deviations away the model is refused"
 
 
 def test_a_span_may_run_downwards():
