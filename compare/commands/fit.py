@@ -65,18 +65,14 @@ def fit(
     shows at the release; without it your clock begins then. All other fields stay as the scenario has them.
 
     Printed are the values with their standard deviations and 99 % intervals, whether this model can do what
-    was seen at all, other values that would explain it too, and each touch. The exit status is 1 where it
-    cannot.
+    was seen at all, other values that would explain it too, and each touch. Where it cannot, there are no
+    intervals, and the exit status is 1.
     """
     with plain_errors(scenario):
+        from cointoss.compare.fitting.table import read_observed
+        from cointoss.compare.output.files import require_file, write_text, written_whole
+        from cointoss.models.reading import load
         from cointoss.models.stages import stage
-
-        with stage("getting ready"):
-            from cointoss.compare.fitting.answer import as_lines
-            from cointoss.compare.fitting.fit import fit_spans, parse_span
-            from cointoss.compare.fitting.table import read_observed
-            from cointoss.compare.output.files import require_file, write_text, written_whole
-            from cointoss.models.reading import load
 
         described = load(scenario)
         for path, suffix in ((out, ".toml"), (png, ".png")):
@@ -87,6 +83,10 @@ def fit(
         options = {name: (f"--sd-{name}", one) for name, one in given.items()}
         with plain_errors(str(observed)), naming_options(options):
             seen = read_observed(observed, {name: one.value for name, one in given.items()})
+        with stage("getting ready"):  # what is imported takes long on a busy machine
+            from cointoss.compare.fitting.answer import as_lines
+            from cointoss.compare.fitting.fit import fit_spans, parse_span
+
         spans = [parse_span(text, described) for text in free]
         found = fit_spans(seen, described, spans, starts=starts, seed=seed)
         if out is not None:

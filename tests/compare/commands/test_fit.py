@@ -5,7 +5,7 @@ import json
 import pytest
 
 from cointoss import __version__, load
-from tests.helpers.command_line import cointoss, refused
+from tests.helpers.command_line import cointoss, python, refused
 
 COIN = """[coin]\nmass = "5 g"\nradius = "12.5 mm"\nthickness = "2 mm"
 [floor]\nrestitution = 0.8\ncontact = "smooth"\n[release]\nposition = [0, 0, 0.3]\n"""
@@ -85,6 +85,22 @@ def test_a_model_that_cannot_do_it_ends_with_status_1(tmp_path):
     answered = cointoss(*CALL, *FREE, "--sd-time", "1 ms")
     assert answered.exit_code == 1
     assert "this model cannot do" in answered.stdout
+    assert "99 %" not in answered.stdout, "no value of a model that is wrong is the true one"
+    found = json.loads(cointoss(*CALL, *FREE, "--sd-time", "1 ms", "--json").stdout)
+    assert [each["interval"] for each in found["values"].values()] == [None] * 3
+
+
+def test_a_missing_table_is_refused_before_the_engine_is_imported(tmp_path):
+    """That takes seconds on a busy machine."""
+    script = (
+        "import sys; from cointoss.compare.cli import main\n"
+        "try: main(['fit', 'nosuch.csv', 'coin.toml', '--free', 'clock=0:1'])\n"
+        "finally: print(*(name for name in sys.modules if name.startswith('cointoss.analytic')))"
+    )
+    answered = python("-c", script, folder=tmp_path)
+    assert answered.returncode == 2
+    assert answered.stderr == "cointoss: nosuch.csv: no such file; accepted: a CSV file\n"
+    assert answered.stdout == "\n"
 
 
 def test_what_was_seen_is_not_written_over(tmp_path):
