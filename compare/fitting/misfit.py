@@ -28,6 +28,8 @@ MISSING = 10.0
 """Standard deviations that a touch misses at least by which the toss does not make."""
 IMPOSSIBLE = 1e6
 """Standard deviations that everything misses by where the values make no scenario."""
+BEFORE = 10.0
+"""Standard deviations of a touch before it by which a frame is surely before it."""
 LATER, SOON = 0.25, 0.02
 """A touch that was seen is waited for longer, by this part of the whole time and by these seconds."""
 
@@ -91,6 +93,13 @@ class Misfit:
         """How many touches are asked for."""
         return int(self.observed.touch_numbers.max(initial=0))
 
+    @cached_property
+    def most_impacts(self) -> int:
+        """After how many impacts nothing is seen any more: the last touch, where the film ends before it."""
+        seen, most = self.observed, self.scenario.rules.max_impacts
+        last = np.max(seen.touch_times - BEFORE * seen.touch_sd, initial=-np.inf)
+        return min(most, self._most) if self._film.max(initial=-np.inf) < last else most
+
     def scenario_of(self, values: Array) -> Scenario:
         """Return the scenario with these values, (k,); raise `ScenarioError` for what is none."""
         return _replaced(self.scenario, {span.field: v for span, v in zip(self.spans, values, strict=True)})
@@ -127,7 +136,7 @@ class Misfit:
         )
         changed = {field: column for field, column in columns.items() if field.startswith("release.")}
         start = states_of(changed_releases(scenario.release, p, changed))
-        rules = scenario.rules._replace(test=EndingTest.LYING)
+        rules = scenario.rules._replace(test=EndingTest.LYING, max_impacts=self.most_impacts)
         film, ends = self._film[self._film <= until], self._ends(clock, until)
         asked = asked_of(p, restitution=chi, friction=mu, max_time=ends, times=film[None] - clock[:, None])
         shown = sightings(scenario.body, rules, start, asked, most=self._most)
@@ -204,11 +213,9 @@ def _turned(first: Array, second: Array) -> Array:
         first: Euler parameters, body to space, (p, m, 4).
         second: others, whose norm and sign have no meaning, (m, 4).
     """
-    from scipy.spatial.transform import Rotation
-
-    if not len(second):
-        return np.empty((len(first), 0, 3))
-    flat = np.where(np.any(first, axis=-1, keepdims=True), first, (1.0, 0.0, 0.0, 0.0)).reshape(-1, 4)
-    before = Rotation.from_quat(flat, scalar_first=True)
-    after = Rotation.from_quat(np.tile(second, (len(first), 1)), scalar_first=True)
-    return (before.inv() * after).as_rotvec().reshape(len(first), len(second), 3)
+    w, u = first[..., :1], first[..., 1:]
+    cosine = np.einsum("pmi,mi->pm", first, second)[..., None]
+    sine = w * second[:, 1:] - second[:, :1] * u - np.cross(u, second[:, 1:])
+    size = np.linalg.norm(sine, axis=-1, keepdims=True)
+    angle = 2 * np.arctan2(size, np.abs(cosine)) * np.where(cosine < 0, -1.0, 1.0)
+    return sine * (angle / np.maximum(size, np.finfo(float).tiny))
