@@ -1,24 +1,39 @@
 """The intervals of fitted values: how far each may go while χ² stays near its least.
 
-Linear propagation holds where the misfit is a parabola. That of a tumbling coin is bent, has edges where
-another point of the rim comes down first, and has several minima within the errors. So an interval is that of
+Linear propagation holds where the misfit is a parabola. That of a tumbling coin is bent, jumps where another
+point of the rim comes down first, and has minima by the hundred within the errors. So an interval is that of
 the profile likelihood, across all minima: from the lowest to the highest value with which, all others free,
-χ² is at most so much above its least as chance makes it in so many cases.
+χ² is at most so much above its least as chance makes it in so many cases. Each value is held, first far
+outside, and the others are looked for in many places: wherever less of what was seen would let them be.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.compare.fitting.descent import Descent
+from cointoss.compare.fitting.descent import LONGEST, Descent
 from cointoss.models.records import Array
 
-FIRST_STEP, GROWTH = 0.5, 1.6
-"""The first step outwards, in standard deviations but at most in parts of the span; next over last."""
-CLOSE = 0.01
+NEARER = 0.6
+"""How far the next value that is held is from those known to be inside, over the one that was outside."""
+CLOSE = 0.02
 """An end is known so well, in parts of its distance from the best point."""
 MOST_STEPS = 60
+DRAWN, TRIED = 384, 12
+"""Points that are drawn for each value that is held, where five are free, and the best of them, which are
+fitted."""
+
+
+class Known(NamedTuple):
+    """Points that explain what was seen until some time, in parts of the spans."""
+
+    points: Array
+    """(n, k)."""
+    information: Array
+    """How well that determines them, the inverse of each one's covariance, (n, k, k)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,66 +46,157 @@ class Region:
     """The point with the least χ² that was met, (k,)."""
     least: float
     """χ² there."""
+    met: Array
+    """Points of it, (n, k)."""
 
 
-def region_of(descent: Descent, rows: NDArray[np.intp], points: Array, *, sd: Array, above: float) -> Region:
+def region_of(
+    descent: Descent,
+    rows: NDArray[np.intp],
+    known: Sequence[Known],
+    *,
+    limits: Array,
+    above: float,
+    rng: np.random.Generator,
+) -> Region:
     """Return the region in which χ² is at most `above` its least of some points.
-
-    From the outermost of the points each coordinate is moved outwards, while all others make χ² least.
 
     Args:
         descent: the misfit.
         rows: what is fitted.
-        points: those known, of which all within the region count, (p, k).
-        sd: standard deviation of each coordinate by linear propagation, (k,); infinite where not determined.
+        known: points that explain all of it, at the last, and before them those that explain less.
+        limits: beyond which no coordinate is looked for, (k, 2).
         above: by how much.
+        rng: of the points that are drawn.
     """
+    points = known[-1].points
     squares = descent.squares(points, rows)
     best, least = points[np.argmin(squares)], float(squares.min())
-    inside = np.flatnonzero(squares <= least + above)
+    inside = squares <= least + above
+    met, squares = Known(points[inside], known[-1].information[inside]), squares[inside]
     fields, signs = np.repeat(np.arange(descent.size), 2), np.tile([-1.0, 1.0], descent.size)
-    outermost = inside[np.argmax(signs * points[inside][:, fields], axis=0)]
-    held = np.eye(descent.size, dtype=bool)[fields]
+    near, root = np.full(len(fields), np.nan), np.zeros(len(fields))
+    beyond, root_beyond = limits.ravel().copy(), np.full(len(fields), np.nan)
 
     def root_of(square: Array) -> Array:
         """Return what grows evenly on the way outwards where the misfit is a parabola."""
         return np.sqrt(np.maximum(square - least, 0.0))
 
-    at, near, root = points[outermost], points[outermost, fields], root_of(squares[outermost])
-    beyond, root_beyond = np.full(len(fields), np.nan), np.full(len(fields), np.nan)
-    steps = np.minimum(FIRST_STEP * sd, FIRST_STEP)[fields]
     found = (best, least)
-
-    def ends() -> Array:
-        """Return where the region ends, by what is known."""
-        part = (above**0.5 - root) / (root_beyond - root)
-        return np.where(np.isnan(beyond), near, near + part * (beyond - near))
-
     for _ in range(MOST_STEPS):
+        outermost = np.argmax(signs * met.points[:, fields], axis=0)
+        near, root = met.points[outermost, fields], root_of(squares[outermost])
+        beyond = np.where(signs * near > signs * beyond, limits.ravel(), beyond)
+        beyond = signs * np.maximum(signs * beyond, signs * near)
+        is_tried = ~np.isnan(root_beyond)
         is_far = np.abs(beyond - near) > CLOSE * np.abs(beyond - best[fields])
-        left = np.flatnonzero(np.where(np.isnan(beyond), near != (signs > 0), is_far))
+        left = np.flatnonzero(np.where(is_tried, is_far, beyond != near))
         if not len(left):
             break
-        outwards = np.clip(near + signs * steps, 0, 1)
-        between = near + np.clip((ends() - near) / (beyond - near), 0.1, 0.9) * (beyond - near)
-        target = np.where(np.isnan(beyond), outwards, between)[left]
-        moved = np.where(held[left], target[:, None], at[left])
-        along = np.clip(
-            _along(descent.information(at[left], rows), moved - at[left], held[left]) + at[left], 0, 1
-        )
-        both, squared = descent.descended(
-            np.vstack([moved, along]), rows, np.vstack([held[left], held[left]])
-        )
-        best_of = np.argmin(squared.reshape(2, -1), axis=0), np.arange(len(left))
-        moved, square = both.reshape(2, len(left), -1)[best_of], squared.reshape(2, -1)[best_of]
+        share = np.where(is_tried[left], NEARER, 1.0)
+        target = near[left] + share * (beyond[left] - near[left])
+        moved, square = _least_at(descent, rows, [*known[:-1], met], fields[left], target, rng)
         if square.min() < found[1]:
             found = moved[np.argmin(square)], float(square.min())
         is_inside = square <= least + above
-        inner, outer = left[is_inside], left[~is_inside]
-        at[inner], near[inner], root[inner] = moved[is_inside], target[is_inside], root_of(square[is_inside])
-        beyond[outer], root_beyond[outer] = target[~is_inside], root_of(square[~is_inside])
-        steps[inner] *= GROWTH
-    return Region(np.sort(ends().reshape(-1, 2), axis=1), *found)
+        beyond[left[~is_inside]] = target[~is_inside]
+        root_beyond[left[~is_inside]] = root_of(square[~is_inside])
+        if is_inside.any():
+            new, squares = moved[is_inside], np.concatenate([squares, square[is_inside]])
+            met = Known(*map(np.concatenate, zip(met, (new, descent.information(new, rows)), strict=True)))
+    part = np.where(np.isnan(root_beyond), 0.0, (above**0.5 - root) / (root_beyond - root))
+    ends = near + np.where(beyond == near, 0.0, part) * (beyond - near)
+    return Region(np.sort(ends.reshape(-1, 2), axis=1), *found, met.points)
+
+
+def _least_at(
+    descent: Descent,
+    rows: NDArray[np.intp],
+    known: Sequence[Known],
+    fields: NDArray[np.intp],
+    values: Array,
+    rng: np.random.Generator,
+) -> tuple[Array, Array]:
+    """Return the points with the least χ² that are found where one coordinate is held, (p, k), and χ², (p,).
+
+    Args:
+        descent: the misfit.
+        rows: what is fitted.
+        known: points from which others are drawn, of each alike many.
+        fields: the coordinate that is held, (p,).
+        values: at which, (p,).
+        rng: of the points that are drawn.
+    """
+    each = -(-halved(DRAWN, descent.size) // len(known))
+    drawn = np.stack(
+        [
+            np.vstack([_drawn_at(one, field, value, each, rng) for one in known])
+            for field, value in zip(fields, values, strict=True)
+        ]
+    )
+    p, n, k = drawn.shape
+    squares = descent.squares(drawn.reshape(-1, k), rows).reshape(p, n)
+    tried = np.take_along_axis(drawn, np.argsort(squares, axis=1)[:, :TRIED, None], axis=1)
+    held = np.repeat(np.eye(k, dtype=bool)[fields], tried.shape[1], axis=0)
+    points, squares = descent.descended(tried.reshape(-1, k), rows, held)
+    best = np.argmin(squares.reshape(p, -1), axis=1)
+    rows_of = np.arange(p)
+    return points.reshape(p, -1, k)[rows_of, best], squares.reshape(p, -1)[rows_of, best]
+
+
+def _drawn_at(known: Known, field: int, value: float, count: int, rng: np.random.Generator) -> Array:
+    """Return points drawn where one coordinate has a value, (count, k), within the errors of the points of
+    which it is least far; the first of each as far along its valley."""
+    k = known.points.shape[1]
+    ridge = 1e-12 * np.einsum("pii->p", known.information) + np.finfo(float).tiny
+    whole = known.information + ridge[:, None, None] * np.eye(k)
+    variance = np.linalg.inv(whole)[:, field, field]
+    away = (value - known.points[:, field]) ** 2 / variance
+    nearest = np.argsort(away, kind="stable")[: max(count // 4, 1)]
+    chosen = np.resize(nearest, count)
+    held = np.zeros((count, k), dtype=bool)
+    held[:, field] = True
+    moved = np.where(held, value - known.points[chosen], 0.0)
+    mean = known.points[chosen] + _along(known.information[chosen], moved, held)
+    spread = (np.arange(count) >= len(nearest)).astype(float)
+    points = drawn_near(mean, known.information[chosen], held, rng, spread)
+    points[:, field] = value
+    return points
+
+
+def halved(count: int, size: int) -> int:
+    """Return how many points are drawn for `size` free values: half of `count` for each less than five."""
+    return count >> max(5 - size, 0)
+
+
+def drawn_near(
+    points: Array,
+    information: Array,
+    held: NDArray[np.bool_],
+    rng: np.random.Generator,
+    spread: Array | float,
+) -> Array:
+    """Return a point drawn within the errors of each of some, (n, k).
+
+    Where nothing is determined that is anywhere in the spans.
+
+    Args:
+        points: in parts of the spans, (n, k).
+        information: at each, (n, k, k).
+        held: coordinates that stay, (n, k).
+        rng: of what is drawn.
+        spread: in standard deviations, of all or of each, (n,).
+    """
+    free = ~held
+    kept = information * (free[:, :, None] & free[:, None, :])
+    squares, axes = np.linalg.eigh(kept)
+    sizes, axes = np.sqrt(np.maximum(squares, 0.0)), axes.transpose(0, 2, 1)
+    spread = np.broadcast_to(spread, len(points)).astype(float)[:, None]
+    drawn = spread * rng.normal(size=points.shape) / np.maximum(sizes, 1.0)
+    anywhere = np.einsum("pji,pi->pj", axes, rng.random(points.shape) - points)
+    steps = np.where(sizes * LONGEST > 1, drawn, anywhere)
+    moved = points + np.where(held, 0.0, np.einsum("pj,pji->pi", steps, axes))
+    return np.clip(1 - np.abs(1 - np.abs(moved)), 0, 1)
 
 
 def _along(information: Array, moved: Array, held: NDArray[np.bool_]) -> Array:

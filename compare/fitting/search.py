@@ -1,8 +1,9 @@
 """The least squares of a misfit that is riddled with minima, from many starts and touch by touch.
 
 Each impact multiplies a change of the release, so the squares of all touches have minima by the thousand, and
-those of the first touches few. The least squares are found of these first. The best are kept, with neighbours
-within their errors, and what was seen next is added, until all is.
+those of the first touches few. The least squares are found of these first. Points all over what that leaves
+possible are kept, many neighbours are drawn within their errors, and what was seen next chooses of these,
+until all has.
 """
 
 from collections.abc import Callable
@@ -14,31 +15,39 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 from scipy.stats import chi2, qmc
 
-from cointoss.compare.fitting.descent import LONGEST, Descent
-from cointoss.compare.fitting.intervals import Region, region_of
+from cointoss.compare.fitting.descent import Descent
+from cointoss.compare.fitting.intervals import Known, drawn_near, halved, region_of
 from cointoss.compare.fitting.misfit import IMPOSSIBLE, Misfit, Predicted
 from cointoss.models.errors import ScenarioError
 from cointoss.models.records import Array
 from cointoss.models.stages import stage
 
-CROWD, MODES, REFINED = 512, 256, 24
-"""Points of a stage, with their neighbours; those that go on, at most; and those refined at the end."""
+DRAWN, CROWD, MODES, REFINED = 8192, 256, 256, 24
+"""Neighbours that are drawn at a stage, where five values are free; those of them that are fitted; points
+that go on, at most; and those refined at the end."""
 HOPELESS = 100.0
 """A point that misses by so much more in χ² than the best does not go on."""
+ALIKE = 15.0
+"""Points above the least χ² by no more are as good as the best: what was seen later may prefer them."""
 APART = 1.0
 """χ² between two points that go on, at least."""
-NEAR, FEW = 50.0, 16
+NEAR, FEW = 50.0, 512
 """What is fitted next misses by so much more in χ² than the best of the points, at most, at a few of them."""
-SPREAD = 2.0
+SPREAD = 1.0
 """Of neighbours, in standard deviations."""
 TOGETHER = 256
 """Starts that are tossed together."""
-GROWTH, SLOWEST = 1.6, 16
+GROWTH, SLOWEST = 1.6, 64
 """Numbers that are fitted at a stage, over those at the stage before, at most; and at least a part more."""
 SAME = 1e-4
 """Minima nearer than this part of every span are one, and at the end those within three deviations."""
 CLOSE = 60
 """Steps of the last least squares, at most."""
+EARLIER = 4
+"""Stages before the last from whose points intervals are measured, too."""
+SURELY, REACH = 5.0, 5.0
+"""Standard deviations of the first touch by which what was seen is surely before it, and of a value by that
+alone, beyond which no end of an interval is looked for."""
 LEVEL = 0.99
 """Of the intervals."""
 ABOVE = float(chi2.ppf(LEVEL, 1))
@@ -101,44 +110,72 @@ class Search:
             starts = self._screened(progress)
         if not len(starts):
             return None
-        modes, around = self._fitted(starts)
+        known = self._fitted(starts)
         with stage("refining the best fits"):
-            minima = [each for each in map(self._refined, modes[:REFINED]) if each is not None]
+            deepest, _ = self._modes(
+                *self._descent.descended(known[-1].points, self._order), self._order, 0.0
+            )
+            minima = [each for each in map(self._refined, deepest[:REFINED]) if each is not None]
         if not minima:
             return None
         with stage("measuring the intervals"):
-            ends = self._ends(minima, np.vstack([modes, around]))
+            ends = self._ends(minima, np.vstack([known[-1].points, deepest]), known[-EARLIER - 1 : -1])
         return Found(self._apart(minima), ends)
 
-    def _fitted(self, points: Array) -> tuple[Array, Array]:
-        """Return points that explain all that was seen, the best first, and their neighbours, (n, k) each."""
+    def _fitted(self, points: Array) -> list[Known]:
+        """Return points that explain what was seen until ever later times, at last all."""
         fitted, seen, around = 0, len(self._order), points[:0]
+        known: list[Known] = []
         with stage("fitting touch by touch", "numbers", total=seen) as progress:
             while fitted < seen:
                 points = np.vstack([points, around])
                 fitted = self._next(points, fitted)
                 rows = self._order[:fitted]
-                points, information = self._modes(*self._descent.descended(points, rows), rows)
+                squares = self._descent.squares(points, rows)
+                some = self._ranked(squares, ALIKE)[: CROWD if known else None]
+                there, least = self._descent.descended(points[some], rows)
+                # Minima alone would not tell how far a bent region reaches, so that others are kept, too.
+                among = np.vstack([there, points[some]]), np.concatenate([least, squares[some]])
+                points, information = self._modes(*among, rows, ALIKE)
+                known.append(Known(points, information))
                 around = self._neighbours(points, information)
                 progress(fitted, seen)
-        return points, around
+        return known
 
-    def _ends(self, minima: list[Minimum], points: Array, again: int = AGAIN) -> Array:
-        """Return the ends of the intervals, (k, 2); minima that are met on the way are added."""
+    def _ends(self, minima: list[Minimum], points: Array, earlier: list[Known], again: int = AGAIN) -> Array:
+        """Return the ends of the intervals, (k, 2); minima that are met on the way are added.
+
+        Args:
+            minima: those known.
+            points: others that explain what was seen, (n, k).
+            earlier: points that explain less.
+            again: how often it may be done anew.
+        """
         best = min(minima, key=lambda each: each.score)
-        known = np.vstack([points, [self._descent.point(each.values) for each in minima]])
-        region = self._region(best, known)
+        rows = np.flatnonzero(best.predicted.is_tested)
+        points = np.vstack([points, [self._descent.point(each.values) for each in minima]])
+        known = [*earlier, Known(points, self._descent.information(points, rows))]
+        region = region_of(self._descent, rows, known, limits=self._limits(best), above=ABOVE, rng=self._rng)
         better = self._refined(region.best) if region.least < best.chi_square - GAIN else None
         if not again or better is None or better.score >= best.score - GAIN:
             return self._descent.values(region.ends.T).T
         minima.append(better)
-        return self._ends(minima, points, again - 1)
+        return self._ends(minima, np.vstack([points, region.met]), earlier, again - 1)
 
-    def _region(self, best: Minimum, points: Array) -> Region:
-        """Return the region of the intervals."""
-        rows = np.flatnonzero(best.predicted.is_tested)
-        sd = np.sqrt(np.diag(best.covariance)) / np.abs(self._descent.width)
-        return region_of(self._descent, rows, points, sd=sd, above=ABOVE)
+    def _limits(self, best: Minimum) -> Array:
+        """Return how far each coordinate may be by what was seen before the first touch, (k, 2).
+
+        That part of the misfit is smooth.
+        """
+        seen = self._misfit.observed
+        first = seen.touch_times.min(initial=np.inf) - SURELY * np.max(seen.touch_sd, initial=0.0)
+        early = np.flatnonzero(self._misfit.times < first)
+        point = self._descent.point(best.values)
+        if not len(early):
+            return np.tile([0.0, 1.0], (len(point), 1))
+        covariance, _ = covariance_of(self._descent.slopes(point[None], early)[0], np.ones(len(point)))
+        far = REACH * np.sqrt(np.diag(covariance))
+        return np.clip(np.column_stack([point - far, point + far]), 0, 1)
 
     def _apart(self, minima: list[Minimum]) -> tuple[Minimum, ...]:
         """Return minima, the best first, of which no two are within three deviations."""
@@ -169,13 +206,15 @@ class Search:
         near = np.sum(missed <= missed.min(axis=0) + NEAR, axis=0) >= min(FEW, len(points))
         return most if near.all() else min(max(fitted + int(np.argmin(near)), least), seen)
 
-    def _modes(self, points: Array, squares: Array, rows: NDArray[np.intp]) -> tuple[Array, Array]:
-        """Return points of which the residuals tell any two apart, the best first, (n, k), and their
-        information, (n, k, k).
+    def _modes(
+        self, points: Array, squares: Array, rows: NDArray[np.intp], alike: float
+    ) -> tuple[Array, Array]:
+        """Return points of which the residuals tell any two apart, (n, k), and their information, (n, k, k).
 
-        None of them is hopeless. What no residual determines tells nothing apart.
+        They are in the order of `_ranked`, and none of them is hopeless. What no residual determines tells
+        nothing apart.
         """
-        order = np.argsort(squares, kind="stable")
+        order = self._ranked(squares, alike)
         points = points[order[squares[order] <= squares.min() + HOPELESS]]
         information = self._descent.information(points, rows)
         kept: list[int] = []
@@ -187,6 +226,12 @@ class Search:
             if np.all(np.einsum("pi,pij,pj->p", apart, both, apart) > APART):
                 kept.append(i)
         return points[kept], information[kept]
+
+    def _ranked(self, squares: Array, alike: float) -> NDArray[np.intp]:
+        """Return the order of points by χ²; those above the least by no more than `alike` come first, in any
+        order."""
+        anyhow = self._rng.permutation(len(squares))
+        return anyhow[np.argsort(np.maximum(squares[anyhow], squares.min() + alike), kind="stable")]
 
     def _least(self, point: Array, rows: NDArray[np.intp]) -> Array:
         """Return where the squares of some residuals are least, near a point; itself where all are flat."""
@@ -204,20 +249,10 @@ class Search:
         ).x
 
     def _neighbours(self, points: Array, information: Array) -> Array:
-        """Return points drawn within the errors of each of some, (n, k), alike many of each.
-
-        Where nothing is determined that is anywhere in the spans.
-        """
-        squares, axes = np.linalg.eigh(information)
-        sizes, axes = np.sqrt(np.maximum(squares, 0.0)), axes.transpose(0, 2, 1)
-        chosen = np.resize(np.arange(len(points)), max(CROWD - len(points), len(points)))
-        drawn = self._rng.normal(0, SPREAD, (len(chosen), self._descent.size)) / np.maximum(
-            sizes[chosen], 1.0
-        )
-        anywhere = np.einsum("pji,pi->pj", axes[chosen], self._rng.random(drawn.shape) - points[chosen])
-        steps = np.where(sizes[chosen] * LONGEST > 1, drawn, anywhere)
-        moved = points[chosen] + np.einsum("pj,pji->pi", steps, axes[chosen])
-        return np.clip(1 - np.abs(1 - np.abs(moved)), 0, 1)
+        """Return points drawn within the errors of each of some, (n, k), alike many of each."""
+        chosen = np.resize(np.arange(len(points)), max(halved(DRAWN, self._descent.size), len(points)))
+        held = np.zeros((len(chosen), self._descent.size), dtype=bool)
+        return drawn_near(points[chosen], information[chosen], held, self._rng, SPREAD)
 
     def _refined(self, point: Array) -> Minimum | None:
         """Return the minimum near a point of what is within its own horizon; None where it is no scenario."""

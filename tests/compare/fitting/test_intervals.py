@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from cointoss.compare.fitting.descent import Descent
-from cointoss.compare.fitting.intervals import region_of
+from cointoss.compare.fitting.intervals import Known, Region, region_of
 from cointoss.compare.fitting.misfit import Misfit
 from cointoss.compare.fitting.observed import Observed
 from cointoss.compare.sweep.axes import Span
@@ -30,10 +30,18 @@ class Formula:
         return self.formula(values)
 
 
-def region(formula: Callable[[Array], Array], points: list[list[float]], sd: list[float]) -> Any:
-    misfit: Any = Formula(formula, len(sd))
+def region(
+    formula: Callable[[Array], Array], points: list[list[float]], earlier: tuple[Known, ...] = ()
+) -> Region:
+    misfit: Any = Formula(formula, len(points[0]))
+    descent, rows, known = Descent(misfit), np.arange(len(misfit.times)), np.array(points)
     return region_of(
-        Descent(misfit), np.arange(len(misfit.times)), np.array(points), sd=np.array(sd), above=ABOVE
+        descent,
+        rows,
+        [*earlier, Known(known, descent.information(known, rows))],
+        limits=np.tile([0.0, 1.0], (descent.size, 1)),
+        above=ABOVE,
+        rng=np.random.default_rng(1),
     )
 
 
@@ -44,7 +52,7 @@ def test_the_region_of_a_parabola_has_the_ends_of_its_marginals():
         return np.column_stack([(p[:, 0] + p[:, 1] - 1) / 1e-3, (p[:, 0] - p[:, 1]) / 0.1])
 
     sd = np.hypot(1e-3, 0.1) / 2
-    found = region(valley, [[0.5, 0.5]], [sd, sd])
+    found = region(valley, [[0.5, 0.5]])
     far = ABOVE**0.5 * sd
     assert found.ends == pytest.approx(np.array([[0.5 - far, 0.5 + far]] * 2), abs=0.01 * far)
     assert found.best == pytest.approx([0.5, 0.5])
@@ -57,23 +65,38 @@ def test_the_region_follows_a_valley_in_which_steps_of_least_squares_are_slow():
     def valley(p):
         return np.column_stack([np.expm1(60 * (p[:, 1] - p[:, 0])) / 1e-3, (p[:, 0] - 0.5) / 0.1])
 
-    found = region(valley, [[0.5, 0.5]], [0.1, 0.1])
+    found = region(valley, [[0.5, 0.5]])
     far = ABOVE**0.5 * 0.1
     assert found.ends == pytest.approx(np.array([[0.5 - far, 0.5 + far]] * 2), abs=0.01 * far)
 
 
+def test_a_region_goes_on_beyond_a_jump():
+    """From x = 0.6 on y is 0.8, before 0.2; less of what was seen leaves it open."""
+
+    def torn(p):
+        y = np.where(p[:, 0] < 0.6, 0.2, 0.8)
+        return np.column_stack([(p[:, 1] - y) / 1e-3, (p[:, 0] - 0.5) / 0.1])
+
+    without_y = Known(np.array([[0.5, 0.5]]), np.array([[[100.0, 0.0], [0.0, 0.0]]]))
+    found = region(torn, [[0.5, 0.2]], (without_y,))
+    far = ABOVE**0.5 * 0.1
+    assert found.ends[0] == pytest.approx([0.5 - far, 0.5 + far], abs=0.01 * far)
+    assert found.ends[1, 0] == pytest.approx(0.2 - ABOVE**0.5 * 1e-3, abs=1e-4)
+    assert found.ends[1, 1] == pytest.approx(0.8 + (ABOVE - 1) ** 0.5 * 1e-3, abs=0.01 * 0.6)
+
+
 def test_a_region_ends_with_its_span():
-    found = region(lambda p: (p - 0.1) / 0.1, [[0.1]], [0.1])
+    found = region(lambda p: (p - 0.1) / 0.1, [[0.1]])
     assert found.ends[0] == pytest.approx([0, 0.1 + ABOVE**0.5 * 0.1], abs=2e-3)
 
 
 def test_a_deeper_minimum_that_is_met_on_the_way_is_told():
     def two(p):
         near, deep = np.exp(-(((p - 0.3) / 0.1) ** 2)), np.exp(-(((p - 0.6) / 0.1) ** 2))
-        return 2 - near - 2 * deep
+        return 3 * (2 - near - 2 * deep)
 
-    found = region(two, [[0.3]], [0.05])
-    assert found.least < 0.9
+    found = region(two, [[0.3]])
+    assert found.least < 8
     assert 0.5 < found.best[0] < 0.7
     assert found.least == pytest.approx(two(found.best)[0] ** 2)
 

@@ -46,7 +46,7 @@ def test_a_better_minimum_met_while_intervals_are_measured_is_among_those_found(
         values=values, predicted=misfit.predicted(values), covariance=np.diag([1e-6, 1e-6]), determined=2
     )
     minima = [known]
-    ends = search._ends(minima, np.empty((0, 2)))
+    ends = search._ends(minima, np.empty((0, 2)), [])
     best = min(minima, key=lambda each: each.score)
     assert best.chi_square < 1e-3 < 1 < known.chi_square
     assert abs(best.values[0] - 0.8) < 1e-6

@@ -1,0 +1,45 @@
+"""The misfit of a toss: nothing of what was seen is cut off, and attitudes miss by rotations."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from cointoss import Observed, analytic
+from cointoss.compare.fitting.misfit import Misfit
+from cointoss.compare.sweep.axes import Span
+from tests.helpers.draws import scenario
+
+COIN = scenario(
+    release={"position": [0, 0, 0.3], "angles": [0.3, 0.5, 0.2], "angular_velocity": [12, 3, 5]},
+    ending={"test": "lying"},
+)
+SPANS = (Span(field="floor.restitution", start=0.5, stop=0.9, unit=""),)
+TRUE = np.array([[0.8]])
+
+
+@pytest.mark.parametrize(("after", "most"), [(-0.03, 3), (0.1, COIN.rules.max_impacts)])
+def test_a_toss_ends_with_its_last_touch_only_where_the_film_ended_before(after, most):
+    toss = analytic.toss(COIN)
+    touches = toss.impacts.time[:3]
+    at = np.linspace(0.01, touches[-1] + after, 9)
+    observed = Observed(
+        touch_times=touches,
+        touch_sd=1e-3,
+        times=at,
+        heights=toss.sample(at).position[:, 2],
+        height_sd=1e-3,
+    )
+    misfit = Misfit(scenario=COIN, spans=SPANS, observed=observed)
+    assert misfit.most_impacts == most
+    assert misfit.residuals(TRUE)[0] == pytest.approx(np.zeros(12), abs=1e-6)
+
+
+def test_an_attitude_misses_by_the_rotation_to_what_was_seen():
+    at = np.array([0.05, 0.1])
+    rotations = np.array([[0.3, -0.1, 0.2], [-2.0, 1.5, 0.5]])
+    true = Rotation.from_quat(analytic.toss(COIN).sample(at).quaternion, scalar_first=True)
+    seen = (true * Rotation.from_rotvec(rotations)).as_quat(scalar_first=True)
+    for sign in (1, -1):
+        observed = Observed(times=at, quaternions=1.01 * sign * seen, quaternion_sd=0.1)
+        missed = Misfit(scenario=COIN, spans=SPANS, observed=observed).residuals(TRUE)[0]
+        assert missed == pytest.approx(rotations.ravel() / 0.1, abs=1e-8)
