@@ -219,7 +219,8 @@ def toss_each(rows: Array, wanted: int, answers: Array) -> None:
     """
     impacts, y = np.zeros(2 if wanted == NO_TRUST else FIRST_ROOM, IMPACT_ROW), np.empty(STATE_SIZE)
     for i in range(len(rows)):
-        answers[i, :] = -1
+        for k in range(answers.shape[1]):
+            answers[i, k] = -1.0
         if foreign_number(rows[i]) >= 0:
             answers[i, 0] = NO_SCENARIO
         elif has_linear_air(rows[i]):

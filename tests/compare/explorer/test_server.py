@@ -75,7 +75,7 @@ def asked(port, target):
 
 def test_the_map_and_a_tile_do_not_wait_for_tosses(server, busy):
     tossed, _ = busy
-    with asked(server.port, "/toss?x=40&y=0.4"):
+    with asked(server.port, "/toss?x=40&y=0.4&engine=analytic"):
         assert tossed.get() == 40
         assert got(server.port, "/map")[0] == 200
         assert got(server.port, "/tile?level=3&column=2&row=1")[0] == 200
