@@ -16,7 +16,9 @@ from cointoss.analytic.flight.state_vector import STATE_SIZE, normalise, spin_of
 from cointoss.analytic.horizon.horizon import Horizon
 from cointoss.analytic.numerics.tolerances import CONTACT_STEP_ERROR
 from cointoss.analytic.settings import ContactLimits
+from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body, Rules, is_to_be_caught, with_budgets
+from cointoss.models.geometry import FLAT_SINE, tilt_sine_of
 from cointoss.models.impact_row import FIRST_ROOM
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import norm
@@ -67,11 +69,20 @@ class Certainty(NamedTuple):
 
 
 @compiled
-def start_of(rules: Rules, started: Started, horizon: Horizon) -> Start:
-    """Return the `Start` of the neighbours of a toss; for the arguments see `certainty_of`."""
+def start_of(rules: Rules, rows: NDArray[Any], started: Started, horizon: Horizon) -> Start:
+    """Return the `Start` of the neighbours of a toss; for the arguments see `certainty_of`.
+
+    Symmetry keeps a flat coin flat without any error, but the least tilt ends that: the neighbours of such a
+    landing start before it.
+    """
     ended = started.modes[horizon.impacts] == Mode.ENDED
     # What passes a hand may do so on any flight.
     first = 0 if is_to_be_caught(rules) else horizon.impacts - (1 if ended else 0)
+    for i in range(first):
+        e = rows[i].quaternion
+        if tilt_sine_of(rotation_matrix((e[0], e[1], e[2], e[3]))[2]) <= FLAT_SINE:
+            first = i
+            break
     left = with_budgets(rules, rules.max_impacts - first, rules.max_time - started.times[first])
     return Start(first, started.states[first], left)
 
@@ -132,7 +143,7 @@ def certainty_of(
     """
     if verdict.outcome == Outcome.UNDECIDED or verdict.outcome == Outcome.TRANSIENT:
         return Certainty(False, verdict.outcome, 0, 0.0)
-    start = start_of(rules, started, horizon)
+    start = start_of(rules, rows, started, horizon)
     for pair in range(PAIRS):
         for side in (1.0, -1.0):
             y = neighbour(body, start, horizon, pair, side)
@@ -163,7 +174,7 @@ def other_outcome(
     """
     if certainty.outcome in (toss.outcome, Outcome.UNDECIDED, Outcome.TRANSIENT):
         return None
-    start, size, found = start_of(rules, toss.started, horizon), certainty.side, None
+    start, size, found = start_of(rules, toss.rows, toss.started, horizon), certainty.side, None
     # The toss itself, made again from here, may end otherwise: its times are counted from another start.
     for _ in range(_CLOSER_STEPS):
         y = neighbour(body, start, horizon, certainty.pair, size)
