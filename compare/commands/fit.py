@@ -64,9 +64,9 @@ def fit(
     release.position.z; START and STOP are in SI or carry a unit. The FIELD clock is the time that your clock
     shows at the release; without it your clock begins then. All other fields stay as the scenario has them.
 
-    Printed are the values with their standard deviations and 99 % intervals, whether this model can do what
-    was seen at all, other values that would explain it too, and each touch. Where it cannot, there are no
-    intervals, and the exit status is 1.
+    Printed are the values with their 99 % intervals, whether this model can do what was seen at all, other
+    values that would explain it too, and each touch. Where it cannot, there are no intervals, and the exit
+    status is 1.
     """
     with plain_errors(scenario):
         from cointoss.compare.fitting.table import read_observed

@@ -17,7 +17,7 @@ def as_lines(fit: Fit) -> str:
     if fit.untested_touches:
         numbers = ", ".join(map(str, fit.untested_touches))
         lines.append(f"untested    touches {numbers}: beyond the horizon of trust, so they test nothing")
-    for pair in _correlated(fit):
+    for pair in _correlated(fit) if fit.is_possible else []:
         lines.append(f"correlated  {pair}")
     for other in fit.others[:MOST_OTHERS]:
         told = ", ".join(f"{each.span.field} = {each.value:.6g}" for each in other.values)
@@ -34,7 +34,7 @@ def _value(each: Fitted) -> str:
     name = f"{each.span.field}{unit}"
     if not np.isfinite(each.sd):
         return f"{name:34} not determined by what was seen"
-    value = f"{name:34} {each.value:.7g} ± {each.sd:.2g}"
+    value = f"{name:34} {each.value:.7g}"
     if each.interval is None:
         return value
     low, high = each.interval

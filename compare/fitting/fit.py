@@ -135,16 +135,23 @@ class Fit:
 
     def __repr__(self) -> str:
         """Return the values and the verdict."""
-        told = ", ".join(f"{each.span.field} = {each.value:.6g} ± {each.sd:.1g}" for each in self.values)
-        return f"<Fit: {told}; {self.verdict}>"
+        told = (
+            f"{each.span.field} = {each.value:.6g}"
+            + (f" [{each.interval[0]:.6g}, {each.interval[1]:.6g}]" if each.interval else "")
+            for each in self.values
+        )
+        return f"<Fit: {', '.join(told)}; {self.verdict}>"
 
     def as_dict(self) -> dict[str, Any]:
-        """Return it in the form of `cointoss fit --json`; None for what is infinite or NaN."""
+        """Return it in the form of `cointoss fit --json`; None for what is infinite or NaN.
+
+        A model that is refused has no errors of its values: no `sd`, no interval, no covariance.
+        """
         return {
             "values": {
                 each.span.field: {
                     "value": each.value,
-                    "sd": _finite(each.sd),
+                    "sd": _finite(each.sd) if each.interval else None,
                     "interval": each.interval and list(each.interval),
                     "unit": each.span.unit,
                     "at_end": each.at_end,
@@ -152,7 +159,9 @@ class Fit:
                 }
                 for each in self.values
             },
-            "covariance": [[_finite(x) for x in row] for row in self.covariance.tolist()],
+            "covariance": (
+                [[_finite(x) for x in row] for row in self.covariance.tolist()] if self.is_possible else None
+            ),
             "chi_square": self.chi_square,
             "degrees": self.degrees,
             "p_value": _finite(self.p_value),

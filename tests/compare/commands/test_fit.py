@@ -87,7 +87,8 @@ def test_a_model_that_cannot_do_it_ends_with_status_1(tmp_path):
     assert "this model cannot do" in answered.stdout
     assert "99 %" not in answered.stdout, "no value of a model that is wrong is the true one"
     found = json.loads(cointoss(*CALL, *FREE, "--sd-time", "1 ms", "--json").stdout)
-    assert [each["interval"] for each in found["values"].values()] == [None] * 3
+    assert [(each["interval"], each["sd"]) for each in found["values"].values()] == [(None, None)] * 3
+    assert found["covariance"] is None
 
 
 def test_a_missing_table_is_refused_before_the_engine_is_imported(tmp_path):
