@@ -44,15 +44,20 @@ def share_of(met: int, count: int, counted: str = "tosses") -> Estimate:
 
 
 def mean_share(shares: ArrayLike, counted: str = "tosses") -> Estimate:
-    """Return the mean of shares, with Student's interval, or Wilson's where all are 0 or all are 1.
+    """Return the mean of shares, with Student's interval, or Wilson's where all are the same.
+
+    Wilson's is no narrower: shares scatter at most as yes and no with the same mean do.
 
     Args:
         shares: of a sample, (n,).
         counted: what the sample is of.
     """
     values = np.asarray(shares, dtype=float)
-    varies = values.size and np.ptp(values) > 0
-    return mean(values, counted) if varies else share(values > 1 / 2, counted)
+    if values.size and np.ptp(values) > 0:
+        return mean(values, counted)
+    total = float(values.sum())
+    fewer, more = (share_of(int(met), values.size, counted) for met in (np.floor(total), np.ceil(total)))
+    return Estimate(float(values[0]) if values.size else np.nan, fewer.low, more.high, values.size, counted)
 
 
 def mean(values: ArrayLike, counted: str = "tosses") -> Estimate:

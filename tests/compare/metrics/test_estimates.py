@@ -48,6 +48,14 @@ def test_a_share_of_none_has_an_interval_above_it():
     assert 0.005 < none.high < 0.02
 
 
+@pytest.mark.parametrize("shares", [[0.7], [0.3, 0.3, 0.3], [0.5] * 40])
+def test_equal_shares_have_their_mean_and_an_interval_about_it(shares):
+    same = mean_share(shares)
+    assert same.value == shares[0]
+    assert 0 <= same.low < same.value < same.high <= 1
+    assert same.high - same.low > 0.3 / len(shares)
+
+
 def test_a_share_of_no_trials_may_be_anything():
     for none in (share_of(0, 0, "spins"), share([], "spins"), mean_share([], "spins")):
         assert np.isnan(none.value)
