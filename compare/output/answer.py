@@ -141,7 +141,7 @@ def as_lines(toss: Toss, *, whole: bool = False) -> str:
         energies = [
             f"{item.name}: {1e3 * float(item.value):.4f} mJ" for item in toss.certificate if item.unit == "J"
         ]
-        lines.append(f"evidence  {'; '.join(energies)}")
+        lines += [f"evidence  {'; '.join(energies)}"] if energies else []
     if in_contact := contact_line(toss):
         lines.append(f"contact   {in_contact}")
     if whole and len(toss.contacts) > 1:

@@ -134,7 +134,7 @@ flying flying 0 0 AGREE
 """Two tosses, how many impacts agree, how many must, and the verdict with its words."""
 WORDS = {
     "DECIDE": "tiny errors decide, and neither engine is wrong.",
-    "MUJOCOS": "errors as small as MuJoCo’s decide, and neither engine is wrong.",
+    "MUJOCOS": "MuJoCo’s own errors decide what it shows.",
     "HEADS": "Heads by the analytic engine",
     "TAILS": "tails by MuJoCo",
     "FAULTY": "One engine is wrong: please report it.",
