@@ -77,7 +77,8 @@ class Margin:
     @property
     def line(self) -> str:
         """The margin for a person; rounded up, what was found stays an upper bound."""
-        found, unit = "none found", self.quantity.unit
+        unit = self.quantity.unit
+        found = f"none found up to {self.quantity.factor:g} {unit}"
         if self.finite is not None:
             found = f"{_rounded(self.change, 3, ROUND_UP):+.3g} {unit}"
         if self.proved:
