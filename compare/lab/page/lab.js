@@ -53,7 +53,6 @@ async function begin() {
   controls = makeControls({ map: box("map"), release: box("release"), coin: box("coin"), floor: box("floor"), hand: box("hand") }, fields, change);
   showStop = makeTour(byId("tour"), byId("stop"), (stop) => address(stop, fields));
   listen();
-  legend();
   restore();
   document.body.dataset.ready = "true";
 }
@@ -101,6 +100,7 @@ function change(more, fresh = false) {
 
 function show(fresh) {
   controls.show(state);
+  legend();
   map.update(state);
   showStop(state);
   toss(fresh);
