@@ -151,6 +151,7 @@ def _settings(found: "Bounce") -> str:
         _rest(found.rest),
         f"on several points 1/4 to 2 times (1 - d) g/k = {alone:.3g} um, by its shape: --body measures it",
     ]
+    body = f"{'an' if found.body[0] in 'aeiou' else 'a'} {found.body}"
     flight = f"a brick at 10 turns a second {_change(found.flight)} of its energy in half a second"
     if not spring:
         exact = exact_of(found)
@@ -167,7 +168,7 @@ def _settings(found: "Bounce") -> str:
             f"integrator  {found.integrator}, "
             + ("any but discrete, which errs more" if spring else "or Euler; not RK4, not discrete"),
             f"backend     {found.backend}: {found.backend.remark}",
-            f"error       {_at_most(found.error)} at worst, of a {found.body} that touches at 16 phases",
+            f"error       {_at_most(found.error)} at worst, of {body} that touches at 16 phases",
             f"            {_at_most(found.error_with_weight)} with weight at {SPEED:g} m/s; {_slower(found)}",
             "            more if the impact turns it, in proportion to its speed and DT: cointoss bounce",
             f"depth       up to {1e3 * found.depth:.3g} mm into the floor for each m/s, whatever the mass",

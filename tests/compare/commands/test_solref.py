@@ -58,3 +58,8 @@ def test_given_settings_are_turned_round():
     assert "mujoco" in found["versions"]
     assert found["integrator"] == "RK4"
     assert found["formula"]["restitution"] == pytest.approx(0.2155, abs=1e-4)
+
+
+def test_an_ellipsoid_has_its_article():
+    shown = cointoss("solref", "--restitution", 0.8, "--dt", 0.002, "--body", "ellipsoid 0.1 0.1 0.05").stdout
+    assert "of an ellipsoid 0.1 0.1 0.05 that touches" in shown
