@@ -8,7 +8,7 @@ import math
 from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, SupportsIndex
 
 import mujoco
 import numpy as np
@@ -101,7 +101,7 @@ class _Touch(NamedTuple):
     depth: float
 
 
-def bounce(model: mujoco.MjModel | Path | str, one: str, two: str) -> PairBounce:
+def bounce(model: mujoco.MjModel | Path | str, one: str | SupportsIndex, two: str | SupportsIndex) -> PairBounce:
     """Return how two geoms of a model bounce off each other, by plain `mj_step` and the model's own options.
 
     Other geoms are kept out of it. A geom on a free body comes straight along the normal of the contact,
@@ -134,7 +134,7 @@ def bounce(model: mujoco.MjModel | Path | str, one: str, two: str) -> PairBounce
         pair.model.opt.gravity[:] = gravity
         pulled = _touches(pair)
     return PairBounce(
-        geoms=(one, two),
+        geoms=(str(one), str(two)),
         timestep=float(pair.model.opt.timestep),
         integrator=INTEGRATORS[pair.model.opt.integrator],
         solref=solref,

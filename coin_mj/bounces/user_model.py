@@ -3,7 +3,10 @@
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
 
+from numbers import Integral
+from os.path import realpath
 from pathlib import Path
+from typing import SupportsIndex
 from xml.etree import ElementTree
 
 import mujoco
@@ -52,19 +55,23 @@ def require_measurable(model: mujoco.MjModel) -> None:
             _require_finite(_named(model, name, values), values)
 
 
-def geom_of(model: mujoco.MjModel, name: str) -> int:
-    """Return the number of a geom, given its name or its number.
+def geom_of(model: mujoco.MjModel, given: str | SupportsIndex) -> int:
+    """Return the number of a geom, given its name or its number, also as text.
 
     Raises:
         FieldError: naming what was given and the geoms that exist.
     """
-    found = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, name)
-    if found < 0 and name.isascii() and name.isdigit() and int(name) < model.ngeom:
-        found = int(name)
-    if found < 0:
+    if isinstance(given, str):
+        found = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, given)
+        if found < 0 and given.isascii() and given.isdigit():
+            found = _whole(given)
+    else:
+        found = int(given) if isinstance(given, Integral) and not isinstance(given, bool) else -1
+    if not 0 <= found < model.ngeom:
         known = [model.geom(number).name or str(number) for number in range(min(model.ngeom, 12))]
         more = ", ..." if model.ngeom > len(known) else ""
-        raise FieldError("geom", name, f"a geom of the model, by name or number: {', '.join(known)}{more}")
+        names = ", ".join(known) or "it has none"
+        raise FieldError("geom", given, f"a geom of the model, by name or number: {names}{more}")
     return found
 
 
@@ -96,16 +103,34 @@ def _require_finite(name: str, values: np.ndarray) -> None:
 
 def _require_small_fields(path: Path) -> None:
     """Refuse a file whose height fields have more points than `MOST_POINTS`, before MuJoCo reads it."""
+    waiting, seen = [path], set[str]()
+    while waiting:
+        file = waiting.pop()
+        try:
+            if realpath(file) in seen or not file.is_file():
+                continue
+            seen.add(realpath(file))
+            elements = list(ElementTree.parse(file).iter())
+        except (ElementTree.ParseError, ValueError, OSError):
+            continue  # MuJoCo's loader says what is wrong with it
+        for element in elements:
+            if element.tag == "include":
+                waiting += [folder / element.get("file", "") for folder in (path.parent, file.parent)]
+            if element.tag == "hfield":
+                _require_small_field(element)
+
+
+def _require_small_field(field: ElementTree.Element) -> None:
+    sides = [field.get(side, "0") for side in ("nrow", "ncol")]
+    if _whole(sides[0]) * _whole(sides[1]) > MOST_POINTS:
+        name = field.get("name", "without a name")
+        accepted = f"at most {MOST_POINTS:,} points"
+        raise FieldError(f"hfield {name} nrow x ncol", " x ".join(sides), accepted)
+
+
+def _whole(text: str) -> int:
+    """Return a whole number, written with spaces and a sign or without; -1 for what is none."""
     try:
-        elements = list(ElementTree.parse(path).iter())
-    except (ElementTree.ParseError, ValueError, OSError):
-        return  # MuJoCo's loader says what is wrong with it
-    for element in elements:
-        if element.tag == "include" and (path.parent / element.get("file", "")).is_file():
-            _require_small_fields(path.parent / element.get("file", ""))
-        if element.tag == "hfield":
-            sides = [element.get(side, "0") for side in ("nrow", "ncol")]
-            if all(side.strip().isdigit() for side in sides) and int(sides[0]) * int(sides[1]) > MOST_POINTS:
-                name = element.get("name", "without a name")
-                accepted = f"at most {MOST_POINTS:,} points"
-                raise FieldError(f"hfield {name} nrow x ncol", " x ".join(sides), accepted)
+        return int(text)
+    except ValueError:
+        return -1
