@@ -63,6 +63,8 @@ class Pair:
         self.contact = self._contact()
         self._bring_to(self.contact.includemargin + 1e-3 * self.size)
         self.start = self.data.qpos.copy()
+        _, self.normal, point = self._nearest()
+        self.soft = self._soft(self._row(self.normal, point))
 
     @property
     def thinnest(self) -> float:
@@ -81,8 +83,12 @@ class Pair:
         mujoco.mj_forward(self.model, self.data)
         duration, margin = steps * self.model.opt.timestep, self.contact.includemargin
         approach = self._bring_to(margin + speed * duration)
-        gained = duration * self._acceleration(speed * approach)
-        gap, before = (speed - gained / 2) * duration, speed - gained
+        forced, acceleration = self._acceleration(speed * approach)
+        gained = duration * acceleration
+        rk4 = self.model.opt.integrator == int(mujoco.mjtIntegrator.mjINT_RK4)
+        # Integrators but RK4 have the velocity of half a step before.
+        late = 0.0 if rk4 else forced * self.model.opt.timestep / 2
+        gap, before = (speed - gained / 2) * duration, speed - gained - late
         if gap > 0:
             approach = self._bring_to(margin + gap)
         else:
@@ -93,6 +99,14 @@ class Pair:
     def touches(self) -> dict[int, Any]:
         """Return the active contacts between both geoms, by number."""
         return {number: contact for number, contact in self._between() if contact.efc_address >= 0}
+
+    def has_passed(self) -> bool:
+        """Return whether the geoms, which do not touch, are on the wrong sides of each other."""
+        if self.field is None:
+            return float(self._nearest()[1] @ self.normal) < 0
+        other = self.two if self.field == self.one else self.one
+        up = self.data.geom_xmat[self.field].reshape(3, 3)[:, 2]
+        return float(up @ (self.data.geom_xpos[other] - self.data.geom_xpos[self.field])) < 0
 
     def push(self, touches: dict[int, Any]) -> float:
         """Return the normal force of some contacts [N]."""
@@ -217,16 +231,40 @@ class Pair:
             velocity /= nearer
         return velocity
 
-    def _acceleration(self, velocity: Array) -> float:
-        """Return by how much the speed at which the geoms come nearer grows [m/s²], at a velocity, (nv,)."""
+    def _acceleration(self, velocity: Array) -> tuple[float, float]:
+        """Return by how much the speed at which the geoms come nearer grows at a velocity, (nv,) [m/s²].
+
+        By what moves the joints, and with what the turning of bodies adds.
+        """
         _, normal, point = self._nearest()
         self.data.qvel[:] = velocity
         mujoco.mj_forward(self.model, self.data)
         row, change = self._row(normal, point), self._row(normal, point, mujoco.mj_jacDot)
-        found = -(row @ self.data.qacc + change @ velocity)
+        forced = -float(row @ self.data.qacc)
+        total = forced - float(change @ velocity)
         self.data.qvel[:] = 0
         mujoco.mj_forward(self.model, self.data)
-        return float(found)
+        return forced, total
+
+    def _soft(self, row: Array) -> tuple[str, ...]:
+        """Return the equality constraints and tendons that pull back when the geoms are pushed apart.
+
+        Args:
+            row: Jacobian of the speed at which both geoms part, (nv,).
+        """
+        velocity = np.zeros(self.model.nv)
+        mujoco.mj_solveM(self.model, self.data, velocity[None], row[None])
+        self.data.qvel[:] = velocity / (row @ velocity)
+        mujoco.mj_forward(self.model, self.data)
+        moved = np.abs(self.data.efc_vel[: self.data.ne]) > HELD
+        equalities = sorted({int(number) for number in self.data.efc_id[: self.data.ne][moved]})
+        tendon = self.model
+        pulls = (tendon.tendon_stiffness != 0) | (tendon.tendon_damping != 0) | (tendon.tendon_limited != 0)
+        tendons = np.flatnonzero(pulls & (np.abs(self.data.ten_velocity) > HELD))
+        return (
+            *(f"equality {self.model.equality(number).name or number}" for number in equalities),
+            *(f"tendon {self.model.tendon(number).name or number}" for number in tendons),
+        )
 
     def _free(self) -> tuple[int, float] | None:
         """Return the first coordinate of the free joint that moves a geom, and that geom's side."""

@@ -47,12 +47,12 @@ class Outcome(StrEnum):
     LASTS = "touch on and on"
     """They touch for more than `LONGEST` steps, and still move."""
     PASSES = "go through"
-    """They part on the wrong sides."""
+    """They part on the wrong sides, or one is beyond the other's middle after a step."""
     MISSES = "do not touch"
     OTHER_SPEED = "come at another speed"
     """Something else brakes or accelerates them by more than `SHARE` of their speed on the way."""
-    TURNS = "turn too far in a step"
-    """The speed changes by more than `SHARE` in a step beside the touch, so that it is none."""
+    CHANGES = "change speed in a step"
+    """The points' speed changes by more than `SHARE` in a step beside the touch, so that it is none."""
     UNSTABLE = "become unstable"
 
 
@@ -89,6 +89,8 @@ class PairBounce:
     """For which the geoms push, without gravity [s], (n, `PHASES`)."""
     depths: Array
     """The greatest, without gravity [m], (n,)."""
+    notes: tuple[str, ...]
+    """What else of the model the numbers depend on, in words."""
 
 
 class _Touch(NamedTuple):
@@ -101,7 +103,9 @@ class _Touch(NamedTuple):
     depth: float
 
 
-def bounce(model: mujoco.MjModel | Path | str, one: str | SupportsIndex, two: str | SupportsIndex) -> PairBounce:
+def bounce(
+    model: mujoco.MjModel | Path | str, one: str | SupportsIndex, two: str | SupportsIndex
+) -> PairBounce:
     """Return how two geoms of a model bounce off each other, by plain `mj_step` and the model's own options.
 
     Other geoms are kept out of it. A geom on a free body comes straight along the normal of the contact,
@@ -149,6 +153,17 @@ def bounce(model: mujoco.MjModel | Path | str, one: str | SupportsIndex, two: st
         energy_kept=_column(free, "kept"),
         durations=_column(free, "duration"),
         depths=_column(free, "depth").max(axis=1),
+        notes=_notes(pair),
+    )
+
+
+def _notes(pair: Pair) -> tuple[str, ...]:
+    """Return that soft constraints go on acting after the contact, where they do."""
+    if not pair.soft:
+        return ()
+    return (
+        f"a soft constraint ({', '.join(pair.soft)}) goes on acting after the contact: "
+        "the speed and the energy are those at the parting",
     )
 
 
@@ -208,6 +223,8 @@ def _come(pair: Pair, speed: float) -> _Come | Outcome:
         touches = pair.touches()
         if touches:
             break
+        if pair.has_passed():
+            return Outcome.PASSES
         mujoco.mj_copyData(apart, model, data)
         has_flown = True
         mujoco.mj_step(model, data)
@@ -216,9 +233,11 @@ def _come(pair: Pair, speed: float) -> _Come | Outcome:
     if not has_flown:
         return Outcome.OTHER_SPEED
     points = _Points(pair, list(touches.values()))
+    if (points.normals @ pair.normal).mean() < 0:
+        return Outcome.PASSES
     found = -points.speed_at_touch(apart)
     if math.isnan(found):
-        return Outcome.TURNS
+        return Outcome.CHANGES
     if abs(found - speed) > SHARE * speed + _weight(pair) * model.opt.timestep:
         return Outcome.OTHER_SPEED
     return _Come(points, found, _kinetic_energy(model, apart))
@@ -253,9 +272,9 @@ def _part(pair: Pair, came: _Come) -> _Touch:
             return ended(Outcome.STAYS, 0.0)
         if pushing and free and gap > -dt * came.points.speed(data) and (gap > 0 or not _weight(pair)):
             left = came.points.speed_at_touch(data)
-            return ended(Outcome.TURNS if math.isnan(left) else Outcome.REBOUNDS, left / came.speed)
+            return ended(Outcome.CHANGES if math.isnan(left) else Outcome.REBOUNDS, left / came.speed)
         if free > 1 and not touches and gap < last:
-            return ended(Outcome.PASSES if gap < 0 else Outcome.TURNS)
+            return ended(Outcome.PASSES if gap < 0 else Outcome.CHANGES)
         last = gap
         mujoco.mj_step(model, data)
     # What trembles on, or creeps, stays.

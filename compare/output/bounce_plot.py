@@ -10,12 +10,15 @@ from cointoss.models.records import Array
 
 DEEP = "*"
 """Marks a depth that may let a body through."""
+GAINS = "+"
+"""Marks an energy that is more after the contact than before."""
 MEANINGS = {
     Outcome.STAYS: "the geoms do not part; they lie on each other or stick in each other, as deep as shown",
     Outcome.LASTS: f"the contact goes on for more than {LONGEST} steps, and the geoms still move",
-    Outcome.PASSES: "the geoms part on the wrong sides",
+    Outcome.PASSES: "the geoms part on the wrong sides, or pass each other's middle within a step",
+    Outcome.MISSES: "the approach starts against a force of the model, such as a spring, that ends it",
     Outcome.OTHER_SPEED: f"something else changes the speed by more than {100 * SHARE:g} % on the way",
-    Outcome.TURNS: f"the point's speed changes by more than {100 * SHARE:g} % in a step: take a shorter one",
+    Outcome.CHANGES: f"the point's speed changes by more than {100 * SHARE:g} %; take a shorter step",
 }
 """What outcomes mean, where a line needs it."""
 
@@ -47,7 +50,7 @@ def bounce_table(found: PairBounce) -> str:
         ["speed [m/s]", *(f"{speed:g}" for speed in found.speeds)],
         ["restitution", *map(_range, found.restitutions, found.outcomes)],
         ["with gravity", *map(_range, found.with_gravity, found.outcomes_with_gravity)],
-        ["energy kept", *(_mean(kept, ".4f") for kept in found.energy_kept)],
+        ["energy kept", *map(_energy, found.energy_kept)],
         ["lasts [ms]", *(_mean(1e3 * lasts, ".3g") for lasts in found.durations)],
         ["depth [mm]", *(_depth(depth, found.thinnest) for depth in found.depths)],
     ]
@@ -63,7 +66,9 @@ def bounce_table(found: PairBounce) -> str:
             f"{DEEP} deeper than half of the thinner geom, {2e3 * found.thinnest:.3g} mm thick: what is no "
             "plane may let it through"
         )
-    return "\n".join([*lines, *notes])
+    if _gains(found.energy_kept):
+        notes.append(f"{GAINS} gains energy: at one phase at least more is left than came")
+    return "\n".join([*lines, *notes, *found.notes])
 
 
 def _range(values: Array, outcomes: tuple[Outcome, ...]) -> str:
@@ -76,6 +81,15 @@ def _range(values: Array, outcomes: tuple[Outcome, ...]) -> str:
 
 def _mean(values: Array, how: str) -> str:
     return "-" if np.isnan(values).any() else f"{values.mean():{how}}"
+
+
+def _energy(kept: Array) -> str:
+    return _mean(kept, ".4f") + (GAINS if _gains(kept) else "")
+
+
+def _gains(kept: Array) -> bool:
+    """Return whether an energy grows, as it is printed."""
+    return bool((kept.round(4) > 1).any())
 
 
 def _depth(depth: float, thinnest: float) -> str:

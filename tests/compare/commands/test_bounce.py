@@ -42,3 +42,19 @@ def test_what_is_no_rebound_is_said_and_what_is_no_model_is_refused(tmp_path, mo
         said = refused("bounce", "step.xml", "ball", "floor")
         assert "step.xml: option timestep" in said
         assert "accepted: a number of seconds from 1e-7 to 0.1" in said
+
+
+def test_a_soft_constraint_is_named_in_text_and_json(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    slide = (
+        '<body pos="0 0 1"><joint name="{0}" type="slide" axis="0 0 1"/><geom name="{0}" size="0.1"/></body>'
+    )
+    bodies = XML.split("<body")[0] + slide.format("one") + slide.format("two") + "</worldbody>"
+    joints = '<equality><joint name="rod" joint1="one" joint2="two"/></equality></mujoco>'
+    (tmp_path / "two.xml").write_text(bodies + joints)
+    note = (
+        "a soft constraint (equality rod) goes on acting after the contact: "
+        "the speed and the energy are those at the parting"
+    )
+    assert cointoss("bounce", "two.xml", "one", "floor").stdout.endswith(f"\n{note}\n")
+    assert json.loads(cointoss("bounce", "two.xml", "one", "floor", "--json").stdout)["notes"] == [note]
