@@ -50,7 +50,9 @@ def ask(process: "subprocess.Popen[str]", number: signal.Signals) -> None:
 
     ticks = Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()[11:13]
     spent = math.ceil(sum(map(int, ticks)) / os.sysconf("SC_CLK_TCK"))
-    resource.prlimit(process.pid, resource.RLIMIT_CPU, (spent + SOON, spent + SOON))
+    # The hard limit stays: not everybody may raise it again for the next signal.
+    _, hard = resource.prlimit(process.pid, resource.RLIMIT_CPU)
+    resource.prlimit(process.pid, resource.RLIMIT_CPU, (spent + SOON, hard))
     process.send_signal(number)
 
 
