@@ -68,8 +68,8 @@ def test_a_coin_comes_to_rest_as_its_name_says(engine, name):
 @pytest.mark.parametrize("name", CASES)
 def test_engines_agree_on_when_and_where(name):
     analytic, mujoco = (tossed(engine, name) for engine in (Engine.ANALYTIC, Engine.MUJOCO))
-    # An end is noticed after a step, of up to 4 ms in MuJoCo and 25 ms in the other.
-    assert mujoco.end_time == pytest.approx(analytic.end_time, abs=0.03)
+    # An end is noticed after a step, here of some 5 ms, and in a second MuJoCo's change 1e-3 of the energy.
+    assert mujoco.end_time == pytest.approx(analytic.end_time, rel=2e-2, abs=5e-3)
     times = np.linspace(0, min(mujoco.end_time, analytic.end_time), 200)
     here, there = (energies(CASES[name][0], each.sample(times)) for each in (analytic, mujoco))
     # In a second MuJoCo's steps change up to 4e-3 of the energy, and a fast spin 1e-3 at once.
