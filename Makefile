@@ -6,10 +6,9 @@ READY := $(VENV)/.ready
 SCENARIOS := table fig24a
 # What the site computes, made again where the code has changed.
 MADE := out/docs
-# The analytic engine for a browser, and musl's functions: it calls them, and the package does with COINTOSS_LIBM=musl.
+# The analytic engine for a browser.
 ENGINE := compare/web/wasm/engine.wasm
-LIBM := models/kernel/musl.bc
-CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path '*/__pycache__/*' -not -name '*.wasm' -not -name '*.bc')
+CODE := $(shell find analytic coin_mj models compare cointoss -type f -not -path '*/__pycache__/*' -not -name '*.wasm')
 
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 # Tests start hundreds of processes, each of which would compile all modules to bytecode.
@@ -22,22 +21,22 @@ told = echo "$(1)"; \
   while sleep 10 >/dev/null 2>&1 && kill -0 $$$$; do s=$$(($$s + 10)); echo "$(1): $$s s"; done & \
   trap "kill $$!" EXIT; $(2)
 
-.PHONY: report test check test-all bench docs pages paper results releasable release lock lint libm arm64 opengl chromium compiled clean
+.PHONY: report test check test-all bench docs pages paper results releasable release wheels lock lint emulated opengl chromium engines clean
 
-report: $(READY) opengl compiled
+report: $(READY) opengl engines
 	@for name in $(SCENARIOS); do $(BIN)/cointoss compare $$name --out out/$$name || exit; done
 
 # A worker that crashes ends the run: with another in its place a run was seen never to end.
 PYTEST := $(BIN)/pytest -n 2 --dist loadfile --max-worker-restart 0
 
-test: $(READY) opengl chromium lint compiled
+test: $(READY) opengl chromium lint engines
 	$(PYTEST)
 
 # Lint, and the tests of the mechanics.
-check: $(READY) lint compiled
+check: $(READY) lint engines
 	$(PYTEST) tests/analytic tests/test_conformance*.py
 
-test-all: $(READY) opengl chromium lint compiled
+test-all: $(READY) opengl chromium lint engines
 	$(PYTEST) -m "slow or not slow"
 
 # The tests there run the same tosses once; only here are they timed. KEEP=1 keeps the processor times of a commit
@@ -45,11 +44,10 @@ test-all: $(READY) opengl chromium lint compiled
 bench: $(READY) $(if $(KEEP),,$(ENGINE) chromium)
 	$(BIN)/pytest tests/benchmarks $(if $(KEEP),$(KEPT),tests/site/test_speed.py) \
 	  --benchmark-enable --benchmark-columns=min,median,rounds
-	$(if $(KEEP),,$(BIN)/python -m tests.benchmarks.libms)
 KEPT := -p tests.benchmarks.keeping --benchmark-timer=time.process_time --benchmark-json=/dev/null
 
 # The pages of docs/ as a site, out/site/index.html; its links and its pages in the browser are tested.
-docs: $(VENV)/.ready-docs chromium compiled $(LIBM) $(MADE)/pages/explorer.html
+docs: $(VENV)/.ready-docs chromium engines $(MADE)/pages/explorer.html
 	rm -rf out/site
 	@$(call told,making the site of docs/,$(BIN)/sphinx-build -q -W --keep-going -d $(MADE)/doctrees docs out/site)
 	$(BIN)/pytest tests/site
@@ -74,22 +72,34 @@ releasable:
 	@! git rev-parse -q --verify refs/tags/v$(VERSION) >/dev/null \
 	  || { echo "make release: v$(VERSION) is tagged; pyproject.toml needs another version"; exit 1; } >&2
 
-# The wheel is made of the archive, as pip makes one, and tested as it is.
+# The wheels are made of the archive, as pip makes one; that of this system is tested as it is.
 release: releasable
 	$(MAKE) test-all
 	$(MAKE) docs
 	$(MAKE) paper
-	rm -rf dist
-	$(BIN)/python -m hatchling build -t sdist -d dist
-	$(BIN)/python -m pip wheel --no-deps --no-build-isolation --wheel-dir dist dist/*.tar.gz
-	COINTOSS_WHEEL=$$(echo dist/*.whl) $(BIN)/pytest tests/test_wheel.py -m "slow or not slow"
+	$(MAKE) wheels
+	COINTOSS_WHEEL=$$(ls dist/*-$$($(BIN)/python -c 'from cointoss.models.kernel.build.wheel import *; print(PLATFORMS[SYSTEM])').whl) \
+	  $(BIN)/pytest tests/test_wheel.py -m "slow or not slow"
 	$(MAKE) releasable
 	git tag --annotate v$(VERSION) --message "cointoss $(VERSION)"
 	@echo "v$(VERSION) is tagged; now: git push origin v$(VERSION), upload dist/ to the index, archive it"
 
+# The archive of the sources, and a wheel for each system with the engines' libraries for it: out of one module of code.
+SYSTEMS := linux-x86_64 linux-aarch64 darwin-arm64 win32-amd64
+wheels: $(READY) $(ENGINE)
+	rm -rf dist out/engines
+	mkdir -p out/engines
+	@for module in models analytic coin_mj; do \
+	  $(call told,building the libraries of $$module,$(BIN)/python -m cointoss.models.kernel.build cointoss.$$module.entries \
+	  --out out/engines --carried $(SYSTEMS:%=--system %)) || exit; done
+	$(BIN)/python -m hatchling build -t sdist -d dist
+	@for system in $(SYSTEMS); do \
+	  COINTOSS_SYSTEM=$$system COINTOSS_ENGINES=$(CURDIR)/out/engines \
+	  $(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir dist dist/*.tar.gz || exit; done
+
 # All that docs/ holds of results, computed anew in several hours, and the pages of them. A claim that comes out
 # otherwise than known is printed, and is no reason to stop.
-results: $(VENV)/.ready-docs opengl compiled
+results: $(VENV)/.ready-docs opengl engines
 	-$(BIN)/cointoss reproduce $(notdir $(wildcard docs/reproduction/*)) --out docs
 	$(BIN)/python docs/extensions/written.py
 
@@ -97,7 +107,7 @@ results: $(VENV)/.ready-docs opengl compiled
 lock: $(VENV)/.ready-docs
 	$(BIN)/python -m pip freeze --exclude-editable > constraints.txt
 
-$(MADE)/pages/explorer.html: $(READY) $(CODE) $(ENGINE) docs/conf.py $(wildcard docs/extensions/*.py) | compiled
+$(MADE)/pages/explorer.html: $(READY) $(CODE) $(ENGINE) docs/conf.py $(wildcard docs/extensions/*.py) | engines
 	rm -rf $(MADE)
 	mkdir -p $(@D)
 	$(BIN)/cointoss basin fig24a --x release.angular_velocity.eta=20:60:160 --y release.position.z=0.2:0.6:120 \
@@ -106,16 +116,12 @@ $(MADE)/pages/explorer.html: $(READY) $(CODE) $(ENGINE) docs/conf.py $(wildcard 
 	$(BIN)/cointoss lab --out $(@D)/lab.html
 	$(BIN)/cointoss explore $(MADE)/map.zarr --static $@
 
-libm: $(LIBM)
+# The same tosses by the libraries for arm64 and Windows, in emulators: Debian's packages qemu-user with
+# libc6-arm64-cross, and wine.
+emulated: $(READY)
+	$(BIN)/python -m tests.helpers.emulated
 
-$(LIBM): models/kernel/libm.py models/kernel/libm_build.py $(VENV)/.ready-docs
-	@$(call told,compiling musl's functions,$(BIN)/python -m cointoss.models.kernel.libm_build)
-
-# The same tosses by a program for arm64, in an emulator: qemu-aarch64, of Debian's qemu-user.
-arm64: $(VENV)/.ready-docs $(LIBM)
-	$(BIN)/python -m tests.helpers.arm64
-
-$(ENGINE): $(CODE) $(LIBM) | $(VENV)/.ready-docs
+$(ENGINE): $(CODE) | $(READY)
 	@$(call told,compiling the engine to WebAssembly,$(BIN)/python -m cointoss.compare.web.wasm.build $@)
 
 lint: $(READY)
@@ -152,9 +158,10 @@ chromium: | opengl
 	  || echo "Chromium could not be installed; the tests of the explorer's page will fail." >&2; \
 	fi
 
-# Both engines are compiled once, side by side.
-compiled: $(READY) | opengl
-	@$(BIN)/cointoss toss fig24a --engine mujoco >/dev/null & $(BIN)/cointoss toss fig24a >/dev/null && wait
+# The libraries of the engines are built once for the sources that lie here, side by side.
+engines: $(READY)
+	@$(BIN)/python -m cointoss.models.kernel.building cointoss.coin_mj.entries cointoss.models.entries & \
+	$(BIN)/python -m cointoss.models.kernel.building cointoss.analytic.entries && wait $$!
 
 clean:
-	rm -rf $(VENV) out dist $(ENGINE) $(LIBM) .pytest_cache .ruff_cache .hypothesis .import_linter_cache
+	rm -rf $(VENV) out dist $(ENGINE) .pytest_cache .ruff_cache .hypothesis .import_linter_cache

@@ -1,23 +1,16 @@
 """Many tosses by the analytic engine, on all cores."""
 
-import numpy as np
-
-from cointoss.analytic.events import Verdict, started_of, toss_coin
-from cointoss.analytic.horizon.certainty import certainty_of
-from cointoss.analytic.horizon.horizon import ErrorsMade, find_horizon
+from cointoss.analytic.entries import toss_tile, trust_tile
+from cointoss.analytic.horizon.horizon import ErrorsMade
 from cointoss.analytic.impact.own_law import OwnLaw, rules_by
-from cointoss.analytic.settings import MANY, ContactLimits, Settings, contact_limits
-from cointoss.models.body import Body, Rules
+from cointoss.analytic.settings import MANY, Settings, contact_limits
 from cointoss.models.errors import require_type
-from cointoss.models.impact_row import FIRST_ROOM
-from cointoss.models.kernel.compiled import compiled
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.reading import ScenarioSource, scenario_of
-from cointoss.models.records import IMPACT_ROW
 from cointoss.models.releases import Releases, check_releases
 from cointoss.models.scenario import keeping_all
 from cointoss.models.stages import stage
-from cointoss.models.tiles import Tile, toss_in_tiles
+from cointoss.models.tiles import toss_in_tiles
 
 TILE, SLOW_TILE = 512, 8
 """Most tosses that a thread makes at a time, in air with b > 0 the second."""
@@ -70,42 +63,11 @@ def toss_many(
             return toss_in_tiles(
                 releases,
                 most,
-                lambda tile: _trust_each(body, rules, limits, made, certain, tile),
+                lambda tile: trust_tile(body, rules, limits, made, certain, tile),
                 tell,
                 partial=progress is True,
                 also=["trusted_impacts", *["outcome_certain"] * certain],
             )
         return toss_in_tiles(
-            releases, most, lambda tile: _toss_each(body, rules, limits, tile), tell, partial=progress is True
+            releases, most, lambda tile: toss_tile(body, rules, limits, tile), tell, partial=progress is True
         )
-
-
-@compiled
-def _toss_each(body: Body, rules: Rules, limits: ContactLimits, tile: Tile) -> None:
-    # Two rows: the last impact's, and the work space after it.
-    rows = np.zeros(2, IMPACT_ROW)
-    for i in range(len(tile.states)):
-        n, _, _, outcome, ending, end_time = toss_coin(body, rules, limits, tile.states[i], rows, False)
-        tile.outcome[i], tile.ending[i], tile.impacts[i] = outcome.value, ending.value, n
-        tile.end_time[i] = end_time
-        tile.last_face[i] = rows[(n - 1) % 2]["face"] if n > 0 else 0
-
-
-@compiled
-def _trust_each(
-    body: Body, rules: Rules, limits: ContactLimits, made: ErrorsMade, certain: bool, tile: Tile
-) -> None:
-    room = np.zeros(FIRST_ROOM, IMPACT_ROW)
-    for i in range(len(tile.states)):
-        n, rows, pieces, outcome, ending, end_time = toss_coin(
-            body, rules, limits, tile.states[i], room, True
-        )
-        tile.outcome[i], tile.ending[i], tile.impacts[i] = outcome.value, ending.value, n
-        tile.end_time[i] = end_time
-        tile.last_face[i] = rows[n - 1]["face"] if n > 0 else 0
-        started, rows = started_of(pieces), rows[:n]
-        found = find_horizon(body, rules, rows, started, made)
-        tile.trusted_impacts[i] = found.impacts
-        if certain:
-            verdict = Verdict(outcome, ending)
-            tile.outcome_certain[i] = certainty_of(body, rules, rows, started, verdict, found).certain

@@ -3,7 +3,6 @@
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cointoss.analytic.contact.automaton import Event, Mode, contact_at, margin_event, mode_after
 from cointoss.analytic.contact.contact import Contact
@@ -26,15 +25,15 @@ from cointoss.analytic.flight.catch import fly_to_hand
 from cointoss.analytic.flight.flying import fly
 from cointoss.analytic.flight.state_vector import STATE_SIZE, state_of
 from cointoss.analytic.flight.touch_search import Flown, is_chattering
-from cointoss.analytic.settings import FINE, ContactLimits, Settings, contact_limits
+from cointoss.analytic.settings import ContactLimits
 from cointoss.models.body import Body, Rules, is_to_be_caught
 from cointoss.models.ending import classify_ending, endless, face_outcome, out_of_steps, unless_caught
-from cointoss.models.impact_row import FIRST_ROOM, with_room
-from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.impact_row import FIRST_ROOM, ImpactRows, with_room
+from cointoss.models.kernel.arrays import Codes, Row, Table, copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.laws import EndingTest
 from cointoss.models.perpetual import EnergyHistory, energy_history, start_history
-from cointoss.models.records import IMPACT_ROW, Array, Ending, Outcome
+from cointoss.models.records import Array, Ending, Outcome
 
 # A step that takes less than this part of √(r/g) counts as so many, or changes without time could go on.
 _NO_TIME, _STALLED = 1e-12, 1000
@@ -96,66 +95,16 @@ _STEPS, _GRAZE = 2 + STATE_SIZE, 3 + STATE_SIZE
 class Started(NamedTuple):
     """Where modes start, and where the toss ends."""
 
-    times: Array
+    times: Row
     """(k,) [s]."""
-    states: Array
+    states: Table
     """(k, 13)."""
-    modes: NDArray[np.int8]
+    modes: Codes
     """What starts there: `Mode`, (k,)."""
-    steps: Array
+    steps: Row
     """Of the flights, 0 of other modes, (k,)."""
-    grazes: Array
+    grazes: Row
     """Of the flights, see `Flown`, (k,) [m]."""
-
-
-class EventLog(NamedTuple):
-    """What the event loop gives for one toss."""
-
-    rows: NDArray[Any]
-    """Impacts, (n,) of `IMPACT_ROW`."""
-    started: Started
-    contacts: Array
-    """Start and end of every sustained contact, (n, 2) [s]."""
-    outcome: Outcome
-    ending: Ending
-    end_time: float
-
-    @property
-    def verdict(self) -> Verdict:
-        """The outcome and the ending."""
-        return Verdict(self.outcome, self.ending)
-
-    @property
-    def start_times(self) -> Array:
-        """Where modes start, and where the toss ends, (k,) [s]."""
-        return self.started.times
-
-    @property
-    def start_states(self) -> Array:
-        """States there, (k, 13)."""
-        return self.started.states
-
-    @property
-    def modes(self) -> NDArray[np.int8]:
-        """What starts there: `Mode`, (k,)."""
-        return self.started.modes
-
-
-def run(body: Body, rules: Rules, start: Array, settings: Settings = FINE) -> EventLog:
-    """Toss the coin in state `start`, (13,), until the toss is decided or a budget is spent."""
-    room = np.zeros(FIRST_ROOM, IMPACT_ROW)
-    n, rows, pieces, outcome, ending, end_time = toss_coin(
-        body, rules, contact_limits(settings), start.copy(), room, True
-    )
-    started = started_of(pieces)
-    return EventLog(
-        rows=rows[:n].copy(),
-        started=started,
-        contacts=contacts_of(started.times, started.modes),
-        outcome=Outcome(outcome),
-        ending=Ending(ending),
-        end_time=end_time,
-    )
 
 
 @compiled
@@ -170,17 +119,10 @@ def started_of(pieces: Array) -> Started:
     )
 
 
-def contacts_of(start_times: Array, started: NDArray[np.int8]) -> Array:
-    """Return start and end of every sustained contact, (n, 2) [s], from the modes and where they start."""
-    lasting = (started != Mode.FLIGHT) & (started != Mode.ENDED)
-    changes = np.diff(lasting.astype(np.int8), prepend=0)
-    return np.stack([start_times[changes == 1], start_times[changes == -1]], axis=1)
-
-
 @compiled
 def toss_coin(
-    body: Body, rules: Rules, limits: ContactLimits, y: Array, rows: NDArray[Any], keep_all: bool
-) -> tuple[int, NDArray[Any], Array, Outcome, Ending, float]:
+    body: Body, rules: Rules, limits: ContactLimits, y: Row, rows: ImpactRows, keep_all: bool
+) -> tuple[int, ImpactRows, Table, Outcome, Ending, float]:
     """Run the event loop.
 
     Args:

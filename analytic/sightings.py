@@ -1,50 +1,15 @@
 """What many tosses show: their first touches, and their states at times, from a release and a floor each."""
 
-from typing import NamedTuple
-
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from cointoss.analytic.contact.automaton import Mode, contact_at
-from cointoss.analytic.contact.floor_laws import friction_in_contact
-from cointoss.analytic.contact.sampling import sample_contact
-from cointoss.analytic.events import started_of, toss_coin
-from cointoss.analytic.flight.flying import sample
-from cointoss.analytic.flight.state_vector import STATE_SIZE, state_of
-from cointoss.analytic.settings import FINE, ContactLimits, Settings, contact_limits
-from cointoss.analytic.single_impacts import rules_at
-from cointoss.models.attitude import rotation_matrix
-from cointoss.models.body import Body, Rules, with_budgets
-from cointoss.models.faults import Fault, fault_of_release
+from cointoss.analytic.entries import see_each
+from cointoss.analytic.flight.state_vector import STATE_SIZE
+from cointoss.analytic.seeing import Asked, Sightings
+from cointoss.analytic.settings import FINE, Settings, contact_limits
+from cointoss.models.body import Body, Rules
 from cointoss.models.interruptible import interruptible
-from cointoss.models.kernel.compiled import compiled
-from cointoss.models.records import IMPACT_ROW, Array
-
-
-class Sightings(NamedTuple):
-    """What tosses show, a row for each toss."""
-
-    touch_times: Array
-    """Of the first touches, (n, most) [s]; the end of the toss in place of those that it does not make."""
-    up: Array
-    """The vertical part of the normal ζ at each touch, (n, most); 0 where there is none."""
-    states: Array
-    """At the times asked for, in the order of a state vector, (n, m, 13)."""
-    impacts: NDArray[np.int64]
-    """How many the toss makes, (n,); -1 for a release that no scenario has."""
-
-
-class Asked(NamedTuple):
-    """What is asked of each toss."""
-
-    restitution: Array
-    """χ, (n,)."""
-    friction: Array
-    """μ, (n,)."""
-    max_time: Array
-    """When it ends at the latest, (n,) [s]."""
-    times: Array
-    """When its states are asked for, rising, (n, m) [s]; before and after the toss its ends count."""
+from cointoss.models.records import Array
 
 
 def sightings(
@@ -65,7 +30,7 @@ def sightings(
         np.zeros((n, most)), np.zeros((n, most)), np.zeros((n, m, STATE_SIZE)), np.zeros(n, dtype=np.int64)
     )
     start = np.array(states, dtype=float)
-    interruptible(lambda: _see_each(body, rules, limits, start, asked, found))
+    interruptible(lambda: see_each(body, rules, limits, start, asked, found))
     return found
 
 
@@ -77,49 +42,3 @@ def asked_of(
         np.ascontiguousarray(np.broadcast_to(x, n), float) for x in (restitution, friction, max_time)
     )
     return Asked(chi, mu, longest, np.ascontiguousarray(times, float))
-
-
-@compiled
-def _see_each(
-    body: Body, rules: Rules, limits: ContactLimits, starts: Array, asked: Asked, found: Sightings
-) -> None:
-    most, is_filmed = found.touch_times.shape[1], found.states.shape[1] > 0
-    room = np.zeros(most + 1, IMPACT_ROW)  # the last is work space
-    for i in range(len(starts)):
-        if fault_of_release(body, state_of(starts[i])).fault != Fault.NONE:
-            found.impacts[i] = -1
-            continue
-        floor = rules_at(rules, asked.restitution[i], asked.friction[i])
-        floor = with_budgets(floor, floor.max_impacts if is_filmed else most, asked.max_time[i])
-        n, rows, pieces, _, _, end_time = toss_coin(body, floor, limits, starts[i], room, is_filmed)
-        found.impacts[i] = n
-        for k in range(most):
-            found.touch_times[i, k] = end_time
-            if k < n:
-                e = rows[k]["quaternion"]
-                found.touch_times[i, k] = rows[k]["time"]
-                found.up[i, k] = rotation_matrix((e[0], e[1], e[2], e[3]))[2][2]
-        if is_filmed:
-            _film(body, floor, limits, pieces, asked.times[i], found.states[i])
-
-
-@compiled
-def _film(
-    body: Body, rules: Rules, limits: ContactLimits, pieces: Array, times: Array, states: Array
-) -> None:
-    """Write the states of a toss at `times` into `states`, (m, 13), from the table that `toss_coin` gives."""
-    started, friction, first = started_of(pieces), friction_in_contact(rules), 0
-    last = len(started.times) - 1
-    for k in range(last + 1):
-        after = first
-        while after < len(times) and (k == last or times[after] < started.times[k + 1]):
-            after += 1
-        if after > first:
-            mode, y, start_time = started.modes[k], started.states[k], started.times[k]
-            asked = np.minimum(np.maximum(times[first:after], start_time), started.times[last])
-            if mode == Mode.FLIGHT or mode == Mode.ENDED:
-                sample(body, y, start_time, asked, states[first:after])
-            else:
-                contact = contact_at(body, friction, mode, y)
-                sample_contact(contact, y, start_time, asked, limits.tolerance, states[first:after])
-        first = after

@@ -6,18 +6,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.analytic.air.force import force_and_moment
-from cointoss.analytic.contact.automaton import Mode, contact_at
-from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.resistance import FloorFriction
-from cointoss.analytic.contact.sampling import floor_force, sample_contact
-from cointoss.analytic.events import EventLog, run
-from cointoss.analytic.flight.flying import sample
+from cointoss.analytic.entries import certainty_of, floor_forces, force_and_moment, sample_piece
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, position_of, spin_of, velocity_of
-from cointoss.analytic.horizon.certainty import certainty_of, other_outcome
-from cointoss.analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR, horizon_of
+from cointoss.analytic.horizon.horizon import CLOSED_FORM, SAFETY, STEP_ERROR, TURN_ERROR
 from cointoss.analytic.impact.own_law import OwnLaw, contact_in, residuals, rules_by
+from cointoss.analytic.runs import EventLog, horizon_of, other_outcome, run
 from cointoss.analytic.settings import FINE, Settings
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.barriers import barrier, energy
@@ -67,24 +63,18 @@ class Pieces:
         piece = np.where(np.isin(self.modes[piece], (Mode.FLIGHT, Mode.ENDED)), piece - 1, piece)
         states = self.sample(times)
         rows = np.hstack([states.position, states.velocity, states.quaternion, states.angular_velocity])
-        forces = [
-            floor_force(self._contact(number, row), row) for number, row in zip(piece, rows, strict=True)
-        ]
-        return np.array(forces)
+        forces = np.empty((len(times), 3))
+        floor_forces(self.body, self.friction, self.modes[piece], rows, forces)
+        return forces
 
     def _piece(self, number: int, times: Array) -> Array:
         states = np.empty((len(times), STATE_SIZE))
         start, start_time = self.start_states[number], self.start_times[number]
-        # Nothing starts at the end; as a flight, it is sampled as it is.
-        if self.modes[number] in (Mode.FLIGHT, Mode.ENDED):
-            sample(self.body, start, start_time, times, states)
-        else:
-            contact = self._contact(number, start)
-            sample_contact(contact, start, start_time, times, self.contact_tolerance, states)
+        mode = int(self.modes[number])
+        sample_piece(
+            self.body, self.friction, self.contact_tolerance, mode, start, float(start_time), times, states
+        )
         return states
-
-    def _contact(self, number: int, y: Array) -> Contact:
-        return contact_at(self.body, self.friction, int(self.modes[number]), y)
 
 
 def state_at_release(release: Release) -> Array:

@@ -5,7 +5,6 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from cointoss.models.distribution import versions_of
-from cointoss.models.kernel.libm import libm_digest
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.reading import ScenarioSource
 from cointoss.models.records import Toss, UnsupportedError
@@ -62,13 +61,13 @@ class Engine(StrEnum):
 
     @property
     def versions(self) -> dict[str, str]:
-        """The versions of what makes its tosses; musl is named by its hash where its functions are called."""
-        return {**versions_of(_MADE_OF[self]), **({"musl": libm_digest()} if libm_digest() else {})}
+        """The versions of what makes its tosses."""
+        return versions_of(_MADE_OF[self])
 
 
 _PACKAGES = {Engine.ANALYTIC: "cointoss.analytic", Engine.MUJOCO: "cointoss.coin_mj"}
-_COMPILED = ("cointoss", "numba", "numpy")
-_MADE_OF = {Engine.ANALYTIC: _COMPILED, Engine.MUJOCO: (*_COMPILED, "mujoco")}
+_OF_BOTH = ("cointoss", "numpy")
+_MADE_OF = {Engine.ANALYTIC: _OF_BOTH, Engine.MUJOCO: (*_OF_BOTH, "mujoco")}
 
 
 def toss(

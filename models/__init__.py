@@ -1,8 +1,5 @@
 """What is tossed, and what both engines must mean alike; imports none of the other three packages."""
 
-# Its clock starts before other modules are read.
-from cointoss.models.kernel import sources as sources
-
 if __name__ == "models":  # by its bare name, in a checkout
     from cointoss.bare_names import open_as_part
 

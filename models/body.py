@@ -1,7 +1,7 @@
 """A scenario's coin, air and floor as plain numbers for compiled code."""
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 from cointoss.models.drag import Drag
 from cointoss.models.kernel.compiled import compiled
@@ -61,18 +61,18 @@ NO_CODE = OwnCode(0, False, False, EXACT)
 
 
 class Rules(NamedTuple):
-    """How a scenario's coin meets the floor and when its toss ends."""
+    """How a scenario's coin meets the floor and when its toss ends; in compiled code words are integers."""
 
-    law: ContactLaw
+    law: Annotated[ContactLaw, int]
     """Where there is a law of one's own: `SHARP_EDGE`, which no sustained contact follows."""
     own: OwnCode
     restitution: float
     restitution_threshold: float
-    restitution_kind: RestitutionKind
+    restitution_kind: Annotated[RestitutionKind, int]
     friction: float
     rolling_friction: float
     pivoting_friction: float
-    test: EndingTest
+    test: Annotated[EndingTest, int]
     max_impacts: int
     max_time: float
     caught: float
@@ -94,6 +94,25 @@ def with_budgets(rules: Rules, max_impacts: int, max_time: float) -> Rules:
         rules.test,
         max_impacts,
         max_time,
+        rules.caught,
+    )
+
+
+@compiled
+def with_floor(rules: Rules, chi: float, mu: float) -> Rules:
+    """Return the same rules with another restitution χ and friction μ."""
+    return Rules(
+        rules.law,
+        rules.own,
+        chi,
+        rules.restitution_threshold,
+        rules.restitution_kind,
+        mu,
+        rules.rolling_friction,
+        rules.pivoting_friction,
+        rules.test,
+        rules.max_impacts,
+        rules.max_time,
         rules.caught,
     )
 

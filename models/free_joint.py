@@ -7,7 +7,7 @@ import numpy as np
 
 from cointoss.models.attitude import Quaternion, rotation_matrix
 from cointoss.models.body import Body
-from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.arrays import Array, Table
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, add, apply, cross, subtract
 from cointoss.models.state import State
@@ -46,7 +46,7 @@ def of_mass_center(body: Body, x: Vector, v: Vector, e: Quaternion, w: Vector) -
 
 
 @compiled
-def states_of_joint(body: Body, motions: Array) -> Array:
+def states_of_joint(body: Body, motions: Table) -> Table:
     """Return the state vectors of C, (n, 13), from qpos and qvel, (n, 13)."""
     states = np.empty((len(motions), 13))
     for i in range(len(motions)):
@@ -59,7 +59,7 @@ def states_of_joint(body: Body, motions: Array) -> Array:
 
 
 @compiled
-def joint_of_states(body: Body, states: Array) -> Array:
+def joint_of_states(body: Body, states: Table) -> Table:
     """Return qpos and qvel, (n, 13), from the state vectors of C, (n, 13)."""
     motions = np.empty((len(states), 13))
     for i in range(len(states)):

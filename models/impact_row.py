@@ -1,6 +1,6 @@
 """How either engine writes down its impacts."""
 
-from typing import Any, Protocol
+from typing import Annotated, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,7 @@ from cointoss.models.ending import face_up
 from cointoss.models.geometry import contact_velocity
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.kinds import Rows
 from cointoss.models.kernel.vectors import Vector
 from cointoss.models.records import IMPACT_ROW
 from cointoss.models.state import State
@@ -35,6 +36,8 @@ class ImpactRow(Protocol):
     energy_change: float
 
 
+ImpactRows = Annotated[NDArray[Any], Rows(IMPACT_ROW)]
+"""Impacts, (n,) of `IMPACT_ROW`."""
 FIRST_ROOM = 64
 """A toss of which all is kept starts with room for so many impacts."""
 

@@ -5,13 +5,13 @@ import numpy as np
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body
 from cointoss.models.geometry import lowest_point
-from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.arrays import Table
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import add, apply, subtract
 
 
 @compiled
-def lowest_points(body: Body, positions: Array, quaternions: Array, spins: Array) -> Array:
+def lowest_points(body: Body, positions: Table, quaternions: Table, spins: Table) -> Table:
     """Return the lowest point A in each state, space frame, (n, 3) [m]; see `lowest_point`.
 
     Args:

@@ -10,11 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from cointoss.models import notebook
 from cointoss.models.drawing import player, plots
-from cointoss.models.free_joint import joint_of_states
+from cointoss.models.entries import joint_of_states, lowest_points
 from cointoss.models.interruptible import interruptible
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.labelled import column, dataset, freeze, table
-from cointoss.models.lowest_points import lowest_points
 from cointoss.models.scenario import Scenario
 from cointoss.models.words import Word
 

@@ -7,18 +7,15 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cointoss.models.attitude import norm_of, normalized, quaternion_from_angles
-from cointoss.models.body import Body
+from cointoss.models.attitude import quaternion_from_angles
+from cointoss.models.entries import first_fault, normalize, states_of_joint
 from cointoss.models.errors import require_type, shown
-from cointoss.models.faults import ACCEPTED, NORM_ERROR, Fault, Found, fault_of_release
+from cointoss.models.faults import ACCEPTED, NORM_ERROR, Fault
 from cointoss.models.fields import UNITS, split
-from cointoss.models.free_joint import states_of_joint
-from cointoss.models.kernel.compiled import compiled
 from cointoss.models.parts import LARGEST, Release
 from cointoss.models.reading import ScenarioSource, scenario_of
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
-from cointoss.models.state import state
 from cointoss.models.units import in_si
 
 HEIGHT, SPIN = "release.position.z", "release.angular_velocity"
@@ -68,7 +65,7 @@ class Releases:
             n = len(array)
             _refuse(item.name, array, ~(np.abs(array) <= LARGEST).all(axis=1), f"numbers within {LARGEST:g}")
             if item.name == "quaternion":
-                wrong = _normalize(array)
+                wrong = normalize(array)
                 _refuse(
                     item.name, array, np.arange(n) == wrong, f"four numbers of norm 1 within {NORM_ERROR:g}"
                 )
@@ -137,7 +134,7 @@ class Releases:
                     f"Releases.from_mujoco: {name}: shape {part.shape}, accepted: ({len(joint)}, {size})"
                 )
         quaternions = joint[:, 3:].copy()
-        wrong = np.arange(len(joint)) == _normalize(quaternions)
+        wrong = np.arange(len(joint)) == normalize(quaternions)
         _refuse("quaternion", joint[:, 3:], wrong, f"four numbers of norm 1 within {NORM_ERROR:g}")
         motions = np.hstack([joint[:, :3], quaternions, motion])
         position, velocity, quaternion, spin = np.split(
@@ -238,7 +235,7 @@ def check_releases(scenario: Scenario, releases: Releases) -> None:
     """
     require_type("releases", releases, Releases, "Releases, as of Releases.of(scenario, n, height=...)")
     rows = (releases.position, releases.velocity, releases.quaternion, releases.angular_velocity)
-    row, found = _first_fault(scenario.body, *rows)
+    row, found = first_fault(scenario.body, *rows)
     if found.fault != Fault.NONE:
         field, accepted = ACCEPTED[found.fault]
         name = "velocity" if field == "air" else split(field)[1]
@@ -251,30 +248,3 @@ def _refuse(name: str, rows: Array, refused: ArrayLike, accepted: str) -> None:
     if np.any(refused):
         i = int(np.argmax(refused))
         raise RefusedRowError(name, i, rows[i].tolist(), accepted)
-
-
-@compiled
-def _normalize(quaternions: Array) -> int:
-    """Bring Euler parameters, (n, 4), to norm 1; return the first row that is too far from it, or -1."""
-    for i in range(len(quaternions)):
-        row = quaternions[i]
-        e = (row[0], row[1], row[2], row[3])
-        if not abs(norm_of(e) - 1) <= NORM_ERROR:
-            return i
-        row[0], row[1], row[2], row[3] = normalized(e)
-    return -1
-
-
-@compiled
-def _first_fault(
-    body: Body, positions: Array, velocities: Array, attitudes: Array, spins: Array
-) -> tuple[int, Found]:
-    """Return the first release with a fault, and the fault; the last where there is none."""
-    found, i = Found(Fault.NONE, 0.0), 0
-    for i in range(len(positions)):
-        x, v, e, w = positions[i], velocities[i], attitudes[i], spins[i]
-        at = state((x[0], x[1], x[2]), (v[0], v[1], v[2]), (e[0], e[1], e[2], e[3]), (w[0], w[1], w[2]))
-        found = fault_of_release(body, at)
-        if found.fault != Fault.NONE:
-            break
-    return i, found

@@ -1,11 +1,10 @@
 """The stages of the long work that this process is at, for those who wait for it."""
 
+import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import KW_ONLY, dataclass
 from typing import TypeVar
-
-from cointoss.models.kernel.compiling import compiling
 
 Item = TypeVar("Item")
 TELLING_PART, TELLING_TIME = 0.01, 60.0
@@ -32,8 +31,8 @@ class Stage:
     """How many there are so far; those at the beginning say nothing of the speed."""
     detail: Callable[[], str] = str
     """Returns how far it is, in words; empty where none are known."""
-    clock: Callable[[], float] = lambda: compiling.working_time
-    """One that stands still while something is compiled [s]."""
+    clock: Callable[[], float] = time.perf_counter
+    """Of the wall [s]."""
 
     def __post_init__(self) -> None:
         """Begin."""

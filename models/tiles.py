@@ -1,5 +1,6 @@
 """Many tosses cut into tiles, made on all cores."""
 
+import os
 import threading
 import warnings
 from collections import deque
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.models.interruptible import begun
-from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.arrays import Codes, Counts, Flags, Row, Table
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.releases import Releases, states_of
 
@@ -23,15 +24,30 @@ PARTS = 4
 class Tile(NamedTuple):
     """Some tosses, a row each: where they start, and room for how they end."""
 
-    states: Array
+    states: Table
     """At time 0, (k, 13)."""
-    outcome: NDArray[np.int8]
-    ending: NDArray[np.int8]
-    last_face: NDArray[np.int8]
-    impacts: NDArray[np.int32]
-    end_time: Array
-    trusted_impacts: NDArray[np.int32]
-    outcome_certain: NDArray[np.bool_]
+    outcome: Codes
+    ending: Codes
+    last_face: Codes
+    impacts: Counts
+    end_time: Row
+    trusted_impacts: Counts
+    outcome_certain: Flags
+
+
+def cores_used() -> int:
+    """Return how many cores this process uses: `COINTOSS_THREADS`, else those that it may use.
+
+    Raises:
+        ValueError: for a variable that is no such number.
+    """
+    asked = os.environ.get("COINTOSS_THREADS", "")
+    if not asked:
+        affinity = getattr(os, "sched_getaffinity", None)  # not on every system
+        return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
+    if not (asked.isdecimal() and int(asked) >= 1):
+        raise ValueError(f"COINTOSS_THREADS = {asked!r}: accepted: a whole number >= 1, or unset")
+    return int(asked)
 
 
 def toss_in_tiles(
@@ -43,7 +59,7 @@ def toss_in_tiles(
     also: Collection[str] = (),
     partial: bool = False,
 ) -> Outcomes:
-    """Make tosses, tile by tile, on the cores that this process may use or `NUMBA_NUM_THREADS` sets.
+    """Make tosses, tile by tile, on the cores of `cores_used`.
 
     Args:
         releases: the states at time 0.
@@ -62,9 +78,7 @@ def toss_in_tiles(
     }
     columns = Tile(states_of(releases), **found)
 
-    from numba import config  # its import takes longer than one toss
-
-    cores = config.__dict__["NUMBA_NUM_THREADS"]
+    cores = cores_used()
     tile = min(most, max(1, n // (PARTS * cores)))
     left, done, counting = deque(range(0, n, tile)), 0, threading.Lock()
 

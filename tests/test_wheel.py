@@ -13,6 +13,8 @@ from zipfile import ZipFile
 
 import pytest
 
+from cointoss.models.kernel.build.wheel import MODULES
+from cointoss.models.kernel.library import SYSTEM, library_file
 from tests.helpers.command_line import python
 
 TOP = Path(__file__).parents[1]
@@ -37,7 +39,17 @@ def wheel(tmp_path_factory):
     # Python 3.11.4 is the first that knows what to leave out.
     safely: Any = {"filter": "data"} if hasattr(tarfile, "data_filter") else {}
     shutil.unpack_archive(archive, sources, **safely)
-    return build("wheel", sources / archive.name.removesuffix(".tar.gz"), tmp_path_factory.mktemp("wheel"))
+    engines = tmp_path_factory.mktemp("engines")
+    for module in MODULES:  # as `make wheels` has them ready
+        file = library_file(module)
+        named = engines / f"{module.split('.')[-2]}-{SYSTEM}.so"
+        shutil.copy(file, named)
+        shutil.copy(f"{file}.json", f"{named}.json")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("COINTOSS_ENGINES", str(engines))
+        return build(
+            "wheel", sources / archive.name.removesuffix(".tar.gz"), tmp_path_factory.mktemp("wheel")
+        )
 
 
 @pytest.fixture(scope="module")
@@ -72,22 +84,45 @@ def test_a_wheel_has_every_file_under_one_name_and_no_other(wheel):
         if path.is_file() and "__pycache__" not in path.parts
     }
     files = {name for name in ZipFile(wheel).namelist() if ".dist-info/" not in name}
-    assert files == expected
+    engines = {f"{module.split('.')[-2]}-{SYSTEM}.so{end}" for module in MODULES for end in ("", ".json")}
+    assert files == expected | {f"cointoss/models/kernel/engines/{name}" for name in engines}
     kinds = {entry.external_attr >> 28 for entry in ZipFile(wheel).infolist()}
     assert kinds <= {0, stat.S_IFREG >> 12}, "Windows makes no links"
     assert {f"cointoss/{name}" for name in ("models/coin.xml", "compare/report/report.html.j2")} <= files
 
 
-@pytest.mark.parametrize(
-    "environment",
-    # To compile what is installed anew takes minutes.
-    [{"NUMBA_DISABLE_JIT": "1"}, pytest.param({}, marks=pytest.mark.slow)],
-)
-def test_the_installed_command_tosses_a_coin_beside_foreign_packages(installed, foreign, environment):
+@pytest.mark.parametrize("engine", ["analytic", "mujoco"])
+def test_the_installed_command_tosses_a_coin_beside_foreign_packages(installed, foreign, engine):
     command = str(installed / "bin" / "cointoss")
-    done = run(installed, foreign, command, "toss", "fig24a", "--max-impacts", "1", **environment)
+    words = ("toss", "fig24a", "--max-impacts", "1", "--engine", engine)
+    done = run(installed, foreign, command, *words, COINTOSS_CACHE=str(foreign / "cache"))
     assert (done.returncode, done.stderr) == (0, "")
     assert "sequence  H" in done.stdout
+    assert not (foreign / "cache").exists(), "nothing is built or kept at a user's"
+
+
+def test_a_toss_needs_nothing_that_compiles(installed, foreign):
+    program = (
+        "import sys\n"
+        "sys.modules |= dict.fromkeys(['numba', 'llvmlite', 'flint', 'ziglang'])\n"
+        "from cointoss import analytic, coin_mj\n"
+        "print(analytic.toss('fig24a').outcome, coin_mj.toss('fig24a').outcome)"
+    )
+    done = run(installed, foreign, "-c", program)
+    assert (done.stdout, done.stderr) == ("heads heads\n", "")
+
+
+def test_a_system_without_a_library_says_so_in_a_line(installed, foreign):
+    program = (
+        "from cointoss.models.kernel import library\n"
+        "library.SYSTEM = 'plan9-mips'\n"
+        "from cointoss.__main__ import main\n"
+        "import sys; sys.argv[1:] = ['toss', 'fig24a']; main()"
+    )
+    done = run(installed, foreign, "-c", program)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.endswith(f"no analytic engine for plan9-mips; there is: {SYSTEM}\n")
+    assert len(done.stderr.splitlines()) == 1
 
 
 def test_the_installed_command_knows_its_version(installed, foreign):

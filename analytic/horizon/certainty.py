@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.analytic.contact.automaton import Mode
-from cointoss.analytic.events import EventLog, Started, Verdict, toss_coin
+from cointoss.analytic.events import Started, Verdict, toss_coin
 from cointoss.analytic.flight.state_vector import STATE_SIZE, normalise, spin_of, velocity_of
 from cointoss.analytic.horizon.horizon import Horizon
 from cointoss.analytic.numerics.tolerances import CONTACT_STEP_ERROR
@@ -19,10 +19,10 @@ from cointoss.analytic.settings import ContactLimits
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body, Rules, is_to_be_caught, with_budgets
 from cointoss.models.geometry import FLAT_SINE, tilt_sine_of
-from cointoss.models.impact_row import FIRST_ROOM
+from cointoss.models.impact_row import FIRST_ROOM, ImpactRows
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import norm
-from cointoss.models.records import IMPACT_ROW, Array, Ending, OtherOutcome, Outcome
+from cointoss.models.records import IMPACT_ROW, Array, Ending, Outcome
 
 FAR = 30.0
 """So many standard deviations of its errors are its neighbours away."""
@@ -129,7 +129,7 @@ def end_of(body: Body, rules: Rules, y: Array) -> tuple[NDArray[Any], Outcome, E
 
 @compiled
 def certainty_of(
-    body: Body, rules: Rules, rows: NDArray[Any], started: Started, verdict: Verdict, horizon: Horizon
+    body: Body, rules: Rules, rows: ImpactRows, started: Started, verdict: Verdict, horizon: Horizon
 ) -> Certainty:
     """Return whether all neighbours of a toss end as it does; not if it is undecided, or a transient.
 
@@ -157,31 +157,37 @@ def certainty_of(
     return Certainty(True, verdict.outcome, 0, 0.0)
 
 
-def other_outcome(
-    body: Body, rules: Rules, toss: EventLog, horizon: Horizon, certainty: Certainty
-) -> OtherOutcome | None:
-    """Return the outcome of the neighbour that ends otherwise, and about the least change that leads to it.
+@compiled
+def closest_other(
+    body: Body,
+    rules: Rules,
+    rows: ImpactRows,
+    started: Started,
+    horizon: Horizon,
+    certainty: Certainty,
+) -> tuple[Outcome, float, int]:
+    """Return the outcome of a neighbour that ends otherwise, about the least change to it, and where that is.
+
+    The change is relative to the scales of the coin, at the start of the neighbours, which is after so many
+    impacts; it is 0 where none was found.
 
     Args:
         body: the coin.
         rules: floor and ending.
-        toss: from its release on.
+        rows: the impacts of the toss, (n,) of `IMPACT_ROW`.
+        started: its modes.
         horizon: how far it can be trusted.
-        certainty: of its outcome.
-
-    Returns:
-        None where there is no such neighbour, or none with another outcome that is decided.
+        certainty: of its outcome, which is not certain.
     """
-    if certainty.outcome in (toss.outcome, Outcome.UNDECIDED, Outcome.TRANSIENT):
-        return None
-    start, size, found = start_of(rules, toss.rows, toss.started, horizon), certainty.side, None
+    start, size, least = start_of(rules, rows, started, horizon), certainty.side, 0.0
+    scales = _scales(body, start.state)
     # The toss itself, made again from here, may end otherwise: its times are counted from another start.
     for _ in range(_CLOSER_STEPS):
-        y = neighbour(body, start, horizon, certainty.pair, size)
-        change = float(np.max(np.abs(y - start.state)[_FIRST:] / _scales(body, start.state)))
+        y, change = neighbour(body, start, horizon, certainty.pair, size), 0.0
+        for i in range(STATE_SIZE - _FIRST):
+            change = max(change, abs(y[_FIRST + i] - start.state[_FIRST + i]) / scales[i])
         _, outcome, _ = end_of(body, start.rules, y)
         if outcome != certainty.outcome or change == 0:
             break
-        found = OtherOutcome(outcome=Outcome(outcome), change=change, impact=start.impact)
-        size *= _CLOSER
-    return found
+        least, size = change, size * _CLOSER
+    return certainty.outcome, least, start.impact

@@ -9,10 +9,9 @@ the vectors have its height, velocity, Euler parameters and spin, and the time o
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cointoss.analytic.contact.automaton import Mode
-from cointoss.analytic.events import EventLog, Started
+from cointoss.analytic.events import Started
 from cointoss.analytic.flight.state_vector import (
     STATE_SIZE,
     set_attitude,
@@ -31,7 +30,8 @@ from cointoss.analytic.numerics.tolerances import TIME_STEP, TOUCH
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body, Rules
 from cointoss.models.geometry import FLAT_SINE
-from cointoss.models.kernel.arrays import copy_into
+from cointoss.models.impact_row import ImpactRows
+from cointoss.models.kernel.arrays import Table, copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import norm
 from cointoss.models.laws import ContactLaw
@@ -76,7 +76,7 @@ class Horizon(NamedTuple):
 
     impacts: int
     """So many leading ones."""
-    errors: Array
+    errors: Table
     """Of the state after the last of them, from its height on, and of its time: vectors, one in each row, of
     which the outer products add up to the covariance, (12, 12)."""
 
@@ -89,25 +89,13 @@ class ErrorsMade(NamedTuple):
     most_carried: float = MOST_CARRIED
 
 
-def horizon_of(body: Body, rules: Rules, toss: EventLog, made: ErrorsMade | None = None) -> Horizon:
+@compiled
+def find_horizon(body: Body, rules: Rules, rows: ImpactRows, started: Started, made: ErrorsMade) -> Horizon:
     """Return how far a toss can be trusted.
 
     Trusted are the leading impacts whose time, impulse, face, place and order the engine's errors cannot
     change. None is counted after the first sustained contact, nor after the errors were carried through
     `MOST_CARRIED`.
-
-    Args:
-        body: the coin.
-        rules: floor and ending.
-        toss: from its release on.
-        made: the errors, by default those of this engine.
-    """
-    return find_horizon(body, rules, toss.rows, toss.started, made or ErrorsMade())
-
-
-@compiled
-def find_horizon(body: Body, rules: Rules, rows: NDArray[Any], started: Started, made: ErrorsMade) -> Horizon:
-    """Return the same as `horizon_of`.
 
     Args:
         body: the coin.

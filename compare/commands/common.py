@@ -116,6 +116,7 @@ def plain_errors(source: str) -> Iterator[None]:
     from cointoss.compare.output.progress import progress_shown
     from cointoss.compare.sweep.errors import MapError, SweepError
     from cointoss.models.errors import ScenarioError
+    from cointoss.models.kernel.library import EngineMissingError
     from cointoss.models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
     from cointoss.models.unused import UnusedFieldWarning
 
@@ -142,6 +143,7 @@ def plain_errors(source: str) -> Iterator[None]:
             UnwritableError,
             BackEndError,
             UnusableEngineError,
+            EngineMissingError,
         ) as error:
             refuse(str(error))
         except (SweepError, UnsupportedError, FloatingPointError) as error:

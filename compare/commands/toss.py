@@ -1,6 +1,7 @@
 """`cointoss toss`: one toss, printed."""
 
 from dataclasses import replace
+from importlib.util import find_spec
 from pathlib import Path
 
 import click
@@ -86,8 +87,10 @@ def toss(
         if margin:
             from cointoss.compare.metrics.margin import is_planar, margins
 
-            prove = None
-            if is_planar(described):  # a proof takes intervals in long arithmetic
+            prove, lacking = None, [name for name in ("flint", "numba") if find_spec(name) is None]
+            if is_planar(described) and lacking:
+                unproved = f'want of {" and ".join(lacking)}: pip install "cointoss-dynamics[reproduce]"'
+            elif is_planar(described):  # a proof takes intervals in long arithmetic
                 from cointoss.compare.reproduction.precision.proved_change import proved_change as prove
                 from cointoss.compare.reproduction.precision.proved_change import refusal
 

@@ -6,8 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.analytic.events import run
-from cointoss.analytic.horizon.horizon import horizon_of
+from cointoss.analytic.runs import horizon_of, run
 from cointoss.analytic.sightings import Sightings, asked_of, sightings
 from cointoss.analytic.toss import state_at_release
 from cointoss.compare.fitting.observed import Observed

@@ -4,8 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
-from cointoss.analytic.events import run
-from cointoss.analytic.horizon.sensitivity import event_tangent
+from cointoss.analytic.runs import event_tangent, run
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario

@@ -10,8 +10,7 @@ from functools import partial
 from itertools import count
 from typing import Any
 
-from cointoss.models.kernel.compiling import Compiling, compiling
-from cointoss.models.stages import Stage, Stages, is_telling, stages
+from cointoss.models.stages import Stage, Stages, stages
 
 Progress = Callable[[int, int], None]
 """Called after each part of a job with the number of parts done so far and of all."""
@@ -21,8 +20,6 @@ FIRST, EVERY = 5.0, 10.0
 """A log has a line when nothing was said of a stage for as long, and then of each stage as often [s]."""
 INNER = 3.0
 """A stage within another is named when it has run for as long [s]."""
-PAUSE = 2.0
-"""Functions that are compiled within such a time of each other are compiled at one go [s]."""
 WIDTH = 100
 """Columns of a line where the terminal has no width."""
 
@@ -47,7 +44,6 @@ class Display:
         *,
         rewrites: bool,
         work: Stages = stages,
-        compiled: Compiling = compiling,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         """Show nothing yet.
@@ -56,25 +52,16 @@ class Display:
             stream: where to write.
             rewrites: whether one line is written again and again, as on a terminal; else lines now and then.
             work: whose stages are shown.
-            compiled: what is compiled meanwhile.
             clock: of the wall [s].
         """
-        self._stream, self._rewrites, self._work, self._compiled = stream, rewrites, work, compiled
+        self._stream, self._rewrites, self._work = stream, rewrites, work
         self._clock, self._lock = clock, threading.Lock()
         self._last_line, self._named = clock(), None
         self._drawn, self._drawn_stage = "", None
-        self._last_compiled, self._told_of_compiling = -PAUSE, False
 
     def tick(self) -> None:
         """Show what is due."""
         with self._lock:
-            if self._compiled.now:
-                self._last_compiled = self._clock()
-            if self._clock() - self._last_compiled < PAUSE:
-                self._show(self._compiled, self._compiled.seconds, self._compiling)
-                self._drawn_stage = None
-                return
-            self._tell_of_compiled()
             opened = list(self._work.open)  # other threads open and end them
             if not opened or opened[0].seconds < 1:
                 self._draw("")
@@ -95,37 +82,16 @@ class Display:
     def close(self) -> None:
         """Leave nothing half-written."""
         with self._lock:
-            self._tell_of_compiled()
             self._draw("")
 
     def _show(self, subject: Any, seconds: float, text: Callable[[], str]) -> None:
         """Show something, if it is due, that has run for so long [s]."""
         if self._rewrites:
             if seconds > AFTER or self._drawn:
-                self._told_of_compiling |= subject is self._compiled
                 self._draw(text())
         elif self._clock() - self._last_line > (EVERY if subject is self._named else FIRST):
-            self._told_of_compiling |= subject is self._compiled
             self._named = subject
             self._line(text())
-
-    def _compiling(self) -> str:
-        found = self._compiled
-        if found.waits:
-            return f"waiting for another process, which compiles the same: {_duration(found.seconds)}"
-        name = f"compiling functions of {found.what}, kept for later"
-        left = found.seconds_left if is_telling(found.begun, found.total, found.seconds) else None
-        if self._rewrites:
-            return self._meter(name, found.begun, found.total, "functions", found.seconds, left)
-        return f"{name}: {found.begun} of {found.total}{_about(left)}"
-
-    def _tell_of_compiled(self) -> None:
-        if self._told_of_compiling:
-            self._told_of_compiling = False
-            self._draw("")
-            own = f"compiled {self._compiled.begun} functions of {self._compiled.what}"
-            done = own if self._compiled.begun else "waited for the other process"
-            self._line(f"{done}: {_duration(self._compiled.seconds)}")
 
     def _working(self, visible: list[Stage]) -> str:
         return self._bar(visible) if self._rewrites else "; ".join(map(_phrase, visible))

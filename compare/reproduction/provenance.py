@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-import os
 import platform
 import sys
 from collections.abc import Mapping
@@ -10,12 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from cointoss.models.distribution import versions_of
-from cointoss.models.kernel.libm import libm_digest
-from cointoss.models.kernel.sources import source_hash
+from cointoss.models.kernel.digests import code_digest
 
 PROVENANCE = "provenance.json"
 """Lies beside the claims of a run; earlier runs have none."""
-PACKAGES = ("llvmlite", "mujoco", "numba", "numpy", "scipy")
+PACKAGES = ("mujoco", "numpy", "scipy")
 """Those whose numbers a result is made of."""
 _OUTPUTS = ("claims.json", "numbers.json")
 
@@ -30,7 +28,7 @@ def provenance(module: str, folder: Path, *, quick: bool) -> dict[str, Any]:
     """
     written = {name: folder / name for name in _OUTPUTS if (folder / name).exists()}
     return {
-        "sources": source_hash(module),
+        "sources": code_digest(),
         "quick": quick,
         "versions": {"python": platform.python_version(), **versions_of(PACKAGES)},
         "machine": machine(),
@@ -39,15 +37,11 @@ def provenance(module: str, folder: Path, *, quick: bool) -> dict[str, Any]:
 
 
 def machine() -> dict[str, str]:
-    """Return the kind of this machine: what machine code is made for, and the C library's functions."""
-    from llvmlite import binding
-
-    compiled_for = os.environ.get("NUMBA_CPU_NAME") or binding.get_host_cpu_name()
+    """Return the kind of this machine, and the C library of what the engines do not compute."""
     return {
         "system": sys.platform,
         "architecture": platform.machine(),
-        "processor": compiled_for,
-        "libc": f"musl {libm_digest()}" if libm_digest() else " ".join(filter(None, platform.libc_ver())),
+        "libc": " ".join(filter(None, platform.libc_ver())),
     }
 
 

@@ -3,6 +3,7 @@
 import math
 import os
 import shutil
+import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
@@ -17,7 +18,6 @@ from cointoss.compare.sweep.grid import Sweep, Tile, cut, gaps
 from cointoss.compare.sweep.layers import bytes_per_pixel, trust_layer
 from cointoss.compare.sweep.pixels import Pixels, toss_pixels
 from cointoss.compare.sweep.store import Map
-from cointoss.models.kernel.compiling import compiling
 from cointoss.models.outcomes import tally
 from cointoss.models.records import Outcome
 from cointoss.models.stages import stage
@@ -41,9 +41,9 @@ def toss_here(sweep: Sweep, tiles: Iterable[Tile]) -> Iterator[tuple[Tile, Pixel
         # Tosses of one coin are made together, so such pixels are kept together.
         part, rest = cut(left.popleft(), pixels, along_x=sweep.x.is_of_release or not sweep.y.is_of_release)
         left.extendleft(reversed(rest))
-        start = compiling.working_time
+        start = time.perf_counter()
         tossed = toss_pixels(sweep, part)
-        pixels = next_pixels(tossed.outcome.size, compiling.working_time - start)
+        pixels = next_pixels(tossed.outcome.size, time.perf_counter() - start)
         yield part, tossed
 
 

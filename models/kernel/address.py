@@ -9,10 +9,9 @@ Code that is kept on disk holds no address: it is given one, as it is given a nu
 import ctypes
 import math
 from collections.abc import Callable
-from functools import cached_property
 from typing import Any
 
-from cointoss.models.kernel.compiled import compiles_nothing
+from cointoss.models.kernel.compiled import ForCompiledCode
 from cointoss.models.kernel.vectors import Matrix, Vector
 
 Function = Callable[[Matrix, Vector, Vector, float, float], Vector]
@@ -34,10 +33,6 @@ def place(function: Function) -> int:
     Raises:
         NotCompiledError: in one line.
     """
-    if compiles_nothing():
-        address = len(_placed) + 1
-        _placed[address] = function, None
-        return address
     code = _compiled(function)
     entry = _ENTRY(code.address)
 
@@ -54,8 +49,11 @@ def place(function: Function) -> int:
 
 def _compiled(function: Function) -> Any:
     """Return numba's C function of numbers and of room for the answer."""
-    import numba
-    from numba import types
+    try:
+        import numba
+        from numba import types
+    except ImportError:
+        raise NotCompiledError('needs numba: pip install "cointoss-dynamics[laws]"') from None
 
     number = types.float64
     row = types.UniTuple(number, 3)
@@ -92,44 +90,38 @@ def _reason(error: Exception) -> str:
 _NO_REASON = ("Failed in", "- Resolution", "During:", "File ", "There are")
 
 
-class _CallAt:
-    """Calls the function at an address: compiled code by machine code alone, Python by what was placed."""
+def _made() -> Any:
+    """Return numba's intrinsic that calls a function at its address."""
+    from llvmlite import ir
+    from numba import types
+    from numba.extending import intrinsic
 
-    def __call__(self, address: int, M: Matrix, a: Vector, b: Vector, s: float, t: float) -> Vector:
-        """Return what the function at this address returns, which `place` has given."""
-        return _placed[address][0](M, a, b, s, t)
+    row = types.UniTuple(types.float64, 3)
+    kinds = types.int64, types.UniTuple(row, 3), row, row, types.float64, types.float64
 
-    @cached_property
-    def _numba_type_(self) -> Any:
-        """What numba takes this for in compiled code."""
-        from llvmlite import ir
-        from numba import types
-        from numba.core.registry import cpu_target
-        from numba.extending import intrinsic
+    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        address, *values = arguments
+        given = ir.LiteralStructType([value.type for value in values])
+        back = context.get_value_type(signature.return_type)
+        with builder.goto_entry_block():
+            numbers, answer = builder.alloca(given), builder.alloca(back)
+        for i, value in enumerate(values):
+            slot = builder.gep(numbers, [ir.IntType(32)(0), ir.IntType(32)(i)], inbounds=True)
+            builder.store(value, slot)
+        kind = ir.FunctionType(ir.VoidType(), [numbers.type, answer.type])
+        builder.call(builder.inttoptr(address, kind.as_pointer()), [numbers, answer])
+        return builder.load(answer)
 
-        row = types.UniTuple(types.float64, 3)
-        kinds = types.int64, types.UniTuple(row, 3), row, row, types.float64, types.float64
+    @intrinsic
+    def at(typingctx: Any, address: Any, M: Any, a: Any, b: Any, s: Any, t: Any) -> Any:  # noqa: ARG001
+        return row(*kinds), codegen
 
-        def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-            address, *values = arguments
-            given = ir.LiteralStructType([value.type for value in values])
-            back = context.get_value_type(signature.return_type)
-            with builder.goto_entry_block():
-                numbers, answer = builder.alloca(given), builder.alloca(back)
-            for i, value in enumerate(values):
-                slot = builder.gep(numbers, [ir.IntType(32)(0), ir.IntType(32)(i)], inbounds=True)
-                builder.store(value, slot)
-            kind = ir.FunctionType(ir.VoidType(), [numbers.type, answer.type])
-            builder.call(builder.inttoptr(address, kind.as_pointer()), [numbers, answer])
-            return builder.load(answer)
-
-        @intrinsic
-        def call_at(typingctx: Any, address: Any, M: Any, a: Any, b: Any, s: Any, t: Any) -> Any:  # noqa: ARG001
-            return row(*kinds), codegen
-
-        self._intrinsic = call_at
-        cpu_target.typing_context.refresh()
-        return cpu_target.typing_context.resolve_value_type(call_at)
+    return at
 
 
-call_at = _CallAt()
+def _in_python(address: int, *arguments: Any) -> Vector:
+    return _placed[address][0](*arguments)
+
+
+call_at: Callable[[int, Matrix, Vector, Vector, float, float], Vector] = ForCompiledCode(_made, _in_python)
+"""Calls the function at an address, which `place` has given, with its arguments."""

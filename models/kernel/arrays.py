@@ -1,11 +1,20 @@
 """Arrays of numbers in compiled code."""
 
+from typing import Annotated
+
 import numpy as np
 from numpy.typing import NDArray
 
 from cointoss.models.kernel.compiled import compiled
 
 Array = NDArray[np.float64]
+Row = Annotated[NDArray[np.float64], 1]
+"""An array of one axis, which an engine's library takes."""
+Table = Annotated[NDArray[np.float64], 2]
+Cube = Annotated[NDArray[np.float64], 3]
+Codes = Annotated[NDArray[np.int8], 1]
+Counts = Annotated[NDArray[np.int32], 1]
+Flags = Annotated[NDArray[np.bool_], 1]
 
 
 @compiled

@@ -1,4 +1,4 @@
-"""The folder below which all is kept from one process to the next."""
+"""The folder of this user alone in which what was built is kept from one process to the next."""
 
 import os
 import tempfile
@@ -10,31 +10,35 @@ from pathlib import Path
 
 @cache
 def base_folder() -> Path:
-    """Return a folder of the user alone: $NUMBA_CACHE_DIR, else the user's cache, else a temporary one."""
+    """Return a folder of the user alone: $COINTOSS_CACHE, else in the user's cache, else a temporary one.
+
+    Raises:
+        OSError: where none can be made.
+    """
     for base in _bases():
         try:
             base.mkdir(mode=0o700, parents=True, exist_ok=True)
         except OSError:
             continue
         # In another user's folder there may be another's code, and none of ours.
-        if os.access(base, os.W_OK) and is_own(base.stat()):
+        if os.access(base, os.W_OK) and is_private(base.stat()):
             return base
     return Path(tempfile.mkdtemp(prefix="cointoss-"))
 
 
-def is_own(described: os.stat_result) -> bool:
-    """Return whether a file or a folder is this user's; Windows keeps others out of a user's folders."""
-    return not hasattr(os, "geteuid") or described.st_uid == os.geteuid()
+def is_private(described: os.stat_result) -> bool:
+    """Return whether a file or a folder is this user's, and no other can write there.
 
-
-def can_others_write(described: os.stat_result) -> bool:
-    """Return whether other users can write to a file; the bits say nothing of that on Windows."""
-    return hasattr(os, "geteuid") and bool(described.st_mode & 0o022)
+    Windows keeps others out of a user's folders, and says nothing of it by these numbers.
+    """
+    if not hasattr(os, "geteuid"):
+        return True
+    return described.st_uid == os.geteuid() and not described.st_mode & 0o022
 
 
 def _bases() -> Iterator[Path]:
-    """Return where code may be kept, the first choice first."""
-    if chosen := os.environ.get("NUMBA_CACHE_DIR"):
+    """Yield where it may lie, the first choice first."""
+    if chosen := os.environ.get("COINTOSS_CACHE"):
         yield Path(chosen)
     if caches := os.environ.get("XDG_CACHE_HOME"):
         yield Path(caches, "cointoss")
@@ -42,3 +46,5 @@ def _bases() -> Iterator[Path]:
         yield Path(caches, "cointoss")
     with suppress(RuntimeError):  # a user without a home
         yield Path("~/.cache/cointoss").expanduser()
+    if hasattr(os, "geteuid"):
+        yield Path(tempfile.gettempdir(), f"cointoss-{os.geteuid()}")

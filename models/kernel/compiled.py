@@ -1,80 +1,108 @@
-"""The decorators of functions that are compiled when they are first called; their code is kept on disk.
+"""The decorators of functions of which the engines' libraries are made; from Python they run as written.
 
-They keep a function's signature. docs/COMPILING.md says what happens behind them.
+They keep a function's signature. numba is imported only where something is compiled.
 """
 
 # numba describes few types.
 # pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
 
-import os
-import sys
 from collections.abc import Callable
-from functools import cache
-from pathlib import Path
+from functools import cached_property, update_wrapper
 from typing import Any, ParamSpec, TypeVar
-
-from cointoss.models.kernel.compiling import compiling
-from cointoss.models.kernel.fork import TESTED, numba_version
-from cointoss.models.kernel.libm import check_libm
 
 P = ParamSpec("P")
 R = TypeVar("R")
 
-_asked = os.environ.get("COINTOSS_COMPILER", "")
-if _asked not in ("", "plain"):
-    raise ImportError(f"COINTOSS_COMPILER = {_asked!r}: accepted: plain, or unset")
-check_libm()
-
 
 def compiled(function: Callable[P, R]) -> Callable[P, R]:
-    """Compile `function` when it is first called, without the GIL, and keep the code on disk.
-
-    Code of functions outside this project is not kept.
-    """
-    return _compiled(function, inlined=False)
+    """Mark a function as one that compiled functions call."""
+    return _Compiled(function, inlined=False)
 
 
 def inlined(function: Callable[P, R]) -> Callable[P, R]:
-    """Compile `function` as `compiled` does, into each of its compiled callers.
+    """Mark a function as one that goes into each of its compiled callers, without a call.
 
     For what is called many times over with many numbers, which a call would pass through memory.
     """
-    return _compiled(function, inlined=True)
+    return _Compiled(function, inlined=True)
 
 
-def _compiled(function: Callable[..., Any], *, inlined: bool) -> Any:
-    """Compile by numba's private members where they were tried, else by what numba makes public."""
-    if compiles_nothing():
-        _refuse_musl("unset NUMBA_DISABLE_JIT: nothing is compiled")
-        return function
-    compiling.declared[function.__module__] += 1
-    if _is_tested():
-        from cointoss.models.kernel.fork.function import CompiledFunction
+def by_numba(function: Callable[P, R]) -> Callable[P, R]:
+    """Return a function as Python runs it by `numba.njit`: for studies and tests of parts of an engine.
 
-        return CompiledFunction(function, inlined=inlined)
-    _refuse_musl(f"needs numba {' or '.join(TESTED)}, COINTOSS_COMPILER unset, and no Windows")
-    from cointoss.models.kernel.plain import plain_function
-
-    return plain_function(function, inlined=inlined)
+    It is compiled when it is first called, with the functions of the system's C library; its code is kept.
+    """
+    is_compiled = isinstance(function, _Compiled)
+    return _Compiled(
+        function.py_func if is_compiled else function,
+        inlined=is_compiled and function.inlined,
+        by_numba=True,
+    )
 
 
-def _refuse_musl(needed: str) -> None:
-    """Raise where musl's functions are asked for, but this way of compiling calls those of the system."""
-    if os.environ.get("COINTOSS_LIBM"):
-        raise ImportError(f"COINTOSS_LIBM = 'musl': {needed}")
+class _Compiled:
+    """A function for compiled code and for Python."""
+
+    dispatched: "Callable[[_Compiled], Any] | None" = None
+    """Returns numba's dispatcher of a function; the build sets its own, else it is that of `numba.njit`."""
+
+    def __init__(self, function: Callable[..., Any], *, inlined: bool, by_numba: bool = False) -> None:
+        """Compile nothing yet."""
+        update_wrapper(self, function)
+        self.py_func, self.inlined, self._by_numba = function, inlined, by_numba
+
+    def __call__(self, *arguments: Any, **named: Any) -> Any:
+        """Run the function as it is written, or by numba."""
+        run = self.dispatcher if self._by_numba else self.py_func
+        return run(*arguments, **named)
+
+    @cached_property
+    def dispatcher(self) -> Any:
+        """The function as numba compiles it."""
+        if _Compiled.dispatched is not None:
+            return _Compiled.dispatched(self)
+        from cointoss.models.kernel.by_numba import dispatcher_of
+
+        return dispatcher_of(self.py_func, inlined=self.inlined)
+
+    @property
+    def _numba_type_(self) -> Any:
+        """What numba takes this for where a compiled function calls it."""
+        return self.dispatcher._numba_type_
+
+    def __reduce__(self) -> str:
+        """Return the function by its name."""
+        return self.py_func.__qualname__
+
+    def __repr__(self) -> str:
+        """Return what it is and of which function."""
+        return f"compiled {self.py_func}"
 
 
-@cache
-def _is_tested() -> bool:
-    return numba_version().rpartition(".")[0] in TESTED and sys.platform != "win32" and not _asked
+class ForCompiledCode:
+    """Something of numba's that compiled functions alone can use, made when the first of them is compiled."""
 
+    def __init__(self, make: Callable[[], Any], in_python: Callable[..., Any] | None = None) -> None:
+        """Make nothing yet.
 
-@cache
-def compiles_nothing() -> bool:
-    """Return whether numba is told to compile nothing; it is asked where it may have been."""
-    is_told = "NUMBA_DISABLE_JIT" in os.environ or Path(".numba_config.yaml").exists()
-    if "numba" not in sys.modules and not is_told:
-        return False
-    import numba
+        Args:
+            make: imports numba, and returns an intrinsic or an external function.
+            in_python: does the same where Python calls it, if it can.
+        """
+        self._make, self._in_python = make, in_python
 
-    return bool(numba.config.DISABLE_JIT)
+    def __call__(self, *arguments: Any) -> Any:
+        """Do the same in Python, or refuse it."""
+        if self._in_python is None:
+            raise TypeError(
+                "only compiled code can call this: by an entry of the engine's library, or by_numba"
+            )
+        return self._in_python(*arguments)
+
+    @cached_property
+    def _numba_type_(self) -> Any:
+        from numba.core.registry import cpu_target
+
+        made = self._made = self._make()
+        cpu_target.typing_context.refresh()
+        return cpu_target.typing_context.resolve_value_type(made)

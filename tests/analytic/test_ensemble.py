@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.analytic.events import run
 from cointoss.analytic.horizon.certainty import certainty_of
-from cointoss.analytic.horizon.horizon import horizon_of
+from cointoss.analytic.runs import horizon_of, run
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.hand import Hand
 from cointoss.models.laws import ContactLaw

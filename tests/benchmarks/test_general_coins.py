@@ -11,7 +11,7 @@ import pytest
 from numba import config
 
 from cointoss import analytic
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.compare.reproduction.setups.general_coins import CLASSES, CoinClass
 from cointoss.models.records import Array, Ending
 from cointoss.models.releases import Releases

@@ -13,8 +13,8 @@ import pytest
 from numba import config
 
 from cointoss import analytic
-from cointoss.analytic.events import run
 from cointoss.analytic.flight.flying import fly
+from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.reading import load
 from tests.benchmarks import scipy_toss

@@ -1,19 +1,11 @@
-"""Tosses of every kind, and all numbers of each, to be compared to the bit.
+"""Tosses of every kind, and all numbers of each, to be compared to the bit."""
 
-`python -m tests.helpers.bits` prints those of the package, by the functions of COINTOSS_LIBM, as JSON.
-"""
-
-import json
-import os
-import subprocess
-import sys
 from itertools import product
 from typing import Any
 
 import numpy as np
 
 from cointoss import analytic
-from cointoss.compare.reproduction.setups.general_coins import CLASSES
 from cointoss.models.laws import ContactLaw
 from cointoss.models.reading import scenario_of
 from tests.helpers.draws import AIR, IMPERFECT, LONG_TRANSIENT, THIN, ZLOTY, draw_release, scenario
@@ -83,17 +75,3 @@ def numbers_of_many(kind):
     many = analytic.toss_many(kind.scenario, kind.releases(MANY), certain=True)
     names = ("outcome", "impacts", "end_time", "trusted_impacts", "outcome_certain")
     return {name: (getattr(many, name) + 0).tolist() for name in names}
-
-
-def tossed(**environment):
-    """Return the numbers of all tosses, "one" at a time and "many", by another process with its variables."""
-    command = [sys.executable, "-m", "tests.helpers.bits"]
-    own = {name: value for name, value in os.environ.items() if name != "COINTOSS_LIBM"}
-    done = subprocess.run(command, env={**own, **environment}, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)
-
-
-if __name__ == "__main__":
-    one = {name: numbers_of(case) for name, case in cases().items()}
-    print(json.dumps({"one": one, "many": {kind.name: numbers_of_many(kind) for kind in CLASSES}}))

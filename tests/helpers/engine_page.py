@@ -7,8 +7,8 @@ from pathlib import Path
 from cointoss.compare.web import wasm
 from cointoss.compare.web.scripts import ENGINE_POLICY, import_map
 from cointoss.compare.web.wasm.carried import engine_scripts
-from cointoss.compare.web.wasm.fields import fields_of
 from cointoss.models.fields import COMPONENTS
+from cointoss.models.rows import fields_of
 
 ENGINE = Path(wasm.__file__).parent / "engine.wasm"
 PARTS = ("position", "velocity", "quaternion", "angular_velocity")

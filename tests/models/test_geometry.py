@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.clearance import acceleration_bounds, clear_time, damping_rate, drag_bound, grazing_time

@@ -1,16 +1,17 @@
-"""By musl's functions the package and the engine in a browser give the same tosses, to the last bit."""
+"""The package and the engine in a browser give the same tosses, to the last bit."""
 
 import pytest
 
 from cointoss.compare.reproduction.setups.general_coins import CLASSES
 from cointoss.models.records import Outcome
-from tests.helpers.bits import MANY, cases, tossed
+from tests.helpers.bits import MANY, cases, numbers_of, numbers_of_many
 from tests.helpers.engine_page import changes, written
 
 
 @pytest.fixture(scope="module")
-def by_musl():
-    return tossed(COINTOSS_LIBM="musl")
+def here():
+    """The numbers of each toss by the package."""
+    return {name: numbers_of(case) for name, case in cases().items()}
 
 
 def in_page(loaded, case):
@@ -29,39 +30,23 @@ def in_page(loaded, case):
     )
 
 
-def test_every_number_of_a_toss_is_the_same(loaded, by_musl):
+def test_every_number_of_a_toss_is_the_same(loaded, here):
     """Impacts, states, horizon and ending: by every law, in every air, with resistance, in contact."""
     differing = [
         name
         for name, case in cases().items()
-        if in_page(loaded, case) | {"end": by_musl["one"][name]["end"]} != by_musl["one"][name]
+        if in_page(loaded, case) | {"end": here[name]["end"]} != here[name]
     ]
     assert differing == []
-    assert sum(len(each["impacts"]) for each in by_musl["one"].values()) > 1000
+    assert sum(len(each["impacts"]) for each in here.values()) > 1000
 
 
-def test_many_tosses_are_the_same(loaded, by_musl):
+def test_many_tosses_are_the_same(loaded):
     for kind in CLASSES:
         given = f"{written(kind.scenario)}, {changes(kind.releases(MANY))}, 'certain'"
         names = {"outcome": "outcome", "impacts": "impacts", "end_time": "endTime"}
         names |= {"trusted_impacts": "trustedImpacts", "outcome_certain": "outcomeCertain"}
         taken = ", ".join(f"{ours}: [...all.{theirs}]" for ours, theirs in names.items())
         found = loaded.value(f"workers.tossEach({given}).then((all) => ({{ {taken} }}))")
-        assert found == by_musl["many"][kind.name]
+        assert found == numbers_of_many(kind)
         assert len(set(found["outcome"]) - {Outcome.UNDECIDED.value}) >= 1
-
-
-def test_by_the_functions_of_the_system_they_differ(by_musl):
-    """Prints how many are the same, with `pytest -s`."""
-    by_system = tossed()
-    one = [by_system["one"][name] == each for name, each in by_musl["one"].items()]
-    many = [
-        there == here
-        for name, each in by_musl["many"].items()
-        for there, here in zip(
-            zip(*by_system["many"][name].values(), strict=True), zip(*each.values(), strict=True), strict=True
-        )
-    ]
-    for kind, same in (("one by one", one), ("many at once", many)):
-        print(f"{kind}: {sum(same)} of {len(same)} tosses are the same by the functions of the system")
-        assert sum(same) < 0.8 * len(same)

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from cointoss import analytic, coin_mj
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.coin_mj.toss import impacts_of
 from cointoss.compare.metrics.estimate import Estimate

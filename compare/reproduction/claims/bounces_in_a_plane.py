@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from cointoss import analytic
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.coin_mj.toss import impacts_of
 from cointoss.compare.metrics.estimates import share
 from cointoss.compare.metrics.release_arrays import chosen, moved

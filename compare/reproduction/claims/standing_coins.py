@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
 from cointoss.analytic.contact.resistance import FloorFriction
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.analytic.settings import Settings
 from cointoss.analytic.toss import Pieces
 from cointoss.compare.metrics.estimates import mean, share

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.analytic.settings import Settings
 from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import share_of
@@ -21,7 +21,7 @@ from cointoss.compare.reproduction.parts import Part, kept
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
 from cointoss.compare.reproduction.threads import all_cores
 from cointoss.models.body import Body, Rules, in_vacuum
-from cointoss.models.kernel.sources import source_hash
+from cointoss.models.kernel.digests import code_digest
 from cointoss.models.laws import EndingTest
 from cointoss.models.records import Array, Ending, Outcome
 
@@ -50,7 +50,7 @@ def make(progress: Progress, parts: Path, ideal: int = COUNT, imperfect: int = F
         counts = np.zeros((len(TESTS), TOSSES), dtype=np.int64)
         states = kind.starts(count)
         for first in range(0, count, size):
-            name = f"{source_hash('cointoss.analytic.events')}-{kind.name.replace(', ', '-')}-{count}-{first}"
+            name = f"{code_digest()}-{kind.name.replace(', ', '-')}-{count}-{first}"
             counts += kept(parts, name, partial(_part, kind, states[first : first + size]))["counts"]
             progress(done := done + min(size, count - first), whole)
         found[kind.name] = np.column_stack([counts, np.full(len(TESTS), count)])

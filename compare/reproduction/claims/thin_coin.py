@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss import analytic
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.compare.metrics.estimate import Estimate
 from cointoss.compare.metrics.estimates import difference, jackknife, share
 from cointoss.compare.metrics.release_arrays import chosen, moved

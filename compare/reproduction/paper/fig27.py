@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 from matplotlib.figure import Figure
 
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.coin_mj.toss import impacts_of
 from cointoss.compare.metrics.estimates import mean, share

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cointoss import analytic
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.coin_mj.toss import impacts_of
 from cointoss.compare.metrics.estimate import Estimate

@@ -14,7 +14,7 @@ from cointoss.compare.reproduction.parts import Part, kept
 from cointoss.compare.reproduction.setups.ends import Ends, by_outcome
 from cointoss.compare.shares.plan import Plan
 from cointoss.models.hand import Hand
-from cointoss.models.kernel.sources import source_hash
+from cointoss.models.kernel.digests import code_digest
 from cointoss.models.records import Array
 from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
@@ -103,7 +103,7 @@ def ends_of(kind: EdgeClass, count: int, parts: Path, engine: Engine = Engine.AN
         return {"ends": np.array(list(ends)), "counts": np.array(list(ends.values()))}
 
     label = zlib.crc32(repr(kind).encode())
-    part = kept(parts, f"{source_hash(_ENTRIES[engine])}-{engine}-{label:08x}-{count}", compute)
+    part = kept(parts, f"{code_digest()}-{engine}-{label:08x}-{count}", compute)
     return dict(zip(part["ends"].tolist(), part["counts"].tolist(), strict=True))
 
 

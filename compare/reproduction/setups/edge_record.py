@@ -36,7 +36,7 @@ from cointoss.compare.reproduction.setups.edge_touches import (
     way_to_rest,
 )
 from cointoss.compare.reproduction.setups.ends import Ends
-from cointoss.models.kernel.sources import source_hash
+from cointoss.models.kernel.digests import code_digest
 
 ANGLE, SOLID_ANGLE = 3**-0.5, 8**-0.5
 """h/D at which C is on the edge's side in a third of all turns about a diameter, and of all attitudes."""
@@ -204,7 +204,7 @@ def record_of(progress: Progress, parts: Path, sizes: Sizes = FULL) -> EdgeRecor
         return name, found
 
     touches = {turned: step(_touch(turned, sizes.touches, parts)) for turned in TURNED}
-    name = f"{source_hash('cointoss.analytic.events')}-ways-{sizes.ways}"
+    name = f"{code_digest()}-ways-{sizes.ways}"
     ways = step(kept(parts, name, partial(way_to_rest, nickel(WOBBLING), sizes.ways)))
     free = step(endings_of(nickel(WOBBLING, FREE), sizes.free))
     return EdgeRecord(
@@ -240,7 +240,7 @@ def nickel(wobble: str, factor: str = "as said") -> EdgeClass:
 def _touch(turned: str, count: int, parts: Path) -> FirstTouch:
     """Look at the first touches of coins that are turned so, and let some go at rest."""
     kind = EdgeClass(name=turned, aspect=LAWS[turned][0], hand=hand_of(DIAMETRAL), floor={"restitution": 0.0})
-    name = f"{source_hash('cointoss.analytic.events')}-touches-{turned.replace(' ', '-')}-{count}"
+    name = f"{code_digest()}-touches-{turned.replace(' ', '-')}-{count}"
     rng = np.random.default_rng(SEED)
 
     def part() -> dict[str, Any]:

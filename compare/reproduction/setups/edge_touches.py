@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from cointoss import analytic
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.compare.reproduction.parts import Part
 from cointoss.compare.reproduction.setups.edge_classes import DIAMETRAL, EdgeClass, corner
 from cointoss.compare.reproduction.setups.ends import Ends, counted

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.compare.metrics.sequences import common_prefix
 from cointoss.compare.reproduction.setups.general_coins import PAPER_OFFSET

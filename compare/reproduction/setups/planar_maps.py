@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cointoss import analytic, coin_mj
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.compare.basins.maps import OutcomeCodes
 from cointoss.compare.basins.picture import MapAxis
 from cointoss.compare.output.style import BLUE, VERMILION

@@ -16,7 +16,7 @@ from cointoss.compare.reproduction.precision.branching import EARLY, Branches, b
 from cointoss.compare.reproduction.precision.planar_coin import planar_coin, units
 from cointoss.compare.reproduction.precision.planar_state import HEIGHT, SPIN, TILT, release
 from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS
-from cointoss.models.kernel.sources import source_hash
+from cointoss.models.kernel.digests import code_digest
 from cointoss.models.records import Array
 from cointoss.models.scenario import Scenario
 
@@ -103,7 +103,7 @@ def kept_run(
         )
         return {field: np.array(value) for field, value in asdict(made).items()}
 
-    made_by = source_hash("cointoss.compare.reproduction.setups.uncertain_shares")
+    made_by = code_digest()
     label = f"{made_by}, {name}, {'-'.join(map(str, seed))}, {population} x {levels}, {followed}"
     run = kept(parts, label, compute)
     made: dict[str, Any] = {field: value if value.ndim else int(value) for field, value in run.items()}

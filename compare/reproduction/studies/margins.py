@@ -21,7 +21,7 @@ from cointoss.compare.reproduction.precision.proved_change import proved_change
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
 from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
 from cointoss.compare.reproduction.setups.study import study
-from cointoss.models.kernel.sources import source_hash
+from cointoss.models.kernel.digests import code_digest
 from cointoss.models.reading import load
 from cointoss.models.records import Array
 from cointoss.models.releases import Releases
@@ -126,7 +126,7 @@ def _kept_margins(
     def compute_part() -> Part:
         return {"margins": found_margins(scenario, start, quantity)}
 
-    made_by = source_hash("cointoss.compare.metrics.margin")
+    made_by = code_digest()
     part = kept(parts, f"{made_by}, {name}, {quantity.name}, {len(start)}", compute_part)
     margins = part["margins"]
     return np.where(np.isfinite(margins), margins, -1.0).tolist()

@@ -1,8 +1,6 @@
 """Builds engine.wasm: `python -m cointoss.compare.web.wasm.build FILE`."""
 
 import json
-import os
-import subprocess
 import sys
 import tempfile
 from importlib.metadata import version
@@ -11,18 +9,11 @@ from pathlib import Path
 
 from cointoss.compare.output.files import written_whole
 from cointoss.compare.web.wasm.carried import SECTION, sources
-from cointoss.models.kernel import libm_build
-from cointoss.models.kernel.fork import TESTED, numba_version
-from cointoss.models.kernel.libm import read_code
-from cointoss.models.kernel.sources import is_as_imported
+from cointoss.models.kernel.building import NEEDED
+from cointoss.models.kernel.digests import digest_of_parts
 
-ENTRIES = {
-    "examine": ("numbers", "numbers"),
-    "toss_each": ("table", "integer", "table"),
-    "toss_one": ("numbers", "numbers", "table", "table", "numbers"),
-    "sample_path": ("numbers", "table", "numbers", "table", "table"),
-}
-"""The functions of `interface`, and their arguments: rows of numbers, tables of two axes, an integer."""
+ENTRIES = ("examine", "toss_each", "toss_one", "sample_path")
+"""Those of the analytic engine that a page calls."""
 STACK = 1 << 20
 """Bytes of the stack."""
 
@@ -31,59 +22,33 @@ def build(out: Path) -> None:
     """Compile the engine, link it, and write it.
 
     Raises:
-        RuntimeError: where numba or the linker cannot do it, in one line.
+        RuntimeError: where it can't be done, in one line.
     """
-    if numba_version().rpartition(".")[0] not in TESTED:
-        raise RuntimeError(f"numba {numba_version()}: accepted for WebAssembly: {', '.join(TESTED)}")
-    if find_spec("ziglang") is None:
-        raise RuntimeError("ziglang is missing, which links WebAssembly: pip install --group docs")
-    if read_code() is None:
-        libm_build.build()
-    with tempfile.TemporaryDirectory() as folder:
-        # Code for a page is never mixed with that for this machine.
-        os.environ["NUMBA_CACHE_DIR"] = folder
-        os.environ["COINTOSS_LIBM"] = "musl"
-        from numba import types
+    if missing := [each for each in NEEDED if find_spec(each) is None]:
+        raise RuntimeError(f"{', '.join(missing)} is missing, which makes it: pip install --group dev")
+    from cointoss.analytic import entries
+    from cointoss.models.kernel.build.__main__ import asked_of
+    from cointoss.models.kernel.build.linking import linked
+    from cointoss.models.kernel.build.lowering import Target, lowered, object_code
 
-        from cointoss.compare.web.wasm import interface
-        from cointoss.compare.web.wasm.compiler import object_code
-
-        kinds = {
-            "numbers": types.Array(types.float64, 1, "C"),
-            "table": types.Array(types.float64, 2, "C"),
-            "integer": types.int64,
-        }
-        functions = {
-            name: (getattr(interface, name), tuple(kinds[kind] for kind in arguments))
-            for name, arguments in ENTRIES.items()
-        }
-        code = Path(folder) / "engine.o"
-        code.write_bytes(object_code(functions))
-        linked = Path(folder) / "engine.wasm"
-        _link(code, linked)
-        if not is_as_imported(interface.__name__):
-            raise RuntimeError("its sources have changed while they were compiled: build it again")
-        with written_whole(out) as aside:
-            aside.write_bytes(linked.read_bytes() + _section(_description()))
-
-
-def _link(code: Path, linked: Path) -> None:
-    """Link an object file with the memory of a C library."""
+    target, made_of = Target("wasm32-unknown-unknown", "+bulk-memory"), sources()
+    code = object_code(lowered(asked_of(entries, ENTRIES), target), target, {})
     exported = [f"-Wl,--export={name}" for name in (*ENTRIES, "malloc", "free")]
-    command = [
-        *(sys.executable, "-m", "ziglang", "cc", "-target", "wasm32-wasi", "-mexec-model=reactor", "-O3"),
-        *(str(code), *exported, "-Wl,--no-entry", "-Wl,--strip-all", f"-Wl,-z,stack-size={STACK}"),
-        *("-o", str(linked)),
-    ]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise RuntimeError(f"the linker failed: {done.stderr.strip().splitlines()[-1]}")
+    options = ["-mexec-model=reactor", "-O3", *exported, "-Wl,--no-entry", "-Wl,--strip-all"]
+    with tempfile.TemporaryDirectory() as folder:
+        engine = linked([code], "wasm32-wasi", [*options, f"-Wl,-z,stack-size={STACK}"], Path(folder))
+    digest_of_parts.cache_clear()
+    if sources() != made_of:
+        raise RuntimeError("its sources have changed while they were compiled: build it again")
+    with written_whole(out) as aside:
+        aside.write_bytes(engine + _section(_description()))
 
 
 def _description() -> dict[str, object]:
     """Return what engine.js has to know of the engine."""
-    from cointoss.compare.web.wasm import interface
+    from cointoss.analytic import by_rows
     from cointoss.compare.web.wasm.fields import described
+    from cointoss.models import rows
     from cointoss.models.faults import ACCEPTED
     from cointoss.models.records import Ending, Outcome
 
@@ -92,10 +57,10 @@ def _description() -> dict[str, object]:
         "sources": sources(),
         "fields": described(),
         "faults": {fault.value: sentence for fault, sentence in ACCEPTED.items()},
-        "answer": interface.ANSWER,
-        "examined": interface.EXAMINED,
-        "impact": interface.IMPACT,
-        "piece": interface.PIECE,
+        "answer": by_rows.ANSWER,
+        "examined": rows.EXAMINED,
+        "impact": by_rows.IMPACT,
+        "piece": by_rows.PIECE,
         "outcomes": Outcome.by_value(),
         "endings": {ending.value: [str(ending), ending.sentence] for ending in Ending},
     }

@@ -5,8 +5,8 @@ from base64 import b64encode
 from importlib import resources
 from typing import Any
 
-from cointoss.compare.web.wasm.fields import fields_of
-from cointoss.models.kernel.sources import source_hash
+from cointoss.models.kernel.digests import digest_of_parts
+from cointoss.models.rows import fields_of
 from cointoss.models.scenario import Scenario
 
 SECTION = "cointoss"
@@ -31,8 +31,8 @@ def engine_bytes() -> bytes | None:
 
 
 def sources() -> str:
-    """Return the hashes of what the engine is made of: of all that is compiled, and of what compiles it."""
-    return " ".join(source_hash(f"cointoss.compare.web.wasm.{name}") for name in ("interface", "compiler"))
+    """Return the digest of what the engine is made of: of all that is compiled, and of what compiles it."""
+    return digest_of_parts("models", "analytic")
 
 
 def made_of(content: bytes) -> str:

@@ -13,8 +13,8 @@ from cointoss.analytic.contact.edge.standing import on_edge
 from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.rim_contact import rim_contact
-from cointoss.analytic.events import run
 from cointoss.analytic.numerics.tolerances import STEADY
+from cointoss.analytic.runs import run
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.laws import ContactLaw, EndingTest
 from cointoss.models.records import Ending, Outcome

@@ -11,8 +11,8 @@ from cointoss.analytic.contact.resets import tip_over
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.rim_contact import both_rims
 from cointoss.analytic.contact.upright import rim_forces, start_slow_slip
-from cointoss.analytic.events import run
 from cointoss.analytic.numerics.tolerances import SLOW
+from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.compare.reproduction.studies.endings import draw_toss
 from cointoss.models.attitude import rotation_matrix

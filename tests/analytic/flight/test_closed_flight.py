@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from cointoss.analytic.events import run
 from cointoss.analytic.flight.closed_flight import bounds_in_air, fly_closed, sample_closed
 from cointoss.analytic.flight.fall import ORDER, expand
 from cointoss.analytic.flight.flying import fly, sample
@@ -12,6 +11,7 @@ from cointoss.analytic.flight.integrated_flight import sample_flight
 from cointoss.analytic.flight.state_vector import spin_of, state_of, velocity_of
 from cointoss.analytic.flight.touch_search import fly_by_steps
 from cointoss.analytic.flight.turning import turning_of, turns_in_closed_form
+from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.geometry import evaluate_gap
 from cointoss.models.records import Ending

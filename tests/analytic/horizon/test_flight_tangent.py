@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic.events import run
 from cointoss.analytic.flight.flying import sample
 from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.horizon.flight_tangent import COARSE, FINE, flight_tangent
-from cointoss.analytic.horizon.sensitivity import event_tangent
+from cointoss.analytic.runs import event_tangent, run
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.laws import ContactLaw
 from cointoss.models.scenario import Scenario

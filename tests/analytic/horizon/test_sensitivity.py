@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic.events import run
-from cointoss.analytic.horizon.sensitivity import event_tangent
+from cointoss.analytic.runs import event_tangent, run
 from cointoss.analytic.toss import state_at_release
 from tests.helpers.draws import THIN, scenario
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.compare.metrics.lyapunov import divergence, growth_by_tangent
 from tests.helpers.draws import scenario

@@ -1,29 +1,18 @@
 """Building the engine for a browser: what is refused, in a line; tests/site tests what it makes."""
 
-import os
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 
 import cointoss
+from cointoss.analytic.by_rows import ANSWER, NO_SCENARIO, NO_TRUST
+from cointoss.analytic.entries import examine, toss_each
 from cointoss.compare.web.wasm import build as building
 from cointoss.compare.web.wasm import carried
 from cointoss.compare.web.wasm.build import _leb128, main
 from cointoss.compare.web.wasm.carried import engine_bytes, made_of, sources
-from cointoss.compare.web.wasm.fields import FIELDS, row_of
-from cointoss.compare.web.wasm.interface import (
-    ANSWER,
-    EXAMINED,
-    NO_SCENARIO,
-    NO_TRUST,
-    examine,
-    foreign_number,
-    toss_each,
-)
 from cointoss.models.faults import Fault
 from cointoss.models.records import Outcome
+from cointoss.models.rows import EXAMINED, FIELDS, foreign_number, row_of
 from tests.helpers.draws import scenario
 
 
@@ -49,34 +38,12 @@ def test_one_file_is_named(arguments, capsys):
     assert capsys.readouterr().err == "usage: python -m cointoss.compare.web.wasm.build FILE\n"
 
 
-def test_without_its_linker_it_says_what_to_install(monkeypatch, capsys, tmp_path):
+def test_without_what_makes_it_it_says_what_to_install(monkeypatch, capsys, tmp_path):
     monkeypatch.setattr(building, "find_spec", lambda _: None)
     assert main([str(tmp_path / "engine.wasm")]) == 2
-    said = "engine.wasm: ziglang is missing, which links WebAssembly: pip install --group docs\n"
-    assert capsys.readouterr().err == said
+    said = "numba, llvmlite, ziglang is missing, which makes it: pip install --group dev"
+    assert capsys.readouterr().err == f"engine.wasm: {said}\n"
     assert list(tmp_path.iterdir()) == []
-
-
-def test_another_numba_or_compiler_is_refused(monkeypatch, capsys, tmp_path):
-    monkeypatch.setattr(building, "find_spec", lambda _: True)
-    monkeypatch.setattr(building, "numba_version", lambda: "0.64.0")
-    assert main([str(tmp_path / "engine.wasm")]) == 2
-    assert capsys.readouterr().err.startswith("engine.wasm: numba 0.64.0: accepted for WebAssembly: ")
-    script = f"""
-import sys
-from cointoss.models.kernel import libm
-libm.read_code = lambda: b"built"
-from cointoss.compare.web.wasm import build
-build.find_spec = lambda _: True
-sys.exit(build.main([{str(tmp_path / "engine.wasm")!r}]))
-"""
-    asked = [sys.executable, "-c", script]
-    plain = {**os.environ, "COINTOSS_COMPILER": "plain"}
-    done = subprocess.run(asked, env=plain, capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    (line,) = done.stderr.splitlines()
-    assert line.startswith("engine.wasm: ")
-    assert "COINTOSS_COMPILER unset" in line
 
 
 LEFT_OUT = ("coin.inertia.", "release.angles.", "release.quaternion.", "ending.max_impacts", "ending.caught")

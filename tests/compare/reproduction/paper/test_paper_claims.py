@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.analytic.toss import toss
 from cointoss.compare.metrics.estimates import scatter_of_shares
 from cointoss.compare.reproduction.claims import (

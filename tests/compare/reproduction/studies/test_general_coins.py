@@ -7,7 +7,7 @@ import pytest
 
 from cointoss import analytic
 from cointoss.analytic.contact.automaton import Mode
-from cointoss.analytic.events import run
+from cointoss.analytic.runs import run
 from cointoss.analytic.settings import MANY
 from cointoss.compare.reproduction.saving import read_numbers
 from cointoss.compare.reproduction.setups.general_coins import CLASSES

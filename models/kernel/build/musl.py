@@ -1,18 +1,40 @@
-"""Builds musl.bc, musl's functions as LLVM's code: `python -m cointoss.models.kernel.libm_build`."""
+"""musl's sine, logarithm and the like as LLVM's code, in place of each system's own.
+
+They are compiled from the sources that ziglang brings, without fusing products and sums.
+"""
 
 # llvmlite has no types.
 # pyright: reportAttributeAccessIssue=false
 
+import hashlib
 import os
 import re
 import subprocess
 import sys
 import tempfile
+from functools import cache
+from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 
-from cointoss.models.kernel.libm import FILE, FUNCTIONS, PREFIX, with_digest
+from llvmlite import binding
 
+from cointoss.models.kernel.base_folder import base_folder
+
+PREFIX = "musl."
+"""How the names of the functions begin in LLVM's code."""
+FUNCTIONS = (
+    *("acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "cos", "exp", "exp2", "expm1"),
+    *("hypot", "lgamma", "log", "log1p", "log2", "pow", "sin"),
+)
+"""Those that compiled functions may call."""
+_EXACT = {
+    *("ceil", "copysign", "fabs", "floor", "fmod", "maxnum", "minnum", "nearbyint", "rint", "round", "sqrt"),
+    "trunc",
+}
+"""Functions with one right answer, the same in every C library."""
+_OF_NUMBERS = re.compile(r"(double|float) \((double|float)(, (double|float))*\)")
+_OF_NUMBA = ("numba_cpow", "numba_gamma")
 _SOURCES = (
     *("__cos", "__sin", "__rem_pio2", "__rem_pio2_large", "scalbn"),
     *("acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "hypot", "lgamma_r"),
@@ -82,17 +104,63 @@ _OPTIONS = (
 )
 
 
-def build(out: Path = FILE) -> None:
-    """Compile the functions, and write them as one module without a target.
+def call_musl(module: binding.ModuleRef) -> None:
+    """Let a module call musl's functions before LLVM computes or changes any of them.
+
+    Raises:
+        RuntimeError: for a function that is not there.
+    """
+    for function in _declared(module):
+        name = _name(function)
+        if name in FUNCTIONS:
+            function.name = f"{PREFIX}{name}"
+        elif name in _OF_NUMBA or (_is_of_numbers(function) and name not in _EXACT):
+            raise RuntimeError(f"compiled code calls {name}, which is not among {', '.join(FUNCTIONS)}")
+
+
+def link_musl(module: binding.ModuleRef) -> None:
+    """Add musl's functions to a module.
+
+    Raises:
+        RuntimeError: where code that numba has compiled by itself calls those of the system.
+    """
+    if other := [_name(function) for function in _declared(module) if _name(function) in FUNCTIONS]:
+        raise RuntimeError(f"numba's own code calls {', '.join(other)} of the system")
+    module.link_in(binding.parse_bitcode(musl_code()), preserve=True)
+
+
+@cache
+def musl_code() -> bytes:
+    """Return the functions as one module without a target; compiled, or kept from an earlier build.
 
     Raises:
         RuntimeError: where ziglang is missing or does not have musl's functions, in one line.
     """
+    made_of = hashlib.sha256(f"{version('ziglang')}\n".encode() + Path(__file__).read_bytes()).hexdigest()[
+        :16
+    ]
+    kept = base_folder() / f"musl-{made_of}.bc"
+    try:
+        digest, code = kept.read_bytes().split(b"\n", 1)
+        if digest == _digest(code):
+            return code
+    except (OSError, ValueError):
+        pass
+    code = _build()
+    aside = kept.with_name(f"{kept.name}.{os.getpid()}")
+    aside.write_bytes(_digest(code) + b"\n" + code)
+    aside.replace(kept)
+    return code
+
+
+def _digest(code: bytes) -> bytes:
+    return hashlib.sha256(code).hexdigest().encode()
+
+
+def _build() -> bytes:
     found = find_spec("ziglang")
     if found is None or found.origin is None:
-        raise RuntimeError("ziglang is missing, which has musl's sources: pip install --group docs")
-    from llvmlite import binding
-
+        raise RuntimeError("ziglang is missing, which has musl's sources: pip install --group dev")
     musl = Path(found.origin).parent / "lib" / "libc" / "musl"
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "first.h").write_text(_FIRST, encoding="utf-8")
@@ -114,15 +182,13 @@ def build(out: Path = FILE) -> None:
     defined = {each.name for each in whole.functions}
     if missing := [name for name in FUNCTIONS if f"{PREFIX}{name}" not in defined]:
         raise RuntimeError(f"ziglang's musl has no {', '.join(missing)}")
-    aside = out.with_name(f"{out.name}.{os.getpid()}")
-    aside.write_bytes(with_digest(whole.as_bitcode()))
-    aside.replace(out)
+    return whole.as_bitcode()
 
 
 def _llvm(source: Path, musl: Path, folder: Path) -> str:
     """Return the code of a source in LLVM's language, for any processor."""
     if not source.is_file():
-        raise RuntimeError(f"ziglang has no {source.name}: pip install --group docs")
+        raise RuntimeError(f"ziglang has no {source.name}: pip install --group dev")
     target = folder / f"{source.stem}.ll"
     included = [f"-I{musl / part}" for part in ("src/internal", "src/include", "src/math", "arch/generic")]
     command = [sys.executable, "-m", "ziglang", "cc", *_OPTIONS, *included]
@@ -135,15 +201,16 @@ def _llvm(source: Path, musl: Path, folder: Path) -> str:
     return re.sub(r" #\d+|, !\S+ !\d+|\bhidden |\blocal_unnamed_addr ", "", text)
 
 
-def main() -> int:
-    """Build the file where the package looks for it, and return the exit status."""
-    try:
-        build()
-    except (RuntimeError, OSError) as problem:
-        print(f"{FILE.name}: {problem}", file=sys.stderr)
-        return 2
-    return 0
+def _declared(module: binding.ModuleRef) -> list[binding.ValueRef]:
+    """Return the functions that a module calls of a C library, of numba or of LLVM."""
+    names = ("_ZN", PREFIX)
+    return [each for each in module.functions if each.is_declaration and not each.name.startswith(names)]
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def _name(function: binding.ValueRef) -> str:
+    """Return the name of a function in C."""
+    return re.sub(r"^llvm\.(\w+)\.f64$", r"\1", function.name)
+
+
+def _is_of_numbers(function: binding.ValueRef) -> bool:
+    return _OF_NUMBERS.fullmatch(str(function.global_value_type)) is not None

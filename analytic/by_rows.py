@@ -1,0 +1,171 @@
+"""Tosses of scenarios as rows of numbers: many of them, or one with its impacts and its path."""
+
+import numpy as np
+
+from cointoss.analytic.contact.automaton import Mode, contact_at
+from cointoss.analytic.contact.floor_laws import friction_in_contact
+from cointoss.analytic.contact.sampling import floor_force, sample_contact
+from cointoss.analytic.events import Verdict, started_of, toss_coin
+from cointoss.analytic.flight.flying import sample
+from cointoss.analytic.flight.state_vector import STATE_SIZE, position_of, spin_of, velocity_of
+from cointoss.analytic.horizon.certainty import certainty_of
+from cointoss.analytic.horizon.horizon import MOST_CARRIED, STEP_ERROR, TURN_ERROR, ErrorsMade, find_horizon
+from cointoss.analytic.settings import MANY, contact_limits
+from cointoss.models.barriers import energy
+from cointoss.models.faults import Fault
+from cointoss.models.impact_row import FIRST_ROOM
+from cointoss.models.kernel.arrays import Row, Table
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.records import IMPACT_ROW
+from cointoss.models.rows import (
+    AIR_EXPONENT,
+    body_of,
+    fault_of,
+    foreign_number,
+    has_linear_air,
+    rules_of,
+    write_release,
+)
+
+ANSWER = ("outcome", "ending", "impacts", "last_face", "end_time", "trusted_impacts", "outcome_certain")
+"""Columns of what is answered of a toss; the last two are -1 where they were not asked for."""
+IMPACT = ("time", "face", "energy", "impulse_x", "impulse_y", "impulse_z")
+"""Columns of an impact, in SI."""
+PIECE = 2 + STATE_SIZE
+"""Numbers of a piece of a path: when it starts, its `Mode`, and the state there."""
+NO_TRUST, TRUST, CERTAIN = range(3)
+"""What is found beside the outcome: nothing, the trusted impacts, and whether the outcome is certain, too."""
+NO_SCENARIO = -2
+"""In place of the outcome, where the numbers make no scenario."""
+_LIMITS = contact_limits(MANY)
+
+
+@compiled
+def toss_each(rows: Table, wanted: int, answers: Table) -> None:
+    """Toss each of many scenarios.
+
+    Args:
+        rows: of their fields, (n, m).
+        wanted: `NO_TRUST`, `TRUST` or `CERTAIN`.
+        answers: where they go, (n, 7), see `ANSWER`.
+    """
+    impacts, y = np.zeros(2 if wanted == NO_TRUST else FIRST_ROOM, IMPACT_ROW), np.empty(STATE_SIZE)
+    for i in range(len(rows)):
+        for k in range(answers.shape[1]):
+            answers[i, k] = -1.0
+        if foreign_number(rows[i]) >= 0:
+            answers[i, 0] = NO_SCENARIO
+        elif has_linear_air(rows[i]):
+            _answer(body_of(rows[i], None), rows[i], wanted, impacts, y, answers[i])
+        else:
+            _answer(body_of(rows[i], rows[i, AIR_EXPONENT]), rows[i], wanted, impacts, y, answers[i])
+
+
+@compiled
+def _answer(body, row, wanted, impacts, y, answer):
+    if fault_of(body, row).fault != Fault.NONE:
+        answer[0] = NO_SCENARIO
+        return
+    rules = rules_of(row)
+    write_release(row, y)
+    keep_all = wanted != NO_TRUST
+    n, impacts, pieces, outcome, ending, end_time = toss_coin(body, rules, _LIMITS, y, impacts, keep_all)
+    _write_end(n, impacts, Verdict(outcome, ending), end_time, answer)
+    if keep_all:
+        _write_trust(body, rules, impacts[:n], pieces, Verdict(outcome, ending), wanted, answer)
+
+
+@compiled
+def _write_end(n, impacts, verdict, end_time, answer):
+    answer[0], answer[1], answer[2], answer[4] = verdict.outcome.value, verdict.ending.value, n, end_time
+    answer[3] = impacts[(n - 1) % len(impacts)]["face"] if n > 0 else 0
+
+
+@compiled
+def _write_trust(body, rules, impacts, pieces, verdict, wanted, answer):
+    started = started_of(pieces)
+    made = ErrorsMade(STEP_ERROR, TURN_ERROR, MOST_CARRIED)
+    horizon = find_horizon(body, rules, impacts, started, made)
+    answer[5] = horizon.impacts
+    if wanted == CERTAIN:
+        answer[6] = certainty_of(body, rules, impacts, started, verdict, horizon).certain
+
+
+@compiled
+def toss_one(row: Row, answer: Row, impacts: Table, pieces: Table, sizes: Row) -> None:
+    """Toss a scenario, and keep its impacts and the pieces of its path, as many as there is room for.
+
+    Args:
+        row: of its fields; of a scenario, see `examine`.
+        answer: where it goes, (7,), see `ANSWER`.
+        impacts: where they go, (m, 6), see `IMPACT`.
+        pieces: where they go, (k, `PIECE`), the last where the toss ends.
+        sizes: how many impacts and pieces there are, (2,); written to.
+    """
+    if has_linear_air(row):
+        _toss_one(body_of(row, None), row, answer, impacts, pieces, sizes)
+    else:
+        _toss_one(body_of(row, row[AIR_EXPONENT]), row, answer, impacts, pieces, sizes)
+
+
+@compiled
+def _toss_one(body, row, answer, impacts, pieces, sizes):
+    rules, y = rules_of(row), np.empty(STATE_SIZE)
+    write_release(row, y)
+    room = np.zeros(FIRST_ROOM, IMPACT_ROW)
+    n, rows, found, outcome, ending, end_time = toss_coin(body, rules, _LIMITS, y, room, True)
+    _write_end(n, rows, Verdict(outcome, ending), end_time, answer)
+    _write_trust(body, rules, rows[:n], found, Verdict(outcome, ending), CERTAIN, answer)
+    sizes[0], sizes[1] = n, len(found)
+    for i in range(min(n, len(impacts))):
+        row = rows[i]
+        impacts[i, 0], impacts[i, 1], impacts[i, 2] = row.time, row.face, row.energy
+        for k in range(3):
+            impacts[i, 3 + k] = row.impulse[k]
+    for i in range(min(len(found), len(pieces))):
+        for k in range(PIECE):
+            pieces[i, k] = found[i, k]
+
+
+@compiled
+def sample_path(row: Row, pieces: Table, times: Row, states: Table, more: Table) -> None:
+    """Write the states of a path, its energies, and the floor's force in sustained contacts.
+
+    Args:
+        row: of the scenario's fields.
+        pieces: of the path, all of them, see `toss_one`.
+        times: increasing, from 0 to the end, (n,) [s].
+        states: where they go, (n, 13).
+        more: where energies [J] and forces, space frame, zero in flight [N], go, (n, 4).
+    """
+    if has_linear_air(row):
+        _sample_path(body_of(row, None), row, pieces, times, states, more)
+    else:
+        _sample_path(body_of(row, row[AIR_EXPONENT]), row, pieces, times, states, more)
+
+
+@compiled
+def _sample_path(body, row, pieces, times, states, more):
+    friction, first = friction_in_contact(rules_of(row)), 0
+    for number in range(len(pieces)):
+        piece, last = pieces[number], len(times)
+        if number + 1 < len(pieces):
+            last = first
+            while last < len(times) and times[last] < pieces[number + 1, 0]:
+                last += 1
+        if last == first:
+            continue
+        # Nothing starts at the end; as a flight, it is sampled as it is.
+        start, mode = piece[2:].copy(), int(piece[1])
+        if mode == Mode.FLIGHT.value or mode == Mode.ENDED.value:
+            sample(body, start, piece[0], times[first:last], states[first:last])
+        else:
+            contact = contact_at(body, friction, mode, start)
+            sample_contact(contact, start, piece[0], times[first:last], _LIMITS.tolerance, states[first:last])
+        for i in range(first, last):
+            y, force = states[i], (0.0, 0.0, 0.0)
+            if mode != Mode.FLIGHT.value and mode != Mode.ENDED.value:
+                force = floor_force(contact_at(body, friction, mode, y), y)
+            more[i, 0] = energy(body, position_of(y)[2], velocity_of(y), spin_of(y))
+            more[i, 1], more[i, 2], more[i, 3] = force
+        first = last

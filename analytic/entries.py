@@ -1,0 +1,28 @@
+"""What Python and a page call of the compiled engine; annotations say which rows of numbers are passed."""
+
+from cointoss.analytic import by_rows, events, path, seeing, striking, tile
+from cointoss.analytic.air import force
+from cointoss.analytic.horizon import certainty, horizon
+from cointoss.analytic.horizon import event_tangent as tangent
+from cointoss.models import rows
+from cointoss.models.kernel.library import Library
+
+engine = Library(__name__)
+
+examine = engine.entry(rows.examine)
+toss_each = engine.entry(by_rows.toss_each)
+toss_one = engine.entry(by_rows.toss_one)
+sample_path = engine.entry(by_rows.sample_path)
+
+toss_tile = engine.entry(tile.toss_tile)
+trust_tile = engine.entry(tile.trust_tile)
+toss_coin = engine.entry(events.toss_coin)
+find_horizon = engine.entry(horizon.find_horizon)
+certainty_of = engine.entry(certainty.certainty_of)
+closest_other = engine.entry(certainty.closest_other)
+event_tangent = engine.entry(tangent.event_tangent)
+sample_piece = engine.entry(path.sample_piece)
+floor_forces = engine.entry(path.floor_forces)
+force_and_moment = engine.entry(force.force_and_moment)
+strike_each = engine.entry(striking.strike_each)
+see_each = engine.entry(seeing.see_each)

@@ -1,0 +1,55 @@
+"""The states of a toss between its events, and the floor's force there."""
+
+from cointoss.analytic.contact.automaton import Mode, contact_at
+from cointoss.analytic.contact.resistance import FloorFriction
+from cointoss.analytic.contact.sampling import floor_force, sample_contact
+from cointoss.analytic.flight.flying import sample
+from cointoss.models.body import Body
+from cointoss.models.kernel.arrays import Codes, Row, Table
+from cointoss.models.kernel.compiled import compiled
+
+
+@compiled
+def sample_piece(
+    body: Body,
+    friction: FloorFriction,
+    tolerance: float,
+    mode: int,
+    start: Row,
+    start_time: float,
+    times: Row,
+    states: Table,
+) -> None:
+    """Write the states of a flight or of a contact in one mode.
+
+    Args:
+        body: the coin.
+        friction: of the floor, in contact.
+        tolerance: error allowed in a step of contact, relative.
+        mode: its `Mode`; what starts at the end of a toss is sampled as a flight.
+        start: state where it starts, (13,).
+        start_time: its time [s].
+        times: increasing, none before `start_time`, (n,) [s].
+        states: where they go, (n, 13).
+    """
+    if mode == Mode.FLIGHT or mode == Mode.ENDED:
+        sample(body, start, start_time, times, states)
+    else:
+        contact = contact_at(body, friction, mode, start)
+        sample_contact(contact, start, start_time, times, tolerance, states)
+
+
+@compiled
+def floor_forces(body: Body, friction: FloorFriction, modes: Codes, states: Table, forces: Table) -> None:
+    """Write the floor's force in states of sustained contact, space frame, (n, 3) [N].
+
+    Args:
+        body: the coin.
+        friction: of the floor, in contact.
+        modes: `Mode` of each state, (n,).
+        states: (n, 13).
+        forces: where they go.
+    """
+    for i in range(len(states)):
+        mode, y = 0 + int(modes[i]), states[i]  # of eight bits, an integer keeps them in compiled code
+        forces[i, 0], forces[i, 1], forces[i, 2] = floor_force(contact_at(body, friction, mode, y), y)

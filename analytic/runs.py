@@ -1,0 +1,145 @@
+"""One toss by the event loop, as Python runs it, and how far it can be trusted."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cointoss.analytic.contact.automaton import Mode
+from cointoss.analytic.entries import closest_other, find_horizon, toss_coin
+from cointoss.analytic.entries import event_tangent as find_event_tangent
+from cointoss.analytic.events import Started, Verdict, started_of
+from cointoss.analytic.flight.state_vector import STATE_SIZE
+from cointoss.analytic.horizon.certainty import Certainty
+from cointoss.analytic.horizon.horizon import ErrorsMade, Horizon
+from cointoss.analytic.settings import FINE, Settings, contact_limits
+from cointoss.models.body import Body, Rules
+from cointoss.models.impact_row import FIRST_ROOM
+from cointoss.models.records import IMPACT_ROW, Array, Ending, OtherOutcome, Outcome
+
+
+class EventLog(NamedTuple):
+    """What the event loop gives for one toss."""
+
+    rows: NDArray[Any]
+    """Impacts, (n,) of `IMPACT_ROW`."""
+    started: Started
+    contacts: Array
+    """Start and end of every sustained contact, (n, 2) [s]."""
+    outcome: Outcome
+    ending: Ending
+    end_time: float
+
+    @property
+    def verdict(self) -> Verdict:
+        """The outcome and the ending."""
+        return Verdict(self.outcome, self.ending)
+
+    @property
+    def start_times(self) -> Array:
+        """Where modes start, and where the toss ends, (k,) [s]."""
+        return self.started.times
+
+    @property
+    def start_states(self) -> Array:
+        """States there, (k, 13)."""
+        return self.started.states
+
+    @property
+    def modes(self) -> NDArray[np.int8]:
+        """What starts there: `Mode`, (k,)."""
+        return self.started.modes
+
+
+def run(body: Body, rules: Rules, start: Array, settings: Settings = FINE) -> EventLog:
+    """Toss the coin in state `start`, (13,), until the toss is decided or a budget is spent."""
+    room = np.zeros(FIRST_ROOM, IMPACT_ROW)
+    n, rows, pieces, outcome, ending, end_time = toss_coin(
+        body, rules, contact_limits(settings), start.copy(), room, True
+    )
+    started = started_of(pieces)
+    return EventLog(
+        rows=rows[:n].copy(),
+        started=started,
+        contacts=contacts_of(started.times, started.modes),
+        outcome=Outcome(outcome),
+        ending=Ending(ending),
+        end_time=end_time,
+    )
+
+
+def contacts_of(start_times: Array, started: NDArray[np.int8]) -> Array:
+    """Return start and end of every sustained contact, (n, 2) [s], from the modes and where they start."""
+    lasting = (started != Mode.FLIGHT) & (started != Mode.ENDED)
+    changes = np.diff(lasting.astype(np.int8), prepend=0)
+    return np.stack([start_times[changes == 1], start_times[changes == -1]], axis=1)
+
+
+def horizon_of(body: Body, rules: Rules, toss: EventLog, made: ErrorsMade | None = None) -> Horizon:
+    """Return how far a toss can be trusted.
+
+    Trusted are the leading impacts whose time, impulse, face, place and order the engine's errors cannot
+    change. None is counted after the first sustained contact, nor after the errors were carried through
+    `MOST_CARRIED`.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        toss: from its release on.
+        made: the errors, by default those of this engine.
+    """
+    return find_horizon(body, rules, toss.rows, toss.started, made or ErrorsMade())
+
+
+def other_outcome(
+    body: Body, rules: Rules, toss: EventLog, horizon: Horizon, certainty: Certainty
+) -> OtherOutcome | None:
+    """Return the outcome of the neighbour that ends otherwise, and about the least change that leads to it.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        toss: from its release on.
+        horizon: how far it can be trusted.
+        certainty: of its outcome.
+
+    Returns:
+        None where there is no such neighbour, or none with another outcome that is decided.
+    """
+    if certainty.outcome in (toss.outcome, Outcome.UNDECIDED, Outcome.TRANSIENT):
+        return None
+    outcome, change, impact = closest_other(body, rules, toss.rows, toss.started, horizon, certainty)
+    return None if change == 0 else OtherOutcome(outcome=outcome, change=change, impact=impact)
+
+
+def event_tangent(body: Body, rules: Rules, toss: EventLog, number: int) -> Array:
+    """Return the tangent map from just after the impact before to just after impact `number`, (14, 14).
+
+    A small change is one of the state and of the time of the event, (14,); two tosses are compared each at
+    its own impact. So the saltation matrix, with f the rate of change of the state before and after the
+    impact, D the derivative of the impact and dt = -(∇gap . dy)/(∇gap . f_before) the delay of the touch,
+
+        dy_after = D (dy + f_before dt) - f_after dt,
+
+    falls in two: the last term only brings back the tosses to one time, and dt goes into the time of the
+    event. At a low hop that term would cost digits.
+
+    Args:
+        body: the coin.
+        rules: floor and ending.
+        toss: from its release on.
+        number: of the impact, from 0; the first map starts at the release.
+    """
+    found, n = np.empty((2 * STATE_SIZE + 2, STATE_SIZE)), STATE_SIZE
+    left = rules.max_time - toss.start_times[number]
+    find_event_tangent(body, rules, toss.start_states[number].copy(), left, found)
+    rate, early = found[-2], np.append(found[-1], 0)
+    to_the_touch = np.eye(n + 1) + np.outer(np.append(rate, 1), -early)
+    return _with_time(found[n : 2 * n]) @ to_the_touch @ _with_time(found[:n].T)
+
+
+def _with_time(of_state: Array) -> Array:
+    """Return a map of the state, (13, 13), as one of an event that keeps its time, (14, 14)."""
+    of_event = np.eye(STATE_SIZE + 1)
+    of_event[:STATE_SIZE, :STATE_SIZE] = of_state
+    return of_event

@@ -1,0 +1,126 @@
+"""Builds an engine: `python -m cointoss.models.kernel.build MODULE --out FOLDER [--system SYSTEM ...]`."""
+
+import argparse
+import hashlib
+import json
+import os
+import signal
+import sys
+import tempfile
+from collections.abc import Collection, Iterator, Sequence
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from cointoss.models.kernel.digests import HOME, digest_of
+from cointoss.models.kernel.library import AVX2, MANIFEST, RELEASE, SUFFIX, SYSTEM, Entry, Made
+
+
+def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> None:
+    """Build the library of an engine for each system.
+
+    Args:
+        module: the engine's table of entries.
+        out: the folder that gets each library, and a manifest beside it.
+        systems: by their names.
+        carried: whether a wheel is to carry the libraries: their names then have no digest.
+
+    Raises:
+        RuntimeError: where it can't be done, in one line.
+    """
+    from cointoss.models.kernel.build import linking, lowering
+
+    table = import_module(module)
+    sources = {name: digest_of(HOME / name) for name in read_sources()}
+    asked = asked_of(table)
+    symbols = [each.symbol for each in asked]
+    code = lowering.lowered(asked, linking.SYSTEMS[systems[0]].targets[""])
+    if any(digest_of(HOME / name) != digest for name, digest in sources.items()):
+        raise RuntimeError("its sources have changed while they were compiled: build it again")
+    with tempfile.TemporaryDirectory() as folder:
+        for name in systems:
+            system = linking.SYSTEMS[name]
+            kinds = {end: target for end, target in system.targets.items() if carried or end == processor()}
+            codes, shown = [], []
+            for end, target in kinds.items():
+                new = {symbol: symbol + end for symbol in symbols}
+                released = {} if not codes else {RELEASE: RELEASE + end}
+                codes.append(lowering.object_code(code, target, new | released))
+                shown += new.values()
+            library = linking.link(codes, shown, system, Path(folder))
+            digest = hashlib.sha256(library).hexdigest()
+            stem = f"{module.split('.')[-2]}-{name}" + ("" if carried else f"-{digest[:16]}")
+            write_whole(out / f"{stem}{SUFFIX}", library)
+            manifest = Made(module, name, digest, {} if carried else sources)
+            write_whole(out / f"{stem}{MANIFEST}", json.dumps(manifest._asdict()).encode())
+
+
+def processor() -> str:
+    """Return what symbols for this processor end with."""
+    from llvmlite import binding
+
+    return AVX2 if binding.get_host_cpu_features().get("avx2") else ""
+
+
+def asked_of(table: object, only: Collection[str] = ()) -> list[Any]:
+    """Return what is asked of a table of entries, all or `only` some, for `lowering.lowered`.
+
+    Raises:
+        RuntimeError: where two entries have one name.
+    """
+    from cointoss.models.kernel.build.lowering import Asked
+
+    entries = [each for each in vars(table).values() if isinstance(each, Entry)]
+    asked = [
+        Asked(each.symbol_of(lacks), each.function, *each.kinds, lacks)
+        for each in entries
+        if not only or each.symbol in only
+        for lacks in each.variants
+    ]
+    if len({each.symbol for each in asked}) < len(asked):
+        raise RuntimeError(f"{table}: two entries have one name")
+    return asked
+
+
+def read_sources() -> Iterator[str]:
+    """Yield the paths of the project's files that this process has imported, in the project's folder."""
+    for name, module in sorted(sys.modules.items()):
+        file = getattr(module, "__file__", None)
+        if file and name.startswith("cointoss."):
+            path = Path(*name.split(".")[1:])
+            yield (
+                path / "__init__.py" if hasattr(module, "__path__") else path.with_suffix(".py")
+            ).as_posix()
+
+
+def write_whole(file: Path, content: bytes) -> None:
+    """Write a file aside, then rename it: no process ever sees half of it."""
+    aside = file.with_name(f".{file.name}.{os.getpid()}")
+    try:
+        with os.fdopen(os.open(aside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as opened:
+            opened.write(content)
+        aside.replace(file)
+    except BaseException:
+        aside.unlink(missing_ok=True)
+        raise
+
+
+def main() -> int:
+    """Build what the arguments name, and return the exit status."""
+    parser = argparse.ArgumentParser(prog="python -m cointoss.models.kernel.build", description=__doc__)
+    parser.add_argument("module")
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--system", action="append")
+    parser.add_argument("--carried", action="store_true")
+    given = parser.parse_args()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # what was written aside is removed
+    try:
+        build(given.module, given.out, given.system or [SYSTEM], carried=given.carried)
+    except (RuntimeError, OSError, ImportError) as problem:
+        print(problem, file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

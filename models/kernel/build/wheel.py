@@ -1,0 +1,78 @@
+"""Puts the engines' libraries into a wheel: hatchling runs it when it builds one."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+MODULES = ("cointoss.models.entries", "cointoss.analytic.entries", "cointoss.coin_mj.entries")
+"""The tables of entries, a library each."""
+PLATFORMS = {
+    "linux-x86_64": "manylinux_2_17_x86_64",
+    "linux-aarch64": "manylinux_2_17_aarch64",
+    "darwin-arm64": "macosx_11_0_arm64",
+    "darwin-x86_64": "macosx_10_15_x86_64",
+    "win32-amd64": "win_amd64",
+}
+"""By the name of a system, as a wheel's name has it."""
+
+
+class Engines(BuildHookInterface[Any]):
+    """Adds the libraries of one system, and names the wheel after it.
+
+    `COINTOSS_SYSTEM` chooses the system, by default this one; `COINTOSS_ENGINES` is a folder that has its
+    libraries already, as `make wheels` builds them.
+    """
+
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+        """Build what the wheel carries; an editable install builds its own at its first toss.
+
+        Raises:
+            SystemExit: where an engine can't be built, in one line.
+        """
+        if self.target_name != "wheel" or version == "editable":
+            return
+        self._made = Path(tempfile.mkdtemp())
+        home = self._made / "cointoss"
+        shutil.copytree(
+            Path(self.root, "cointoss"), home, ignore=shutil.ignore_patterns("__pycache__"), symlinks=True
+        )
+        for part in ("models", "analytic", "coin_mj", "compare"):
+            (home / part).unlink(missing_ok=True)
+            (home / part).symlink_to(Path(self.root, part), target_is_directory=True)
+        named = {"PYTHONPATH": str(self._made)}
+        this = subprocess.run(
+            [sys.executable, "-c", "from cointoss.models.kernel.library import SYSTEM; print(SYSTEM)"],
+            env={**os.environ, **named},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout.strip()
+        system = os.environ.get("COINTOSS_SYSTEM") or this
+        folder = Path(os.environ.get("COINTOSS_ENGINES") or self._built(system, named))
+        for file in sorted(folder.glob(f"*-{system}.so*")):
+            build_data["force_include"][str(file)] = f"cointoss/models/kernel/engines/{file.name}"
+        build_data["tag"] = f"py3-none-{PLATFORMS[system]}"
+        build_data["pure_python"] = False
+
+    def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:  # noqa: ARG002
+        """Remove what was made meanwhile."""
+        if hasattr(self, "_made"):
+            shutil.rmtree(self._made)
+
+    def _built(self, system: str, named: dict[str, str]) -> Path:
+        folder = self._made / "engines"
+        folder.mkdir()
+        for module in MODULES:
+            command = [sys.executable, "-m", "cointoss.models.kernel.build", module, "--out", str(folder)]
+            done = subprocess.run(
+                [*command, "--carried", "--system", system], env={**os.environ, **named}, check=False
+            )
+            if done.returncode:
+                raise SystemExit(f"cointoss-dynamics: the engine of {module} could not be built for {system}")
+        return folder

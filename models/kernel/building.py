@@ -1,0 +1,135 @@
+"""Builds an engine's library where a checkout has none for its sources: once, whoever asks.
+
+`python -m cointoss.models.kernel.building MODULE ...` has libraries ready.
+"""
+
+import hashlib
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from cointoss.models.kernel.digests import HOME
+from cointoss.models.kernel.library import MANIFEST, SYSTEM, EngineMissingError, Made
+
+NEEDED = ("numba", "llvmlite", "ziglang")
+UNUSED = 3 * 24 * 3600.0
+"""Libraries that were not used for so long are removed when another is built [s]."""
+REFUSED = 2
+"""Exit status of a build that says in one line why it can't be."""
+EVERY = 10.0
+"""The line is written again so often, with the time so far [s]."""
+
+
+def build_once(module: str, folder: Path) -> None:
+    """Build a library into a folder, or wait for another process that does.
+
+    Raises:
+        EngineMissingError: where it can't be built, in one line.
+    """
+    from filelock import FileLock, Timeout
+
+    name = module.split(".")[-2]
+    try:
+        folder.mkdir(mode=0o700, exist_ok=True)
+        remove_unused(folder)
+        checkout = hashlib.sha256(str(HOME).encode()).hexdigest()[:8]
+        lock, begun = FileLock(folder / f"{name}-{checkout}.lock"), time.monotonic()
+        try:
+            lock.acquire(blocking=False)
+        except Timeout:
+            with told(f"waiting for another process, which builds the {name} engine", begun):
+                lock.acquire()
+        try:
+            if not any(
+                made is not None and made.is_current()
+                for made in map(Made.read, folder.glob(f"{name}-{SYSTEM}-*{MANIFEST}"))
+            ):
+                _build(module, name, folder)
+        finally:
+            lock.release()
+    except OSError as error:
+        raise EngineMissingError(f"the {name} engine could not be built: {error}") from None
+
+
+def _build(module: str, name: str, folder: Path) -> None:
+    if missing := [each for each in NEEDED if find_spec(each) is None]:
+        raise EngineMissingError(
+            f"there is no {name} engine for {SYSTEM}, and no {', '.join(missing)} to build it; "
+            "accepted: a wheel for this system, or pip install --group dev in a checkout"
+        )
+    command = [sys.executable, "-P", "-m", "cointoss.models.kernel.build", module, "--out", str(folder)]
+    paths = filter(None, (str(HOME.parent), os.environ.get("PYTHONPATH")))
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
+    with told(f"building the {name} engine, once", time.monotonic()):
+        process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=environment)
+        try:
+            _, problem = process.communicate()
+        except BaseException:
+            process.send_signal(signal.SIGTERM)
+            process.wait()
+            raise
+    if process.returncode == REFUSED:
+        raise EngineMissingError(f"the {name} engine could not be built: {problem.strip()}")
+    if process.returncode:
+        sys.stderr.write(problem)  # numba's own words on a function, for whoever has edited it
+        raise EngineMissingError(f"the {name} engine could not be built: exit status {process.returncode}")
+
+
+@contextmanager
+def told(what: str, since: float) -> Iterator[None]:
+    """Say on standard error what is done within, in one line, with its time so far [s]."""
+    over = threading.Event()
+    stream: Any = sys.stderr
+    rewrites = stream is not None and stream.isatty()
+
+    def line(end: str) -> None:
+        with suppress(OSError, ValueError, AttributeError):  # nobody reads it, which stops no work
+            stream.write(f"{chr(13) * rewrites}cointoss: {what}: {time.monotonic() - since:.0f} s{end}")
+            stream.flush()
+
+    def keep_telling() -> None:
+        while not over.wait(0.25 if rewrites else EVERY):
+            line("" if rewrites else "\n")
+
+    teller = threading.Thread(target=keep_telling, daemon=True)
+    teller.start()
+    try:
+        yield
+    finally:
+        over.set()
+        teller.join()
+        line("\n")
+
+
+def remove_unused(folder: Path) -> None:
+    """Remove libraries that no process has begun to use for long."""
+    for manifest in folder.glob(f"*{MANIFEST}"):
+        with suppress(OSError):
+            if time.time() - manifest.stat().st_mtime > UNUSED:
+                manifest.unlink()
+                manifest.with_suffix("").unlink()
+
+
+def main() -> int:
+    """Have the libraries of the tables that the arguments name ready, and return the exit status."""
+    from cointoss.models.kernel.library import library_file
+
+    try:
+        for module in sys.argv[1:]:
+            library_file(module)
+    except EngineMissingError as problem:
+        print(f"cointoss: {problem}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,20 @@
+"""Compiled functions run by `numba.njit`, for tests and studies of parts of an engine."""
+
+# numba describes few types.
+# pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
+
+from typing import Any
+
+import numba
+
+from cointoss.models.kernel.base_folder import base_folder
+from cointoss.models.kernel.digests import code_digest
+
+
+def dispatcher_of(function: Any, *, inlined: bool = False) -> Any:
+    """Return numba's dispatcher of a function; its code is kept for exactly the sources that lie here.
+
+    numba itself looks at the file of the function alone, not at those that it calls.
+    """
+    numba.config.CACHE_DIR = str(base_folder() / f"numba-{code_digest()}")
+    return numba.njit(nogil=True, error_model="numpy", forceinline=inlined, cache=True)(function)

@@ -1,0 +1,234 @@
+"""An engine's library: the machine code of its entries, which was built once, and how Python calls it."""
+
+import ctypes
+import json
+import os
+import platform
+import struct
+import sys
+import threading
+from collections.abc import Callable
+from functools import cached_property, update_wrapper
+from inspect import signature
+from pathlib import Path
+from typing import Any, Generic, NamedTuple, ParamSpec, TypeVar
+
+from cointoss.models.kernel.base_folder import base_folder, is_private
+from cointoss.models.kernel.digests import HOME, digest_of
+from cointoss.models.kernel.kinds import Kind, kinds_of, may_lack, read, write
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+CARRIED = Path(__file__).with_name("engines")
+"""Where a wheel carries the libraries."""
+SYSTEM = f"{sys.platform}-{platform.machine()}".lower()
+"""This system and processor."""
+SUFFIX = ".so"
+"""Of a library, on every system."""
+MANIFEST = f"{SUFFIX}.json"
+"""Suffix of the file beside a library that says what it was made of."""
+LACKS = ".lacks"
+"""Ends the symbol of an entry for arguments of which a number is None."""
+AVX2 = ".avx2"
+"""Ends the symbols for processors with vectors of four numbers: the same bits, sooner."""
+RELEASE = "release"
+"""The symbol of what gives back the memory of an array that an entry has returned."""
+_ENTRY = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_char_p, ctypes.c_void_p, ctypes.c_void_p)
+"""A function of arguments, of room for what it returns, and of room for an error's address."""
+
+
+class EngineMissingError(ImportError):
+    """There is no library of an engine for this system, and it can't be built; the message says why."""
+
+
+class Library:
+    """The library of an engine, loaded when one of its entries is first called."""
+
+    def __init__(self, module: str) -> None:
+        """Load nothing yet.
+
+        Args:
+            module: the full name of the engine's table of entries.
+        """
+        self.module = module
+        self._lock = threading.Lock()
+
+    def entry(self, function: Callable[P, R]) -> "Entry[P, R]":
+        """Return an entry: the function as Python calls it."""
+        return Entry(self, function)
+
+    @cached_property
+    def loaded(self) -> ctypes.CDLL:
+        """The library.
+
+        Raises:
+            EngineMissingError: where there is none.
+        """
+        with self._lock:
+            return ctypes.CDLL(str(library_file(self.module)))
+
+    def symbol(self, name: str) -> Any:
+        """Return the code of a symbol, for this processor where there is some apart."""
+        has_avx2 = getattr(self.loaded, "has_avx2", None)
+        end = AVX2 if has_avx2 is not None and has_avx2() and hasattr(self.loaded, name + AVX2) else ""
+        return _ENTRY((name + end, self.loaded))
+
+    @cached_property
+    def release(self) -> Callable[[int], object]:
+        """Gives back the memory of an array that an entry has returned."""
+        function = self.loaded[RELEASE]
+        function.argtypes, function.restype = [ctypes.c_void_p], None
+        return function
+
+
+class Entry(Generic[P, R]):
+    """A compiled function as Python calls it: its annotations are the kinds of its rows of numbers."""
+
+    def __init__(self, library: Library, function: Callable[P, R]) -> None:
+        """Load nothing yet."""
+        update_wrapper(self, function)
+        self.library, self.function = library, function
+        self.symbol: str = function.__name__.lstrip("_")
+        self._code: dict[bool, Any] = {}
+
+    @cached_property
+    def kinds(self) -> tuple[tuple[Kind, ...], Kind]:
+        """The kinds of its arguments, and that of what it returns."""
+        function: Any = self.function
+        return kinds_of(function.py_func)
+
+    @cached_property
+    def _names(self) -> tuple[str, ...]:
+        return tuple(signature(self.function).parameters)
+
+    @property
+    def variants(self) -> tuple[bool, ...]:
+        """Whether a number that may be None is, for each of its symbols."""
+        return (False, True) if any(map(may_lack, self.kinds[0])) else (False,)
+
+    def symbol_of(self, lacks: bool) -> str:
+        """Return the symbol for arguments of which a number is None, or none is."""
+        return self.symbol + LACKS * lacks
+
+    def __call__(self, *arguments: P.args, **named: P.kwargs) -> R:
+        """Run the machine code, without Python's lock.
+
+        Raises:
+            EngineMissingError: where there is no library.
+            TypeError: for an array of another kind.
+            FloatingPointError, ValueError, MemoryError: as the function raises them.
+        """
+        given, returned = self.kinds
+        values = (*arguments, *(named[name] for name in self._names[len(arguments) :]))
+        form: list[str] = ["="]
+        numbers: list[Any] = []
+        lacks = False
+        for kind, value in zip(given, values, strict=True):
+            lacks = write(kind, value, form, numbers) or lacks
+        if lacks not in self._code:
+            self._code[lacks] = self.library.symbol(self.symbol_of(lacks))
+        answer, error = (ctypes.c_int64 * len(returned.form))(), ctypes.c_void_p()
+        if self._code[lacks](struct.pack("".join(form), *numbers), answer, ctypes.byref(error)) != 0:
+            raise _raised(error)
+        found = struct.unpack(f"={returned.form}", answer)
+        return read(returned, iter(found), self.library.release)
+
+
+class _Error(ctypes.Structure):
+    """What numba's code knows of an error: the pickled class, arguments and place."""
+
+    _fields_ = (("pickled", ctypes.c_void_p), ("size", ctypes.c_int32))
+
+
+def _raised(address: ctypes.c_void_p) -> Exception:
+    import pickle  # of the library's own bytes
+
+    if not address:
+        return MemoryError("the engine has no memory left")
+    error = ctypes.cast(address, ctypes.POINTER(_Error)).contents
+    kind, arguments, _ = pickle.loads(ctypes.string_at(error.pickled, error.size))
+    return kind(*arguments)
+
+
+class Made(NamedTuple):
+    """What a library was made of, as its manifest says."""
+
+    module: str
+    system: str
+    digest: str
+    """Of the library."""
+    sources: dict[str, str]
+    """The digests of the project's files that the build has read, by their paths."""
+
+    @classmethod
+    def read(cls, file: Path) -> "Made | None":
+        """Return what a manifest says, or None where it is none, or another user could have written it."""
+        try:
+            with file.open("rb") as opened:
+                if not is_private(os.fstat(opened.fileno())):
+                    return None
+                return cls(**json.load(opened))
+        except (OSError, ValueError, TypeError):
+            return None
+
+    def is_current(self, home: Path = HOME) -> bool:
+        """Return whether the sources are those that lie here."""
+        return all(digest_of(home / name) == digest for name, digest in self.sources.items())
+
+
+def library_file(module: str) -> Path:
+    """Return the file of an engine's library: that which a wheel carries, or the one of the sources here.
+
+    The library of sources that have none yet is built.
+
+    Raises:
+        EngineMissingError: in one line.
+    """
+    name = module.split(".")[-2]
+    if CARRIED.is_dir():
+        manifest = CARRIED / f"{name}-{SYSTEM}{MANIFEST}"
+        made = _read_carried(manifest)
+        if made is None:
+            there = ", ".join(
+                sorted(
+                    {
+                        file.name.removesuffix(MANIFEST).partition("-")[2]
+                        for file in CARRIED.glob(f"{name}-*{MANIFEST}")
+                    }
+                )
+            )
+            raise EngineMissingError(f"{CARRIED}: no {name} engine for {SYSTEM}; there is: {there or 'none'}")
+        if digest_of(manifest.with_suffix("")) != made.digest:
+            raise EngineMissingError(
+                f"{manifest.with_suffix('')}: is damaged; install cointoss-dynamics again"
+            )
+        return manifest.with_suffix("")
+    folder = base_folder() / "engines"
+    if (found := _current(folder, name)) is not None:
+        return found
+    from cointoss.models.kernel.building import build_once
+
+    build_once(module, folder)
+    if (found := _current(folder, name)) is not None:
+        return found
+    raise EngineMissingError(f"{folder}: the {name} engine was built, but of other sources; start again")
+
+
+def _read_carried(manifest: Path) -> Made | None:
+    try:
+        return Made(**json.loads(manifest.read_bytes()))
+    except (OSError, ValueError, TypeError):
+        return None
+
+
+def _current(folder: Path, name: str) -> Path | None:
+    """Return a library in a folder that is whole, this user's, and made of the sources that lie here."""
+    for manifest in folder.glob(f"{name}-{SYSTEM}-*{MANIFEST}"):
+        made, library = Made.read(manifest), manifest.with_suffix("")
+        if made is None or not made.is_current() or digest_of(library) != made.digest:
+            continue
+        if is_private(library.stat()):
+            os.utime(manifest)  # what is used is kept
+            return library
+    return None

@@ -1,0 +1,275 @@
+"""A scenario as a row of numbers: where each field stands, and what compiled code reads and refuses."""
+
+# Words are integers in the numbers of a scenario.
+# pyright: reportArgumentType=false
+
+import math
+from typing import Any
+
+import numpy as np
+
+from cointoss.models.attitude import normalized, quaternion_from_angles
+from cointoss.models.barriers import barrier
+from cointoss.models.body import NO_CODE, AirLaw, Body, Rules
+from cointoss.models.faults import (
+    Fault,
+    fault_of_center,
+    fault_of_floor,
+    fault_of_inertia,
+    fault_of_quaternion,
+    fault_of_toss,
+)
+from cointoss.models.fields import BODY, COMPONENTS
+from cointoss.models.kernel.arrays import Array, Row
+from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import Matrix, Vector
+from cointoss.models.laws import ContactLaw, EndingTest, RestitutionKind
+from cointoss.models.making import Cylinder, make_body, most_impacts, moved_inertia
+from cointoss.models.scenario import Scenario
+from cointoss.models.state import State, state
+from cointoss.models.words import Word
+
+_TABLES = ("coin", "air", "floor", "release", "ending")
+WORDED: dict[str, type[Word]] = {
+    "floor.contact": ContactLaw,
+    "floor.restitution_kind": RestitutionKind,
+    "ending.test": EndingTest,
+}
+"""Fields that are a word, in a row its integer."""
+_Place = tuple[str | int, ...]
+
+
+def _in_table(table: str) -> dict[str, _Place]:
+    """Return the places of a table's numbers and words, as a scenario file has them, by their names."""
+    part: Any = Scenario.model_fields[table].annotation
+    found: dict[str, _Place] = {}
+    for key in part.model_fields:
+        path = f"{table}.{key}"
+        if path == "coin.inertia":
+            for i, row in enumerate(BODY):
+                found |= {f"{path}.{row}.{name}": (table, key, i, k) for k, name in enumerate(BODY)}
+        elif path in COMPONENTS:
+            found |= {f"{path}.{name}": (table, key, i) for i, name in enumerate(COMPONENTS[path])}
+        else:
+            found[path] = (table, key)
+    return found
+
+
+PLACES: dict[str, _Place] = {"gravity": ("gravity",)}
+"""Of each field in a scenario file."""
+for _table in _TABLES:
+    PLACES |= _in_table(_table)
+FIELDS = tuple(PLACES)
+"""By their places in a row of numbers, where what a scenario does not have is not a number."""
+
+
+def fields_of(scenario: Scenario) -> dict[str, float | str]:
+    """Return a scenario as a page has it: its fields by their names, numbers in SI."""
+    tables = scenario.as_tables()
+    found = {name: _value(tables, place) for name, place in PLACES.items()}
+    return {name: value for name, value in found.items() if value is not None}
+
+
+def row_of(scenario: Scenario) -> Array:
+    """Return a scenario as a row of numbers, (n,), in the order of `FIELDS`."""
+    given = fields_of(scenario)
+    words = {name: kind(given[name]).value for name, kind in WORDED.items()}
+    return np.array([(given | words).get(name, math.nan) for name in FIELDS], dtype=float)
+
+
+def _value(tables: Any, place: _Place) -> float | str | None:
+    for step in place:
+        if isinstance(step, str) and step not in tables:
+            return None
+        tables = tables[step]
+    return tables
+
+
+def default_of(place: _Place) -> tuple[float | str | None, bool]:
+    """Return the default of a field, None for nothing, and whether it has to be given."""
+    model: Any = Scenario
+    for step in place[:-1]:
+        if isinstance(step, str) and step in _TABLES:
+            model = model.model_fields[step].annotation
+    field = model.model_fields[next(step for step in reversed(place) if isinstance(step, str))]
+    if field.is_required():
+        return None, True
+    value = field.default
+    for step in place:
+        if isinstance(step, int) and value is not None:
+            value = value[step]
+    return str(value) if isinstance(value, Word) else value, False
+
+
+def _first_places() -> tuple[int, ...]:
+    found: dict[_Place, int] = {}
+    return tuple(
+        found.setdefault(place[:2], i) if default_of(place) == (None, False) else -1
+        for i, place in enumerate(PLACES.values())
+    )
+
+
+FIRST = _first_places()
+"""For each field that may be left out, the place of the first number of its list; -1 for the others."""
+
+
+EXAMINED = ("fault", "limit", "barrier")
+"""Columns of what is said of a scenario: its `Fault`, the number in its sentence, and the least energy with
+which the coin turns over [J], NaN of a row that is no scenario's."""
+_COIN, _CENTER, _INERTIA = (
+    FIELDS.index(name) for name in ("coin.mass", "coin.center_of_mass.xi", "coin.inertia.xi.xi")
+)
+AIR_EXPONENT, _FLOOR = FIELDS.index("air.exponent"), FIELDS.index("floor.restitution")
+_POSITION, _ANGLES, _QUATERNION, _SPIN = (
+    FIELDS.index(f"release.{name}")
+    for name in ("position.x", "angles.psi", "quaternion.e0", "angular_velocity.xi")
+)
+_ENDING = FIELDS.index("ending.test")
+
+
+@compiled
+def three(row: Array, first: int) -> Vector:
+    """Return three numbers of a row."""
+    return row[first], row[first + 1], row[first + 2]
+
+
+@compiled
+def foreign_number(row: Array) -> int:
+    """Return the place of the first number that no scenario's row has there, -1 where there is none.
+
+    All are finite, but for the parts of a scenario that are left out, which are not a number as a whole.
+    """
+    for i in range(len(FIRST)):
+        is_left_out = FIRST[i] >= 0 and math.isnan(row[FIRST[i]])
+        if not (math.isnan(row[i]) if is_left_out else math.isfinite(row[i])):
+            return i
+    return -1
+
+
+@compiled
+def cylinder_of(row: Array) -> Cylinder:
+    """Return the mass and the size of the coin of a row of `FIELDS`."""
+    return Cylinder(row[_COIN], row[_COIN + 1], row[_COIN + 2])
+
+
+@compiled
+def has_inertia(row: Array) -> bool:
+    """Return whether a row gives the inertia, which else is the cylinder's."""
+    return not math.isnan(row[_INERTIA])
+
+
+@compiled
+def inertia_of(row: Array) -> Matrix:
+    """Return J_C of the coin of a row, body frame [kg m²]."""
+    if has_inertia(row):
+        return three(row, _INERTIA), three(row, _INERTIA + 3), three(row, _INERTIA + 6)
+    return moved_inertia(cylinder_of(row), three(row, _CENTER))
+
+
+@compiled
+def body_of(row: Array, exponent: float | None) -> Body:
+    """Return the coin of a row.
+
+    Args:
+        row: of a scenario.
+        exponent: of its air; None for linear air, which is compiled apart.
+    """
+    air = AirLaw(exponent, row[AIR_EXPONENT + 1], row[AIR_EXPONENT + 2])
+    return make_body(cylinder_of(row), three(row, _CENTER), inertia_of(row), air, row[0])
+
+
+@compiled
+def has_linear_air(row: Array) -> bool:
+    """Return whether the air of a row is linear in the velocity, or none."""
+    return row[AIR_EXPONENT] == 0 or (row[AIR_EXPONENT + 1] == 0 and row[AIR_EXPONENT + 2] == 0)
+
+
+@compiled
+def rules_of(row):
+    """Return the `Rules` of a row; words are integers there."""
+    floor, ending = row[_FLOOR : _FLOOR + 7], row[_ENDING : _ENDING + 4]
+    law, kind = int(floor[2]), int(floor[6])
+    most = most_impacts(law, kind, floor[0]) if math.isnan(ending[1]) else int(ending[1])
+    return Rules(
+        law,
+        NO_CODE,
+        floor[0],
+        floor[1],
+        kind,
+        floor[3],
+        floor[4],
+        floor[5],
+        int(ending[0]),
+        most,
+        ending[2],
+        math.inf if math.isnan(ending[3]) else ending[3],
+    )
+
+
+@compiled
+def release_of(row: Array) -> State:
+    """Return the state at the release of a row; without an attitude the coin is flat, heads up."""
+    q = row[_QUATERNION : _QUATERNION + 4]
+    if not math.isnan(q[0]):
+        e = normalized((q[0], q[1], q[2], q[3]))
+    elif not math.isnan(row[_ANGLES]):
+        e = quaternion_from_angles(three(row, _ANGLES))
+    else:
+        e = quaternion_from_angles((0.0, 0.0, 0.0))
+    return state(three(row, _POSITION), three(row, _POSITION + 3), e, three(row, _SPIN))
+
+
+@compiled
+def write_release(row: Array, y: Array) -> None:
+    """Write the state at the release of a row as a state vector, (13,)."""
+    release = release_of(row)
+    for i in range(3):
+        y[i], y[3 + i], y[10 + i] = release.position[i], release.velocity[i], release.spin[i]
+    for i in range(4):
+        y[6 + i] = release.attitude[i]
+
+
+@compiled
+def fault_of_parts(row):
+    """Return what is wrong with the coin, the floor or the attitude of a row, each for itself."""
+    cylinder = cylinder_of(row)
+    found = fault_of_center(cylinder, three(row, _CENTER))
+    if found.fault == Fault.NONE:
+        found = fault_of_inertia(cylinder, inertia_of(row), has_inertia(row))
+    if found.fault == Fault.NONE:
+        found = fault_of_floor(int(row[_FLOOR + 2]), int(row[_FLOOR + 6]), row[_FLOOR + 4], row[_FLOOR + 5])
+    q = row[_QUATERNION : _QUATERNION + 4]
+    if found.fault == Fault.NONE and not math.isnan(q[0]):
+        found = fault_of_quaternion((q[0], q[1], q[2], q[3]))
+    return found
+
+
+@compiled
+def fault_of(body, row):
+    """Return what is wrong with the scenario of a row, whose coin is made."""
+    found = fault_of_parts(row)
+    return found if found.fault != Fault.NONE else fault_of_toss(body, rules_of(row), release_of(row))
+
+
+@compiled
+def examine(row: Row, answer: Row) -> None:
+    """Say whether a row is a scenario.
+
+    Args:
+        row: of numbers, each within its bounds where it is finite.
+        answer: where it goes, (3,), see `EXAMINED`.
+    """
+    place = foreign_number(row)
+    if place >= 0:
+        answer[0], answer[1], answer[2] = Fault.ROW.value, place, math.nan
+    elif has_linear_air(row):
+        _examine(body_of(row, None), row, answer)
+    else:
+        _examine(body_of(row, row[AIR_EXPONENT]), row, answer)
+
+
+@compiled
+def _examine(body, row, answer):
+    found = fault_of(body, row)
+    answer[0], answer[1] = found.fault.value, found.limit
+    answer[2] = min(barrier(body, 1.0), barrier(body, -1.0))

@@ -1,0 +1,1 @@
+"""A small engine, which is built within seconds."""
