@@ -29,7 +29,7 @@ from cointoss.analytic.settings import ContactLimits
 from cointoss.models.body import Body, Rules, is_to_be_caught
 from cointoss.models.ending import classify_ending, endless, face_outcome, out_of_steps, unless_caught
 from cointoss.models.impact_row import FIRST_ROOM, ImpactRows, with_room
-from cointoss.models.kernel.arrays import Codes, Row, Table, copy_into
+from cointoss.models.kernel.arrays import Codes, Row, Table, copy_into, doubled
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.laws import EndingTest
 from cointoss.models.perpetual import EnergyHistory, energy_history, start_history
@@ -173,15 +173,6 @@ def toss_coin(
             mode = mode_after(mode, Event.ENDS)
     outcome, ending = unless_caught(rules, verdict.outcome, verdict.ending)
     return spent.impacts, rows, pieces[:k], outcome, ending, spent.time
-
-
-@compiled
-def doubled(table: Array) -> Array:
-    """Return the table with twice its rows."""
-    larger = np.empty((2 * len(table), table.shape[1]))
-    for i in range(len(table)):
-        copy_into(larger[i], table[i])
-    return larger
 
 
 @compiled
