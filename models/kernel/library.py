@@ -45,13 +45,14 @@ class EngineMissingError(ImportError):
 class Library:
     """The library of an engine, loaded when one of its entries is first called."""
 
-    def __init__(self, module: str) -> None:
+    def __init__(self, module: str, *, lacks_none: bool = False) -> None:
         """Load nothing yet.
 
         Args:
             module: the full name of the engine's table of entries.
+            lacks_none: whether no number that may be None ever is, so that nothing is compiled for it.
         """
-        self.module = module
+        self.module, self.lacks_none = module, lacks_none
         self._lock = threading.Lock()
 
     def entry(self, function: Callable[P, R]) -> "Entry[P, R]":
@@ -105,7 +106,8 @@ class Entry(Generic[P, R]):
     @property
     def variants(self) -> tuple[bool, ...]:
         """Whether a number that may be None is, for each of its symbols."""
-        return (False, True) if any(map(may_lack, self.kinds[0])) else (False,)
+        both = any(map(may_lack, self.kinds[0])) and not self.library.lacks_none
+        return (False, True) if both else (False,)
 
     def symbol_of(self, lacks: bool) -> str:
         """Return the symbol for arguments of which a number is None, or none is."""
