@@ -2,20 +2,14 @@
 
 import threading
 
-import numpy as np
-
-from cointoss.coin_mj.events import toss_coin
+from cointoss.coin_mj.entries import toss_tile
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
-from cointoss.coin_mj.model.settings import MANY, Budgets, Settings
-from cointoss.coin_mj.model.state import put_at
+from cointoss.coin_mj.model.settings import MANY, Settings
 from cointoss.coin_mj.toss import require_supported, warn_of_approximation
-from cointoss.models.body import Rules
 from cointoss.models.errors import require_type
-from cointoss.models.kernel.compiled import compiled
 from cointoss.models.outcomes import Outcomes
 from cointoss.models.reading import ScenarioSource, scenario_of
-from cointoss.models.records import IMPACT_ROW, UnsupportedError
+from cointoss.models.records import UnsupportedError
 from cointoss.models.releases import Releases, check_releases
 from cointoss.models.stages import stage
 from cointoss.models.tiles import Tile, toss_in_tiles
@@ -71,21 +65,10 @@ def toss_many(
     check_releases(described, releases)
     of_thread, rules = threading.local(), described.rules
 
-    def toss_tile(tile: Tile) -> None:
+    def toss_some(tile: Tile) -> None:
         if not hasattr(of_thread, "machine"):
             of_thread.machine = machine_of(described, settings)
-        _toss_each(of_thread.machine.coin, of_thread.machine.plastic, rules, settings.budgets, tile)
+        toss_tile(of_thread.machine.coin, of_thread.machine.plastic, rules, settings.budgets, tile)
 
     with stage("tossing by MuJoCo", "tosses", shown=progress) as tell:
-        return toss_in_tiles(releases, TILE, toss_tile, tell, partial=progress is True)
-
-
-@compiled
-def _toss_each(coin: MujocoCoin, plastic: MujocoCoin, rules: Rules, budgets: Budgets, tile: Tile) -> None:
-    rows = np.zeros(1, IMPACT_ROW)
-    for i in range(len(tile.states)):
-        put_at(coin, tile.states[i])
-        n, _, _, _, outcome, ending, end_time = toss_coin(coin, plastic, rules, budgets, rows, False)
-        tile.outcome[i], tile.ending[i], tile.impacts[i] = outcome.value, ending.value, n
-        tile.end_time[i] = end_time
-        tile.last_face[i] = rows[0].face if n > 0 else 0
+        return toss_in_tiles(releases, TILE, toss_some, tell, partial=progress is True)

@@ -1,10 +1,8 @@
 """The event loop of a toss in MuJoCo: flight, impact, sustained contact, ending."""
 
 import math
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.model.settings import Budgets
@@ -12,13 +10,13 @@ from cointoss.coin_mj.model.state import state_of
 from cointoss.coin_mj.steps.flight import FlightExit, fly
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
 from cointoss.coin_mj.steps.impact import TouchResult, resolve_impact
-from cointoss.coin_mj.steps.knots import Knot, Step, add_knot, knot_of
+from cointoss.coin_mj.steps.knots import Step, add_knot, nothing_recorded
 from cointoss.coin_mj.steps.sustained_contact import NO_LOSS, ContactExit, follow_contact, slow_speed
 from cointoss.models.body import Body, Rules, is_linear
 from cointoss.models.ending import classify_ending, face_outcome, unless_caught
 from cointoss.models.geometry import lowest_point
-from cointoss.models.impact_row import ImpactRow, with_room, write_impact
-from cointoss.models.kernel.arrays import Array
+from cointoss.models.impact_row import FIRST_ROOM, ImpactRow, ImpactRows, with_room, write_impact
+from cointoss.models.kernel.arrays import Table, doubled
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector
 from cointoss.models.perpetual import energy_history, start_history
@@ -34,8 +32,8 @@ AIR_STEPS = 50
 
 @compiled
 def toss_coin(
-    coin: MujocoCoin, plastic: MujocoCoin, rules: Rules, budgets: Budgets, rows: NDArray[Any], keep_all: bool
-) -> tuple[int, NDArray[Any], Array, Array, Outcome, Ending, float]:
+    coin: MujocoCoin, plastic: MujocoCoin, rules: Rules, budgets: Budgets, rows: ImpactRows, keep_all: bool
+) -> tuple[int, ImpactRows, Table, Table, Outcome, Ending, float]:
     """Toss the coin from its present state until the toss is decided.
 
     Args:
@@ -54,10 +52,8 @@ def toss_coin(
     time, n, history = 0.0, 0, energy_history(NO_LOSS)
     weight = 1 if is_linear(coin.body.air) else AIR_STEPS
     steps_left, flight_steps_left = budgets.contact_steps // weight, budgets.flight_steps // weight
-    knots, contacts = [knot_of(coin, time, Step.FLIGHT)], [(time, time)]
-    contacts.clear()
-    if not keep_all:
-        knots.clear()
+    path = add_knot(coin, time, Step.FLIGHT, nothing_recorded(keep_all))
+    contacts, c = np.empty((FIRST_ROOM if keep_all else 0, 2)), 0
     outcome, ending = Outcome.UNDECIDED, Ending.NONE
     lands = False
     while ending == Ending.NONE:
@@ -65,7 +61,7 @@ def toss_coin(
             ending = Ending.MAX_IMPACTS
             break
         if not lands:
-            time, way, flight_steps_left = fly(coin, rules, time, flight_steps_left, knots)
+            time, way, flight_steps_left, path = fly(coin, rules, time, flight_steps_left, path)
             if way == FlightExit.CAUGHT:
                 outcome, ending = face_outcome(state_of(coin)), Ending.CAUGHT
                 break
@@ -78,7 +74,7 @@ def toss_coin(
         chi = 0.0 if is_plastic else rules.restitution
         sustained = not lands and speed < slow_speed(coin, chi, touch.spin)
         if not sustained:
-            result, time, impulse = resolve_impact(plastic if is_plastic else coin, time, knots)
+            result, time, impulse, path = resolve_impact(plastic if is_plastic else coin, time, path)
             sustained = result == TouchResult.SUSTAINED
             if result == TouchResult.IMPACT:
                 if keep_all:
@@ -90,16 +86,18 @@ def toss_coin(
         lands = False
         if sustained:
             start_history(coin.body, history, time)
-            left_by, time, steps_left, outcome, ending = follow_contact(
-                coin, rules, time, steps_left, history, knots
+            left_by, time, steps_left, outcome, ending, path = follow_contact(
+                coin, rules, time, steps_left, history, path
             )
-            if time > start:
-                contacts.append((start, time))
+            if keep_all and time > start:
+                contacts = doubled(contacts) if c == len(contacts) else contacts
+                contacts[c, 0], contacts[c, 1] = start, time
+                c += 1
             lands = left_by == ContactExit.RIM_LANDS
             steps_left -= 1
-    add_knot(coin, time, Step.FLIGHT, knots)
+    path = add_knot(coin, time, Step.FLIGHT, path)
     outcome, ending = unless_caught(rules, outcome, ending)
-    return n, rows, _table(knots), _pairs(contacts), outcome, ending, time
+    return n, rows, path.table[: path.size], contacts[:c], outcome, ending, time
 
 
 @compiled
@@ -121,20 +119,3 @@ def record(body: Body, time: float, touch: State, impulse: Vector, release: Stat
     point, _ = lowest_point(body, up, w)
     write_impact(body, impulse, point, touch, release, row)
     row.time = time
-
-
-@compiled
-def _table(knots: list[Knot]) -> Array:
-    table = np.empty((len(knots), 15))
-    for i in range(len(knots)):
-        for j in range(15):
-            table[i, j] = knots[i][j]
-    return table
-
-
-@compiled
-def _pairs(contacts: list[tuple[float, float]]) -> Array:
-    pairs = np.empty((len(contacts), 2))
-    for i in range(len(contacts)):
-        pairs[i, 0], pairs[i, 1] = contacts[i]
-    return pairs

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from cointoss.coin_mj.events import toss_coin
-from cointoss.coin_mj.model.air import PowerLaw, air_force
+from cointoss.coin_mj.entries import air_force, toss_coin
+from cointoss.coin_mj.model.air import PowerLaw
 from cointoss.coin_mj.model.machine import Machine, machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
 from cointoss.coin_mj.model.settings import FINE, ROUGH, Friction, Realisation, Settings

@@ -144,7 +144,12 @@ def _friction_on_wall(motion: ScaledMotion) -> Sums:
     still_B = math.acos(min(max(v[2] / W, -1.0), 1.0)) if W > 0 else 0.0
     still_C = math.acos(min(max(w[2] / V, -1.0), 1.0)) if V > 0 else 0.0
     starts = np.array((middle_B - still_B, middle_B + still_B, middle_C - still_C, middle_C + still_C))
-    starts = np.sort(starts % (2 * math.pi))
+    for i in range(4):
+        start, place = starts[i] % (2 * math.pi), i
+        while place > 0 and starts[place - 1] > start:
+            starts[place] = starts[place - 1]
+            place -= 1
+        starts[place] = start
     total = _NOTHING
     for i in range(4):
         start = starts[i]

@@ -4,15 +4,13 @@
 # pyright: reportAttributeAccessIssue=false
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import mujoco
-import numpy as np
 
-from cointoss.coin_mj.model.compiled_air import air_address
-from cointoss.coin_mj.model.library import require_compiled_code, require_no_contact_filter
-from cointoss.coin_mj.model.memory import OF_ROWS, in_contact, joint_arrays, offset_of, require_layout
-from cointoss.coin_mj.model.mujoco_coin import ADDRESSES, MujocoCoin
+from cointoss.coin_mj.model.library import functions, require_no_contact_filter
+from cointoss.coin_mj.model.memory import OF_ROWS, in_contact, joint_addresses, offset_of, require_layout
+from cointoss.coin_mj.model.mujoco_coin import Addresses, MujocoCoin
 from cointoss.coin_mj.model.scene import build, floor_height, shape_thickness
 from cointoss.coin_mj.model.settings import (
     Friction,
@@ -72,10 +70,9 @@ def machine_of(
         softer: then softened by this part, see `Settings.softened`.
 
     Raises:
-        UnusableEngineError: if nothing is compiled, or MuJoCo's user filters contacts.
+        UnusableEngineError: if MuJoCo's user filters contacts.
         LayoutError: if MuJoCo's memory is not laid out as it describes.
     """
-    require_compiled_code()
     require_no_contact_filter()
     require_layout(*in_contact())
     thickness = thickness or shape_thickness(scenario)
@@ -94,8 +91,9 @@ def machine_of(
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = of_release(body, scenario.release)
     coin = MujocoCoin(
-        address=_addresses(model, data, has_pair=native > 0, air=air_address(scenario.body)),
-        joint=joint_arrays(data),
+        mujoco=functions(),
+        address=_addresses(model, data, has_pair=native > 0),
+        joint=joint_addresses(data),
         body=body,
         shape=shape_of(body, thickness),
         floor_height=floor_height(scenario, thickness),
@@ -150,23 +148,22 @@ def _with_air_of_any_kind(body: Body) -> Body:
     return body._replace(air=body.air._replace(exponent=body.air.exponent or 0.0))
 
 
-def _addresses(model: mujoco.MjModel, data: mujoco.MjData, *, has_pair: bool, air: int) -> Any:
-    """Return a record of `ADDRESSES`; a contact with friction has its settings from a pair of geoms."""
+def _addresses(model: mujoco.MjModel, data: mujoco.MjData, *, has_pair: bool) -> Addresses:
+    """Return where their fields lie; a contact with friction has its settings from a pair of geoms."""
     geom = model.geom("coin")
-    settings = (
+    spring, slip, margin = (
         (model.pair_solref, model.pair_solreffriction, model.pair_margin)
         if has_pair
         else (geom.solref, None, geom.margin)
     )
-    rows = (offset_of("mjData", name) for name in ("nefc", *OF_ROWS))
-    addresses = (
-        model._address,
-        data._address,
-        data._address + offset_of("mjData", "time"),
-        model._address + offset_of("mjModel", "opt.timestep"),
-        *(0 if array is None else array.ctypes.data for array in settings),
-        data.body("coin").xmat.ctypes.data,
-        *(data._address + offset for offset in rows),
-        air,
+    fields = ("time", "nefc", *OF_ROWS)
+    return Addresses(
+        model=model._address,
+        data=data._address,
+        timestep=model._address + offset_of("mjModel", "opt.timestep"),
+        solref=spring.ctypes.data,
+        solreffriction=0 if slip is None else slip.ctypes.data,
+        margin=margin.ctypes.data,
+        xmat=data.body("coin").xmat.ctypes.data,
+        **{name: data._address + offset_of("mjData", name) for name in fields},
     )
-    return np.array([addresses], ADDRESSES)[0]

@@ -1,4 +1,4 @@
-"""Where MuJoCo keeps the numbers of a model and its data: addresses and views for compiled code."""
+"""Where MuJoCo keeps the numbers of a model and its data."""
 
 # The MuJoCo wheel describes no types.
 # pyright: reportAttributeAccessIssue=false
@@ -9,14 +9,10 @@ from functools import cache
 from typing import Any
 
 import mujoco
-import numpy as np
 from mujoco.introspect import ast_nodes
 from mujoco.introspect.structs import STRUCTS
-from numba.np.numpy_support import carray
 
-from cointoss.coin_mj.model.library import pointer_to
-from cointoss.models.kernel.arrays import Array
-from cointoss.models.kernel.compiled import compiled
+from cointoss.coin_mj.model.mujoco_coin import JointAddresses
 from cointoss.models.records import UnusableEngineError
 
 _SCALARS: dict[str, Any] = {
@@ -33,22 +29,11 @@ _SCALARS: dict[str, Any] = {
 PROVED = "4.0.0"
 """The MuJoCo in which a search of its memory found each field where it describes it."""
 OF_ROWS = ("efc_J", "efc_pos", "efc_D", "efc_R", "efc_aref")
-"""Arrays of the rows of constraints, which move from step to step. Other arrays are seen through views."""
+"""Arrays of the rows of constraints, which move from step to step. Other arrays stay."""
 # A callback in Python refuses the step that MuJoCo's compiler makes, see `scene`.
 _BALL = """<mujoco><option><flag spring="disable" damper="disable" actuation="disable"/></option>
 <worldbody><geom type="plane" size="0 0 1"/><body pos="0 0 0.9"><freejoint/><geom size="1"/></body>
 </worldbody></mujoco>"""
-_OF_JOINT = (
-    "qpos",
-    "qvel",
-    "qacc",
-    "qacc_smooth",
-    "qfrc_constraint",
-    "qfrc_actuator",
-    "qfrc_passive",
-    "qfrc_bias",
-    "qfrc_applied",
-)
 
 
 class LayoutError(UnusableEngineError):
@@ -166,39 +151,6 @@ def _kind(struct: str, field: str, described: Any) -> Any:
     return _SCALARS[described.name]
 
 
-def joint_arrays(data: mujoco.MjData) -> Any:
-    """Return MuJoCo's arrays of the free joint as one record of views, which `data` must outlive.
-
-    They are qpos, (7,), and qvel, qacc, qacc_smooth, qfrc_constraint, qfrc_actuator, qfrc_passive, qfrc_bias
-    and qfrc_applied, (6,) each. Compiled code passes a record as one number, but an array as seven.
-    """
-    arrays = sorted((getattr(data, name).ctypes.data, name, getattr(data, name).size) for name in _OF_JOINT)
-    start = arrays[0][0]
-    kind = _joint_kind(tuple((name, size, address - start) for address, name, size in arrays))
-    memory: Any = (ctypes.c_char * kind.itemsize).from_address(start)
-    return np.frombuffer(memory, kind)[0]
-
-
-@cache
-def _joint_kind(arrays: tuple[tuple[str, int, int], ...]) -> np.dtype[Any]:
-    names, sizes, offsets = zip(*arrays, strict=True)
-    formats = [(np.float64, size) for size in sizes]
-    return np.dtype({"names": names, "formats": formats, "offsets": offsets})
-
-
-@compiled
-def numbers_at(address: int, shape: tuple[int, int] | tuple[int]) -> Array:
-    """Return the numbers of MuJoCo at an address as an array of this shape, of float64."""
-    return carray(pointer_to(address, np.float64), shape)
-
-
-@compiled
-def address_at(address: int) -> int:
-    """Return the address that a field of MuJoCo's at an address holds."""
-    return carray(pointer_to(address, np.int64), (1,))[0]
-
-
-@compiled
-def integer_at(address: int) -> int:
-    """Return the integer of MuJoCo at an address."""
-    return carray(pointer_to(address, np.int32), (1,))[0]
+def joint_addresses(data: mujoco.MjData) -> JointAddresses:
+    """Return where the arrays of the free joint lie, as long as `data` lives."""
+    return JointAddresses._make(getattr(data, name).ctypes.data for name in JointAddresses._fields)

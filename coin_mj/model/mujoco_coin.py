@@ -1,44 +1,96 @@
-"""MuJoCo's coin as compiled code sees it."""
+"""MuJoCo's coin as compiled code sees it: numbers alone."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-import numpy as np
-
+from cointoss.coin_mj.model.addresses import call_at, numbers_at
 from cointoss.coin_mj.model.settings import Rebound
 from cointoss.models.body import Body
+from cointoss.models.kernel.arrays import Array
+from cointoss.models.kernel.compiled import inlined
 
-ADDRESSES = np.dtype(
-    [
-        (name, np.int64)
-        for name in (
-            "model",
-            "data",
-            "time",  # of mjData, for those who wait [s]; no step reads it
-            "timestep",
-            "solref",  # of the normal force: minus the contact's stiffness [1/s²] and damping [1/s]
-            "solreffriction",  # of MuJoCo's own friction, likewise; 0 where that is not asked for
-            "margin",  # height up to which a contact is one [m]
-            "xmat",  # of the coin: its rotation matrix, (3, 3)
-            "nefc",  # number of constraint rows
-            "efc_J",  # where the arrays of these rows are now, each an address
-            "efc_pos",
-            "efc_D",
-            "efc_R",
-            "efc_aref",
-            "air",  # the compiled force of the air with b > 0, see `compiled_air`; 0 of other air
-        )
-    ]
-)
-"""Where an mjModel, an mjData, and some of their fields lie."""
+
+class Functions(NamedTuple):
+    """The addresses of MuJoCo's own functions, by their names; each takes an mjModel and an mjData."""
+
+    mj_resetData: int
+    mj_Euler: int
+    mj_kinematics: int
+    mj_comPos: int
+    mj_makeM: int
+    mj_factorM: int
+    mj_collision: int
+    mj_makeConstraint: int
+    mj_projectConstraint: int
+    mj_referenceConstraint: int
+    mj_comVel: int
+    mj_fwdAcceleration: int
+    mj_fwdConstraint: int
+    mj_rne: int
+    """Newton-Euler's forces; takes whether with accelerations, and where the forces go, (nv,), too."""
+    mj_solveM: int
+    """Solves M x = y for several y; takes x, y and their number, too."""
+
+
+class Addresses(NamedTuple):
+    """Where an mjModel, an mjData, and some of their fields lie."""
+
+    model: int
+    data: int
+    time: int
+    """Of mjData, for those who wait [s]; no step reads it."""
+    timestep: int
+    solref: int
+    """Of the normal force: minus the contact's stiffness [1/s²] and damping [1/s]."""
+    solreffriction: int
+    """Of MuJoCo's own friction, likewise; 0 where that is not asked for."""
+    margin: int
+    """Height up to which a contact is one [m]."""
+    xmat: int
+    """Of the coin: its rotation matrix, (3, 3)."""
+    nefc: int
+    """Number of constraint rows."""
+    efc_J: int
+    """Where the arrays of these rows are now, each an address."""
+    efc_pos: int
+    efc_D: int
+    efc_R: int
+    efc_aref: int
+
+
+class JointAddresses(NamedTuple):
+    """Where the arrays of the free joint lie, see `Joint`."""
+
+    qpos: int
+    qvel: int
+    qacc: int
+    qacc_smooth: int
+    qfrc_constraint: int
+    qfrc_actuator: int
+    qfrc_passive: int
+    qfrc_bias: int
+    qfrc_applied: int
+
+
+class Joint(NamedTuple):
+    """MuJoCo's arrays of the free joint: qpos, (7,), and the others, (6,)."""
+
+    qpos: Array
+    qvel: Array
+    qacc: Array
+    qacc_smooth: Array
+    qfrc_constraint: Array
+    qfrc_actuator: Array
+    qfrc_passive: Array
+    qfrc_bias: Array
+    qfrc_applied: Array
 
 
 class MujocoCoin(NamedTuple):
     """A coin as compiled code sees it: MuJoCo's memory, and the numbers of coin, floor and steps."""
 
-    address: Any
-    """A record of `ADDRESSES`."""
-    joint: Any
-    """See `joint_arrays`."""
+    mujoco: Functions
+    address: Addresses
+    joint: JointAddresses
     body: Body
     shape: Body
     """The body with the thickness of its shape, and bounds of its inertia for its flight, see `shape_of`."""
@@ -61,3 +113,26 @@ class MujocoCoin(NamedTuple):
     """Whether a contact is one step."""
     flight_angle: float
     """Largest turn in a step of flight [rad]."""
+
+
+@inlined
+def joint_of(coin: MujocoCoin) -> Joint:
+    """Return MuJoCo's arrays of the free joint."""
+    at = coin.joint
+    return Joint(
+        numbers_at(at.qpos, (7,)),
+        numbers_at(at.qvel, (6,)),
+        numbers_at(at.qacc, (6,)),
+        numbers_at(at.qacc_smooth, (6,)),
+        numbers_at(at.qfrc_constraint, (6,)),
+        numbers_at(at.qfrc_actuator, (6,)),
+        numbers_at(at.qfrc_passive, (6,)),
+        numbers_at(at.qfrc_bias, (6,)),
+        numbers_at(at.qfrc_applied, (6,)),
+    )
+
+
+@inlined
+def run(coin: MujocoCoin, function: int) -> None:
+    """Run one of the `Functions` that take nothing but model and data."""
+    call_at(function, (coin.address.model, coin.address.data))

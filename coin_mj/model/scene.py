@@ -8,13 +8,11 @@ from importlib import resources
 import mujoco
 import numpy as np
 
-from cointoss.coin_mj.model.settings import Rebound
+from cointoss.coin_mj.model.settings import NO_DAMPING, Rebound
 from cointoss.models.scenario import Scenario
 
 THIN_SHAPE = 1e-6
 """Thickness of the shape of a thin coin (h = 0), in radii; its inertia stays the scenario's."""
-NO_DAMPING = 1e-9
-"""A damping that damps nothing in the time of a contact [1/s]."""
 _Disable = mujoco.mjtDisableBit
 # MuJoCo's compiler makes a step, in which a callback written in Python fails for want of a model.
 _UNCALLED = int(_Disable.mjDSBL_SPRING | _Disable.mjDSBL_DAMPER | _Disable.mjDSBL_ACTUATION)

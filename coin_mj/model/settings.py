@@ -13,6 +13,8 @@ from cointoss.models.parts import Floor
 
 ROUGH = 100.0
 """Coefficient of friction that stands for a perfectly rough floor."""
+NO_DAMPING = 1e-9
+"""A damping that damps nothing in the time of a contact [1/s]."""
 
 
 class Realisation(StrEnum):

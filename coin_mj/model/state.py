@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from cointoss.coin_mj.model.library import mj_reset
-from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of, run
 from cointoss.models.body import Body
 from cointoss.models.free_joint import of_mass_center, to_mass_center
 from cointoss.models.kernel.compiled import compiled
@@ -36,7 +35,7 @@ def put_at(coin: MujocoCoin, y: Array) -> None:
         coin: MuJoCo's.
         y: position and velocity of C (space), Euler parameters and angular velocity (body), (13,).
     """
-    mj_reset(coin.address.model, coin.address.data)
+    run(coin, coin.mujoco.mj_resetData)
     x, v = (y[0], y[1], y[2]), (y[3], y[4], y[5])
     e, w = (y[6], y[7], y[8], y[9]), (y[10], y[11], y[12])
     x_B, v_B = of_mass_center(coin.body, x, v, e, w)
@@ -46,23 +45,24 @@ def put_at(coin: MujocoCoin, y: Array) -> None:
 @compiled
 def set_motion(coin: MujocoCoin, motion: Array | Motion) -> None:
     """Put MuJoCo's coin into a state: qpos and qvel, (13,)."""
+    joint = joint_of(coin)
     for i in range(7):
-        coin.joint.qpos[i] = motion[i]
+        joint.qpos[i] = motion[i]
     for i in range(6):
-        coin.joint.qvel[i] = motion[7 + i]
+        joint.qvel[i] = motion[7 + i]
 
 
 @compiled
 def motion_of(coin: MujocoCoin) -> Motion:
     """Return qpos and qvel, a tuple of 13."""
-    q, v = coin.joint.qpos, coin.joint.qvel
+    q, v = joint_of(coin).qpos, joint_of(coin).qvel
     return q[0], q[1], q[2], q[3], q[4], q[5], q[6], v[0], v[1], v[2], v[3], v[4], v[5]
 
 
 @compiled
 def state_of(coin: MujocoCoin) -> State:
     """Return the present `State`."""
-    return to_mass_center(coin.body, coin.joint.qpos, coin.joint.qvel)
+    return to_mass_center(coin.body, joint_of(coin).qpos, joint_of(coin).qvel)
 
 
 @compiled

@@ -11,16 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cointoss.coin_mj.model.library import (
-    mj_acceleration,
-    mj_collision,
-    mj_constraint,
-    mj_make_constraint,
-    mj_project_constraint,
-    mj_reference_constraint,
-)
-from cointoss.coin_mj.model.memory import address_at, integer_at, numbers_at
-from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.coin_mj.model.addresses import address_at, integer_at, numbers_at
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of, run
 from cointoss.coin_mj.model.state import motion_of, set_motion
 from cointoss.coin_mj.steps.free_step import place_body, place_body_again
 from cointoss.coin_mj.steps.mujoco_step import euler_step
@@ -74,16 +66,16 @@ def constrained_forward(coin: MujocoCoin, constraint: Constraint) -> float:
 
 @compiled
 def _constrained_force(coin: MujocoCoin, constraint: Constraint) -> float:
-    mj_collision(coin.address.model, coin.address.data)
-    mj_make_constraint(coin.address.model, coin.address.data)
-    mj_project_constraint(coin.address.model, coin.address.data)
-    mj_reference_constraint(coin.address.model, coin.address.data)
+    run(coin, coin.mujoco.mj_collision)
+    run(coin, coin.mujoco.mj_makeConstraint)
+    run(coin, coin.mujoco.mj_projectConstraint)
+    run(coin, coin.mujoco.mj_referenceConstraint)
     if constraint.frequency > 0:
         _set_rows(coin, constraint)
     write_smooth_forces(coin, constraint.feels_air)
-    mj_acceleration(coin.address.model, coin.address.data)
-    mj_constraint(coin.address.model, coin.address.data)
-    return coin.joint.qfrc_constraint[2]
+    run(coin, coin.mujoco.mj_fwdAcceleration)
+    run(coin, coin.mujoco.mj_fwdConstraint)
+    return joint_of(coin).qfrc_constraint[2]
 
 
 @compiled
@@ -108,13 +100,13 @@ def constrained_step(coin: MujocoCoin, constraint: Constraint, dt: float) -> Non
     weights = CLASSICAL if constraint.frequency > 0 else TSITOURAS
     stages = len(weights) - 1
     start, rates, motion = motion_of(coin), np.empty((stages, 13)), np.empty(13)
-    write_rate(motion_of(coin), coin.joint.qacc, rates[0])
+    write_rate(motion_of(coin), joint_of(coin).qacc, rates[0])
     for stage in range(1, stages):
         stage_motion(start, rates, weights, stage, dt, motion)
         set_motion(coin, motion)
         place_body_again(coin)
         _constrained_force(coin, constraint)
-        write_rate(motion_of(coin), coin.joint.qacc, rates[stage])
+        write_rate(motion_of(coin), joint_of(coin).qacc, rates[stage])
     set_motion(coin, end_motion(start, rates, weights, dt, motion))
 
 
@@ -125,7 +117,7 @@ def _set_rows(coin: MujocoCoin, constraint: Constraint) -> None:
     if n == 0:
         return
     J, position, D, R, reference = _row_arrays(coin, n)
-    turned = rotation_matrix(coin.joint.qpos[3:])
+    turned = rotation_matrix(joint_of(coin).qpos[3:])
     lowest = np.inf
     for i in range(n):
         if J[i, 2] > 1 - 1e-9:
@@ -139,7 +131,7 @@ def _set_rows(coin: MujocoCoin, constraint: Constraint) -> None:
             continue
         speed = 0.0
         for j in range(6):
-            speed += J[i, j] * coin.joint.qvel[j]
+            speed += J[i, j] * joint_of(coin).qvel[j]
         spring = frequency * (constraint.lift * position[i] + 2 * speed)
         reference[i] = -spring - _rising(coin, turned, J[i])
 
@@ -169,13 +161,13 @@ def _rising(coin: MujocoCoin, R: Matrix, J: Array) -> float:
         R: rotation matrix, body to space.
         J: the row, (6,).
     """
-    v = coin.joint.qvel
+    v = joint_of(coin).qvel
     up, w = R[2], (v[3], v[4], v[5])
     sine = math.hypot(up[0], up[1])
     if sine < _FACE:
         return 0.0
     # p = u × (p × u) + (p · u) u, where p · u is the point's height below B.
-    below = coin.floor_height - coin.joint.qpos[2]
+    below = coin.floor_height - joint_of(coin).qpos[2]
     moment = (J[3], J[4], J[5])
     across = cross(up, moment)
     p = (across[0] + below * up[0], across[1] + below * up[1], across[2] + below * up[2])

@@ -14,7 +14,7 @@ from cointoss.coin_mj.steps.gap_evaluation import (
     state_above_floor,
     turning_rate,
 )
-from cointoss.coin_mj.steps.knots import Knot, Step, add_knot
+from cointoss.coin_mj.steps.knots import Recorded, Step, add_knot
 from cointoss.coin_mj.steps.touch_search import arc_of, first_touch
 from cointoss.models.body import Rules, is_to_be_caught
 from cointoss.models.catch import approach_hand
@@ -42,8 +42,8 @@ NUDGE = 1e-6
 
 @compiled
 def fly(
-    coin: MujocoCoin, rules: Rules, time: float, steps_left: int, knots: list[Knot]
-) -> tuple[float, FlightExit, int]:
+    coin: MujocoCoin, rules: Rules, time: float, steps_left: int, path: Recorded
+) -> tuple[float, FlightExit, int, Recorded]:
     """Fly until the coin touches the floor or is caught.
 
     Args:
@@ -51,10 +51,10 @@ def fly(
         rules: floor and ending.
         time: now [s].
         steps_left: the most steps wanted.
-        knots: of the path, kept up; see `knots.add_knot`.
+        path: of the toss so far.
 
     Returns:
-        The time [s], the `FlightExit`, and the steps left.
+        The time [s], the `FlightExit`, the steps left, and the path.
     """
     # No step of flight detects contacts: of a coin that is flat within rounding MuJoCo's plane-cylinder
     # routine may take the radius for the height.
@@ -69,9 +69,9 @@ def fly(
             approach = approach_hand(coin.body, rules.caught, is_above, state_above_floor(coin), dt)
             is_above, dt = approach.is_above, approach.step
             if approach.is_caught:
-                return time, FlightExit.CAUGHT, steps_left
+                return time, FlightExit.CAUGHT, steps_left, path
         clear = clear_flight(coin, dt) >= dt
-        add_knot(coin, time, Step.FLIGHT, knots)
+        path = add_knot(coin, time, Step.FLIGHT, path)
         free_step_from(coin, start, rates, dt)
         free_rate_again(coin, end_rate)
         if not clear:
@@ -79,11 +79,11 @@ def fly(
             if touch < dt:
                 dt, touches = _land(coin, start, rates, touch, dt, shortest)
                 if touches:
-                    return time + dt, FlightExit.TOUCHES, steps_left
+                    return time + dt, FlightExit.TOUCHES, steps_left, path
                 free_rate_again(coin, end_rate)
         copy_into(rates[0], end_rate)
         time += dt
-    return time, FlightExit.BUDGET, steps_left
+    return time, FlightExit.BUDGET, steps_left, path
 
 
 @compiled

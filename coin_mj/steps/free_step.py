@@ -2,14 +2,7 @@
 
 import numpy as np
 
-from cointoss.coin_mj.model.library import (
-    mj_acceleration,
-    mj_center,
-    mj_factor_mass,
-    mj_kinematics,
-    mj_make_mass,
-)
-from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of, run
 from cointoss.coin_mj.model.state import Motion, motion_of, set_motion
 from cointoss.coin_mj.steps.runge_kutta import (
     TSITOURAS,
@@ -61,7 +54,7 @@ def free_step_from(coin: MujocoCoin, start: Motion, rates: Array, dt: float) -> 
         set_motion(coin, motion)
         place_body_again(coin)
         _find_acceleration(coin)
-        write_slow_rate(frame, turn, slow, coin.joint.qacc_smooth, of_stages[stage])
+        write_slow_rate(frame, turn, slow, joint_of(coin).qacc_smooth, of_stages[stage])
     to_motion(turn_after(frame, dt), end_motion(start, of_stages, TSITOURAS, dt, slow), motion)
     set_motion(coin, motion)
 
@@ -71,7 +64,7 @@ def free_rate(coin: MujocoCoin, rate: Array) -> None:
     """Write the rate of change of the present state without the floor, (13,)."""
     place_body(coin)
     _find_acceleration(coin)
-    write_rate(motion_of(coin), coin.joint.qacc_smooth, rate)
+    write_rate(motion_of(coin), joint_of(coin).qacc_smooth, rate)
 
 
 @compiled
@@ -79,7 +72,7 @@ def free_rate_again(coin: MujocoCoin, rate: Array) -> None:
     """Write the same once more after a motion; see `place_body_again`."""
     place_body_again(coin)
     _find_acceleration(coin)
-    write_rate(motion_of(coin), coin.joint.qacc_smooth, rate)
+    write_rate(motion_of(coin), joint_of(coin).qacc_smooth, rate)
 
 
 @compiled
@@ -93,16 +86,16 @@ def nudge(coin: MujocoCoin, dt: float) -> None:
 @compiled
 def _find_acceleration(coin: MujocoCoin) -> None:
     write_smooth_forces(coin, True)
-    mj_acceleration(coin.address.model, coin.address.data)
+    run(coin, coin.mujoco.mj_fwdAcceleration)
 
 
 @compiled
 def place_body(coin: MujocoCoin) -> None:
     """Compute what of MuJoCo's data depends on qpos alone, but for contacts."""
-    mj_kinematics(coin.address.model, coin.address.data)
-    mj_center(coin.address.model, coin.address.data)
-    mj_make_mass(coin.address.model, coin.address.data)
-    mj_factor_mass(coin.address.model, coin.address.data)
+    run(coin, coin.mujoco.mj_kinematics)
+    run(coin, coin.mujoco.mj_comPos)
+    run(coin, coin.mujoco.mj_makeM)
+    run(coin, coin.mujoco.mj_factorM)
 
 
 @compiled
@@ -111,5 +104,5 @@ def place_body_again(coin: MujocoCoin) -> None:
     if not coin.is_balanced:
         place_body(coin)
         return
-    mj_kinematics(coin.address.model, coin.address.data)
-    mj_center(coin.address.model, coin.address.data)
+    run(coin, coin.mujoco.mj_kinematics)
+    run(coin, coin.mujoco.mj_comPos)

@@ -5,8 +5,8 @@ Both follow from the normal force that MuJoCo measures.
 
 import numpy as np
 
-from cointoss.coin_mj.model.library import mj_solve_mass
-from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.coin_mj.model.addresses import call_at
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of
 from cointoss.coin_mj.model.state import Motion, momentum_of, motion_of, set_motion
 from cointoss.coin_mj.steps.constrained_step import Constraint, constrained_forward, contact_step
 from cointoss.coin_mj.steps.coulomb import coulomb_force
@@ -23,7 +23,7 @@ def friction_step(coin: MujocoCoin, constraint: Constraint, dt: float) -> None:
     """Advance by dt [s] with the forces of `apply_friction` in a frictionless contact."""
     apply_friction(coin, constraint, dt)
     contact_step(coin, constraint, dt)
-    coin.joint.qfrc_applied[:] = 0
+    joint_of(coin).qfrc_applied[:] = 0
 
 
 @compiled
@@ -62,8 +62,8 @@ def apply_friction(coin: MujocoCoin, constraint: Constraint, dt: float) -> None:
     at_start = apply_transposed(R, add(cross(point, F), M))
     at_end = apply_transposed(R_end, add(cross(point_end, F), M))
     for i in range(3):
-        coin.joint.qfrc_applied[i] = F[i]
-        coin.joint.qfrc_applied[3 + i] = (at_start[i] + at_end[i]) / 2
+        joint_of(coin).qfrc_applied[i] = F[i]
+        joint_of(coin).qfrc_applied[3 + i] = (at_start[i] + at_end[i]) / 2
     set_motion(coin, start)
     constrained_forward(coin, constraint)
 
@@ -74,7 +74,7 @@ def contact_point(coin: MujocoCoin) -> Vector:
 
     It follows from the moment of the normal forces about B, after `constrained_forward`.
     """
-    f, qpos = coin.joint.qfrc_constraint, coin.joint.qpos
+    f, qpos = joint_of(coin).qfrc_constraint, joint_of(coin).qpos
     moment = apply(rotation_matrix(qpos[3:]), (f[3], f[4], f[5]))
     return -moment[1] / f[2], moment[0] / f[2], coin.floor_height - qpos[2]
 
@@ -107,7 +107,11 @@ def delassus(coin: MujocoCoin, R: Matrix, point: Vector, n: int) -> Array:
             jacobian[i, i] = 1.0
         for j in range(3):
             jacobian[i, 3 + j] = turning[j]
-    mj_solve_mass(coin.address.model, coin.address.data, gained.ctypes, jacobian.ctypes, n)
+    at = coin.address
+    call_at(
+        coin.mujoco.mj_solveM,
+        (at.model, at.data, gained.ctypes.data, jacobian.ctypes.data, np.int32(n)),
+    )
     K = np.zeros((n, n))
     for i in range(n):
         for j in range(n):

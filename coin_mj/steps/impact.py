@@ -3,15 +3,16 @@
 import math
 from enum import IntEnum
 
-from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of
 from cointoss.coin_mj.model.state import Motion, momentum_of, motion_of, set_motion
 from cointoss.coin_mj.steps.constrained_step import IMPACT, constrained_forward, contact_step, forward
 from cointoss.coin_mj.steps.flight import TOUCH_STEP
 from cointoss.coin_mj.steps.friction import friction_step
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
-from cointoss.coin_mj.steps.knots import Knot, Step, add_knot
+from cointoss.coin_mj.steps.knots import Recorded, Step, add_knot
 from cointoss.coin_mj.steps.mujoco_step import other_force, set_margin, set_spring
 from cointoss.models.attitude import Quaternion, quaternion_product, rotation_matrix
+from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, cross, scale, subtract
 
@@ -38,7 +39,9 @@ class TouchResult(IntEnum):
 
 
 @compiled
-def resolve_impact(coin: MujocoCoin, time: float, knots: list[Knot]) -> tuple[TouchResult, float, Vector]:
+def resolve_impact(
+    coin: MujocoCoin, time: float, path: Recorded
+) -> tuple[TouchResult, float, Vector, Recorded]:
     """Follow a contact from the touch to the release of all rim points.
 
     On a coin that lands flat there is no Coulomb force: its impulse goes through C, as in the paper's
@@ -51,24 +54,27 @@ def resolve_impact(coin: MujocoCoin, time: float, knots: list[Knot]) -> tuple[To
     Args:
         coin: MuJoCo's.
         time: of the touch [s].
-        knots: of the path, kept up; see `knots.add_knot`.
+        path: of the toss so far.
 
     Returns:
-        `TouchResult`; time of the release [s]; integral of the floor's force, space frame, (3,) [N s].
+        `TouchResult`; time of the release [s]; integral of the floor's force, space frame, (3,) [N s];
+        the path.
     """
     set_margin(coin, 0.0)
     set_spring(coin, coin.rebound.stiffness, coin.rebound.damping, coin.rebound.slip_damping)
-    up = rotation_matrix(coin.joint.qpos[3:])[2]
+    up = rotation_matrix(joint_of(coin).qpos[3:])[2]
     if math.hypot(up[0], up[1]) > FLAT or _leans(coin, up):
-        return _resolve(coin, coin.has_explicit_friction, time, knots)
-    first = len(knots)
+        return _resolve(coin, coin.has_explicit_friction, time, path)
+    first = path.size
     turn, spin = _turn_level(coin, up[2])
-    result, end, impulse = _resolve(coin, False, time, knots)
-    for number in range(first, len(knots)):
-        knot = knots[number]
-        knots[number] = knot[:2] + _turned_back(turn, spin, knot[0] - time, knot[2:])
-    set_motion(coin, _turned_back(turn, spin, end - time, motion_of(coin)))
-    return result, end, apply(rotation_matrix(turn), impulse)
+    result, end, impulse, path = _resolve(coin, False, time, path)
+    last = _turned_back(turn, spin, end - time, motion_of(coin))
+    for number in range(first, path.size):
+        knot = path.table[number]
+        set_motion(coin, knot[2:])
+        copy_into(knot[2:], _turned_back(turn, spin, knot[0] - time, motion_of(coin)))
+    set_motion(coin, last)
+    return result, end, apply(rotation_matrix(turn), impulse), path
 
 
 @compiled
@@ -79,7 +85,7 @@ def _leans(coin: MujocoCoin, up: Vector) -> bool:
         coin: MuJoCo's.
         up: the upward unit vector in the body frame, (3,).
     """
-    qpos, w = coin.joint.qpos, coin.joint.qvel
+    qpos, w = joint_of(coin).qpos, joint_of(coin).qvel
     rate = cross(up, (w[3], w[4], w[5]))
     turning = math.hypot(rate[0], rate[1])
     if turning * coin.rebound.duration <= FLAT:
@@ -100,7 +106,7 @@ def _turn_level(coin: MujocoCoin, n_z: float) -> tuple[Quaternion, float]:
         turn: Euler parameters of the turn back, (4,).
         spin: ω_ζ, taken out [rad/s].
     """
-    q, v = coin.joint.qpos, coin.joint.qvel
+    q, v = joint_of(coin).qpos, joint_of(coin).qvel
     e = (q[3], q[4], q[5], q[6])
     # Times the conjugate of the flat attitude: (1, 0, 0, 0), or (0, 1, 0, 0) with tails up.
     turn = e if n_z > 0 else quaternion_product(e, (0.0, -1.0, 0.0, 0.0))
@@ -126,8 +132,8 @@ def _turned_back(turn: Quaternion, spin: float, elapsed: float, motion: Motion) 
 
 @compiled
 def _resolve(
-    coin: MujocoCoin, has_friction: bool, time: float, knots: list[Knot]
-) -> tuple[TouchResult, float, Vector]:
+    coin: MujocoCoin, has_friction: bool, time: float, path: Recorded
+) -> tuple[TouchResult, float, Vector, Recorded]:
     start, momentum, other = time, momentum_of(coin), (0.0, 0.0, 0.0)
     acted, result = False, TouchResult.SUSTAINED
     while time - start <= SUSTAINED * coin.rebound.duration:
@@ -143,17 +149,17 @@ def _resolve(
         dt = _step_length(coin) if force > 0 else TOUCH_STEP * coin.rebound.step
         acted = acted or force > 0
         other = add(other, scale(dt, other_force(coin)))
-        add_knot(coin, time, Step.IMPACT, knots)
+        path = add_knot(coin, time, Step.IMPACT, path)
         if force > 0 and has_friction:
             friction_step(coin, IMPACT, dt)
         else:
             contact_step(coin, IMPACT, dt)
         time += dt
         if acted and coin.has_one_step:
-            coin.joint.qpos[2] -= min(evaluate_gap(coin).gap, 0.0)
+            joint_of(coin).qpos[2] -= min(evaluate_gap(coin).gap, 0.0)
             result = TouchResult.IMPACT
             break
-    return result, time, subtract(subtract(momentum_of(coin), momentum), other)
+    return result, time, subtract(subtract(momentum_of(coin), momentum), other), path
 
 
 @compiled

@@ -1,16 +1,19 @@
 """Knots of the path of MuJoCo's coin: the states before its steps."""
 
 from enum import IntEnum
+from typing import NamedTuple
 
-from cointoss.coin_mj.model.memory import numbers_at
+import numpy as np
+
+from cointoss.coin_mj.model.addresses import numbers_at
 from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
 from cointoss.coin_mj.model.state import motion_of
+from cointoss.models.kernel.arrays import Array, copy_into, doubled
 from cointoss.models.kernel.compiled import compiled
 
-Knot = tuple[
-    float, float, float, float, float, float, float, float, float, float, float, float, float, float, float
-]
-"""Time, `Step`, qpos and qvel."""
+KNOT = 15
+"""Numbers of a knot: time [s], the `Step` that starts there, qpos and qvel."""
+_FIRST_ROOM = 256
 
 
 class Step(IntEnum):
@@ -22,23 +25,37 @@ class Step(IntEnum):
     """Of a sustained contact."""
 
 
+class Recorded(NamedTuple):
+    """The path so far."""
+
+    table: Array
+    """Knots, with room for more, (m, 15); (0, 15) where the path is not kept."""
+    size: int
+    """Of the knots."""
+
+
 @compiled
-def add_knot(coin: MujocoCoin, time: float, step: Step, knots: list[Knot]) -> None:
-    """Add the present state to the path, and set MuJoCo's time.
+def nothing_recorded(keep: bool) -> Recorded:
+    """Return a path without knots, which is kept or not."""
+    return Recorded(np.empty((_FIRST_ROOM if keep else 0, KNOT)), 0)
+
+
+@compiled
+def add_knot(coin: MujocoCoin, time: float, step: Step, path: Recorded) -> Recorded:
+    """Return the path with the present state, and set MuJoCo's time.
 
     Args:
         coin: MuJoCo's.
         time: now [s].
         step: the `Step` that starts there.
-        knots: the path so far, (time, step, qpos, qvel) each; empty where the path is not kept.
+        path: so far.
     """
     numbers_at(coin.address.time, (1,))[0] = time
-    if len(knots) > 0:
-        knots.append(knot_of(coin, time, step))
-
-
-@compiled
-def knot_of(coin: MujocoCoin, time: float, step: Step) -> Knot:
-    """Return the present state as a knot, (15,); see `add_knot`."""
-    when = (time, float(step.value))
-    return when + motion_of(coin)
+    table, n = path
+    if len(table) == 0:
+        return path
+    if n == len(table):
+        table = doubled(table)
+    table[n, 0], table[n, 1] = time, step.value
+    copy_into(table[n, 2:], motion_of(coin))
+    return Recorded(table, n + 1)

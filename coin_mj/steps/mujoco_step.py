@@ -1,9 +1,8 @@
 """MuJoCo's own forces, its Euler step and the settings of its contact."""
 
-from cointoss.coin_mj.model.library import mj_euler
-from cointoss.coin_mj.model.memory import numbers_at
-from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
-from cointoss.coin_mj.model.scene import NO_DAMPING
+from cointoss.coin_mj.model.addresses import numbers_at
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of, run
+from cointoss.coin_mj.model.settings import NO_DAMPING
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Vector
 
@@ -11,7 +10,7 @@ from cointoss.models.kernel.vectors import Vector
 @compiled
 def other_force(coin: MujocoCoin) -> Vector:
     """Return weight and drag, space frame, (3,) [N], after `forward`."""
-    f, g = coin.joint.qfrc_actuator, coin.joint.qfrc_passive
+    f, g = joint_of(coin).qfrc_actuator, joint_of(coin).qfrc_passive
     return f[0] + g[0], f[1] + g[1], f[2] + g[2] - coin.body.mass * coin.body.gravity
 
 
@@ -19,7 +18,7 @@ def other_force(coin: MujocoCoin) -> Vector:
 def euler_step(coin: MujocoCoin, dt: float) -> None:
     """Advance by dt [s] with MuJoCo's semi-implicit Euler, by the accelerations that `forward` found."""
     numbers_at(coin.address.timestep, (1,))[0] = dt
-    mj_euler(coin.address.model, coin.address.data)
+    run(coin, coin.mujoco.mj_Euler)
 
 
 @compiled

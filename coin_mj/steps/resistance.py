@@ -83,7 +83,7 @@ def resisted_force(
         for _ in range(PARTS):
             free = start + driven
             _solve(part, normal, start, free, f)
-            start = free + part.G @ f
+            start = _motion_after(part, free, f)
             total += f
         f = total / PARTS
     given_way = 0.0
@@ -129,10 +129,20 @@ def _solve(laws: Laws, normal: float, start: Array, free: Array, f: Array) -> No
 
 
 @compiled
+def _motion_after(laws: Laws, free: Array, f: Array) -> Array:
+    """Return the motion at the end of a part of a step, (6,); see `_solve`."""
+    end = free.copy()
+    for i in range(6):
+        for k in range(6):
+            end[i] += laws.G[i, k] * f[k]
+    return end
+
+
+@compiled
 def _is_smooth(laws: Laws, normal: float, start: Array, free: Array, f: Array) -> bool:
     """Return whether each motion of a step stays at rest, or keeps its direction; see `_solve`."""
     g, G, coefficients = laws
-    end, left = free + G @ f, normal
+    end, left = _motion_after(laws, free, f), normal
     for k in range(6):
         left -= g[k] * f[k]
     for law in range(3):

@@ -1,9 +1,10 @@
 """The forces on MuJoCo's coin that know no floor: those of its own motion, weight and air."""
 
-from cointoss.coin_mj.model.compiled_air import air_force_at
-from cointoss.coin_mj.model.library import mj_bias, mj_center_velocity
-from cointoss.coin_mj.model.memory import numbers_at
-from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+import numpy as np
+
+from cointoss.coin_mj.model.addresses import call_at, numbers_at
+from cointoss.coin_mj.model.air import PowerLaw, air_force
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of, run
 from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import is_linear
 from cointoss.models.kernel.compiled import compiled
@@ -19,8 +20,9 @@ def write_smooth_forces(coin: MujocoCoin, feels_air: bool) -> None:
     MuJoCo's own stages for passive forces and actuators take the most time of a step: they look for springs,
     tendons, fluids and every kind of actuator. `_write_linear_drag` writes what they find of linear air.
     """
-    mj_center_velocity(coin.address.model, coin.address.data)
-    mj_bias(coin.address.model, coin.address.data, 0, coin.joint.qfrc_bias.ctypes)
+    run(coin, coin.mujoco.mj_comVel)
+    at = coin.address
+    call_at(coin.mujoco.mj_rne, (at.model, at.data, np.int32(0), coin.joint.qfrc_bias))
     if is_linear(coin.body.air):
         _write_linear_drag(coin)
     elif feels_air:
@@ -30,7 +32,8 @@ def write_smooth_forces(coin: MujocoCoin, feels_air: bool) -> None:
 @compiled
 def _write_linear_drag(coin: MujocoCoin) -> None:
     """Write the forces of the free joint's damping and of the actuator along the coin's normal."""
-    drag, v, joint = coin.body.drag, coin.joint.qvel, coin.joint
+    drag, joint = coin.body.drag, joint_of(coin)
+    v = joint.qvel
     R = numbers_at(coin.address.xmat, (3, 3))
     normal = (R[0, 2], R[1, 2], R[2, 2])
     along = (drag.force_tangential - drag.force_normal) * dot(normal, (v[0], v[1], v[2]))
@@ -45,10 +48,12 @@ def _write_linear_drag(coin: MujocoCoin) -> None:
 @compiled
 def _write_air(coin: MujocoCoin) -> None:
     """Write the force and the moment of air with b > 0, which MuJoCo lacks."""
-    qpos, v, passive = coin.joint.qpos, coin.joint.qvel, coin.joint.qfrc_passive
+    body, joint = coin.body, joint_of(coin)
+    qpos, v, passive = joint.qpos, joint.qvel, joint.qfrc_passive
     R = rotation_matrix((qpos[3], qpos[4], qpos[5], qpos[6]))
     of_B, w = apply_transposed(R, (v[0], v[1], v[2])), (v[3], v[4], v[5])
-    f, m = air_force_at(coin.address.air, coin.body, of_B, w)
+    law = PowerLaw(body.air.normal, body.air.tangential, body.air.exponent or 0.0)
+    f, m = air_force(body.radius, body.thickness, law, of_B, w)
     f = apply(R, f)
     for i in range(3):
         passive[i], passive[3 + i] = f[i], m[i]

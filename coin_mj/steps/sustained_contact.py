@@ -3,13 +3,13 @@
 import math
 from enum import IntEnum
 
-from cointoss.coin_mj.model.mujoco_coin import MujocoCoin
+from cointoss.coin_mj.model.mujoco_coin import MujocoCoin, joint_of
 from cointoss.coin_mj.model.state import motion_of, set_motion, state_of
 from cointoss.coin_mj.steps.constrained_step import Constraint, constrained_forward, contact_step
 from cointoss.coin_mj.steps.free_step import free_step
 from cointoss.coin_mj.steps.friction import apply_friction, friction_step
 from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap, turning_rate
-from cointoss.coin_mj.steps.knots import Knot, Step, add_knot
+from cointoss.coin_mj.steps.knots import Recorded, Step, add_knot
 from cointoss.coin_mj.steps.mujoco_step import set_margin, set_spring
 from cointoss.coin_mj.steps.resistance import shortest_stop
 from cointoss.models.body import Rules
@@ -79,8 +79,8 @@ def slow_speed(coin: MujocoCoin, chi: float, w: Vector) -> float:
 
 @compiled
 def follow_contact(
-    coin: MujocoCoin, rules: Rules, time: float, steps_left: int, history: EnergyHistory, knots: list[Knot]
-) -> tuple[ContactExit, float, int, Outcome, Ending]:
+    coin: MujocoCoin, rules: Rules, time: float, steps_left: int, history: EnergyHistory, path: Recorded
+) -> tuple[ContactExit, float, int, Outcome, Ending, Recorded]:
     """Follow a sustained contact until the coin lifts off, another rim point lands, or the toss is decided.
 
     Args:
@@ -89,10 +89,10 @@ def follow_contact(
         time: now [s].
         steps_left: the most steps wanted.
         history: `EnergyHistory` of the toss; kept up.
-        knots: of the path, kept up; see `knots.add_knot`.
+        path: of the toss so far.
 
     Returns:
-        `ContactExit`, the time [s], the steps left, the outcome and the ending.
+        `ContactExit`, the time [s], the steps left, the outcome, the ending, and the path.
     """
     body = coin.body
     rate = (body.gravity / body.radius) ** 0.5
@@ -113,13 +113,13 @@ def follow_contact(
         if ending == Ending.NONE and steps_left <= 0:
             outcome, ending = out_of_budget(coin, upright > 0, *out_of_steps(body, rules, now, history))
         if ending != Ending.NONE:
-            return ContactExit.DECIDED, time, steps_left, outcome, ending
+            return ContactExit.DECIDED, time, steps_left, outcome, ending, path
         dt, lands = next_step(coin, rules.restitution, up, up_rate, w, sunk)
         if lands:
             _pass_over(coin, dt)
-            return ContactExit.RIM_LANDS, time + dt, steps_left, Outcome.UNDECIDED, Ending.NONE
+            return ContactExit.RIM_LANDS, time + dt, steps_left, Outcome.UNDECIDED, Ending.NONE, path
         dt = min(dt, shortest_stop(coin, w), rules.max_time - time)
-        add_knot(coin, time, Step.CONTACT, knots)
+        path = add_knot(coin, time, Step.CONTACT, path)
         force, dt = shallow_step(coin, rules.restitution, w, dt)
         time += dt
         steps_left -= 1
@@ -128,9 +128,9 @@ def follow_contact(
         unloaded = unloaded + dt if force == 0 else 0.0
         # Half a period of the spring.
         if unloaded * frequency_of(dt) > math.pi:
-            return ContactExit.LIFT_OFF, time, steps_left, Outcome.UNDECIDED, Ending.NONE
+            return ContactExit.LIFT_OFF, time, steps_left, Outcome.UNDECIDED, Ending.NONE, path
     outcome, ending = out_of_budget(coin, upright > 0, Outcome.UNDECIDED, Ending.MAX_TIME)
-    return ContactExit.DECIDED, time, steps_left, outcome, ending
+    return ContactExit.DECIDED, time, steps_left, outcome, ending, path
 
 
 @compiled
@@ -259,9 +259,9 @@ def floor_force(coin: MujocoCoin, chi: float, dt: float) -> Vector:
     constraint = constrain(coin, chi, state_of(coin).spin, dt)
     if constrained_forward(coin, constraint) > 0 and (coin.has_explicit_friction or coin.resists):
         apply_friction(coin, constraint, dt)
-    f, g = coin.joint.qfrc_constraint, coin.joint.qfrc_applied
+    f, g = joint_of(coin).qfrc_constraint, joint_of(coin).qfrc_applied
     force = f[0] + g[0], f[1] + g[1], f[2] + g[2]
-    coin.joint.qfrc_applied[:] = 0
+    joint_of(coin).qfrc_applied[:] = 0
     return force
 
 
@@ -307,4 +307,4 @@ def next_step(
 def _pass_over(coin: MujocoCoin, dt: float) -> None:
     """Let the coin pass over its edge, or face, in a time dt [s], and put it on the rim point that lands."""
     free_step(coin, dt / APPROACH * (2 - APPROACH))
-    coin.joint.qpos[2] -= evaluate_gap(coin).gap
+    joint_of(coin).qpos[2] -= evaluate_gap(coin).gap

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numba import config
 
 from cointoss import coin_mj
 from cointoss.coin_mj import MANY, Friction, Realisation, Settings
@@ -69,7 +68,7 @@ def test_neither_threads_nor_tiles_nor_order_change_a_toss(exponent, n, longest,
     drawn, releases = draw_releases(np.random.default_rng(2), n)
     answers = []
     for threads in (1, 2, 5):
-        monkeypatch.setitem(config.__dict__, "NUMBA_NUM_THREADS", threads)
+        monkeypatch.setenv("COINTOSS_THREADS", str(threads))
         answers.append(coin_mj.toss_many(case, releases))
     assert_same(answers[0], answers[1])
     assert_same(answers[0], answers[2])

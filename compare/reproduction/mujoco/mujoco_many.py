@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
-from numba import config
 
 from cointoss import coin_mj
 from cointoss.coin_mj import MANY, Realisation, Settings
@@ -29,6 +28,7 @@ from cointoss.models.laws import ContactLaw
 from cointoss.models.reading import load
 from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
+from cointoss.models.tiles import cores_used
 
 SEED, TOSSES, TOUCHES = 5, 400, 100
 SCENARIO = "fig24a"
@@ -87,7 +87,7 @@ def compute(progress: Progress, tosses: int = TOSSES, touches: int = TOUCHES, se
     rng = np.random.default_rng(seed)
     scenario, releases = load(SCENARIO), draw_releases(rng, tosses)
     smooth = draw_touches(rng, touches, RESTITUTIONS)
-    speeds, threads = {}, config.__dict__["NUMBA_NUM_THREADS"]
+    speeds, threads = {}, cores_used()
     for number, (realisation, settings) in enumerate(SETTINGS.items(), start=1):
         speeds[realisation.value] = _speed(scenario, releases, settings, smooth, threads)
         progress(number, len(SETTINGS))

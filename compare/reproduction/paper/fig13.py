@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 from cointoss.analytic.air.force import force_and_moment
 from cointoss.analytic.air.velocity_field import SurfaceFields, velocity_fields
 from cointoss.coin_mj import Settings
+from cointoss.coin_mj.entries import forward
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.scene import shape_thickness
-from cointoss.coin_mj.steps.constrained_step import forward
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, ORANGE, PALE
 from cointoss.compare.reproduction.declared import Data, Findings, declared

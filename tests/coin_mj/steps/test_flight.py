@@ -9,18 +9,29 @@ from scipy.optimize import brentq
 
 from cointoss import analytic, coin_mj
 from cointoss.coin_mj import MANY
+from cointoss.coin_mj.model import state
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.state import motion_of, set_motion, state_of
+from cointoss.coin_mj.steps import free_step as stepping
+from cointoss.coin_mj.steps import gap_evaluation, touch_search
 from cointoss.coin_mj.steps.flight import TOUCH_STEP, FlightExit, fly
-from cointoss.coin_mj.steps.free_step import free_rate, free_step, free_step_from, nudge, rates_of_step
-from cointoss.coin_mj.steps.gap_evaluation import evaluate_gap
-from cointoss.coin_mj.steps.knots import Step, knot_of
-from cointoss.coin_mj.steps.touch_search import arc_of, first_touch
-from cointoss.models.kernel.compiled import compiled
+from cointoss.coin_mj.steps.free_step import free_step_from, rates_of_step
+from cointoss.coin_mj.steps.knots import nothing_recorded
+from cointoss.coin_mj.steps.touch_search import arc_of
+from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.reading import load
 from cointoss.models.records import Ending, Outcome
 from cointoss.models.releases import Releases
 from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, draw_release, scenario
+
+motion_of, set_motion, state_of = (
+    by_numba(state.motion_of),
+    by_numba(state.set_motion),
+    by_numba(state.state_of),
+)
+free_step, free_rate = by_numba(stepping.free_step), by_numba(stepping.free_rate)
+nudge = by_numba(stepping.nudge)
+evaluate_gap = by_numba(gap_evaluation.evaluate_gap)
+first_touch = by_numba(touch_search.first_touch)
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
@@ -34,18 +45,16 @@ def flying(coin, seed=0, height=0.0, **settings):
     return case, machine_of(case, replace(MANY, **settings))
 
 
-@compiled
+@by_numba
 def fly_alone(coin, rules):
-    knots = [knot_of(coin, 0.0, Step.FLIGHT)]
-    knots.clear()
-    return fly(coin, rules, 0.0, 1000, knots)
+    return fly(coin, rules, 0.0, 1000, nothing_recorded(False))[:3]
 
 
 def flight(case, machine, longest):
     return fly_alone(machine.coin, case.rules._replace(max_time=longest))
 
 
-@compiled
+@by_numba
 def step_arc(coin, start, duration):
     """Return the arc of a step of free flight from a state."""
     rates, end_rate = rates_of_step(), np.empty(13)

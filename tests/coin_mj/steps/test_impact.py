@@ -4,17 +4,20 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
+from cointoss.coin_mj.entries import forward
+from cointoss.coin_mj.model import state
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.settings import Settings
-from cointoss.coin_mj.model.state import set_motion
 from cointoss.coin_mj.path import MOTION, STEP, TIME
-from cointoss.coin_mj.steps.constrained_step import forward
 from cointoss.coin_mj.toss import impacts_of, run, toss
 from cointoss.compare.metrics.impulses import match
 from cointoss.models.certificate import law_residuals, momentum_residuals
+from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import UnsupportedError
 from tests.helpers.draws import THIN, draw_coin, draw_release, scenario
 from tests.helpers.impacts import DOUBLE, draw_single_impact
+
+set_motion = by_numba(state.set_motion)
 
 
 def first_impact(case, **settings):

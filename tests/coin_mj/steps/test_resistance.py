@@ -7,17 +7,24 @@ import numpy as np
 import pytest
 
 from cointoss import coin_mj
+from cointoss.coin_mj.model import state
 from cointoss.coin_mj.model.machine import machine_of
 from cointoss.coin_mj.model.settings import Friction, Settings
-from cointoss.coin_mj.model.state import state_of
-from cointoss.coin_mj.steps.resistance import PointMotion, resisted_force, shortest_stop
-from cointoss.coin_mj.steps.sustained_contact import next_step, sustained_step
+from cointoss.coin_mj.steps import resistance, sustained_contact
+from cointoss.coin_mj.steps.resistance import PointMotion
 from cointoss.models.attitude import rotation_matrix
+from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.kernel.vectors import cross
 from cointoss.models.records import ApproximationWarning, Outcome, UnsupportedError
 from tests.helpers.draws import AIR, THIN, ZLOTY, draw_coin, draw_quaternion, draw_release, scenario
 from tests.helpers.states import energies
 from tests.helpers.tuples import quaternion, vector
+
+state_of = by_numba(state.state_of)
+resisted_force = by_numba(resistance.resisted_force)
+shortest_stop = by_numba(resistance.shortest_stop)
+next_step = by_numba(sustained_contact.next_step)
+sustained_step = by_numba(sustained_contact.sustained_step)
 
 pytestmark = [
     pytest.mark.filterwarnings(f"ignore::{ApproximationWarning.__module__}.ApproximationWarning"),

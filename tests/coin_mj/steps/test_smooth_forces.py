@@ -4,19 +4,24 @@
 # pyright: reportAttributeAccessIssue=false
 
 import mujoco
-import numba
 import numpy as np
 import pytest
 
 from cointoss.coin_mj import MANY
-from cointoss.coin_mj.model.air import PowerLaw, air_force
+from cointoss.coin_mj.entries import air_force
+from cointoss.coin_mj.model import state
+from cointoss.coin_mj.model.air import PowerLaw
 from cointoss.coin_mj.model.machine import machine_of
-from cointoss.coin_mj.model.state import set_motion
-from cointoss.coin_mj.steps.constrained_step import IMPACT, constrained_forward, forward
-from cointoss.coin_mj.steps.free_step import free_rate
+from cointoss.coin_mj.steps import constrained_step, free_step
+from cointoss.coin_mj.steps.constrained_step import IMPACT
 from cointoss.models.attitude import rotation_matrix
+from cointoss.models.kernel.compiled import by_numba
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
 from tests.helpers.tuples import quaternion, vector
+
+set_motion, free_rate = by_numba(state.set_motion), by_numba(free_step.free_rate)
+forward = by_numba(constrained_step.forward)
+constrained_forward = by_numba(constrained_step.constrained_forward)
 
 AIRS = {"vacuum": {}, "linear": AIR, "b = 0.5": {**AIR, "exponent": 0.5}}
 FORCES = ("qfrc_bias", "qfrc_passive", "qfrc_actuator", "qfrc_smooth", "qacc_smooth")
@@ -69,10 +74,3 @@ def test_after_the_touch_of_an_impact_air_with_b_above_0_acts_as_it_did(air):
     touch, later, anew = drags
     assert (later == touch).all() == (air != AIR)
     assert (anew == later).all() == (not air)
-
-
-def test_one_code_is_for_all_air():
-    """Air with b > 0 is called by its address: else the whole engine would be compiled once more for it."""
-    cases = [scenario(coin=ZLOTY, air=air) for air in AIRS.values()]
-    kinds = {numba.typeof(machine_of(case, MANY).coin) for case in cases}
-    assert len(kinds) == 1

@@ -1,0 +1,16 @@
+"""What Python calls of the compiled engine; annotations are the kinds of the rows."""
+
+from cointoss.coin_mj import events, sampling, tile
+from cointoss.coin_mj.model import air
+from cointoss.coin_mj.steps import constrained_step
+from cointoss.models.kernel.library import Library
+
+engine = Library(__name__, lacks_none=True)
+
+toss_tile = engine.entry(tile.toss_tile)
+toss_coin = engine.entry(events.toss_coin)
+sample_path = engine.entry(sampling.sample_path)
+sample_contacts = engine.entry(sampling.sample_contacts)
+knot_forces = engine.entry(sampling.knot_forces)
+air_force = engine.entry(air.air_force)
+forward = engine.entry(constrained_step.forward)
