@@ -9,7 +9,9 @@ import sys
 import tempfile
 from collections.abc import Collection, Iterator, Sequence
 from importlib import import_module
+from importlib.util import find_spec, module_from_spec
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from cointoss.models.kernel.digests import HOME, digest_of
@@ -30,7 +32,7 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
     """
     from cointoss.models.kernel.build import linking, lowering
 
-    table = import_module(module)
+    table = alone(module)
     sources = {name: digest_of(HOME / name) for name in read_sources()}
     asked = asked_of(table)
     symbols = [each.symbol for each in asked]
@@ -53,6 +55,15 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
             write_whole(out / f"{stem}{SUFFIX}", library)
             manifest = Made(module, name, digest, {} if carried else sources)
             write_whole(out / f"{stem}{MANIFEST}", json.dumps(manifest._asdict()).encode())
+
+
+def alone(module: str) -> ModuleType:
+    """Return a module imported without what its package imports for Python, in a process that does nothing else."""
+    package = find_spec(module.rpartition(".")[0])
+    if package is None:
+        raise RuntimeError(f"{module}: there is no such package")
+    sys.modules[package.name] = module_from_spec(package)
+    return import_module(module)
 
 
 def processor() -> str:
