@@ -18,11 +18,10 @@ PACKAGES = ("mujoco", "numpy", "scipy")
 _OUTPUTS = ("claims.json", "numbers.json")
 
 
-def provenance(module: str, folder: Path, *, quick: bool) -> dict[str, Any]:
+def provenance(folder: Path, *, quick: bool) -> dict[str, Any]:
     """Return what a run was made of, and the hashes of what it wrote.
 
     Args:
-        module: of what was reproduced, by its full name.
         folder: that was written.
         quick: whether it was the smaller size.
     """

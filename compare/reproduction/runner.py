@@ -2,6 +2,8 @@
 
 import importlib
 import pkgutil
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
@@ -54,6 +56,7 @@ def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) 
 
     Raises:
         UnwritableError: naming the folder and why.
+        ImportError: in one line, where numba is missing, by which a study compiles functions of its own.
     """
     from cointoss.compare.reproduction.pages import write
     from cointoss.compare.reproduction.saving import keep_provenance, save
@@ -65,12 +68,23 @@ def reproduce(name: str, out: Path, progress: Progress, *, quick: bool = False) 
     if found.resumes:
         make = partial(make, parts=folder / PARTS)
     with written_together(folder, found.files) as aside:
-        result = make(progress)
+        with _numba_named(name):
+            result = make(progress)
         save(aside, result, found.draw)
         write(aside, name, found, result, quick=quick)
-        keep_provenance(aside, found.make.__module__, quick=quick)
+        keep_provenance(aside, quick=quick)
     remove(folder / PARTS)
     return result
+
+
+@contextmanager
+def _numba_named(name: str) -> Iterator[None]:
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        if error.name != "numba":
+            raise
+        raise ImportError(f'{name}: needs numba: pip install "cointoss-dynamics[reproduce]"') from None
 
 
 def kept(name: str, out: Path) -> Result:

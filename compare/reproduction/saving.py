@@ -33,9 +33,9 @@ def save(folder: Path, result: Result, draw: Mapping[str, Callable[[Any], Figure
     draw_all(folder, result.data, draw)
 
 
-def keep_provenance(folder: Path, module: str, *, quick: bool) -> None:
+def keep_provenance(folder: Path, *, quick: bool) -> None:
     """Write what a run was made of into its folder, after all else; see `provenance`."""
-    made_of = json.dumps(provenance(module, folder, quick=quick), indent=1)
+    made_of = json.dumps(provenance(folder, quick=quick), indent=1)
     (folder / PROVENANCE).write_text(made_of + "\n", encoding="utf-8")
 
 

@@ -14,9 +14,13 @@ from cointoss.compare.output.progress import Progress
 from cointoss.compare.reproduction.declared import Data, Findings, declared
 from cointoss.compare.reproduction.setups.free_fall import MEDIA, MODELS
 from cointoss.models.body import Body
+from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.reading import load
 from cointoss.models.records import Array, Toss
 from cointoss.models.scenario import Scenario
+
+flight_tangent = by_numba(flight_tangent)
+sample = by_numba(sample)
 
 LONGEST = {"vacuum": 100.0, "air": 2000.0}
 """How long the coins fall [s]; in air the last turning is slow to end."""

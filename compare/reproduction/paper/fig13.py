@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from cointoss.analytic.air.force import force_and_moment
 from cointoss.analytic.air.velocity_field import SurfaceFields, velocity_fields
+from cointoss.analytic.entries import force_and_moment
 from cointoss.coin_mj import Settings
 from cointoss.coin_mj.entries import forward
 from cointoss.coin_mj.model.machine import machine_of

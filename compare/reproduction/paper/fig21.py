@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from cointoss import analytic, coin_mj
-from cointoss.analytic.air.force import force_and_moment
+from cointoss.analytic.entries import force_and_moment
 from cointoss.compare.metrics.trajectories import distance
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY

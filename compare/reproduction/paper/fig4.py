@@ -9,10 +9,13 @@ from cointoss.analytic.flight.integrated_flight import sample_flight
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREY, ORANGE, PALE, SKY, VERMILION
 from cointoss.compare.reproduction.declared import Data, Findings, declared
+from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.parts import Air, EndingCriteria, Release
 from cointoss.models.reading import load
 from cointoss.models.records import Array, States
 from cointoss.models.scenario import Scenario, vector
+
+sample_flight = by_numba(sample_flight)
 
 AIR = Air(normal=0.8, tangential=0.2)
 CASES = {

@@ -18,7 +18,7 @@ from cointoss.compare.reproduction.precision.double_double import (
 )
 from cointoss.compare.reproduction.precision.planar_coin import PlanarCoin, Units, square_root
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import by_numba, compiled
 
 HEIGHT, FALL, TILT, SPIN, DRIFT, SIZE = 0, 1, 2, 3, 4, 5
 """Rows of a state, (5, 2): height and velocity of C, the angle of the coin's plane, its rate, velocity aside.
@@ -148,7 +148,7 @@ def spread(starts: Array, row: int, step: tuple[float, float], points: int) -> N
     return spread_out
 
 
-@compiled
+@by_numba
 def _spread(states: Array, row: int, step: Pair, points: int) -> None:
     for i in range(len(states)):
         put(states[i], row, add(part(states[i], row), scale(step, float(i % points))))

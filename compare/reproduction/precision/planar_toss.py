@@ -31,7 +31,7 @@ from cointoss.compare.reproduction.precision.planar_state import (
     rim_velocity,
     turned_within,
 )
-from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import by_numba, compiled
 from cointoss.models.records import Array, Outcome
 
 MOST_IMPACTS = 20_000
@@ -97,7 +97,7 @@ def toss_many(
     return outcomes
 
 
-@compiled
+@by_numba
 def _toss_all(
     coin: PlanarCoin, starts: Array, most_impacts: int, to_contact: bool, outcomes: PlanarOutcomes
 ) -> None:

@@ -3,9 +3,12 @@
 import numpy as np
 
 from cointoss.analytic.flight.integrated_flight import sample_flight
+from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import Array
 from cointoss.models.releases import Releases, states_of
 from cointoss.models.scenario import Scenario
+
+sample_flight = by_numba(sample_flight)
 
 FASTEST, HIGHEST = 20.0, 0.25
 """Ends of the axes: ω_0/π [1/s] and v_0/g [s]."""

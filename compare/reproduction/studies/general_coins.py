@@ -17,8 +17,9 @@ from cointoss.analytic.contact.automaton import Mode, contact_at
 from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.integrator import contact_work, step_contact
 from cointoss.analytic.contact.resets import hit
-from cointoss.analytic.events import run, toss_coin
+from cointoss.analytic.entries import toss_coin
 from cointoss.analytic.flight.flying import fly
+from cointoss.analytic.runs import run
 from cointoss.analytic.settings import MANY, contact_limits
 from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.tables import paragraphs, table
@@ -28,7 +29,7 @@ from cointoss.compare.reproduction.setups.map_times import map_times
 from cointoss.compare.reproduction.setups.study import study
 from cointoss.models.body import Body, Rules
 from cointoss.models.interruptible import interruptible
-from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import IMPACT_ROW, Array, Ending, Outcome
 from cointoss.models.scenario import Scenario
 
@@ -195,7 +196,7 @@ def replay(scenario: Scenario, pieces: FlightsAndContacts) -> Array:
     return np.diff(marks)
 
 
-@compiled
+@by_numba
 def replay_flights(body, rules, start_times, states, touches):
     """Fly each flight to its touch.
 
@@ -210,7 +211,7 @@ def replay_flights(body, rules, start_times, states, touches):
         touches[i] = fly(body, states[i], rules.max_time - start_times[i], False).touches
 
 
-@compiled
+@by_numba
 def replay_impacts(body, rules, states, touches):
     """Let the floor act at each touch: states, (n, 13), become those after it; see `replay_flights`."""
     rows = np.zeros(1, IMPACT_ROW)
@@ -219,7 +220,7 @@ def replay_impacts(body, rules, states, touches):
             hit(body, rules, rules.restitution, states[i], rows[0])
 
 
-@compiled
+@by_numba
 def replay_contacts(body, rules, tolerance, start_times, modes, states, end_times):
     """Follow each contact, by the steps of the toss, to its end.
 

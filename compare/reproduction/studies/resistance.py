@@ -7,9 +7,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from cointoss import analytic
-from cointoss.analytic.contact.automaton import Mode, contact_at
+from cointoss.analytic.contact.automaton import Mode
 from cointoss.analytic.contact.resistance import FloorFriction
-from cointoss.analytic.contact.sampling import sample_contact
+from cointoss.analytic.entries import sample_piece
 from cointoss.compare.metrics.estimates import in_words
 from cointoss.compare.output.progress import Progress, stepping
 from cointoss.compare.output.style import BLUE, GREY, ORANGE
@@ -131,8 +131,8 @@ def eulers_disk(resistance: str) -> EulersDisk:
         [0, 0, r * np.sin(TILT), 0, 0, 0, *quaternion_from_angles((0.0, TILT, 0.0)), 0, turning, 0]
     )
     times, rows = np.linspace(0.0, longest, SAMPLES), np.empty((SAMPLES, len(start)))
-    contact = contact_at(body, friction, Mode.STICKING.value, start)
-    sample_contact(contact, start, 0.0, times, analytic.Settings().contact_tolerance, rows)
+    tolerance = analytic.Settings().contact_tolerance
+    sample_piece(body, friction, tolerance, Mode.STICKING.value, start, 0.0, times, rows)
     states = States(
         time=times,
         position=rows[:, 0:3],

@@ -11,7 +11,6 @@ from time import process_time
 from typing import Any
 
 import numpy as np
-from numba import config
 
 from cointoss.compare.engines import Engine
 from cointoss.compare.output.progress import Progress
@@ -24,6 +23,7 @@ from cointoss.compare.sweep.grid import Sweep, Tile, tiles
 from cointoss.compare.sweep.pixels import Pixels, check, toss_pixels
 from cointoss.compare.sweep.store import opened
 from cointoss.models.reading import parse
+from cointoss.models.tiles import cores_used
 
 COIN = """
 [coin]
@@ -77,7 +77,7 @@ def compute(progress: Progress, side: int = SIDE, mujoco_side: int = MUJOCO_SIDE
         side: pixels along a side of the map that is made whole, and of the largest tile.
         mujoco_side: of MuJoCo's map.
     """
-    cores = int(config.__dict__["NUMBA_NUM_THREADS"])
+    cores = cores_used()
     kinds = {
         "planar thin coin": sweep_of(side),
         "planar thin coin in air": sweep_of(side, normal=0.8, tangential=0.2),

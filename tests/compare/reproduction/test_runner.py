@@ -28,7 +28,9 @@ def make(progress):
 
 REPRODUCTION = Reproduction(title="a fake", seconds=0, make=make, draw={{}})
 """
+COMPILED = "__import__('cointoss.models.kernel.compiled', fromlist=['by_numba']).by_numba(lambda: 5)()"
 SUMS = {
+    "compiled": COMPILED,
     "good": "5",
     "doubtful": "4",
     "broken": "(_ for _ in ()).throw(KeyboardInterrupt)",
@@ -107,6 +109,16 @@ def test_a_claim_that_fails_is_exit_status_1_and_keeps_the_evidence(tmp_path):
 def test_an_interrupted_run_leaves_everything_as_it_was(tmp_path):
     answered = cointoss("reproduce", "fake-broken", "--out", tmp_path / "out")
     assert answered.exit_code == 130
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.usefixtures("fakes")
+def test_without_numba_a_study_with_functions_of_its_own_says_in_a_line_what_it_needs(tmp_path, monkeypatch):
+    monkeypatch.delitem(sys.modules, "cointoss.models.kernel.by_numba", raising=False)
+    monkeypatch.setitem(sys.modules, "numba", None)
+    told = refused("reproduce", "fake-compiled", "--out", tmp_path / "out")
+    needs = 'fake-compiled: needs numba: pip install "cointoss-dynamics[reproduce]"'
+    assert told == f"cointoss: {needs}\n"
     assert not (tmp_path / "out").exists()
 
 
