@@ -45,7 +45,7 @@ def test_warnings_and_numpy_errors_are_treated_as_the_caller_asks():
 
 @pytest.mark.parametrize(("n", "size"), [(0, 5), (1, 1), (4, 1), (15, 1), (24, 3), (1000, 5), (1003, 5)])
 def test_every_tile_is_made_once_and_each_thread_has_some(n, size, monkeypatch):
-    monkeypatch.setattr("numba.config.NUMBA_NUM_THREADS", 2)
+    monkeypatch.setenv("COINTOSS_THREADS", "2")
     told = []
 
     def number(tile):

@@ -2,13 +2,11 @@
 
 import io
 import sys
-from contextlib import ExitStack
 
 import pytest
 
 import cointoss.compare.output.progress as progress
 from cointoss.compare.output.progress import Display, progress_shown
-from cointoss.models.kernel.compiling import Compiling
 from cointoss.models.stages import Stage, Stages, counted, stage, stages
 
 
@@ -18,21 +16,17 @@ class Terminal(io.StringIO):
 
 
 class Desk:
-    """A stream, a clock that moves when told, and what a display shows of stages and compiling."""
+    """A stream, a clock that moves when told, and what a display shows of stages."""
 
     def __init__(self, *, rewrites):
         self.now, self.stream, self.stages = 0.0, io.StringIO(), Stages()
-        self.compiling = Compiling(self.clock)
-        self.compiling.declared.update({"cointoss.analytic.events": 200})
-        self.display = Display(
-            self.stream, rewrites=rewrites, work=self.stages, compiled=self.compiling, clock=self.clock
-        )
+        self.display = Display(self.stream, rewrites=rewrites, work=self.stages, clock=self.clock)
 
     def clock(self):
         return self.now
 
     def begin(self, *name, **counts):
-        self.stages.open.append(Stage(*name, **counts, clock=lambda: self.compiling.working_time))
+        self.stages.open.append(Stage(*name, **counts, clock=self.clock))
         return self.stages.open[-1]
 
     def end(self):
@@ -46,10 +40,6 @@ class Desk:
             self.now += 1.0
             self.display.tick()
         return self.stream.getvalue()[before:]
-
-    def compile(self, stack, count=1):
-        for _ in range(count):
-            stack.enter_context(self.compiling.one("cointoss.analytic.events", lambda _: 0))
 
 
 def test_a_log_names_a_stage_after_five_seconds_and_then_every_ten():
@@ -100,46 +90,6 @@ def test_a_stage_within_another_is_named_as_soon_as_it_takes_long():
     assert desk.wait(1) == "cointoss: a report: 6 s; tossing by MuJoCo: 6 s\n"
 
 
-def test_while_functions_are_compiled_a_log_says_what_and_until_when_and_nothing_else():
-    desk = Desk(rewrites=False)
-    tossing = desk.begin("tossing by the analytic engine")
-    with ExitStack() as stack:
-        desk.compile(stack)
-        assert desk.wait(6) == (
-            "cointoss: compiling functions of the analytic engine, kept for later: 1 of 200\n"
-        )
-        desk.compile(stack, 99)
-        assert desk.wait(11) == (
-            "cointoss: compiling functions of the analytic engine, kept for later: "
-            "100 of 200, about 34 s left\n"
-        )
-    assert desk.wait(2) == "cointoss: compiled 100 functions of the analytic engine: 17 s\n"
-    assert tossing.seconds == pytest.approx(2.0)
-    assert desk.wait(6) == "cointoss: tossing by the analytic engine: 8 s\n"
-
-
-def test_functions_that_are_compiled_one_after_the_other_are_told_of_once():
-    desk = Desk(rewrites=False)
-    desk.begin("tossing by the analytic engine")
-    for _ in range(40):
-        with ExitStack() as stack:
-            desk.compile(stack)
-            desk.wait(1)
-    desk.display.close()
-    assert [line.split(",")[0] for line in desk.stream.getvalue().splitlines()] == [
-        *["cointoss: compiling functions of the analytic engine"] * 4,
-        "cointoss: compiled 40 functions of the analytic engine: 40 s",
-    ]
-
-
-def test_a_process_that_waits_for_another_says_so():
-    desk = Desk(rewrites=False)
-    desk.begin("tossing by the analytic engine")
-    with desk.compiling.waiting():
-        assert desk.wait(6) == "cointoss: waiting for another process, which compiles the same: 6 s\n"
-    assert desk.wait(2) == "cointoss: waited for the other process: 6 s\n"
-
-
 def test_what_is_quick_is_not_told_in_a_log():
     desk = Desk(rewrites=False)
     for _ in range(2):
@@ -181,21 +131,6 @@ def test_the_line_of_a_terminal_says_what_is_within_and_goes_with_its_stage():
     assert lines(desk.wait(4))[-1].startswith("fig28 2 of 5, tossing by MuJoCo:  25%|")
     desk.display.close()
     assert desk.stream.getvalue().endswith("\r")
-
-
-def test_a_terminal_says_what_is_compiled_and_in_what_time():
-    desk = Desk(rewrites=True)
-    desk.begin("tossing by the analytic engine")
-    with ExitStack() as stack:
-        desk.compile(stack, 50)
-        shown = lines(desk.wait(10))
-        desk.compile(stack, 50)
-        shown += lines(desk.wait(10))
-    begins = "compiling functions of the analytic engine, kept for later:"
-    assert all(line.startswith(begins) for line in shown)
-    assert "100/200 functions [00:20<00:40]" in shown[-1]
-    assert "tossing" not in desk.stream.getvalue()
-    assert "cointoss: compiled 100 functions of the analytic engine: 20 s" in lines(desk.wait(2))
 
 
 def test_of_a_stage_that_fails_the_line_goes():
