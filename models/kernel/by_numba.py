@@ -8,7 +8,7 @@ from typing import Any
 import numba
 
 from cointoss.models.kernel.base_folder import base_folder
-from cointoss.models.kernel.digests import code_digest
+from cointoss.models.kernel.digests import ENGINES, code_digest, digest_of_parts
 
 
 def dispatcher_of(function: Any, *, inlined: bool = False) -> Any:
@@ -16,5 +16,12 @@ def dispatcher_of(function: Any, *, inlined: bool = False) -> Any:
 
     numba itself looks at the file of the function alone, not at those that it calls.
     """
-    numba.config.CACHE_DIR = str(base_folder() / f"numba-{code_digest()}")
+    numba.config.CACHE_DIR = str(base_folder() / f"numba-{_sources_of(function)}")
     return numba.njit(nogil=True, error_model="numpy", forceinline=inlined, cache=True)(function)
+
+
+def _sources_of(function: Any) -> str:
+    """Return the digest of the sources that a function may be made of: an engine imports the models alone."""
+    package, part, *_ = *function.__module__.split("."), ""
+    is_of_engine = package == "cointoss" and part in ENGINES
+    return digest_of_parts(*sorted({"models", part})) if is_of_engine else code_digest()

@@ -3,21 +3,23 @@
 import math
 from itertools import pairwise
 
-import numba
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cointoss.analytic.air.force import change_about_B, force_and_moment, force_and_moment_change
+from cointoss.analytic.air.force import change_about_B, force_and_moment_change
 from cointoss.analytic.air.law import AirMotion
 from cointoss.analytic.air.quadrature import CHANGE_NODES, FORCE_NODES, nodes_of
-from cointoss.analytic.flight.flying import fly
-from cointoss.models.kernel.fork.callee_code import Callee
+from cointoss.analytic.entries import force_and_moment
+from cointoss.models.kernel.compiled import by_numba
+from tests.helpers.command_line import python
 from tests.helpers.draws import AIR, IMPERFECT, ZLOTY, scenario
 from tests.helpers.referee import air_by_cubature
 from tests.helpers.tuples import vector
 
+changed = by_numba(change_about_B)
+force_and_moment_change = by_numba(force_and_moment_change)
 R, H = ZLOTY["radius"], ZLOTY["thickness"]
 LN, LT = AIR["normal"], AIR["tangential"]
 FINER = nodes_of(96, 96, 60.0)
@@ -112,7 +114,7 @@ def test_quadrature_has_converged_for_every_motion(b, h):
         size = force_scale(b, v, w) * (1 + h / R)
 
         def about_B(dv, dw, nodes, v=v, w=w):
-            f, m = change_about_B(body, AirMotion(b, vector(v), vector(w), vector(dv), vector(dw)), nodes)
+            f, m = changed(body, AirMotion(b, vector(v), vector(w), vector(dv), vector(dw)), nodes)
             return np.array([*f, *(x / R / (1 + h / R) for x in m)])
 
         exact = about_B(v, w, FINER)
@@ -133,7 +135,7 @@ def test_more_nodes_mean_a_smaller_error_until_rounding(b):
     body = coin(b)
 
     def about_B(n):
-        f, m = change_about_B(body, AirMotion(b, v, w, v, w), nodes_of(n, n, 2.0 * n))
+        f, m = changed(body, AirMotion(b, v, w, v, w), nodes_of(n, n, 2.0 * n))
         return np.array([*f, *(x / R for x in m)])
 
     errors = [np.abs(about_B(n) - about_B(96)).max() / force_scale(b, v, w) for n in (8, 12, 16, 24, 32)]
@@ -275,21 +277,41 @@ def test_vacuum_has_no_force_whatever_the_exponent():
         assert np.all(np.array([*f, *m]) == 0)
 
 
-def called_in(function, *arguments):
-    """The names of all compiled functions that a compiled function calls, directly or not."""
-    callees = [Callee(function, tuple(map(numba.typeof, arguments)))]
-    for callee in callees:
-        callees += [other for other in callee.code().callees if other not in callees]
-    return {callee.function.__name__ for callee in callees}
+LOWERED = """
+from cointoss.analytic.entries import force_and_moment
+from cointoss.analytic.flight.flying import fly
+from cointoss.models.kernel.arrays import Row
+from cointoss.models.kernel.build.linking import SYSTEMS
+from cointoss.models.kernel.build.lowering import Asked, lowered
+from cointoss.models.kernel.kinds import kind_of
+
+types = fly.py_func.__annotations__
+given, returned = tuple(map(kind_of, (types["body"], Row, float, bool))), kind_of(types["return"])
+asked = [
+    Asked("linear", fly, given, returned, True),
+    Asked("other", force_and_moment.function, *force_and_moment.kinds, False),
+]
+module = lowered(asked, SYSTEMS["linux-x86_64"].target)
+print(*(each.name for each in module.functions if not each.is_declaration))
+"""
+"""Prints the names of all functions of a flight in linear air, and of the force of other air, as compiled."""
 
 
 def test_linear_air_is_compiled_without_the_quadrature():
     """Beside it the few lines of linear air are slower: their calls are no longer inlined."""
-    linear, other = (called_in(fly, coin(b), np.zeros(13), 1.0, False) for b in (0.0, 0.5))
-    quadrature = {"wall_friction_change", "pressure_change"}
-    assert "expand_flight" in linear
-    assert quadrature <= other
-    assert not quadrature & linear
+    done = python("-c", LOWERED)
+    assert done.returncode == 0, done.stderr
+    names = done.stdout.split()
+    linear, other = (
+        {
+            function
+            for function in ("expand_flight", "wall_friction_change", "pressure_change")
+            if any(function in name and ("AirLaw_28none" in name) == is_linear for name in names)
+        }
+        for is_linear in (True, False)
+    )
+    assert linear == {"expand_flight"}
+    assert other == {"wall_friction_change", "pressure_change"}
 
 
 def test_the_power_of_linear_air_on_an_unbalanced_coin_is_that_of_its_drag_at_B():
