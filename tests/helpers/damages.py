@@ -52,12 +52,12 @@ DAMAGES = [Damage(file, **damage) for file, damages in _TABLE.items() for damage
 
 
 def is_compiled(damage: Damage) -> bool:
-    """Return whether the tests run compiled code: the analytic engine's also do without, in less time."""
+    """Return whether the tests run an engine's library: the analytic engine's also do without, in less time."""
     return not damage.file.startswith("analytic/")
 
 
 def copy_checkout(folder: Path) -> Path:
-    """Copy this checkout and the code that is kept into a folder, and return where the checkout lies."""
+    """Copy this checkout and the engines that were built into a folder, and return where the checkout lies."""
     tree, unread = folder / "checkout", shutil.ignore_patterns("node_modules", ".*")
     tree.mkdir()
     for name in COPIED:
@@ -65,7 +65,7 @@ def copy_checkout(folder: Path) -> Path:
             shutil.copytree(ROOT / name, tree / name, symlinks=True, ignore=unread)
         else:
             shutil.copy2(ROOT / name, tree / name)
-    # What a damage leaves as it was need not be compiled again.
+    # What a damage leaves as it was need not be built again.
     shutil.copytree(base_folder(), folder / "code", ignore=shutil.ignore_patterns("*.lock"))
     return tree
 
@@ -73,13 +73,11 @@ def copy_checkout(folder: Path) -> Path:
 def status_of(tree: Path, tests: Iterable[str], *, compiled: bool) -> tuple[int, str]:
     """Run tests in a copy of the checkout until one fails; return pytest's status and its lines."""
     # No bytecode of a damaged module may outlive it.
-    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tree.parent / "code"), "PYTHONDONTWRITEBYTECODE": "1"}
-    environment.pop("NUMBA_DISABLE_JIT", None)
+    environment = {**os.environ, "COINTOSS_CACHE": str(tree.parent / "code"), "PYTHONDONTWRITEBYTECODE": "1"}
     command = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *dict.fromkeys(tests)]
     if not compiled:
         # numpy's numbers warn of what compiled code computes in silence.
-        environment["NUMBA_DISABLE_JIT"] = "1"
-        command += ["-W", "ignore::RuntimeWarning"]
+        command += ["-p", "tests.helpers.plainly", "-W", "ignore::RuntimeWarning"]
     done = subprocess.run(command, cwd=tree, env=environment, capture_output=True, text=True, check=False)
     return done.returncode, done.stdout + done.stderr
 
