@@ -14,9 +14,18 @@ from cointoss.analytic.flight.turning import turning_of, turns_in_closed_form
 from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.geometry import evaluate_gap
+from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import Ending
 from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, IMPERFECT, THIN, ZLOTY, draw_release, scenario
+
+fly = by_numba(fly)
+fly_closed = by_numba(fly_closed)
+fly_by_steps = by_numba(fly_by_steps)
+sample_closed = by_numba(sample_closed)
+sample = by_numba(sample)
+sample_flight = by_numba(sample_flight)
+bounds_in_air = by_numba(bounds_in_air)
 
 STRONG_AIR = {"normal": 40.0, "tangential": 10.0}
 

@@ -19,8 +19,15 @@ from cointoss.analytic.flight.touch_search import fly_by_steps
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.body import Body
 from cointoss.models.geometry import evaluate_gap
+from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import Array
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+
+fly_by_steps = by_numba(fly_by_steps)
+sample_flight = by_numba(sample_flight)
+gap_polynomials = by_numba(gap_polynomials)
+time_surely_clear = by_numba(time_surely_clear)
+expand_flight = by_numba(expand_flight)
 
 
 def coin_and_start(rng, *, thickness=2e-3, offset=PAPER_OFFSET, air=AIR, spin=40.0):
