@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.analytic.horizon.certainty import certainty_of
+from cointoss.analytic.entries import certainty_of
 from cointoss.analytic.runs import horizon_of, run
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.hand import Hand

@@ -14,9 +14,10 @@ from cointoss.analytic.contact.floor_laws import friction_in_contact
 from cointoss.analytic.contact.landing import landing, time_to_landing
 from cointoss.analytic.contact.resistance import FloorFriction
 from cointoss.analytic.contact.rest import rests, rolls_upright
-from cointoss.analytic.events import NO_LOSS, Setup, Spent, Verdict, hold_to_event, run
+from cointoss.analytic.events import NO_LOSS, Setup, Spent, Verdict, hold_to_event
 from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.flight.touch_search import is_chattering
+from cointoss.analytic.runs import run
 from cointoss.analytic.settings import Settings, contact_limits
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.perpetual import energy_history

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.analytic.events import Verdict, run
-from cointoss.analytic.horizon.certainty import certainty_of, start_of
-from cointoss.analytic.horizon.horizon import Horizon, horizon_of
+from cointoss.analytic.entries import certainty_of
+from cointoss.analytic.events import Verdict
+from cointoss.analytic.horizon.certainty import start_of
+from cointoss.analytic.horizon.horizon import Horizon
+from cointoss.analytic.runs import horizon_of, run
 from cointoss.analytic.settings import MANY, Settings
 from cointoss.analytic.toss import state_at_release
 from cointoss.compare.reproduction.studies.endings import COINS, draw_toss

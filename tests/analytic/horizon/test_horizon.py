@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from cointoss import analytic
-from cointoss.analytic.events import EventLog, run
 from cointoss.analytic.horizon.horizon import (
     CLOSED_FORM,
     IMPULSE_ERROR,
@@ -14,8 +13,8 @@ from cointoss.analytic.horizon.horizon import (
     TIME_ERROR,
     TOUCH_COST,
     ErrorsMade,
-    horizon_of,
 )
+from cointoss.analytic.runs import EventLog, horizon_of, run
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.records import Impacts
 from cointoss.models.scenario import Scenario
