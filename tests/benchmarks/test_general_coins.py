@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numba import config
 
 from cointoss import analytic
 from cointoss.analytic.runs import run
@@ -39,7 +38,7 @@ def number_of_tosses(benchmark: Any) -> int:
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
 def test_whole_tosses(benchmark, capsys, monkeypatch, kind):
-    monkeypatch.setitem(config.__dict__, "NUMBA_NUM_THREADS", 1)
+    monkeypatch.setenv("COINTOSS_THREADS", "1")
     scenario, number = kind.scenario, number_of_tosses(benchmark)
     releases = kind.releases(number)
 
@@ -93,7 +92,7 @@ def test_first_impacts_by_heyoka(benchmark, capsys, kind, batch):
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
 def test_first_impacts_by_the_engine(benchmark, capsys, monkeypatch, kind):
-    monkeypatch.setitem(config.__dict__, "NUMBA_NUM_THREADS", 1)
+    monkeypatch.setenv("COINTOSS_THREADS", "1")
     scenario, starts = bouncing(kind, number_of_tosses(benchmark))
     releases = Releases(**as_parts(starts))
 

@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numba import config
 
 from cointoss import analytic
 from cointoss.analytic.flight.flying import fly
 from cointoss.analytic.runs import run
 from cointoss.analytic.toss import state_at_release
+from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
 from tests.benchmarks import scipy_toss
@@ -24,6 +24,7 @@ from tests.benchmarks.rates import report
 from tests.helpers.draws import AIR, THIN, scenario
 from tests.helpers.many import as_parts
 
+fly = by_numba(fly)
 MANY, FEW = 8192, 8
 BY_HEYOKA = "planar, by_heyoka"
 
@@ -98,7 +99,7 @@ def test_many_tosses(benchmark, capsys, monkeypatch, air, cores):
         tossed = run(cases[i].body, cases[i].rules, state_at_release(cases[i].release))
         assert outcomes.end_time[i] == tossed.end_time
     if cores == "one":
-        monkeypatch.setitem(config.__dict__, "NUMBA_NUM_THREADS", 1)
+        monkeypatch.setenv("COINTOSS_THREADS", "1")
 
     def toss():
         return analytic.toss_many(cases[0], releases)

@@ -52,12 +52,12 @@ DAMAGES = [Damage(file, **damage) for file, damages in _TABLE.items() for damage
 
 
 def is_compiled(damage: Damage) -> bool:
-    """Return whether the tests run an engine's library: the analytic engine's also do without, in less time."""
+    """Return whether the tests need an engine's library: the analytic engine's also run without one."""
     return not damage.file.startswith("analytic/")
 
 
 def copy_checkout(folder: Path) -> Path:
-    """Copy this checkout and the engines that were built into a folder, and return where the checkout lies."""
+    """Copy this checkout and the engines built so far into a folder, and return where the checkout lies."""
     tree, unread = folder / "checkout", shutil.ignore_patterns("node_modules", ".*")
     tree.mkdir()
     for name in COPIED:
