@@ -9,10 +9,13 @@ from cointoss.models.barriers import barrier, energy, spin_barrier, spin_barrier
 from cointoss.models.drag import linear_drag, sliding_share
 from cointoss.models.ending import final_face
 from cointoss.models.geometry import gap
+from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import Ending, Outcome
 from cointoss.models.state import state
 from tests.helpers.draws import AIR, IMPERFECT, PAPER_OFFSET, THIN, ZLOTY, draw_quaternion, scenario
 from tests.helpers.tuples import quaternion
+
+final_face = by_numba(final_face)
 
 
 def heights_on_the_floor(body, theta, phi):
