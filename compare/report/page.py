@@ -28,7 +28,7 @@ from cointoss.models.scenario import Scenario
 
 MOST_SHOWN = 200
 """Symbols of a sequence, and impacts, that the page shows."""
-PACKAGES = ("cointoss", "mujoco", "numpy", "scipy", "numba", "matplotlib", "mediapy")
+PACKAGES = ("cointoss", "mujoco", "numpy", "scipy", "matplotlib", "mediapy")
 
 
 def render(

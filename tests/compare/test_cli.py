@@ -151,10 +151,9 @@ HEAVY = {
         ("--version", set()),
         ("toss --help", set()),
         ("toss fig24a", {"numpy", "pydantic"}),
-        # SciPy is numba's wish, of which it takes the linear algebra alone.
         (
             "basin fig24a --x release.position.z=0.2:1:2 --y floor.restitution=0:1:2 --out {}/map.zarr",
-            {"numba", "numpy", "pydantic", "scipy", "zarr"},
+            {"numpy", "pydantic", "zarr"},
         ),
     ],
 )

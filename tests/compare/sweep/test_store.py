@@ -115,7 +115,7 @@ def test_the_map_has_the_agreed_form(undisturbed, coin, tmp_path):
     assert found.attrs["scenario"] == SCENARIO
     assert (found.attrs["engine"], found.attrs["after"]) == ("analytic", None)
     assert found.attrs["engine_settings"].keys() == {"tolerance", "contact_tolerance", "contact_steps"}
-    assert found.attrs["versions"].keys() == {"cointoss", "numba", "numpy", "zarr"}
+    assert found.attrs["versions"].keys() == {"cointoss", "numpy", "zarr"}
     assert_same(out, undisturbed)
     heads = 100 * np.mean(undisturbed["outcome"] == Outcome.HEADS)
     assert f"heads      {heads:.3f} %\n" in answered.stdout
