@@ -12,7 +12,10 @@ from cointoss.analytic.numerics.tolerances import STEP_ERROR
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.body import Body
 from cointoss.models.geometry import evaluate_gap
+from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import Array
+
+step_contact = by_numba(step_contact)
 
 SMOOTH = FloorFriction(0.0)
 

@@ -20,8 +20,11 @@ from cointoss.analytic.numerics.tolerances import STEP_ERROR
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.barriers import energy
 from cointoss.models.geometry import contact_velocity, gap, lowest_point
+from cointoss.models.kernel.compiled import by_numba
 from tests.helpers.contacts import end_mode, follow_for, follow_step, held, put_on_floor
 from tests.helpers.draws import AIR, IMPERFECT, THIN, ZLOTY, draw_coin, scenario
+
+sample_contact = by_numba(sample_contact)
 
 SMOOTH = FloorFriction(0.0)
 G, R_COIN, M = 9.81, ZLOTY["radius"], ZLOTY["mass"]

@@ -17,9 +17,12 @@ from cointoss.compare.reproduction.setups.hands import releases_of_hands
 from cointoss.compare.reproduction.studies.endings import draw_toss
 from cointoss.models.attitude import quaternion_from_angles, rotation_matrix
 from cointoss.models.certificate import CONTACT_ENERGY
+from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.records import Ending, Outcome
 from tests.helpers.contacts import follow_for, held, put_on_floor
 from tests.helpers.draws import AIR, IMPERFECT, THIN, ZLOTY, draw_coin, scenario
+
+step_contact = by_numba(step_contact)
 
 pytestmark = pytest.mark.usefixtures("without_horizon")
 
