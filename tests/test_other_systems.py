@@ -100,10 +100,11 @@ def test_a_report_is_made_and_says_why_it_has_no_video(elsewhere, tmp_path):
     assert "table" in (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
 
 
-def test_a_function_is_compiled_by_one_process_at_a_time(elsewhere):
+def test_an_engine_is_built_by_one_process_at_a_time(elsewhere, tmp_path):
     script = (
-        "from cointoss.models.kernel.code_cache import turn\n"
-        "with turn('one') as waited: print(waited)\n"
-        "with turn('one') as waited: print(waited)"
+        "import sys; from pathlib import Path; import cointoss.models.kernel.building as building\n"
+        "building._build = lambda _, name, folder: print(name, *folder.glob('*.lock'))\n"
+        "for _ in range(2): building.build_once('cointoss.analytic.entries', Path(sys.argv[1]))"
     )
-    assert elsewhere("-W", "ignore", "-c", script) == "False\nFalse\n"
+    said = elsewhere("-W", "ignore", "-c", script, tmp_path)
+    assert said == 2 * f"analytic {tmp_path / 'analytic.lock'}\n"

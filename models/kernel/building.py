@@ -68,13 +68,14 @@ def _build(module: str, name: str, folder: Path) -> None:
     command = [sys.executable, "-P", "-m", "cointoss.models.kernel.build", module, "--out", str(folder)]
     paths = filter(None, (str(HOME.parent), os.environ.get("PYTHONPATH")))
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
-    with told(f"building the {name} engine, once", time.monotonic()):
-        process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=environment)
+    with (
+        told(f"building the {name} engine, once", time.monotonic()),
+        subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=environment) as process,
+    ):
         try:
             _, problem = process.communicate()
         except BaseException:
             process.send_signal(signal.SIGTERM)
-            process.wait()
             raise
     if process.returncode == REFUSED:
         raise EngineMissingError(f"the {name} engine could not be built: {problem.strip()}")
