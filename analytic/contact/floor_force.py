@@ -5,6 +5,7 @@ that it meets: of v_A in the place of b it is the impulse that stops the motion.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -42,9 +43,15 @@ def sliding_force(K: Matrix, b: Vector, mu: float, slip: tuple[float, float]) ->
 
 
 @compiled
+def horizontal_size(a: Vector) -> float:
+    """Return the length of the horizontal part of a vector in the space frame."""
+    return (a[0] * a[0] + a[1] * a[1]) ** 0.5
+
+
+@compiled
 def friction_holds(mu: float, F: Vector) -> bool:
     """Return whether a force F at A presses and lies in the friction cone."""
-    return F[2] > 0 and math.hypot(F[0], F[1]) <= mu * F[2]
+    return F[2] > 0 and horizontal_size(F) <= mu * F[2]
 
 
 @compiled
@@ -52,10 +59,17 @@ def slip_direction(v_A: Vector, mu: float) -> tuple[float, float]:
     """Return the direction of the slip of A, (2,); none on a smooth floor."""
     if mu == 0:
         return 0.0, 0.0
-    speed = math.hypot(v_A[0], v_A[1])
+    speed = horizontal_size(v_A)
     if speed == 0:
         return 0.0, 0.0
     return v_A[0] / speed, v_A[1] / speed
+
+
+class SlipGrowth(NamedTuple):
+    """How a slip in the direction s grows: its acceleration times N's denominator is q = c + M s."""
+
+    c: tuple[float, float]
+    M: tuple[tuple[float, float], tuple[float, float]]
 
 
 @compiled
@@ -71,41 +85,80 @@ def starting_slip(K: Matrix, b: Vector, mu: float) -> tuple[float, float]:
         b: dv_A/dt of free flight, space frame, (3,) [m/s²].
         mu: coefficient of friction μ.
     """
+    of = slip_growth(K, b, mu)
+    return kept_direction(of, best_of_few(of))
+
+
+@compiled
+def growing_slip(K: Matrix, b: Vector, mu: float, v_A: Vector) -> tuple[float, float]:
+    """Return the direction of `starting_slip`, (2,), sought from that of a slip v_A, (3,), if it is near."""
+    of, s = slip_growth(K, b, mu), slip_direction(v_A, mu)
+    turning, growth = turning_and_growth(of, s)
+    return kept_direction(of, s if abs(turning) < growth / 2 else best_of_few(of))
+
+
+@compiled
+def best_of_few(of: SlipGrowth) -> tuple[float, float]:
+    """Return the best of a few directions from which to seek one that slip keeps, (2,)."""
     best, s = -np.inf, (1.0, 0.0)
     for i in range(len(_COSINES)):
         tried = (_COSINES[i], _SINES[i])
-        turning, _, growth = _slip_turning(K, b, mu, tried)
+        turning, growth = turning_and_growth(of, tried)
         if growth - abs(turning) > best:
             best, s = growth - abs(turning), tried
+    return s
+
+
+@compiled
+def kept_direction(of: SlipGrowth, s: tuple[float, float]) -> tuple[float, float]:
+    """Return the direction that slip keeps, (2,), by Newton's method from the direction s."""
     for _ in range(30):
-        turning, slope, _ = _slip_turning(K, b, mu, s)
+        turning, growth = turning_and_growth(of, s)
+        slope = slope_of_turning(of, s, growth)
         change = -turning / slope if slope < 0 else math.copysign(0.1, turning)
         step = min(max(change, -0.2), 0.2)
         # Of the vector, not of an angle in a turn that starts somewhere: the mirror image is rounded alike.
-        length = math.hypot(1.0, step)
-        s = ((s[0] - step * s[1]) / length, (s[1] + step * s[0]) / length)
-        if abs(change) < 1e-14:
+        s = towards_unit((s[0] - step * s[1], s[1] + step * s[0]))
+        # The iteration squares its error.
+        if abs(change) < 3e-8:
             break
     return s
 
 
 @compiled
-def _slip_turning(K: Matrix, b: Vector, mu: float, s: tuple[float, float]) -> Vector:
-    """Return s × q, its derivative by the angle of s, and s · q for the slip's direction s.
+def slip_growth(K: Matrix, b: Vector, mu: float) -> SlipGrowth:
+    """Return the `SlipGrowth` of a point; args as `starting_slip`'s.
 
-    q = D a_t, D = K_zz - μ K_zt · s: the acceleration of the slip, cleared of N's denominator.
+    q = D b_t - b_z (K_tz - μ K_tt s), with N = -b_z/D and D = K_zz - μ K_zt · s.
     """
-    t = (-s[1], s[0])
-    D = K[2][2] - mu * (K[2][0] * s[0] + K[2][1] * s[1])
-    D_rate = -mu * (K[2][0] * t[0] + K[2][1] * t[1])
-    q = (
-        D * b[0] - b[2] * (K[0][2] - mu * (K[0][0] * s[0] + K[0][1] * s[1])),
-        D * b[1] - b[2] * (K[1][2] - mu * (K[1][0] * s[0] + K[1][1] * s[1])),
+    z, b_z = K[2], b[2]
+    return SlipGrowth(
+        (z[2] * b[0] - b_z * K[0][2], z[2] * b[1] - b_z * K[1][2]),
+        (
+            (mu * (b_z * K[0][0] - b[0] * z[0]), mu * (b_z * K[0][1] - b[0] * z[1])),
+            (mu * (b_z * K[1][0] - b[1] * z[0]), mu * (b_z * K[1][1] - b[1] * z[1])),
+        ),
     )
-    q_rate = (
-        D_rate * b[0] + mu * b[2] * (K[0][0] * t[0] + K[0][1] * t[1]),
-        D_rate * b[1] + mu * b[2] * (K[1][0] * t[0] + K[1][1] * t[1]),
-    )
-    turning = s[0] * q[1] - s[1] * q[0]
-    slope = t[0] * q[1] - t[1] * q[0] + s[0] * q_rate[1] - s[1] * q_rate[0]
-    return turning, slope, s[0] * q[0] + s[1] * q[1]
+
+
+@compiled
+def turning_and_growth(of: SlipGrowth, s: tuple[float, float]) -> tuple[float, float]:
+    """Return s × q and s · q, q for the slip's direction s."""
+    q_x = of.c[0] + (of.M[0][0] * s[0] + of.M[0][1] * s[1])
+    q_y = of.c[1] + (of.M[1][0] * s[0] + of.M[1][1] * s[1])
+    return s[0] * q_y - s[1] * q_x, s[0] * q_x + s[1] * q_y
+
+
+@compiled
+def towards_unit(s: tuple[float, float]) -> tuple[float, float]:
+    """Return a vector of about the length 1, (2,), with the square of its error: a step of Newton's to it."""
+    share = (3 - (s[0] * s[0] + s[1] * s[1])) / 2
+    return share * s[0], share * s[1]
+
+
+@compiled
+def slope_of_turning(of: SlipGrowth, s: tuple[float, float], growth: float) -> float:
+    """Return the derivative of s × q by the angle of s, (s × M t) - s · q with t across s."""
+    x = of.M[0][1] * s[0] - of.M[0][0] * s[1]
+    y = of.M[1][1] * s[0] - of.M[1][0] * s[1]
+    return (s[0] * y - s[1] * x) - growth

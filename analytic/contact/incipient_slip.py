@@ -3,10 +3,14 @@
 Friction turns such a slip at once into the direction in which it grows: see `starting_slip`.
 """
 
-import math
-
 from cointoss.analytic.contact.contact import Contact
-from cointoss.analytic.contact.floor_force import holding_force, sliding_force, starting_slip
+from cointoss.analytic.contact.floor_force import (
+    growing_slip,
+    holding_force,
+    horizontal_size,
+    sliding_force,
+    starting_slip,
+)
 from cointoss.analytic.contact.one_rim import add_force, contact_in_flight, free_flow, put_on_floor
 from cointoss.analytic.contact.rim_contact import RimContact, accelerate
 from cointoss.analytic.numerics.tolerances import SLOW
@@ -21,7 +25,7 @@ def flow(contact: Contact, y: Array, dy: Array) -> float:
     """Write the rate of change of the state y into dy, and return the margin; see `automaton.flow`."""
     A, mu = free_flow(contact, y, dy), contact.friction.sliding
     K, b = A.delassus, A.free_acceleration
-    F = sliding_force(K, b, mu, starting_slip(K, b, mu))
+    F = sliding_force(K, b, mu, growing_slip(K, b, mu, A.velocity))
     return min(add_force(contact, A, F, dy), margin(contact.body, A, mu))
 
 
@@ -32,7 +36,7 @@ def project(contact: Contact, y: Array) -> None:
     B = contact_in_flight(contact, y)
     s = starting_slip(B.delassus, B.free_acceleration, contact.friction.sliding)
     v_A = A.velocity
-    speed = math.hypot(v_A[0], v_A[1]) if v_A[0] * s[0] + v_A[1] * s[1] > 0 else 0.0
+    speed = horizontal_size(v_A) if v_A[0] * s[0] + v_A[1] * s[1] > 0 else 0.0
     S = holding_force(A.delassus, subtract(v_A, (speed * s[0], speed * s[1], 0.0)))
     accelerate(contact.body, A, S, y)
 
@@ -44,9 +48,9 @@ def margin(body: Body, A: RimContact, mu: float) -> float:
     It ends when friction holds A, when slip is no longer slow, or when friction would press a point down that
     free flight lifts (Painlevé).
     """
-    slip = math.hypot(A.velocity[0], A.velocity[1]) / (body.gravity * body.radius) ** 0.5
+    slip = horizontal_size(A.velocity) / (body.gravity * body.radius) ** 0.5
     left = min(-A.free_acceleration[2] / body.gravity, SLOW - slip)
     F = holding_force(A.delassus, A.free_acceleration)
     if not F[2] > 0:
         return left
-    return min(left, (math.hypot(F[0], F[1]) - mu * F[2]) / (body.mass * body.gravity))
+    return min(left, (horizontal_size(F) - mu * F[2]) / (body.mass * body.gravity))

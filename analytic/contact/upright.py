@@ -4,11 +4,10 @@ Rigid-body mechanics does not determine how two sticking points share the fricti
 friction on slow slip grows in proportion to it.
 """
 
-import math
 from typing import NamedTuple
 
 from cointoss.analytic.contact.contact import Contact
-from cointoss.analytic.contact.floor_force import friction_holds, holding_force
+from cointoss.analytic.contact.floor_force import friction_holds, holding_force, horizontal_size
 from cointoss.analytic.contact.resistance import FRICTIONLESS, FloorFriction, has_resistance
 from cointoss.analytic.contact.rim_contact import (
     RimContact,
@@ -203,7 +202,7 @@ def _velocity_gained(body: Body, friction: FloorFriction, A: RimContact, S: Vect
 @compiled
 def _with_friction(body: Body, mu: float, v_A: Vector) -> Vector:
     """Return a force with the vertical part 1 and its friction at a point with velocity v_A, (3,)."""
-    slip = max(math.hypot(v_A[0], v_A[1]), _slow_slip(body, mu))
+    slip = max(horizontal_size(v_A), _slow_slip(body, mu))
     return -mu * v_A[0] / slip, -mu * v_A[1] / slip, 1.0
 
 

@@ -8,7 +8,7 @@ from cointoss.analytic.contact.automaton import Mode, contact_at
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.edge.restoring import held_on_edge, lean_and_rate
 from cointoss.analytic.contact.edge.rolling import PHASES, roll_by, set_roll_rate
-from cointoss.analytic.contact.floor_force import friction_holds, holding_force
+from cointoss.analytic.contact.floor_force import friction_holds, holding_force, horizontal_size
 from cointoss.analytic.contact.resistance import FloorFriction, has_resistance
 from cointoss.analytic.contact.rim_contact import both_rims
 from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, spin_of
@@ -48,9 +48,7 @@ def rolls(body: Body, friction: FloorFriction, y: Array) -> bool:
     if friction.sliding == 0:
         return False
     tails, heads = both_rims(body, friction, y)
-    slip = max(
-        math.hypot(tails.velocity[0], tails.velocity[1]), math.hypot(heads.velocity[0], heads.velocity[1])
-    )
+    slip = max(horizontal_size(tails.velocity), horizontal_size(heads.velocity))
     return slip < SLOW * (body.gravity * body.radius) ** 0.5
 
 
