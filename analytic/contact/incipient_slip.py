@@ -11,12 +11,13 @@ from cointoss.analytic.contact.floor_force import (
     sliding_force,
     starting_slip,
 )
-from cointoss.analytic.contact.one_rim import add_force, contact_in_flight, free_flow, put_on_floor
-from cointoss.analytic.contact.rim_contact import RimContact, accelerate
+from cointoss.analytic.contact.one_rim import add_force, contact_in_flight, free_flow, put_on_floor, strike
+from cointoss.analytic.contact.resistance import FRICTIONLESS
+from cointoss.analytic.contact.rim_contact import RimContact, delassus_matrix
 from cointoss.analytic.numerics.tolerances import SLOW
 from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled, inlined
-from cointoss.models.kernel.vectors import subtract
+from cointoss.models.kernel.vectors import apply_transposed, subtract
 from cointoss.models.records import Array
 
 
@@ -32,13 +33,13 @@ def flow(contact: Contact, y: Array, dy: Array) -> float:
 @compiled
 def project(contact: Contact, y: Array) -> None:
     """Leave A slip only in the direction in which it grows; see `automaton.project`."""
-    A = put_on_floor(contact, y)
+    body, A = contact.body, put_on_floor(contact, y)
     B = contact_in_flight(contact, y)
-    s = starting_slip(B.delassus, B.free_acceleration, contact.friction.sliding)
-    v_A = A.velocity
+    s, v_A = starting_slip(B.delassus, B.free_acceleration, contact.friction.sliding), B.velocity
     speed = horizontal_size(v_A) if v_A[0] * s[0] + v_A[1] * s[1] > 0 else 0.0
-    S = holding_force(A.delassus, subtract(v_A, (speed * s[0], speed * s[1], 0.0)))
-    accelerate(contact.body, A, S, y)
+    kept = apply_transposed(B.R, (speed * s[0], speed * s[1], 0.0))
+    S = holding_force(delassus_matrix(body, FRICTIONLESS, A), subtract(A.velocity, kept))
+    strike(contact, A, S, y)
 
 
 @compiled

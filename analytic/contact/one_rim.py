@@ -1,17 +1,29 @@
 """Contact at one rim point A: what sliding, incipient slip and sticking have in common."""
 
 from cointoss.analytic.contact.contact import Contact
+from cointoss.analytic.contact.resistance import FRICTIONLESS
 from cointoss.analytic.contact.rim_contact import (
     RimContact,
+    RimMotion,
     accelerate,
+    add_quotient,
     contact_margin,
-    rim_contact,
     rim_contact_in_flight,
+    rim_motion,
+    spin_gained_at,
 )
 from cointoss.analytic.flight.equations_of_motion import flight_of, write_rate
-from cointoss.analytic.flight.state_vector import set_height
+from cointoss.analytic.flight.state_vector import (
+    attitude_of,
+    set_height,
+    set_spin,
+    set_velocity,
+    spin_of,
+    velocity_of,
+)
+from cointoss.models.attitude import rotation_matrix
 from cointoss.models.kernel.compiled import compiled, inlined
-from cointoss.models.kernel.vectors import Vector
+from cointoss.models.kernel.vectors import Vector, add, apply, dot
 from cointoss.models.records import Array
 
 
@@ -36,9 +48,17 @@ def contact_in_flight(contact: Contact, y: Array) -> RimContact:
     return rim_contact_in_flight(contact.body, contact.friction, flight_of(contact.body, y), contact.rim)
 
 
-@compiled
-def put_on_floor(contact: Contact, y: Array) -> RimContact:
-    """Bring A to the floor, and return it without resistance; y: state, (13,)."""
-    A = rim_contact(contact.body, y, contact.rim)
-    set_height(y, -A.arm[2])
+@inlined
+def put_on_floor(contact: Contact, y: Array) -> RimMotion:
+    """Bring A to the floor, and return it without resistance, in the body frame; y: state, (13,)."""
+    A = rim_motion(contact.body, FRICTIONLESS, flight_of(contact.body, y), contact.rim)
+    set_height(y, -dot(A.up, A.arm))
     return A
+
+
+@inlined
+def strike(contact: Contact, A: RimMotion, S: Vector, y: Array) -> None:
+    """Let an impulse S act at A, without resistance, body frame, (3,) [N s]; y: state, (13,); changed."""
+    gained = apply(rotation_matrix(attitude_of(y)), S)
+    set_velocity(y, add_quotient(velocity_of(y), gained, contact.body.mass))
+    set_spin(y, add(spin_of(y), spin_gained_at(contact.body, FRICTIONLESS, A, S)))

@@ -6,12 +6,11 @@ holds for K without resistance holds with K + q ẑᵀ: N and the moments are fo
 take energy at the rate N (δ |ω_h| + p |ω_z|). Below `slow_spin` either grows in proportion to ω.
 """
 
-import math
 from typing import NamedTuple
 
 from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import Vector
+from cointoss.models.kernel.vectors import Vector, add, dot, norm, scale, subtract
 from cointoss.models.rest import slow_spin
 
 
@@ -43,14 +42,17 @@ def is_smooth(friction: FloorFriction) -> bool:
 
 
 @compiled
-def moment_per_force(body: Body, friction: FloorFriction, w: Vector) -> Vector:
-    """Return the floor's moment on a coin for a unit normal force, space frame, (3,) [m].
+def moment_per_force(body: Body, friction: FloorFriction, up: Vector, w: Vector) -> Vector:
+    """Return the floor's moment on a coin for a unit normal force, in the frame of its arguments, (3,) [m].
 
     Args:
         body: the coin.
         friction: `FloorFriction`.
-        w: angular velocity, space frame, (3,) [rad/s].
+        up: the upward unit vector, (3,).
+        w: angular velocity, (3,) [rad/s].
     """
-    slow = slow_spin(body)
-    rolling = -friction.rolling / max(math.hypot(w[0], w[1]), slow)
-    return rolling * w[0], rolling * w[1], -friction.pivoting / max(abs(w[2]), slow) * w[2]
+    slow, w_z = slow_spin(body), dot(up, w)
+    w_h = subtract(w, scale(w_z, up))
+    rolling = -friction.rolling / max(norm(w_h), slow)
+    pivoting = -friction.pivoting / max(abs(w_z), slow)
+    return add(scale(rolling, w_h), scale(pivoting * w_z, up))

@@ -2,6 +2,8 @@
 
 The rim point A that is lowest moves round the rim; v_A is the velocity of the coin's matter there. With a
 force F at A, dv_A/dt = b + K F, K the Delassus matrix of A, as in an impact, and b what free flight gives.
+The flows of sliding and of sticking compute in the body frame, whose `RimMotion` takes half the products; the
+resets, and what compares two rims, in the space frame.
 """
 
 from typing import NamedTuple
@@ -12,7 +14,7 @@ from cointoss.analytic.contact.resistance import (
     has_resistance,
     moment_per_force,
 )
-from cointoss.analytic.flight.equations_of_motion import Flight, flight_of
+from cointoss.analytic.flight.equations_of_motion import Flight, flight_of, write_rate
 from cointoss.analytic.flight.state_vector import set_spin, set_velocity, spin_of, velocity_of
 from cointoss.models.body import Body
 from cointoss.models.geometry import FACE_SINE, tilt_sine_of
@@ -29,6 +31,21 @@ from cointoss.models.kernel.vectors import (
     subtract,
 )
 from cointoss.models.records import Array
+
+
+class RimMotion(NamedTuple):
+    """The lowest point A of a rim in free flight, in one state of the coin; body frame."""
+
+    up: Vector
+    """The upward unit vector."""
+    arm: Vector
+    """From C to A [m]."""
+    velocity: Vector
+    """v_A [m/s]."""
+    free_acceleration: Vector
+    """b [m/s²]."""
+    spin_by_resistance: Vector
+    """The change of dω/dt by the resistance that comes with a unit normal force at A [rad/(N s²)]."""
 
 
 class RimContact(NamedTuple):
@@ -88,11 +105,14 @@ def rim_point(body: Body, up: Vector, w: Vector, rim: float) -> tuple[Vector, Ve
         turn_rate: dω/dt being 0, the change of the velocity at the lowest point, as it moves round the rim,
             (3,) [m/s²].
     """
-    sine = tilt_sine_of(up)
+    # The division and the root go on side by side.
+    squared = up[0] * up[0] + up[1] * up[1]
+    by_squared = 1 / squared
+    by_sine = squared**0.5 * by_squared
     # Outward to the rim point, and the rate at which that direction turns about ζ.
-    out = (-up[0] / sine, -up[1] / sine)
+    out = (-up[0] * by_sine, -up[1] * by_sine)
     up_rate = cross(up, w)
-    turning = (up[0] * up_rate[1] - up[1] * up_rate[0]) / (sine * sine)
+    turning = (up[0] * up_rate[1] - up[1] * up_rate[0]) * by_squared
     r = body.radius
     a = subtract((r * out[0], r * out[1], rim * body.thickness / 2), body.center)
     a_rate = (-r * turning * out[1], r * turning * out[0], 0.0)
@@ -101,8 +121,8 @@ def rim_point(body: Body, up: Vector, w: Vector, rim: float) -> tuple[Vector, Ve
 
 
 @inlined
-def rim_contact_in_flight(body: Body, friction: FloorFriction, flight: Flight, rim: float) -> RimContact:
-    """Return the `RimContact` of a rim, with the resistance of the floor.
+def rim_motion(body: Body, friction: FloorFriction, flight: Flight, rim: float) -> RimMotion:
+    """Return the `RimMotion` of a rim, with the resistance of the floor.
 
     Args:
         body: the coin.
@@ -110,26 +130,76 @@ def rim_contact_in_flight(body: Body, friction: FloorFriction, flight: Flight, r
         flight: the `Flight` of its state, not flat.
         rim: -1 for tails' rim, 1 for heads'.
     """
-    R, w, up = flight.state.R, flight.state.spin, flight.state.R[2]
+    up, w = flight.state.R[2], flight.state.spin
     a, turn, turn_rate = rim_point(body, up, w, rim)
-    turn_rate = add(cross(flight.spin_rate, a), turn_rate)
+    by_air_and_weight = subtract(scale(1 / body.mass, flight.force), scale(body.gravity, up))
+    b = add(by_air_and_weight, add(cross(flight.spin_rate, a), turn_rate))
+    turned = (0.0, 0.0, 0.0)
+    if has_resistance(friction):
+        turned = apply(body.inertia_inverse, moment_per_force(body, friction, up, w))
+    return RimMotion(up, a, add(flight.velocity, turn), b, turned)
+
+
+@inlined
+def spin_gained_at(body: Body, friction: FloorFriction, A: RimMotion, F: Vector) -> Vector:
+    """Return the change of dω/dt by a force F at A and its resistance, body frame, (3,) [rad/s²]."""
+    spin = apply(body.inertia_inverse, cross(A.arm, F))
+    return add(spin, scale(dot(A.up, F), A.spin_by_resistance)) if has_resistance(friction) else spin
+
+
+@inlined
+def delassus_matrix(body: Body, friction: FloorFriction, A: RimMotion) -> Matrix:
+    """Return K in the body frame, with resistance K + q ẑᵀ [1/kg]; see `RimContact.delassus`.
+
+    Its columns are the accelerations of A by unit forces along the axes.
+    """
+    a, J_inverse, by_mass = A.arm, body.inertia_inverse, 1 / body.mass
+    along_xi = cross(subtract(scale(a[2], J_inverse[1]), scale(a[1], J_inverse[2])), a)
+    along_eta = cross(subtract(scale(a[0], J_inverse[2]), scale(a[2], J_inverse[0])), a)
+    along_zeta = cross(subtract(scale(a[1], J_inverse[0]), scale(a[0], J_inverse[1])), a)
+    if has_resistance(friction):
+        q = cross(A.spin_by_resistance, a)
+        along_xi = add(along_xi, scale(A.up[0], q))
+        along_eta = add(along_eta, scale(A.up[1], q))
+        along_zeta = add(along_zeta, scale(A.up[2], q))
+    return (
+        (by_mass + along_xi[0], along_eta[0], along_zeta[0]),
+        (along_xi[1], by_mass + along_eta[1], along_zeta[1]),
+        (along_xi[2], along_eta[2], by_mass + along_zeta[2]),
+    )
+
+
+@inlined
+def write_held_rate(body: Body, flight: Flight, F: Vector, spin: Vector, dy: Array) -> None:
+    """Write the rate of change of a coin's state on which a force acts beside the air into dy, (13,).
+
+    Args:
+        body: the coin.
+        flight: the `Flight` of the state.
+        F: the force, body frame, (3,) [N].
+        spin: the change of dω/dt by it, body frame, (3,) [rad/s²].
+        dy: written to.
+    """
+    held = Flight(flight.state, flight.velocity, add(flight.force, F), add(flight.spin_rate, spin))
+    write_rate(body, held, dy)
+
+
+@inlined
+def rim_contact_in_flight(body: Body, friction: FloorFriction, flight: Flight, rim: float) -> RimContact:
+    """Return the `RimContact` of a rim, with the resistance of the floor; args as `rim_motion`'s."""
+    R, A = flight.state.R, rim_motion(body, friction, flight, rim)
+    a, J_inverse, by_mass = A.arm, body.inertia_inverse, 1 / body.mass
     levers = (cross(a, R[0]), cross(a, R[1]), cross(a, R[2]))
-    J_inverse = body.inertia_inverse
     spins = (apply(J_inverse, levers[0]), apply(J_inverse, levers[1]), apply(J_inverse, levers[2]))
-    by_mass = 1 / body.mass
-    b = apply(R, add(scale(by_mass, flight.force), turn_rate))
     xy, xz, yz = dot(levers[0], spins[1]), dot(levers[0], spins[2]), dot(levers[1], spins[2])
     K = (
         (by_mass + dot(levers[0], spins[0]), xy, xz),
         (xy, by_mass + dot(levers[1], spins[1]), yz),
         (xz, yz, by_mass + dot(levers[2], spins[2])),
     )
-    arm = apply(R, a)
     if has_resistance(friction):
-        moment = moment_per_force(body, friction, apply(R, w))
-        turned = apply(J_inverse, apply_transposed(R, moment))
-        q = cross(apply(R, turned), arm)
-        spins = (spins[0], spins[1], add(spins[2], turned))
+        q = apply(R, cross(A.spin_by_resistance, a))
+        spins = (spins[0], spins[1], add(spins[2], A.spin_by_resistance))
         K = (
             (K[0][0], K[0][1], K[0][2] + q[0]),
             (K[1][0], K[1][1], K[1][2] + q[1]),
@@ -137,11 +207,11 @@ def rim_contact_in_flight(body: Body, friction: FloorFriction, flight: Flight, r
         )
     return RimContact(
         R=R,
-        arm=arm,
+        arm=apply(R, a),
         spins=spins,
         delassus=K,
-        free_acceleration=(b[0], b[1], b[2] - body.gravity),
-        velocity=apply(R, add(flight.velocity, turn)),
+        free_acceleration=apply(R, A.free_acceleration),
+        velocity=apply(R, A.velocity),
     )
 
 
@@ -160,6 +230,12 @@ def contact_margin(body: Body, up: Vector, N: float, rim: float) -> float:
     """
     left = min(N / (body.mass * body.gravity), tilt_sine_of(up) / FACE_SINE - 1)
     return min(left, -rim * up[2]) if body.thickness > 0 else left
+
+
+@compiled
+def horizontal(up: Vector, a: Vector) -> Vector:
+    """Return the horizontal part of a vector, in the frame of both, (3,)."""
+    return subtract(a, scale(dot(up, a), up))
 
 
 @compiled

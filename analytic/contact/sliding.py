@@ -1,18 +1,28 @@
 """Sliding: the rim point A slips on the floor, and friction acts against the slip."""
 
-import math
-
 from cointoss.analytic.contact import smooth
 from cointoss.analytic.contact.contact import Contact
-from cointoss.analytic.contact.floor_force import sliding_force, slip_direction
-from cointoss.analytic.contact.one_rim import add_force, free_flow, put_on_floor
-from cointoss.analytic.contact.resistance import is_smooth
-from cointoss.analytic.contact.rim_contact import RimContact, accelerate
+from cointoss.analytic.contact.floor_force import horizontal_size, slip_direction
+from cointoss.analytic.contact.one_rim import put_on_floor, strike
+from cointoss.analytic.contact.resistance import FRICTIONLESS, is_smooth
+from cointoss.analytic.contact.rim_contact import (
+    RimContact,
+    RimMotion,
+    contact_margin,
+    horizontal,
+    rim_motion,
+    spin_gained_at,
+    write_held_rate,
+)
+from cointoss.analytic.flight.equations_of_motion import flight_of
 from cointoss.analytic.numerics.tolerances import BORDER, SLOW
 from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled, inlined
-from cointoss.models.kernel.vectors import Vector, dot
+from cointoss.models.kernel.vectors import Vector, cross, dot, norm, scale, subtract
 from cointoss.models.records import Array
+
+# A square below it may have an infinite inverse.
+_LEAST_SQUARE = 1e-300
 
 
 @inlined
@@ -30,21 +40,42 @@ def flow(contact: Contact, y: Array, dy: Array) -> float:
 @inlined
 def flow_with_friction(contact: Contact, y: Array, dy: Array) -> float:
     """As `flow`, whatever μ; it is 0 on a floor that resists rolling or pivoting alone."""
-    A, mu = free_flow(contact, y, dy), contact.friction.sliding
-    F, left = force_and_margin(contact.body, A, mu)
-    return min(add_force(contact, A, F, dy), left)
-
-
-@compiled
-def force_and_margin(body: Body, A: RimContact, mu: float) -> tuple[Vector, float]:
-    """Return the floor's force at A, space frame, (3,) [N], and the margin of sliding; see `flow`."""
-    b, v = A.free_acceleration, A.velocity
-    left = -b[2] / body.gravity
-    F = sliding_force(A.delassus, b, mu, slip_direction(v, mu))
+    body, friction, mu = contact.body, contact.friction, contact.friction.sliding
+    flight = flight_of(body, y)
+    A = rim_motion(body, friction, flight, contact.rim)
+    b_z, along = dot(A.up, A.free_acceleration), normal_with_friction(A, mu)
+    spin = spin_gained_at(body, friction, A, along)
+    N = -b_z / rise_gained(body, A, along, spin)
+    write_held_rate(body, flight, scale(N, along), scale(N, spin), dy)
+    left = min(contact_margin(body, A.up, N, contact.rim), -b_z / body.gravity)
     if mu == 0:
-        return F, left
-    slip = math.hypot(v[0], v[1]) / (body.gravity * body.radius) ** 0.5
-    return F, min(left, slip - SLOW / 2)
+        return left
+    speed = norm(horizontal(A.up, A.velocity))
+    return min(left, speed / (body.gravity * body.radius) ** 0.5 - SLOW / 2)
+
+
+@inlined
+def normal_with_friction(A: RimMotion, mu: float) -> Vector:
+    """Return a unit normal force at A with its friction against the slip, body frame, (3,)."""
+    slip = horizontal(A.up, A.velocity)
+    squared = dot(slip, slip)
+    if mu == 0 or squared < _LEAST_SQUARE:
+        return A.up
+    # The division and the root go on side by side.
+    return subtract(A.up, scale(mu * squared**0.5 * (1 / squared), slip))
+
+
+@inlined
+def rise_gained(body: Body, A: RimMotion, F: Vector, spin: Vector) -> float:
+    """Return the upward acceleration of A by a force there [m/s²].
+
+    Args:
+        body: the coin.
+        A: the rim point.
+        F: the force, (3,) [N].
+        spin: `spin_gained_at` A by it, (3,) [rad/s²].
+    """
+    return dot(A.up, F) / body.mass + dot(A.up, cross(spin, A.arm))
 
 
 @compiled
@@ -59,9 +90,10 @@ def project(contact: Contact, y: Array) -> None:
 @compiled
 def project_with_friction(contact: Contact, y: Array) -> None:
     """As `project`, whatever the coefficient of friction."""
-    A, mu = put_on_floor(contact, y), contact.friction.sliding
-    S = sliding_force(A.delassus, A.velocity, mu, slip_direction(A.velocity, mu))
-    accelerate(contact.body, A, S, y)
+    body, A = contact.body, put_on_floor(contact, y)
+    along = normal_with_friction(A, contact.friction.sliding)
+    rise = rise_gained(body, A, along, spin_gained_at(body, FRICTIONLESS, A, along))
+    strike(contact, A, scale(-dot(A.up, A.velocity) / rise, along), y)
 
 
 @compiled
@@ -76,7 +108,7 @@ def slips(contact: Contact, A: RimContact, is_sliding: bool) -> bool:
     slow = SLOW * (contact.body.gravity * contact.body.radius) ** 0.5
     # A mode that ends at its bound must not go on for rounding.
     least = (1 + BORDER) * slow / 2 if is_sliding else (1 - BORDER) * slow
-    return math.hypot(A.velocity[0], A.velocity[1]) > least
+    return horizontal_size(A.velocity) > least
 
 
 @compiled

@@ -4,7 +4,8 @@ What `cointoss.analytic.contact.sliding` does without friction: nothing but A's 
 """
 
 from cointoss.analytic.contact.contact import Contact
-from cointoss.analytic.contact.rim_contact import contact_margin, rim_point
+from cointoss.analytic.contact.resistance import FRICTIONLESS
+from cointoss.analytic.contact.rim_contact import contact_margin, rim_motion, rim_point
 from cointoss.analytic.flight.equations_of_motion import flight_of, write_rate
 from cointoss.analytic.flight.state_vector import (
     set_height,
@@ -26,12 +27,10 @@ def flow(contact: Contact, y: Array, dy: Array) -> float:
     body = contact.body
     flight = flight_of(body, y)
     write_rate(body, flight, dy)
-    up = flight.state.R[2]
-    a, _, turn_rate = rim_point(body, up, flight.state.spin, contact.rim)
-    turn_rate = add(cross(flight.spin_rate, a), turn_rate)
-    b_z = dot(up, add(scale(1 / body.mass, flight.force), turn_rate)) - body.gravity
-    N = stopping(body, up, a, b_z, dy)
-    return min(contact_margin(body, up, N, contact.rim), -b_z / body.gravity)
+    A = rim_motion(body, FRICTIONLESS, flight, contact.rim)
+    b_z = dot(A.up, A.free_acceleration)
+    N = stopping(body, A.up, A.arm, b_z, dy)
+    return min(contact_margin(body, A.up, N, contact.rim), -b_z / body.gravity)
 
 
 @compiled

@@ -80,11 +80,11 @@ def test_a_disc_that_pivots_upright_is_slowed_by_its_resistance():
 def test_slow_motion_is_resisted_in_proportion_to_it():
     body, friction = scenario().body, FloorFriction(0.0, 2e-4, 3e-4)
     slow = SLOW * UNIT
-    fast = moment_per_force(body, friction, (3.0, -4.0, 5.0))
+    fast = moment_per_force(body, friction, (0.0, 0.0, 1.0), (3.0, -4.0, 5.0))
     assert fast == pytest.approx((-1.2e-4, 1.6e-4, -3e-4), rel=1e-14)
-    half = moment_per_force(body, friction, (0.0, slow / 2, -slow / 4))
+    half = moment_per_force(body, friction, (0.0, 0.0, 1.0), (0.0, slow / 2, -slow / 4))
     assert half == pytest.approx((0.0, -1e-4, 0.75e-4), rel=1e-14)
-    assert moment_per_force(body, friction, (0.0, 0.0, 0.0)) == (0.0, 0.0, 0.0)
+    assert moment_per_force(body, friction, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0)) == (0.0, 0.0, 0.0)
 
 
 def contact_states(seed):

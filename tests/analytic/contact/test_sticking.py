@@ -20,4 +20,6 @@ def test_what_has_begun_to_stick_is_held_a_little_beyond_the_cone(past):
     share = MU * (1 + past * BORDER)
     F = (0.6 * share * WEIGHT, -0.8 * share * WEIGHT, WEIGHT)
     assert friction_holds(MU, F) == (past < 0)
-    assert margin(scenario().body, F, MU) == pytest.approx(MU * BORDER * (1 - past), rel=1e-6)
+    assert margin(scenario().body, (0.0, 0.0, 1.0), F, MU) == pytest.approx(
+        MU * BORDER * (1 - past), rel=1e-6
+    )
