@@ -4,13 +4,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from cointoss.analytic.contact.automaton import Event, flow, project
+from cointoss.analytic.contact.automaton import Event, Mode, flow, inlined_flow, project
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.landing import landing, time_to_landing
+from cointoss.analytic.contact.rim_contact import tilt_time
+from cointoss.analytic.contact.sliding import slip_time
 from cointoss.analytic.flight.integrated_flight import first_step
 from cointoss.analytic.flight.runge_kutta import end_point, stage_point, step_error, step_factor
 from cointoss.analytic.flight.state_vector import STATE_SIZE, normalise
-from cointoss.analytic.numerics.roots import bracket_between, is_narrow, narrowed, next_try
+from cointoss.analytic.numerics.roots import Bracket, bracket_between, is_narrow, narrowed, next_try
 from cointoss.analytic.numerics.tableau import STAGES
 from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
@@ -19,14 +21,28 @@ from cointoss.models.records import Array
 # The end of a contact is bracketed to this part of a step, or where its margin is no more than rounding, in
 # at most so many tries.
 _END, _ROUNDING, _MOST_TRIES = 0.5**50, 1e-16, 150
-# A state within this part of a step from one that is known is found by a step of order 2.
-_SHORT = 1e-4
+# A state within this part of a step from one that is known is found by a step of order 4.
+_SHORT = 1e-2
 # A step goes on by this part beyond the time at which a landing is in sight, and is not short for it alone.
 _BEYOND, _NOT_SHORT = 1.1, 1e-6
 # A step shorter than this part of one that is short against the coin's motion is none.
 _NO_STEP = 1e-30
 # The largest step of contact, in units of one that is short against the coin's motion.
 _LONGEST = 4
+# The first step of a mode, against the times in which its rates change: see `tilt_time` and `slip_time`.
+_FIRST, _FIRST_OF_SLIP = 0.3, 0.15
+# Lengths of steps are said to go on changing by a factor within these bounds.
+_LEAST_TREND, _MOST_TREND = 0.5, 1.5
+# The next step is this part of what is so expected: the errors made are those of steps without that guess.
+_CAUTION = 0.94
+# Where an end of the mode may be passed by, a step is made shorter by as much as this.
+_HALVED = 16
+# The end of a mode is first sought on the cubic through both ends of a step, to this part of it.
+_CUBIC = 1e-4
+END_ROW = STAGES
+"""After the rows of the stages: the rate of change at the end of a step."""
+# The state there, and the length that suited the last step.
+_NEW_ROW, _LENGTH_ROW, _ROWS = STAGES + 1, STAGES + 2, STAGES + 3
 
 
 class Step(NamedTuple):
@@ -46,10 +62,11 @@ class Step(NamedTuple):
 def contact_work(contact: Contact, y: Array) -> Array:
     """Return the work space of a contact that starts in the state y, (13,).
 
-    Its first row holds the rate of change at y, its last one that at the end of a step, (13, 13).
+    Its first row holds the rate of change at y, (15, 13).
     """
-    stages = np.empty((STAGES + 1, STATE_SIZE))
+    stages = np.empty((_ROWS, STATE_SIZE))
     flow(contact, y, stages[0])
+    stages[_LENGTH_ROW, 0] = 0.0
     return stages
 
 
@@ -70,7 +87,7 @@ def step_of_length(contact: Contact, y: Array, dt: float, stages: Array, y_new: 
     inside = np.inf
     for stage in range(1, STAGES):
         stage_point(y, dt, stages, stage, y_new)
-        inside = min(inside, flow(contact, y_new, stages[stage]))
+        inside = min(inside, inlined_flow(contact, y_new, stages[stage]))
     end_point(y, dt, stages, y_new)
     normalise(y_new)
     project(contact, y_new)
@@ -79,51 +96,87 @@ def step_of_length(contact: Contact, y: Array, dt: float, stages: Array, y_new: 
 
 @compiled
 def short_step(contact: Contact, y: Array, slope: Array, dt: float, y_new: Array) -> None:
-    """Advance the state by a step so short that one of order 2 does, and project it onto the floor.
+    """Advance the state by a step so short that one of order 4 does, and project it onto the floor.
 
-    Args as `step_of_length`'s, but that `slope`, (13,), is the rate of change at y, and dt may be negative.
+    The classical Runge-Kutta method. Args as `step_of_length`'s, but that `slope`, (13,), is the rate of
+    change at y, and dt may be negative.
     """
-    halfway = np.empty(STATE_SIZE)
+    rate, total = slope.copy(), slope.copy()
+    for part, weight in ((0.5, 2.0), (0.5, 2.0), (1.0, 1.0)):
+        for i in range(STATE_SIZE):
+            y_new[i] = y[i] + part * dt * rate[i]
+        flow(contact, y_new, rate)
+        for i in range(STATE_SIZE):
+            total[i] += weight * rate[i]
     for i in range(STATE_SIZE):
-        y_new[i] = y[i] + dt / 2 * slope[i]
-    flow(contact, y_new, halfway)
-    for i in range(STATE_SIZE):
-        y_new[i] = y[i] + dt * halfway[i]
+        y_new[i] = y[i] + dt / 6 * total[i]
     normalise(y_new)
     project(contact, y_new)
 
 
 @compiled
+def first_length(contact: Contact, y: Array, dy: Array) -> float:
+    """Return the length of a mode's first step to try [s], infinite where nothing is known of it.
+
+    The lowest point of a rim runs round it, and friction turns with the slip: a step is short against the
+    time in which either changes.
+
+    Args:
+        contact: the contact.
+        y: state at the start, (13,).
+        dy: its rate of change, (13,).
+    """
+    if contact.mode == Mode.UPRIGHT:
+        return np.inf
+    length = _FIRST * tilt_time(y)
+    if contact.mode == Mode.SLIDING and contact.friction.sliding > 0:
+        return min(length, _FIRST_OF_SLIP * slip_time(contact, y, dy))
+    return length
+
+
+@compiled
 def accepted_step(
     contact: Contact, y: Array, dt: float, tolerance: float, stages: Array, y_new: Array
-) -> tuple[float, float]:
+) -> tuple[float, float, float]:
     """Advance the state by a contact step whose error is within the tolerance, at most dt long.
 
-    Lest an end of the contact is passed by, a step is short against the coin's motion, or at all its stages
-    the mode goes on.
+    Lest an end of the contact is passed by, the mode goes on at all stages of a step; else the step is short
+    against the coin's motion and ends past the end, or is so small a part of one whose error is small enough.
 
     Args:
         contact: the contact.
         y: state at the start, (13,).
         dt: length to try first [s].
         tolerance: error allowed in the step, relative to the scales of the coin.
-        stages: see `contact_work`.
+        stages: see `contact_work`; its row of the end is written too.
         y_new: where the state at the end goes, (13,).
 
     Returns:
-        The length of the step made, 0 where none is short enough, and a length for the next [s].
+        The length of the step made, 0 where none is short enough; a length for the next [s]; and the margin
+        at the end.
     """
-    short = 8 * first_step(contact.body, y)
+    least, short, last = 0.0, 8 * first_step(contact.body, y), stages[_LENGTH_ROW, 0]
     ahead = _BEYOND * time_to_landing(contact, y, stages[0])
     dt = min(_LONGEST * short, dt, max(ahead, _NOT_SHORT * short))
+    if last == 0:
+        dt = min(dt, first_length(contact, y, stages[0]))
     while True:
         inside = step_of_length(contact, y, dt, stages, y_new)
         error = step_error(contact.body, y, dt, stages) / tolerance
-        if error <= 1 and (dt <= short or inside > 0):
-            return dt, dt * step_factor(error)
-        dt = max(short, dt / 2) if error <= 1 else dt * step_factor(error)
+        if error <= 1:
+            left = flow(contact, y_new, stages[END_ROW])
+            if inside > 0 or dt <= least or (dt <= short and not left > 0):
+                suited = dt * step_factor(error)
+                stages[_LENGTH_ROW, 0] = suited
+                # As the lengths that suit have changed, they are taken to change again.
+                trend = min(max(suited / last, _LEAST_TREND), _MOST_TREND) if last > 0 else 1.0
+                return dt, _CAUTION * suited * trend, left
+            least = max(least, dt / _HALVED)
+            dt = dt / 2 if dt <= short else max(short, dt / 2)
+        else:
+            dt *= step_factor(error)
         if not dt > _NO_STEP * short:
-            return 0.0, short
+            return 0.0, short, 0.0
 
 
 @compiled
@@ -137,16 +190,16 @@ def step_contact(contact: Contact, y: Array, dt: float, tolerance: float, stages
         tolerance: error allowed in a step, relative to the scales of the coin.
         stages: see `contact_work`; kept up.
     """
-    y_new = np.empty(STATE_SIZE)
-    high, dt = accepted_step(contact, y, dt, tolerance, stages, y_new)
+    y_new = stages[_NEW_ROW]
+    high, dt, left = accepted_step(contact, y, dt, tolerance, stages, y_new)
     if high == 0:
         return Step(high, dt, True, Event.NO_SOLUTION)
-    if flow(contact, y_new, stages[STAGES]) > 0:
+    if left > 0:
         copy_into(y, y_new)
-        copy_into(stages[0], stages[STAGES])
+        copy_into(stages[0], stages[END_ROW])
         return Step(high, dt, False, Event.NONE)
     before = np.empty(STATE_SIZE)
-    low, high = _bracket_end(contact, y, high, stages, before, y_new)
+    low, high = _bracket_end(contact, y, high, left, stages, before, y_new)
     event = landing(contact, y_new)
     if event == Event.NONE:
         copy_into(y, y_new)
@@ -160,7 +213,7 @@ def step_contact(contact: Contact, y: Array, dt: float, tolerance: float, stages
 
 @compiled
 def _bracket_end(
-    contact: Contact, y: Array, longest: float, stages: Array, before: Array, after: Array
+    contact: Contact, y: Array, longest: float, at_end: float, stages: Array, before: Array, after: Array
 ) -> tuple[float, float]:
     """Bracket the end of a contact in a step, to the part `_END` of it.
 
@@ -168,22 +221,23 @@ def _bracket_end(
         contact: the contact.
         y: state at the start of the step, (13,).
         longest: its length [s].
-        stages: of the step, see `contact_work`.
+        at_end: the margin at its end.
+        stages: of the step, with the rate of change at its end; see `contact_work`.
         before: where the last state found in which the contact goes on goes, (13,).
         after: state at the end of the step, where it does not, (13,); the first such state found.
 
     Returns:
         The lengths of steps to both states [s].
     """
-    at_end = flow(contact, after, stages[STAGES])
     at_start = flow(contact, y, stages[0])
     copy_into(before, y)
     if not at_start > 0:
         short_step(contact, y, stages[0], longest * _END, after)
         return 0.0, longest * _END
     tolerance = longest * max(_END, min(_ROUNDING / (at_start - at_end), 1e-3))
-    bracket = bracket_between(0.0, at_start, longest, at_end)
-    near, near_time, slope, y_new = after.copy(), longest, stages[STAGES].copy(), np.empty(STATE_SIZE)
+    near, near_time, slope, y_new = after.copy(), longest, stages[END_ROW].copy(), np.empty(STATE_SIZE)
+    share = _end_on_cubic(contact, y, longest, at_start, at_end, stages, after, y_new)
+    bracket = Bracket(0.0, longest, longest, at_end, 0.0, at_start, 1 - share)
     for _ in range(_MOST_TRIES):
         tried = next_try(bracket)
         is_short = abs(tried - near_time) <= _SHORT * longest
@@ -191,13 +245,51 @@ def _bracket_end(
             short_step(contact, near, slope, tried - near_time, y_new)
         else:
             step_of_length(contact, y, tried, stages, y_new)
-        left = flow(contact, y_new, stages[STAGES])
+        left = flow(contact, y_new, stages[END_ROW])
         if not is_short:
             near_time = tried
             copy_into(near, y_new)
-            copy_into(slope, stages[STAGES])
+            copy_into(slope, stages[END_ROW])
         copy_into(before if left > 0 else after, y_new)
         bracket = narrowed(bracket, tried, left, tolerance)
         if is_narrow(bracket, tolerance):
             break
     return bracket.low, bracket.high
+
+
+@compiled
+def _end_on_cubic(
+    contact: Contact,
+    y: Array,
+    dt: float,
+    at_start: float,
+    at_end: float,
+    stages: Array,
+    y_end: Array,
+    between: Array,
+) -> float:
+    """Return the part of a step after which its margin is zero on the cubic through both of its ends.
+
+    Args:
+        contact: the contact.
+        y: state at the start, (13,).
+        dt: length of the step [s].
+        at_start: the margin there, > 0.
+        at_end: the margin at the end, not > 0.
+        stages: see `contact_work`.
+        y_end: state at the end, (13,).
+        between: work space, (13,).
+    """
+    rate, bracket = np.empty(STATE_SIZE), bracket_between(0.0, at_start, 1.0, at_end)
+    for _ in range(_MOST_TRIES):
+        tried = next_try(bracket)
+        left = 1 - tried
+        by_start, by_end = dt * tried * left * left, dt * tried * tried * left
+        of_end = tried * tried * (3 - 2 * tried)
+        for i in range(STATE_SIZE):
+            chord = y[i] + of_end * (y_end[i] - y[i])
+            between[i] = chord + (by_start * stages[0, i] - by_end * stages[END_ROW, i])
+        bracket = narrowed(bracket, tried, flow(contact, between, rate), _CUBIC)
+        if is_narrow(bracket, _CUBIC):
+            break
+    return next_try(bracket)

@@ -8,6 +8,8 @@ resets, and what compares two rims, in the space frame.
 
 from typing import NamedTuple
 
+import numpy as np
+
 from cointoss.analytic.contact.resistance import (
     FRICTIONLESS,
     FloorFriction,
@@ -15,7 +17,8 @@ from cointoss.analytic.contact.resistance import (
     moment_per_force,
 )
 from cointoss.analytic.flight.equations_of_motion import Flight, flight_of, write_rate
-from cointoss.analytic.flight.state_vector import set_spin, set_velocity, spin_of, velocity_of
+from cointoss.analytic.flight.state_vector import attitude_of, set_spin, set_velocity, spin_of, velocity_of
+from cointoss.models.attitude import rotation_matrix
 from cointoss.models.body import Body
 from cointoss.models.geometry import FACE_SINE, tilt_sine_of
 from cointoss.models.kernel.compiled import compiled, inlined
@@ -118,6 +121,18 @@ def rim_point(body: Body, up: Vector, w: Vector, rim: float) -> tuple[Vector, Ve
     a_rate = (-r * turning * out[1], r * turning * out[0], 0.0)
     turn = cross(w, a)
     return a, turn, cross(w, add(turn, a_rate))
+
+
+@compiled
+def tilt_time(y: Array) -> float:
+    """Return the time in which the normal's horizontal part would change by as much as it is [s].
+
+    In about this time the lowest point runs round the rim by a radian, or the tilt doubles; y: state, (13,).
+    """
+    up, w = rotation_matrix(attitude_of(y))[2], spin_of(y)
+    up_rate = cross(up, w)
+    rate = tilt_sine_of(up_rate)
+    return tilt_sine_of(up) / rate if rate > 0 else np.inf
 
 
 @inlined

@@ -4,7 +4,7 @@ import numpy as np
 
 from cointoss.analytic.contact.automaton import flow
 from cointoss.analytic.contact.contact import Contact
-from cointoss.analytic.contact.integrator import accepted_step, contact_work, step_of_length
+from cointoss.analytic.contact.integrator import END_ROW, accepted_step, contact_work, step_of_length
 from cointoss.analytic.flight.equations_of_motion import derivative
 from cointoss.analytic.flight.state_vector import STATE_SIZE, velocity_of
 from cointoss.models.kernel.arrays import copy_into
@@ -29,14 +29,14 @@ def sample_contact(
     """
     stages, y, y_new = contact_work(contact, start), start.copy(), np.empty(STATE_SIZE)
     elapsed = 0.0
-    made, dt = accepted_step(contact, y, np.inf, tolerance, stages, y_new)
+    made, dt, _ = accepted_step(contact, y, np.inf, tolerance, stages, y_new)
     for i in range(len(times)):
         # The steps are those of `step_contact`: a time between them changes none.
         while made > 0 and times[i] - start_time > elapsed + made:
             elapsed += made
             copy_into(y, y_new)
-            flow(contact, y, stages[0])
-            made, dt = accepted_step(contact, y, dt, tolerance, stages, y_new)
+            copy_into(stages[0], stages[END_ROW])
+            made, dt, _ = accepted_step(contact, y, dt, tolerance, stages, y_new)
         step_of_length(contact, y, times[i] - start_time - elapsed, stages, states[i])
 
 

@@ -1,5 +1,7 @@
 """Sliding: the rim point A slips on the floor, and friction acts against the slip."""
 
+import numpy as np
+
 from cointoss.analytic.contact import smooth
 from cointoss.analytic.contact.contact import Contact
 from cointoss.analytic.contact.floor_force import horizontal_size, slip_direction
@@ -11,14 +13,16 @@ from cointoss.analytic.contact.rim_contact import (
     contact_margin,
     horizontal,
     rim_motion,
+    rim_point,
     spin_gained_at,
     write_held_rate,
 )
 from cointoss.analytic.flight.equations_of_motion import flight_of
+from cointoss.analytic.flight.state_vector import spin_of, state_of, velocity_of
 from cointoss.analytic.numerics.tolerances import BORDER, SLOW
 from cointoss.models.body import Body
 from cointoss.models.kernel.compiled import compiled, inlined
-from cointoss.models.kernel.vectors import Vector, cross, dot, norm, scale, subtract
+from cointoss.models.kernel.vectors import Vector, add, apply_transposed, cross, dot, norm, scale, subtract
 from cointoss.models.records import Array
 
 # A square below it may have an infinite inverse.
@@ -76,6 +80,24 @@ def rise_gained(body: Body, A: RimMotion, F: Vector, spin: Vector) -> float:
         spin: `spin_gained_at` A by it, (3,) [rad/s²].
     """
     return dot(A.up, F) / body.mass + dot(A.up, cross(spin, A.arm))
+
+
+@compiled
+def slip_time(contact: Contact, y: Array, dy: Array) -> float:
+    """Return the time in which A's slip would stop or double as it changes now [s].
+
+    Args:
+        contact: the contact, sliding.
+        y: state, (13,).
+        dy: its rate of change, (13,).
+    """
+    state = state_of(y)
+    up, R = state.R[2], state.R
+    a, turn, turn_rate = rim_point(contact.body, up, state.spin, contact.rim)
+    v = add(apply_transposed(R, state.velocity), turn)
+    v_rate = add(apply_transposed(R, velocity_of(dy)), add(cross(spin_of(dy), a), turn_rate))
+    rate = norm(horizontal(up, v_rate))
+    return norm(horizontal(up, v)) / rate if rate > 0 else np.inf
 
 
 @compiled

@@ -53,8 +53,10 @@ def follow_for(
 ) -> tuple[Array, Array]:
     """Return the states and times after every step, at most `longest`, of a contact that goes on so long."""
     y, states, times, dt = y.copy(), [y.copy()], [0.0], np.inf
+    stages = contact_work(held(body, friction, mode, y), y)
     while times[-1] < time:
-        step = follow_step(body, friction, mode, y, min(dt, longest, time - times[-1]))
+        contact, most = held(body, friction, mode, y), min(dt, longest, time - times[-1])
+        step = step_contact(contact, y, most, STEP_ERROR, stages)
         assert not step.is_over
         dt = step.next_dt
         states.append(y.copy())
