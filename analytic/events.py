@@ -305,7 +305,7 @@ def hold_to_event(setup: Setup, mode: int, y: Array, spent: Spent) -> Passage:
             return Passage(Event.ENDS, spent, verdict, NOT_FLOWN)
         if has_resistance(friction) and rests(contact, y):
             return ends(spent, Outcome.EDGE, Ending.AT_REST)
-        if not step.is_over:
+        if tilts.periodic and not step.is_over:
             record_tilt(tilts, y)
             if repeats(tilts):
                 outcome, ending = endless(body, rules, state_of(y), Ending.PERIODIC)

@@ -5,17 +5,18 @@ from cointoss.analytic.contact.contact import Contact, lower_rim_of
 from cointoss.analytic.contact.edge.standing import on_edge, stands
 from cointoss.analytic.contact.resistance import has_resistance
 from cointoss.analytic.contact.rim_contact import rim_contact
-from cointoss.analytic.flight.state_vector import state_of
+from cointoss.analytic.flight.state_vector import spin_of, state_of
 from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.vectors import norm
 from cointoss.models.records import Array
-from cointoss.models.rest import is_held
+from cointoss.models.rest import is_held, slow_spin
 
 
 @compiled
 def rests(contact: Contact, y: Array) -> bool:
     """Return whether resistance to rolling holds a coin in contact in the state y, (13,); see `is_held`."""
     body, friction = contact.body, contact.friction
-    if not friction.rolling > 0:
+    if not friction.rolling > 0 or norm(spin_of(y)) > slow_spin(body):
         return False
     A = rim_contact(body, y, lower_rim_of(y))
     on_line = contact.mode == Mode.UPRIGHT
