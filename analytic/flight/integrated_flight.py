@@ -3,7 +3,7 @@
 import numpy as np
 
 from cointoss.analytic.flight.equations_of_motion import derivative
-from cointoss.analytic.flight.power_series import COLUMNS, ORDER, expand_flight, state_in_flight
+from cointoss.analytic.flight.power_series import COLUMNS, ROWS, expand_flight, state_in_flight
 from cointoss.analytic.flight.runge_kutta import end_point, stage_point, step_error, step_factor
 from cointoss.analytic.flight.state_vector import STATE_SIZE, normalise, spin_of
 from cointoss.analytic.numerics.tableau import STAGES
@@ -73,7 +73,7 @@ def accepted_step(
 def flight_work(body: Body) -> Array:
     """Return the work space of a flight: for its series, or where b > 0 a Runge-Kutta step and its end."""
     if body.air.exponent is None:
-        return np.empty((ORDER + 1, COLUMNS))
+        return np.empty((ROWS, COLUMNS))
     return np.empty((STAGES + 1, STATE_SIZE))
 
 
@@ -111,7 +111,7 @@ def within_step(body: Body, y: Array, t: float, order: int, work: Array, y_new: 
         y_new: state, (13,).
     """
     if body.air.exponent is None:
-        state_in_flight(body, work, order, t, y, y_new)
+        state_in_flight(work, order, t, y, y_new)
     else:
         step(body, y, t, work, y_new)
 
@@ -129,7 +129,7 @@ def finish_step(body: Body, made: float, order: int, work: Array, y: Array, scra
         scratch: work space, (13,).
     """
     if body.air.exponent is None:
-        state_in_flight(body, work, order, made, y, scratch)
+        state_in_flight(work, order, made, y, scratch)
         copy_into(y, scratch)
     else:
         copy_into(y, work[STAGES])

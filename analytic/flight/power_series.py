@@ -2,14 +2,16 @@
 
 Seen from the coin, all rates of change are sums of products: the rows a of the rotation matrix obey
 da/dt = a × ω, the velocity of C in the body frame dU/dt = U × ω + f/m - g u, u the upward unit vector, and
-J ω̇ = m_C + (J ω) × ω, where the air's f and m_C are linear in U and ω; C moves by R U. So each coefficient of
-their series follows from those before it; docs/FLIGHT.md derives them.
+dL/dt = m_C + L × ω, L = J ω, where the air's f and m_C are linear in U and ω. In space m dv/dt = R f - m g ẑ,
+where R f is -c_t times the velocity of B and -(c_n - c_t) times its part along the normal. So each
+coefficient of their series follows from those before it; docs/FLIGHT.md derives them.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
 from cointoss.analytic.air.force import force_and_moment
-from cointoss.analytic.flight.fall import fall_freely
 from cointoss.analytic.flight.state_vector import (
     attitude_of,
     set_attitude,
@@ -19,22 +21,57 @@ from cointoss.analytic.flight.state_vector import (
     state_of,
 )
 from cointoss.analytic.numerics.rotation import Four, attitude_near
-from cointoss.models.body import Body, in_vacuum
+from cointoss.models.body import Body
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
-from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, cross, norm, scale, subtract
+from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed, norm, scale, subtract
 from cointoss.models.state import State
 
 ORDER = 24
 # The last two terms of a step are at most this part of the coin's scales.
 _SMALLEST = 2e-17
-# The columns of the series that hold each vector. The rows of R, of which the last is u, and U, which ω turns
-# alike, lie side by side, component by component: `_FOURS` are where the components start.
-_FOURS, _ROWS = (0, 4, 8), ((0, 4, 8), (1, 5, 9), (2, 6, 10))
-UP, _VELOCITY, _MOMENTUM, _SPIN, _POSITION = _ROWS[2], (3, 7, 11), (12, 13, 14), (15, 16, 17), (18, 19, 20)
-# The position of C is one of four columns too, of which the last is work space.
-HEIGHT, COLUMNS = _POSITION[2], 22
+ROWS, _WORK = ORDER + 2, ORDER + 1
+"""Of a series: one for each order, and one of work space."""
+# Where vectors of four numbers start in the columns of a series. The first of `_TURNED` has the ξ components
+# of the rows of R, of which the last is u, and of U, which ω turns alike; the next have those along η and ζ.
+_TURNED, UP = (0, 4, 8), (2, 6, 10)
+# ω and the speed of B along ζ; position and velocity of C in space, whose fourth number is of no use.
+_SPIN, _POSITION, _VELOCITY = 12, 16, 20
+HEIGHT = _POSITION + 2
+# L and ω, their components in the orders η ζ ξ and ζ ξ η.
+_MOMENTUM, _CROSSED, COLUMNS = (24, 28), (32, 36), 40
+# Columns of the work space: `_TURNED` × ω, L × ω, and the speed of B along the normal, times the normal.
+_TURNING, _GYROSCOPIC, _ALONG_NORMAL = (0, 4, 8), 12, 16
+_INVERSE = 1 / np.arange(1, ORDER + 1)
 _NONE: Four = (0.0, 0.0, 0.0, 0.0)
+
+
+class _Scales(NamedTuple):
+    """One over the squares of the coin's scales."""
+
+    speed: float
+    length: float
+    spin: float
+
+
+class _Sums(NamedTuple):
+    """Sums of products up to some term; what they lose is summed apart, lest one sum waits for the other."""
+
+    x: Four
+    """ξ components of what ω turns, × ω."""
+    x_less: Four
+    y: Four
+    y_less: Four
+    z: Four
+    z_less: Four
+    gyroscopic: Four
+    """L × ω."""
+    gyroscopic_less: Four
+    along_normal: Four
+    """The speed of B along the normal, times the normal in space."""
+
+
+_NO_SUMS = _Sums(_NONE, _NONE, _NONE, _NONE, _NONE, _NONE, _NONE, _NONE, _NONE)
 
 
 @compiled
@@ -45,109 +82,155 @@ def expand_flight(body: Body, y: Array, longest: float, series: Array) -> tuple[
         body: the coin.
         y: state, (13,).
         longest: the longest time wanted [s].
-        series: where the coefficients go, (ORDER + 1, COLUMNS).
+        series: where the coefficients go, (ROWS, COLUMNS).
 
     Returns:
         For how long the series holds [s], and its order. The time is at most that of a fall in vacuum to
         the floor, or by a radius if that is farther.
     """
     state = state_of(y)
-    U = apply_transposed(state.R, state.velocity)
+    U, momentum = apply_transposed(state.R, state.velocity), apply(body.inertia, state.spin)
     for i in range(3):
-        four = (state.R[0][i], state.R[1][i], state.R[2][i], U[i])
-        _write_four(series, 0, _FOURS[i], 1.0, four)
-    _write(series, 0, _MOMENTUM, apply(body.inertia, state.spin))
-    _write(series, 0, _SPIN, state.spin)
-    _write(series, 0, _POSITION, state.position)
+        _write(series, 0, _TURNED[i], (state.R[0][i], state.R[1][i], state.R[2][i], U[i]))
+    _write_spin(body, series, 0, state.spin, momentum, U[2])
+    _write(series, 0, _POSITION, _and_none(state.position))
+    _write(series, 0, _VELOCITY, _and_none(state.velocity))
     length = min(longest, _fall_time(body, state))
     speed = (body.gravity * body.radius) ** 0.5 + norm(state.velocity)
     spin = (body.gravity / body.radius) ** 0.5 + norm(state.spin)
-    size, before, power, small = 0.0, 0.0, 1.0, 0
-    for k in range(ORDER):
-        before, size = size, _next_terms(body, k, series, speed, spin)
-        power *= length
-        if size * power < _SMALLEST:
-            small += 1
-            if small == 2:
-                return length, k + 1
-        else:
-            small = 0
-    if size > 0:
-        length = min(length, (_SMALLEST / size) ** (1 / ORDER))
-    if before > 0:
-        length = min(length, (_SMALLEST / before) ** (1 / (ORDER - 1)))
-    return length, ORDER
+    scales = _Scales(1 / (speed * speed), 1 / (body.radius * body.radius), 1 / (spin * spin))
+    # All are squares.
+    least, square, before, power = _SMALLEST * _SMALLEST, 0.0, 0.0, 1.0
+    order, small = 0, 0
+    while order < ORDER and small < 2:
+        before, square = square, _next_terms(body, order, series, scales)
+        order += 1
+        power *= length * length
+        small = small + 1 if square * power < least else 0
+    _write_velocity(body, series, order)
+    if small < 2:
+        if square > 0:
+            length = min(length, (least / square) ** (1 / (2 * ORDER)))
+        if before > 0:
+            length = min(length, (least / before) ** (1 / (2 * ORDER - 2)))
+    return length, order
 
 
 @compiled
-def _next_terms(body: Body, k: int, series: Array, speed: float, spin: float) -> float:
-    """Write the coefficients of order k + 1.
+def _next_terms(body: Body, k: int, series: Array, scales: _Scales) -> float:
+    """Write the coefficients of order k + 1, but for those of the velocity in space: those of order k.
 
     Args:
         body: the coin.
         k: order up to which the coefficients are known.
-        series: the coefficients, (ORDER + 1, COLUMNS).
-        speed: scale of velocities [m/s].
-        spin: scale of angular velocities [rad/s].
+        series: the coefficients, (ROWS, COLUMNS).
+        scales: of the coin.
 
     Returns:
-        The largest of the new coefficients, against the coin's scales [1/s^(k + 1)].
+        The square of the largest of the new coefficients, against the coin's scales [1/s^(2 k + 2)].
     """
-    x, y, z, moved, gyroscopic = _NONE, _NONE, _NONE, _NONE, (0.0, 0.0, 0.0)
-    for j in range(k + 1):
-        w, U = _read(series, k - j, _SPIN), _read(series, k - j, _VELOCITY)
-        x_j, y_j, z_j = (
-            _read_four(series, j, _FOURS[0]),
-            _read_four(series, j, _FOURS[1]),
-            _read_four(series, j, _FOURS[2]),
-        )
-        # Each of the four vectors × ω, and · U.
-        x = _add_product(_add_product(x, y_j, w[2]), z_j, -w[1])
-        y = _add_product(_add_product(y, z_j, w[0]), x_j, -w[2])
-        z = _add_product(_add_product(z, x_j, w[1]), y_j, -w[0])
-        moved = _add_product(_add_product(_add_product(moved, x_j, U[0]), y_j, U[1]), z_j, U[2])
-        gyroscopic = add(gyroscopic, cross(_read(series, j, _MOMENTUM), w))
-    f, m_C = force_and_moment(body, _read(series, k, _VELOCITY), _read(series, k, _SPIN))
-    a = subtract(scale(1 / body.mass, f), scale(body.gravity, _read(series, k, UP)))
-    part = 1 / (k + 1)
-    _write_four(series, k + 1, _FOURS[0], part, _add_to_fourth(x, a[0]))
-    _write_four(series, k + 1, _FOURS[1], part, _add_to_fourth(y, a[1]))
-    _write_four(series, k + 1, _FOURS[2], part, _add_to_fourth(z, a[2]))
-    _write_four(series, k + 1, _POSITION[0], part, moved)
-    w = scale(part, apply(body.inertia_inverse, add(m_C, gyroscopic)))
-    _write(series, k + 1, _MOMENTUM, apply(body.inertia, w))
-    _write(series, k + 1, _SPIN, w)
-    turning = norm(w) / spin
-    for row in _ROWS:
-        turning = max(turning, norm(_read(series, k + 1, row)))
-    U, moved_by = _read(series, k + 1, _VELOCITY), _read(series, k + 1, _POSITION)
-    return max(turning, norm(U) / speed, norm(moved_by) / body.radius)
+    if k > 0:
+        _write_velocity(body, series, k)
+    part, w = _INVERSE[k], _read(series, k, _SPIN)
+    x, y, z = _read(series, k, _TURNED[0]), _read(series, k, _TURNED[1]), _read(series, k, _TURNED[2])
+    f, m_C = force_and_moment(body, (x[3], y[3], z[3]), _three(w))
+    a = subtract(scale(1 / body.mass, f), scale(body.gravity, (x[2], y[2], z[2])))
+    position = _times(part, _read(series, k, _VELOCITY))
+    _write_products(series, k)
+    _write(series, k + 1, _POSITION, position)
+    x = _times(part, _sum(_read(series, _WORK, _TURNING[0]), (0.0, 0.0, 0.0, a[0])))
+    y = _times(part, _sum(_read(series, _WORK, _TURNING[1]), (0.0, 0.0, 0.0, a[1])))
+    z = _times(part, _sum(_read(series, _WORK, _TURNING[2]), (0.0, 0.0, 0.0, a[2])))
+    _write(series, k + 1, _TURNED[0], x)
+    _write(series, k + 1, _TURNED[1], y)
+    _write(series, k + 1, _TURNED[2], z)
+    momentum = scale(part, add(m_C, _three(_read(series, _WORK, _GYROSCOPIC))))
+    spin = apply(body.inertia_inverse, momentum)
+    _write_spin(body, series, k + 1, spin, momentum, z[3])
+    turned = _add_products(_add_products(_add_products(_NONE, x, x), y, y), z, z)
+    largest = max(max(turned[0], turned[1]), max(turned[2], turned[3] * scales.speed))
+    moved = _square(_three(position)) * scales.length
+    return max(largest, max(moved, _square(spin) * scales.spin))
 
 
 @compiled
-def state_in_flight(body: Body, series: Array, order: int, t: float, y: Array, y_new: Array) -> None:
+def _write_velocity(body: Body, series: Array, k: int) -> None:
+    """Write the coefficient of order k, not 0, of the velocity in space.
+
+    That of B in space is the rate of x_C - R c.
+    """
+    c, c_t, c_n = body.center, body.drag.force_tangential, body.drag.force_normal
+    x, y, z = _read(series, k, _TURNED[0]), _read(series, k, _TURNED[1]), _read(series, k, _TURNED[2])
+    arm = _add_product(_add_product(_times(c[0], x), y, c[1]), z, c[2])
+    slowed = _times(c_t / body.mass, _difference(_read(series, k, _POSITION), arm))
+    along_normal = _read(series, _WORK, _ALONG_NORMAL)
+    slowed = _add_product(slowed, along_normal, _INVERSE[k - 1] * (c_n - c_t) / body.mass)
+    fall = body.gravity if k == 1 else 0.0
+    _write(series, k, _VELOCITY, (-slowed[0], -slowed[1], -slowed[2] - fall, -slowed[3]))
+
+
+@compiled
+def _write_products(series: Array, k: int) -> None:
+    """Write the coefficients of order k of the products into the work space of the series.
+
+    Read from there, they are vectors of four numbers to LLVM, as they are in the sums.
+    """
+    sums = _NO_SUMS
+    for j in range(1, k):
+        sums = _with_term(sums, series, j, k - j)
+    # The terms of the newest coefficients come last: the sums of the others need not wait for them.
+    sums = _with_term(sums, series, 0, k)
+    if k > 0:
+        sums = _with_term(sums, series, k, 0)
+    _write(series, _WORK, _TURNING[0], _difference(sums.x, sums.x_less))
+    _write(series, _WORK, _TURNING[1], _difference(sums.y, sums.y_less))
+    _write(series, _WORK, _TURNING[2], _difference(sums.z, sums.z_less))
+    _write(series, _WORK, _GYROSCOPIC, _difference(sums.gyroscopic, sums.gyroscopic_less))
+    _write(series, _WORK, _ALONG_NORMAL, sums.along_normal)
+
+
+@compiled
+def _with_term(sums: _Sums, series: Array, j: int, i: int) -> _Sums:
+    """Return the `_Sums` with the products of coefficients of order j with those of order i of ω added."""
+    w_xi, w_eta, w_zeta, speed = _read(series, i, _SPIN)
+    x, y, z = _read(series, j, _TURNED[0]), _read(series, j, _TURNED[1]), _read(series, j, _TURNED[2])
+    return _Sums(
+        _add_product(sums.x, y, w_zeta),
+        _add_product(sums.x_less, z, w_eta),
+        _add_product(sums.y, z, w_xi),
+        _add_product(sums.y_less, x, w_zeta),
+        _add_product(sums.z, x, w_eta),
+        _add_product(sums.z_less, y, w_xi),
+        _add_products(sums.gyroscopic, _read(series, j, _MOMENTUM[0]), _read(series, i, _CROSSED[1])),
+        _add_products(sums.gyroscopic_less, _read(series, j, _MOMENTUM[1]), _read(series, i, _CROSSED[0])),
+        _add_product(sums.along_normal, z, speed),
+    )
+
+
+@compiled
+def state_in_flight(series: Array, order: int, t: float, y: Array, y_new: Array) -> None:
     """Write the state at the time t [s] of an expanded flight that starts with the state y into y_new.
 
     Args:
-        body: the coin.
         series: see `expand_flight`.
         order: of the series.
         t: time since its start [s].
         y: state at its start, (13,).
         y_new: state, (13,).
     """
-    values = np.zeros(COLUMNS)
+    xi, eta, zeta, spin, position, velocity = _NONE, _NONE, _NONE, _NONE, _NONE, _NONE
     for k in range(order, -1, -1):
-        for i in range(COLUMNS):
-            values[i] = values[i] * t + series[k, i]
-    R = (_part(values, _ROWS[0]), _part(values, _ROWS[1]), _part(values, UP))
-    if in_vacuum(body):
-        fall_freely(body, y, t, y_new)
-    else:
-        set_position(y_new, _part(values, _POSITION))
-        set_velocity(y_new, apply(R, _part(values, _VELOCITY)))
+        xi = _add_product(_read(series, k, _TURNED[0]), xi, t)
+        eta = _add_product(_read(series, k, _TURNED[1]), eta, t)
+        zeta = _add_product(_read(series, k, _TURNED[2]), zeta, t)
+        spin = _add_product(_read(series, k, _SPIN), spin, t)
+        position = _add_product(_read(series, k, _POSITION), position, t)
+        velocity = _add_product(_read(series, k, _VELOCITY), velocity, t)
+    R = ((xi[0], eta[0], zeta[0]), (xi[1], eta[1], zeta[1]), (xi[2], eta[2], zeta[2]))
+    set_position(y_new, _three(position))
+    set_velocity(y_new, _three(velocity))
     set_attitude(y_new, attitude_near(R, attitude_of(y)))
-    set_spin(y_new, _part(values, _SPIN))
+    set_spin(y_new, _three(spin))
 
 
 @compiled
@@ -158,28 +241,63 @@ def _fall_time(body: Body, state: State) -> float:
 
 
 @compiled
-def _read(series: Array, k: int, columns: tuple[int, int, int]) -> Vector:
-    """Return the coefficients of order k of the vector in these columns."""
-    return series[k, columns[0]], series[k, columns[1]], series[k, columns[2]]
-
-
-@compiled
-def _write(series: Array, k: int, columns: tuple[int, int, int], a: Vector) -> None:
-    """Set what `_read` returns."""
-    series[k, columns[0]], series[k, columns[1]], series[k, columns[2]] = a
-
-
-@compiled
-def _read_four(series: Array, k: int, column: int) -> Four:
+def _read(series: Array, k: int, column: int) -> Four:
     """Return the coefficients of order k in four columns from this one on."""
     return series[k, column], series[k, column + 1], series[k, column + 2], series[k, column + 3]
 
 
 @compiled
-def _write_four(series: Array, k: int, column: int, factor: float, a: Four) -> None:
-    """Set what `_read_four` returns, to a product."""
-    series[k, column], series[k, column + 1] = factor * a[0], factor * a[1]
-    series[k, column + 2], series[k, column + 3] = factor * a[2], factor * a[3]
+def _write(series: Array, k: int, column: int, a: Four) -> None:
+    """Set what `_read` returns."""
+    series[k, column], series[k, column + 1] = a[0], a[1]
+    series[k, column + 2], series[k, column + 3] = a[2], a[3]
+
+
+@compiled
+def _write_spin(body: Body, series: Array, k: int, w: Vector, momentum: Vector, U_zeta: float) -> None:
+    """Write the coefficients of order k of ω, of the speed of B along ζ, and of L."""
+    c, h = body.center, momentum
+    _write(series, k, _SPIN, (w[0], w[1], w[2], U_zeta - (w[0] * c[1] - w[1] * c[0])))
+    _write(series, k, _MOMENTUM[0], (h[1], h[2], h[0], 0.0))
+    _write(series, k, _MOMENTUM[1], (h[2], h[0], h[1], 0.0))
+    _write(series, k, _CROSSED[0], (w[1], w[2], w[0], 0.0))
+    _write(series, k, _CROSSED[1], (w[2], w[0], w[1], 0.0))
+
+
+@compiled
+def _three(a: Four) -> Vector:
+    """Return the first three of four numbers."""
+    return a[0], a[1], a[2]
+
+
+@compiled
+def _and_none(a: Vector) -> Four:
+    """Return a vector and 0."""
+    return a[0], a[1], a[2], 0.0
+
+
+@compiled
+def _square(a: Vector) -> float:
+    """Return a²."""
+    return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]
+
+
+@compiled
+def _times(factor: float, a: Four) -> Four:
+    """Return four numbers times a factor."""
+    return factor * a[0], factor * a[1], factor * a[2], factor * a[3]
+
+
+@compiled
+def _sum(a: Four, b: Four) -> Four:
+    """Return a + b, of four numbers each."""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]
+
+
+@compiled
+def _difference(a: Four, b: Four) -> Four:
+    """Return a - b, of four numbers each."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]
 
 
 @compiled
@@ -194,12 +312,11 @@ def _add_product(total: Four, a: Four, factor: float) -> Four:
 
 
 @compiled
-def _add_to_fourth(a: Four, b: float) -> Four:
-    """Return four numbers with b added to the last."""
-    return a[0], a[1], a[2], a[3] + b
-
-
-@compiled
-def _part(values: Array, columns: tuple[int, int, int]) -> Vector:
-    """Return the vector in these columns."""
-    return values[columns[0]], values[columns[1]], values[columns[2]]
+def _add_products(total: Four, a: Four, b: Four) -> Four:
+    """Return a sum, (4,), with the products of four numbers and four others added."""
+    return (
+        total[0] + a[0] * b[0],
+        total[1] + a[1] * b[1],
+        total[2] + a[2] * b[2],
+        total[3] + a[3] * b[3],
+    )

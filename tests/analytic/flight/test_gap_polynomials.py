@@ -11,7 +11,7 @@ from cointoss.analytic.flight.gap_polynomials import (
     gap_polynomials,
     time_surely_clear,
 )
-from cointoss.analytic.flight.power_series import COLUMNS, ORDER, expand_flight, state_in_flight
+from cointoss.analytic.flight.power_series import COLUMNS, ROWS, expand_flight, state_in_flight
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.attitude import rotation_matrix
 from tests.helpers.draws import AIR, IMPERFECT, THIN, draw_release, scenario
@@ -25,11 +25,11 @@ def test_both_polynomials_are_those_of_tails_rim_and_of_heads(seed):
     rng = np.random.default_rng([seed, 1])
     case = scenario(coin=IMPERFECT, air=AIR, release=draw_release(rng))
     body, y, now = case.body, state_at_release(case.release), np.empty(13)
-    series, coefficients = np.empty((ORDER + 1, COLUMNS)), np.empty((2, DEGREE + 1))
+    series, coefficients = np.empty((ROWS, COLUMNS)), np.empty((2, DEGREE + 1))
     length, order = expand_flight(body, y, 1e-2, series)
     found = gap_polynomials(body, series, order, length, coefficients)
     for t in np.linspace(0, length, 5):
-        state_in_flight(body, series, order, t, y, now)
+        state_in_flight(series, order, t, y, now)
         up = np.array(rotation_matrix(tuple(now[6:10]))[2])
         for rim, side in enumerate((-1, 1)):
             q = now[2] + up @ ([0, 0, side * body.thickness / 2] - np.array(body.center))

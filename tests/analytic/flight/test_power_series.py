@@ -13,7 +13,7 @@ from cointoss.analytic.flight.integrated_flight import (
     sample_flight,
     within_step,
 )
-from cointoss.analytic.flight.power_series import COLUMNS, ORDER, expand_flight
+from cointoss.analytic.flight.power_series import COLUMNS, ORDER, ROWS, expand_flight
 from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.flight.touch_search import fly_by_steps
 from cointoss.analytic.toss import state_at_release
@@ -77,7 +77,7 @@ def test_the_order_of_the_series_follows_the_length_of_the_step():
     body, start = coin_and_start(np.random.default_rng(7))
     orders = []
     for longest in (1e-5, 1e-3, 1e-2, 1.0):
-        series = np.empty((ORDER + 1, COLUMNS))
+        series = np.empty((ROWS, COLUMNS))
         length, order = expand_flight(body, start, longest, series)
         assert length <= longest
         assert (length == longest) == (order < ORDER)
@@ -97,7 +97,7 @@ def test_what_is_surely_clear_is_clear_and_a_touch_is_not(thickness):
         assert touches
         # The last step before the touch, from a time at which it is still to come.
         y = flown(body, start, touch - 5e-3)
-        series, coefficients = np.empty((ORDER + 1, COLUMNS)), np.empty((2, DEGREE + 1))
+        series, coefficients = np.empty((ROWS, COLUMNS)), np.empty((2, DEGREE + 1))
         length, order = expand_flight(body, y, 8e-3, series)
         polynomials = gap_polynomials(body, series, order, length, coefficients)
         assert polynomials.degree <= 2 * order
