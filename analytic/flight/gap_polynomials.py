@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cointoss.analytic.flight.power_series import HEIGHT, ORDER, UP
+from cointoss.analytic.numerics.fours import NONE, Four, add_products, read_four, times
 from cointoss.models.body import Body
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
@@ -58,33 +59,41 @@ def gap_polynomials(
         length: of the step [s].
         coefficients: where they go, (2, DEGREE + 1).
     """
-    # Of q, r u_ξ, r u_η and (h/2) u_ζ.
-    parts, c = np.empty((4, order + 1)), body.center
-    q, across, along, lift = parts[0], parts[1], parts[2], parts[3]
+    # Of q - (h/2) u_ζ, q + (h/2) u_ζ, r u_ξ and r u_η.
+    parts, c = np.empty((order + 1, 4)), body.center
     height, level, power = 0.0, 0.0, 1.0
     for k in range(order + 1):
         up = series[k, UP[0]], series[k, UP[1]], series[k, UP[2]]
-        q[k] = series[k, HEIGHT] - c[0] * up[0] - c[1] * up[1] - c[2] * up[2]
-        across[k], along[k] = body.radius * up[0], body.radius * up[1]
-        lift[k] = body.thickness / 2 * up[2]
-        height += (abs(q[k]) + abs(lift[k])) * power
-        level += (abs(across[k]) + abs(along[k])) * power
+        q, lift = series[k, HEIGHT] - c[0] * up[0] - c[1] * up[1] - c[2] * up[2], body.thickness / 2 * up[2]
+        across, along = body.radius * up[0], body.radius * up[1]
+        parts[k, 0], parts[k, 1], parts[k, 2], parts[k, 3] = q - lift, q + lift, across, along
+        height += (abs(q) + abs(lift)) * power
+        level += (abs(across) + abs(along)) * power
         power *= length
     size, degree, power = height * height + level * level, 0, 1.0
     for k in range(2 * order + 1):
-        # The sum of the squares, and twice that of q times the lift.
-        squares, product = 0.0, 0.0
-        for j in range(max(0, k - order), min(k, order) + 1):
-            i = k - j
-            squares += q[j] * q[i] + lift[j] * lift[i] - across[j] * across[i] - along[j] * along[i]
-            product += q[j] * lift[i]
-        coefficients[0, k], coefficients[1, k] = squares - 2 * product, squares + 2 * product
-        if (abs(squares) + 2 * abs(product)) * power > _SMALLEST * size:
+        tails, heads, across, along = _square_coefficients(parts, k)
+        level = across + along
+        coefficients[0, k], coefficients[1, k] = tails - level, heads - level
+        if max(abs(tails - level), abs(heads - level)) * power > _SMALLEST * size:
             degree = k
         elif k > max(degree + 2, order):
             break
         power *= length
     return GapPolynomials(coefficients, degree, _ROUNDING * size)
+
+
+@compiled
+def _square_coefficients(parts: Array, k: int) -> Four:
+    """Return the coefficients of order k of the squares of four polynomials, given by theirs, (n, 4)."""
+    half = NONE
+    for j in range(max(0, k + 1 - len(parts)), (k + 1) // 2):
+        half = add_products(half, read_four(parts, j, 0), read_four(parts, k - j, 0))
+    whole = times(2.0, half)
+    if k % 2 == 0:
+        middle = read_four(parts, k // 2, 0)
+        whole = add_products(whole, middle, middle)
+    return whole
 
 
 @compiled

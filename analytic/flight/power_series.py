@@ -20,7 +20,18 @@ from cointoss.analytic.flight.state_vector import (
     set_velocity,
     state_of,
 )
-from cointoss.analytic.numerics.rotation import Four, attitude_near
+from cointoss.analytic.numerics.fours import (
+    NONE,
+    Four,
+    add_product,
+    add_products,
+    minus,
+    plus,
+    read_four,
+    times,
+    write_four,
+)
+from cointoss.analytic.numerics.rotation import attitude_near
 from cointoss.models.body import Body
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
@@ -43,7 +54,6 @@ _MOMENTUM, _CROSSED, COLUMNS = (24, 28), (32, 36), 40
 # Columns of the work space: `_TURNED` × ω, L × ω, and the speed of B along the normal, times the normal.
 _TURNING, _GYROSCOPIC, _ALONG_NORMAL = (0, 4, 8), 12, 16
 _INVERSE = 1 / np.arange(1, ORDER + 1)
-_NONE: Four = (0.0, 0.0, 0.0, 0.0)
 
 
 class _Scales(NamedTuple):
@@ -71,7 +81,7 @@ class _Sums(NamedTuple):
     """The speed of B along the normal, times the normal in space."""
 
 
-_NO_SUMS = _Sums(_NONE, _NONE, _NONE, _NONE, _NONE, _NONE, _NONE, _NONE, _NONE)
+_NO_SUMS = _Sums(NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE)
 
 
 @compiled
@@ -91,10 +101,10 @@ def expand_flight(body: Body, y: Array, longest: float, series: Array) -> tuple[
     state = state_of(y)
     U, momentum = apply_transposed(state.R, state.velocity), apply(body.inertia, state.spin)
     for i in range(3):
-        _write(series, 0, _TURNED[i], (state.R[0][i], state.R[1][i], state.R[2][i], U[i]))
+        write_four(series, 0, _TURNED[i], (state.R[0][i], state.R[1][i], state.R[2][i], U[i]))
     _write_spin(body, series, 0, state.spin, momentum, U[2])
-    _write(series, 0, _POSITION, _and_none(state.position))
-    _write(series, 0, _VELOCITY, _and_none(state.velocity))
+    write_four(series, 0, _POSITION, _and_none(state.position))
+    write_four(series, 0, _VELOCITY, _and_none(state.velocity))
     length = min(longest, _fall_time(body, state))
     speed = (body.gravity * body.radius) ** 0.5 + norm(state.velocity)
     spin = (body.gravity / body.radius) ** 0.5 + norm(state.spin)
@@ -131,23 +141,27 @@ def _next_terms(body: Body, k: int, series: Array, scales: _Scales) -> float:
     """
     if k > 0:
         _write_velocity(body, series, k)
-    part, w = _INVERSE[k], _read(series, k, _SPIN)
-    x, y, z = _read(series, k, _TURNED[0]), _read(series, k, _TURNED[1]), _read(series, k, _TURNED[2])
+    part, w = _INVERSE[k], read_four(series, k, _SPIN)
+    x, y, z = (
+        read_four(series, k, _TURNED[0]),
+        read_four(series, k, _TURNED[1]),
+        read_four(series, k, _TURNED[2]),
+    )
     f, m_C = force_and_moment(body, (x[3], y[3], z[3]), _three(w))
     a = subtract(scale(1 / body.mass, f), scale(body.gravity, (x[2], y[2], z[2])))
-    position = _times(part, _read(series, k, _VELOCITY))
+    position = times(part, read_four(series, k, _VELOCITY))
     _write_products(series, k)
-    _write(series, k + 1, _POSITION, position)
-    x = _times(part, _sum(_read(series, _WORK, _TURNING[0]), (0.0, 0.0, 0.0, a[0])))
-    y = _times(part, _sum(_read(series, _WORK, _TURNING[1]), (0.0, 0.0, 0.0, a[1])))
-    z = _times(part, _sum(_read(series, _WORK, _TURNING[2]), (0.0, 0.0, 0.0, a[2])))
-    _write(series, k + 1, _TURNED[0], x)
-    _write(series, k + 1, _TURNED[1], y)
-    _write(series, k + 1, _TURNED[2], z)
-    momentum = scale(part, add(m_C, _three(_read(series, _WORK, _GYROSCOPIC))))
+    write_four(series, k + 1, _POSITION, position)
+    x = times(part, plus(read_four(series, _WORK, _TURNING[0]), (0.0, 0.0, 0.0, a[0])))
+    y = times(part, plus(read_four(series, _WORK, _TURNING[1]), (0.0, 0.0, 0.0, a[1])))
+    z = times(part, plus(read_four(series, _WORK, _TURNING[2]), (0.0, 0.0, 0.0, a[2])))
+    write_four(series, k + 1, _TURNED[0], x)
+    write_four(series, k + 1, _TURNED[1], y)
+    write_four(series, k + 1, _TURNED[2], z)
+    momentum = scale(part, add(m_C, _three(read_four(series, _WORK, _GYROSCOPIC))))
     spin = apply(body.inertia_inverse, momentum)
     _write_spin(body, series, k + 1, spin, momentum, z[3])
-    turned = _add_products(_add_products(_add_products(_NONE, x, x), y, y), z, z)
+    turned = add_products(add_products(add_products(NONE, x, x), y, y), z, z)
     largest = max(max(turned[0], turned[1]), max(turned[2], turned[3] * scales.speed))
     moved = _square(_three(position)) * scales.length
     return max(largest, max(moved, _square(spin) * scales.spin))
@@ -160,13 +174,17 @@ def _write_velocity(body: Body, series: Array, k: int) -> None:
     That of B in space is the rate of x_C - R c.
     """
     c, c_t, c_n = body.center, body.drag.force_tangential, body.drag.force_normal
-    x, y, z = _read(series, k, _TURNED[0]), _read(series, k, _TURNED[1]), _read(series, k, _TURNED[2])
-    arm = _add_product(_add_product(_times(c[0], x), y, c[1]), z, c[2])
-    slowed = _times(c_t / body.mass, _difference(_read(series, k, _POSITION), arm))
-    along_normal = _read(series, _WORK, _ALONG_NORMAL)
-    slowed = _add_product(slowed, along_normal, _INVERSE[k - 1] * (c_n - c_t) / body.mass)
+    x, y, z = (
+        read_four(series, k, _TURNED[0]),
+        read_four(series, k, _TURNED[1]),
+        read_four(series, k, _TURNED[2]),
+    )
+    arm = add_product(add_product(times(c[0], x), y, c[1]), z, c[2])
+    slowed = times(c_t / body.mass, minus(read_four(series, k, _POSITION), arm))
+    along_normal = read_four(series, _WORK, _ALONG_NORMAL)
+    slowed = add_product(slowed, along_normal, _INVERSE[k - 1] * (c_n - c_t) / body.mass)
     fall = body.gravity if k == 1 else 0.0
-    _write(series, k, _VELOCITY, (-slowed[0], -slowed[1], -slowed[2] - fall, -slowed[3]))
+    write_four(series, k, _VELOCITY, (-slowed[0], -slowed[1], -slowed[2] - fall, -slowed[3]))
 
 
 @compiled
@@ -182,28 +200,34 @@ def _write_products(series: Array, k: int) -> None:
     sums = _with_term(sums, series, 0, k)
     if k > 0:
         sums = _with_term(sums, series, k, 0)
-    _write(series, _WORK, _TURNING[0], _difference(sums.x, sums.x_less))
-    _write(series, _WORK, _TURNING[1], _difference(sums.y, sums.y_less))
-    _write(series, _WORK, _TURNING[2], _difference(sums.z, sums.z_less))
-    _write(series, _WORK, _GYROSCOPIC, _difference(sums.gyroscopic, sums.gyroscopic_less))
-    _write(series, _WORK, _ALONG_NORMAL, sums.along_normal)
+    write_four(series, _WORK, _TURNING[0], minus(sums.x, sums.x_less))
+    write_four(series, _WORK, _TURNING[1], minus(sums.y, sums.y_less))
+    write_four(series, _WORK, _TURNING[2], minus(sums.z, sums.z_less))
+    write_four(series, _WORK, _GYROSCOPIC, minus(sums.gyroscopic, sums.gyroscopic_less))
+    write_four(series, _WORK, _ALONG_NORMAL, sums.along_normal)
 
 
 @compiled
 def _with_term(sums: _Sums, series: Array, j: int, i: int) -> _Sums:
     """Return the `_Sums` with the products of coefficients of order j with those of order i of ω added."""
-    w_xi, w_eta, w_zeta, speed = _read(series, i, _SPIN)
-    x, y, z = _read(series, j, _TURNED[0]), _read(series, j, _TURNED[1]), _read(series, j, _TURNED[2])
+    w_xi, w_eta, w_zeta, speed = read_four(series, i, _SPIN)
+    x, y, z = (
+        read_four(series, j, _TURNED[0]),
+        read_four(series, j, _TURNED[1]),
+        read_four(series, j, _TURNED[2]),
+    )
     return _Sums(
-        _add_product(sums.x, y, w_zeta),
-        _add_product(sums.x_less, z, w_eta),
-        _add_product(sums.y, z, w_xi),
-        _add_product(sums.y_less, x, w_zeta),
-        _add_product(sums.z, x, w_eta),
-        _add_product(sums.z_less, y, w_xi),
-        _add_products(sums.gyroscopic, _read(series, j, _MOMENTUM[0]), _read(series, i, _CROSSED[1])),
-        _add_products(sums.gyroscopic_less, _read(series, j, _MOMENTUM[1]), _read(series, i, _CROSSED[0])),
-        _add_product(sums.along_normal, z, speed),
+        add_product(sums.x, y, w_zeta),
+        add_product(sums.x_less, z, w_eta),
+        add_product(sums.y, z, w_xi),
+        add_product(sums.y_less, x, w_zeta),
+        add_product(sums.z, x, w_eta),
+        add_product(sums.z_less, y, w_xi),
+        add_products(sums.gyroscopic, read_four(series, j, _MOMENTUM[0]), read_four(series, i, _CROSSED[1])),
+        add_products(
+            sums.gyroscopic_less, read_four(series, j, _MOMENTUM[1]), read_four(series, i, _CROSSED[0])
+        ),
+        add_product(sums.along_normal, z, speed),
     )
 
 
@@ -218,14 +242,14 @@ def state_in_flight(series: Array, order: int, t: float, y: Array, y_new: Array)
         y: state at its start, (13,).
         y_new: state, (13,).
     """
-    xi, eta, zeta, spin, position, velocity = _NONE, _NONE, _NONE, _NONE, _NONE, _NONE
+    xi, eta, zeta, spin, position, velocity = NONE, NONE, NONE, NONE, NONE, NONE
     for k in range(order, -1, -1):
-        xi = _add_product(_read(series, k, _TURNED[0]), xi, t)
-        eta = _add_product(_read(series, k, _TURNED[1]), eta, t)
-        zeta = _add_product(_read(series, k, _TURNED[2]), zeta, t)
-        spin = _add_product(_read(series, k, _SPIN), spin, t)
-        position = _add_product(_read(series, k, _POSITION), position, t)
-        velocity = _add_product(_read(series, k, _VELOCITY), velocity, t)
+        xi = add_product(read_four(series, k, _TURNED[0]), xi, t)
+        eta = add_product(read_four(series, k, _TURNED[1]), eta, t)
+        zeta = add_product(read_four(series, k, _TURNED[2]), zeta, t)
+        spin = add_product(read_four(series, k, _SPIN), spin, t)
+        position = add_product(read_four(series, k, _POSITION), position, t)
+        velocity = add_product(read_four(series, k, _VELOCITY), velocity, t)
     R = ((xi[0], eta[0], zeta[0]), (xi[1], eta[1], zeta[1]), (xi[2], eta[2], zeta[2]))
     set_position(y_new, _three(position))
     set_velocity(y_new, _three(velocity))
@@ -241,27 +265,14 @@ def _fall_time(body: Body, state: State) -> float:
 
 
 @compiled
-def _read(series: Array, k: int, column: int) -> Four:
-    """Return the coefficients of order k in four columns from this one on."""
-    return series[k, column], series[k, column + 1], series[k, column + 2], series[k, column + 3]
-
-
-@compiled
-def _write(series: Array, k: int, column: int, a: Four) -> None:
-    """Set what `_read` returns."""
-    series[k, column], series[k, column + 1] = a[0], a[1]
-    series[k, column + 2], series[k, column + 3] = a[2], a[3]
-
-
-@compiled
 def _write_spin(body: Body, series: Array, k: int, w: Vector, momentum: Vector, U_zeta: float) -> None:
     """Write the coefficients of order k of ω, of the speed of B along ζ, and of L."""
     c, h = body.center, momentum
-    _write(series, k, _SPIN, (w[0], w[1], w[2], U_zeta - (w[0] * c[1] - w[1] * c[0])))
-    _write(series, k, _MOMENTUM[0], (h[1], h[2], h[0], 0.0))
-    _write(series, k, _MOMENTUM[1], (h[2], h[0], h[1], 0.0))
-    _write(series, k, _CROSSED[0], (w[1], w[2], w[0], 0.0))
-    _write(series, k, _CROSSED[1], (w[2], w[0], w[1], 0.0))
+    write_four(series, k, _SPIN, (w[0], w[1], w[2], U_zeta - (w[0] * c[1] - w[1] * c[0])))
+    write_four(series, k, _MOMENTUM[0], (h[1], h[2], h[0], 0.0))
+    write_four(series, k, _MOMENTUM[1], (h[2], h[0], h[1], 0.0))
+    write_four(series, k, _CROSSED[0], (w[1], w[2], w[0], 0.0))
+    write_four(series, k, _CROSSED[1], (w[2], w[0], w[1], 0.0))
 
 
 @compiled
@@ -280,43 +291,3 @@ def _and_none(a: Vector) -> Four:
 def _square(a: Vector) -> float:
     """Return a²."""
     return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]
-
-
-@compiled
-def _times(factor: float, a: Four) -> Four:
-    """Return four numbers times a factor."""
-    return factor * a[0], factor * a[1], factor * a[2], factor * a[3]
-
-
-@compiled
-def _sum(a: Four, b: Four) -> Four:
-    """Return a + b, of four numbers each."""
-    return a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]
-
-
-@compiled
-def _difference(a: Four, b: Four) -> Four:
-    """Return a - b, of four numbers each."""
-    return a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]
-
-
-@compiled
-def _add_product(total: Four, a: Four, factor: float) -> Four:
-    """Return a sum, (4,), with the product of four numbers and a factor added."""
-    return (
-        total[0] + a[0] * factor,
-        total[1] + a[1] * factor,
-        total[2] + a[2] * factor,
-        total[3] + a[3] * factor,
-    )
-
-
-@compiled
-def _add_products(total: Four, a: Four, b: Four) -> Four:
-    """Return a sum, (4,), with the products of four numbers and four others added."""
-    return (
-        total[0] + a[0] * b[0],
-        total[1] + a[1] * b[1],
-        total[2] + a[2] * b[2],
-        total[3] + a[3] * b[3],
-    )

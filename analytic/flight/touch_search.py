@@ -203,13 +203,13 @@ def fly_by_steps(body: Body, y: Array, longest: float, with_graze: bool) -> Flow
     """
     work, y_near, coefficients = flight_work(body), np.empty(STATE_SIZE), np.empty((2, DEGREE + 1))
     start = state_of(y)
-    elapsed, dt, expected = 0.0, first_step(body, y), expected_flight(body, start)
+    elapsed, dt = 0.0, first_step(body, y)
     # A coin that starts on the floor has just been lifted off it: only a clear descent is a touch at once.
     touching_speed = -smallest_flight(body, start).speed
     lowest, evaluations, steps = Lowest(np.inf, np.inf, 0.0), 0, 0
+    # Called at two places, a step is compiled by itself: among the search its vectors would fall apart.
+    made, dt, order = flight_step(body, y, dt, min(longest, expected_flight(body, start)), work)
     while elapsed < longest:
-        made, dt, order = flight_step(body, y, dt, min(longest - elapsed, expected), work)
-        expected = np.inf
         steps += 1
         copy_into(y_near, y)
         inside, in_step, patience = 0.0, 0, _MANY
@@ -244,4 +244,6 @@ def fly_by_steps(body: Body, y: Array, longest: float, with_graze: bool) -> Flow
                 within_step(body, y, inside, order, work, y_near)
         finish_step(body, made, order, work, y, y_near)
         elapsed += made
+        if elapsed < longest:
+            made, dt, order = flight_step(body, y, dt, longest - elapsed, work)
     return Flown(longest, False, evaluations, steps, lowest.graze)

@@ -1,1 +1,1 @@
-"""A Runge-Kutta tableau, roots and rotations; imports nothing of analytic."""
+"""A Runge-Kutta tableau, roots, rotations and vectors of four numbers; imports nothing of analytic."""

@@ -2,11 +2,10 @@
 
 import math
 
+from cointoss.analytic.numerics.fours import Four
 from cointoss.models.attitude import Quaternion, norm_of
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.kernel.vectors import Matrix, Vector
-
-Four = tuple[float, float, float, float]
 
 
 def quaternion_from_axis(axis: Vector, angle: float) -> Quaternion:
