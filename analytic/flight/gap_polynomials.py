@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from cointoss.analytic.flight.power_series import HEIGHT, ORDER, UP
-from cointoss.analytic.numerics.fours import NONE, Four, add_products, read_four, times
+from cointoss.analytic.numerics.fours import NONE, add_product, add_products, read_four
 from cointoss.models.body import Body
 from cointoss.models.kernel.arrays import Array
 from cointoss.models.kernel.compiled import compiled
@@ -72,7 +72,14 @@ def gap_polynomials(
         power *= length
     size, degree, power = height * height + level * level, 0, 1.0
     for k in range(2 * order + 1):
-        tails, heads, across, along = _square_coefficients(parts, k)
+        # The squares of the four.
+        half, square = NONE, NONE
+        for j in range(max(0, k - order), (k + 1) // 2):
+            half = add_products(half, read_four(parts, j, 0), read_four(parts, k - j, 0))
+        if k % 2 == 0:
+            middle = read_four(parts, k // 2, 0)
+            square = add_products(NONE, middle, middle)
+        tails, heads, across, along = add_product(square, half, 2.0)
         level = across + along
         coefficients[0, k], coefficients[1, k] = tails - level, heads - level
         if max(abs(tails - level), abs(heads - level)) * power > _SMALLEST * size:
@@ -81,19 +88,6 @@ def gap_polynomials(
             break
         power *= length
     return GapPolynomials(coefficients, degree, _ROUNDING * size)
-
-
-@compiled
-def _square_coefficients(parts: Array, k: int) -> Four:
-    """Return the coefficients of order k of the squares of four polynomials, given by theirs, (n, 4)."""
-    half = NONE
-    for j in range(max(0, k + 1 - len(parts)), (k + 1) // 2):
-        half = add_products(half, read_four(parts, j, 0), read_four(parts, k - j, 0))
-    whole = times(2.0, half)
-    if k % 2 == 0:
-        middle = read_four(parts, k // 2, 0)
-        whole = add_products(whole, middle, middle)
-    return whole
 
 
 @compiled
@@ -109,13 +103,14 @@ def time_surely_clear(body: Body, polynomials: GapPolynomials, sink: float, wind
     Returns:
         The time, all but that to the touch where it is found, 0 where none of use is [s].
     """
-    degree, inside, least = polynomials.degree, window.start, window.least
+    coefficients, degree, rounding = polynomials
+    inside, least = window.start, window.least
     shifted, bernstein = np.empty((2, degree + 1)), np.empty(degree + 1)
     rims = 2 if body.thickness > 0 else 1
     for rim in range(rims):
         for k in range(degree + 1):
-            shifted[rim, k] = polynomials.coefficients[rim, k]
-        shifted[rim, 0] += sink - polynomials.rounding
+            shifted[rim, k] = coefficients[rim, k]
+        shifted[rim, 0] += sink - rounding
         if inside > 0:
             for i in range(degree):
                 for k in range(degree - 1, i - 1, -1):
@@ -127,7 +122,7 @@ def time_surely_clear(body: Body, polynomials: GapPolynomials, sink: float, wind
         clear = time
         for rim in range(rims):
             if clear > 0:
-                clear = min(clear, _positive_until(shifted[rim], time, sink, bernstein))
+                clear = min(clear, _positive_until(shifted, rim, time, sink, bernstein))
         if clear > least:
             return clear
         time *= _SHORTER
@@ -135,18 +130,19 @@ def time_surely_clear(body: Body, polynomials: GapPolynomials, sink: float, wind
 
 
 @compiled
-def _positive_until(polynomial: Array, length: float, sink: float, bernstein: Array) -> float:
+def _positive_until(polynomials: Array, rim: int, length: float, sink: float, bernstein: Array) -> float:
     """Return a time up to which a polynomial is positive, at most `length`; 0 where none is known.
 
     Args:
-        polynomial: its coefficients.
+        polynomials: the coefficients of both rims, (2, n).
+        rim: number of the one in question.
         length: of the time of interest [s].
         sink: where the polynomial falls through zero once, the time is one at which it still exceeds this.
-        bernstein: work space as large.
+        bernstein: work space, (n,).
     """
-    degree, scale = len(polynomial) - 1, 1.0
+    degree, scale = len(bernstein) - 1, 1.0
     for k in range(degree + 1):
-        bernstein[k] = polynomial[k] * scale
+        bernstein[k] = polynomials[rim, k] * scale
         # The next power of the length, over the next binomial coefficient.
         scale *= length * (k + 1) / max(degree - k, 1)
     for i in range(1, degree + 1):
@@ -159,21 +155,22 @@ def _positive_until(polynomial: Array, length: float, sink: float, bernstein: Ar
         changes += (bernstein[k] > 0) != (bernstein[k + 1] > 0)
     if changes == 0:
         return length
-    return _before_fall(polynomial, length, sink) if changes == 1 else 0.0
+    return _before_fall(polynomials, rim, length, sink) if changes == 1 else 0.0
 
 
 @compiled
-def _before_fall(polynomial: Array, length: float, least: float) -> float:
+def _before_fall(polynomials: Array, rim: int, length: float, least: float) -> float:
     """Return a time just before a polynomial falls through `least` for good, by Newton's method.
 
     Args:
-        polynomial: its coefficients.
+        polynomials: the coefficients of both rims, (2, n).
+        rim: number of the one in question.
         length: of the time in which it falls once below zero [s].
         least: small, not negative.
     """
     low, high, t = 0.0, length, _START * length
     for _ in range(_MOST_STEPS):
-        value, rate = _value_and_rate(polynomial, t)
+        value, rate = _value_and_rate(polynomials, rim, t)
         value -= least
         if value > 0:
             low = t
@@ -186,14 +183,14 @@ def _before_fall(polynomial: Array, length: float, least: float) -> float:
         if step <= _STEP * t:
             break
     before = t * (1 - _BEFORE)
-    return before if before > low and _value_and_rate(polynomial, before)[0] > least else low
+    return before if before > low and _value_and_rate(polynomials, rim, before)[0] > least else low
 
 
 @compiled
-def _value_and_rate(polynomial: Array, t: float) -> tuple[float, float]:
-    """Return the value of a polynomial and its derivative."""
+def _value_and_rate(polynomials: Array, rim: int, t: float) -> tuple[float, float]:
+    """Return the value of the polynomial of a rim, and its derivative."""
     value, rate = 0.0, 0.0
-    for k in range(len(polynomial) - 1, -1, -1):
+    for k in range(polynomials.shape[1] - 1, -1, -1):
         rate = rate * t + value
-        value = value * t + polynomial[k]
+        value = value * t + polynomials[rim, k]
     return value, rate
