@@ -39,8 +39,9 @@ from cointoss.models.kernel.vectors import Vector, add, apply, apply_transposed,
 from cointoss.models.state import State
 
 ORDER = 24
-# The last two terms of a step are at most this part of the coin's scales.
-_SMALLEST = 2e-17
+# The last two terms of a step are at most this part of the coin's scales. The next one, less than a tenth of
+# them, is then below the rounding of the sum.
+_SMALLEST = 2e-16
 ROWS, _WORK = ORDER + 2, ORDER + 1
 """Of a series: one for each order, and one of work space."""
 # Where vectors of four numbers start in the columns of a series. The first of `_TURNED` has the ξ components
