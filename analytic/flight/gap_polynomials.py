@@ -17,7 +17,7 @@ from cointoss.models.kernel.compiled import compiled
 
 DEGREE = 2 * ORDER
 # Rounding of F, against the sum of all products in it, and terms of it that are left out.
-_ROUNDING, _SMALLEST = 1e-15, 1e-18
+_ROUNDING, _SMALLEST = 1e-15, 1e-17
 # A time to be shown clear is tried, then a third of it, and so on.
 _SHORTER, _TRIES = 1 / 3, 8
 # A fall through zero is sought from this part of the time on, in so many steps, until one is this part of it;
@@ -144,7 +144,7 @@ def _positive_until(polynomials: Array, rim: int, length: float, sink: float, be
     for k in range(degree + 1):
         bernstein[k] = polynomials[rim, k] * scale
         # The next power of the length, over the next binomial coefficient.
-        scale *= length * (k + 1) / max(degree - k, 1)
+        scale *= length * ((k + 1) / max(degree - k, 1))
     for i in range(1, degree + 1):
         for k in range(degree, i - 1, -1):
             bernstein[k] += bernstein[k - 1]

@@ -58,7 +58,7 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
 
 
 def alone(module: str) -> ModuleType:
-    """Return a module imported without what its package imports for Python, in a process that does nothing else."""
+    """Return a module without what its package imports for Python, in a process that does nothing else."""
     package = find_spec(module.rpartition(".")[0])
     if package is None:
         raise RuntimeError(f"{module}: there is no such package")

@@ -1,9 +1,9 @@
 """Compiled functions as one module of LLVM's code, for any processor, in a process of its own.
 
 numba compiles each function by itself: it optimises it with all that it calls, makes machine code for this
-machine, and wrappers for Python. Here numba is changed: the code of each function is only tidied up. All of it
-is linked into one module, references to arrays are no longer counted where no error can occur, and that module
-is optimised once for each processor.
+machine, and wrappers for Python. Here numba is changed: the code of each function is only tidied up. All of
+it is linked into one module, references to arrays are no longer counted where no error can occur, and that
+module is optimised once for each processor.
 """
 
 # numba describes few types.
