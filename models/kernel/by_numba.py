@@ -11,13 +11,20 @@ from cointoss.models.kernel.base_folder import base_folder
 from cointoss.models.kernel.digests import ENGINES, code_digest, digest_of_parts
 
 
-def dispatcher_of(function: Any, *, inlined: bool = False) -> Any:
+def dispatcher_of(function: Any, *, inlined: bool = False, wrapped: bool = True) -> Any:
     """Return numba's dispatcher of a function; its code is kept for exactly the sources that lie here.
 
     numba itself looks at the file of the function alone, not at those that it calls.
+
+    Args:
+        function: to be compiled.
+        inlined: whether it goes into its callers.
+        wrapped: whether Python calls it; wrappers take half of the time of compiling.
     """
-    numba.config.CACHE_DIR = str(base_folder() / f"numba-{_sources_of(function)}")
-    return numba.njit(nogil=True, error_model="numpy", forceinline=inlined, cache=True)(function)
+    kept = f"numba-{_sources_of(function)}{'' if wrapped else '-bare'}"  # numba takes either for the other
+    numba.config.CACHE_DIR = str(base_folder() / kept)
+    bare: dict[str, Any] = {} if wrapped else {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    return numba.njit(nogil=True, error_model="numpy", forceinline=inlined, cache=True, **bare)(function)
 
 
 def _sources_of(function: Any) -> str:

@@ -63,7 +63,7 @@ class _Compiled:
             return _Compiled.dispatched(self)
         from cointoss.models.kernel.by_numba import dispatcher_of
 
-        return dispatcher_of(self.py_func, inlined=self.inlined)
+        return dispatcher_of(self.py_func, inlined=self.inlined, wrapped=self._by_numba)
 
     @property
     def _numba_type_(self) -> Any:
