@@ -15,7 +15,7 @@ class AirLaw(NamedTuple):
     exponent: float | None
     """b, from 0 to 1; None or 0 in vacuum as for b = 0. To numba None is a type of its own: linear air is
     compiled apart. Beside the quadrature that b > 0 needs, it would not be inlined, and every toss slower.
-    MuJoCo's coin, whose air is not compiled with it, has 0 instead, and is compiled once for all air."""
+    MuJoCo's coin has 0 instead, and is compiled once for all air."""
     normal: float
     """λ_n [kg m^(-2-b) s^(b-1)]."""
     tangential: float

@@ -3,6 +3,7 @@
 # numba describes few types.
 # pyright: reportAttributeAccessIssue=false, reportPrivateImportUsage=false
 
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -44,16 +45,10 @@ def _make_pointer() -> Any:
     return pointer
 
 
-def _make_array() -> Any:
-    from numba import carray
-
-    return carray
-
-
 call_at: Any = ForCompiledCode(_make_call)
 """Calls the C function at an address, which returns nothing, with a tuple of integers: also addresses."""
 _pointer_to: Any = ForCompiledCode(_make_pointer)
-_array_of: Any = ForCompiledCode(_make_array)
+_array_of: Any = ForCompiledCode(lambda: import_module("numba").carray)
 
 
 @inlined

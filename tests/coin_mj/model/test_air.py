@@ -112,7 +112,7 @@ def test_a_coin_feels_the_force_at_B_in_mujocos_frames(b):
 
 
 @pytest.mark.parametrize("air", [{"b": 0.5, "normal": 0.0, "tangential": 0.0}, {"b": 0.0}])
-def test_no_drag_acts_in_vacuum(air):
+def test_linear_air_drags_and_vacuum_does_not(air):
     machine = coin_in_air(**air)
     forward(machine.coin)
     vacuum = air.get("normal") == 0
