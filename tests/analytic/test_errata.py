@@ -11,7 +11,11 @@ from cointoss.analytic.horizon.flight_tangent import FINE, flight_tangent
 from cointoss.analytic.numerics.euler_angles import axis_rotation
 from cointoss.analytic.toss import state_at_release
 from cointoss.models.barriers import barrier
+from cointoss.models.kernel.compiled import by_numba
 from tests.helpers.draws import AIR, IMPERFECT, PAPER_OFFSET, ZLOTY, scenario
+
+flight_tangent = by_numba(flight_tangent)
+sample = by_numba(sample)
 
 G = 9.81
 

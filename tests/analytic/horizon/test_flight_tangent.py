@@ -8,9 +8,13 @@ from cointoss.analytic.flight.state_vector import state_of
 from cointoss.analytic.horizon.flight_tangent import COARSE, FINE, flight_tangent
 from cointoss.analytic.runs import event_tangent, run
 from cointoss.analytic.toss import state_at_release
+from cointoss.models.kernel.compiled import by_numba
 from cointoss.models.laws import ContactLaw
 from cointoss.models.scenario import Scenario
 from tests.helpers.draws import AIR, PAPER_OFFSET, ZLOTY, draw_release, scenario
+
+flight_tangent = by_numba(flight_tangent)
+sample = by_numba(sample)
 
 SIZES = np.array([1e-2, 1e-2, 1e-2, *[1.0] * 7, *[50.0] * 3])
 """Of the components of a state: length, speed, attitude, spin."""

@@ -1,5 +1,7 @@
 """A tile is tossed in parts of a second."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -19,11 +21,8 @@ def test_a_tile_is_tossed_in_parts_of_a_second(monkeypatch, cost, most):
         sizes.append(size)
         return Pixels(np.zeros(size, np.int8), np.zeros(size, np.int32), None)
 
-    class Clock:
-        working_time = property(lambda _: now[0])
-
     monkeypatch.setattr(run, "toss_pixels", toss)
-    monkeypatch.setattr(run, "compiling", Clock())
+    monkeypatch.setattr(run, "time", SimpleNamespace(perf_counter=lambda: now[0]))
     whole = Tile(slice(0, 128), slice(0, 128 if cost < 1 else 2))
     tossed = list(run.toss_here(sweep, [whole]))
     assert sum(sizes) == 128 * (whole.columns.stop)

@@ -16,7 +16,6 @@ from zarr.storage import LocalStore
 
 from cointoss import analytic, coin_mj
 from cointoss.coin_mj import Realisation
-from cointoss.compare import engines
 from cointoss.compare.engines import Engine
 from cointoss.compare.output.files import UnwritableError
 from cointoss.compare.sweep import grid, run
@@ -291,22 +290,6 @@ def test_a_map_of_other_versions_or_that_lost_an_axis_is_not_gone_on_with(in_til
     described["attributes"]["versions"] = {"cointoss": "0.0.1"}
     (old / "zarr.json").write_text(json.dumps(described))
     assert "is a map with another set of versions" in refused("basin", coin, *AXES, "--out", old, "--resume")
-
-
-def test_a_map_by_musls_functions_is_not_gone_on_with_by_those_of_the_system(
-    in_tiles, coin, tmp_path, monkeypatch
-):
-    """Nor the other way round."""
-    out = shutil.copytree(in_tiles, tmp_path / "map.zarr")
-    words = "basin", coin, *AXES, "--out", out, "--resume"
-    with monkeypatch.context() as with_musl:
-        with_musl.setattr(engines, "libm_digest", lambda: "0123456789abcdef")
-        assert "is a map with another set of versions" in refused(*words)
-        assert Engine.MUJOCO.versions["musl"] == "0123456789abcdef"
-    described = json.loads((out / "zarr.json").read_text())
-    described["attributes"]["versions"]["musl"] = "0123456789abcdef"
-    (out / "zarr.json").write_text(json.dumps(described))
-    assert '"musl": "0123456789abcdef"' in refused(*words)
 
 
 @pytest.mark.parametrize(("made", "asked"), [("one_step", "spring"), ("spring", "one_step")])
