@@ -24,8 +24,10 @@ def test_each_impact_is_that_of_a_toss(law):
         rules = case.rules._replace(restitution=chi[i], friction=mu[i])
         row = np.zeros(1, IMPACT_ROW)
         hit(case.body, rules, chi[i], first.copy(), row[0])
-        assert np.array_equal(impacts.impulse[i], row["impulse"][0])
-        assert impacts.energy_change[i] == row["energy_change"][0]
+        # Coulomb's law takes logarithms: musl's in the engine's library, here the system's.
+        rounding = 1e-14 if law == ContactLaw.COULOMB else 0.0
+        assert impacts.impulse[i] == pytest.approx(row["impulse"][0], rel=rounding, abs=0)
+        assert impacts.energy_change[i] == pytest.approx(row["energy_change"][0], rel=rounding, abs=0)
 
 
 def test_an_impact_without_a_solution_is_marked_and_changes_nothing():

@@ -173,7 +173,7 @@ def test_a_command_imports_no_more_than_it_needs(words, needed, tmp_path):
     assert not {"scipy.integrate", "scipy.optimize", "scipy.special", "scipy.stats"} & imported
 
 
-@pytest.mark.parametrize("kilobytes", [300_000, 400_000])
+@pytest.mark.parametrize("kilobytes", [60_000, 130_000])
 def test_too_little_memory_is_one_line(tmp_path, kilobytes):
     done = in_a_shell(f"ulimit -v {kilobytes}; cointoss toss fig24a --max-impacts 1", tmp_path)
     assert done.returncode != 0

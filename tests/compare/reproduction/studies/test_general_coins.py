@@ -91,7 +91,9 @@ def test_a_replay_is_the_motion_of_the_toss(kind):
         replay_flights(body, rules, flown.start_times, flown.states, touches)
         assert touches.all()
         replay_impacts(body, rules, flown.states, touches)
-        assert (flown.states[:, 3:] == ends[bounced, 3:]).all()
+        # Coulomb's law takes logarithms: musl's in the engine's library, in the replay the system's.
+        rounding = 1e-13 if "coulomb" in kind.name else 0.0
+        assert flown.states[:, 3:] == pytest.approx(ends[bounced, 3:], rel=rounding, abs=rounding)
         assert (np.abs(flown.states[:, :3] - ends[bounced, :3]) < 1e-12).all()
         replay_contacts(body, rules, MANY.contact_tolerance, *followed)
         # Where slip stops, the velocity and the spin change at once.
