@@ -2,6 +2,7 @@
 
 import difflib
 import tomllib
+from functools import lru_cache
 from importlib import resources
 from os import PathLike
 from pathlib import Path
@@ -132,6 +133,12 @@ def parse(text: str, source: str) -> Scenario:
         TypeError: for what is no text.
     """
     require_type("text", text, str, "TOML as text, such as scenario.to_toml() returns")
+    return _parsed(text, source)
+
+
+@lru_cache(maxsize=32)
+def _parsed(text: str, source: str) -> Scenario:
+    """Return a scenario, which is frozen: the same for the same text, with what was computed of it."""
     try:
         return Scenario.model_validate(tables_of(text, source))
     except ValidationError as error:

@@ -97,8 +97,7 @@ def write(kind: Kind, value: Any, form: list[str], numbers: list[Any]) -> bool:
         TypeError: for an array of another dtype or number of axes, or one that is not contiguous.
     """
     if kind.parts:
-        lacks = [write(part, one, form, numbers) for part, one in zip(kind.parts, value, strict=True)]
-        return any(lacks)
+        return _write_parts(kind, value, form, numbers)
     if kind.dimensions:
         flags = value.flags
         if not (
@@ -117,6 +116,37 @@ def write(kind: Kind, value: Any, form: list[str], numbers: list[Any]) -> bool:
         numbers.append(value)
     form.append(kind.form)
     return False
+
+
+def _write_parts(kind: Kind, value: Any, form: list[str], numbers: list[Any]) -> bool:
+    """Write a tuple; one without arrays can't change, and a toss passes the same coin again and again."""
+    known = _written.get(id(value))
+    if known is not None and known[0] is value and known[1] is kind:
+        form.append(known[2])
+        numbers += known[3]
+        return known[4]
+    own_form: list[str] = []
+    own: list[Any] = []
+    lacks = False
+    for part, one in zip(kind.parts, value, strict=True):
+        lacks = write(part, one, own_form, own) or lacks
+    if not _holds_array(kind):
+        if len(_written) >= _MOST_REMEMBERED:
+            _written.clear()
+        _written[id(value)] = value, kind, "".join(own_form), own, lacks
+    form += own_form
+    numbers += own
+    return lacks
+
+
+_written: dict[int, tuple[Any, Kind, str, list[Any], bool]] = {}
+"""By its address, a tuple that was written; kept with it, its address stays its own."""
+_MOST_REMEMBERED = 64
+
+
+@cache
+def _holds_array(kind: Kind) -> bool:
+    return kind.dimensions > 0 or any(map(_holds_array, kind.parts))
 
 
 def read(kind: Kind, numbers: Iterator[Any], release: Callable[[int], object]) -> Any:

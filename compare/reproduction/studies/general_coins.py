@@ -43,8 +43,6 @@ BARS = {"mean": (0.5e-3, True), "percentile_99": (10e-3, True), "median": (1e-3,
 """Of the times of a class: the bar [s], and whether it is one of the classes in air."""
 NAMES = {"mean": "mean", "percentile_99": "99th percentile", "median": "median"}
 """Of those times."""
-END = 1 - 1e-12
-"""A contact is replayed up to this part of the time at which it ends: numba rounds otherwise."""
 LONGEST = 1.0
 """Bar of the time of any toss [s]."""
 
@@ -243,7 +241,7 @@ def replay_contacts(body, rules, tolerance, start_times, modes, states, end_time
             contact, longest = contact_at(body, friction, mode, y), min(dt, rules.max_time - time)
             step = step_contact(contact, y, longest, tolerance, stages)
             time += step.elapsed
-            dt, over = step.next_dt, step.is_over or not time < END * end_times[i]
+            dt, over = step.next_dt, step.is_over or not time < end_times[i]
 
 
 def measures(costs: GeneralCosts) -> dict[str, Any]:
