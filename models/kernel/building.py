@@ -14,7 +14,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
 from cointoss.models.kernel.digests import HOME
 from cointoss.models.kernel.library import MANIFEST, SYSTEM, EngineMissingError, Made
@@ -80,21 +79,21 @@ def _build(module: str, name: str, folder: Path) -> None:
     if process.returncode == REFUSED:
         raise EngineMissingError(f"the {name} engine could not be built: {problem.strip()}")
     if process.returncode:
-        sys.stderr.write(problem)  # numba's own words on a function, for whoever has edited it
+        print(problem, end="", file=sys.stderr)  # numba's own words on a function, for whoever has edited it
         raise EngineMissingError(f"the {name} engine could not be built: exit status {process.returncode}")
 
 
 @contextmanager
 def told(what: str, since: float) -> Iterator[None]:
     """Say on standard error what is done within, in one line, with its time so far [s]."""
-    over = threading.Event()
-    stream: Any = sys.stderr
-    rewrites = stream is not None and stream.isatty()
+    over, rewrites = threading.Event(), sys.stderr is not None and sys.stderr.isatty()
 
     def line(end: str) -> None:
-        with suppress(OSError, ValueError, AttributeError):  # nobody reads it, which stops no work
-            stream.write(f"{chr(13) * rewrites}cointoss: {what}: {time.monotonic() - since:.0f} s{end}")
-            stream.flush()
+        if sys.stderr is None:
+            return
+        with suppress(OSError, ValueError):  # nobody reads it, which stops no work
+            text = f"{chr(13) * rewrites}cointoss: {what}: {time.monotonic() - since:.0f} s"
+            print(text, end=end, file=sys.stderr, flush=True)
 
     def keep_telling() -> None:
         while not over.wait(0.25 if rewrites else EVERY):

@@ -67,12 +67,30 @@ class Library:
             EngineMissingError: where there is none.
         """
         with self._lock:
-            return ctypes.CDLL(str(library_file(self.module)))
+            return ctypes.CDLL(str(self._file))
 
-    def symbol(self, name: str) -> Any:
-        """Return the code of a symbol, for this processor where there is some apart."""
+    @cached_property
+    def _file(self) -> Path:
+        return library_file(self.module)
+
+    @cached_property
+    def _forms(self) -> dict[str, str]:
+        return json.loads(Path(f"{self._file}.json").read_bytes())["forms"]
+
+    def symbol(self, name: str, form: str) -> Any:
+        """Return the code of a symbol, for this processor where there is some apart.
+
+        Raises:
+            EngineMissingError: where there is none, or it passes other numbers than here.
+        """
         has_avx2 = getattr(self.loaded, "has_avx2", None)
         end = AVX2 if has_avx2 is not None and has_avx2() and hasattr(self.loaded, name + AVX2) else ""
+        if self._forms.get(name) != form:
+            raise EngineMissingError(
+                f"{self._file}: {name} is of another version; install cointoss-dynamics again"
+            )
+        if not hasattr(self.loaded, name + end):
+            raise EngineMissingError(f"{self._file}: was built for another processor; remove it")
         return _ENTRY((name + end, self.loaded))
 
     @cached_property
@@ -109,6 +127,12 @@ class Entry(Generic[P, R]):
         both = any(map(may_lack, self.kinds[0])) and not self.library.lacks_none
         return (False, True) if both else (False,)
 
+    @property
+    def form(self) -> str:
+        """The form of its numbers and of those that it returns."""
+        given, returned = self.kinds
+        return f"{''.join(kind.form for kind in given)} {returned.form}"
+
     def symbol_of(self, lacks: bool) -> str:
         """Return the symbol for arguments of which a number is None, or none is."""
         return self.symbol + LACKS * lacks
@@ -129,7 +153,7 @@ class Entry(Generic[P, R]):
         for kind, value in zip(given, values, strict=True):
             lacks = write(kind, value, form, numbers) or lacks
         if lacks not in self._code:
-            self._code[lacks] = self.library.symbol(self.symbol_of(lacks))
+            self._code[lacks] = self.library.symbol(self.symbol_of(lacks), self.form)
         answer, error = (ctypes.c_int64 * len(returned.form))(), ctypes.c_void_p()
         if self._code[lacks](struct.pack("".join(form), *numbers), answer, ctypes.byref(error)) != 0:
             raise _raised(error)
@@ -162,6 +186,8 @@ class Made(NamedTuple):
     """Of the library."""
     sources: dict[str, str]
     """The digests of the project's files that the build has read, by their paths."""
+    forms: dict[str, str]
+    """Of each symbol, see `Entry.form`."""
 
     @classmethod
     def read(cls, file: Path) -> "Made | None":
@@ -192,20 +218,15 @@ def library_file(module: str) -> Path:
         manifest = CARRIED / f"{name}-{SYSTEM}{MANIFEST}"
         made = _read_carried(manifest)
         if made is None:
-            there = ", ".join(
-                sorted(
-                    {
-                        file.name.removesuffix(MANIFEST).partition("-")[2]
-                        for file in CARRIED.glob(f"{name}-*{MANIFEST}")
-                    }
-                )
-            )
-            raise EngineMissingError(f"{CARRIED}: no {name} engine for {SYSTEM}; there is: {there or 'none'}")
-        if digest_of(manifest.with_suffix("")) != made.digest:
+            others = CARRIED.glob(f"{name}-*{MANIFEST}")
+            there = sorted(each.name.removesuffix(MANIFEST).partition("-")[2] for each in others)
             raise EngineMissingError(
-                f"{manifest.with_suffix('')}: is damaged; install cointoss-dynamics again"
+                f"{CARRIED}: no {name} engine for {SYSTEM}; there is: {', '.join(there) or 'none'}"
             )
-        return manifest.with_suffix("")
+        file = manifest.with_suffix("")
+        if digest_of(file) != made.digest:
+            raise EngineMissingError(f"{file}: is damaged; install cointoss-dynamics again")
+        return file
     folder = base_folder() / "engines"
     if (found := _current(folder, name)) is not None:
         return found

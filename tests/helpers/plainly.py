@@ -7,5 +7,5 @@ def _run(entry, *arguments, **named):
     return entry.function(*arguments, **named)
 
 
-library.Entry.__call__ = _run
+setattr(library.Entry, "__call__", _run)  # noqa: B010
 compiled.by_numba = lambda function: function

@@ -39,7 +39,6 @@ BASE: dict[str, Any] = {
 AIR = {"normal": 0.8, "tangential": 0.2}
 LONGEST = 60.0
 """Of a toss [s]."""
-_ENTRIES = {Engine.ANALYTIC: "cointoss.analytic.events", Engine.MUJOCO: "cointoss.coin_mj.events"}
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -36,6 +36,7 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
     sources = {name: digest_of(HOME / name) for name in read_sources()}
     asked = asked_of(table)
     symbols = [each.symbol for each in asked]
+    forms = {each.symbol_of(lacks): each.form for each in entries_of(table) for lacks in each.variants}
     code = lowering.lowered(asked, linking.SYSTEMS[systems[0]].targets[""])
     if any(digest_of(HOME / name) != digest for name, digest in sources.items()):
         raise RuntimeError("its sources have changed while they were compiled: build it again")
@@ -53,7 +54,7 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
             digest = hashlib.sha256(library).hexdigest()
             stem = f"{module.split('.')[-2]}-{name}" + ("" if carried else f"-{digest[:16]}")
             write_whole(out / f"{stem}{SUFFIX}", library)
-            manifest = Made(module, name, digest, {} if carried else sources)
+            manifest = Made(module, name, digest, {} if carried else sources, forms)
             write_whole(out / f"{stem}{MANIFEST}", json.dumps(manifest._asdict()).encode())
 
 
@@ -73,6 +74,11 @@ def processor() -> str:
     return AVX2 if binding.get_host_cpu_features().get("avx2") else ""
 
 
+def entries_of(table: object) -> list[Entry[..., object]]:
+    """Return the entries of a table."""
+    return [each for each in vars(table).values() if isinstance(each, Entry)]
+
+
 def asked_of(table: object, only: Collection[str] = ()) -> list[Any]:
     """Return what is asked of a table of entries, all or `only` some, for `lowering.lowered`.
 
@@ -81,10 +87,9 @@ def asked_of(table: object, only: Collection[str] = ()) -> list[Any]:
     """
     from cointoss.models.kernel.build.lowering import Asked
 
-    entries = [each for each in vars(table).values() if isinstance(each, Entry)]
     asked = [
         Asked(each.symbol_of(lacks), each.function, *each.kinds, lacks)
-        for each in entries
+        for each in entries_of(table)
         if not only or each.symbol in only
         for lacks in each.variants
     ]

@@ -45,6 +45,7 @@ def cache(monkeypatch, tmp_path, folder):
 def engine(monkeypatch, cache):
     """The library, loaded."""
     _, file = made_files(cache)
+    monkeypatch.setattr(entries.engine, "_file", file)
     monkeypatch.setattr(entries.engine, "loaded", ctypes.CDLL(str(file)))
 
 
@@ -81,6 +82,14 @@ def test_an_entry_raises_what_its_function_raises():
 def test_an_array_of_another_kind_is_refused(given):
     with pytest.raises(TypeError, match="accepted: float64, of 1 axes, contiguous"):
         turned(given)
+
+
+@pytest.mark.usefixtures("engine")
+def test_an_entry_of_another_version_is_not_called(monkeypatch):
+    monkeypatch.setitem(entries.engine._forms, "turned", "qqq d")
+    monkeypatch.setattr(turned, "_code", {})
+    with pytest.raises(EngineMissingError, match="turned is of another version; install it again"):
+        turned(np.ones(3))
 
 
 @pytest.mark.usefixtures("engine")
