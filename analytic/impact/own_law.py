@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, fields
 from functools import cache
+from importlib.util import find_spec
 from inspect import Parameter, signature
 from itertools import cycle, product
 from types import FunctionType
@@ -60,7 +61,8 @@ class OwnLaw:
     edge at A, horizontal, likewise; chi, the restitution of this impact; mu, the scenario's friction.
     Where a coin lands flat without turning, S acts at C: K is 1/m times the identity, and tau is zero.
 
-    The function is compiled by numba, and tried at impacts of many kinds. Whatever the coin, each impulse
+    The function is compiled by numba, with the sine and the logarithm of the system, and tried at impacts of
+    many kinds. Whatever the coin, each impulse
     must be finite, must not drive A into the floor, and must neither add energy nor pull, unless that is
     asked for; else the toss ends there, as `no_solution`. What chatters ends as `chatter`: no such law is
     followed into sustained contact.
@@ -74,6 +76,7 @@ class OwnLaw:
             rounding, to 1e-3. A law with more may add energy so far, and proves no face.
 
     Raises:
+        ImportError: where numba is missing.
         TypeError: for what is no such function or number.
         ValueError: for a number out of its range; for a function that numba can't compile, or that breaks a
             condition, naming K and v_A.
@@ -89,6 +92,8 @@ class OwnLaw:
 
     def __post_init__(self) -> None:
         """Compile the function and try it."""
+        if find_spec("numba") is None:
+            raise ImportError('OwnLaw: needs numba: pip install "cointoss-dynamics[laws]"')
         plain = getattr(self.function, "py_func", self.function)
         require_type("law", plain, FunctionType, FORM)
         for name in ("may_add_energy", "may_pull"):

@@ -49,11 +49,8 @@ def place(function: Function) -> int:
 
 def _compiled(function: Function) -> Any:
     """Return numba's C function of numbers and of room for the answer."""
-    try:
-        import numba
-        from numba import types
-    except ImportError:
-        raise NotCompiledError('needs numba: pip install "cointoss-dynamics[laws]"') from None
+    import numba
+    from numba import types
 
     number = types.float64
     row = types.UniTuple(number, 3)

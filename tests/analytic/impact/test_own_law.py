@@ -16,6 +16,7 @@ from cointoss.analytic import OwnLaw, solve
 from cointoss.analytic.entries import strike_each
 from cointoss.analytic.flight.state_vector import STATE_SIZE
 from cointoss.analytic.horizon.touch_derivatives import touch_derivatives
+from cointoss.analytic.impact import own_law
 from cointoss.analytic.impact.own_law import rules_by
 from cointoss.models.certificate import IMPACT_ENERGY, LAW
 from cointoss.models.making import MOST_LOSSLESS
@@ -486,3 +487,9 @@ def test_the_engine_as_it_is_written_gives_the_same_bits():
             found.append(rows["impulse"].tobytes())
     assert found[::2] == found[1::2]
     assert len(set(found)) == len(laws)
+
+
+def test_without_numba_a_law_says_what_to_install(monkeypatch):
+    monkeypatch.setattr(own_law, "find_spec", lambda _: None)
+    with pytest.raises(ImportError, match=r'^OwnLaw: needs numba: pip install "cointoss-dynamics\[laws\]"$'):
+        OwnLaw(superball(1, 1))
