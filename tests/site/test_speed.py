@@ -7,7 +7,6 @@ import time
 
 import numpy as np
 import pytest
-from numba import config
 
 import cointoss
 from cointoss import analytic
@@ -37,7 +36,7 @@ KINDS = {
 
 @pytest.mark.parametrize("name", KINDS)
 def test_tosses(loaded, benchmark, capsys, monkeypatch, name):
-    monkeypatch.setitem(config.__dict__, "NUMBA_NUM_THREADS", 1)
+    monkeypatch.setenv("COINTOSS_THREADS", "1")
     case, releases_of, many = KINDS[name]
     releases = releases_of(FEW if benchmark.disabled else many)
     script = f"""(() => {{
