@@ -21,13 +21,13 @@ from cointoss.analytic.numerics.tableau import END, ERROR_3, ERROR_5, TERMS, WEI
 from cointoss.models.attitude import Quaternion
 from cointoss.models.body import Body
 from cointoss.models.kernel.arrays import Array
-from cointoss.models.kernel.compiled import compiled
+from cointoss.models.kernel.compiled import compiled, inlined
 from cointoss.models.kernel.vectors import Vector, norm
 
 _SAFETY, _SHRINK_MOST, _GROW_MOST = 0.8, 0.2, 6.0
 
 
-@compiled
+@inlined
 def stage_point(y: Array, dt: float, stages: Array, stage: int, point: Array) -> None:
     """Write the place of a stage, whose slope is wanted, into `point`, all but the position of C.
 
@@ -42,7 +42,7 @@ def stage_point(y: Array, dt: float, stages: Array, stage: int, point: Array) ->
     _advance(y, dt, v, e, w, point)
 
 
-@compiled
+@inlined
 def end_point(y: Array, dt: float, stages: Array, point: Array) -> None:
     """Write into `point`, (13,), the end of the step; for the arguments see `stage_point`."""
     x, v, e, w = _weighted_slope(stages, END)
