@@ -124,7 +124,7 @@ def flow(contact: Contact, y: Array, dy: Array) -> float:
 
 @inlined
 def inlined_flow(contact: Contact, y: Array, dy: Array) -> float:
-    """As `flow`, for the loop that spends most of a contact's time: a call copies all numbers of the coin."""
+    """As `flow`, for what every step of a contact does: a call copies all numbers of the coin."""
     if contact.mode == Mode.STICKING:
         return sticking.flow(contact, y, dy)
     if contact.mode == Mode.INCIPIENT_SLIP:

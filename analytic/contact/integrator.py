@@ -164,7 +164,7 @@ def accepted_step(
         inside = step_of_length(contact, y, dt, stages, y_new)
         error = step_error(contact.body, y, dt, stages) / tolerance
         if error <= 1:
-            left = flow(contact, y_new, stages[END_ROW])
+            left = inlined_flow(contact, y_new, stages[END_ROW])
             if inside > 0 or dt <= least or (dt <= short and not left > 0):
                 suited = dt * step_factor(error)
                 stages[_LENGTH_ROW, 0] = suited
