@@ -93,9 +93,9 @@ wheels: $(READY) $(ENGINE)
 	  $(call told,building the libraries of $$module,$(BIN)/python -m cointoss.models.kernel.build cointoss.$$module.entries \
 	  --out out/engines --carried $(SYSTEMS:%=--system %)) || exit; done
 	$(BIN)/python -m hatchling build -t sdist -d dist
-	@for system in $(SYSTEMS); do \
-	  COINTOSS_SYSTEM=$$system COINTOSS_ENGINES=$(CURDIR)/out/engines \
-	  $(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir dist dist/*.tar.gz || exit; done
+	@for system in $(SYSTEMS); do export COINTOSS_SYSTEM=$$system COINTOSS_ENGINES=$(CURDIR)/out/engines; \
+	  $(call told,pip: making the wheel for $$system,$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation \
+	  --wheel-dir dist dist/*.tar.gz) || exit; done
 
 # All that docs/ holds of results, computed anew in several hours, and the pages of them. A claim that comes out
 # otherwise than known is printed, and is no reason to stop.

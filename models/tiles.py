@@ -1,6 +1,5 @@
 """Many tosses cut into tiles, made on all cores."""
 
-import os
 import threading
 import warnings
 from collections import deque
@@ -12,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from cointoss.models.cores import cores_used
 from cointoss.models.interruptible import begun
 from cointoss.models.kernel.arrays import Codes, Counts, Flags, Row, Table
 from cointoss.models.outcomes import Outcomes
@@ -33,21 +33,6 @@ class Tile(NamedTuple):
     end_time: Row
     trusted_impacts: Counts
     outcome_certain: Flags
-
-
-def cores_used() -> int:
-    """Return how many cores this process uses: `COINTOSS_THREADS`, else those that it may use.
-
-    Raises:
-        ValueError: for a variable that is no such number.
-    """
-    asked = os.environ.get("COINTOSS_THREADS", "")
-    if not asked:
-        affinity = getattr(os, "sched_getaffinity", None)  # not on every system
-        return len(affinity(0)) if affinity is not None else os.cpu_count() or 1
-    if not (asked.isdecimal() and int(asked) >= 1):
-        raise ValueError(f"COINTOSS_THREADS = {asked!r}: accepted: a whole number >= 1, or unset")
-    return int(asked)
 
 
 def toss_in_tiles(

@@ -11,9 +11,11 @@ from cointoss.analytic.contact.rim_contact import tilt_time
 from cointoss.analytic.contact.sliding import slip_time
 from cointoss.analytic.flight.integrated_flight import first_step
 from cointoss.analytic.flight.runge_kutta import end_point, stage_point, step_error, step_factor
-from cointoss.analytic.flight.state_vector import STATE_SIZE, normalise
+from cointoss.analytic.flight.state_vector import STATE_SIZE, attitude_of, normalise
 from cointoss.analytic.numerics.roots import Bracket, bracket_between, is_narrow, narrowed, next_try
 from cointoss.analytic.numerics.tableau import STAGES
+from cointoss.models.attitude import rotation_matrix
+from cointoss.models.geometry import FACE_SINE, tilt_sine_of
 from cointoss.models.kernel.arrays import copy_into
 from cointoss.models.kernel.compiled import compiled
 from cointoss.models.records import Array
@@ -35,8 +37,6 @@ _FIRST, _FIRST_OF_SLIP = 0.3, 0.15
 _LEAST_TREND, _MOST_TREND = 0.5, 1.5
 # The next step is this part of what is so expected: the errors made are those of steps without that guess.
 _CAUTION = 0.94
-# Where an end of the mode may be passed by, a step is made shorter by as much as this.
-_HALVED = 16
 # The end of a mode is first sought on the cubic through both ends of a step, to this part of it.
 _CUBIC = 1e-4
 END_ROW = STAGES
@@ -119,14 +119,14 @@ def first_length(contact: Contact, y: Array, dy: Array) -> float:
     """Return the length of a mode's first step to try [s], infinite where nothing is known of it.
 
     The lowest point of a rim runs round it, and friction turns with the slip: a step is short against the
-    time in which either changes.
+    time in which either changes. A coin that rises from a face has no tilt yet, and its step must reach one.
 
     Args:
         contact: the contact.
         y: state at the start, (13,).
         dy: its rate of change, (13,).
     """
-    if contact.mode == Mode.UPRIGHT:
+    if contact.mode == Mode.UPRIGHT or tilt_sine_of(rotation_matrix(attitude_of(y))[2]) <= FACE_SINE:
         return np.inf
     length = _FIRST * tilt_time(y)
     if contact.mode == Mode.SLIDING and contact.friction.sliding > 0:
@@ -140,8 +140,8 @@ def accepted_step(
 ) -> tuple[float, float, float]:
     """Advance the state by a contact step whose error is within the tolerance, at most dt long.
 
-    Lest an end of the contact is passed by, the mode goes on at all stages of a step; else the step is short
-    against the coin's motion and ends past the end, or is so small a part of one whose error is small enough.
+    Lest an end of the contact is passed by, a step is short against the coin's motion, or at all its stages
+    the mode goes on.
 
     Args:
         contact: the contact.
@@ -155,7 +155,7 @@ def accepted_step(
         The length of the step made, 0 where none is short enough; a length for the next [s]; and the margin
         at the end.
     """
-    least, short, last = 0.0, 8 * first_step(contact.body, y), stages[_LENGTH_ROW, 0]
+    short, last = 8 * first_step(contact.body, y), stages[_LENGTH_ROW, 0]
     ahead = _BEYOND * time_to_landing(contact, y, stages[0])
     dt = min(_LONGEST * short, dt, max(ahead, _NOT_SHORT * short))
     if last == 0:
@@ -163,18 +163,13 @@ def accepted_step(
     while True:
         inside = step_of_length(contact, y, dt, stages, y_new)
         error = step_error(contact.body, y, dt, stages) / tolerance
-        if error <= 1:
-            left = inlined_flow(contact, y_new, stages[END_ROW])
-            if inside > 0 or dt <= least or (dt <= short and not left > 0):
-                suited = dt * step_factor(error)
-                stages[_LENGTH_ROW, 0] = suited
-                # As the lengths that suit have changed, they are taken to change again.
-                trend = min(max(suited / last, _LEAST_TREND), _MOST_TREND) if last > 0 else 1.0
-                return dt, _CAUTION * suited * trend, left
-            least = max(least, dt / _HALVED)
-            dt = dt / 2 if dt <= short else max(short, dt / 2)
-        else:
-            dt *= step_factor(error)
+        if error <= 1 and (dt <= short or inside > 0):
+            suited = dt * step_factor(error)
+            stages[_LENGTH_ROW, 0] = suited
+            # As the lengths that suit have changed, they are taken to change again.
+            trend = min(max(suited / last, _LEAST_TREND), _MOST_TREND) if last > 0 else 1.0
+            return dt, _CAUTION * suited * trend, inlined_flow(contact, y_new, stages[END_ROW])
+        dt = max(short, dt / 2) if error <= 1 else dt * step_factor(error)
         if not dt > _NO_STEP * short:
             return 0.0, short, 0.0
 

@@ -115,6 +115,7 @@ def plain_errors(source: str) -> Iterator[None]:
     from cointoss.compare.output.files import UnwritableError
     from cointoss.compare.output.progress import progress_shown
     from cointoss.compare.sweep.errors import MapError, SweepError
+    from cointoss.models.cores import CoresError, cores_used
     from cointoss.models.errors import ScenarioError
     from cointoss.models.kernel.library import EngineMissingError
     from cointoss.models.records import ApproximationWarning, UnsupportedError, UnusableEngineError
@@ -135,8 +136,10 @@ def plain_errors(source: str) -> Iterator[None]:
             warnings.simplefilter("always", kind)
         show, warnings.showwarning = warnings.showwarning, report
         try:
+            cores_used()
             yield
         except (
+            CoresError,
             ScenarioError,
             ObservationError,
             MapError,

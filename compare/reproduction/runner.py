@@ -82,9 +82,9 @@ def _numba_named(name: str) -> Iterator[None]:
     try:
         yield
     except ModuleNotFoundError as error:
-        if error.name != "numba":
+        if error.name not in ("numba", "flint"):
             raise
-        raise ImportError(f'{name}: needs numba: pip install "cointoss-dynamics[reproduce]"') from None
+        raise ImportError(f'{name}: needs {error.name}: pip install "cointoss-dynamics[reproduce]"') from None
 
 
 def kept(name: str, out: Path) -> Result:

@@ -36,6 +36,18 @@ def is_private(described: os.stat_result) -> bool:
     return described.st_uid == os.geteuid() and not described.st_mode & 0o022
 
 
+def write_whole(file: Path, content: bytes) -> None:
+    """Write a file aside, then rename it: no process ever sees half of it."""
+    aside = file.with_name(f".{file.name}.{os.getpid()}")
+    try:
+        with os.fdopen(os.open(aside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as opened:
+            opened.write(content)
+        aside.replace(file)
+    except BaseException:
+        aside.unlink(missing_ok=True)
+        raise
+
+
 def _bases() -> Iterator[Path]:
     """Yield where it may lie, the first choice first."""
     if chosen := os.environ.get("COINTOSS_CACHE"):

@@ -4,6 +4,7 @@
 """
 
 import hashlib
+import io
 import os
 import signal
 import subprocess
@@ -14,9 +15,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 from cointoss.models.kernel.digests import HOME
-from cointoss.models.kernel.library import MANIFEST, SYSTEM, EngineMissingError, Made
+from cointoss.models.kernel.library import MANIFEST, SYSTEM, EngineMissingError, current
 
 NEEDED = ("numba", "llvmlite", "ziglang")
 UNUSED = 3 * 24 * 3600.0
@@ -47,10 +49,7 @@ def build_once(module: str, folder: Path) -> None:
             with told(f"waiting for another process, which builds the {name} engine", begun):
                 lock.acquire()
         try:
-            if not any(
-                made is not None and made.is_current()
-                for made in map(Made.read, folder.glob(f"{name}-{SYSTEM}-*{MANIFEST}"))
-            ):
+            if current(folder, name) is None:
                 _build(module, name, folder)
         finally:
             lock.release()
@@ -64,15 +63,26 @@ def _build(module: str, name: str, folder: Path) -> None:
             f"there is no {name} engine for {SYSTEM}, and no {', '.join(missing)} to build it; "
             "accepted: a wheel for this system, or pip install --group dev in a checkout"
         )
-    command = [sys.executable, "-P", "-m", "cointoss.models.kernel.build", module, "--out", str(folder)]
+    command = [
+        sys.executable,
+        "-P",
+        "-m",
+        "cointoss.models.kernel.build",
+        module,
+        "--out",
+        str(folder),
+        "--of-parent",
+    ]
     paths = filter(None, (str(HOME.parent), os.environ.get("PYTHONPATH")))
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
     with (
         told(f"building the {name} engine, once", time.monotonic()),
-        subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=environment) as process,
+        # It ends with this process, however that ends: then nobody holds its standard input any more.
+        subprocess.Popen(command, env=environment, text=True, **_PIPES) as process,
     ):
         try:
-            _, problem = process.communicate()
+            problem = (process.stderr or io.StringIO()).read()
+            process.wait()
         except BaseException:
             process.send_signal(signal.SIGTERM)
             raise
@@ -81,6 +91,13 @@ def _build(module: str, name: str, folder: Path) -> None:
     if process.returncode:
         print(problem, end="", file=sys.stderr)  # numba's own words on a function, for whoever has edited it
         raise EngineMissingError(f"the {name} engine could not be built: exit status {process.returncode}")
+
+
+_PIPES: dict[str, Any] = {
+    "stdin": subprocess.PIPE,
+    "stdout": subprocess.DEVNULL,
+    "stderr": subprocess.PIPE,
+}
 
 
 @contextmanager

@@ -120,6 +120,8 @@ def write(kind: Kind, value: Any, form: list[str], numbers: list[Any]) -> bool:
 
 def _write_parts(kind: Kind, value: Any, form: list[str], numbers: list[Any]) -> bool:
     """Write a tuple; one without arrays can't change, and a toss passes the same coin again and again."""
+    if not isinstance(value, tuple):
+        raise TypeError(f"a {type(value).__name__}; accepted: a tuple")
     known = _written.get(id(value))
     if known is not None and known[0] is value and known[1] is kind:
         form.append(known[2])

@@ -4,12 +4,13 @@ import ctypes
 import json
 import os
 import platform
+import stat
 import struct
 import sys
 import threading
 from collections.abc import Callable
 from functools import cached_property, update_wrapper
-from inspect import signature
+from inspect import Signature, signature
 from pathlib import Path
 from typing import Any, Generic, NamedTuple, ParamSpec, TypeVar
 
@@ -67,7 +68,10 @@ class Library:
             EngineMissingError: where there is none.
         """
         with self._lock:
-            return ctypes.CDLL(str(self._file))
+            try:
+                return ctypes.CDLL(str(self._file))
+            except OSError as error:
+                raise EngineMissingError(f"{self._file}: can't be loaded: {error}") from None
 
     @cached_property
     def _file(self) -> Path:
@@ -118,8 +122,8 @@ class Entry(Generic[P, R]):
         return kinds_of(function.py_func)
 
     @cached_property
-    def _names(self) -> tuple[str, ...]:
-        return tuple(signature(self.function).parameters)
+    def _signature(self) -> Signature:
+        return signature(self.function)
 
     @property
     def variants(self) -> tuple[bool, ...]:
@@ -146,7 +150,7 @@ class Entry(Generic[P, R]):
             FloatingPointError, ValueError, MemoryError: as the function raises them.
         """
         given, returned = self.kinds
-        values = (*arguments, *(named[name] for name in self._names[len(arguments) :]))
+        values = self._signature.bind(*arguments, **named).args if named else arguments
         form: list[str] = ["="]
         numbers: list[Any] = []
         lacks = False
@@ -190,15 +194,22 @@ class Made(NamedTuple):
     """Of each symbol, see `Entry.form`."""
 
     @classmethod
-    def read(cls, file: Path) -> "Made | None":
-        """Return what a manifest says, or None where it is none, or another user could have written it."""
+    def read(cls, file: Path, *, is_carried: bool = False) -> "Made | None":
+        """Return what a manifest says, or None where it is none, or another user could have written it.
+
+        Args:
+            file: the manifest.
+            is_carried: whether it is a wheel's, which whoever installs it may write.
+        """
         try:
-            with file.open("rb") as opened:
-                if not is_private(os.fstat(opened.fileno())):
-                    return None
-                return cls(**json.load(opened))
-        except (OSError, ValueError, TypeError):
+            described = file.stat()
+            if not stat.S_ISREG(described.st_mode) or not (is_carried or is_private(described)):
+                return None
+            made = cls(**json.loads(file.read_bytes()))
+        except (OSError, ValueError, TypeError, RecursionError):
             return None
+        is_known = isinstance(made.sources, dict) and isinstance(made.forms, dict)
+        return made if is_known and (is_carried or made.sources) else None
 
     def is_current(self, home: Path = HOME) -> bool:
         """Return whether the sources are those that lie here."""
@@ -216,36 +227,29 @@ def library_file(module: str) -> Path:
     name = module.split(".")[-2]
     if CARRIED.is_dir():
         manifest = CARRIED / f"{name}-{SYSTEM}{MANIFEST}"
-        made = _read_carried(manifest)
-        if made is None:
+        made = Made.read(manifest, is_carried=True)
+        if made is None and not manifest.exists():
             others = CARRIED.glob(f"{name}-*{MANIFEST}")
             there = sorted(each.name.removesuffix(MANIFEST).partition("-")[2] for each in others)
             raise EngineMissingError(
                 f"{CARRIED}: no {name} engine for {SYSTEM}; there is: {', '.join(there) or 'none'}"
             )
         file = manifest.with_suffix("")
-        if digest_of(file) != made.digest:
+        if made is None or digest_of(file) != made.digest:
             raise EngineMissingError(f"{file}: is damaged; install cointoss-dynamics again")
         return file
     folder = base_folder() / "engines"
-    if (found := _current(folder, name)) is not None:
+    if (found := current(folder, name)) is not None:
         return found
     from cointoss.models.kernel.building import build_once
 
     build_once(module, folder)
-    if (found := _current(folder, name)) is not None:
+    if (found := current(folder, name)) is not None:
         return found
     raise EngineMissingError(f"{folder}: the {name} engine was built, but of other sources; start again")
 
 
-def _read_carried(manifest: Path) -> Made | None:
-    try:
-        return Made(**json.loads(manifest.read_bytes()))
-    except (OSError, ValueError, TypeError):
-        return None
-
-
-def _current(folder: Path, name: str) -> Path | None:
+def current(folder: Path, name: str) -> Path | None:
     """Return a library in a folder that is whole, this user's, and made of the sources that lie here."""
     for manifest in folder.glob(f"{name}-{SYSTEM}-*{MANIFEST}"):
         made, library = Made.read(manifest), manifest.with_suffix("")

@@ -203,3 +203,13 @@ def test_other_failures_of_the_program_are_not_hidden(monkeypatch):
     monkeypatch.setattr("cointoss.models.reading.named_scenarios", fail)
     with pytest.raises(RuntimeError, match="a defect"):
         cointoss("scenarios")
+
+
+@pytest.mark.parametrize("asked", ["0", "abc", "-1"])
+def test_a_number_of_cores_that_is_none_is_refused_before_anything_is_made(tmp_path, asked):
+    out = tmp_path / "map.zarr"
+    axes = ("--x", "release.position.z=0.2:0.6:3", "--y", "release.angular_velocity.eta=20:60:2")
+    done = python("-m", "cointoss", "basin", "fig24a", *axes, "--out", out, COINTOSS_THREADS=asked)
+    said = f"cointoss: COINTOSS_THREADS = '{asked}': accepted: a whole number >= 1, or unset\n"
+    assert (done.returncode, done.stderr) == (2, said)
+    assert not out.exists()

@@ -24,11 +24,11 @@ from cointoss.compare.reproduction.setups.mujoco_impacts import (
 )
 from cointoss.compare.reproduction.setups.mujoco_study import RESTITUTIONS, RUBBED, Spread, spread
 from cointoss.compare.reproduction.setups.study import study
+from cointoss.models.cores import cores_used
 from cointoss.models.laws import ContactLaw
 from cointoss.models.reading import load
 from cointoss.models.releases import Releases
 from cointoss.models.scenario import Scenario
-from cointoss.models.tiles import cores_used
 
 SEED, TOSSES, TOUCHES = 5, 400, 100
 SCENARIO = "fig24a"

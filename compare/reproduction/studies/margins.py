@@ -17,7 +17,6 @@ from cointoss.compare.output.progress import Progress
 from cointoss.compare.output.style import BLUE, GREEN, GREY, INK, ORANGE, VERMILION
 from cointoss.compare.output.tables import paragraphs, table
 from cointoss.compare.reproduction.parts import Part, kept
-from cointoss.compare.reproduction.precision.proved_change import proved_change
 from cointoss.compare.reproduction.setups.general_coins import CoinClass
 from cointoss.compare.reproduction.setups.planar_maps import HEIGHTS, SPINS, case, releases
 from cointoss.compare.reproduction.setups.study import study
@@ -88,6 +87,8 @@ def compute(
         f"{one:g}": uncertain_within(flat, drawn, one / HEIGHT.factor).tolist() for one in ACCURACIES
     }
     progress(steps - 1, steps)
+    from cointoss.compare.reproduction.precision.proved_change import proved_change  # takes python-flint
+
     proved = [
         proved_change(at_release(flat, drawn, i), HEIGHT, found[i] / HEIGHT.factor) * HEIGHT.factor
         for i in range(proofs)

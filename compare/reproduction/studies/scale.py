@@ -22,8 +22,8 @@ from cointoss.compare.sweep.axes import parse_axis
 from cointoss.compare.sweep.grid import Sweep, Tile, tiles
 from cointoss.compare.sweep.pixels import Pixels, check, toss_pixels
 from cointoss.compare.sweep.store import opened
+from cointoss.models.cores import cores_used
 from cointoss.models.reading import parse
-from cointoss.models.tiles import cores_used
 
 COIN = """
 [coin]

@@ -7,6 +7,7 @@ import os
 import signal
 import sys
 import tempfile
+import threading
 from collections.abc import Collection, Iterator, Sequence
 from importlib import import_module
 from importlib.util import find_spec, module_from_spec
@@ -14,7 +15,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from cointoss.models.kernel.digests import HOME, digest_of
+from cointoss.models.kernel.base_folder import write_whole
+from cointoss.models.kernel.digests import ENGINES, HOME, digest_of
 from cointoss.models.kernel.library import AVX2, MANIFEST, RELEASE, SUFFIX, SYSTEM, Entry, Made
 
 
@@ -32,11 +34,14 @@ def build(module: str, out: Path, systems: Sequence[str], *, carried: bool) -> N
     """
     from cointoss.models.kernel.build import linking, lowering
 
+    before = {path: digest_of(path) for part in ENGINES for path in (HOME / part).rglob("*.py")}
     table = alone(module)
-    sources = {name: digest_of(HOME / name) for name in read_sources()}
+    sources = {name: before.get(HOME / name) or digest_of(HOME / name) for name in read_sources()}
     asked = asked_of(table)
     symbols = [each.symbol for each in asked]
     forms = {each.symbol_of(lacks): each.form for each in entries_of(table) for lacks in each.variants}
+    if unknown := [name for name in systems if name not in linking.SYSTEMS]:
+        raise RuntimeError(f"{', '.join(unknown)}: accepted: {', '.join(linking.SYSTEMS)}")
     code = lowering.lowered(asked, linking.SYSTEMS[systems[0]].targets[""])
     if any(digest_of(HOME / name) != digest for name, digest in sources.items()):
         raise RuntimeError("its sources have changed while they were compiled: build it again")
@@ -100,6 +105,7 @@ def asked_of(table: object, only: Collection[str] = ()) -> list[Any]:
 
 def read_sources() -> Iterator[str]:
     """Yield the paths of the project's files that this process has imported, in the project's folder."""
+    yield "models/kernel/build/__main__.py"
     for name, module in sorted(sys.modules.items()):
         file = getattr(module, "__file__", None)
         if file and name.startswith("cointoss."):
@@ -109,16 +115,9 @@ def read_sources() -> Iterator[str]:
             ).as_posix()
 
 
-def write_whole(file: Path, content: bytes) -> None:
-    """Write a file aside, then rename it: no process ever sees half of it."""
-    aside = file.with_name(f".{file.name}.{os.getpid()}")
-    try:
-        with os.fdopen(os.open(aside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as opened:
-            opened.write(content)
-        aside.replace(file)
-    except BaseException:
-        aside.unlink(missing_ok=True)
-        raise
+def _end_with_input() -> None:
+    sys.stdin.read()
+    os.kill(os.getpid(), signal.SIGTERM)
 
 
 def main() -> int:
@@ -128,8 +127,11 @@ def main() -> int:
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--system", action="append")
     parser.add_argument("--carried", action="store_true")
+    parser.add_argument("--of-parent", action="store_true", help="end where standard input ends")
     given = parser.parse_args()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # what was written aside is removed
+    if given.of_parent:
+        threading.Thread(target=_end_with_input, daemon=True).start()
     try:
         build(given.module, given.out, given.system or [SYSTEM], carried=given.carried)
     except (RuntimeError, OSError, ImportError) as problem:

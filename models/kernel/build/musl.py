@@ -7,11 +7,11 @@ They are compiled from the sources that ziglang brings, without fusing products 
 # pyright: reportAttributeAccessIssue=false
 
 import hashlib
-import os
 import re
 import subprocess
 import sys
 import tempfile
+from contextlib import suppress
 from functools import cache
 from importlib.metadata import version
 from importlib.util import find_spec
@@ -19,7 +19,7 @@ from pathlib import Path
 
 from llvmlite import binding
 
-from cointoss.models.kernel.base_folder import base_folder
+from cointoss.models.kernel.base_folder import base_folder, write_whole
 
 PREFIX = "musl."
 """How the names of the functions begin in LLVM's code."""
@@ -147,9 +147,8 @@ def musl_code() -> bytes:
     except (OSError, ValueError):
         pass
     code = _build()
-    aside = kept.with_name(f"{kept.name}.{os.getpid()}")
-    aside.write_bytes(_digest(code) + b"\n" + code)
-    aside.replace(kept)
+    with suppress(OSError):  # on a full disk it is compiled again the next time
+        write_whole(kept, _digest(code) + b"\n" + code)
     return code
 
 

@@ -37,6 +37,9 @@ class Engines(BuildHookInterface[Any]):
         """
         if self.target_name != "wheel" or version == "editable":
             return
+        asked = os.environ.get("COINTOSS_SYSTEM")
+        if asked is not None and asked not in PLATFORMS:
+            raise SystemExit(f"COINTOSS_SYSTEM = {asked!r}: accepted: {', '.join(PLATFORMS)}")
         self._made = Path(tempfile.mkdtemp())
         home = self._made / "cointoss"
         shutil.copytree(
@@ -53,10 +56,18 @@ class Engines(BuildHookInterface[Any]):
             text=True,
             check=True,
         ).stdout.strip()
-        system = os.environ.get("COINTOSS_SYSTEM") or this
+        system = asked or this
+        if system not in PLATFORMS:
+            raise SystemExit(
+                f"cointoss-dynamics: there is no engine for {system}; there is: {', '.join(PLATFORMS)}"
+            )
         folder = Path(os.environ.get("COINTOSS_ENGINES") or self._built(system, named))
-        for file in sorted(folder.glob(f"*-{system}.so*")):
-            build_data["force_include"][str(file)] = f"cointoss/models/kernel/engines/{file.name}"
+        for name in (
+            f"{module.split('.')[-2]}-{system}.so{end}" for module in MODULES for end in ("", ".json")
+        ):
+            if not (folder / name).is_file():
+                raise SystemExit(f"cointoss-dynamics: {folder / name}: missing; make wheels builds it")
+            build_data["force_include"][str(folder / name)] = f"cointoss/models/kernel/engines/{name}"
         build_data["tag"] = f"py3-none-{PLATFORMS[system]}"
         build_data["pure_python"] = False
 

@@ -278,6 +278,7 @@ def test_vacuum_has_no_force_whatever_the_exponent():
 
 
 LOWERED = """
+from llvmlite import binding
 from cointoss.analytic.entries import force_and_moment
 from cointoss.analytic.flight.flying import fly
 from cointoss.models.kernel.arrays import Row
@@ -291,7 +292,7 @@ asked = [
     Asked("linear", fly, given, returned, True),
     Asked("other", force_and_moment.function, *force_and_moment.kinds, False),
 ]
-module = lowered(asked, SYSTEMS["linux-x86_64"].target)
+module = binding.parse_bitcode(lowered(asked, SYSTEMS["linux-x86_64"].targets[""]))
 print(*(each.name for each in module.functions if not each.is_declaration))
 """
 """Prints the names of all functions of a flight in linear air, and of the force of other air, as compiled."""

@@ -88,7 +88,7 @@ def test_an_array_of_another_kind_is_refused(given):
 def test_an_entry_of_another_version_is_not_called(monkeypatch):
     monkeypatch.setitem(entries.engine._forms, "turned", "qqq d")
     monkeypatch.setattr(turned, "_code", {})
-    with pytest.raises(EngineMissingError, match="turned is of another version; install it again"):
+    with pytest.raises(EngineMissingError, match="turned is of another version; install cointoss-dynamics again"):
         turned(np.ones(3))
 
 
