@@ -90,12 +90,12 @@ wheels: $(READY) $(ENGINE)
 	rm -rf dist out/engines
 	mkdir -p out/engines
 	@for module in models analytic coin_mj; do \
-	  $(call told,building the libraries of $$module,$(BIN)/python -m cointoss.models.kernel.build cointoss.$$module.entries \
-	  --out out/engines --carried $(SYSTEMS:%=--system %)) || exit; done
+	  ($(call told,building the libraries of $$module,$(BIN)/python -m cointoss.models.kernel.build \
+	  cointoss.$$module.entries --out out/engines --carried $(SYSTEMS:%=--system %))) || exit; done
 	$(BIN)/python -m hatchling build -t sdist -d dist
 	@for system in $(SYSTEMS); do export COINTOSS_SYSTEM=$$system COINTOSS_ENGINES=$(CURDIR)/out/engines; \
-	  $(call told,pip: making the wheel for $$system,$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation \
-	  --wheel-dir dist dist/*.tar.gz) || exit; done
+	  ($(call told,pip: making the wheel for $$system,$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation \
+	  --wheel-dir dist dist/*.tar.gz)) || exit; done
 
 # All that docs/ holds of results, computed anew in several hours, and the pages of them. A claim that comes out
 # otherwise than known is printed, and is no reason to stop.
