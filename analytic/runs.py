@@ -76,11 +76,7 @@ def contacts_of(start_times: Array, started: NDArray[np.int8]) -> Array:
 
 
 def horizon_of(body: Body, rules: Rules, toss: EventLog, made: ErrorsMade | None = None) -> Horizon:
-    """Return how far a toss can be trusted.
-
-    Trusted are the leading impacts whose time, impulse, face, place and order the engine's errors cannot
-    change. None is counted after the first sustained contact, nor after the errors were carried through
-    `MOST_CARRIED`.
+    """Return how far a toss can be trusted, see `cointoss.analytic.horizon.horizon.find_horizon`.
 
     Args:
         body: the coin.

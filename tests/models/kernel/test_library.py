@@ -88,7 +88,9 @@ def test_an_array_of_another_kind_is_refused(given):
 def test_an_entry_of_another_version_is_not_called(monkeypatch):
     monkeypatch.setitem(entries.engine._forms, "turned", "qqq d")
     monkeypatch.setattr(turned, "_code", {})
-    with pytest.raises(EngineMissingError, match="turned is of another version; install cointoss-dynamics again"):
+    with pytest.raises(
+        EngineMissingError, match="turned is of another version; install cointoss-dynamics again"
+    ):
         turned(np.ones(3))
 
 
@@ -143,6 +145,21 @@ def test_a_library_that_is_stale_damaged_or_anothers_is_not_loaded(cache, monkey
     with pytest.raises(EngineMissingError, match="of other sources"):
         library_file(MODULE)
     assert asked == [(MODULE, cache)]
+
+
+@pytest.mark.parametrize("harm", [cut, lambda _, file: file.unlink()])
+def test_a_library_that_is_damaged_or_missing_is_built_again(cache, harm):
+    _, file = made_files(cache)
+    whole = file.read_bytes()
+    harm(*made_files(cache))
+    assert library_file(MODULE).read_bytes() == whole
+
+
+@pytest.mark.usefixtures("engine")
+def test_a_list_in_place_of_a_tuple_is_refused():
+    law: Any = [2.0, 0.5]
+    with pytest.raises(TypeError, match=r"^a list; accepted: a tuple$"):
+        powers(law, np.ones(3), np.ones((2, 3)), 1)
 
 
 def test_a_wheel_carries_a_library_for_its_system(cache, monkeypatch):
